@@ -1,0 +1,45 @@
+/* A scene file, read and checked: plain data.
+
+   The file is YAML (DESIGN 8). One table of keys (app/scene_keys.h) says what may stand where, in which unit,
+   range and with which default; the loader, `--set`, `info` and the documentation are made from it. */
+#ifndef SLOSH_SCENE_H
+#define SLOSH_SCENE_H
+
+#include "render/view_def.h"
+#include "sim/error.h"
+#include "sim/world_def.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct Scene {
+    char path[1024]; /* as found; what messages name */
+    char title[128];
+    WorldDef world;
+    ViewDef view;
+} Scene;
+
+enum { SCENE_SETTINGS_MAX = 64, SCENE_BYTES_MAX = 1 << 20 };
+
+/* What the command line adds to the file. */
+typedef struct SceneSettings {
+    int count;
+    const char
+        *set[SCENE_SETTINGS_MAX]; /* "path=value", in the order given; also what --backend, --method, --view,
+                                     --threads stand for */
+    size_t particles;             /* --particles; 0: the scene's own spacing */
+    bool dt_set;                  /* filled: dt was among `set`, so --particles does not scale it */
+} SceneSettings;
+
+/* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what
+   would be right", and "--set path=value: ..." where the command line is wrong. Creates nothing. `name` is a
+   path, or the name of a file beside the sources that the program was built from (scenes/box_slosh.yaml,
+   box_slosh). When
+   --particles scaled dt, `note` (may be NULL) gets the sentence that says so, else "". */
+bool scene_load(const char *name, SceneSettings *settings, Scene *out, char note[256], Error *error);
+
+/* The same from `size` bytes in memory; pure, for tests and the fuzz target. */
+bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings *settings, Scene *out,
+                 char note[256], Error *error);
+
+#endif

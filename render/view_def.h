@@ -1,0 +1,35 @@
+/* What a scene says of its picture: plain data. */
+#ifndef SLOSH_VIEW_DEF_H
+#define SLOSH_VIEW_DEF_H
+
+#include "sim/scalar.h"
+#include "sim/world_def.h"
+
+#include <stdbool.h>
+
+typedef struct CameraDef {
+    double from[3]; /* eye, m, world's frame */
+    double to[3];   /* looked at, m */
+    double fov_deg; /* vertical field of view, degrees */
+} CameraDef;
+
+typedef struct ViewDef {
+    char kind[NAME_SIZE];     /* see view_list; "none" draws nothing */
+    Scalar color_by;          /* SCALAR_FLUID takes the fluids' own colours */
+    char colormap[NAME_SIZE]; /* see colormap_list */
+    bool range_auto;          /* the range follows each state; else range[0] .. range[1] */
+    double range[2];          /* in the scalar's unit */
+    double radius;            /* of a particle, in spacings; 0: the view's default */
+    bool legend;              /* draw the legend */
+    bool box;                 /* draw the box's edges */
+    bool floor;               /* draw the floor below the box */
+    bool camera_auto;         /* the camera shows the whole box; else `camera` */
+    CameraDef camera;
+    double background[3]; /* linear RGB 0..1, at the horizon */
+    /* Filled from the fluids by the scene loader, for colours and legend. */
+    int fluid_count;
+    char fluid_name[FLUIDS_MAX][NAME_SIZE];
+    float fluid_color[FLUIDS_MAX][3];
+} ViewDef;
+
+#endif

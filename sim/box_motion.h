@@ -1,0 +1,65 @@
+/* The box as a frame of reference: where it is, how it moves, and what that does to positions and velocities.
+
+   The box's frame has its origin at the centre of the box's floor, y up, the faces of the box parallel to its
+   axes. Devices and prescribed motions turn the box about its centre. World and box frame coincide while the
+   box has not moved. */
+#ifndef SLOSH_BOX_MOTION_H
+#define SLOSH_BOX_MOTION_H
+
+enum { MOTIONS_MAX = 8 };
+
+/* The pose of the box and its rate, in the world's frame. */
+typedef struct BoxState {
+    double position[3];         /* of the box's origin, m */
+    double orientation[4];      /* unit quaternion x y z w: world = orientation * box */
+    double velocity[3];         /* of the box's origin, m/s */
+    double angular_velocity[3]; /* rad/s */
+} BoxState;
+
+/* X(ENUM, name, help): one prescribed motion is one of these; the motions of a list act together, turns from
+   the first (outermost) to the last (innermost). */
+#define MOTION_LIST(X)                                                                                       \
+    X(SHAKE, "shake", "moves to and fro along `axis`: amplitude (m) * sin(2 pi frequency (Hz) t)")           \
+    X(ROCK, "rock", "turns to and fro about `axis`: angle (degrees) * sin(2 pi frequency (Hz) t)")           \
+    X(TURN, "turn", "turns about `axis` by `angle` (degrees) within `duration` (s), smoothly, and stays")    \
+    X(SPIN, "spin", "turns about `axis` at the constant `rate` (rad/s)")                                     \
+    X(ACCELERATE, "accelerate", "moves along `axis` with the constant `acceleration` (m/s2)")
+
+typedef enum MotionKind {
+#define X(NAME, name, help) MOTION_##NAME,
+    MOTION_LIST(X)
+#undef X
+        MOTION_KIND_COUNT
+} MotionKind;
+
+/* Fields that a kind does not name above are unused. */
+typedef struct Motion {
+    MotionKind kind;
+    double axis[3];   /* direction, of any length but zero; in the world's frame for translations and for the
+                         outermost turn, in the frame that the outer turns made for the others */
+    double amplitude; /* m */
+    double angle_deg; /* degrees */
+    double frequency; /* Hz */
+    double rate;      /* rad/s */
+    double acceleration; /* m/s2 */
+    double start;        /* s; still before it */
+    double duration; /* s; 0: for ever (turn: must be > 0). After it shake and rock rest where they began if
+                        the duration is a whole number of half periods */
+} Motion;
+
+const char *motion_name(MotionKind kind);
+
+/* The box at `time` seconds under the `count` motions; exact, with the exact rates. `box_height` (m) places
+   the centre about which it turns. */
+void box_state_at(const Motion motions[], int count, double box_height, double time, BoxState *state);
+
+/* Rotates v by the quaternion q, or by its inverse. `out` may be `v`. */
+void quat_rotate(const double q[4], const double v[3], double out[3]);
+void quat_rotate_inverse(const double q[4], const double v[3], double out[3]);
+
+/* Box frame to world frame, for a point and the velocity that it has in the box's frame (NULL: not wanted).
+ */
+void box_to_world(const BoxState *box, const double x[3], const double v[3], double x_world[3],
+                  double v_world[3]);
+
+#endif

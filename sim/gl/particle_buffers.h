@@ -1,0 +1,38 @@
+/* All that `render` sees of a simulation: one state, in GL buffers. Whoever made the buffers owns them
+   (render/upload for the CPU backend, the GPU backends for their own); they stay as they are until that
+   owner's next state. */
+#ifndef SLOSH_PARTICLE_BUFFERS_H
+#define SLOSH_PARTICLE_BUFFERS_H
+
+#include "sim/box_motion.h"
+#include "sim/scalar.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Where an attribute lies: buffer 0 means that it is not there. */
+typedef struct ParticleAttribute {
+    unsigned buffer; /* GL name */
+    size_t offset;   /* of the first particle, bytes; a multiple of 256 */
+    size_t stride;   /* bytes */
+} ParticleAttribute;
+
+typedef struct ParticleBuffers {
+    size_t count;
+    ParticleAttribute position;             /* vec4: x y z in the box's frame (m), volume (m3) */
+    ParticleAttribute velocity;             /* vec4: x y z in the box's frame (m/s), 0 */
+    ParticleAttribute fluid;                /* uint */
+    ParticleAttribute id;                   /* uint */
+    ParticleAttribute scalar[SCALAR_COUNT]; /* float */
+    double scalar_min[SCALAR_COUNT];        /* of this state, where the attribute is there */
+    double scalar_max[SCALAR_COUNT];
+    double spacing;        /* m */
+    double support_radius; /* h, m */
+    double box_size[3];    /* m */
+    BoxState box;          /* pose of the same state */
+    double gravity[3];     /* in the box's frame, m/s2 */
+    double time;           /* s */
+    uint64_t step;
+} ParticleBuffers;
+
+#endif

@@ -1,0 +1,26 @@
+/* The scalars that a view can show and a snapshot can hold: the one list of their names and units. */
+#ifndef SLOSH_SCALAR_H
+#define SLOSH_SCALAR_H
+
+/* X(ENUM, name, unit) */
+#define SCALAR_LIST(X)                                                                                       \
+    X(SPEED, "speed", "m/s")                                                                                 \
+    X(DENSITY, "density", "kg/m3")                                                                           \
+    X(PRESSURE, "pressure", "Pa")                                                                            \
+    X(FLUID, "fluid", "")                                                                                    \
+    X(ID, "id", "")
+
+typedef enum Scalar {
+#define X(NAME, name, unit) SCALAR_##NAME,
+    SCALAR_LIST(X)
+#undef X
+        SCALAR_COUNT
+} Scalar;
+
+const char *scalar_name(Scalar scalar);
+const char *scalar_unit(Scalar scalar);
+
+/* The scalar of that name, or SCALAR_COUNT. */
+Scalar scalar_find(const char *name);
+
+#endif

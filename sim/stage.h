@@ -1,0 +1,57 @@
+/* Stages: the one list of their names, and the clock of those that run on the CPU.
+
+   A stage belongs to a part of the program; times are summed over a frame, since a frame runs a stage once
+   per substep. GL stages are timed by sim/gl/timer.h, under the same names. */
+#ifndef SLOSH_STAGE_H
+#define SLOSH_STAGE_H
+
+#include <stdbool.h>
+
+/* X(ENUM, name, part): in the order in which a frame runs them */
+#define STAGE_LIST(X)                                                                                        \
+    X(GRID, "grid", PART_SIM)                                                                                \
+    X(DENSITY, "density", PART_SIM)                                                                          \
+    X(FORCE, "force", PART_SIM)                                                                              \
+    X(INTEGRATE, "integrate", PART_SIM)                                                                      \
+    X(UPLOAD, "upload", PART_UPLOAD)                                                                         \
+    X(SPHERES, "spheres", PART_RENDER)                                                                       \
+    X(BACKDROP, "backdrop", PART_RENDER)                                                                     \
+    X(OVERLAY, "overlay", PART_RENDER)
+
+typedef enum Part { PART_SIM, PART_UPLOAD, PART_RENDER } Part;
+
+typedef enum Stage {
+#define X(NAME, name, part) STAGE_##NAME,
+    STAGE_LIST(X)
+#undef X
+        STAGE_COUNT
+} Stage;
+
+const char *stage_name(Stage stage);
+Part stage_part(Stage stage);
+const char *part_name(Part part);
+
+/* Milliseconds of each stage in one frame; `ran` tells a stage that took no time from one that the frame has
+ * not. */
+typedef struct StageTimes {
+    double ms[STAGE_COUNT];
+    bool ran[STAGE_COUNT];
+} StageTimes;
+
+/* The CPU clock; zero-initialise it. A NULL clock measures nothing and costs nothing. */
+typedef struct StageClock {
+    StageTimes frame; /* of the frame in progress; the owner clears it between frames */
+    double began_ms;  /* of the running stage: stages do not nest */
+} StageClock;
+
+void stage_begin(StageClock *clock);
+void stage_end(StageClock *clock, Stage stage);
+
+/* STAGE(clock, STAGE_GRID) statement; */
+#define STAGE(clock, stage)                                                                                  \
+    for (int stage_once = (stage_begin(clock), 1); stage_once; stage_once = (stage_end(clock, stage), 0))
+
+/* Monotonic wall time in milliseconds. */
+double wall_ms(void);
+
+#endif

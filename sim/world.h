@@ -1,0 +1,84 @@
+/* A world: the state of a fluid in its box, and the step that carries it on.
+
+   The backend and the method are named in the WorldDef; both stand in one list each, which `slosh info`
+   prints. All functions of one world belong to one thread at a time. */
+#ifndef SLOSH_WORLD_H
+#define SLOSH_WORLD_H
+
+#include "sim/error.h"
+#include "sim/scalar.h"
+#include "sim/stage.h"
+#include "sim/world_def.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct World World;
+
+/* A world at time 0, its densities and pressures evaluated, or NULL with the reason in `error`: an unknown
+   method or backend, a def out of range, too many particles or cells for the memory. */
+World *world_create(const WorldDef *def, Error *error);
+void world_destroy(World *world); /* NULL is allowed */
+
+/* Carries the world one frame (dt, in `substeps` steps) on; stage times go into `clock` (NULL: not measured).
+   False with a message when the state is no longer finite: what the world holds then is of no use. */
+bool world_step(World *world, StageClock *clock, Error *error);
+
+/* What a world is, apart from its particles. */
+typedef struct WorldInfo {
+    double time;           /* simulated, s */
+    uint64_t step;         /* substeps since the start */
+    size_t count;          /* particles */
+    int threads;           /* that the backend uses */
+    double support_radius; /* h, m */
+    double box_size[3];    /* m */
+    BoxState box;          /* of the state that world_read reads */
+    double gravity[3];     /* in the box's frame, m/s2 */
+    size_t state_bytes;    /* memory that the backend holds for its particles and grid */
+    size_t guarded;        /* times that the last guard of a wall held a particle back, since the start */
+} WorldInfo;
+
+void world_info(const World *world, WorldInfo *info);
+
+/* Reductions over all particles, in double, in an order that no thread count changes. Momenta and energies
+   are those of the motion in the box's frame; angular momentum about the box's origin. */
+typedef struct WorldSums {
+    double mass;                /* kg */
+    double momentum[3];         /* kg m/s */
+    double momentum_scale;      /* sum |m v| */
+    double angular_momentum[3]; /* kg m2/s */
+    double angular_scale;       /* sum |m x v| */
+    double kinetic_energy;      /* J */
+    double centre[3];           /* of mass, m */
+    double max_speed;           /* m/s */
+    double neighbours_mean;     /* others with r < h */
+} WorldSums;
+
+void world_sums(World *world, WorldSums *sums);
+
+/* Where world_read writes; NULL where something is not wanted. All arrays hold `count` particles in one
+   common order, which changes from step to step; `id` tells who is who. Density and pressure are those that
+   the last substep used, at the middle of it (at time 0: those of the initial state). */
+typedef struct ParticleArrays {
+    float *position;             /* 4 a particle: x y z (box frame, m), volume 1 / number density (m3) */
+    float *velocity;             /* 4 a particle: x y z (box frame, m/s), 0 */
+    float *scalar[SCALAR_COUNT]; /* 1 a particle */
+    uint32_t *fluid;             /* index into WorldDef.fluids */
+    uint32_t *id;                /* place in the initial state */
+} ParticleArrays;
+
+void world_read(World *world, const ParticleArrays *out);
+
+/* A hash of id, position and velocity of every particle in the order of their ids: equal for equal bits. */
+uint64_t world_hash(World *world);
+
+/* The lists of what there is, ended by a NULL name. */
+typedef struct Named {
+    const char *name, *help;
+} Named;
+
+const Named *world_methods(void);
+const Named *world_backends(void);
+
+#endif

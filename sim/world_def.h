@@ -1,0 +1,68 @@
+/* What a solver needs to know of a scene: plain data, SI units, the box's frame unless said otherwise. */
+#ifndef SLOSH_WORLD_DEF_H
+#define SLOSH_WORLD_DEF_H
+
+#include "sim/box_motion.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { FLUIDS_MAX = 8, FILLS_MAX = 16, NAME_SIZE = 32 };
+
+typedef enum FillKind { FILL_BLOCK, FILL_BALL } FillKind;
+
+/* A region that is full of a fluid at the start: it takes the points of one lattice that all fills share,
+   with the scene's spacing, half a spacing from the floor and centred between the walls. */
+typedef struct Fill {
+    FillKind kind;
+    double min[3], max[3];    /* block, m */
+    double centre[3], radius; /* ball, m */
+} Fill;
+
+typedef struct FluidDef {
+    char name[NAME_SIZE];
+    double density;     /* rest density rho0, kg/m3 */
+    double viscosity;   /* dynamic, mu, Pa s */
+    double velocity[3]; /* at the start, in the box's frame, m/s */
+    float color[3];     /* linear RGB 0..1: for the views, no solver reads it */
+    int fill_count;
+    Fill fills[FILLS_MAX];
+} FluidDef;
+
+/* A ready initial state in place of the fills: for tests, and for what is not a lattice. */
+typedef struct InitialState {
+    size_t count;
+    const float *position; /* 3 * count, x y z of each particle */
+    const float *velocity; /* 3 * count, or NULL for rest in the box's frame */
+    const uint8_t *fluid;  /* count, or NULL for the first fluid */
+} InitialState;
+
+typedef struct WorldDef {
+    double box_size[3];      /* inner width, height, depth, m */
+    double gravity[3];       /* in the world's frame, m/s2 */
+    double spacing;          /* of the lattice at rest, m */
+    double support;          /* support radius h over spacing */
+    char method[NAME_SIZE];  /* see method_list */
+    char backend[NAME_SIZE]; /* see backend_list */
+    int threads;             /* 0: one a processor */
+    double sound_speed;      /* c, m/s: p = c^2 (rho - rho0) */
+    bool negative_pressure;  /* false: p = max(0, p) */
+    double dt;               /* simulated time of a frame, s */
+    int substeps;            /* steps in a frame */
+    int fluid_count;
+    FluidDef fluids[FLUIDS_MAX];
+    int motion_count;
+    Motion motions[MOTIONS_MAX];
+    const InitialState *initial; /* NULL: the fills; read by world_create only */
+} WorldDef;
+
+/* The defaults of every field but the box, the spacing, the fluids: what a scene that says nothing gets. The
+   reason for each number stands beside it in world_def.c. */
+WorldDef world_def_default(void);
+
+/* How many particles the fills give at `spacing` (m); SIZE_MAX when more than 2^32. Cheap: bounds of the
+   lattice, nothing is allocated. */
+size_t world_def_count(const WorldDef *def, double spacing);
+
+#endif
