@@ -6,6 +6,8 @@
 #ifndef SLOSH_BOX_MOTION_H
 #define SLOSH_BOX_MOTION_H
 
+#include <stdbool.h>
+
 enum { MOTIONS_MAX = 8 };
 
 /* The pose of the box and its rate, in the world's frame. */

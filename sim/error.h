@@ -8,8 +8,8 @@ typedef struct Error {
     char message[1024]; /* no newline at the end; empty while nothing is wrong */
 } Error;
 
-/* Writes the message (cut at the buffer's size) and returns false, so that a function can `return error_set(...)`.
-   error may be NULL: then only false is returned. */
+/* Writes the message (cut at the buffer's size) and returns false, so that a function can `return
+   error_set(...)`. error may be NULL: then only false is returned. */
 bool error_set(Error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

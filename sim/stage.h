@@ -14,7 +14,9 @@
     X(FORCE, "force", PART_SIM)                                                                              \
     X(INTEGRATE, "integrate", PART_SIM)                                                                      \
     X(UPLOAD, "upload", PART_UPLOAD)                                                                         \
-    X(SPHERES, "spheres", PART_RENDER)                                                                       \
+    X(SHADOW, "shadow", PART_RENDER)                                                                         \
+    X(VISIBILITY, "visibility", PART_RENDER)                                                                 \
+    X(SHADE, "shade", PART_RENDER)                                                                           \
     X(BACKDROP, "backdrop", PART_RENDER)                                                                     \
     X(OVERLAY, "overlay", PART_RENDER)
 

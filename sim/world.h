@@ -32,6 +32,7 @@ typedef struct WorldInfo {
     size_t count;          /* particles */
     int threads;           /* that the backend uses */
     double support_radius; /* h, m */
+    double spacing;        /* m */
     double box_size[3];    /* m */
     BoxState box;          /* of the state that world_read reads */
     double gravity[3];     /* in the box's frame, m/s2 */

@@ -39,17 +39,18 @@ typedef struct InitialState {
 } InitialState;
 
 typedef struct WorldDef {
-    double box_size[3];      /* inner width, height, depth, m */
-    double gravity[3];       /* in the world's frame, m/s2 */
-    double spacing;          /* of the lattice at rest, m */
-    double support;          /* support radius h over spacing */
-    char method[NAME_SIZE];  /* see method_list */
-    char backend[NAME_SIZE]; /* see backend_list */
-    int threads;             /* 0: one a processor */
-    double sound_speed;      /* c, m/s: p = c^2 (rho - rho0) */
-    bool negative_pressure;  /* false: p = max(0, p) */
-    double dt;               /* simulated time of a frame, s */
-    int substeps;            /* steps in a frame */
+    double box_size[3];             /* inner width, height, depth, m */
+    double gravity[3];              /* in the world's frame, m/s2 */
+    double spacing;                 /* of the lattice at rest, m */
+    double support;                 /* support radius h over spacing */
+    char method[NAME_SIZE];         /* see method_list */
+    char backend[NAME_SIZE];        /* see backend_list */
+    int threads;                    /* 0: one a processor */
+    double sound_speed;             /* c, m/s: p = c^2 (rho - rho0) */
+    char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel.h */
+    bool negative_pressure;         /* false: p = max(0, p) */
+    double dt;                      /* simulated time of a frame, s */
+    int substeps;                   /* steps in a frame */
     int fluid_count;
     FluidDef fluids[FLUIDS_MAX];
     int motion_count;

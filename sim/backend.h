@@ -1,0 +1,35 @@
+/* A backend: where the particles live and who computes. One const table of coarse operations a backend;
+   nothing here is called per particle. */
+#ifndef SLOSH_BACKEND_H
+#define SLOSH_BACKEND_H
+
+#include "sim/frame_step.h"
+#include "sim/solver.h"
+#include "sim/world.h"
+
+typedef struct Backend {
+    const char *name, *help;
+    /* The state of `initial->count` particles; NULL with the reason. `solver` outlives it. */
+    void *(*create)(const Solver *solver, const InitialState *initial, int threads, Error *error);
+    void (*destroy)(void *state);
+    /* Free flight over `step`, then the walls' last guard. */
+    void (*drift)(void *state, const FrameStep *step);
+    /* Sorts the particles by cell, in a cell by id. */
+    void (*grid)(void *state);
+    /* Number density, volume and pressure of every particle; Müller 2003, eq. 3 and 12. */
+    void (*density)(void *state);
+    /* Acceleration by pressure, viscosity and walls; eq. 10 and 14. */
+    void (*force)(void *state, const ApparentGravity *gravity);
+    /* v += (acceleration + gravity) dt; false when a velocity is not finite. */
+    bool (*kick)(void *state, const float gravity[3], float dt);
+    void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
+    void (*read)(void *state, const ParticleArrays *out);
+    void (*info)(const void *state, WorldInfo *info); /* threads, state_bytes, guarded */
+} Backend;
+
+extern const Backend backend_cpu;
+
+/* NULL when there is none of that name. */
+const Backend *backend_find(const char *name);
+
+#endif

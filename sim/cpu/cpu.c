@@ -1,0 +1,148 @@
+#include "sim/cpu/cpu.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Zeroed and aligned to a cache line, with room for the lanes past the end. */
+static void *array(Cpu *cpu, size_t count, size_t size)
+{
+    const size_t bytes = ((count + LANES) * size + 63) / 64 * 64;
+    void *memory = aligned_alloc(64, bytes);
+    if (memory)
+        memset(memory, 0, bytes);
+    cpu->bytes += bytes;
+    return memory;
+}
+
+static bool particles_create(Cpu *cpu, CpuParticles *p)
+{
+    float **const floats[] = {&p->x, &p->y, &p->z, &p->vx, &p->vy, &p->vz};
+    bool ok = true;
+    for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
+        ok &= (*floats[k] = array(cpu, cpu->count, sizeof(float))) != NULL;
+    p->id = array(cpu, cpu->count, sizeof *p->id);
+    p->fluid = array(cpu, cpu->count, sizeof *p->fluid);
+    return ok && p->id && p->fluid;
+}
+
+static void particles_destroy(CpuParticles *p)
+{
+    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->id, p->fluid};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        free(all[k]);
+}
+
+static void cpu_destroy(void *state)
+{
+    Cpu *cpu = state;
+    particles_destroy(&cpu->now);
+    particles_destroy(&cpu->spare);
+    void *const all[] = {cpu->volume, cpu->pressure,  cpu->pressure_term, cpu->viscosity,  cpu->ax,
+                         cpu->ay,     cpu->az,        cpu->cell,          cpu->spare_cell, cpu->rank,
+                         cpu->order,  cpu->cell_start};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        free(all[k]);
+    free(cpu);
+}
+
+static bool arrays_create(Cpu *cpu)
+{
+    const Solver *s = cpu->solver;
+    float **const floats[] = {&cpu->volume, &cpu->pressure, &cpu->pressure_term,
+                              &cpu->ax,     &cpu->ay,       &cpu->az};
+    uint32_t **const integers[] = {&cpu->cell, &cpu->spare_cell, &cpu->rank, &cpu->order};
+    bool ok = particles_create(cpu, &cpu->now);
+    ok &= particles_create(cpu, &cpu->spare);
+    for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
+        ok &= (*floats[k] = array(cpu, cpu->count, sizeof(float))) != NULL;
+    for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
+        ok &= (*integers[k] = array(cpu, cpu->count, sizeof(uint32_t))) != NULL;
+    ok &= (cpu->cell_start = array(cpu, s->cells.count + 1, sizeof(uint32_t))) != NULL;
+    if (s->fluid_count > 1 && s->viscous)
+        ok &= (cpu->viscosity = array(cpu, cpu->count, sizeof(float))) != NULL;
+    return ok;
+}
+
+static void particles_set(CpuParticles *p, const InitialState *initial)
+{
+    for (size_t i = 0; i < initial->count; i++) {
+        p->x[i] = initial->position[3 * i];
+        p->y[i] = initial->position[3 * i + 1];
+        p->z[i] = initial->position[3 * i + 2];
+        p->id[i] = (uint32_t)i;
+        p->fluid[i] = initial->fluid ? initial->fluid[i] : 0;
+        if (!initial->velocity)
+            continue;
+        p->vx[i] = initial->velocity[3 * i];
+        p->vy[i] = initial->velocity[3 * i + 1];
+        p->vz[i] = initial->velocity[3 * i + 2];
+    }
+}
+
+static void *cpu_create(const Solver *solver, const InitialState *initial, int threads, Error *error)
+{
+    Cpu *cpu = calloc(1, sizeof *cpu);
+    if (!cpu) {
+        error_set(error, "no memory");
+        return NULL;
+    }
+    cpu->solver = solver;
+    cpu->pairs = pair_ops_choose();
+    cpu->threads = threads > 0 ? threads : parallel_processors();
+    cpu->count = initial->count;
+    if (!arrays_create(cpu)) {
+        error_set(error, "no memory for %zu particles and %zu cells; use a larger spacing or a smaller box",
+                  initial->count, solver->cells.count);
+        cpu_destroy(cpu);
+        return NULL;
+    }
+    particles_set(&cpu->now, initial);
+    return cpu;
+}
+
+PairArgs cpu_pair_args(const Cpu *cpu)
+{
+    const CpuParticles *p = &cpu->now;
+    return (PairArgs){
+        .solver = cpu->solver,
+        .cell_start = cpu->cell_start,
+        .cell = cpu->cell,
+        .id = p->id,
+        .x = p->x,
+        .y = p->y,
+        .z = p->z,
+        .vx = p->vx,
+        .vy = p->vy,
+        .vz = p->vz,
+        .volume = cpu->volume,
+        .pressure_term = cpu->pressure_term,
+        .viscosity = cpu->viscosity,
+        .number_density = cpu->volume,
+        .fx = cpu->ax,
+        .fy = cpu->ay,
+        .fz = cpu->az,
+    };
+}
+
+static void cpu_info(const void *state, WorldInfo *info)
+{
+    const Cpu *cpu = state;
+    info->threads = cpu->threads;
+    info->state_bytes = cpu->bytes;
+    info->guarded = cpu->guarded;
+}
+
+const Backend backend_cpu = {
+    .name = "cpu",
+    .help = "threads and SIMD on the processor; the reference",
+    .create = cpu_create,
+    .destroy = cpu_destroy,
+    .drift = cpu_drift,
+    .grid = cpu_grid,
+    .density = cpu_density,
+    .force = cpu_force,
+    .kick = cpu_kick,
+    .sums = cpu_sums,
+    .read = cpu_read,
+    .info = cpu_info,
+};

@@ -1,0 +1,48 @@
+/* The CPU backend's state: structure of arrays, sorted by cell, and the grid that sorts it. */
+#ifndef SLOSH_CPU_H
+#define SLOSH_CPU_H
+
+#include "sim/backend.h"
+#include "sim/cpu/pairs.h"
+#include "sim/cpu/parallel.h"
+
+/* What moves when particles are sorted. */
+typedef struct CpuParticles {
+    float *x, *y, *z;    /* box frame, m */
+    float *vx, *vy, *vz; /* box frame, m/s */
+    uint32_t *id;        /* place in the initial state */
+    uint8_t *fluid;
+} CpuParticles;
+
+typedef struct Cpu {
+    const Solver *solver;
+    const PairOps *pairs;
+    int threads;
+    size_t count;
+    CpuParticles now, spare;     /* `spare` is what `grid` sorts into; then they change places */
+    float *volume, *pressure;    /* by `density`: 1 / n, m3; Pa */
+    float *pressure_term;        /* by `density`: p V^2, J m3 */
+    float *viscosity;            /* by `density`: Pa s; NULL with one fluid or none viscous */
+    float *ax, *ay, *az;         /* by `force`, m/s2 */
+    uint32_t *cell, *spare_cell; /* by `grid`: of each particle, sorted; before the sort */
+    uint32_t *rank;              /* by `grid`: place within the cell before its sort by id */
+    uint32_t *order;             /* by `grid`: old place of each new one */
+    uint32_t *cell_start;        /* by `grid`: cells + 1 */
+    size_t bytes;                /* of all these */
+    size_t guarded;              /* atomic */
+    bool unbounded;              /* atomic: some velocity is not finite */
+} Cpu;
+
+enum { CPU_GRAIN = 512 }; /* particles in a range: some 0.2 ms of work, small against a step */
+
+PairArgs cpu_pair_args(const Cpu *cpu);
+
+void cpu_grid(void *state);
+void cpu_density(void *state);
+void cpu_force(void *state, const ApparentGravity *gravity);
+void cpu_drift(void *state, const FrameStep *step);
+bool cpu_kick(void *state, const float gravity[3], float dt);
+void cpu_sums(void *state, WorldSums *sums);
+void cpu_read(void *state, const ParticleArrays *out);
+
+#endif

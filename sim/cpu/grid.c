@@ -1,0 +1,108 @@
+/* Counting sort by cell. Places within a cell are handed out by atomic counters in any order, then sorted by
+   id: the result depends on positions and ids alone, not on threads or history. */
+#include "sim/cpu/cpu.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct CellMap {
+    float inverse_h, first[3], last[3]; /* of the inner cells */
+    int size[3];
+} CellMap;
+
+static CellMap cell_map(const Solver *solver)
+{
+    const CellGrid *cells = &solver->cells;
+    CellMap map = {.inverse_h = 1 / solver->support_radius};
+    for (int k = 0; k < 3; k++) {
+        map.first[k] = (float)(cells->first[k] + 1);
+        map.last[k] = (float)(cells->first[k] + cells->size[k] - 2);
+        map.size[k] = cells->size[k];
+    }
+    return map;
+}
+
+/* Clamped, so that a position that is not finite does no harm before it is reported. */
+static uint32_t cell_along(const CellMap *map, int k, float x)
+{
+    const float index = fminf(fmaxf(floorf(x * map->inverse_h), map->first[k]), map->last[k]);
+    return (uint32_t)(index - map->first[k]) + 1;
+}
+
+static void count_cells(void *state, size_t begin, size_t end)
+{
+    Cpu *cpu = state;
+    const CellMap map = cell_map(cpu->solver);
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = begin; i < end; i++) {
+        const uint32_t ix = cell_along(&map, 0, p->x[i]), iy = cell_along(&map, 1, p->y[i]),
+                       iz = cell_along(&map, 2, p->z[i]);
+        const uint32_t cell = (iz * (uint32_t)map.size[1] + iy) * (uint32_t)map.size[0] + ix;
+        cpu->spare_cell[i] = cell;
+        cpu->rank[i] = __atomic_fetch_add(&cpu->cell_start[cell + 1], 1, __ATOMIC_RELAXED);
+    }
+}
+
+static void place_particles(void *state, size_t begin, size_t end)
+{
+    Cpu *cpu = state;
+    for (size_t i = begin; i < end; i++)
+        cpu->order[cpu->cell_start[cpu->spare_cell[i]] + cpu->rank[i]] = (uint32_t)i;
+}
+
+/* Insertion: a cell holds some ten particles, mostly in order. */
+static void sort_by_id(uint32_t *order, size_t count, const uint32_t *id)
+{
+    for (size_t i = 1; i < count; i++) {
+        const uint32_t moved = order[i];
+        size_t j = i;
+        for (; j > 0 && id[order[j - 1]] > id[moved]; j--)
+            order[j] = order[j - 1];
+        order[j] = moved;
+    }
+}
+
+static void sort_cells(void *state, size_t begin, size_t end)
+{
+    Cpu *cpu = state;
+    for (size_t cell = begin; cell < end; cell++) {
+        const uint32_t first = cpu->cell_start[cell];
+        sort_by_id(cpu->order + first, cpu->cell_start[cell + 1] - first, cpu->now.id);
+    }
+}
+
+static void move_particles(void *state, size_t begin, size_t end)
+{
+    Cpu *cpu = state;
+    const CpuParticles *from = &cpu->now, *to = &cpu->spare;
+    for (size_t i = begin; i < end; i++) {
+        const uint32_t o = cpu->order[i];
+        cpu->cell[i] = cpu->spare_cell[o];
+        to->x[i] = from->x[o];
+        to->y[i] = from->y[o];
+        to->z[i] = from->z[o];
+        to->vx[i] = from->vx[o];
+        to->vy[i] = from->vy[o];
+        to->vz[i] = from->vz[o];
+        to->id[i] = from->id[o];
+        to->fluid[i] = from->fluid[o];
+    }
+}
+
+void cpu_grid(void *state)
+{
+    Cpu *cpu = state;
+    const size_t cells = cpu->solver->cells.count;
+
+    memset(cpu->cell_start, 0, (cells + 1) * sizeof *cpu->cell_start);
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, count_cells, cpu);
+    for (size_t cell = 0; cell < cells; cell++)
+        cpu->cell_start[cell + 1] += cpu->cell_start[cell];
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, place_particles, cpu);
+    parallel_ranges(cpu->threads, cells, 4 * CPU_GRAIN, sort_cells, cpu);
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, move_particles, cpu);
+
+    const CpuParticles sorted = cpu->spare;
+    cpu->spare = cpu->now;
+    cpu->now = sorted;
+}

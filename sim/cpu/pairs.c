@@ -1,0 +1,168 @@
+#include "sim/cpu/pairs.h"
+
+#include "sim/cpu/simd.h"
+
+#include <math.h>
+
+static const i8 lane_index = {0, 1, 2, 3, 4, 5, 6, 7};
+
+/* Nine rows of three cells, cached while the cell stays the same. */
+typedef struct Rows {
+    uint32_t cell, begin[9], end[9];
+} Rows;
+
+SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
+{
+    if (rows->cell == cell)
+        return;
+    rows->cell = cell;
+    for (int row = 0; row < 9; row++)
+        pair_row(args, cell, row, &rows->begin[row], &rows->end[row]);
+}
+
+/* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). poly6 = (1 - q^2)^3, spiky = (1 - q)^3; the
+   scale comes last. */
+SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, const bool poly6)
+{
+    const float h = args->solver->support_radius;
+    const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1), zero = f8_splat(0);
+    Rows rows = {.cell = UINT32_MAX};
+
+    for (size_t i = begin; i < end; i++) {
+        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        f8 sum = zero;
+        rows_of(args, args->cell[i], &rows);
+        for (int row = 0; row < 9; row++)
+            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+                const f8 dx = xi - f8_load(args->x + j);
+                const f8 dy = yi - f8_load(args->y + j);
+                const f8 dz = zi - f8_load(args->z + j);
+                const f8 q2 = (dx * dx + dy * dy + dz * dz) * inverse_h * inverse_h;
+                const f8 t = one - (poly6 ? q2 : f8_sqrt(q2));
+                const i8 near = (t > zero) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+                sum += f8_masked(near, t * t * t);
+            }
+        args->number_density[i] = args->solver->kernel_scale * f8_sum(sum);
+    }
+}
+
+static void density(const PairArgs *args, size_t begin, size_t end)
+{
+    if (args->solver->poly6)
+        density_range(args, begin, end, true);
+    else
+        density_range(args, begin, end, false);
+}
+
+typedef struct Separation {
+    f8 x, y, z, r2;
+} Separation;
+
+/* A direction that only the two ids decide, opposite for (a, b) and (b, a). */
+static void direction_of_ids(uint32_t a, uint32_t b, float out[3])
+{
+    const uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    uint32_t hash = low * 0x9e3779b1u ^ (high * 0x85ebca77u + 0x165667b1u);
+    float length2 = 0;
+    for (int k = 0; k < 3; k++) {
+        hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
+        hash ^= hash >> 13;
+        out[k] = (float)(hash >> 8) * 0x1p-23f - 1 + 0x1p-24f; /* never 0 */
+        length2 += out[k] * out[k];
+    }
+    const float scale = (a < b ? 1.0f : -1.0f) / sqrtf(length2);
+    for (int k = 0; k < 3; k++)
+        out[k] *= scale;
+}
+
+/* Gives coincident pairs the length `least` and a direction by their ids (DESIGN 3). */
+static __attribute__((noinline)) void separate(const PairArgs *args, size_t i, uint32_t j, int bits,
+                                               float least, Separation *d)
+{
+    for (int k = 0; k < LANES; k++)
+        if (bits >> k & 1) {
+            float direction[3];
+            direction_of_ids(args->id[i], args->id[j + (uint32_t)k], direction);
+            d->x[k] = direction[0] * least;
+            d->y[k] = direction[1] * least;
+            d->z[k] = direction[2] * least;
+            d->r2[k] = least * least;
+        }
+}
+
+/* Forces of pressure and viscosity, eq. 10 and 14. With volumes V = 1 / n in place of m / rho and the
+   pressure terms p_i V_i^2 + p_j V_j^2 (the gradient of sum e(n_i), so that energy is conserved) they are
+   symmetric for every density ratio. Eq. 10 has (p_i + p_j) / 2 in that place, which makes half of grad p:
+   p_j alone sums up to grad p, p_i is there for symmetry only. */
+SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const bool viscous,
+                             const bool many)
+{
+    const Solver *s = args->solver;
+    const float h = s->support_radius, least = 1e-6f * h;
+    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 one = f8_splat(1), pressure_scale = f8_splat(s->pressure_scale);
+    const float viscosity_scale = s->viscosity_scale * (many ? 0.5f : s->viscosity[0]);
+    Rows rows = {.cell = UINT32_MAX};
+
+    for (size_t i = begin; i < end; i++) {
+        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
+        const f8 pi = f8_splat(args->pressure_term[i]);
+        const f8 mi = f8_splat(viscous && many ? args->viscosity[i] : 0);
+        const f8 drag_scale = f8_splat(viscosity_scale * args->volume[i]);
+        f8 fx = f8_splat(0), fy = fx, fz = fx;
+
+        rows_of(args, args->cell[i], &rows);
+        for (int row = 0; row < 9; row++)
+            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+                Separation d = {.x = xi - f8_load(args->x + j),
+                                .y = yi - f8_load(args->y + j),
+                                .z = zi - f8_load(args->z + j)};
+                d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
+                const i8 near = (d.r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j))) &
+                                (lane_index != i8_splat((int32_t)((uint32_t)i - j)));
+                if (!i8_bits(near))
+                    continue;
+                const int coincident = i8_bits(near & (d.r2 < least2));
+                if (__builtin_expect(coincident, 0))
+                    separate(args, i, j, coincident, least, &d);
+
+                const f8 r = f8_sqrt(f8_select(near, d.r2, h2));
+                const f8 t = one - r * inverse_h;
+                const f8 push =
+                    f8_masked(near, pressure_scale * (t * t) * (pi + f8_load(args->pressure_term + j)) / r);
+                fx += push * d.x;
+                fy += push * d.y;
+                fz += push * d.z;
+                if (viscous) {
+                    f8 drag = f8_masked(near, drag_scale * t * f8_load(args->volume + j));
+                    if (many)
+                        drag *= mi + f8_load(args->viscosity + j);
+                    fx += drag * (f8_load(args->vx + j) - ui);
+                    fy += drag * (f8_load(args->vy + j) - vi);
+                    fz += drag * (f8_load(args->vz + j) - wi);
+                }
+            }
+        args->fx[i] = f8_sum(fx);
+        args->fy[i] = f8_sum(fy);
+        args->fz[i] = f8_sum(fz);
+    }
+}
+
+static void force(const PairArgs *args, size_t begin, size_t end)
+{
+    if (!args->solver->viscous)
+        force_range(args, begin, end, false, false);
+    else if (!args->viscosity)
+        force_range(args, begin, end, true, false);
+    else
+        force_range(args, begin, end, true, true);
+}
+
+#define PAIR_OPS_NAME(set)   pair_ops_##set
+#define PAIR_OPS(set)        PAIR_OPS_NAME(set)
+#define PAIR_OPS_STRING(set) #set
+#define PAIR_OPS_LABEL(set)  PAIR_OPS_STRING(set)
+
+extern const PairOps PAIR_OPS(SIMD_SET);
+const PairOps PAIR_OPS(SIMD_SET) = {PAIR_OPS_LABEL(SIMD_SET), density, force};

@@ -1,0 +1,43 @@
+/* The sums over neighbours: the loops where the time goes. pairs.c is compiled once for each instruction set;
+   the table that fits the processor is chosen when a world is made. All of them give the same bits. */
+#ifndef SLOSH_PAIRS_H
+#define SLOSH_PAIRS_H
+
+#include "sim/solver.h"
+
+enum { LANES = 8 }; /* see sim/cpu/simd.h */
+
+/* Arrays of particles sorted by cell; readable for LANES - 1 entries past the last. */
+typedef struct PairArgs {
+    const Solver *solver;
+    const uint32_t *cell_start; /* first particle of each cell; cells + 1 */
+    const uint32_t *cell;       /* of each particle */
+    const uint32_t *id;
+    const float *x, *y, *z, *vx, *vy, *vz; /* m, m/s */
+    const float *volume;                   /* m3: set before `force` */
+    const float *pressure_term;            /* p V^2, J m3: set before `force` */
+    const float *viscosity;                /* Pa s, of each particle; NULL with one fluid */
+    float *number_density;                 /* out of `density`, 1/m3: all pairs, self included, no walls */
+    float *fx, *fy, *fz;                   /* out of `force`, N */
+} PairArgs;
+
+typedef struct PairOps {
+    const char *name; /* of the instruction set */
+    void (*density)(const PairArgs *args, size_t begin, size_t end);
+    void (*force)(const PairArgs *args, size_t begin, size_t end);
+} PairOps;
+
+/* The widest that this processor has, or the one that the environment variable SLOSH_SIMD names, if it can.
+ */
+const PairOps *pair_ops_choose(void);
+
+/* The particles [begin, end) that stand in the three cells of one row next to `cell`; row 0..8. */
+static inline void pair_row(const PairArgs *args, uint32_t cell, int row, uint32_t *begin, uint32_t *end)
+{
+    const int *size = args->solver->cells.size;
+    const long middle = (long)cell + ((long)(row / 3 - 1) * size[1] + (row % 3 - 1)) * size[0];
+    *begin = args->cell_start[middle - 1];
+    *end = args->cell_start[middle + 2];
+}
+
+#endif

@@ -1,0 +1,145 @@
+/* What others see of the state: copies and sums. */
+#include "sim/cpu/cpu.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct Read {
+    const Cpu *cpu;
+    const ParticleArrays *out;
+} Read;
+
+static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
+{
+    const CpuParticles *p = &cpu->now;
+    switch (scalar) {
+    case SCALAR_SPEED:
+        return sqrtf(p->vx[i] * p->vx[i] + p->vy[i] * p->vy[i] + p->vz[i] * p->vz[i]);
+    case SCALAR_DENSITY:
+        return cpu->solver->mass[p->fluid[i]] / cpu->volume[i];
+    case SCALAR_PRESSURE:
+        return cpu->pressure[i];
+    case SCALAR_FLUID:
+        return (float)p->fluid[i];
+    case SCALAR_ID:
+        return (float)p->id[i];
+    case SCALAR_COUNT:
+        break;
+    }
+    return 0;
+}
+
+static void read_range(void *context, size_t begin, size_t end)
+{
+    const Read *read = context;
+    const Cpu *cpu = read->cpu;
+    const CpuParticles *p = &cpu->now;
+    const ParticleArrays *out = read->out;
+    for (size_t i = begin; out->position && i < end; i++) {
+        float *x = out->position + 4 * i;
+        x[0] = p->x[i], x[1] = p->y[i], x[2] = p->z[i], x[3] = cpu->volume[i];
+    }
+    for (size_t i = begin; out->velocity && i < end; i++) {
+        float *v = out->velocity + 4 * i;
+        v[0] = p->vx[i], v[1] = p->vy[i], v[2] = p->vz[i], v[3] = 0;
+    }
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        for (size_t i = begin; out->scalar[s] && i < end; i++)
+            out->scalar[s][i] = scalar_of(cpu, (Scalar)s, i);
+    for (size_t i = begin; out->fluid && i < end; i++)
+        out->fluid[i] = p->fluid[i];
+    for (size_t i = begin; out->id && i < end; i++)
+        out->id[i] = p->id[i];
+}
+
+void cpu_read(void *state, const ParticleArrays *out)
+{
+    Cpu *cpu = state;
+    Read read = {cpu, out};
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, read_range, &read);
+}
+
+static int neighbours_of(const PairArgs *args, size_t i)
+{
+    const float h2 = args->solver->support_radius * args->solver->support_radius;
+    int count = -1; /* not itself */
+    for (int row = 0; row < 9; row++) {
+        uint32_t begin, end;
+        pair_row(args, args->cell[i], row, &begin, &end);
+        for (uint32_t j = begin; j < end; j++) {
+            const float dx = args->x[i] - args->x[j], dy = args->y[i] - args->y[j],
+                        dz = args->z[i] - args->z[j];
+            count += dx * dx + dy * dy + dz * dz < h2;
+        }
+    }
+    return count;
+}
+
+static void add_particle(const Cpu *cpu, const PairArgs *args, size_t i, WorldSums *sums)
+{
+    const CpuParticles *p = &cpu->now;
+    const double m = cpu->solver->mass[p->fluid[i]];
+    const double x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
+    double speed2 = 0, l2 = 0;
+    sums->mass += m;
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        const double l = m * (x[a] * v[b] - x[b] * v[a]);
+        sums->momentum[k] += m * v[k];
+        sums->angular_momentum[k] += l;
+        sums->centre[k] += m * x[k];
+        speed2 += v[k] * v[k];
+        l2 += l * l;
+    }
+    sums->momentum_scale += m * sqrt(speed2);
+    sums->angular_scale += sqrt(l2);
+    sums->kinetic_energy += 0.5 * m * speed2;
+    sums->max_speed = fmax(sums->max_speed, sqrt(speed2));
+    sums->neighbours_mean += neighbours_of(args, i);
+}
+
+typedef struct SumPass {
+    const Cpu *cpu;
+    PairArgs args;
+    WorldSums *partial; /* one a range */
+} SumPass;
+
+static void sum_range(void *context, size_t begin, size_t end)
+{
+    SumPass *pass = context;
+    WorldSums *sums = &pass->partial[begin / CPU_GRAIN];
+    for (size_t i = begin; i < end; i++)
+        add_particle(pass->cpu, &pass->args, i, sums);
+}
+
+static void add_sums(const WorldSums *part, WorldSums *sums)
+{
+    sums->mass += part->mass;
+    for (int k = 0; k < 3; k++) {
+        sums->momentum[k] += part->momentum[k];
+        sums->angular_momentum[k] += part->angular_momentum[k];
+        sums->centre[k] += part->centre[k];
+    }
+    sums->momentum_scale += part->momentum_scale;
+    sums->angular_scale += part->angular_scale;
+    sums->kinetic_energy += part->kinetic_energy;
+    sums->max_speed = fmax(sums->max_speed, part->max_speed);
+    sums->neighbours_mean += part->neighbours_mean;
+}
+
+void cpu_sums(void *state, WorldSums *sums)
+{
+    Cpu *cpu = state;
+    const size_t ranges = (cpu->count + CPU_GRAIN - 1) / CPU_GRAIN;
+    SumPass pass = {cpu, cpu_pair_args(cpu), calloc(ranges, sizeof *pass.partial)};
+    *sums = (WorldSums){0};
+    if (!pass.partial)
+        return;
+    parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, sum_range, &pass);
+    for (size_t r = 0; r < ranges; r++)
+        add_sums(&pass.partial[r], sums);
+    for (int k = 0; k < 3; k++)
+        sums->centre[k] /= sums->mass;
+    sums->neighbours_mean /= (double)cpu->count;
+    free(pass.partial);
+}

@@ -1,0 +1,25 @@
+/* Smoothing kernels after Müller, Charypar, Gross, "Particle-based fluid simulation for interactive
+   applications", 2003: 3D, support radius h, unit integral; r >= 0 in m; values in 1/m3, zero for r >= h. */
+#ifndef SLOSH_KERNEL_H
+#define SLOSH_KERNEL_H
+
+double kernel_poly6(double r, double h);               /* eq. 20 */
+double kernel_poly6_derivative(double r, double h);    /* dW/dr <= 0, 1/m4 */
+double kernel_spiky(double r, double h);               /* eq. 21 */
+double kernel_spiky_derivative(double r, double h);    /* dW/dr <= 0, 1/m4 */
+double kernel_viscosity(double r, double h);           /* eq. 22; infinite at r = 0 */
+double kernel_viscosity_laplacian(double r, double h); /* >= 0, 1/m5 */
+
+/* The kernels that can sum up a density. */
+typedef struct Kernel {
+    const char *name, *help;
+    double (*value)(double r, double h);
+    double (*derivative)(double r, double h);
+} Kernel;
+
+extern const Kernel density_kernels[]; /* ended by a NULL name */
+
+/* NULL when there is none of that name. */
+const Kernel *density_kernel_find(const char *name);
+
+#endif

@@ -1,0 +1,28 @@
+/* A method: which stages a substep runs, in which order, with which equations. */
+#ifndef SLOSH_METHOD_H
+#define SLOSH_METHOD_H
+
+#include "sim/backend.h"
+
+/* What a substep works on: the poses of the box at its begin, middle and end among it. */
+typedef struct Substep {
+    const Backend *backend;
+    void *state;
+    StageClock *clock; /* may be NULL */
+    double dt;         /* s */
+    FrameStep first_half, second_half;
+    ApparentGravity apparent; /* in the middle */
+    float gravity[3];         /* in the box's axes in the middle, m/s2 */
+} Substep;
+
+typedef struct Method {
+    const char *name, *help;
+    bool (*substep)(const Substep *step); /* false: the state is no longer finite */
+} Method;
+
+extern const Method method_mueller;
+
+/* NULL when there is none of that name. */
+const Method *method_find(const char *name);
+
+#endif

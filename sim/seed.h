@@ -1,0 +1,18 @@
+/* The initial state: the fills of a def become particles on one lattice.
+
+   The lattice has a point half a spacing above the floor and is centred between the walls, half a spacing
+   from them where the box's width is a whole number of spacings; fluids that touch therefore never overlap.
+   Where fills overlap, the first fill of the first fluid has the point. */
+#ifndef SLOSH_SEED_H
+#define SLOSH_SEED_H
+
+#include "sim/world_def.h"
+
+/* Writes positions (3 each) and fluid of every lattice point that a fill covers, in the order z, y, x (x
+   fastest), and returns how many there are; with NULLs it only counts. */
+size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid);
+
+/* m3. */
+double fill_volume(const Fill *fill);
+
+#endif

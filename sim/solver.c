@@ -1,0 +1,87 @@
+#include "sim/solver.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool positive(double value)
+{
+    return value > 0 && isfinite(value);
+}
+
+static bool def_check(const WorldDef *def, Error *error)
+{
+    for (int k = 0; k < 3; k++)
+        if (!positive(def->box_size[k]))
+            return error_set(error, "the box has no size; give three positive lengths in metres");
+    if (!positive(def->spacing) || !(def->support >= 1.5 && def->support <= 4))
+        return error_set(error, "spacing must be positive and support between 1.5 and 4 spacings");
+    if (!positive(def->dt) || def->substeps < 1 || !positive(def->sound_speed))
+        return error_set(error, "dt and sound_speed must be positive, substeps at least 1");
+    if (def->fluid_count < 1 || def->fluid_count > FLUIDS_MAX)
+        return error_set(error, "a world needs 1 to %d fluids, not %d", FLUIDS_MAX, def->fluid_count);
+    for (int f = 0; f < def->fluid_count; f++)
+        if (!positive(def->fluids[f].density) || !(def->fluids[f].viscosity >= 0))
+            return error_set(error, "fluid %d: density must be positive, viscosity not negative", f);
+    return true;
+}
+
+static bool cells_set(CellGrid *cells, const double box_size[3], double h, Error *error)
+{
+    double count = 1;
+    for (int k = 0; k < 3; k++) {
+        const double low = k == 1 ? 0 : -0.5 * box_size[k];
+        const double first = floor(low / h) - 1, last = floor((low + box_size[k]) / h) + 1;
+        count *= last - first + 1;
+        if (!(count < 0x1p31))
+            return error_set(error, "the box holds more than 2^31 cells of side %g m; use a larger spacing",
+                             h);
+        cells->first[k] = (int)first;
+        cells->size[k] = (int)(last - first) + 1;
+    }
+    cells->count = (size_t)count;
+    return true;
+}
+
+static void fluids_set(Solver *solver, const WorldDef *def)
+{
+    const double c2 = def->sound_speed * def->sound_speed * solver->lattice.stiffness_scale;
+    solver->fluid_count = def->fluid_count;
+    for (int f = 0; f < def->fluid_count; f++) {
+        const FluidDef *fluid = &def->fluids[f];
+        solver->mass[f] = (float)(fluid->density / solver->lattice.number_density);
+        solver->density[f] = (float)fluid->density;
+        solver->stiffness[f] = (float)(c2 * fluid->density);
+        solver->viscosity[f] = (float)fluid->viscosity;
+        solver->viscous |= fluid->viscosity > 0;
+    }
+}
+
+bool solver_create(Solver *solver, const WorldDef *def, Error *error)
+{
+    memset(solver, 0, sizeof *solver);
+    const double h = def->support * def->spacing;
+    const Kernel *kernel = density_kernel_find(def->density_kernel);
+    if (!kernel)
+        return error_set(error, "unknown density kernel '%s'; spiky or poly6", def->density_kernel);
+    if (!def_check(def, error) || !cells_set(&solver->cells, def->box_size, h, error))
+        return false;
+
+    lattice_calibrate(def->spacing, h, kernel, &solver->lattice);
+    solver->poly6 = kernel->value == kernel_poly6;
+    solver->support_radius = (float)h;
+    solver->spacing = (float)def->spacing;
+    solver->rest_number_density = (float)solver->lattice.number_density;
+    solver->kernel_scale = (float)(kernel->value(0, h) * solver->lattice.density_scale);
+    solver->pressure_scale = (float)(-kernel_spiky_derivative(0, h) * solver->lattice.gradient_scale);
+    solver->viscosity_scale = (float)(kernel_viscosity_laplacian(0, h) * solver->lattice.laplacian_scale);
+    solver->negative_pressure = def->negative_pressure;
+    fluids_set(solver, def);
+    if (!walls_create(&solver->walls, def->box_size, def->spacing, h, kernel, &solver->lattice))
+        return error_set(error, "no memory for the tables of the walls");
+    return true;
+}
+
+void solver_destroy(Solver *solver)
+{
+    walls_destroy(&solver->walls);
+}

@@ -1,0 +1,42 @@
+/* What a def means in numbers: computed once, constant while a world lives; every backend reads it. */
+#ifndef SLOSH_SOLVER_H
+#define SLOSH_SOLVER_H
+
+#include "sim/error.h"
+#include "sim/lattice.h"
+#include "sim/wall.h"
+#include "sim/world_def.h"
+
+/* The grid of cells of side h: cell (i, j, k) holds floor(x / h) = first + (i, j, k), of one global lattice
+   whatever the box; one empty layer on each side saves the neighbour search its bounds. */
+typedef struct CellGrid {
+    int first[3];
+    int size[3]; /* the empty layers included; x runs fastest */
+    size_t count;
+} CellGrid;
+
+typedef struct Solver {
+    float support_radius;      /* h, m */
+    float rest_number_density; /* n0, 1/m3 */
+    bool poly6;                /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
+    float kernel_scale;        /* its value at r = 0, calibrated, 1/m3 */
+    float pressure_scale;      /* -dW_spiky/dr = pressure_scale * (1 - r/h)^2, 1/m4, calibrated */
+    float viscosity_scale;     /* Laplacian = viscosity_scale * (1 - r/h), 1/m5, calibrated */
+    float spacing;             /* m */
+    int fluid_count;
+    float mass[FLUIDS_MAX];      /* of a particle: rho0 / n0, kg */
+    float density[FLUIDS_MAX];   /* rho0, kg/m3 */
+    float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0, calibrated, Pa */
+    float viscosity[FLUIDS_MAX]; /* mu, Pa s */
+    bool viscous;                /* some mu is not zero */
+    bool negative_pressure;
+    CellGrid cells;
+    Lattice lattice;
+    Walls walls;
+} Solver;
+
+/* False with the reason: a def out of range, too many cells, no memory. */
+bool solver_create(Solver *solver, const WorldDef *def, Error *error);
+void solver_destroy(Solver *solver);
+
+#endif

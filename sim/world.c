@@ -1,0 +1,250 @@
+#include "sim/world.h"
+
+#include "sim/method.h"
+#include "sim/seed.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct World {
+    WorldDef def; /* `initial` is not kept */
+    Solver solver;
+    const Backend *backend;
+    const Method *method;
+    void *state; /* the backend's */
+    size_t count;
+    uint64_t step;
+    BoxState box; /* at the present time */
+};
+
+static const Backend *const backends[] = {&backend_cpu};
+static const Method *const methods[] = {&method_mueller};
+enum { BACKENDS = sizeof backends / sizeof *backends, METHODS = sizeof methods / sizeof *methods };
+
+const Backend *backend_find(const char *name)
+{
+    for (int i = 0; i < BACKENDS; i++)
+        if (strcmp(backends[i]->name, name) == 0)
+            return backends[i];
+    return NULL;
+}
+
+const Method *method_find(const char *name)
+{
+    for (int i = 0; i < METHODS; i++)
+        if (strcmp(methods[i]->name, name) == 0)
+            return methods[i];
+    return NULL;
+}
+
+const Named *world_backends(void)
+{
+    static Named list[BACKENDS + 1];
+    for (int i = 0; i < BACKENDS; i++)
+        list[i] = (Named){backends[i]->name, backends[i]->help};
+    return list;
+}
+
+const Named *world_methods(void)
+{
+    static Named list[METHODS + 1];
+    for (int i = 0; i < METHODS; i++)
+        list[i] = (Named){methods[i]->name, methods[i]->help};
+    return list;
+}
+
+/* The arrays behind an InitialState made from fills. */
+typedef struct Seeds {
+    float *position, *velocity;
+    uint8_t *fluid;
+} Seeds;
+
+static void seeds_free(Seeds *seeds)
+{
+    free(seeds->position);
+    free(seeds->velocity);
+    free(seeds->fluid);
+}
+
+static bool seeds_make(const WorldDef *def, Seeds *seeds, InitialState *initial, Error *error)
+{
+    const size_t count = world_def_count(def, def->spacing);
+    if (count == 0 || count > INT32_MAX)
+        return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
+                                      : "the fluids' fills hold no particle; use a smaller spacing");
+    seeds->position = malloc(count * 3 * sizeof *seeds->position);
+    seeds->velocity = malloc(count * 3 * sizeof *seeds->velocity);
+    seeds->fluid = malloc(count);
+    if (!seeds->position || !seeds->velocity || !seeds->fluid)
+        return error_set(error, "no memory for %zu particles; use a larger spacing", count);
+
+    seed_lattice(def, seeds->position, seeds->fluid);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < 3; k++)
+            seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
+    *initial = (InitialState){count, seeds->position, seeds->velocity, seeds->fluid};
+    return true;
+}
+
+static void box_at(const World *world, double time, BoxState *box)
+{
+    box_state_at(world->def.motions, world->def.motion_count, world->def.box_size[1], time, box);
+}
+
+static bool world_start(World *world, Error *error)
+{
+    Seeds seeds = {0};
+    InitialState initial;
+    const bool given = world->def.initial;
+    if (given)
+        initial = *world->def.initial;
+    bool ok = given || seeds_make(&world->def, &seeds, &initial, error);
+    if (ok) {
+        world->count = initial.count;
+        world->state = world->backend->create(&world->solver, &initial, world->def.threads, error);
+        ok = world->state;
+    }
+    seeds_free(&seeds);
+    world->def.initial = NULL;
+    return ok;
+}
+
+World *world_create(const WorldDef *def, Error *error)
+{
+    World *world = calloc(1, sizeof *world);
+    if (!world) {
+        error_set(error, "no memory");
+        return NULL;
+    }
+    world->def = *def;
+    world->backend = backend_find(def->backend);
+    world->method = method_find(def->method);
+    bool ok = true;
+    if (!world->backend)
+        ok = error_set(error, "unknown backend '%s'; `slosh info` lists them", def->backend);
+    else if (!world->method)
+        ok = error_set(error, "unknown method '%s'; `slosh info` lists them", def->method);
+    if (!ok || !solver_create(&world->solver, def, error) || !world_start(world, error)) {
+        world_destroy(world);
+        return NULL;
+    }
+    box_at(world, 0, &world->box);
+    world->backend->grid(world->state);
+    world->backend->density(world->state);
+    return world;
+}
+
+void world_destroy(World *world)
+{
+    if (!world)
+        return;
+    if (world->state)
+        world->backend->destroy(world->state);
+    solver_destroy(&world->solver);
+    free(world);
+}
+
+/* Multiplied, not added up: the time of a step depends on its number alone. */
+static double time_of(const World *world, double step)
+{
+    return step * (world->def.dt / world->def.substeps);
+}
+
+static void substep_prepare(const World *world, StageClock *clock, Substep *step, BoxState *end)
+{
+    const double at = (double)world->step;
+    BoxState middle;
+    box_at(world, time_of(world, at + 0.5), &middle);
+    box_at(world, time_of(world, at + 1), end);
+
+    *step = (Substep){.backend = world->backend,
+                      .state = world->state,
+                      .clock = clock,
+                      .dt = world->def.dt / world->def.substeps};
+    frame_step(&world->box, &middle, 0.5 * step->dt, &step->first_half);
+    frame_step(&middle, end, 0.5 * step->dt, &step->second_half);
+    apparent_gravity(world->def.gravity, &world->box, &middle, end, step->dt, &step->apparent);
+    double gravity[3];
+    quat_rotate_inverse(middle.orientation, world->def.gravity, gravity);
+    for (int k = 0; k < 3; k++)
+        step->gravity[k] = (float)gravity[k];
+}
+
+bool world_step(World *world, StageClock *clock, Error *error)
+{
+    for (int i = 0; i < world->def.substeps; i++) {
+        Substep step;
+        BoxState end;
+        substep_prepare(world, clock, &step, &end);
+        const bool finite = world->method->substep(&step);
+        world->step++;
+        world->box = end;
+        if (!finite)
+            return error_set(
+                error,
+                "the simulation blew up at t = %g s: velocities are no longer finite; use a smaller "
+                "solver.step.dt, more substeps or a lower solver.sound_speed",
+                time_of(world, (double)world->step));
+    }
+    return true;
+}
+
+void world_info(const World *world, WorldInfo *info)
+{
+    *info = (WorldInfo){
+        .time = time_of(world, (double)world->step),
+        .step = world->step,
+        .count = world->count,
+        .support_radius = world->def.support * world->def.spacing,
+        .spacing = world->def.spacing,
+        .box = world->box,
+    };
+    memcpy(info->box_size, world->def.box_size, sizeof info->box_size);
+    quat_rotate_inverse(world->box.orientation, world->def.gravity, info->gravity);
+    world->backend->info(world->state, info);
+}
+
+void world_sums(World *world, WorldSums *sums)
+{
+    world->backend->sums(world->state, sums);
+}
+
+void world_read(World *world, const ParticleArrays *out)
+{
+    world->backend->read(world->state, out);
+}
+
+/* FNV-1a, 64 bits. */
+static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+{
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ ((const unsigned char *)bytes)[i]) * 0x100000001b3u;
+    return hash;
+}
+
+uint64_t world_hash(World *world)
+{
+    const size_t n = world->count;
+    ParticleArrays out = {
+        .position = malloc(n * 4 * sizeof(float)),
+        .velocity = malloc(n * 4 * sizeof(float)),
+        .id = malloc(n * sizeof(uint32_t)),
+    };
+    uint32_t *place = malloc(n * sizeof *place);
+    uint64_t hash = 0;
+    if (out.position && out.velocity && out.id && place) {
+        world_read(world, &out);
+        for (size_t i = 0; i < n; i++)
+            place[out.id[i]] = (uint32_t)i;
+        hash = 0xcbf29ce484222325u;
+        for (size_t id = 0; id < n; id++) {
+            hash = hash_bytes(hash, &out.position[4 * (size_t)place[id]], 3 * sizeof(float));
+            hash = hash_bytes(hash, &out.velocity[4 * (size_t)place[id]], 3 * sizeof(float));
+        }
+    }
+    free(out.position);
+    free(out.velocity);
+    free(out.id);
+    free(place);
+    return hash;
+}

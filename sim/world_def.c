@@ -1,0 +1,36 @@
+#include "sim/world_def.h"
+
+#include "sim/seed.h"
+
+#include <math.h>
+
+WorldDef world_def_default(void)
+{
+    return (WorldDef){
+        .gravity = {0, -9.81, 0},
+        .support = 2.1, /* 32 neighbours in the lattice; at exactly 2 the shell at h flickers in and out */
+        .method = "mueller",
+        .backend = "cpu",
+        .sound_speed =
+            20, /* ten times the speed of a fall of 0.2 m: density within 1 % in a scene of a hand's size */
+        .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see sim/README.md */
+        .dt = 0.01,                /* a frame of 100 Hz */
+        .substeps = 10,            /* paper 003's stable setting at 8,192 particles */
+    };
+}
+
+size_t world_def_count(const WorldDef *def, double spacing)
+{
+    double volume = 0;
+    for (int k = 0; k < 3; k++)
+        if (def->box_size[k] / spacing > 1e7)
+            return SIZE_MAX;
+    WorldDef at = *def;
+    at.spacing = spacing;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].fill_count; i++)
+            volume += fill_volume(&def->fluids[f].fills[i]);
+    if (volume / (spacing * spacing * spacing) > 0x1p32)
+        return SIZE_MAX;
+    return seed_lattice(&at, NULL, NULL);
+}

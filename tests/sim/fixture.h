@@ -1,0 +1,112 @@
+/* Small worlds for the solver's tests. */
+#ifndef SLOSH_TEST_FIXTURE_H
+#define SLOSH_TEST_FIXTURE_H
+
+#include "sim/world.h"
+
+/* cmocka's needs */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A box of that size with one inviscid fluid of density 1000 and no fill; spacing 0.1 m. */
+static inline WorldDef fixture_def(double width, double height, double depth)
+{
+    WorldDef def = world_def_default();
+    def.box_size[0] = width;
+    def.box_size[1] = height;
+    def.box_size[2] = depth;
+    def.spacing = 0.1;
+    def.fluid_count = 1;
+    def.fluids[0] = (FluidDef){.name = "water", .density = 1000};
+    def.dt = 0.002;
+    def.substeps = 1;
+    return def;
+}
+
+static inline void fixture_block(WorldDef *def, int fluid, double x0, double y0, double z0, double x1,
+                                 double y1, double z1)
+{
+    FluidDef *f = &def->fluids[fluid];
+    f->fills[f->fill_count++] = (Fill){.kind = FILL_BLOCK, .min = {x0, y0, z0}, .max = {x1, y1, z1}};
+}
+
+/* Fails the test with the reason when the world can't be made. */
+static inline World *fixture_world(const WorldDef *def)
+{
+    Error error = {0};
+    World *world = world_create(def, &error);
+    if (!world)
+        fail_msg("%s", error.message);
+    return world;
+}
+
+static inline void fixture_step(World *world, int frames)
+{
+    Error error = {0};
+    for (int i = 0; i < frames; i++)
+        if (!world_step(world, NULL, &error))
+            fail_msg("%s", error.message);
+}
+
+/* All that world_read gives, ordered by id; free with fixture_free. */
+typedef struct State {
+    size_t count;
+    float *position, *velocity, *density, *pressure; /* 4, 4, 1, 1 a particle */
+    uint32_t *fluid;
+} State;
+
+static inline void fixture_order(float *values, const uint32_t *id, size_t count, size_t width)
+{
+    float *ordered = malloc(count * width * sizeof *ordered);
+    for (size_t i = 0; i < count; i++)
+        memcpy(ordered + id[i] * width, values + i * width, width * sizeof *ordered);
+    memcpy(values, ordered, count * width * sizeof *ordered);
+    free(ordered);
+}
+
+static inline State fixture_read(World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    const size_t n = info.count;
+    State s = {n, malloc(16 * n), malloc(16 * n), malloc(4 * n), malloc(4 * n), malloc(4 * n)};
+    uint32_t *id = malloc(4 * n);
+    ParticleArrays out = {.position = s.position, .velocity = s.velocity, .fluid = s.fluid, .id = id};
+    out.scalar[SCALAR_DENSITY] = s.density;
+    out.scalar[SCALAR_PRESSURE] = s.pressure;
+    world_read(world, &out);
+    fixture_order(s.position, id, n, 4);
+    fixture_order(s.velocity, id, n, 4);
+    fixture_order(s.density, id, n, 1);
+    fixture_order(s.pressure, id, n, 1);
+    fixture_order((float *)s.fluid, id, n, 1); /* only bits move */
+    free(id);
+    return s;
+}
+
+static inline void fixture_free(State *s)
+{
+    free(s->position);
+    free(s->velocity);
+    free(s->density);
+    free(s->pressure);
+    free(s->fluid);
+}
+
+/* A fixed sequence of numbers in [0, 1). */
+static inline double fixture_random(uint32_t *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (*seed >> 8) / 16777216.0;
+}
+
+#endif

@@ -1,0 +1,188 @@
+/* The box as the frame of reference: against the parabola of the world's frame, a level surface, the
+ * bucket's. */
+#include "fixture.h"
+
+#include "sim/frame_step.h"
+
+/* A turn about an axis that itself moves, and a shake: nothing is constant in the box's frame. */
+static const Motion wild[] = {
+    {.kind = MOTION_SHAKE, .axis = {1, 0.5, 0.2}, .amplitude = 0.3, .frequency = 1.1},
+    {.kind = MOTION_ROCK, .axis = {0.1, 0, 1}, .angle_deg = 40, .frequency = 0.7},
+    {.kind = MOTION_SPIN, .axis = {0.3, 1, 0.2}, .rate = 1.3},
+    {.kind = MOTION_TURN, .axis = {1, 0, 0}, .angle_deg = 70, .start = 0.1, .duration = 0.6},
+    {.kind = MOTION_ACCELERATE, .axis = {0, 0, 1}, .acceleration = 1.5, .start = 0.2},
+};
+enum { WILD = sizeof wild / sizeof *wild };
+
+/* The rates are the derivatives of the poses. */
+static void rates_are_derivatives(void **state)
+{
+    (void)state;
+    for (double t = 0.01; t < 1.2; t += 0.037) {
+        const double e = 1e-6, point[3] = {0.3, 0.2, -0.4}, still[3] = {0};
+        BoxState before, now, after;
+        box_state_at(wild, WILD, 2, t - e, &before);
+        box_state_at(wild, WILD, 2, t, &now);
+        box_state_at(wild, WILD, 2, t + e, &after);
+        double x0[3], x1[3], x[3], v[3], unused[3];
+        box_to_world(&before, point, still, x0, unused);
+        box_to_world(&after, point, still, x1, unused);
+        box_to_world(&now, point, still, x, v);
+        for (int k = 0; k < 3; k++)
+            if (fabs((x1[k] - x0[k]) / (2 * e) - v[k]) > 1e-5)
+                fail_msg("at t = %g component %d moves at %g, not %g", t, k, (x1[k] - x0[k]) / (2 * e), v[k]);
+    }
+}
+
+static void lone_particle_follows_the_parabola(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(8, 8, 8);
+    def.spacing = 0.05;
+    def.dt = 0.018;
+    def.substeps = 3;
+    def.motion_count = WILD;
+    memcpy(def.motions, wild, sizeof wild);
+    const float x0[3] = {0.5f, 4.5f, -0.3f}, v0[3] = {0.4f, 2.5f, 0.3f};
+    def.initial = &(InitialState){.count = 1, .position = x0, .velocity = v0};
+    World *world = fixture_world(&def);
+
+    BoxState box;
+    box_state_at(wild, WILD, 8, 0, &box);
+    double start[3], speed[3];
+    box_to_world(&box, (double[3]){x0[0], x0[1], x0[2]}, (double[3]){v0[0], v0[1], v0[2]}, start, speed);
+    double worst = 0;
+    for (int frame = 0; frame < 50; frame++) {
+        fixture_step(world, 1);
+        WorldInfo info;
+        world_info(world, &info);
+        State s = fixture_read(world);
+        double x[3], v[3];
+        box_to_world(&info.box, (double[3]){s.position[0], s.position[1], s.position[2]},
+                     (double[3]){s.velocity[0], s.velocity[1], s.velocity[2]}, x, v);
+        const double t = info.time;
+        for (int k = 0; k < 3; k++) {
+            const double g = k == 1 ? -9.81 : 0;
+            worst = fmax(worst, fabs(x[k] - (start[k] + speed[k] * t + 0.5 * g * t * t)));
+            assert_true(fabs(v[k] - (speed[k] + g * t)) < 1e-4 * 10);
+        }
+        assert_int_equal(info.guarded, 0);
+        fixture_free(&s);
+    }
+    printf("lone particle: worst %.2g of the box's size off its parabola after 0.9 s\n", worst / 8);
+    assert_true(worst <= 1e-4 * 8);
+    world_destroy(world);
+}
+
+/* A box in free fall: the fluid floats, to rounding. */
+static void fluid_floats_in_free_fall(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1, 1);
+    fixture_block(&def, 0, -0.3, 0.3, -0.3, 0.3, 0.7, 0.3);
+    def.motion_count = 1;
+    def.motions[0] = (Motion){.kind = MOTION_ACCELERATE, .axis = {0, -1, 0}, .acceleration = 9.81};
+    World *world = fixture_world(&def);
+    WorldSums before, after;
+    world_sums(world, &before);
+    fixture_step(world, 500);
+    world_sums(world, &after);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(after.centre[k] - before.centre[k]) < 1e-4);
+    world_destroy(world);
+}
+
+/* Least squares of y = a + b u over the highest particle of each column of cells one spacing wide, `u` given.
+ */
+typedef double (*Abscissa)(const float x[3]);
+
+static double fit_surface(const State *s, double width, double spacing, Abscissa u_of)
+{
+    enum { MAX = 64 };
+    static float top[MAX][MAX][3];
+    const int n = (int)(width / spacing + 0.5);
+    memset(top, 0, sizeof top);
+    for (size_t i = 0; i < s->count; i++) {
+        const float *x = s->position + 4 * i;
+        const int a = (int)((x[0] / width + 0.5) * n), b = (int)((x[2] / width + 0.5) * n);
+        if (a >= 0 && a < n && b >= 0 && b < n && x[1] > top[a][b][1])
+            memcpy(top[a][b], x, sizeof top[a][b]);
+    }
+    double count = 0, su = 0, sy = 0, suu = 0, suy = 0;
+    for (int a = 1; a < n - 1; a++)
+        for (int b = 1; b < n - 1; b++) {
+            const double u = u_of(top[a][b]), y = top[a][b][1];
+            count++;
+            su += u;
+            sy += y;
+            suu += u * u;
+            suy += u * y;
+        }
+    return (count * suy - su * sy) / (count * suu - su * su);
+}
+
+static double along_x(const float x[3])
+{
+    return x[0];
+}
+
+/* A box that turns by 30 degrees: the surface ends level in the world. */
+static void tilted_box_ends_level(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1.6, 2.4, 1.6);
+    def.sound_speed = 40;
+    def.dt = 0.0015;
+    def.fluids[0].viscosity = 100;
+    fixture_block(&def, 0, -0.8, 0, -0.8, 0.8, 1.0, 0.8);
+    def.motion_count = 1;
+    def.motions[0] = (Motion){.kind = MOTION_TURN, .axis = {0, 0, 1}, .angle_deg = 30, .duration = 1};
+    World *world = fixture_world(&def);
+    fixture_step(world, 5000);
+    State s = fixture_read(world);
+    /* in the box's frame the level surface falls by tan 30 degrees along x */
+    const double slope = fit_surface(&s, 1.6, def.spacing, along_x);
+    const double angle = atan(slope) * 180 / M_PI + 30;
+    printf("tilted box: surface %.2f degrees off level\n", angle);
+    assert_true(fabs(angle) <= 1);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+static double radius2(const float x[3])
+{
+    return (double)x[0] * x[0] + (double)x[2] * x[2];
+}
+
+/* y = omega^2 r^2 / 2g in a box that spins about its vertical axis. */
+static void bucket_has_its_parabola(void **state)
+{
+    (void)state;
+    const double omega = 3.5;
+    WorldDef def = fixture_def(1.6, 2.4, 1.6);
+    def.spacing = 0.05;
+    def.sound_speed = 40;
+    def.dt = 0.0012;
+    def.fluids[0].viscosity = 100;
+    fixture_block(&def, 0, -0.8, 0, -0.8, 0.8, 0.96, 0.8);
+    def.motion_count = 1;
+    def.motions[0] = (Motion){.kind = MOTION_SPIN, .axis = {0, 1, 0}, .rate = omega};
+    World *world = fixture_world(&def);
+    fixture_step(world, 2500);
+    State s = fixture_read(world);
+    const double ratio = fit_surface(&s, 1.6, def.spacing, radius2) / (omega * omega / (2 * 9.81));
+    printf("bucket: curvature %.3f of omega^2 / 2g\n", ratio);
+    assert_true(fabs(ratio - 1) <= 0.05);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rates_are_derivatives),     cmocka_unit_test(lone_particle_follows_the_parabola),
+        cmocka_unit_test(fluid_floats_in_free_fall), cmocka_unit_test(tilted_box_ends_level),
+        cmocka_unit_test(bucket_has_its_parabola),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,140 @@
+/* Kernels: unit integral, zero-sum gradient, positivity, with floating-point traps on. */
+#define _GNU_SOURCE
+#include "fixture.h"
+
+#include "sim/kernel.h"
+#include "sim/lattice.h"
+
+#include <fenv.h>
+
+typedef double (*Function)(double r, double h);
+
+static const struct {
+    const char *name;
+    Function value, derivative;
+} kernels[] = {
+    {"poly6", kernel_poly6, kernel_poly6_derivative},
+    {"spiky", kernel_spiky, kernel_spiky_derivative},
+    {"viscosity", kernel_viscosity, NULL},
+};
+enum { KERNELS = sizeof kernels / sizeof *kernels };
+
+static int traps_on(void **state)
+{
+    (void)state;
+    return feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW) == -1;
+}
+
+static int traps_off(void **state)
+{
+    (void)state;
+    return fedisableexcept(FE_ALL_EXCEPT) == -1;
+}
+
+static const double supports[] = {1e-4, 0.021, 1, 300};
+
+static void integral_is_one(void **state)
+{
+    (void)state;
+    for (int k = 0; k < KERNELS; k++)
+        for (int s = 0; s < 4; s++) {
+            const double h = supports[s];
+            const int n = 20000;
+            double sum = 0;
+            for (int i = 0; i < n; i++) { /* shells, midpoint rule */
+                const double r = (i + 0.5) / n * 1.2 * h;
+                sum += 4 * M_PI * r * r * kernels[k].value(r, h) * 1.2 * h / n;
+            }
+            if (fabs(sum - 1) > 1e-6)
+                fail_msg("%s at h = %g integrates to %.9f", kernels[k].name, h, sum);
+        }
+}
+
+static void values_are_positive_and_end_at_h(void **state)
+{
+    (void)state;
+    for (int k = 0; k < KERNELS; k++)
+        for (int i = 1; i <= 3000; i++) {
+            const double h = 0.3, r = i / 2000.0 * h, w = kernels[k].value(r, h);
+            if (i < 2000 ? !(w > 0) : w != 0)
+                fail_msg("%s at r = %g h is %g", kernels[k].name, r / h, w);
+            assert_true(kernel_viscosity_laplacian(r, h) >= 0);
+            assert_true(kernel_spiky_derivative(r, h) <= 0);
+        }
+}
+
+/* The gradient summed over points mirrored in space is zero; and the derivative is that of the value. */
+static void gradient_sums_to_zero(void **state)
+{
+    (void)state;
+    uint32_t seed = 1;
+    const double h = 0.21;
+    for (int n = 0; n < KERNELS; n++) {
+        if (!kernels[n].derivative)
+            continue;
+        double sum[3] = {0}, scale = 0;
+        for (int i = 0; i < 1000; i++) {
+            double x[3], r = 0;
+            for (int k = 0; k < 3; k++) {
+                x[k] = (2 * fixture_random(&seed) - 1) * h;
+                r += x[k] * x[k];
+            }
+            r = sqrt(r);
+            const double slope = kernels[n].derivative(r, h);
+            for (int mirror = -1; mirror <= 1; mirror += 2)
+                for (int k = 0; k < 3; k++)
+                    sum[k] += slope * mirror * x[k] / r;
+            scale += fabs(slope);
+            if (r < 0.99 * h) {
+                const double e = 1e-6 * h;
+                const double difference = (kernels[n].value(r + e, h) - kernels[n].value(r - e, h)) / (2 * e);
+                assert_true(fabs(slope - difference) <= 1e-6 * fabs(kernels[n].derivative(0.4 * h, h)));
+            }
+        }
+        for (int k = 0; k < 3; k++)
+            assert_true(fabs(sum[k]) <= 1e-12 * scale);
+    }
+}
+
+/* W'' + 2 W' / r of the viscosity kernel, by differences. */
+static void laplacian_is_that_of_the_kernel(void **state)
+{
+    (void)state;
+    const double h = 0.7, e = 1e-4 * h;
+    for (double r = 0.2 * h; r < 0.95 * h; r += 0.05 * h) {
+        const double low = kernel_viscosity(r - e, h), mid = kernel_viscosity(r, h),
+                     high = kernel_viscosity(r + e, h);
+        const double laplacian = (high - 2 * mid + low) / (e * e) + (high - low) / (e * r);
+        assert_true(fabs(laplacian - kernel_viscosity_laplacian(r, h)) <=
+                    1e-3 * kernel_viscosity_laplacian(r, h));
+    }
+}
+
+/* REFERENCE: 26 others strictly inside h at two spacings, 32 just above. */
+static void lattice_has_its_neighbours(void **state)
+{
+    (void)state;
+    Lattice lattice;
+    lattice_calibrate(0.01, 0.02, &density_kernels[0], &lattice);
+    assert_int_equal(lattice.neighbours, 26);
+    lattice_calibrate(0.01, 0.021, &density_kernels[0], &lattice);
+    assert_int_equal(lattice.neighbours, 32);
+    /* sums over a fine lattice approach the integrals */
+    lattice_calibrate(0.01, 0.08, &density_kernels[0], &lattice);
+    assert_true(fabs(lattice.density_scale - 1) < 1e-2);
+    assert_true(fabs(lattice.gradient_scale - 1) < 1e-2);
+    assert_true(fabs(lattice.laplacian_scale - 1) < 1e-2);
+    assert_true(fabs(lattice.stiffness_scale - 1) < 2e-2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(integral_is_one, traps_on, traps_off),
+        cmocka_unit_test_setup_teardown(values_are_positive_and_end_at_h, traps_on, traps_off),
+        cmocka_unit_test_setup_teardown(gradient_sums_to_zero, traps_on, traps_off),
+        cmocka_unit_test_setup_teardown(laplacian_is_that_of_the_kernel, traps_on, traps_off),
+        cmocka_unit_test_setup_teardown(lattice_has_its_neighbours, traps_on, traps_off),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

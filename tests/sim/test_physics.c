@@ -1,0 +1,203 @@
+/* What must hold whatever the scene: momenta in free flight, pressure in a column at rest, density ratios. */
+#include "fixture.h"
+
+/* A ball that flies and spins, pressed a little so that it works inside; no gravity, no viscosity, no walls
+ * near. */
+static void free_flight_keeps_momenta(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(40, 40, 40);
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.spacing = 0.1;
+    def.sound_speed = 10;
+    enum { SIDE = 12, COUNT = SIDE * SIDE * SIDE };
+    float *x = malloc(3 * COUNT * sizeof *x), *v = malloc(3 * COUNT * sizeof *v);
+    uint8_t *fluid = malloc(COUNT);
+    uint32_t seed = 11;
+    for (int i = 0; i < COUNT; i++) {
+        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
+        for (int k = 0; k < 3; k++)
+            x[3 * i + k] = (float)(0.095 * index[k] + 0.02 * fixture_random(&seed) + (k == 1 ? 18 : -2));
+        v[3 * i] = 0.5f - 0.8f * (x[3 * i + 1] - 18);
+        v[3 * i + 1] = 0.3f + 0.8f * (x[3 * i] + 2);
+        v[3 * i + 2] = -0.2f;
+        fluid[i] = (uint8_t)(i % 2);
+    }
+    def.fluid_count = 2; /* a density ratio of 3 */
+    def.fluids[1] = (FluidDef){.name = "heavy", .density = 3000};
+    def.initial = &(InitialState){COUNT, x, v, fluid};
+    World *world = fixture_world(&def);
+    WorldSums before, after;
+    world_sums(world, &before);
+    fixture_step(world, 1000);
+    world_sums(world, &after);
+    assert_true(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 1e-3); /* something happened */
+    for (int k = 0; k < 3; k++) {
+        const double p = fabs(after.momentum[k] - before.momentum[k]) / before.momentum_scale;
+        const double l = fabs(after.angular_momentum[k] - before.angular_momentum[k]) / before.angular_scale;
+        if (p > 1e-5)
+            fail_msg("linear momentum %d changed by %g of sum |m v|", k, p);
+        if (l > 1e-3)
+            fail_msg("angular momentum %d changed by %g of sum |m x v|", k, l);
+    }
+    world_destroy(world);
+    free(x);
+    free(v);
+    free(fluid);
+}
+
+/* The highest particles' mean height, half a spacing up: where p = 0. */
+static double fitted_surface(const State *s, double spacing)
+{
+    float top = 0;
+    for (size_t i = 0; i < s->count; i++)
+        top = fmaxf(top, s->position[4 * i + 1]);
+    double sum = 0;
+    int count = 0;
+    for (size_t i = 0; i < s->count; i++)
+        if (s->position[4 * i + 1] > top - 0.5 * spacing) {
+            sum += s->position[4 * i + 1];
+            count++;
+        }
+    return sum / count + 0.5 * spacing;
+}
+
+enum { COLUMN_SIDE = 10, COLUMN_LAYERS = 44, COLUMN = COLUMN_SIDE * COLUMN_SIDE * COLUMN_LAYERS };
+
+/* The lattice, each layer pressed as the weight above it will press it: what is left to settle is small. */
+static void pressed_column(float x[3 * COLUMN], double spacing, double sound_speed)
+{
+    double y = 0;
+    for (int layer = 0; layer < COLUMN_LAYERS; layer++) {
+        const double depth = (COLUMN_LAYERS - layer - 0.5) * spacing;
+        const double thickness = spacing / (1 + 9.81 * depth / (sound_speed * sound_speed));
+        for (int i = 0; i < COLUMN_SIDE * COLUMN_SIDE; i++) {
+            float *p = x + 3 * (layer * COLUMN_SIDE * COLUMN_SIDE + i);
+            p[0] = (float)((i % COLUMN_SIDE - 4.5) * spacing);
+            p[1] = (float)(y + 0.5 * thickness);
+            p[2] = (float)((i / COLUMN_SIDE - 4.5) * spacing);
+        }
+        y += thickness;
+    }
+}
+
+/* rms (p - rho0 g depth) / (rho0 g H) of a column of 44 layers. */
+static double column_error(void)
+{
+    WorldDef def = fixture_def(1, 6, 1);
+    def.sound_speed = 60; /* ten times sqrt(g H) */
+    def.dt = 0.001;
+    def.fluids[0].viscosity = 4000; /* settles within a few seconds */
+    float *x = malloc(3 * COLUMN * sizeof *x);
+    pressed_column(x, def.spacing, def.sound_speed);
+    def.initial = &(InitialState){.count = COLUMN, .position = x};
+    World *world = fixture_world(&def);
+    fixture_step(world, 6000);
+    WorldSums sums;
+    world_sums(world, &sums);
+    if (sums.max_speed > 0.05)
+        fail_msg("the column has not settled: the fastest particle moves at %g m/s", sums.max_speed);
+    State s = fixture_read(world);
+    const double surface = fitted_surface(&s, def.spacing);
+    double sum2 = 0;
+    for (size_t i = 0; i < s.count; i++) {
+        const double p = 1000 * 9.81 * (surface - s.position[4 * i + 1]);
+        sum2 += (s.pressure[i] - p) * (s.pressure[i] - p);
+    }
+    const double error = sqrt(sum2 / (double)s.count) / (1000 * 9.81 * surface);
+    printf("column: surface at %.3f m, rms pressure error %.2f %% of rho0 g H, fastest %.4f m/s\n", surface,
+           100 * error, sums.max_speed);
+    fixture_free(&s);
+    world_destroy(world);
+    free(x);
+    return error;
+}
+
+static void column_at_rest_has_hydrostatic_pressure(void **state)
+{
+    (void)state;
+    assert_true(column_error() <= 0.05);
+}
+
+/* Light over heavy, 1 : 4, stays so: the centres of mass do not approach. */
+static void light_stays_over_heavy(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 2, 1);
+    def.sound_speed = 40;
+    def.dt = 0.001;
+    def.fluid_count = 2;
+    def.fluids[0].viscosity = 20;
+    def.fluids[1] = (FluidDef){.name = "light", .density = 250, .viscosity = 20};
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.7, 0.5);
+    fixture_block(&def, 1, -0.5, 0.7, -0.5, 0.5, 1.4, 0.5);
+    World *world = fixture_world(&def);
+    fixture_step(world, 2000);
+    State s = fixture_read(world);
+    double mean[2] = {0}, worst = 0;
+    for (size_t i = 0; i < s.count; i++) {
+        mean[s.fluid[i]] += s.position[4 * i + 1] / (double)s.count * 2;
+        worst = fmax(worst, fabs(s.density[i] / (s.fluid[i] ? 250.0 : 1000.0) - 1));
+    }
+    assert_true(fabs(mean[0] - 0.35) < 0.03 && fabs(mean[1] - 1.05) < 0.05);
+    assert_true(worst <
+                0.6); /* the free surface has fewer neighbours; no spurious gap or crush between the fluids */
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+/* An impossible step is noticed and said. */
+static void blow_up_is_reported(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 2, 1);
+    def.sound_speed = 1e17;
+    def.dt = 1e9;
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
+    World *world = fixture_world(&def);
+    Error error = {0};
+    bool ok = true;
+    for (int i = 0; i < 20 && ok; i++)
+        ok = world_step(world, NULL, &error);
+    assert_false(ok);
+    assert_non_null(strstr(error.message, "blew up"));
+    world_destroy(world);
+}
+
+static void bad_defs_are_refused(void **state)
+{
+    (void)state;
+    WorldDef good = fixture_def(1, 1, 1);
+    fixture_block(&good, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
+    struct {
+        WorldDef def;
+        const char *says;
+    } bad[] = {{good, "backend"}, {good, "method"}, {good, "spacing"}, {good, "no particle"},
+               {good, "dt"},      {good, "box"},    {good, "cells"},   {good, "density"}};
+    strcpy(bad[0].def.backend, "abacus");
+    strcpy(bad[1].def.method, "guess");
+    bad[2].def.spacing = NAN;
+    bad[3].def.fluids[0].fill_count = 0;
+    bad[4].def.dt = 0;
+    bad[5].def.box_size[1] = -1;
+    bad[6].def.box_size[1] = bad[6].def.box_size[0] = bad[6].def.box_size[2] = 1e6;
+    bad[7].def.fluids[0].density = -1;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        Error error = {0};
+        assert_null(world_create(&bad[i].def, &error));
+        if (!strstr(error.message, bad[i].says))
+            fail_msg("'%s' does not speak of %s", error.message, bad[i].says);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(free_flight_keeps_momenta),
+        cmocka_unit_test(column_at_rest_has_hydrostatic_pressure),
+        cmocka_unit_test(light_stays_over_heavy),
+        cmocka_unit_test(blow_up_is_reported),
+        cmocka_unit_test(bad_defs_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

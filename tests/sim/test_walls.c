@@ -1,0 +1,192 @@
+/* The walls: rest density for a lattice that fills the box, tables against sums, no net force at rest, no
+ * escape. */
+#include "fixture.h"
+
+#include "sim/wall.h"
+
+static WorldDef full_box(double nx, double ny, double nz, double support)
+{
+    WorldDef def = fixture_def(nx * 0.1, ny * 0.1, nz * 0.1);
+    def.support = support;
+    fixture_block(&def, 0, -nx * 0.05, 0, -nz * 0.05, nx * 0.05, ny * 0.1, nz * 0.05);
+    return def;
+}
+
+/* How many walls a particle of the first layer touches: 0 in the bulk, 1 at a face, 2 at an edge, 3 in a
+ * corner. */
+static int walls_touched(const float x[3], const double box[3])
+{
+    int count = 0;
+    for (int k = 0; k < 3; k++) {
+        const double centred = k == 1 ? x[1] - box[1] / 2 : x[k];
+        count += box[k] / 2 - fabs(centred) < 0.075;
+    }
+    return count;
+}
+
+/* Within 0.5 % in the bulk, at faces, edges and corners; also in a slot narrower than two support radii. */
+static void full_box_has_rest_density(void **state)
+{
+    (void)state;
+    static const char *const places[] = {"the bulk", "a face", "an edge", "a corner"};
+    const double supports[] = {1.6, 2.1, 2.6, 3.2}, depths[] = {10, 3};
+    for (int s = 0; s < 4; s++)
+        for (int d = 0; d < 2; d++) {
+            const WorldDef def = full_box(10, 9, depths[d], supports[s]);
+            World *world = fixture_world(&def);
+            State all = fixture_read(world);
+            assert_int_equal(all.count, 10 * 9 * depths[d]);
+            int seen[4] = {0};
+            for (size_t i = 0; i < all.count; i++) {
+                const int place = walls_touched(all.position + 4 * i, def.box_size);
+                seen[place]++;
+                if (fabs(all.density[i] / 1000 - 1) > 0.005)
+                    fail_msg("support %g, %g layers deep: density in %s is %.2f, not 1000", supports[s],
+                             depths[d], places[place], all.density[i]);
+            }
+            assert_int_equal(seen[3], 8);
+            assert_true(seen[0] > 0 && seen[1] > 0 && seen[2] > 0);
+            fixture_free(&all);
+            world_destroy(world);
+        }
+}
+
+/* Without gravity the full lattice stays where it is: nothing pushes, in no corner. */
+static void full_box_stays(void **state)
+{
+    (void)state;
+    WorldDef def = full_box(8, 8, 8, 2.1);
+    memset(def.gravity, 0, sizeof def.gravity);
+    World *world = fixture_world(&def);
+    State before = fixture_read(world);
+    fixture_step(world, 500);
+    State after = fixture_read(world);
+    for (size_t i = 0; i < 4 * before.count; i++)
+        if (i % 4 != 3 && fabsf(before.position[i] - after.position[i]) > 1e-3f * 0.1f)
+            fail_msg("particle %zu moved by %g spacings", i / 4,
+                     fabsf(before.position[i] - after.position[i]) / 0.1);
+    fixture_free(&before);
+    fixture_free(&after);
+    world_destroy(world);
+}
+
+typedef struct Table {
+    Lattice lattice;
+    Walls walls;
+} Table;
+
+static Table make_walls(void)
+{
+    Table t;
+    lattice_calibrate(0.1, 0.21, &density_kernels[0], &t.lattice);
+    assert_true(walls_create(&t.walls, (double[3]){2, 2, 2}, 0.1, 0.21, &density_kernels[0], &t.lattice));
+    return t;
+}
+
+/* A table's value against sums over the lattice at the same place, averaged over the lattice's position along
+   the wall: within 2 % of the largest value; push and moment by component, with the signs of the far walls.
+ */
+static void tables_equal_sums(void **state)
+{
+    (void)state;
+    Table t = make_walls();
+    uint32_t seed = 5;
+    double scale = 0;
+    for (int n = 0; n < 300; n++) {
+        const int faces = 1 + n % 3;
+        float slope[3] = {0};
+        double d[3], u[3] = {0}, density = 0, push[3] = {0}, moment[6] = {0};
+        float x[3] = {0, 1, 0};
+        for (int k = 0; k < faces; k++) {
+            d[k] = fixture_random(&seed) * 0.2;
+            u[k] = wall_distance((float)d[k], 0.1f, &slope[k]);
+            x[k] = (float)((k == 1 ? 0 : -1) + d[k]);
+        }
+        /* union = all that is behind some face: count each combination with its sign */
+        for (int set = 1; set < 1 << faces; set++) {
+            double sub[3];
+            int used = 0, axis[3];
+            for (int k = 0; k < faces; k++)
+                if (set >> k & 1) {
+                    sub[used] = u[k];
+                    axis[used++] = k;
+                }
+            for (int k = 0, next = used; k < 3; k++)
+                if (k >= faces || !(set >> k & 1))
+                    axis[next++] = k;
+            const double sign = used == 2 ? -1 : 1;
+            const int samples = used == 3 ? 1 : 400;
+            for (int m = 0; m < samples; m++) {
+                double offset[3] = {0}, w, p[3], q[6];
+                for (int k = used; k < 3; k++)
+                    offset[k] = fixture_random(&seed) - 0.5;
+                wall_sums_brute(used, sub, offset, 0.1, 0.21, &density_kernels[0], &t.lattice, &w, p, q);
+                density += sign * w / samples;
+                for (int k = 0; k < 3; k++)
+                    push[axis[k]] += sign * slope[axis[k]] * p[k] / samples;
+                for (int k = 0; k < 3; k++)
+                    moment[axis[k]] += sign * q[k] / samples;
+            }
+        }
+        scale = fmax(scale, density);
+        for (int mirror = 0; mirror < 2; mirror++) {
+            float at[3] = {x[0], x[1], x[2]};
+            if (mirror) /* the opposite walls */
+                for (int k = 0; k < 3; k++)
+                    at[k] = k == 1 ? 2 - x[k] : -x[k];
+            WallSums sums;
+            walls_at(&t.walls, at, &sums);
+            const double n0 = t.lattice.number_density;
+            if (fabs(sums.number_density - density) > 0.01 * (n0 + density))
+                fail_msg("%d faces at %g %g %g: number density %g, the sum is %g", faces, d[0], d[1], d[2],
+                         sums.number_density / n0, density / n0);
+            assert_true(fabsf(walls_number_density(&t.walls, at) - sums.number_density) <= 1e-5f * (float)n0);
+            const double push_scale = n0 / 0.21, moment_scale = n0;
+            for (int k = 0; k < 3; k++) {
+                const double p = mirror ? -sums.push[k] : sums.push[k];
+                if (fabs(p - push[k]) > 0.04 * (push_scale + fabs(push[k])))
+                    fail_msg("%d faces: push %d is %g, the sum is %g", faces, k, p / push_scale,
+                             push[k] / push_scale);
+                if (fabs(sums.moment[k] - moment[k]) > 0.03 * (moment_scale + fabs(moment[k])))
+                    fail_msg("%d faces: moment %d is %g, the sum is %g", faces, k,
+                             sums.moment[k] / moment_scale, moment[k] / moment_scale);
+            }
+        }
+    }
+    assert_true(scale > 0.3 * t.lattice.number_density);
+    walls_destroy(&t.walls);
+}
+
+/* Fluid thrown into a corner at twenty times what a fall would give stays inside, and finite. */
+static void nothing_leaves(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1, 1);
+    def.dt = 0.001;
+    def.sound_speed = 60;
+    fixture_block(&def, 0, -0.3, 0.2, -0.3, 0.3, 0.8, 0.3);
+    for (int k = 0; k < 3; k++)
+        def.fluids[0].velocity[k] = k == 1 ? -20 : 20;
+    World *world = fixture_world(&def);
+    for (int i = 0; i < 40; i++) {
+        fixture_step(world, 10);
+        State s = fixture_read(world);
+        for (size_t p = 0; p < s.count; p++) {
+            const float *x = s.position + 4 * p;
+            assert_true(fabsf(x[0]) <= 0.5f && fabsf(x[2]) <= 0.5f && x[1] >= 0 && x[1] <= 1);
+        }
+        fixture_free(&s);
+    }
+    world_destroy(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(full_box_has_rest_density),
+        cmocka_unit_test(full_box_stays),
+        cmocka_unit_test(tables_equal_sums),
+        cmocka_unit_test(nothing_leaves),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
