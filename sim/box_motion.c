@@ -3,15 +3,22 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const motion_names[] = {
-#define X(NAME, name, help) name,
+static const struct {
+    const char *name, *help;
+} motions[] = {
+#define X(NAME, name, help) {name, help},
     MOTION_LIST(X)
 #undef X
 };
 
 const char *motion_name(MotionKind kind)
 {
-    return motion_names[kind];
+    return motions[kind].name;
+}
+
+const char *motion_help(MotionKind kind)
+{
+    return motions[kind].help;
 }
 
 static void cross(const double a[3], const double b[3], double out[3])
@@ -143,16 +150,16 @@ static void turn_further(BoxState *state, const double axis[3], Phase phase)
         state->angular_velocity[k] += phase.rate * axis_world[k];
 }
 
-void box_state_at(const Motion motions[], int count, double box_height, double time, BoxState *state)
+void box_state_at(const Motion list[], int count, double box_height, double time, BoxState *state)
 {
     *state = (BoxState){.orientation = {0, 0, 0, 1}};
     double centre[3] = {0, 0.5 * box_height, 0}, centre_velocity[3] = {0};
 
     for (int i = 0; i < count; i++) {
-        const Phase phase = motion_phase(&motions[i], time);
+        const Phase phase = motion_phase(&list[i], time);
         double axis[3];
-        unit(motions[i].axis, axis);
-        if (!motion_translates(&motions[i])) {
+        unit(list[i].axis, axis);
+        if (!motion_translates(&list[i])) {
             turn_further(state, axis, phase);
             continue;
         }

@@ -50,10 +50,11 @@ typedef struct Motion {
 } Motion;
 
 const char *motion_name(MotionKind kind);
+const char *motion_help(MotionKind kind);
 
-/* The box at `time` seconds under the `count` motions; exact, with the exact rates. `box_height` (m) places
-   the centre about which it turns. */
-void box_state_at(const Motion motions[], int count, double box_height, double time, BoxState *state);
+/* The box at `time` seconds under the `count` motions of the list; exact, with the exact rates. `box_height`
+   (m) places the centre about which it turns. */
+void box_state_at(const Motion list[], int count, double box_height, double time, BoxState *state);
 
 /* Rotates v by the quaternion q, or by its inverse. `out` may be `v`. */
 void quat_rotate(const double q[4], const double v[3], double out[3]);

@@ -1,5 +1,6 @@
 #include "sim/world.h"
 
+#include "sim/cpu/parallel.h"
 #include "sim/method.h"
 #include "sim/seed.h"
 
@@ -51,6 +52,11 @@ const Named *world_methods(void)
     for (int i = 0; i < METHODS; i++)
         list[i] = (Named){methods[i]->name, methods[i]->help};
     return list;
+}
+
+int world_processors(void)
+{
+    return parallel_processors();
 }
 
 /* The arrays behind an InitialState made from fills. */

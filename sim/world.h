@@ -82,4 +82,7 @@ typedef struct Named {
 const Named *world_methods(void);
 const Named *world_backends(void);
 
+/* Processors, of which threads: 0 uses all. */
+int world_processors(void);
+
 #endif

@@ -1,0 +1,41 @@
+#include "sim/gl/debug.h"
+
+#include <epoxy/gl.h>
+#include <stdatomic.h>
+#include <stdio.h>
+
+/* The driver calls back from threads of its own. */
+static atomic_int error_count;
+
+static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                       const GLchar *message, const void *user)
+{
+    (void)id, (void)severity, (void)length, (void)user;
+    /* program_create reports what the shader compiler says */
+    if (type != GL_DEBUG_TYPE_ERROR || source == GL_DEBUG_SOURCE_SHADER_COMPILER)
+        return;
+    atomic_fetch_add(&error_count, 1);
+    fprintf(stderr, "GL error: %s\n", message);
+}
+
+void gl_debug_install(void)
+{
+    while (glGetError() != GL_NO_ERROR)
+        continue;
+    atomic_store(&error_count, 0);
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(on_message, NULL);
+}
+
+int gl_debug_errors(void)
+{
+    /* Where the driver sends no messages the codes still tell. */
+    int codes = 0;
+    while (glGetError() != GL_NO_ERROR)
+        codes++;
+    int messages = atomic_load(&error_count);
+    if (codes > messages)
+        atomic_store(&error_count, codes);
+    return codes > messages ? codes : messages;
+}

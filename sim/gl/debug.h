@@ -1,0 +1,12 @@
+/* What the GL driver complains about: errors are counted and printed, so that tests can ask for none.
+   Messages of the shader compiler do not count: program_create hands them to its caller. */
+#ifndef SLOSH_GL_DEBUG_H
+#define SLOSH_GL_DEBUG_H
+
+/* Listens to the current context from now on. */
+void gl_debug_install(void);
+
+/* Errors since gl_debug_install, of all contexts; takes pending glGetError codes of the current one along. */
+int gl_debug_errors(void);
+
+#endif

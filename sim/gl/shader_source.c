@@ -1,0 +1,174 @@
+#include "sim/gl/shader_source.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static char shader_directory[1024];
+
+void shader_source_set_directory(const char *directory)
+{
+    snprintf(shader_directory, sizeof shader_directory, "%s", directory ? directory : "");
+}
+
+static bool append(ShaderSource *source, const char *text, size_t size)
+{
+    if (source->size + size + 1 > source->capacity) {
+        size_t capacity = 2 * (source->size + size + 1);
+        char *grown = realloc(source->text, capacity);
+        if (!grown)
+            return false;
+        source->text = grown;
+        source->capacity = capacity;
+    }
+    memcpy(source->text + source->size, text, size);
+    source->size += size;
+    source->text[source->size] = 0;
+    return true;
+}
+
+/* The file stands in the line too: Mesa 22 forgets the file's number in some messages. */
+enum { LINES_MAX = 100000 };
+
+static bool append_line_mark(ShaderSource *source, int line, int file)
+{
+    char mark[64];
+    int size = snprintf(mark, sizeof mark, "#line %d %d\n", file * LINES_MAX + line, file);
+    return append(source, mark, (size_t)size);
+}
+
+static char *read_embedded(const char *path)
+{
+    for (const EmbeddedShader *shader = embedded_shaders; shader->path; shader++)
+        if (strcmp(shader->path, path) == 0)
+            return strdup(shader->text);
+    return NULL;
+}
+
+static char *read_stream(FILE *file)
+{
+    enum { SHADER_BYTES_MAX = 1 << 20 };
+    char *text = malloc(SHADER_BYTES_MAX + 1);
+    if (!text)
+        return NULL;
+    size_t size = fread(text, 1, SHADER_BYTES_MAX, file);
+    text[size] = 0;
+    return text;
+}
+
+static char *read_from_directory(const char *path)
+{
+    char name[sizeof shader_directory + SHADER_PATH_MAX + 2];
+    snprintf(name, sizeof name, "%s/%s", shader_directory, path);
+    FILE *file = fopen(name, "rb");
+    if (!file)
+        return NULL;
+    char *text = read_stream(file);
+    fclose(file);
+    return text;
+}
+
+static bool already_has(const ShaderSource *source, const char *path)
+{
+    for (int i = 0; i < source->file_count; i++)
+        if (strcmp(source->file[i], path) == 0)
+            return true;
+    return false;
+}
+
+static bool append_file(ShaderSource *source, const char *path, const char *from, Error *error);
+
+/* A line that is no include is copied. */
+static bool append_source_line(ShaderSource *source, const char *line, size_t size, int file, int number,
+                               Error *error)
+{
+    char path[SHADER_PATH_MAX], from[SHADER_PATH_MAX + 16], copy[SHADER_PATH_MAX + 16];
+    snprintf(copy, sizeof copy, "%.*s", (int)size, line);
+    if (sscanf(copy, " #include \"%127[^\"]\"", path) != 1)
+        return append(source, line, size) || error_set(error, "out of memory for shaders");
+    snprintf(from, sizeof from, "%s:%d: ", source->file[file], number);
+    return append_file(source, path, from, error) &&
+           (append_line_mark(source, number + 1, file) || error_set(error, "out of memory for shaders"));
+}
+
+static bool append_text(ShaderSource *source, const char *text, int file, Error *error)
+{
+    int number = 1;
+    for (const char *line = text; *line; number++) {
+        const char *end = strchr(line, '\n');
+        size_t size = end ? (size_t)(end - line) + 1 : strlen(line);
+        if (!append_source_line(source, line, size, file, number, error))
+            return false;
+        line += size;
+    }
+    return append(source, "\n", 1) || error_set(error, "out of memory for shaders");
+}
+
+static bool append_file(ShaderSource *source, const char *path, const char *from, Error *error)
+{
+    if (already_has(source, path))
+        return true;
+    if (source->file_count == SHADER_FILES_MAX)
+        return error_set(error, "%stoo many includes; at most %d files a shader", from, SHADER_FILES_MAX);
+    char *text = *shader_directory ? read_from_directory(path) : read_embedded(path);
+    if (!text)
+        return error_set(error, "%sthere is no shader \"%s\" in %s; paths count from shaders/", from, path,
+                         *shader_directory ? shader_directory : "the program");
+    int file = source->file_count++;
+    snprintf(source->file[file], SHADER_PATH_MAX, "%s", path);
+    bool done = append_line_mark(source, 1, file) ? append_text(source, text, file, error)
+                                                  : error_set(error, "out of memory for shaders");
+    free(text);
+    return done;
+}
+
+bool shader_source_load(ShaderSource *source, const char *path, const char *defines, Error *error)
+{
+    static const char version[] = "#version 450 core\n";
+    *source = (ShaderSource){0};
+    if (!append(source, version, sizeof version - 1) ||
+        (defines && !append(source, defines, strlen(defines))))
+        return error_set(error, "out of memory for shaders");
+    return append_file(source, path, "", error);
+}
+
+void shader_source_free(ShaderSource *source)
+{
+    free(source->text);
+    *source = (ShaderSource){0};
+}
+
+/* "1:12(5): error" is Mesa's way, "1(12) : error" NVIDIA's, "ERROR: 1:12: " that of others. The length of the
+   place, or 0 when there is none. */
+static int parse_place(const char *text, int *file, int *line)
+{
+    int length = 0, column;
+    if (sscanf(text, "%d:%d(%d):%n", file, line, &column, &length) == 3 && length)
+        return length;
+    if (sscanf(text, "%d(%d) :%n", file, line, &length) == 2 && length)
+        return length;
+    if (sscanf(text, "ERROR: %d:%d:%n", file, line, &length) == 2 && length)
+        return length;
+    return 0;
+}
+
+void shader_source_log(const ShaderSource *source, const char *log, char *out, size_t out_size)
+{
+    size_t used = 0;
+    out[0] = 0;
+    while (*log && used + 1 < out_size) {
+        int file = -1, line = 0, place = parse_place(log, &file, &line);
+        size_t rest = strcspn(log + place, "\n");
+        file = line / LINES_MAX;
+        if (place && file >= 0 && file < source->file_count)
+            used +=
+                (size_t)snprintf(out + used, out_size - used, "%s:%d:", source->file[file], line % LINES_MAX);
+        else
+            place = 0, rest = strcspn(log, "\n");
+        if (used < out_size)
+            used += (size_t)snprintf(out + used, out_size - used, "%.*s", (int)rest, log + place);
+        log += (size_t)place + rest;
+        if (*log == '\n' && *++log && used + 1 < out_size)
+            out[used++] = '\n', out[used] = 0;
+    }
+}

@@ -1,0 +1,40 @@
+/* The text of a shader: embedded in the program, or read from a folder, with its includes pasted in.
+
+   A line `#include "common/frame.glsl"` pastes that file, once a shader; paths count from the folder
+   shaders/. The compiler is told by #line which file and line it reads, and shader_source_log turns its
+   numbers back into names. */
+#ifndef SLOSH_SHADER_SOURCE_H
+#define SLOSH_SHADER_SOURCE_H
+
+#include "sim/error.h"
+
+#include <stddef.h>
+
+typedef struct EmbeddedShader {
+    const char *path, *text;
+} EmbeddedShader;
+
+extern const EmbeddedShader embedded_shaders[]; /* ended by a NULL path; made at build time */
+
+enum { SHADER_FILES_MAX = 16, SHADER_PATH_MAX = 128 };
+
+typedef struct ShaderSource {
+    char *text; /* owned; complete, with #version and the defines */
+    size_t size, capacity;
+    int file_count;
+    char file[SHADER_FILES_MAX][SHADER_PATH_MAX]; /* by the number that #line names */
+} ShaderSource;
+
+/* Shaders are read from `directory` from now on; NULL: the embedded ones. For all threads; set it before use.
+ */
+void shader_source_set_directory(const char *directory);
+
+/* `defines` are lines ("#define A 1\n") that stand before the file, or NULL. False when a file is missing:
+   `error` says which, and where it is included. */
+bool shader_source_load(ShaderSource *source, const char *path, const char *defines, Error *error);
+void shader_source_free(ShaderSource *source);
+
+/* Copies the compiler's log with "file:line:" in place of its numbers. */
+void shader_source_log(const ShaderSource *source, const char *log, char *out, size_t out_size);
+
+#endif
