@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-void lattice_calibrate(double spacing, double h, const Kernel *density_kernel, Lattice *lattice)
+void lattice_calibrate(double spacing, double support_radius, const Kernel *density_kernel, Lattice *lattice)
 {
-    const double volume = spacing * spacing * spacing;
+    const double h = support_radius, volume = spacing * spacing * spacing;
     *lattice = (Lattice){.number_density = 1 / volume};
     const int reach = (int)ceil(h / spacing);
     double sum = density_kernel->value(0, h), gradient = 0, laplacian = 0, compression = 0;

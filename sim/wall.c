@@ -60,12 +60,12 @@ static void lattice_behind(const Behind *behind, const double u[3], const double
             }
 }
 
-void wall_sums_brute(int faces, const double u[3], const double offset[3], double spacing, double h,
-                     const Kernel *kernel, const Lattice *lattice, double number_density[1], double push[3],
-                     double moment[6])
+void wall_sums_brute(int faces, const double u[3], const double offset[3], double spacing,
+                     double support_radius, const Kernel *density_kernel, const Lattice *lattice,
+                     double number_density[1], double push[3], double moment[6])
 {
     Sums sums;
-    lattice_behind(&(Behind){faces, spacing, h, kernel, lattice}, u, offset, sums);
+    lattice_behind(&(Behind){faces, spacing, support_radius, density_kernel, lattice}, u, offset, sums);
     number_density[0] = sums[0];
     memcpy(push, &sums[1], 3 * sizeof *push);
     memcpy(moment, &sums[4], 6 * sizeof *moment);
@@ -131,8 +131,8 @@ static bool table_create(WallTable *table, const Behind *behind, double step, do
     return true;
 }
 
-bool walls_create(Walls *walls, const double box_size[3], double spacing, double h, const Kernel *kernel,
-                  const Lattice *lattice)
+bool walls_create(Walls *walls, const double box_size[3], double spacing, double support_radius,
+                  const Kernel *density_kernel, const Lattice *lattice)
 {
     /* Nodes a spacing, each a multiple of 4 so that half a spacing is a node: linear interpolation is then
      * good to 1e-3.
@@ -141,11 +141,11 @@ bool walls_create(Walls *walls, const double box_size[3], double spacing, double
     memset(walls, 0, sizeof *walls);
     for (int k = 0; k < 3; k++)
         walls->half_size[k] = (float)(0.5 * box_size[k]);
-    const double range = h - 0.5 * spacing;
+    const double range = support_radius - 0.5 * spacing;
     walls->range = (float)(range + 0.1 * spacing); /* u(d) falls behind d by less than that */
     walls->spacing = (float)spacing;
     for (int t = 0; t < 3; t++) {
-        const Behind behind = {t + 1, spacing, h, kernel, lattice};
+        const Behind behind = {t + 1, spacing, support_radius, density_kernel, lattice};
         if (!table_create(&walls->table[t], &behind, spacing / nodes_per_spacing[t], range)) {
             walls_destroy(walls);
             return false;

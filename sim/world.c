@@ -20,7 +20,7 @@ struct World {
 
 static const Backend *const backends[] = {&backend_cpu};
 static const Method *const methods[] = {&method_mueller};
-enum { BACKENDS = sizeof backends / sizeof *backends, METHODS = sizeof methods / sizeof *methods };
+enum { BACKENDS = sizeof backends / sizeof backends[0], METHODS = sizeof methods / sizeof methods[0] };
 
 const Backend *backend_find(const char *name)
 {
@@ -100,7 +100,7 @@ static void box_at(const World *world, double time, BoxState *box)
 static bool world_start(World *world, Error *error)
 {
     Seeds seeds = {0};
-    InitialState initial;
+    InitialState initial = {0};
     const bool given = world->def.initial;
     if (given)
         initial = *world->def.initial;

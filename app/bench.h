@@ -1,0 +1,56 @@
+/* One measurement: a scene's frames, stage by stage. See DESIGN of the JSON in app/README.md. */
+#ifndef SLOSH_BENCH_H
+#define SLOSH_BENCH_H
+
+#include "app/progress.h"
+#include "app/scene.h"
+#include "app/studio.h"
+#include "sim/gl/timer.h"
+#include "sim/world.h"
+
+#include <stdio.h>
+
+typedef struct StageFigure {
+    bool ran;
+    const char *clock; /* "cpu", "gl" or "finish" */
+    double median_ms, p95_ms;
+    double share; /* of the time of all stages */
+} StageFigure;
+
+/* Times are per frame: `substeps` substeps and one picture. */
+typedef struct BenchResult {
+    char scene[1024];
+    char backend[NAME_SIZE], method[NAME_SIZE], view[NAME_SIZE];
+    char renderer[256]; /* "" when nothing is drawn */
+    int threads, width, height, substeps, frames;
+    size_t particles;
+    double neighbours_mean;
+    double dt, dt_substep; /* s */
+    StageFigure stages[STAGE_COUNT];
+    double sim_ms, upload_ms, render_ms; /* medians of the sums over each part's stages */
+    double frame_ms;                     /* median wall time from picture to picture */
+    double particle_steps_per_second;    /* particles * substeps * frames / wall time of all sim stages */
+    double real_time_factor;             /* simulated over wall time */
+    double bytes_per_particle;           /* of the solver's state */
+} BenchResult;
+
+typedef struct BenchSetup {
+    const Scene *scene;
+    Headless *context; /* NULL: nothing is drawn */
+    int width, height, frames;
+    GlClock clock;
+} BenchSetup;
+
+/* Runs a few frames to warm up, then measures. `progress` goes from `done` to `done + part`. Ends early, with
+   the frames that it has, when a signal came; false when the simulation or the drawing failed, or not even
+   one frame was measured. */
+bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part, BenchResult *result,
+                   Error *error);
+
+/* The table for people. */
+void bench_print(const BenchResult *result, FILE *file);
+
+/* An array of all results; false with the reason when the file can't be written. */
+bool bench_write_json(const BenchResult *results, size_t count, const char *path, Error *error);
+
+#endif

@@ -1,0 +1,74 @@
+#include "app/bench.h"
+#include "app/json_file.h"
+
+#include <jansson.h>
+
+static void print_parts(const BenchResult *r, FILE *file)
+{
+    fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
+            r->render_ms, r->frame_ms);
+    fprintf(file, "  %.3g million particle-steps/s, real-time factor %.2f, %.0f bytes a particle\n\n",
+            r->particle_steps_per_second * 1e-6, r->real_time_factor, r->bytes_per_particle);
+}
+
+void bench_print(const BenchResult *r, FILE *file)
+{
+    fprintf(file, "%s: %zu particles, %.1f neighbours, %s on %s, %d thread%s, %d x %g s\n", r->scene,
+            r->particles, r->neighbours_mean, r->method, r->backend, r->threads, r->threads == 1 ? "" : "s",
+            r->substeps, r->dt_substep);
+    if (r->renderer[0])
+        fprintf(file, "view %s, %d x %d, on %s\n", r->view, r->width, r->height, r->renderer);
+    fprintf(file, "  %-12s %-7s %-7s %10s %10s %7s\n", "stage", "part", "clock", "median ms", "p95 ms",
+            "share");
+    for (int s = 0; s < STAGE_COUNT; s++) {
+        const StageFigure *figure = &r->stages[s];
+        if (figure->ran)
+            fprintf(file, "  %-12s %-7s %-7s %10.3f %10.3f %6.1f%%\n", stage_name((Stage)s),
+                    part_name(stage_part((Stage)s)), figure->clock, figure->median_ms, figure->p95_ms,
+                    100 * figure->share);
+    }
+    print_parts(r, file);
+}
+
+static json_t *stages_json(const BenchResult *r)
+{
+    json_t *stages = json_array();
+    for (int s = 0; s < STAGE_COUNT; s++) {
+        const StageFigure *figure = &r->stages[s];
+        if (figure->ran)
+            json_array_append_new(
+                stages, json_pack("{s:s, s:s, s:s, s:f, s:f, s:f}", "name", stage_name((Stage)s), "part",
+                                  part_name(stage_part((Stage)s)), "clock", figure->clock, "median_ms",
+                                  figure->median_ms, "p95_ms", figure->p95_ms, "share", figure->share));
+    }
+    return stages;
+}
+
+static json_t *result_json(const BenchResult *r)
+{
+    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend",
+                             r->backend, "method", r->method, "view", r->view, "threads", r->threads,
+                             "renderer", r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
+    json_t *more = json_pack("{s:I, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles,
+                             "neighbours_mean", r->neighbours_mean, "dt", r->dt, "dt_substep", r->dt_substep,
+                             "substeps", r->substeps, "frames", r->frames, "stages", stages_json(r));
+    json_t *sums = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "sim_ms", r->sim_ms, "upload_ms",
+                             r->upload_ms, "render_ms", r->render_ms, "frame_ms", r->frame_ms,
+                             "particle_steps_per_second", r->particle_steps_per_second, "real_time_factor",
+                             r->real_time_factor, "bytes_per_particle", r->bytes_per_particle);
+    json_object_update(json, more);
+    json_object_update(json, sums);
+    json_decref(more);
+    json_decref(sums);
+    return json;
+}
+
+bool bench_write_json(const BenchResult *results, size_t count, const char *path, Error *error)
+{
+    json_t *all = json_array();
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(all, result_json(&results[i]));
+    const bool written = json_file_write(all, path, error);
+    json_decref(all);
+    return written;
+}

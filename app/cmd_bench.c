@@ -1,0 +1,168 @@
+#include "app/bench.h"
+#include "app/cmd.h"
+#include "app/interrupt.h"
+#include "app/output.h"
+#include "sim/gl/shader_source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEFAULT_FRAMES = 200 };
+
+static const char *const default_scenes[] = {"scenes/dam_break.yaml", "scenes/box_slosh.yaml"};
+
+/* Each scene with each combination of the sweeps' values; the last sweep runs fastest. */
+typedef struct Plan {
+    const Args *args;
+    const char *const *scenes;
+    size_t scene_count, combinations;
+} Plan;
+
+static Plan plan_make(const Args *args)
+{
+    Plan plan = {
+        .args = args, .scenes = args->scenes, .scene_count = (size_t)args->scene_count, .combinations = 1};
+    if (plan.scene_count == 0) {
+        plan.scenes = default_scenes;
+        plan.scene_count = sizeof default_scenes / sizeof *default_scenes;
+    }
+    for (int i = 0; i < args->sweep_count; i++)
+        plan.combinations *= (size_t)args->sweeps[i].count;
+    return plan;
+}
+
+enum { TEXTS_BYTES = ARGS_SWEEPS_MAX * 512 };
+
+/* The settings of one case; `texts` holds the swept ones. */
+static bool case_settings(const Plan *plan, size_t combination, char texts[TEXTS_BYTES],
+                          SceneSettings *settings, Error *error)
+{
+    *settings = plan->args->settings;
+    for (int i = plan->args->sweep_count - 1; i >= 0; i--) {
+        const Sweep *sweep = &plan->args->sweeps[i];
+        const char *value = sweep->values[combination % (size_t)sweep->count];
+        combination /= (size_t)sweep->count;
+        if (strcmp(sweep->key, "particles") == 0) {
+            settings->particles = strtoul(value, NULL, 10);
+            continue;
+        }
+        if (settings->count == SCENE_SETTINGS_MAX)
+            return error_set(error, "more than %d settings; write them into the scene file",
+                             SCENE_SETTINGS_MAX);
+        char *text = texts + (ptrdiff_t)i * 512;
+        snprintf(text, 512, "%s=%s", sweep->key, value);
+        settings->set[settings->count++] = text;
+    }
+    return true;
+}
+
+static bool case_load(const Plan *plan, size_t index, Scene *scene, Error *error)
+{
+    char texts[TEXTS_BYTES], note[256] = "";
+    SceneSettings settings;
+    if (!case_settings(plan, index % plan->combinations, texts, &settings, error) ||
+        !scene_load(plan->scenes[index / plan->combinations], &settings, scene, note, error))
+        return false;
+    if (note[0] && !plan->args->quiet)
+        fprintf(stderr, "%s\n", note);
+    return true;
+}
+
+static GlClock clock_of(ClockChoice choice)
+{
+    return choice == CLOCK_CHOICE_GL       ? GL_CLOCK_QUERY
+           : choice == CLOCK_CHOICE_FINISH ? GL_CLOCK_FINISH
+                                           : GL_CLOCK_AUTO;
+}
+
+/* All cases are read before the first runs: a mistake in the last one shows at once. */
+static bool cases_check(const Plan *plan, bool *draws, Error *error)
+{
+    *draws = false;
+    for (size_t i = 0; i < plan->scene_count * plan->combinations; i++) {
+        Scene scene;
+        Plan quiet = *plan;
+        Args args;
+        args = *plan->args;
+        args.quiet = true;
+        quiet.args = &args;
+        if (!case_load(&quiet, i, &scene, error))
+            return false;
+        *draws |= strcmp(scene.view.kind, "none") != 0;
+    }
+    return true;
+}
+
+static bool measure_all(const Plan *plan, Headless *context, BenchResult *results, size_t *done, Error *error)
+{
+    const Args *args = plan->args;
+    const size_t count = plan->scene_count * plan->combinations;
+    for (; *done < count && !interrupted(); ++*done) {
+        Scene scene;
+        Progress progress;
+        if (!case_load(plan, *done, &scene, error))
+            return false;
+        const BenchSetup setup = {
+            .scene = &scene,
+            .context = strcmp(scene.view.kind, "none") != 0 ? context : NULL,
+            .width = args->width,
+            .height = args->height,
+            .frames = args->frames ? args->frames : DEFAULT_FRAMES,
+            .clock = clock_of(args->clock),
+        };
+        progress_begin(&progress, stderr, "bench", args->quiet);
+        const bool ok = bench_measure(&setup, &progress, (double)*done / (double)count, 1 / (double)count,
+                                      &results[*done], error);
+        progress_end(&progress);
+        if (!ok)
+            return false;
+        if (!args->quiet)
+            bench_print(&results[*done], stdout);
+    }
+    return true;
+}
+
+static int fail(const Error *error, int code)
+{
+    fprintf(stderr, "%s\n", error->message);
+    return code;
+}
+
+static int bench(const Plan *plan, bool draws, Error *error)
+{
+    const Args *args = plan->args;
+    size_t done = 0;
+    Headless *context = NULL;
+    BenchResult *results = calloc(plan->scene_count * plan->combinations + 1, sizeof *results);
+    bool ok = results || error_set(error, "no memory for the results");
+    ok = ok && (!args->json || output_check(args->json, error));
+    shader_source_set_directory(args->shaders);
+    if (ok && draws)
+        ok = (context = headless_create(args->gpu, error)) != NULL;
+    if (context)
+        fprintf(stderr, "renderer: %s\n", headless_renderer(context));
+    ok = ok && measure_all(plan, context, results, &done, error);
+    if (args->json && done > 0) {
+        Error json_error = {{0}};
+        const bool written = bench_write_json(results, done, args->json, &json_error);
+        if (!written && ok)
+            *error = json_error;
+        ok = ok && written;
+    }
+    headless_destroy(context);
+    free(results);
+    if (!ok)
+        return fail(error, interrupted() ? EXIT_INTERRUPTED : EXIT_FAILED);
+    return interrupted() ? EXIT_INTERRUPTED : 0;
+}
+
+int cmd_bench(const Args *args)
+{
+    Error error = {{0}};
+    bool draws;
+    const Plan plan = plan_make(args);
+    interrupt_install();
+    if (!cases_check(&plan, &draws, &error))
+        return fail(&error, EXIT_USAGE);
+    return bench(&plan, draws, &error);
+}

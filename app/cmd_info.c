@@ -1,0 +1,69 @@
+#include "app/cmd.h"
+#include "app/headless.h"
+#include "app/scene_keys.h"
+#include "render/view.h"
+#include "sim/kernel.h"
+#include "sim/world.h"
+
+#include <stdio.h>
+
+static void print_row(const char *name, const char *help)
+{
+    printf("  %-12s %s\n", name, help);
+}
+
+static void print_named(const char *title, const Named *list)
+{
+    printf("%s\n", title);
+    for (; list->name; list++)
+        print_row(list->name, list->help);
+}
+
+static void print_renderer(int gpu)
+{
+    Error error = {{0}};
+    Headless *context = headless_create(gpu, &error);
+    printf("renderer\n  %s\n", context ? headless_renderer(context) : error.message);
+    headless_destroy(context);
+}
+
+static void print_lists(void)
+{
+    print_named("backends", world_backends());
+    print_named("methods", world_methods());
+    printf("density kernels\n");
+    for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
+        print_row(kernel->name, kernel->help);
+    printf("views\n");
+    for (const ViewKind *const *view = view_list; *view; view++)
+        print_row((*view)->name, (*view)->help);
+    print_row("none", "draws nothing; for timing the solver alone");
+    printf("scalars\n");
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        print_row(scalar_name((Scalar)s), scalar_unit((Scalar)s));
+    printf("motions of the box\n");
+    for (int m = 0; m < MOTION_KIND_COUNT; m++)
+        print_row(motion_name((MotionKind)m), motion_help((MotionKind)m));
+}
+
+int cmd_info(const Args *args)
+{
+    Error error = {{0}};
+    char note[256] = "";
+    SceneSettings settings = args->settings;
+    Scene scene;
+    if (args->scene_count && !scene_load(args->scenes[0], &settings, &scene, note, &error)) {
+        fprintf(stderr, "%s\n", error.message);
+        return EXIT_USAGE;
+    }
+    print_lists();
+    printf("threads\n  %d\n", world_processors());
+    print_renderer(args->gpu);
+    if (!args->scene_count)
+        return 0;
+    printf("%s: %zu particles\n", scene.path, world_def_count(&scene.world, scene.world.spacing));
+    if (note[0])
+        printf("%s\n", note);
+    scene_print(&scene, stdout);
+    return 0;
+}

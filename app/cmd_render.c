@@ -1,0 +1,190 @@
+#include "app/cmd.h"
+#include "app/interrupt.h"
+#include "app/output.h"
+#include "app/pictures.h"
+#include "app/progress.h"
+#include "app/session.h"
+#include "app/studio.h"
+#include "sim/gl/debug.h"
+#include "sim/gl/shader_source.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* A studio in a context of its own, and the last picture. */
+typedef struct Shoot {
+    Headless *context;
+    Studio studio;
+    Image image;
+    uint64_t drawn_step; /* of the state in `image` */
+    bool drawn;
+} Shoot;
+
+static bool shoot_open(Shoot *shoot, const Session *session, const Args *args, Error *error)
+{
+    *shoot = (Shoot){.context = headless_create(args->gpu, error)};
+    if (!shoot->context)
+        return false;
+    fprintf(stderr, "renderer: %s\n", headless_renderer(shoot->context));
+    gl_debug_install();
+    shader_source_set_directory(args->shaders);
+    if (!studio_open(&shoot->studio, &session->scene.view, session->info.count, args->width, args->height,
+                     error))
+        return false;
+    return image_create(&shoot->image, args->width, args->height) ||
+           error_set(error, "out of memory for a picture of %d x %d", args->width, args->height);
+}
+
+static void shoot_close(Shoot *shoot)
+{
+    image_destroy(&shoot->image);
+    studio_close(&shoot->studio);
+    headless_destroy(shoot->context);
+}
+
+/* A state that serves two pictures is drawn once. */
+static bool shoot_draw(Shoot *shoot, Session *session, Error *error)
+{
+    if (shoot->drawn && shoot->drawn_step == session->info.step)
+        return true;
+    if (!studio_draw(&shoot->studio, session->world, NULL, NULL, error))
+        return false;
+    renderer_read(shoot->studio.renderer, shoot->image.rgb);
+    shoot->drawn = true;
+    shoot->drawn_step = session->info.step;
+    return true;
+}
+
+/* When the pictures are taken: `count` of them, `interval` seconds apart from `first` on. */
+typedef struct Schedule {
+    double first, interval;
+    size_t count;
+} Schedule;
+
+static Schedule make_schedule(const Args *args, PicturesKind kind)
+{
+    if (kind == PICTURES_PNG)
+        return (Schedule){args->time, 0, 1};
+    double count = args->frames ? args->frames : fmax(ceil(args->time * args->fps - 1e-6), 1);
+    return (Schedule){0, 1 / args->fps, (size_t)count};
+}
+
+/* Work done by now: by simulated time, since the solver takes most of it. */
+static double fraction_done(const Session *session, const Schedule *schedule, size_t pictures)
+{
+    double last = schedule->first + schedule->interval * (double)(schedule->count - 1);
+    return last > 0 ? session->info.time / last : (double)pictures / (double)schedule->count;
+}
+
+static bool advance(Session *session, double time, const Schedule *schedule, size_t pictures,
+                    Progress *progress, Error *error)
+{
+    while (!session_reached(session, time) && !interrupted()) {
+        if (!session_step(session, error))
+            return false;
+        progress_update(progress, fraction_done(session, schedule, pictures));
+    }
+    return true;
+}
+
+/* Each picture is of the first state at or after its time. After a signal only a file that has none yet gets
+   one more. Returns how many there are, 0 on failure. */
+static size_t take_pictures(Session *session, Shoot *shoot, Pictures *pictures, const Schedule *schedule,
+                            Progress *progress, Error *error)
+{
+    size_t taken = 0;
+    while (taken < schedule->count) {
+        double time = schedule->first + schedule->interval * (double)taken;
+        if (!advance(session, time, schedule, taken, progress, error))
+            return 0;
+        if (interrupted() && taken > 0)
+            break;
+        if (!shoot_draw(shoot, session, error) || !pictures_add(pictures, &shoot->image, error))
+            return 0;
+        taken++;
+        progress_update(progress, fraction_done(session, schedule, taken));
+    }
+    return taken;
+}
+
+static int report(const Session *session, const Args *args, const Shoot *shoot, const Schedule *schedule,
+                  size_t taken, Error *error)
+{
+    bool late = schedule->count == 1 && !session_reached(session, schedule->first);
+    Summary summary = {.command = "render",
+                       .product = "pictures",
+                       .products = taken,
+                       .renderer = headless_renderer(shoot->context),
+                       .stopped = taken < schedule->count || late};
+    session_report(session, args, &summary);
+    if (session_write_json(session, args, &summary, error))
+        return summary.stopped ? EXIT_INTERRUPTED : 0;
+    fprintf(stderr, "%s\n", error->message);
+    return EXIT_FAILED;
+}
+
+/* Frames of two runs in one folder would make a strange film. */
+static void warn_of_older(const Pictures *pictures, size_t taken)
+{
+    char frame[1088];
+    if (taken > 0 && pictures_has_older(pictures, frame))
+        fprintf(stderr, "%s and what follows is of an earlier run; remove it unless you want both\n", frame);
+}
+
+static int render(Session *session, const Args *args, PicturesKind kind, Pictures *pictures, Error *error)
+{
+    Shoot shoot;
+    Progress progress;
+    Schedule schedule = make_schedule(args, kind);
+    size_t taken = 0;
+    int code = EXIT_FAILED;
+    if (shoot_open(&shoot, session, args, error)) {
+        progress_begin(&progress, stderr, "render", args->quiet);
+        taken = take_pictures(session, &shoot, pictures, &schedule, &progress, error);
+        progress_end(&progress);
+    }
+    warn_of_older(pictures, taken);
+    if (taken == 0)
+        pictures_discard(pictures);
+    else if (!pictures_finish(pictures, error))
+        taken = 0;
+    if (taken > 0)
+        code = report(session, args, &shoot, &schedule, taken, error);
+    else
+        fprintf(stderr, "%s\n", error->message);
+    shoot_close(&shoot);
+    return code;
+}
+
+static bool understand(const Args *args, PicturesKind *kind, Error *error)
+{
+    if (!pictures_kind(args->output, kind, error))
+        return false;
+    return *kind != PICTURES_PNG || args->frames == 0 ||
+           error_set(error,
+                     "--frames makes no sense for one picture, %s; name a FILE.mp4 or a folder, or "
+                     "leave --frames out",
+                     args->output);
+}
+
+int cmd_render(const Args *args)
+{
+    Session session = {.world = NULL};
+    Error error = {{0}};
+    PicturesKind kind;
+    Pictures *pictures = NULL;
+    int code = EXIT_USAGE;
+    interrupt_install();
+    if (!understand(args, &kind, &error) || !session_open(&session, args, &error)) {
+        fprintf(stderr, "%s\n", error.message);
+    } else if ((args->json && !output_check(args->json, &error)) ||
+               !(pictures = pictures_create(args->output, args->width, args->height, args->fps, &error))) {
+        fprintf(stderr, "%s\n", error.message);
+        code = EXIT_FAILED;
+    } else {
+        code = render(&session, args, kind, pictures, &error);
+    }
+    session_close(&session);
+    return code;
+}

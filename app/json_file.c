@@ -1,0 +1,31 @@
+#include "app/json_file.h"
+
+#include "app/output.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool write_text(const json_t *json, const char *name)
+{
+    FILE *file = fopen(name, "w");
+    if (!file)
+        return false;
+    bool ok =
+        json_dumpf(json, file, JSON_INDENT(1) | JSON_REAL_PRECISION(9)) == 0 && fputc('\n', file) != EOF;
+    ok &= fclose(file) == 0;
+    return ok;
+}
+
+bool json_file_write(const json_t *json, const char *path, Error *error)
+{
+    Output output = {0};
+    if (!output_begin(&output, path, error))
+        return false;
+    errno = json ? 0 : ENOMEM;
+    if (json && write_text(json, output.temp))
+        return output_commit(&output, error);
+    error_set(error, "%s: cannot write the results: %s", path, strerror(errno));
+    output_discard(&output);
+    return false;
+}

@@ -1,0 +1,55 @@
+#include "app/cmd.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/* The OpenMP library reads this when it is loaded. Its idle threads spin, some hundred milliseconds where
+   nothing is said, and starve a software renderer on few cores; 10,000 turns are some tens of microseconds,
+   which is as long as the gap between two stages. */
+static void bound_spinning(char *argv[])
+{
+    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT"))
+        return;
+    setenv("GOMP_SPINCOUNT", "10000", 1);
+    execv("/proc/self/exe", argv); /* when that fails, it only spins more */
+}
+
+static int run_command(const Args *args)
+{
+    switch (args->command) {
+    case COMMAND_RENDER:
+        return cmd_render(args);
+    case COMMAND_RUN:
+        return cmd_run(args);
+    case COMMAND_BENCH:
+        return cmd_bench(args);
+    case COMMAND_INFO:
+        return cmd_info(args);
+    case COMMAND_VERSION:
+        puts("slosh " SLOSH_VERSION);
+        return 0;
+    case COMMAND_HELP:
+    case COMMAND_COUNT:
+        break;
+    }
+    args_help(args->help_for, stdout);
+    return 0;
+}
+
+int main(int argc, char *argv[])
+{
+    static Args args;
+    Error error = {{0}};
+    bound_spinning(argv);
+    if (!args_parse(argc, argv, &args, &error)) {
+        fprintf(stderr, "%s\n", error.message);
+        return EXIT_USAGE;
+    }
+    const int code = run_command(&args);
+    if (fflush(stdout) != 0 && code == 0) {
+        perror("slosh: standard output");
+        return EXIT_FAILED;
+    }
+    return code;
+}

@@ -1,0 +1,131 @@
+#include "app/output.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PENDING_MAX = 8 };
+
+/* What a signal that ends the program has to remove: the one state that a handler can reach. */
+static struct {
+    volatile sig_atomic_t used;
+    char temp[sizeof(((Output *)NULL)->temp)];
+} pending[PENDING_MAX];
+
+static void pending_add(const char *temp)
+{
+    int i = 0;
+    while (i < PENDING_MAX && pending[i].used)
+        i++;
+    if (i == PENDING_MAX)
+        return;
+    snprintf(pending[i].temp, sizeof pending[i].temp, "%s", temp);
+    pending[i].used = 1;
+}
+
+/* The file has got its name, or is gone. */
+static void forget(Output *output)
+{
+    for (int i = 0; i < PENDING_MAX; i++)
+        if (pending[i].used && strcmp(pending[i].temp, output->temp) == 0)
+            pending[i].used = 0;
+    output->temp[0] = '\0';
+}
+
+/* The folder that `path` lies in, for messages. */
+static void folder_of(const char *path, char folder[1024])
+{
+    const char *slash = strrchr(path, '/');
+    if (!slash)
+        snprintf(folder, 1024, ".");
+    else
+        snprintf(folder, 1024, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+}
+
+static bool refuse(const char *path, int reason, Error *error)
+{
+    char folder[1024];
+    struct stat status;
+    folder_of(path, folder);
+    if (stat(folder, &status) != 0)
+        return error_set(error, "%s: cannot be written: the folder %s: %s; create it first", path, folder,
+                         strerror(errno));
+    if (!S_ISDIR(status.st_mode))
+        return error_set(error, "%s: cannot be written: %s is not a folder", path, folder);
+    return error_set(error, "%s: cannot be written in the folder %s: %s; choose another folder", path, folder,
+                     strerror(reason));
+}
+
+static bool path_is_file_or_free(const char *path, Error *error)
+{
+    struct stat status;
+    size_t length = strlen(path);
+    if (length == 0)
+        return error_set(error, "the name of the output is empty; name a file");
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return error_set(error, "%s: %s; name a file", path,
+                         S_ISDIR(status.st_mode) ? "is a folder" : "is not a plain file");
+    if (path[length - 1] == '/')
+        return error_set(error, "%s: ends in a slash; name a file", path);
+    return true;
+}
+
+bool output_begin(Output *output, const char *path, Error *error)
+{
+    output->temp[0] = '\0';
+    if (!path_is_file_or_free(path, error))
+        return false;
+    if ((size_t)snprintf(output->path, sizeof output->path, "%s", path) >= sizeof output->path)
+        return error_set(error, "the name of the output has more than %zu bytes; name a shorter one",
+                         sizeof output->path - 1);
+    snprintf(output->temp, sizeof output->temp, "%s.%ld.tmp", path, (long)getpid());
+    int file = open(output->temp, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) {
+        int reason = errno;
+        output->temp[0] = '\0';
+        return refuse(path, reason, error);
+    }
+    close(file);
+    pending_add(output->temp);
+    return true;
+}
+
+bool output_commit(Output *output, Error *error)
+{
+    if (rename(output->temp, output->path) != 0) {
+        error_set(error, "%s: cannot be given its name: %s", output->path, strerror(errno));
+        output_discard(output);
+        return false;
+    }
+    forget(output);
+    return true;
+}
+
+void output_discard(Output *output)
+{
+    if (output->temp[0] == '\0')
+        return;
+    unlink(output->temp);
+    forget(output);
+}
+
+bool output_check(const char *path, Error *error)
+{
+    Output output = {0};
+    if (!output_begin(&output, path, error))
+        return false;
+    output_discard(&output);
+    return true;
+}
+
+void output_discard_all(void)
+{
+    for (int i = 0; i < PENDING_MAX; i++)
+        if (pending[i].used)
+            unlink(pending[i].temp);
+}

@@ -1,0 +1,32 @@
+/* Files that appear whole or not at all: written beside their name, renamed when whole. */
+#ifndef SLOSH_OUTPUT_H
+#define SLOSH_OUTPUT_H
+
+#include "sim/error.h"
+
+#include <stdbool.h>
+
+/* One file in the making. Zero-initialise it. */
+typedef struct Output {
+    char path[1024]; /* the name that was asked for */
+    char temp[1056]; /* path.PID.tmp, in the same folder: write here until the commit; empty: none */
+} Output;
+
+/* Creates the empty temporary file, and so finds out at once whether the file can be written. False with the
+   reason: no such folder, a folder that may not be written, a name that is a folder. `path` need not exist;
+   when it does it stays as it is until the commit. */
+bool output_begin(Output *output, const char *path, Error *error);
+
+/* Gives the file its name, in place of an older one. On failure the temporary file is removed. */
+bool output_commit(Output *output, Error *error);
+
+/* Removes the temporary file; does nothing before begin, after commit or a second time. */
+void output_discard(Output *output);
+
+/* Whether a file could be written there, without leaving one. */
+bool output_check(const char *path, Error *error);
+
+/* Removes the temporary files of all outputs in the making. May be called from a signal handler. */
+void output_discard_all(void);
+
+#endif

@@ -1,0 +1,46 @@
+/* A scene and its world, as `run` and `render` open and advance them. */
+#ifndef SLOSH_SESSION_H
+#define SLOSH_SESSION_H
+
+#include "app/args.h"
+#include "app/scene.h"
+#include "sim/error.h"
+#include "sim/world.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct Session {
+    Scene scene;
+    World *world;
+    WorldInfo info;  /* of the present state */
+    double began_ms; /* wall time of the start */
+} Session;
+
+/* Loads the only scene of the command line, says on standard error what --particles did to dt, makes the
+   world. Creates no file. False: the command line or the scene is wrong. */
+bool session_open(Session *session, const Args *args, Error *error);
+void session_close(Session *session);
+
+/* Whether the present state is the first one at or after `time` (s) or a later one. */
+bool session_reached(const Session *session, double time);
+
+/* One frame on; false when the simulation broke. */
+bool session_step(Session *session, Error *error);
+
+/* What a command says when it is done, on standard error and in --json FILE. */
+typedef struct Summary {
+    const char *command;
+    const char *product; /* "snapshots" or "pictures" */
+    size_t products;
+    const char *renderer; /* NULL: nothing was drawn */
+    bool stopped;         /* by a signal */
+} Summary;
+
+/* The closing line, unless quiet, and the line about a signal. */
+void session_report(const Session *session, const Args *args, const Summary *summary);
+
+/* Writes --json FILE, if asked for. */
+bool session_write_json(const Session *session, const Args *args, const Summary *summary, Error *error);
+
+#endif

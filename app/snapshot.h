@@ -1,0 +1,85 @@
+/* Snapshots: a file of states in the H5Part layout, that ParaView opens as a time series.
+
+   Group Step#k (k = 0, 1, ... without a gap) is one state: the attribute TimeValue (s), one-dimensional
+   datasets of one value a particle, and as attributes the pose and rates of the box, gravity, the step number
+   and `complete`, which is written last. All in SI units and in the box's frame; pose and rates of the box in
+   the world's. Attributes of the root say what scene it was. */
+#ifndef SLOSH_SNAPSHOT_H
+#define SLOSH_SNAPSHOT_H
+
+#include "app/scene.h"
+#include "sim/error.h"
+#include "sim/world.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* X(dataset, type in memory, field of SnapshotStep): the datasets of a step */
+#define SNAPSHOT_FIELDS(X)                                                                                   \
+    X("x", float, position[0])                                                                               \
+    X("y", float, position[1])                                                                               \
+    X("z", float, position[2])                                                                               \
+    X("velocity_0", float, velocity[0])                                                                      \
+    X("velocity_1", float, velocity[1])                                                                      \
+    X("velocity_2", float, velocity[2])                                                                      \
+    X("density", float, density)                                                                             \
+    X("pressure", float, pressure)                                                                           \
+    X("fluid", int32_t, fluid)                                                                               \
+    X("id", int64_t, id)
+
+/* One state as the file has it. */
+typedef struct SnapshotStep {
+    double time;        /* s */
+    uint64_t step;      /* substeps since the start */
+    BoxState box;       /* in the world's frame */
+    double gravity[3];  /* in the box's frame, m/s2 */
+    size_t count;       /* particles; each array below has as many */
+    float *position[3]; /* box frame, m */
+    float *velocity[3]; /* box frame, m/s */
+    float *density;     /* kg/m3 */
+    float *pressure;    /* Pa */
+    int32_t *fluid;     /* index into the root's fluid_names */
+    int64_t *id;
+} SnapshotStep;
+
+/* Arrays for `count` particles, not initialised; false, and nothing to free, when memory is short. */
+bool snapshot_step_allocate(SnapshotStep *step, size_t count);
+void snapshot_step_free(SnapshotStep *step); /* a zeroed one is allowed */
+
+/* ---- writing ---- */
+
+typedef struct Snapshot Snapshot;
+
+/* A new file. Until its first step is whole it has a temporary name and an older file stays as it is. NULL
+   with the reason: see output_begin. */
+Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error);
+
+/* Adds a state and brings it to the disk: a program that is killed afterwards leaves it whole. Room for all
+   of it is reserved first, so that a full disk leaves the file with its whole steps. After a failure the file
+   takes no more steps. */
+bool snapshot_append(Snapshot *snapshot, World *world, Error *error);
+bool snapshot_append_step(Snapshot *snapshot, const SnapshotStep *step, Error *error);
+
+/* Steps that are whole. */
+size_t snapshot_steps(const Snapshot *snapshot);
+
+/* NULL is allowed. A file without a whole step leaves nothing behind. */
+void snapshot_close(Snapshot *snapshot);
+
+/* ---- reading ---- */
+
+typedef struct SnapshotReader SnapshotReader;
+
+/* NULL with the reason: no such file, not HDF5. */
+SnapshotReader *snapshot_open(const char *path, Error *error);
+
+/* Whole steps; what a killed program left half-written at the end does not count. */
+size_t snapshot_count_steps(const SnapshotReader *reader);
+
+/* Reads step `index` into new arrays, that the caller frees. */
+bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
+
+void snapshot_reader_close(SnapshotReader *reader); /* NULL is allowed */
+
+#endif

@@ -1,0 +1,150 @@
+#include "app/hdf5_error.h"
+#include "app/snapshot.h"
+#include "app/snapshot_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+struct SnapshotReader {
+    char path[1024];
+    hid_t file;
+    size_t steps;
+};
+
+static bool read_values(hid_t at, const char *name, hid_t type, size_t count, void *values)
+{
+    hid_t attribute = H5Aopen(at, name, H5P_DEFAULT);
+    hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
+    bool read = space >= 0 && H5Sget_simple_extent_npoints(space) == (hssize_t)count &&
+                H5Aread(attribute, type, values) >= 0;
+    if (space >= 0)
+        H5Sclose(space);
+    if (attribute >= 0)
+        H5Aclose(attribute);
+    return read;
+}
+
+static hid_t open_step(hid_t file, size_t index)
+{
+    char name[32];
+    snapshot_group_name(index, name);
+    return H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
+}
+
+static bool step_is_complete(hid_t file, size_t index)
+{
+    int32_t complete = 0;
+    hid_t group = open_step(file, index);
+    bool whole = group >= 0 && H5Aexists(group, SNAPSHOT_COMPLETE) > 0 &&
+                 read_values(group, SNAPSHOT_COMPLETE, H5T_NATIVE_INT32, 1, &complete) && complete == 1;
+    if (group >= 0)
+        H5Gclose(group);
+    return whole;
+}
+
+SnapshotReader *snapshot_open(const char *path, Error *error)
+{
+    SnapshotReader *reader = calloc(1, sizeof *reader);
+    if (!reader || access(path, R_OK) != 0) {
+        error_set(error, "%s: cannot be read: %s", path, strerror(reader ? errno : ENOMEM));
+        free(reader);
+        return NULL;
+    }
+    hdf5_listen();
+    snprintf(reader->path, sizeof reader->path, "%s", path);
+    hid_t access = snapshot_access();
+    reader->file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    if (reader->file < 0) {
+        hdf5_fail(error, path, "is no file of snapshots");
+        free(reader);
+        reader = NULL;
+    }
+    H5Pclose(access);
+    while (reader && step_is_complete(reader->file, reader->steps))
+        reader->steps++;
+    return reader;
+}
+
+void snapshot_reader_close(SnapshotReader *reader)
+{
+    if (!reader)
+        return;
+    H5Fclose(reader->file);
+    free(reader);
+}
+
+size_t snapshot_count_steps(const SnapshotReader *reader)
+{
+    return reader->steps;
+}
+
+/* The length of a one-dimensional dataset; false when there is no such dataset. */
+static bool field_length(hid_t group, const char *name, size_t *length)
+{
+    hid_t set = H5Lexists(group, name, H5P_DEFAULT) > 0 ? H5Dopen2(group, name, H5P_DEFAULT) : -1;
+    hid_t space = set >= 0 ? H5Dget_space(set) : -1;
+    bool one_dimensional = space >= 0 && H5Sget_simple_extent_ndims(space) == 1;
+    if (one_dimensional)
+        *length = (size_t)H5Sget_simple_extent_npoints(space);
+    if (space >= 0)
+        H5Sclose(space);
+    if (set >= 0)
+        H5Dclose(set);
+    return one_dimensional;
+}
+
+static bool read_field(hid_t group, const char *name, hid_t type, size_t count, void *values)
+{
+    size_t length = 0;
+    if (!field_length(group, name, &length) || length != count)
+        return false;
+    hid_t set = H5Dopen2(group, name, H5P_DEFAULT);
+    bool read = set >= 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+    if (set >= 0)
+        H5Dclose(set);
+    return read;
+}
+
+/* The name of the first attribute or dataset that is not as it must be, or NULL. */
+static const char *read_group(hid_t group, SnapshotStep *step)
+{
+#define X(name, count, values)                                                                               \
+    if (!read_values(group, name, H5T_NATIVE_DOUBLE, count, values))                                         \
+        return name;
+    SNAPSHOT_ATTRIBUTES(X)
+#undef X
+    if (!read_values(group, SNAPSHOT_STEP_NUMBER, H5T_NATIVE_UINT64, 1, &step->step))
+        return SNAPSHOT_STEP_NUMBER;
+#define X(name, type, field)                                                                                 \
+    if (!read_field(group, name, SNAPSHOT_TYPE(step->field), step->count, step->field))                      \
+        return name;
+    SNAPSHOT_FIELDS(X)
+#undef X
+    return NULL;
+}
+
+bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error)
+{
+    size_t count = 0;
+    *step = (SnapshotStep){0};
+    if (index >= reader->steps)
+        return error_set(error, "%s: has no step %zu; it has %zu whole steps", reader->path, index,
+                         reader->steps);
+    hid_t group = open_step(reader->file, index);
+    const char *missing = group >= 0 && field_length(group, "x", &count) ? NULL : "x";
+    if (!missing && !snapshot_step_allocate(step, count)) {
+        H5Gclose(group);
+        return error_set(error, "%s: out of memory for %zu particles", reader->path, count);
+    }
+    missing = missing ? missing : read_group(group, step);
+    if (group >= 0)
+        H5Gclose(group);
+    if (!missing)
+        return true;
+    snapshot_step_free(step);
+    return error_set(error, "%s: Step#%zu: '%s' is missing or of another length", reader->path, index,
+                     missing);
+}

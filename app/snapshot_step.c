@@ -1,0 +1,27 @@
+/* The arrays of one state in memory. */
+#include "app/snapshot.h"
+
+#include <stdlib.h>
+
+void snapshot_step_free(SnapshotStep *step)
+{
+#define X(name, type, field) free(step->field);
+    SNAPSHOT_FIELDS(X)
+#undef X
+    *step = (SnapshotStep){0};
+}
+
+bool snapshot_step_allocate(SnapshotStep *step, size_t count)
+{
+    size_t some = count ? count : 1;
+    bool all = true;
+    *step = (SnapshotStep){.count = count};
+#define X(name, type, field)                                                                                 \
+    step->field = calloc(some, sizeof(type));                                                                \
+    all = all && step->field;
+    SNAPSHOT_FIELDS(X)
+#undef X
+    if (!all)
+        snapshot_step_free(step);
+    return all;
+}

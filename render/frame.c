@@ -1,0 +1,157 @@
+#include "render/frame.h"
+
+#include "render/legend.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <string.h>
+
+/* As in shaders/common/frame.glsl, std140. */
+typedef struct FrameBlock {
+    float box_to_eye[16], box_to_light[16], eye_to_light[16], world_to_light[16], eye_to_world[16];
+    float lens[4], viewport[4], light_in_eye[4], up_in_eye[4];
+    float light_color[4], sky_color[4], ground_color[4], background[4];
+    float floor_place[4], floor_map[4], light_to[4], particle[4], coloring[4], box_size[4], edge_color[4];
+    float fluid_color[FLUIDS_MAX][4];
+} FrameBlock;
+
+static void make_range(Frame *frame, const ParticleBuffers *particles)
+{
+    const ViewDef *def = frame->def;
+    frame->range[0] = def->range_auto ? particles->scalar_min[def->color_by] : def->range[0];
+    frame->range[1] = def->range_auto ? particles->scalar_max[def->color_by] : def->range[1];
+    double least = 1e-6 * fmax(fabs(frame->range[0]), 1e-6); /* the same everywhere: any width will do */
+    if (!(frame->range[1] - frame->range[0] > least))
+        frame->range[1] = frame->range[0] + fmax(1e-3 * fabs(frame->range[0]), 1e-3);
+}
+
+/* The light comes from the left, the front and above of the automatic camera. Its map covers the ball around
+ * the box. */
+static void make_light(Frame *frame, const double size[3], const float center[3])
+{
+    static const float to_light[3] = {-0.40F, 0.84F, 0.3666F};
+    static const float side[3] = {0.9029F, 0.4299F, 0}, up[3] = {-0.1576F, 0.3310F, -0.9304F};
+    const float *axes[3] = {side, up, to_light};
+    double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
+    memcpy(frame->to_light, to_light, sizeof to_light);
+    frame->light_depth = (float)(1.1 * diagonal);
+    memset(frame->world_to_light, 0, sizeof frame->world_to_light);
+    frame->world_to_light[15] = 1;
+    for (int row = 0; row < 3; row++) {
+        float middle = 0;
+        for (int k = 0; k < 3; k++) {
+            frame->world_to_light[4 * k + row] = axes[row][k] / frame->light_depth;
+            middle += axes[row][k] * center[k];
+        }
+        frame->world_to_light[12 + row] = 0.5F - middle / frame->light_depth;
+    }
+}
+
+static void make_floor(Frame *frame, const double size[3], const float center[3])
+{
+    double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
+    frame->floor_height =
+        (float)(-0.045 * diagonal); /* a gap, so that the box casts a shadow that one sees */
+    frame->floor_center[0] = center[0];
+    frame->floor_center[1] = center[2];
+    frame->floor_radius = frame->def->floor ? (float)(4.0 * diagonal) : 0;
+    /* where the light's ray through the box's centre meets the floor */
+    float drop = (center[1] - frame->floor_height) / frame->to_light[1];
+    frame->floor_map_side = (float)(1.7 * diagonal);
+    frame->floor_map_corner[0] = center[0] - drop * frame->to_light[0] - frame->floor_map_side / 2;
+    frame->floor_map_corner[1] = center[2] - drop * frame->to_light[2] - frame->floor_map_side / 2;
+}
+
+void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
+                double radius)
+{
+    *frame = (Frame){.width = target->width, .height = target->height, .def = def, .target = target};
+    double covered = legend_width_pixels(def, target->height) / target->width;
+    camera_make(def, particles->box_size, &particles->box, (double)target->width / target->height, covered,
+                &frame->camera);
+    camera_box_matrix(&particles->box, frame->box_to_world);
+    float middle[3] = {0, (float)particles->box_size[1] / 2, 0}, center[3];
+    matrix_transform(frame->box_to_world, middle, center);
+    make_light(frame, particles->box_size, center);
+    make_floor(frame, particles->box_size, center);
+    make_range(frame, particles);
+    frame->particle_radius = (float)((def->radius > 0 ? def->radius : radius) * particles->spacing);
+    frame->by_fluid = def->color_by == SCALAR_FLUID || !particles->scalar[def->color_by].buffer;
+}
+
+unsigned frame_uniforms_create(void)
+{
+    GLuint buffer;
+    glCreateBuffers(1, &buffer);
+    glObjectLabel(GL_BUFFER, buffer, -1, "frame uniforms");
+    glNamedBufferStorage(buffer, sizeof(FrameBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
+    return buffer;
+}
+
+static void set(float out[4], double x, double y, double z, double w)
+{
+    out[0] = (float)x, out[1] = (float)y, out[2] = (float)z, out[3] = (float)w;
+}
+
+static void rotate(const float matrix[16], const float v[3], double w, float out[4])
+{
+    for (int row = 0; row < 3; row++)
+        out[row] = matrix[row] * v[0] + matrix[4 + row] * v[1] + matrix[8 + row] * v[2];
+    out[3] = (float)w;
+}
+
+static void fill_matrices(FrameBlock *block, const Frame *frame)
+{
+    matrix_multiply(frame->camera.view, frame->box_to_world, block->box_to_eye);
+    matrix_multiply(frame->world_to_light, frame->box_to_world, block->box_to_light);
+    memcpy(block->world_to_light, frame->world_to_light, sizeof block->world_to_light);
+    matrix_invert_rigid(frame->camera.view, block->eye_to_world);
+    matrix_multiply(frame->world_to_light, block->eye_to_world, block->eye_to_light);
+}
+
+/* Linear light: white key, a sky that takes some of the background's tint, warm bounce from the floor. */
+static void fill_colors(FrameBlock *block, const Frame *frame)
+{
+    const double *back = frame->def->background;
+    double bright = 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2];
+    double ink = bright > 0.18 ? 0.03 : 0.75; /* edges stand off the background */
+    set(block->background, back[0], back[1], back[2], 1);
+    set(block->light_color, 0.98, 0.94, 0.88, 0);
+    set(block->sky_color, 0.46 + 0.10 * back[0], 0.50 + 0.10 * back[1], 0.54 + 0.12 * back[2], 0);
+    set(block->ground_color, 0.20 + 0.06 * back[0], 0.19 + 0.06 * back[1], 0.18 + 0.06 * back[2], 0);
+    set(block->edge_color, ink, ink, ink, 0.85);
+    for (int i = 0; i < FLUIDS_MAX; i++) {
+        bool known = i < frame->def->fluid_count;
+        const float *color = frame->def->fluid_color[i];
+        set(block->fluid_color[i], known ? color[0] : 0.1, known ? color[1] : 0.35, known ? color[2] : 0.7,
+            1);
+    }
+}
+
+static void fill_places(FrameBlock *block, const Frame *frame, const double box_size[3], double spacing)
+{
+    static const float up[3] = {0, 1, 0};
+    const Camera *camera = &frame->camera;
+    set(block->lens, camera->tangent[0], camera->tangent[1], camera->near_plane, frame->light_depth);
+    set(block->viewport, frame->width, frame->height, 1.0 / frame->width, 1.0 / frame->height);
+    rotate(camera->view, frame->to_light, frame->plain ? 0 : 1, block->light_in_eye);
+    rotate(camera->view, up, 0, block->up_in_eye);
+    set(block->floor_place, frame->floor_height, frame->floor_center[0], frame->floor_center[1],
+        frame->floor_radius);
+    set(block->floor_map, frame->floor_map_corner[0], frame->floor_map_corner[1], 1 / frame->floor_map_side,
+        FLOOR_MAP_TEXELS);
+    set(block->light_to, frame->to_light[0], frame->to_light[1], frame->to_light[2], 0.035);
+    set(block->particle, frame->particle_radius, spacing, 0, 0);
+    set(block->coloring, frame->range[0], 1 / (frame->range[1] - frame->range[0]), frame->by_fluid, 0);
+    set(block->box_size, box_size[0], box_size[1], box_size[2], 0);
+}
+
+void frame_uniforms_update(unsigned buffer, const Frame *frame, const double box_size[3], double spacing)
+{
+    FrameBlock block;
+    fill_matrices(&block, frame);
+    fill_colors(&block, frame);
+    fill_places(&block, frame, box_size, spacing);
+    glNamedBufferSubData(buffer, 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffer);
+}

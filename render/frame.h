@@ -1,0 +1,44 @@
+/* All that a pass needs to know of one picture. */
+#ifndef SLOSH_FRAME_H
+#define SLOSH_FRAME_H
+
+#include "render/camera.h"
+#include "render/target.h"
+#include "render/view_def.h"
+#include "sim/gl/particle_buffers.h"
+#include "sim/gl/timer.h"
+
+typedef struct Frame {
+    int width, height; /* pixels */
+    const ViewDef *def;
+    const Target *target;
+    GlTimer *timer; /* NULL: not measured */
+    Camera camera;
+    float box_to_world[16];
+    float world_to_light[16];  /* orthographic, to 0..1 in the shadow map, 1 nearest to the light */
+    float light_depth;         /* m that 0..1 of that stands for, in each axis */
+    float to_light[3];         /* unit vector, world */
+    float floor_height;        /* m, world */
+    float floor_center[2];     /* x z, m */
+    float floor_radius;        /* at which it has faded, m; 0 without a floor */
+    float floor_map_corner[2]; /* x z of the floor's shadow map, m */
+    float floor_map_side;      /* m */
+    float particle_radius;     /* m */
+    double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
+    bool by_fluid;             /* coloured by the fluids' own colours */
+    bool plain;                /* colours as they are, without light and shadow */
+} Frame;
+
+enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 128 };
+
+/* Fills all of `frame` but the timer. `radius` of a particle in spacings where the def says 0. */
+void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
+                double radius);
+
+/* The uniform block of shaders/common/frame.glsl; the caller deletes the buffer. */
+unsigned frame_uniforms_create(void);
+
+/* Fills the block and binds it for all passes. */
+void frame_uniforms_update(unsigned buffer, const Frame *frame, const double box_size[3], double spacing);
+
+#endif

@@ -1,0 +1,70 @@
+#include "render/particle_bind.h"
+
+#include <epoxy/gl.h>
+#include <stdint.h>
+
+static void bind_attribute(GLuint binding, const ParticleAttribute *attribute, size_t count)
+{
+    if (attribute->buffer && count)
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, attribute->buffer, (GLintptr)attribute->offset,
+                          (GLsizeiptr)(count * attribute->stride));
+    else
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, 0);
+}
+
+void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar)
+{
+    const ParticleAttribute *shown = &particles->scalar[scalar];
+    bind_attribute(0, &particles->position, particles->count);
+    bind_attribute(1, shown, particles->count);
+    bind_attribute(2, &particles->fluid, particles->count);
+    glProgramUniform4ui(program, 0, (GLuint)(particles->position.stride / 4), (GLuint)(shown->stride / 4),
+                        (GLuint)(particles->fluid.stride / 4), 0);
+}
+
+void quad_indices_create(QuadIndices *indices)
+{
+    *indices = (QuadIndices){0};
+    glCreateVertexArrays(1, &indices->vertex_array);
+    glObjectLabel(GL_VERTEX_ARRAY, indices->vertex_array, -1, "quads");
+}
+
+void quad_indices_destroy(QuadIndices *indices)
+{
+    glDeleteVertexArrays(1, &indices->vertex_array);
+    glDeleteBuffers(1, &indices->buffer);
+    *indices = (QuadIndices){0};
+}
+
+static void fill(uint32_t *index, size_t count)
+{
+    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
+    for (size_t i = 0; i < 6 * count; i++)
+        index[i] = (uint32_t)(4 * (i / 6)) + corners[i % 6];
+}
+
+/* Grows when the particles do. */
+static void reserve(QuadIndices *indices, size_t count)
+{
+    const GLsizeiptr size = (GLsizeiptr)(6 * count * sizeof(uint32_t));
+    glDeleteBuffers(1, &indices->buffer);
+    glCreateBuffers(1, &indices->buffer);
+    glObjectLabel(GL_BUFFER, indices->buffer, -1, "quad indices");
+    glNamedBufferStorage(indices->buffer, size, NULL, GL_MAP_WRITE_BIT);
+    uint32_t *mapped = glMapNamedBufferRange(indices->buffer, 0, size, GL_MAP_WRITE_BIT);
+    indices->capacity = mapped ? count : 0;
+    if (mapped)
+        fill(mapped, count);
+    glUnmapNamedBuffer(indices->buffer);
+    glVertexArrayElementBuffer(indices->vertex_array, indices->buffer);
+}
+
+void quad_indices_draw(QuadIndices *indices, size_t count)
+{
+    if (count > indices->capacity)
+        reserve(indices, count);
+    if (!count || count > indices->capacity)
+        return;
+    glBindVertexArray(indices->vertex_array);
+    glDrawElements(GL_TRIANGLES, (GLsizei)(6 * count), GL_UNSIGNED_INT, NULL);
+}

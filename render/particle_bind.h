@@ -1,0 +1,21 @@
+/* Hands the particles to shaders/common/particles.glsl. */
+#ifndef SLOSH_PARTICLE_BIND_H
+#define SLOSH_PARTICLE_BIND_H
+
+#include "sim/gl/particle_buffers.h"
+
+/* Binds positions, the scalar and the fluid (those that are there) and sets the strides of `program`. */
+void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar);
+
+/* Indices of two triangles a particle over the vertices 4 i .. 4 i + 3, for glDrawElements. They are indexed
+   quads rather than instances: on the software driver an instance costs microseconds. */
+typedef struct QuadIndices {
+    unsigned vertex_array, buffer;
+    size_t capacity; /* particles */
+} QuadIndices;
+
+void quad_indices_create(QuadIndices *indices);
+void quad_indices_destroy(QuadIndices *indices);
+void quad_indices_draw(QuadIndices *indices, size_t count);
+
+#endif

@@ -1,0 +1,131 @@
+#include "render/renderer.h"
+
+#include "render/backdrop.h"
+#include "render/edges.h"
+#include "render/legend.h"
+#include "render/shadow.h"
+#include "render/view.h"
+
+#include <epoxy/gl.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct Renderer {
+    ViewDef def;
+    bool plain;
+    Target target;
+    unsigned uniforms;
+    Shadow shadow;
+    Backdrop backdrop;
+    Edges edges;
+    Text *text; /* NULL without a legend */
+    View *view; /* NULL for "none" */
+};
+
+ViewDef view_def_default(void)
+{
+    return (ViewDef){.kind = "spheres",
+                     .color_by = SCALAR_SPEED,
+                     .colormap = "viridis",
+                     .range_auto = true,
+                     .legend = true,
+                     .box = true,
+                     .floor = true,
+                     .camera_auto = true,
+                     .camera = {.fov_deg = 32},
+                     .background = {0.72, 0.76, 0.80}};
+}
+
+static bool create_parts(Renderer *renderer, int width, int height, Error *error)
+{
+    const ViewDef *def = &renderer->def;
+    if (!target_create(&renderer->target, width, height, error) || !shadow_create(&renderer->shadow, error) ||
+        !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
+        return false;
+    renderer->uniforms = frame_uniforms_create();
+    if (def->legend && !(renderer->text = text_create(legend_text_pixels(height), error)))
+        return false;
+    return strcmp(def->kind, "none") == 0 || (renderer->view = view_create(def, error)) != NULL;
+}
+
+Renderer *renderer_create(const ViewDef *def, int width, int height, Error *error)
+{
+    Renderer *renderer = calloc(1, sizeof *renderer);
+    if (!renderer) {
+        error_set(error, "out of memory for the renderer");
+        return NULL;
+    }
+    renderer->def = *def;
+    if (create_parts(renderer, width, height, error))
+        return renderer;
+    renderer_destroy(renderer);
+    return NULL;
+}
+
+void renderer_destroy(Renderer *renderer)
+{
+    if (!renderer)
+        return;
+    view_destroy(renderer->view);
+    text_destroy(renderer->text);
+    edges_destroy(&renderer->edges);
+    backdrop_destroy(&renderer->backdrop);
+    shadow_destroy(&renderer->shadow);
+    glDeleteBuffers(1, &renderer->uniforms);
+    target_destroy(&renderer->target);
+    free(renderer);
+}
+
+static void draw_shadow(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+{
+    shadow_begin(&renderer->shadow);
+    if (renderer->view)
+        view_cast(renderer->view, particles, frame);
+    shadow_end(&renderer->shadow, frame);
+}
+
+static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+{
+    if (renderer->def.box)
+        edges_draw(&renderer->edges, frame);
+    if (!renderer->text)
+        return;
+    text_begin(renderer->text, frame->width, frame->height);
+    legend_draw(renderer->text, frame, particles->time);
+    text_end(renderer->text);
+}
+
+void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)
+{
+    Frame frame;
+    double radius = renderer->view ? view_kind(renderer->view)->radius : 0;
+    frame_make(&frame, &renderer->def, particles, &renderer->target, radius);
+    frame.timer = timer;
+    frame.plain = renderer->plain;
+    frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
+    GL_STAGE(timer, STAGE_SHADOW)
+    draw_shadow(renderer, particles, &frame);
+    GL_STAGE(timer, STAGE_BACKDROP)
+    target_begin(&renderer->target);
+    if (renderer->view)
+        view_draw(renderer->view, particles, &frame);
+    GL_STAGE(timer, STAGE_BACKDROP)
+    backdrop_draw(&renderer->backdrop, &frame, &renderer->shadow);
+    GL_STAGE(timer, STAGE_OVERLAY)
+    draw_overlays(renderer, particles, &frame);
+}
+
+void renderer_read(const Renderer *renderer, uint8_t *rgb)
+{
+    target_read(&renderer->target, rgb);
+}
+
+void renderer_read_depth(const Renderer *renderer, float *depth)
+{
+    target_read_depth(&renderer->target, depth);
+}
+
+void renderer_set_plain(Renderer *renderer, bool plain)
+{
+    renderer->plain = plain;
+}

@@ -1,0 +1,39 @@
+/* One picture, from particles to pixels: shadow, view, backdrop, edges, legend. The entry for all commands.
+
+   Needs a current OpenGL 4.5 core context, and belongs to its thread. */
+#ifndef SLOSH_RENDERER_H
+#define SLOSH_RENDERER_H
+
+#include "render/view_def.h"
+#include "sim/error.h"
+#include "sim/gl/particle_buffers.h"
+#include "sim/gl/timer.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct Renderer Renderer;
+
+/* What a scene that says nothing gets: spheres by speed in viridis, legend, box, floor, an automatic camera.
+ */
+ViewDef view_def_default(void);
+
+/* Copies the def. NULL on failure: an unknown view or colormap, a size that the driver does not take, no
+   font. A def of kind "none" draws backdrop, edges and legend only. */
+Renderer *renderer_create(const ViewDef *def, int width, int height, Error *error);
+void renderer_destroy(Renderer *renderer); /* NULL is allowed */
+
+/* Draws one state into the renderer's own target; stages go to `timer` (NULL: not measured). Does not wait.
+ */
+void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
+
+/* The picture: 3 * width * height bytes of sRGB, rows from the top down. Waits for the drawing. */
+void renderer_read(const Renderer *renderer, uint8_t *rgb);
+
+/* width * height reversed depths (1 at the near plane, 0 where nothing is), rows from the bottom up. */
+void renderer_read_depth(const Renderer *renderer, float *depth);
+
+/* Colours exactly as the colormap has them, without light and shadow. */
+void renderer_set_plain(Renderer *renderer, bool plain);
+
+#endif

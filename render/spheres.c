@@ -1,0 +1,137 @@
+#include "render/spheres.h"
+
+#include "render/colormap.h"
+#include "render/particle_bind.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <stdlib.h>
+
+typedef struct Spheres {
+    GLuint visibility, shading, casting; /* programs */
+    GLuint colormap;
+    GLuint framebuffer, seen; /* id + 1 of the nearest particle, R32UI; with the target's own depth */
+    GLuint target_depth;      /* which the framebuffer was made for */
+    GLuint screen;            /* vertex array without attributes */
+    QuadIndices quads;
+} Spheres;
+
+static void spheres_destroy(void *state)
+{
+    Spheres *spheres = state;
+    glDeleteProgram(spheres->visibility);
+    glDeleteProgram(spheres->shading);
+    glDeleteProgram(spheres->casting);
+    glDeleteTextures(1, &spheres->colormap);
+    glDeleteFramebuffers(1, &spheres->framebuffer);
+    glDeleteTextures(1, &spheres->seen);
+    glDeleteVertexArrays(1, &spheres->screen);
+    quad_indices_destroy(&spheres->quads);
+    free(spheres);
+}
+
+static bool create_programs(Spheres *spheres, Error *error)
+{
+    spheres->visibility = program_create_pair("spheres", "render/spheres.vert", "render/spheres.frag", error);
+    spheres->shading = spheres->visibility ? program_create_pair("spheres shade", "common/screen.vert",
+                                                                 "render/spheres_shade.frag", error)
+                                           : 0;
+    spheres->casting = spheres->shading ? program_create_pair("spheres shadow", "render/spheres_shadow.vert",
+                                                              "render/depth_only.frag", error)
+                                        : 0;
+    return spheres->casting != 0;
+}
+
+static void *spheres_create(const ViewDef *def, Error *error)
+{
+    Spheres *spheres = calloc(1, sizeof *spheres);
+    if (!spheres) {
+        error_set(error, "out of memory for the view");
+        return NULL;
+    }
+    spheres->colormap = colormap_texture(def->colormap);
+    if (!spheres->colormap)
+        error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
+    glCreateVertexArrays(1, &spheres->screen);
+    quad_indices_create(&spheres->quads);
+    if (spheres->colormap && create_programs(spheres, error))
+        return spheres;
+    spheres_destroy(spheres);
+    return NULL;
+}
+
+static void follow_target(Spheres *spheres, const Target *target)
+{
+    if (spheres->target_depth == target->depth)
+        return;
+    glDeleteFramebuffers(1, &spheres->framebuffer);
+    glDeleteTextures(1, &spheres->seen);
+    glCreateTextures(GL_TEXTURE_2D, 1, &spheres->seen);
+    glTextureStorage2D(spheres->seen, 1, GL_R32UI, target->width, target->height);
+    glTextureParameteri(spheres->seen, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(spheres->seen, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glObjectLabel(GL_TEXTURE, spheres->seen, -1, "seen particles");
+    glCreateFramebuffers(1, &spheres->framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, spheres->framebuffer, -1, "seen particles");
+    glNamedFramebufferTexture(spheres->framebuffer, GL_COLOR_ATTACHMENT0, spheres->seen, 0);
+    glNamedFramebufferTexture(spheres->framebuffer, GL_DEPTH_ATTACHMENT, target->depth, 0);
+    spheres->target_depth = target->depth;
+}
+
+static void spheres_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    Spheres *spheres = state;
+    glUseProgram(spheres->casting);
+    particle_bind(spheres->casting, particles, frame->def->color_by);
+    glBindVertexArray(spheres->screen);
+    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)(3 * particles->count));
+}
+
+static void find_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
+{
+    static const GLuint nobody[4] = {0};
+    glBindFramebuffer(GL_FRAMEBUFFER, spheres->framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glClearNamedFramebufferuiv(spheres->framebuffer, GL_COLOR, 0, nobody);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glUseProgram(spheres->visibility);
+    particle_bind(spheres->visibility, particles, frame->def->color_by);
+    quad_indices_draw(&spheres->quads, particles->count);
+}
+
+/* The triangle at depth 0 passes where something has been drawn. */
+static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_FALSE);
+    glBindTextureUnit(1, spheres->seen);
+    glBindTextureUnit(2, spheres->colormap);
+    glUseProgram(spheres->shading);
+    particle_bind(spheres->shading, particles, frame->def->color_by);
+    glBindVertexArray(spheres->screen);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void spheres_draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    Spheres *spheres = state;
+    follow_target(spheres, frame->target);
+    GL_STAGE(frame->timer, STAGE_VISIBILITY)
+    find_visible(spheres, particles, frame);
+    GL_STAGE(frame->timer, STAGE_SHADE)
+    shade_visible(spheres, particles, frame);
+}
+
+const ViewKind view_spheres = {
+    .name = "spheres",
+    .help = "every particle as a lit sphere, exact in each pixel",
+    .radius = 0.5, /* half a spacing: neighbours at rest touch */
+    .create = spheres_create,
+    .destroy = spheres_destroy,
+    .cast = spheres_cast,
+    .draw = spheres_draw,
+};

@@ -1,0 +1,226 @@
+#include "render/upload.h"
+
+#include <epoxy/gl.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Slot {
+    GLuint buffer;
+    char *bytes;  /* mapped for the buffer's whole life */
+    GLsync fence; /* behind the last drawing that reads it, or NULL */
+} Slot;
+
+/* Offsets in each slot, bytes; SIZE_MAX for what is not carried. */
+typedef struct Layout {
+    size_t position, velocity, fluid, id, scalar[SCALAR_COUNT];
+    size_t size;
+} Layout;
+
+struct Upload {
+    size_t capacity;
+    unsigned attributes;
+    Layout layout;
+    int newest;
+    Slot slots[UPLOAD_SLOTS];
+};
+
+static size_t place(Layout *layout, size_t capacity, size_t stride, bool wanted)
+{
+    enum { ALIGNMENT = 256 }; /* of storage-buffer ranges, at most, by the standard */
+    if (!wanted)
+        return SIZE_MAX;
+    size_t offset = layout->size;
+    layout->size += (capacity * stride + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    return offset;
+}
+
+static Layout make_layout(size_t capacity, unsigned attributes)
+{
+    Layout layout = {0};
+    layout.position = place(&layout, capacity, 4 * sizeof(float), true);
+    layout.velocity = place(&layout, capacity, 4 * sizeof(float), attributes & UPLOAD_VELOCITY);
+    layout.fluid = place(&layout, capacity, sizeof(uint32_t), attributes & UPLOAD_FLUID);
+    layout.id = place(&layout, capacity, sizeof(uint32_t), attributes & UPLOAD_ID);
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        layout.scalar[s] = place(&layout, capacity, sizeof(float), attributes & UPLOAD_SCALAR(s));
+    return layout;
+}
+
+/* Read too, since the range of the scalars is taken from what was written: that asks for cached memory. */
+static bool slot_create(Slot *slot, size_t size)
+{
+    const GLbitfield access =
+        GL_MAP_WRITE_BIT | GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    glCreateBuffers(1, &slot->buffer);
+    glObjectLabel(GL_BUFFER, slot->buffer, -1, "particles");
+    glNamedBufferStorage(slot->buffer, (GLsizeiptr)size, NULL, access | GL_CLIENT_STORAGE_BIT);
+    slot->bytes = glMapNamedBufferRange(slot->buffer, 0, (GLsizeiptr)size, access);
+    return slot->bytes != NULL;
+}
+
+Upload *upload_create(size_t capacity, unsigned attributes, Error *error)
+{
+    Upload *upload = calloc(1, sizeof *upload);
+    if (!upload) {
+        error_set(error, "out of memory for the upload");
+        return NULL;
+    }
+    upload->capacity = capacity ? capacity : 1;
+    upload->attributes = attributes;
+    upload->layout = make_layout(upload->capacity, attributes);
+    upload->newest = -1;
+    for (int i = 0; i < UPLOAD_SLOTS; i++)
+        if (!slot_create(&upload->slots[i], upload->layout.size)) {
+            error_set(error, "the GPU has no %zu bytes for four states of %zu particles; use fewer particles",
+                      UPLOAD_SLOTS * upload->layout.size, capacity);
+            upload_destroy(upload);
+            return NULL;
+        }
+    return upload;
+}
+
+void upload_destroy(Upload *upload)
+{
+    if (!upload)
+        return;
+    for (int i = 0; i < UPLOAD_SLOTS; i++) {
+        glDeleteSync(upload->slots[i].fence);
+        glDeleteBuffers(1, &upload->slots[i].buffer);
+    }
+    free(upload);
+}
+
+unsigned upload_attributes_for(Scalar color_by)
+{
+    return color_by == SCALAR_FLUID ? UPLOAD_FLUID : UPLOAD_SCALAR(color_by);
+}
+
+static void slot_wait(Slot *slot)
+{
+    if (!slot->fence)
+        return;
+    while (glClientWaitSync(slot->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000) == GL_TIMEOUT_EXPIRED)
+        continue;
+    glDeleteSync(slot->fence);
+    slot->fence = NULL;
+}
+
+/* The next slot in turn, free of readers; the newest one so far gets its fence. */
+static Slot *take_slot(Upload *upload)
+{
+    if (upload->newest >= 0) {
+        Slot *drawn = &upload->slots[upload->newest];
+        glDeleteSync(drawn->fence);
+        drawn->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    }
+    upload->newest = (upload->newest + 1) % UPLOAD_SLOTS;
+    slot_wait(&upload->slots[upload->newest]);
+    return &upload->slots[upload->newest];
+}
+
+static void *in_slot(const Slot *slot, size_t offset)
+{
+    return offset == SIZE_MAX ? NULL : slot->bytes + offset;
+}
+
+static ParticleArrays slot_arrays(const Upload *upload, const Slot *slot)
+{
+    const Layout *layout = &upload->layout;
+    ParticleArrays arrays = {.position = in_slot(slot, layout->position),
+                             .velocity = in_slot(slot, layout->velocity),
+                             .fluid = in_slot(slot, layout->fluid),
+                             .id = in_slot(slot, layout->id)};
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        arrays.scalar[s] = in_slot(slot, layout->scalar[s]);
+    return arrays;
+}
+
+static ParticleAttribute attribute(const Slot *slot, size_t offset, size_t stride)
+{
+    return offset == SIZE_MAX ? (ParticleAttribute){0} : (ParticleAttribute){slot->buffer, offset, stride};
+}
+
+static void find_range(const float *values, size_t count, double *min, double *max)
+{
+    float low = count ? values[0] : 0, high = low;
+    for (size_t i = 1; i < count; i++) {
+        low = values[i] < low ? values[i] : low;
+        high = values[i] > high ? values[i] : high;
+    }
+    *min = low;
+    *max = high;
+}
+
+static void describe(const Upload *upload, const Slot *slot, ParticleBuffers *out)
+{
+    const Layout *layout = &upload->layout;
+    ParticleArrays arrays = slot_arrays(upload, slot);
+    out->position = attribute(slot, layout->position, 4 * sizeof(float));
+    out->velocity = attribute(slot, layout->velocity, 4 * sizeof(float));
+    out->fluid = attribute(slot, layout->fluid, sizeof(uint32_t));
+    out->id = attribute(slot, layout->id, sizeof(uint32_t));
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        out->scalar[s] = attribute(slot, layout->scalar[s], sizeof(float));
+        out->scalar_min[s] = out->scalar_max[s] = 0;
+        if (arrays.scalar[s])
+            find_range(arrays.scalar[s], out->count, &out->scalar_min[s], &out->scalar_max[s]);
+    }
+}
+
+static bool fits(const Upload *upload, size_t count, Error *error)
+{
+    return count <= upload->capacity ||
+           error_set(error, "%zu particles do not fit the upload, which was made for %zu", count,
+                     upload->capacity);
+}
+
+bool upload_write(Upload *upload, World *world, ParticleBuffers *out, Error *error)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    if (!fits(upload, info.count, error))
+        return false;
+    Slot *slot = take_slot(upload);
+    ParticleArrays arrays = slot_arrays(upload, slot);
+    world_read(world, &arrays);
+    *out = (ParticleBuffers){.count = info.count,
+                             .spacing = info.spacing,
+                             .support_radius = info.support_radius,
+                             .box = info.box,
+                             .time = info.time,
+                             .step = info.step};
+    memcpy(out->box_size, info.box_size, sizeof out->box_size);
+    memcpy(out->gravity, info.gravity, sizeof out->gravity);
+    describe(upload, slot, out);
+    return true;
+}
+
+static void copy(void *to, const void *from, size_t bytes)
+{
+    if (to && from && bytes)
+        memcpy(to, from, bytes);
+}
+
+bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state,
+                   ParticleBuffers *out, Error *error)
+{
+    if (!fits(upload, state->count, error))
+        return false;
+    Slot *slot = take_slot(upload);
+    ParticleArrays to = slot_arrays(upload, slot);
+    size_t count = state->count;
+    copy(to.position, arrays->position, 4 * count * sizeof(float));
+    copy(to.velocity, arrays->velocity, 4 * count * sizeof(float));
+    copy(to.fluid, arrays->fluid, count * sizeof(uint32_t));
+    copy(to.id, arrays->id, count * sizeof(uint32_t));
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        copy(to.scalar[s], arrays->scalar[s], count * sizeof(float));
+    *out = *state;
+    describe(upload, slot, out);
+    return true;
+}
+
+int upload_newest(const Upload *upload)
+{
+    return upload->newest;
+}

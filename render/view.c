@@ -1,0 +1,71 @@
+#include "render/view.h"
+
+#include "render/spheres.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const ViewKind *const view_list[] = {&view_spheres, NULL};
+
+struct View {
+    const ViewKind *kind;
+    void *state;
+};
+
+const ViewKind *view_find(const char *name)
+{
+    for (int i = 0; view_list[i]; i++)
+        if (strcmp(view_list[i]->name, name) == 0)
+            return view_list[i];
+    return NULL;
+}
+
+static void unknown_view(const char *name, Error *error)
+{
+    char known[256] = "";
+    for (int i = 0; view_list[i]; i++)
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i ? ", " : "",
+                 view_list[i]->name);
+    error_set(error, "unknown view \"%s\"; known are: %s", name, known);
+}
+
+View *view_create(const ViewDef *def, Error *error)
+{
+    const ViewKind *kind = view_find(def->kind);
+    if (!kind) {
+        unknown_view(def->kind, error);
+        return NULL;
+    }
+    View *view = malloc(sizeof *view);
+    void *state = view ? kind->create(def, error) : NULL;
+    if (!state) {
+        free(view);
+        return NULL;
+    }
+    *view = (View){kind, state};
+    return view;
+}
+
+void view_destroy(View *view)
+{
+    if (!view)
+        return;
+    view->kind->destroy(view->state);
+    free(view);
+}
+
+const ViewKind *view_kind(const View *view)
+{
+    return view->kind;
+}
+
+void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame)
+{
+    view->kind->cast(view->state, particles, frame);
+}
+
+void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame)
+{
+    view->kind->draw(view->state, particles, frame);
+}

@@ -1,0 +1,36 @@
+/* Views: the ways to show a fluid. One file a view, one list of them. */
+#ifndef SLOSH_VIEW_H
+#define SLOSH_VIEW_H
+
+#include "render/frame.h"
+#include "sim/error.h"
+#include "sim/gl/particle_buffers.h"
+
+typedef struct View View;
+
+typedef struct ViewKind {
+    const char *name, *help;
+    double radius; /* of a particle, in spacings, where ViewDef.radius is 0 */
+    /* The state behind a View, or NULL with the reason. */
+    void *(*create)(const ViewDef *def, Error *error);
+    void (*destroy)(void *state);
+    /* Draws what casts shadows, into the map of render/shadow.h. */
+    void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
+    void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
+} ViewKind;
+
+extern const ViewKind *const view_list[]; /* ended by NULL; the first is the default */
+
+/* The kind of that name, or NULL. */
+const ViewKind *view_find(const char *name);
+
+/* NULL on failure: an unknown kind or colormap, a shader that does not compile. */
+View *view_create(const ViewDef *def, Error *error);
+void view_destroy(View *view); /* NULL is allowed */
+const ViewKind *view_kind(const View *view);
+
+void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
+void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
+
+#endif

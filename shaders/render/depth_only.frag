@@ -1,0 +1,4 @@
+// Depth comes from the vertices.
+void main()
+{
+}

@@ -1,0 +1,17 @@
+// Which particle is seen in each pixel, and its exact depth; shading comes once a pixel, afterwards.
+#include "common/frame.glsl"
+#include "common/sphere.glsl"
+
+layout(location = 0) noperspective in vec3 offset;
+layout(location = 1) flat in vec3 constants;
+layout(location = 2) flat in uint index;
+layout(location = 0) out uint seen; // index + 1
+
+void main()
+{
+    float e, depth = sphere_depth(offset, constants, e);
+    if (!(e >= 0.0 && depth > 0.0 && depth <= 1.0))
+        discard;
+    gl_FragDepth = depth;
+    seen = index + 1u;
+}

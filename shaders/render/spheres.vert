@@ -1,0 +1,20 @@
+// Four vertices a particle: the corners of its bound on the screen.
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+#include "common/sphere.glsl"
+
+layout(location = 0) noperspective out vec3 offset;
+layout(location = 1) flat out vec3 constants;
+layout(location = 2) flat out uint index;
+
+void main()
+{
+    index = uint(gl_VertexID) >> 2;
+    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
+    Sphere sphere = sphere_at(centre, particle.x);
+    vec4 bounds = sphere_bounds(sphere);
+    vec2 corner = vec2((gl_VertexID & 1) == 0 ? bounds.x : bounds.y, (gl_VertexID & 2) == 0 ? bounds.z : bounds.w);
+    offset = sphere_offset(sphere, ray_of_ndc(corner));
+    constants = sphere_constants(sphere);
+    gl_Position = vec4(corner, 0.5, 1.0);
+}

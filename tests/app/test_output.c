@@ -1,0 +1,137 @@
+/* Files that appear whole or not at all. */
+#include "output_fixture.h"
+
+#include "app/interrupt.h"
+#include "app/output.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+
+static void a_new_file_appears_at_the_commit(void **state)
+{
+    (void)state;
+    Output output = {0};
+    Error error = {{0}};
+    assert_true(output_begin(&output, "new.txt", &error));
+    write_text(output.temp, "whole");
+    assert_false(exists("new.txt"));
+    assert_true(output_commit(&output, &error));
+    assert_text("new.txt", "whole");
+    assert_int_equal(count_files("."), 1);
+    output_discard(&output); /* does nothing any more */
+    assert_true(exists("new.txt"));
+}
+
+static void an_old_file_stays_until_then(void **state)
+{
+    (void)state;
+    Output output = {0};
+    Error error = {{0}};
+    write_text("old.txt", "old");
+    assert_true(output_begin(&output, "old.txt", &error));
+    write_text(output.temp, "half");
+    output_discard(&output);
+    assert_text("old.txt", "old");
+    assert_int_equal(count_files("."), 1);
+    assert_true(output_begin(&output, "old.txt", &error));
+    write_text(output.temp, "new");
+    assert_true(output_commit(&output, &error));
+    assert_text("old.txt", "new");
+    assert_int_equal(count_files("."), 1);
+}
+
+static void assert_refused(const char *path, const char *reason)
+{
+    Output output = {0};
+    Error error = {{0}};
+    assert_false(output_begin(&output, path, &error));
+    assert_contains(error.message, reason);
+    assert_string_equal(output.temp, "");
+}
+
+static void what_cannot_be_written_is_refused_at_once(void **state)
+{
+    (void)state;
+    char long_name[2000];
+    memset(long_name, 'a', sizeof long_name - 1);
+    long_name[sizeof long_name - 1] = '\0';
+    mkdir("folder", 0777);
+    write_text("file", "");
+    assert_refused("missing/out.txt", "No such file or directory; create it first");
+    assert_refused("file/out.txt", "file is not a folder");
+    assert_refused("folder", "is a folder; name a file");
+    assert_refused("folder/", "is a folder; name a file");
+    assert_refused("free/", "ends in a slash");
+    assert_refused("", "empty");
+    assert_refused(long_name, "more than 1023 bytes");
+    assert_refused("/proc/out.txt", "cannot be written in the folder /proc");
+    assert_refused("/dev/null", "is not a plain file");
+    assert_int_equal(count_files("."), 2);
+}
+
+static void a_check_leaves_nothing(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    write_text("old.txt", "old");
+    assert_true(output_check("new.txt", &error));
+    assert_true(output_check("old.txt", &error));
+    assert_text("old.txt", "old");
+    assert_int_equal(count_files("."), 1);
+    assert_false(output_check("missing/out.txt", &error));
+}
+
+/* In a child: one signal sets the flag, the second ends the program and removes the temporary file. */
+static void two_signals_end_the_program_and_leave_nothing(void **state)
+{
+    (void)state;
+    int status = 0;
+    pid_t child = fork();
+    if (child == 0) {
+        Output output = {0};
+        signal(SIGTERM, SIG_DFL);
+        interrupt_install();
+        if (!output_begin(&output, "half.txt", NULL) || interrupted())
+            _exit(1);
+        raise(SIGTERM);
+        if (!interrupted() || !exists(output.temp))
+            _exit(2);
+        raise(SIGTERM);
+        _exit(3);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), EXIT_INTERRUPTED);
+    assert_int_equal(count_files("."), 0);
+}
+
+/* nohup, and programs in the background of a script. */
+static void an_ignored_signal_stays_ignored(void **state)
+{
+    (void)state;
+    int status = 0;
+    pid_t child = fork();
+    if (child == 0) {
+        signal(SIGHUP, SIG_IGN);
+        interrupt_install();
+        raise(SIGHUP);
+        _exit(interrupted() ? 1 : 0);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, folder_setup, folder_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(a_new_file_appears_at_the_commit),
+        TEST(an_old_file_stays_until_then),
+        TEST(what_cannot_be_written_is_refused_at_once),
+        TEST(a_check_leaves_nothing),
+        TEST(two_signals_end_the_program_and_leave_nothing),
+        TEST(an_ignored_signal_stays_ignored),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

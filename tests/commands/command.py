@@ -1,0 +1,113 @@
+"""What the tests of the command line share: the program, a small scene, a folder of its own for each test."""
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+# 500 particles, rocked a little; a frame is 0.004 s.
+SCENE = """\
+title: A small tank
+box: {size: [1, 1, 1]}
+particles: {spacing: 0.1}
+fluids:
+  - name: water
+    density: 1000
+    fill:
+      - block: {min: [-0.5, 0, -0.5], max: [0, 0.5, 0.5]}
+  - name: oil
+    density: 900
+    fill:
+      - block: {min: [0, 0, -0.5], max: [0.5, 0.5, 0.5]}
+solver:
+  sound_speed: 15
+  step: {dt: 0.004, substeps: 2}
+motion:
+  - rock: {axis: [0, 0, 1], angle: 10, frequency: 1}
+"""
+
+PROGRAM = None
+
+
+def main():
+    """Runs the tests of the calling file; its first argument is the path of slosh."""
+    global PROGRAM
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main(module='__main__')
+
+
+def obey_interrupts():
+    """In the child: also where this test runs in the background of a script, that ignores them."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+class CommandTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix='slosh-test-')
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.write('scene.yaml', SCENE)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, content):
+        with open(self.path(name), 'wb' if isinstance(content, bytes) else 'w') as file:
+            file.write(content)
+
+    def read(self, name):
+        with open(self.path(name), 'rb') as file:
+            return file.read()
+
+    def entries(self):
+        """What the program left in the folder."""
+        return sorted(set(os.listdir(self.folder)) - {'scene.yaml'})
+
+    def slosh(self, *arguments, timeout=120, before=obey_interrupts):
+        """Runs the program to its end: (exit code, standard error)."""
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True,
+                              timeout=timeout, preexec_fn=before, check=False)
+        return done.returncode, done.stderr
+
+    def start(self, *arguments):
+        """Starts the program in a process group of its own, as a terminal does."""
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True, preexec_fn=obey_interrupts)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_for(self, condition, process):
+        """Until it holds, which it must before the program ends."""
+        end = time.monotonic() + 60
+        while not condition():
+            self.assertIsNone(process.poll(), 'the program ended too early')
+            self.assertLess(time.monotonic(), end, 'waited in vain')
+            time.sleep(0.01)
+
+
+def video_frames(path):
+    """The number of frames that a player finds; fails when it finds anything wrong."""
+    text = subprocess.run(['ffprobe', '-v', 'error', '-count_frames', '-select_streams', 'v', '-show_entries',
+                           'stream=nb_read_frames', '-of', 'csv=p=0', path], capture_output=True, text=True,
+                          check=True)
+    assert text.stderr == '', text.stderr
+    return int(text.stdout)
+
+
+def whole_steps(path):
+    """The times of the steps of a snapshot file, which must all be whole."""
+    import h5py
+    times = []
+    with h5py.File(path, 'r') as file:
+        names = [f'Step#{k}' for k in range(sum(name.startswith('Step#') for name in file))]
+        for name in names:
+            assert file[name].attrs['complete'] == 1
+            lengths = {file[name][field][:].shape for field in file[name]}
+            assert len(file[name]) == 10 and len(lengths) == 1, lengths
+            times.append(float(file[name].attrs['TimeValue']))
+    return times

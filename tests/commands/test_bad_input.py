@@ -1,0 +1,121 @@
+"""Bad scenes and settings: exit code 2, a message with the place, no file."""
+import os
+import random
+import time
+
+import command
+from command import SCENE, CommandTest
+
+# What each command would write.
+COMMANDS = [['run', '-o', 'out.h5part'], ['render', '-o', 'out.png'], ['render', '-o', 'out.mp4'],
+            ['render', '-o', 'out'], ['bench', '--json', 'out.json'], ['info', '--json', 'out.json']]
+
+
+class BadInput(CommandTest):
+    def refused(self, scene, place, words, *more, commands=None):
+        """Every command refuses it, with a message that begins with `place` and contains `words`."""
+        before = self.entries()
+        for name, *output in commands or COMMANDS:
+            with self.subTest(command=name, output=output):
+                began = time.monotonic()
+                code, said = self.slosh(name, scene, *output, *more)
+                self.assertEqual(code, 2, said)
+                self.assertTrue(said.startswith(place), f'{said!r} does not begin with {place!r}')
+                self.assertRegex(said, words)
+                self.assertLess(time.monotonic() - began, 10)
+                self.assertEqual(self.entries(), before)
+
+    def refused_text(self, text, line, words):
+        """As a scene file; `line` None: a message without a line is fine."""
+        self.write('bad.yaml', text)
+        place = 'bad.yaml:' if line is None else f'bad.yaml:{line}:'
+        self.refused('bad.yaml', place, words)
+        if line is not None:
+            code, said = self.slosh('run', 'bad.yaml', '-o', 'out.h5part')
+            self.assertEqual(code, 2)
+            self.assertRegex(said, rf'^bad\.yaml:{line}:\d+: \S.*\n')
+
+    def changed(self, old, new):
+        """The good scene with one text in place of another, and the line of that."""
+        self.assertIn(old, SCENE)
+        return SCENE.replace(old, new, 1), SCENE[:SCENE.index(old)].count('\n') + 1
+
+    def refused_change(self, old, new, words):
+        text, line = self.changed(old, new)
+        self.refused_text(text, line, words)
+
+    def test_the_scene_itself_is_good(self):
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'out.h5part', '--time', '0', '--quiet')
+        self.assertEqual((code, said), (0, ''))
+
+    def test_not_yaml(self):
+        self.write('bad.yaml', 'box: {size: [1, 1\nfluids: ]]}\n')
+        self.refused('bad.yaml', 'bad.yaml:2:', '.')
+
+    def test_unknown_key(self):
+        self.refused_change('spacing: 0.1', 'spacng: 0.1', r"spacng.*spacing")
+
+    def test_wrong_type(self):
+        self.refused_change('spacing: 0.1', 'spacing: [1, 2]', 'number')
+        self.refused_change('spacing: 0.1', 'spacing: small', 'number')
+        self.refused_change('size: [1, 1, 1]', 'size: 1', '.')
+
+    def test_negative_spacing(self):
+        self.refused_change('spacing: 0.1', 'spacing: -0.1', '-0.1')
+
+    def test_nan_spacing(self):
+        for value in ('.nan', 'nan', '.inf'):
+            self.refused_change('spacing: 0.1', f'spacing: {value}', '.')
+
+    def test_fluid_outside_the_box(self):
+        self.refused_change('max: [0, 0.5, 0.5]', 'max: [0, 5, 0.5]', 'box')
+
+    def test_two_billion_particles(self):
+        text = SCENE.replace('spacing: 0.1', 'spacing: 0.00063')  # 0.5 m3 / (0.63 mm)^3
+        self.refused_text(text, 3, 'particles')
+        self.refused('scene.yaml', '', 'particles', '--particles', '2000000000')
+
+    def test_missing_file(self):
+        self.refused('missing.yaml', 'missing.yaml', 'No such file|not found|no such')
+
+    def test_directory(self):
+        os.mkdir(self.path('folder.yaml'))
+        self.refused('folder.yaml', 'folder.yaml', 'folder|directory')
+
+    def test_empty_file(self):
+        self.refused_text('', None, 'empty')
+
+    def test_binary_noise(self):
+        noise = random.Random(1)
+        for size in (10, 1000, 100000):
+            self.write('bad.yaml', bytes(noise.randrange(256) for _ in range(size)))
+            self.refused('bad.yaml', 'bad.yaml', '.', commands=COMMANDS[:2])
+        self.write('bad.yaml', b'\x7fELF\0\0\0')
+        self.refused('bad.yaml', 'bad.yaml', '.')
+
+    def test_megabytes_of_braces(self):
+        for size in (500_000, 3_000_000):
+            self.refused_text('{' * size, None, '.')
+
+    def test_anchors_that_refer_to_themselves(self):
+        self.refused_text(SCENE + 'view: &a {camera: *a}\n', None, '.')
+        self.refused_text('&a [*a, *a]\n', None, '.')
+
+    def test_settings(self):
+        for setting, words in (('particles.spacing=-1', r'-1'), ('solver.method=magic', r'magic.*mueller'),
+                               ('partcles.spacing=1', r'partcles.*particles'), ('particles.spacing', r'=')):
+            self.refused('scene.yaml', '', words, '--set', setting)
+
+    def test_command_line(self):
+        for arguments, words in ((['--tme', '1'], '--tme'), (['--threads'], '--threads'),
+                                 (['--threads', 'many'], 'many'), (['--backend', 'abacus'], 'abacus.*cpu')):
+            self.refused('scene.yaml', '', words, *arguments)
+        for command_ in COMMANDS[:4]:
+            self.refused('scene.yaml', '', '--time', '--time', '-1', commands=[command_])
+        code, said = self.slosh('rnder', 'scene.yaml')
+        self.assertEqual(code, 2)
+        self.assertIn('render', said)
+
+
+if __name__ == '__main__':
+    command.main()

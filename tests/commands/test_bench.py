@@ -1,0 +1,100 @@
+"""`bench` and `info`: what they print is what ran, and adds up."""
+import json
+import os
+import subprocess
+
+import command
+
+SCENE = 'scene.yaml'
+
+STAGES_SIM = ["grid", "density", "force", "integrate"]
+FIELDS = ["scene", "backend", "method", "view", "threads", "renderer", "size", "particles", "neighbours_mean", "dt",
+          "dt_substep", "substeps", "frames", "stages", "sim_ms", "upload_ms", "render_ms", "frame_ms",
+          "particle_steps_per_second", "real_time_factor", "bytes_per_particle"]
+
+
+class Case(command.CommandTest):
+    def slosh_out(self, *arguments, code=0):
+        done = subprocess.run([command.PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+
+class Bench(Case):
+    def bench(self, *arguments, code=0):
+        path = os.path.join(self.folder, "bench.json")
+        self.slosh_out("bench", SCENE, "--json", path, "--frames", "8", *arguments, code=code)
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+
+    def test_stages_sum_to_the_frame(self):
+        # Medians of a noisy machine: three tries for stages within 10 % of the frame.
+        for attempt in range(3):
+            (result,) = self.bench("--clock", "finish", "--size", "256x256", "--frames", "20")
+            total = sum(stage["median_ms"] for stage in result["stages"])
+            if abs(total / result["frame_ms"] - 1) <= 0.1:
+                break
+        self.assertLessEqual(abs(total / result["frame_ms"] - 1), 0.1)
+        self.assertEqual(list(result), FIELDS)
+        self.assertAlmostEqual(sum(stage["share"] for stage in result["stages"]), 1, places=6)
+        self.assertEqual({stage["clock"] for stage in result["stages"] if stage["part"] == "render"}, {"finish"})
+        self.assertEqual([s["name"] for s in result["stages"] if s["part"] == "sim"], STAGES_SIM)
+        self.assertEqual([s["name"] for s in result["stages"] if s["part"] == "upload"], ["upload"])
+        self.assertEqual(result["view"], "spheres")
+        self.assertEqual(result["size"], [256, 256])
+        self.assertEqual(result["frames"], 20)
+
+    def test_view_none_draws_nothing(self):
+        (result,) = self.bench("--view", "none")
+        self.assertEqual([s["name"] for s in result["stages"]], STAGES_SIM)
+        self.assertIsNone(result["renderer"])
+        steps = result["particles"] * result["substeps"] / (1e-3 * result["sim_ms"])
+        self.assertLess(abs(steps / result["particle_steps_per_second"] - 1), 0.5)  # median against mean
+        self.assertAlmostEqual(result["dt"], result["dt_substep"] * result["substeps"], places=9)
+
+    def test_query_clock_is_named(self):
+        (result,) = self.bench("--clock", "gl", "--size", "64x64")
+        self.assertEqual({s["clock"] for s in result["stages"] if s["part"] == "render"}, {"gl"})
+
+    def test_sweep_is_the_product(self):
+        results = self.bench("--view", "none", "--sweep", "particles=500,1000", "--sweep", "threads=1,2")
+        self.assertEqual([r["threads"] for r in results], [1, 2, 1, 2])
+        self.assertLess(results[0]["particles"], results[2]["particles"])
+        for result, wanted in zip(results, [500, 500, 1000, 1000]):
+            self.assertLess(abs(result["particles"] / wanted - 1), 0.2)  # few particles: few spacings fit
+
+    def test_a_mistake_in_a_sweep_shows_before_anything_runs(self):
+        path = os.path.join(self.folder, "never.json")
+        done = self.slosh_out("bench", SCENE, "--json", path, "--sweep", "threads=1,-3", "--view", "none", code=2)
+        self.assertEqual(done.stdout, "")
+        self.assertFalse(os.path.exists(path))
+
+    def test_table(self):
+        done = self.slosh_out("bench", SCENE, "--frames", "4", "--view", "none", code=0)
+        for word in STAGES_SIM + ["particle-steps/s", "real-time factor", "neighbours"]:
+            self.assertIn(word, done.stdout)
+        done = self.slosh_out("bench", SCENE, "--frames", "4", "--view", "none", "--quiet", code=0)
+        self.assertEqual(done.stdout + done.stderr, "")
+
+    def test_unwritable_json_is_found_at_once(self):
+        done = self.slosh_out("bench", SCENE, "--view", "none", "--json", "/no/such/folder/b.json", code=1)
+        self.assertIn("/no/such/folder", done.stderr)
+
+
+class Info(Case):
+    def test_lists_and_settings(self):
+        done = self.slosh_out("info", SCENE, "--set", "solver.sound_speed=12.5", code=0)
+        for word in ["cpu", "mueller", "spheres", "renderer", "threads", "solver.sound_speed = 12.5 m/s"]:
+            self.assertIn(word, done.stdout)
+
+    def test_help_lists_what_works(self):
+        done = self.slosh_out("help", code=0)
+        for word in ["render", "run", "bench", "info"]:
+            self.assertIn(word, done.stdout)
+        for word in ["validate", "chart", "stability", "replay"]:
+            self.assertNotIn(word, done.stdout)
+
+
+if __name__ == "__main__":
+    command.main()

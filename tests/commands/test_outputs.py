@@ -1,0 +1,288 @@
+"""Outputs are whole or not there: what goes right, full disks, folders that can't be written, signals."""
+import json
+import os
+import random
+import resource
+import signal
+import subprocess
+import time
+
+import command
+from command import CommandTest, obey_interrupts, video_frames, whole_steps
+
+SMALL = ['--size', '160x120', '--quiet']
+
+
+def limit_files(size):
+    def limit():
+        obey_interrupts()
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    return limit
+
+
+class Whole(CommandTest):
+    def test_run(self):
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0.1', '--every', '0.01',
+                                '--json', 'a.json')
+        self.assertEqual(code, 0, said)
+        # dt is 0.004 and does not change: the first states at or after 0, 0.01, 0.02, ...
+        expected = [0, .012, .02, .032, .04, .052, .06, .072, .08, .092, .1]
+        for time_, wanted in zip(whole_steps(self.path('a.h5part')), expected, strict=True):
+            self.assertAlmostEqual(time_, wanted, places=9)
+        self.assertEqual(self.entries(), ['a.h5part', 'a.json'])
+        self.assertRegex(said, r'500 particles, 0\.1 s simulated in .* s \(.* times real time\): a\.h5part, '
+                               r'11 snapshots\n')
+        self.assertRegex(said, r'run:  5\d %.* elapsed, about .* left\n')
+        summary = json.loads(self.read('a.json'))
+        self.assertEqual((summary['particles'], summary['snapshots'], summary['steps']), (500, 11, 50))
+
+    def test_run_replaces_an_old_file(self):
+        self.write('a.h5part', 'old')
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet')
+        self.assertEqual((code, said), (0, ''))
+        self.assertEqual(whole_steps(self.path('a.h5part')), [0])
+
+    def test_video(self):
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'a.mp4', '--time', '0.4', '--fps', '20',
+                                '--size', '161x121')
+        self.assertEqual(code, 0, said)
+        self.assertEqual(video_frames(self.path('a.mp4')), 8)
+        self.assertRegex(said, r'^renderer: \S')
+        self.assertIn('render: 100 %', said)
+        self.assertIn('a.mp4, 8 pictures\n', said)
+        self.assertEqual(self.entries(), ['a.mp4'])
+
+    def test_folder(self):
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'frames', '--frames', '3', *SMALL)
+        self.assertEqual(code, 0, said)
+        self.assertEqual(sorted(os.listdir(self.path('frames'))), [f'frame_0000{k}.png' for k in range(3)])
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'frames/', '--frames', '1', *SMALL)
+        self.assertEqual(code, 0, said)
+        self.assertIn('frames/frame_00001.png and what follows is of an earlier run', said)
+
+    def test_picture_is_of_its_time(self):
+        for name, at in (('early.png', '0'), ('late.png', '0.4')):
+            code, said = self.slosh('render', 'scene.yaml', '-o', name, '--time', at, *SMALL)
+            self.assertEqual(code, 0, said)
+            self.assertEqual(self.read(name)[:8], b'\x89PNG\r\n\x1a\n')
+        self.slosh('render', 'scene.yaml', '-o', 'frames', '--fps', '2.5', '--frames', '2', *SMALL)
+        self.assertNotEqual(self.read('early.png'), self.read('late.png'))
+        self.assertEqual(self.read('early.png'), self.read('frames/frame_00000.png'))
+        self.assertEqual(self.read('late.png'), self.read('frames/frame_00001.png'))
+
+    def test_quiet(self):
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'a.png', '--time', '0', *SMALL)
+        self.assertEqual(code, 0)
+        self.assertRegex(said, r'^renderer: [^\n]*\n$')
+
+
+class FullDisk(CommandTest):
+    def full(self, *arguments, size, reason='File too large'):
+        code, said = self.slosh(*arguments, before=limit_files(size))
+        self.assertEqual(code, 1, said)
+        self.assertIn(reason, said)
+
+    def test_run_before_the_first_step(self):
+        self.write('a.h5part', 'old')
+        self.full('run', 'scene.yaml', '-o', 'a.h5part', '--quiet', size=40000)
+        self.assertEqual(self.entries(), ['a.h5part'])
+        self.assertEqual(self.read('a.h5part'), b'old')
+
+    def test_run_later(self):
+        self.full('run', 'scene.yaml', '-o', 'a.h5part', '--quiet', size=400000)
+        self.assertEqual(self.entries(), ['a.h5part'])
+        self.assertGreater(len(whole_steps(self.path('a.h5part'))), 2)
+
+    def test_png(self):
+        self.write('a.png', 'old')
+        self.full('render', 'scene.yaml', '-o', 'a.png', '--time', '0', size=8000)
+        self.assertEqual(self.entries(), ['a.png'])
+        self.assertEqual(self.read('a.png'), b'old')
+
+    def test_folder(self):
+        self.full('render', 'scene.yaml', '-o', 'frames', '--time', '0.1', size=8000)
+        self.assertEqual(self.entries(), [])
+
+    def test_video(self):
+        self.write('a.mp4', 'old')
+        self.full('render', 'scene.yaml', '-o', 'a.mp4', '--time', '0.5', size=16000)
+        self.assertEqual(self.entries(), ['a.mp4'])
+        self.assertEqual(self.read('a.mp4'), b'old')
+
+    def test_json(self):
+        self.full('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--json', '/dev/full', size=10**9,
+                  reason='/dev/full: is not a plain file')
+        self.assertEqual(self.entries(), [])
+
+
+class TinyDisk(CommandTest):
+    """A file system that is really full; needs a kernel that lets users mount one of their own."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path('disk'))
+        if self.on_disk('64k', 'true').returncode != 0:
+            self.skipTest('no mount of a small file system: unshare -rm is not permitted here')
+
+    def on_disk(self, size, script):
+        script = f'mount -t tmpfs -o size={size} none disk && {script}'
+        return subprocess.run(['unshare', '-rm', 'sh', '-c', script], cwd=self.folder, capture_output=True,
+                              text=True, check=False, preexec_fn=obey_interrupts)
+
+    def full(self, size, arguments):
+        """The program's exit code must be 1; what is then on the disk is moved to the test's folder."""
+        done = self.on_disk(size, f'"{command.PROGRAM}" {arguments}; code=$?; cp -r disk/. .; exit $code')
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn('No space left on device', done.stderr)
+        self.assertEqual(os.listdir(self.path('disk')), [])
+        return [name for name in self.entries() if name != 'disk']
+
+    def test_run(self):
+        self.assertEqual(self.full('64k', 'run scene.yaml -o disk/a.h5part'), [])
+        self.assertEqual(self.full('400k', 'run scene.yaml -o disk/a.h5part'), ['a.h5part'])
+        self.assertGreater(len(whole_steps(self.path('a.h5part'))), 2)
+
+    def test_png(self):
+        self.assertEqual(self.full('64k', 'render scene.yaml -o disk/a.png --time 0'), [])
+
+    def test_folder(self):
+        picture = 'render scene.yaml -o frames --frames 1 --size 640x480'
+        self.assertEqual(self.slosh(*picture.split())[0], 0)
+        size = os.path.getsize(self.path('frames/frame_00000.png'))
+        self.full(f'{3 * size // 1024}k', 'render scene.yaml -o disk/tiny --size 640x480')
+        names = sorted(os.listdir(self.path('tiny')))
+        self.assertIn(len(names), (1, 2))
+        for name in names:
+            self.assertIn(b'IEND', self.read(f'tiny/{name}')[-12:])
+
+    def test_video(self):
+        for size in ('8k', '20k', '40k'):
+            self.assertEqual(self.full(size, 'render scene.yaml -o disk/a.mp4 --time 1'), [], size)
+
+
+class Unwritable(CommandTest):
+    """Said at once: a simulation of a million seconds never starts."""
+
+    def refused(self, command_, output, reason):
+        code, said = self.slosh(command_, 'scene.yaml', '-o', output, '--time', '1000000', timeout=60)
+        self.assertEqual(code, 1, said)
+        self.assertIn(reason, said)
+        self.assertNotIn(' %', said)
+
+    def test_missing_folder(self):
+        for command_, output in (('run', 'no/a.h5part'), ('render', 'no/a.png'), ('render', 'no/a.mp4'),
+                                 ('render', 'no/frames')):
+            self.refused(command_, output, 'No such file or directory')
+        self.assertEqual(self.entries(), [])
+
+    def test_unwritable_folder(self):
+        os.mkdir(self.path('shut'), 0o555)
+        folder = '/proc' if os.geteuid() == 0 else 'shut'  # nobody shuts out root, but for /proc
+        for command_, name in (('run', 'a.h5part'), ('render', 'a.png'), ('render', 'a.mp4'),
+                               ('render', 'frames')):
+            self.refused(command_, f'{folder}/{name}', 'cannot be')
+
+    def test_name_is_a_folder(self):
+        for command_, output in (('run', 'a.h5part'), ('render', 'a.png'), ('render', 'a.mp4')):
+            os.mkdir(self.path(output))
+            self.refused(command_, output, 'is a folder; name a file')
+
+    def test_name_is_a_file(self):
+        self.write('frames', '')
+        self.refused('render', 'frames', 'is a file, not a folder')
+
+    def test_json(self):
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '1000000', '--json', 'no/a.json',
+                                timeout=60)
+        self.assertEqual(code, 1, said)
+        self.assertIn('no/a.json: cannot be written', said)
+        self.assertEqual(self.entries(), [])
+
+
+class Usage(CommandTest):
+    def refused(self, *arguments, reason):
+        code, said = self.slosh(*arguments)
+        self.assertEqual(code, 2, said)
+        self.assertIn(reason, said)
+        self.assertEqual(self.entries(), [])
+
+    def test_extension(self):
+        for name in ('a.jpg', 'a.gif', 'a.h5part', 'b.c/a.tiff'):
+            self.refused('render', 'scene.yaml', '-o', name, reason='name a FILE.png, a FILE.mp4 or a folder')
+
+    def test_run_extension(self):
+        self.refused('run', 'scene.yaml', '-o', 'a.mp4', reason='name a FILE.h5part')
+
+    def test_no_output(self):
+        self.refused('render', 'scene.yaml', reason='-o')
+        self.refused('run', 'scene.yaml', reason='-o')
+
+    def test_frames_of_one_picture(self):
+        self.refused('render', 'scene.yaml', '-o', 'a.png', '--frames', '3', reason='--frames')
+
+
+class Signals(CommandTest):
+    LONG = ['--time', '100000', '--size', '160x120']
+
+    def has(self, name, size=1):
+        return lambda: os.path.exists(self.path(name)) and os.path.getsize(self.path(name)) >= size
+
+    def stop(self, process, number):
+        """As Ctrl-C in a terminal: to the whole process group."""
+        os.killpg(process.pid, number)
+        said = process.stderr.read()
+        self.assertEqual(process.wait(timeout=60), 130, said)
+        return said
+
+    def test_kill_during_run(self):
+        for trial in range(5):
+            name = f'{trial}.h5part'
+            process = self.start('run', 'scene.yaml', '-o', name, '--time', '100000', '--every', '0.004', '--quiet')
+            self.wait_for(self.has(name, 200000), process)
+            time.sleep(random.uniform(0, 0.05))
+            process.kill()
+            process.wait()
+            self.assertGreater(len(whole_steps(self.path(name))), 0)
+        self.assertEqual(self.entries(), [f'{trial}.h5part' for trial in range(5)])
+
+    def test_interrupt_run(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000')
+            self.wait_for(self.has('a.h5part', 100000), process)
+            said = self.stop(process, number)
+            self.assertRegex(said, r'stopped at t = [0-9.]+ s; a\.h5part is whole')
+            steps = whole_steps(self.path('a.h5part'))
+            self.assertIn(f'a.h5part, {len(steps)} snapshots', said)
+            self.assertEqual(self.entries(), ['a.h5part'])
+            os.remove(self.path('a.h5part'))
+
+    def test_interrupt_video(self):
+        process = self.start('render', 'scene.yaml', '-o', 'a.mp4', *self.LONG)
+        self.wait_for(lambda: any(name.endswith('.tmp') for name in self.entries()), process)
+        time.sleep(1.5)
+        said = self.stop(process, signal.SIGINT)
+        self.assertRegex(said, r'stopped at t = [0-9.]+ s; a\.mp4 is whole')
+        self.assertEqual(self.entries(), ['a.mp4'])
+        self.assertIn(f'a.mp4, {video_frames(self.path("a.mp4"))} picture', said)
+
+    def test_interrupt_folder(self):
+        process = self.start('render', 'scene.yaml', '-o', 'frames', *self.LONG)
+        self.wait_for(self.has('frames/frame_00003.png'), process)
+        self.stop(process, signal.SIGINT)
+        names = sorted(os.listdir(self.path('frames')))
+        self.assertEqual(names, [f'frame_{k:05}.png' for k in range(len(names))])
+        for name in names:
+            self.assertIn(b'IEND', self.read(f'frames/{name}')[-12:])
+
+    def test_interrupt_png(self):
+        process = self.start('render', 'scene.yaml', '-o', 'a.png', *self.LONG)
+        self.wait_for(lambda: any(name.endswith('.tmp') for name in self.entries()), process)
+        time.sleep(1)
+        said = self.stop(process, signal.SIGINT)
+        self.assertRegex(said, r'stopped at t = [0-9.]+ s; a\.png is whole')
+        self.assertEqual(self.entries(), ['a.png'])
+        self.assertIn(b'IEND', self.read('a.png')[-12:])
+
+
+if __name__ == '__main__':
+    command.main()

@@ -1,0 +1,131 @@
+/* What the render tests share: a context, and fixed particles without a solver. */
+#ifndef SLOSH_RENDER_FIXTURE_H
+#define SLOSH_RENDER_FIXTURE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "app/headless.h"
+#include "render/renderer.h"
+#include "render/upload.h"
+#include "sim/gl/debug.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static __attribute__((unused)) Headless *test_context;
+
+static inline int context_setup(void **state)
+{
+    (void)state;
+    Error error = {0};
+    test_context = headless_create(HEADLESS_GPU_AUTO, &error);
+    if (!test_context) {
+        fprintf(stderr, "%s\n", error.message);
+        return 1;
+    }
+    gl_debug_install();
+    return 0;
+}
+
+static inline int context_teardown(void **state)
+{
+    (void)state;
+    headless_destroy(test_context);
+    return 0;
+}
+
+/* After each test. */
+static inline int no_gl_errors(void **state)
+{
+    (void)state;
+    return gl_debug_errors();
+}
+
+enum { PARTICLES_MAX = 20000 };
+
+typedef struct Particles {
+    size_t count;
+    float position[4 * PARTICLES_MAX];
+    float speed[PARTICLES_MAX];
+    uint32_t fluid[PARTICLES_MAX];
+} Particles;
+
+static inline void particles_add(Particles *particles, double x, double y, double z, double speed,
+                                 unsigned fluid)
+{
+    float *to = &particles->position[4 * particles->count];
+    assert_true(particles->count < PARTICLES_MAX);
+    to[0] = (float)x, to[1] = (float)y, to[2] = (float)z, to[3] = 1;
+    particles->speed[particles->count] = (float)speed;
+    particles->fluid[particles->count++] = fluid;
+}
+
+/* A box 2 x 1 x 1 m with a wave in it, `spacing` apart, and a ball of the second fluid above. */
+static inline Particles *particles_wave(double spacing)
+{
+    Particles *particles = calloc(1, sizeof *particles);
+    int n = (int)(1 / spacing), ball = (int)(0.2 / spacing);
+    assert_non_null(particles);
+    for (int i = 0; i < 2 * n; i++)
+        for (int k = 0; k < n; k++)
+            for (int j = 0; j < n; j++) {
+                double x = -1 + (i + 0.5) * spacing, y = (j + 0.5) * spacing, z = -0.5 + (k + 0.5) * spacing;
+                if (y < 0.34 + 0.16 * cos(2.5 * (x + 1)) + 0.05 * sin(5 * z + x))
+                    particles_add(particles, x, y, z, 1 + x + y, 0);
+            }
+    for (int i = -ball; i <= ball; i++)
+        for (int j = -ball; j <= ball; j++)
+            for (int k = -ball; k <= ball; k++)
+                if (i * i + j * j + k * k <= ball * ball + 1)
+                    particles_add(particles, 0.35 + i * spacing, 0.68 + j * spacing, k * spacing, 2.5, 1);
+    return particles;
+}
+
+static inline void text_set(char name[NAME_SIZE], const char *text)
+{
+    snprintf(name, NAME_SIZE, "%s", text);
+}
+
+/* A picture's def that leaves the view alone: no legend, box or floor. */
+static inline ViewDef bare_view(void)
+{
+    ViewDef def = view_def_default();
+    def.legend = def.box = def.floor = false;
+    def.fluid_count = 2;
+    text_set(def.fluid_name[0], "water");
+    text_set(def.fluid_name[1], "oil");
+    memcpy(def.fluid_color[0], (float[3]){0.03F, 0.22F, 0.55F}, sizeof def.fluid_color[0]);
+    memcpy(def.fluid_color[1], (float[3]){0.85F, 0.45F, 0.05F}, sizeof def.fluid_color[1]);
+    return def;
+}
+
+static inline ParticleBuffers box_state(size_t count, double spacing)
+{
+    return (ParticleBuffers){.count = count,
+                             .spacing = spacing,
+                             .support_radius = 2.1 * spacing,
+                             .box_size = {2, 1, 1},
+                             .box = {.orientation = {0, 0, 0, 1}},
+                             .time = 1.25};
+}
+
+static inline Upload *upload_particles(const Particles *particles, const ParticleBuffers *state,
+                                       ParticleBuffers *out)
+{
+    Error error = {0};
+    Upload *upload = upload_create(particles->count, UPLOAD_SCALAR(SCALAR_SPEED) | UPLOAD_FLUID, &error);
+    ParticleArrays arrays = {.position = (float *)particles->position, .fluid = (uint32_t *)particles->fluid};
+    arrays.scalar[SCALAR_SPEED] = (float *)particles->speed;
+    assert_non_null(upload);
+    assert_true(upload_arrays(upload, &arrays, state, out, &error));
+    return upload;
+}
+
+#endif

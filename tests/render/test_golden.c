@@ -1,0 +1,161 @@
+/* Pictures of fixed particles against those in tests/images: at most 0.5 % of the pixels differ by more than
+   8 of 255.
+
+   SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
+#include "tests/render/fixture.h"
+
+#include "app/image.h"
+
+#define SPACING 0.08
+
+typedef struct Golden {
+    const char *name;
+    int width, height;
+    ViewDef def;
+    BoxState box;
+} Golden;
+
+static Image draw(const Golden *golden)
+{
+    Error error = {0};
+    Image image;
+    ParticleBuffers buffers;
+    Particles *particles = particles_wave(SPACING);
+    ParticleBuffers box = box_state(particles->count, SPACING);
+    box.box = golden->box;
+    Upload *upload = upload_particles(particles, &box, &buffers);
+    Renderer *renderer = renderer_create(&golden->def, golden->width, golden->height, &error);
+    if (!renderer)
+        fail_msg("%s", error.message);
+    assert_true(image_create(&image, golden->width, golden->height));
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_read(renderer, image.rgb);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    free(particles);
+    return image;
+}
+
+static int count_different(const Image *a, const Image *b)
+{
+    int different = 0;
+    for (int i = 0; i < a->width * a->height; i++) {
+        int worst = 0;
+        for (int k = 0; k < 3; k++) {
+            int apart = abs(a->rgb[3 * i + k] - b->rgb[3 * i + k]);
+            worst = apart > worst ? apart : worst;
+        }
+        different += worst > 8;
+    }
+    return different;
+}
+
+static void check(const Golden *golden)
+{
+    Error error = {0};
+    char path[1024];
+    const char *mode = getenv("SLOSH_GOLDEN");
+    Image drawn = draw(golden), kept;
+    snprintf(path, sizeof path, SLOSH_SOURCE_DIR "/tests/images/%s.png", golden->name);
+    if (mode && strcmp(mode, "write") == 0 && !image_write(&drawn, path, &error))
+        fail_msg("%s", error.message);
+    if (!image_read(&kept, path, &error))
+        fail_msg("%s", error.message);
+    assert_int_equal(kept.width, drawn.width);
+    assert_int_equal(kept.height, drawn.height);
+    int different = count_different(&kept, &drawn), pixels = kept.width * kept.height;
+    if (200 * different > pixels)
+        fail_msg("%s: %d of %d pixels differ", path, different, pixels);
+    image_destroy(&kept);
+    image_destroy(&drawn);
+}
+
+static Golden golden_create(const char *name, int width, int height)
+{
+    Golden golden = {name, width, height, bare_view(), {.orientation = {0, 0, 0, 1}}};
+    golden.def.box = golden.def.floor = true;
+    return golden;
+}
+
+static void test_spheres(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("spheres", 160, 120);
+    check(&golden);
+}
+
+static void test_tilted_box_by_fluid(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("tilted_fluids", 160, 120);
+    golden.def.color_by = SCALAR_FLUID;
+    golden.box = (BoxState){.position = {0.1, 0.1, 0}, .orientation = {0, 0, sin(0.2), cos(0.2)}};
+    check(&golden);
+}
+
+static void test_dark_close_fixed_camera(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("dark_close", 160, 120);
+    golden.def.camera_auto = false;
+    golden.def.camera = (CameraDef){{0.9, 0.6, 1.0}, {0.3, 0.4, 0}, 50};
+    memcpy(golden.def.background, (double[3]){0.02, 0.025, 0.035}, sizeof golden.def.background);
+    text_set(golden.def.colormap, "inferno");
+    check(&golden);
+}
+
+static void test_legend(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("legend", 320, 240);
+    golden.def.legend = true;
+    golden.def.range_auto = false;
+    golden.def.range[0] = -2, golden.def.range[1] = 3;
+    text_set(golden.def.colormap, "coolwarm");
+    check(&golden);
+}
+
+static void test_fluid_legend(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("fluid_legend", 320, 240);
+    golden.def.legend = true;
+    golden.def.color_by = SCALAR_FLUID;
+    check(&golden);
+}
+
+static void test_nothing(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("none", 160, 120);
+    text_set(golden.def.kind, "none");
+    check(&golden);
+}
+
+/* The measure itself: one shifted picture must not pass. */
+static void test_difference_is_seen(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("spheres", 160, 120);
+    Image a = draw(&golden);
+    golden.box.position[0] = 0.02;
+    Image b = draw(&golden);
+    assert_int_equal(count_different(&a, &a), 0);
+    assert_true(200 * count_different(&a, &b) > a.width * a.height);
+    image_destroy(&a);
+    image_destroy(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_spheres, no_gl_errors),
+        cmocka_unit_test_teardown(test_tilted_box_by_fluid, no_gl_errors),
+        cmocka_unit_test_teardown(test_dark_close_fixed_camera, no_gl_errors),
+        cmocka_unit_test_teardown(test_legend, no_gl_errors),
+        cmocka_unit_test_teardown(test_fluid_legend, no_gl_errors),
+        cmocka_unit_test_teardown(test_nothing, no_gl_errors),
+        cmocka_unit_test_teardown(test_difference_is_seen, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}

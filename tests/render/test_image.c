@@ -1,0 +1,84 @@
+/* PNG files: what is written is what is read, and a write that fails is told. */
+#include "tests/render/fixture.h"
+
+#include "app/image.h"
+
+#include <unistd.h>
+
+static Image noise(int width, int height)
+{
+    Image image;
+    uint32_t x = 1;
+    assert_true(image_create(&image, width, height));
+    for (int i = 0; i < 3 * width * height; i++) {
+        x = x * 1664525 + 1013904223;
+        image.rgb[i] = (uint8_t)(x >> 24);
+    }
+    return image;
+}
+
+static void test_round_trip(void **state)
+{
+    (void)state;
+    Error error = {0};
+    char path[] = "/tmp/slosh-image-XXXXXX";
+    close(mkstemp(path));
+    Image written = noise(37, 21), read;
+    assert_true(image_write(&written, path, &error));
+    assert_true(image_read(&read, path, &error));
+    assert_int_equal(read.width, 37);
+    assert_int_equal(read.height, 21);
+    assert_memory_equal(read.rgb, written.rgb, 3 * 37 * 21);
+    unlink(path);
+    image_destroy(&written);
+    image_destroy(&read);
+}
+
+static void test_full_disk(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Image small = noise(4, 4), large = noise(200, 200); /* within the stream's buffer, and beyond it */
+    for (int i = 0; i < 2; i++) {
+        FILE *full = fopen("/dev/full", "wb");
+        assert_non_null(full);
+        assert_false(image_write_stream(i ? &large : &small, full, "movie.png", &error));
+        assert_non_null(strstr(error.message, "movie.png"));
+        assert_non_null(strstr(error.message, "No space left"));
+        fclose(full);
+    }
+    image_destroy(&small);
+    image_destroy(&large);
+}
+
+static void test_nowhere_to_write(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Image image = noise(4, 4);
+    assert_false(image_write(&image, "/nowhere/at/all.png", &error));
+    assert_non_null(strstr(error.message, "/nowhere/at/all.png"));
+    image_destroy(&image);
+}
+
+static void test_no_png(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Image image;
+    assert_false(image_read(&image, "/nowhere/at/all.png", &error));
+    assert_non_null(strstr(error.message, "/nowhere/at/all.png"));
+    assert_false(image_read(&image, SLOSH_SOURCE_DIR "/CMakeLists.txt", &error));
+    assert_null(image.rgb);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_nowhere_to_write),
+        cmocka_unit_test(test_no_png),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,139 @@
+/* The legend's numbers, and the automatic camera that leaves room around the box. */
+#include "tests/render/fixture.h"
+
+#include "render/camera.h"
+#include "render/legend.h"
+
+static void test_round_ticks(void **state)
+{
+    (void)state;
+    static const double ranges[][2] = {{0, 1},        {0.03, 2.91}, {-2, 3}, {995, 1042},
+                                       {-1e-4, 3e-4}, {0, 12345},   {7, 8.3}};
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        double ticks[7];
+        int decimals, count = legend_ticks(ranges[i][0], ranges[i][1], 7, ticks, &decimals);
+        assert_true(count >= 3 && count <= 7);
+        double step = ticks[1] - ticks[0];
+        for (int k = 0; k < count; k++) {
+            char label[32];
+            assert_true(ticks[k] >= ranges[i][0] - 1e-6 * step && ticks[k] <= ranges[i][1] + 1e-6 * step);
+            assert_true(k == 0 || fabs(ticks[k] - ticks[k - 1] - step) < 1e-9 * fabs(step) + 1e-12);
+            snprintf(label, sizeof label, "%.*f", decimals, ticks[k]); /* what is written is the place */
+            assert_true(fabs(strtod(label, NULL) - ticks[k]) < 1e-6 * step);
+        }
+    }
+}
+
+static void test_units_as_people_write_them(void **state)
+{
+    (void)state;
+    char out[32];
+    legend_unit("kg/m3", out);
+    assert_string_equal(out, "kg/m\u00b3");
+    legend_unit("m/s2", out);
+    assert_string_equal(out, "m/s\u00b2");
+    legend_unit("m/s", out);
+    assert_string_equal(out, "m/s");
+    legend_unit("", out);
+    assert_string_equal(out, "");
+}
+
+/* Every corner of the box is in the picture, whatever the shapes of box and picture. */
+static void test_camera_shows_the_box(void **state)
+{
+    (void)state;
+    static const double sizes[][3] = {{1, 1, 1}, {4, 0.5, 0.5}, {0.2, 3, 0.2}, {1, 0.1, 5}};
+    static const int pictures[][2] = {{1280, 720}, {512, 512}, {300, 900}};
+    BoxState box = {.orientation = {0, 0, 0, 1}};
+    ViewDef def = view_def_default();
+    for (int s = 0; s < 4; s++)
+        for (int p = 0; p < 3; p++) {
+            int width = pictures[p][0], height = pictures[p][1];
+            double largest = 0;
+            Camera camera;
+            camera_make(&def, sizes[s], &box, (double)width / height, 0, &camera);
+            for (int corner = 0; corner < 8; corner++) {
+                double world[3] = {sizes[s][0] * ((corner & 1) - 0.5), sizes[s][1] * (corner >> 1 & 1),
+                                   sizes[s][2] * ((corner >> 2) - 0.5)};
+                double pixel[2], depth;
+                assert_true(camera_project(&camera, world, width, height, pixel, &depth));
+                double aside = fmax(fabs(2 * pixel[0] / width - 1), fabs(2 * pixel[1] / height - 1));
+                assert_true(aside < 0.85 && depth > 0 && depth < 1);
+                largest = fmax(largest, aside);
+            }
+            assert_true(largest > 0.6); /* and fills it */
+        }
+}
+
+/* Beside a legend that covers the right third nothing of the box is hidden. */
+static void test_camera_leaves_room_for_the_legend(void **state)
+{
+    (void)state;
+    double size[3] = {2, 1, 1}, covered = 0.3, rightmost = 0;
+    BoxState box = {.orientation = {0, 0, 0, 1}};
+    ViewDef def = view_def_default();
+    Camera camera;
+    camera_make(&def, size, &box, 1, covered, &camera);
+    for (int corner = 0; corner < 8; corner++) {
+        double world[3] = {(corner & 1) * 2 - 1, corner >> 1 & 1, (corner >> 2) - 0.5}, pixel[2], depth;
+        assert_true(camera_project(&camera, world, 100, 100, pixel, &depth));
+        assert_true(pixel[0] > 3 && pixel[0] < 70 && pixel[1] > 3 && pixel[1] < 97);
+        rightmost = fmax(rightmost, pixel[0]);
+    }
+    assert_true(rightmost > 60);
+}
+
+/* A shaken box moves in the picture; one that drives off is followed. */
+static void test_camera_follows_late(void **state)
+{
+    (void)state;
+    double size[3] = {1, 1, 1};
+    ViewDef def = view_def_default();
+    Camera rest, shaken, gone;
+    camera_make(&def, size, &(BoxState){.orientation = {0, 0, 0, 1}}, 1, 0, &rest);
+    camera_make(&def, size, &(BoxState){.position = {0.3, 0, 0}, .orientation = {0, 0, 0, 1}}, 1, 0, &shaken);
+    camera_make(&def, size, &(BoxState){.position = {9.5, 0, 0}, .orientation = {0, 0, 0, 1}}, 1, 0, &gone);
+    assert_true(fabsf(shaken.eye[0] - rest.eye[0]) < 1e-6F);
+    assert_true(fabsf(gone.eye[0] - rest.eye[0] - 9) < 1e-4F);
+}
+
+/* At the smallest and a large size, the legend is there: ink in its corner. */
+static void test_legend_is_drawn(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{512, 512}, {1920, 1080}};
+    Error error = {0};
+    ParticleBuffers none = box_state(0, 0.1);
+    for (int i = 0; i < 2; i++) {
+        int width = sizes[i][0], height = sizes[i][1], dark = 0, em = (int)legend_text_pixels(height);
+        ViewDef def = view_def_default();
+        def.box = false;
+        def.range_auto = false;
+        def.range[1] = 1;
+        none.scalar[SCALAR_SPEED].buffer = 1; /* only asked whether it is there: nothing is drawn from it */
+        uint8_t *rgb = malloc(3 * (size_t)width * (size_t)height);
+        Renderer *renderer = renderer_create(&def, width, height, &error);
+        assert_non_null(renderer);
+        renderer_draw(renderer, &none, NULL);
+        renderer_read(renderer, rgb);
+        for (int y = em; y < 3 * em; y++) /* the title's line */
+            for (int x = width - 9 * em; x < width - em; x++)
+                dark += rgb[3 * (y * width + x)] < 100;
+        assert_true(dark > em * em / 2);
+        renderer_destroy(renderer);
+        free(rgb);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_round_ticks),
+        cmocka_unit_test(test_units_as_people_write_them),
+        cmocka_unit_test(test_camera_shows_the_box),
+        cmocka_unit_test(test_camera_leaves_room_for_the_legend),
+        cmocka_unit_test(test_camera_follows_late),
+        cmocka_unit_test_teardown(test_legend_is_drawn, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}

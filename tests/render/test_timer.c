@@ -1,0 +1,192 @@
+/* The stage clock tells where the time goes. */
+#include "tests/render/fixture.h"
+
+#include "sim/gl/program.h"
+#include "sim/gl/timer.h"
+
+#include <epoxy/gl.h>
+#include <unistd.h>
+
+typedef struct Load {
+    unsigned program, framebuffer, texture, vertex_array;
+} Load;
+
+/* A fragment shader that loops `rounds` times in each of 256 x 256 pixels. */
+static Load load_create(void)
+{
+    Load load;
+    Error error = {0};
+    char folder[] = "/tmp/slosh-load-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    static const char *const text[2] = {
+        "void main() { gl_Position = vec4(4 * (gl_VertexID & 1) - 1, 2 * (gl_VertexID & 2) - 1, 0, 1); }\n",
+        "layout(location = 0) uniform int rounds;\nlayout(location = 0) out float sum;\n"
+        "void main() { sum = gl_FragCoord.x; for (int i = 0; i < rounds; i++) sum = sin(sum + gl_FragCoord.y); }\n"};
+    static const char *const name[2] = {"load.vert", "load.frag"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, name[i]);
+        FILE *file = fopen(path, "w");
+        fputs(text[i], file);
+        fclose(file);
+    }
+    program_set_directory(folder);
+    load.program = program_create_pair("load", name[0], name[1], &error);
+    program_set_directory(NULL);
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%s/%s", folder, name[i]);
+        unlink(path);
+    }
+    rmdir(folder);
+    if (!load.program)
+        fail_msg("%s", error.message);
+    glCreateTextures(GL_TEXTURE_2D, 1, &load.texture);
+    glTextureStorage2D(load.texture, 1, GL_R32F, 256, 256);
+    glCreateFramebuffers(1, &load.framebuffer);
+    glNamedFramebufferTexture(load.framebuffer, GL_COLOR_ATTACHMENT0, load.texture, 0);
+    glCreateVertexArrays(1, &load.vertex_array);
+    return load;
+}
+
+static void load_destroy(Load *load)
+{
+    glDeleteProgram(load->program);
+    glDeleteTextures(1, &load->texture);
+    glDeleteFramebuffers(1, &load->framebuffer);
+    glDeleteVertexArrays(1, &load->vertex_array);
+}
+
+static void load_run(const Load *load, int rounds)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, load->framebuffer);
+    glViewport(0, 0, 256, 256);
+    glUseProgram(load->program);
+    glProgramUniform1i(load->program, 0, rounds);
+    glBindVertexArray(load->vertex_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void run_frame(const Load *load, GlTimer *timer)
+{
+    GL_STAGE(timer, STAGE_SHADOW)
+    load_run(load, 5);
+    GL_STAGE(timer, STAGE_SHADE)
+    load_run(load, 500);
+}
+
+/* 100 times the work gets at least 90 % of the time, and the stages sum to the frame within 10 %. */
+static void test_finish(void **state)
+{
+    (void)state;
+    Load load = load_create();
+    GlTimer *timer = gl_timer_create(GL_CLOCK_FINISH);
+    assert_string_equal(gl_timer_clock_name(timer), "finish");
+    run_frame(&load, NULL); /* compiles */
+    glFinish();
+    StageTimes times = {0};
+    double began = wall_ms();
+    run_frame(&load, timer);
+    double whole = wall_ms() - began;
+    assert_true(gl_timer_frame(timer, &times));
+    double sum = times.ms[STAGE_SHADE] + times.ms[STAGE_SHADOW];
+    assert_true(times.ms[STAGE_SHADE] >= 0.9 * sum);
+    assert_true(fabs(sum - whole) <= 0.1 * whole);
+    assert_false(times.ran[STAGE_GRID]);
+    gl_timer_destroy(timer);
+    load_destroy(&load);
+}
+
+/* Where queries tell the truth they do so within the same bounds. */
+static void test_query_order(void **state)
+{
+    (void)state;
+    enum { FRAMES = 11 };
+    Load load = load_create();
+    GlTimer *timer = gl_timer_create(GL_CLOCK_QUERY);
+    assert_string_equal(gl_timer_clock_name(timer), "gl");
+    int known = 0;
+    for (int frame = 0; frame < FRAMES; frame++) {
+        StageTimes times = {0};
+        for (int i = 0; i < 3 * frame; i++) /* more and more stages: the ring grows */
+            GL_STAGE(timer, STAGE_OVERLAY)
+        load_run(&load, 1);
+        run_frame(&load, timer);
+        if (gl_timer_frame(timer, &times)) {
+            assert_true(frame >= 2); /* read two frames later at the earliest */
+            assert_int_equal(times.ran[STAGE_OVERLAY], known > 0);
+            assert_true(times.ran[STAGE_SHADE] && times.ms[STAGE_SHADE] >= 0);
+            if (!gl_renderer_is_software())
+                assert_true(times.ms[STAGE_SHADE] > 0.9 * (times.ms[STAGE_SHADE] + times.ms[STAGE_SHADOW]));
+            known++;
+        }
+    }
+    StageTimes times = {0};
+    while (gl_timer_drain(timer, &times))
+        known++;
+    assert_int_equal(known, FRAMES);
+    gl_timer_destroy(timer);
+    load_destroy(&load);
+}
+
+/* A whole picture: every pass has its stage, and between them nothing is lost. The best of some, since others
+ * run too. */
+static void test_picture_stages(void **state)
+{
+    (void)state;
+    Error error = {0};
+    ParticleBuffers buffers;
+    ViewDef def = view_def_default();
+    Particles *particles = particles_wave(0.08);
+    ParticleBuffers box = box_state(particles->count, 0.08);
+    Upload *upload = upload_particles(particles, &box, &buffers);
+    Renderer *renderer = renderer_create(&def, 640, 480, &error);
+    GlTimer *timer = gl_timer_create(GL_CLOCK_FINISH);
+    assert_non_null(renderer);
+    double best = 1;
+    for (int frame = 0; frame < 6; frame++) {
+        StageTimes times = {0};
+        double sum = 0, began = wall_ms();
+        renderer_draw(renderer, &buffers, timer);
+        double whole = wall_ms() - began;
+        assert_true(gl_timer_frame(timer, &times));
+        for (int stage = 0; stage < STAGE_COUNT; stage++) {
+            assert_int_equal(times.ran[stage], stage_part((Stage)stage) == PART_RENDER);
+            sum += times.ms[stage];
+        }
+        best = frame ? fmin(best, fabs(whole - sum) / whole) : 1; /* the first frame makes things */
+    }
+    assert_true(best <= 0.1);
+    gl_timer_destroy(timer);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    free(particles);
+}
+
+static void test_auto_and_off(void **state)
+{
+    (void)state;
+    StageTimes times = {0};
+    GlTimer *timer = gl_timer_create(GL_CLOCK_AUTO);
+    assert_string_equal(gl_timer_clock_name(timer), gl_renderer_is_software() ? "finish" : "gl");
+    gl_timer_destroy(timer);
+    timer = gl_timer_create(GL_CLOCK_OFF);
+    GL_STAGE(timer, STAGE_SHADE)
+    glFlush();
+    assert_false(gl_timer_frame(timer, &times));
+    assert_false(times.ran[STAGE_SHADE]);
+    assert_string_equal(gl_timer_clock_name(timer), "off");
+    gl_timer_destroy(timer);
+    GL_STAGE(NULL, STAGE_SHADE)
+    glFlush();
+    assert_false(gl_timer_frame(NULL, &times));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_finish, no_gl_errors),
+        cmocka_unit_test_teardown(test_query_order, no_gl_errors),
+        cmocka_unit_test_teardown(test_picture_stages, no_gl_errors),
+        cmocka_unit_test_teardown(test_auto_and_off, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}

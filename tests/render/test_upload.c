@@ -1,0 +1,141 @@
+/* The ring of slots: what is written is what the GPU reads, round and round, without touching what is still
+ * drawn. */
+#include "tests/render/fixture.h"
+
+#include <epoxy/gl.h>
+
+enum { COUNT = 1000 };
+
+/* State number `number`: values that tell it apart. */
+static void fill(Particles *particles, int number)
+{
+    particles->count = 0;
+    for (int i = 0; i < COUNT; i++)
+        particles_add(particles, i, number, -i, number + i * 0.001, (unsigned)(number + i) % 3);
+}
+
+static ParticleArrays arrays_of(Particles *particles)
+{
+    ParticleArrays arrays = {.position = particles->position, .fluid = particles->fluid};
+    arrays.scalar[SCALAR_SPEED] = particles->speed;
+    return arrays;
+}
+
+static void assert_on_gpu(const ParticleAttribute *attribute, const void *wanted, size_t size)
+{
+    static char bytes[16 * COUNT];
+    assert_true(attribute->buffer != 0);
+    assert_int_equal(attribute->offset % 256, 0);
+    assert_int_equal(attribute->stride, size / COUNT);
+    glGetNamedBufferSubData(attribute->buffer, (GLintptr)attribute->offset, (GLsizeiptr)size, bytes);
+    assert_memory_equal(bytes, wanted, size);
+}
+
+static void test_more_states_than_slots(void **state)
+{
+    (void)state;
+    enum { STATES = 3 * UPLOAD_SLOTS + 1 };
+    Error error = {0};
+    Particles *particles = calloc(1, sizeof *particles);
+    Upload *upload = upload_create(COUNT, UPLOAD_SCALAR(SCALAR_SPEED) | UPLOAD_FLUID, &error);
+    assert_int_equal(upload_newest(upload), -1);
+    for (int number = 0; number < STATES; number++) {
+        ParticleBuffers box = box_state(COUNT, 0.1), buffers;
+        fill(particles, number);
+        ParticleArrays arrays = arrays_of(particles);
+        assert_true(upload_arrays(upload, &arrays, &box, &buffers, &error));
+        assert_int_equal(upload_newest(upload), number % UPLOAD_SLOTS);
+        assert_on_gpu(&buffers.position, particles->position, 16 * COUNT);
+        assert_on_gpu(&buffers.fluid, particles->fluid, 4 * COUNT);
+        assert_on_gpu(&buffers.scalar[SCALAR_SPEED], particles->speed, 4 * COUNT);
+        assert_true(fabs(buffers.scalar_min[SCALAR_SPEED] - number) < 1e-6);
+        assert_true(fabs(buffers.scalar_max[SCALAR_SPEED] - number - 0.999) < 1e-6);
+        assert_int_equal(buffers.velocity.buffer, 0); /* not asked for */
+        assert_int_equal(buffers.scalar[SCALAR_DENSITY].buffer, 0);
+    }
+    upload_destroy(upload);
+    free(particles);
+}
+
+/* The older states stay whole while newer ones are written: drawn, in flight. */
+static void test_older_states_stay(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Particles *particles = calloc(1, sizeof *particles);
+    Upload *upload = upload_create(COUNT, UPLOAD_SCALAR(SCALAR_SPEED), &error);
+    ParticleBuffers box = box_state(COUNT, 0.1), buffers[UPLOAD_SLOTS];
+    for (int number = 0; number < UPLOAD_SLOTS; number++) {
+        fill(particles, number);
+        ParticleArrays arrays = arrays_of(particles);
+        assert_true(upload_arrays(upload, &arrays, &box, &buffers[number], &error));
+    }
+    for (int number = 0; number < UPLOAD_SLOTS; number++) {
+        fill(particles, number);
+        assert_on_gpu(&buffers[number].position, particles->position, 16 * COUNT);
+    }
+    upload_destroy(upload);
+    free(particles);
+}
+
+static void test_too_many(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Particles *particles = calloc(1, sizeof *particles);
+    Upload *upload = upload_create(COUNT - 1, 0, &error);
+    ParticleBuffers box = box_state(COUNT, 0.1), buffers;
+    fill(particles, 0);
+    ParticleArrays arrays = arrays_of(particles);
+    assert_false(upload_arrays(upload, &arrays, &box, &buffers, &error));
+    assert_non_null(strstr(error.message, "999"));
+    upload_destroy(upload);
+    upload_destroy(NULL);
+    free(particles);
+}
+
+/* A world's state goes the same way, with its pose and time. */
+static void test_world(void **state)
+{
+    (void)state;
+    Error error = {0};
+    float position[6] = {0, 0.2F, 0, 0.1F, 0.3F, 0.1F}, seen[8];
+    InitialState initial = {.count = 2, .position = position};
+    WorldDef def = world_def_default();
+    memcpy(def.box_size, (double[3]){1, 1, 1}, sizeof def.box_size);
+    def.spacing = 0.05;
+    def.initial = &initial;
+    def.fluid_count = 1;
+    def.fluids[0] = (FluidDef){.name = "water", .density = 1000, .viscosity = 0.1};
+    def.motion_count = 1;
+    def.motions[0] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.1, .frequency = 1};
+    World *world = world_create(&def, &error);
+    if (!world)
+        fail_msg("%s", error.message);
+    Upload *upload = upload_create(2, UPLOAD_SCALAR(SCALAR_SPEED) | UPLOAD_ID, &error);
+    ParticleBuffers buffers;
+    assert_true(world_step(world, NULL, &error));
+    assert_true(upload_write(upload, world, &buffers, &error));
+    WorldInfo info;
+    world_info(world, &info);
+    assert_int_equal(buffers.count, 2);
+    assert_memory_equal(&buffers.box, &info.box, sizeof info.box);
+    assert_true(buffers.box.position[0] != 0 && buffers.time == info.time && buffers.spacing == 0.05);
+    float read[8];
+    world_read(world, &(ParticleArrays){.position = read});
+    glGetNamedBufferSubData(buffers.position.buffer, (GLintptr)buffers.position.offset, sizeof seen, seen);
+    assert_memory_equal(seen, read, sizeof seen);
+    upload_destroy(upload);
+    world_destroy(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_more_states_than_slots, no_gl_errors),
+        cmocka_unit_test_teardown(test_older_states_stay, no_gl_errors),
+        cmocka_unit_test_teardown(test_too_many, no_gl_errors),
+        cmocka_unit_test_teardown(test_world, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
