@@ -56,14 +56,14 @@ static bool case_settings(const Plan *plan, size_t combination, char texts[TEXTS
     return true;
 }
 
-static bool case_load(const Plan *plan, size_t index, Scene *scene, Error *error)
+static bool case_load(const Plan *plan, size_t index, bool tell, Scene *scene, Error *error)
 {
     char texts[TEXTS_BYTES], note[256] = "";
     SceneSettings settings;
     if (!case_settings(plan, index % plan->combinations, texts, &settings, error) ||
         !scene_load(plan->scenes[index / plan->combinations], &settings, scene, note, error))
         return false;
-    if (note[0] && !plan->args->quiet)
+    if (note[0] && tell && !plan->args->quiet)
         fprintf(stderr, "%s\n", note);
     return true;
 }
@@ -81,12 +81,7 @@ static bool cases_check(const Plan *plan, bool *draws, Error *error)
     *draws = false;
     for (size_t i = 0; i < plan->scene_count * plan->combinations; i++) {
         Scene scene;
-        Plan quiet = *plan;
-        Args args;
-        args = *plan->args;
-        args.quiet = true;
-        quiet.args = &args;
-        if (!case_load(&quiet, i, &scene, error))
+        if (!case_load(plan, i, false, &scene, error))
             return false;
         *draws |= strcmp(scene.view.kind, "none") != 0;
     }
@@ -100,7 +95,7 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
     for (; *done < count && !interrupted(); ++*done) {
         Scene scene;
         Progress progress;
-        if (!case_load(plan, *done, &scene, error))
+        if (!case_load(plan, *done, true, &scene, error))
             return false;
         const BenchSetup setup = {
             .scene = &scene,

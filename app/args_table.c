@@ -1,0 +1,96 @@
+#include "app/args_table.h"
+
+#include <stddef.h>
+
+enum {
+    RENDER = 1 << COMMAND_RENDER,
+    RUN = 1 << COMMAND_RUN,
+    BENCH = 1 << COMMAND_BENCH,
+    INFO = 1 << COMMAND_INFO,
+    ALL = RENDER | RUN | BENCH | INFO
+};
+
+const CommandRow command_rows[] = {
+    {COMMAND_RENDER, "render", "SCENE -o OUT.png|OUT.mp4|FOLDER [OPTIONS]",
+     "simulates a scene into a picture, a video or a folder of pictures; needs no display", 1, 1,
+     "OUT.png, OUT.mp4 or a folder", 1280, 720},
+    {COMMAND_RUN, "run", "SCENE -o OUT.h5part [OPTIONS]",
+     "simulates a scene into snapshots that ParaView opens", 1, 1, "OUT.h5part", 1280, 720},
+    {COMMAND_BENCH, "bench", "[SCENE...] [OPTIONS]", "measures how long each stage of a frame takes", 0,
+     ARGS_SCENES_MAX, NULL, 512, 512},
+    {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
+     0, 1, NULL, 1280, 720},
+    {COMMAND_HELP, "help", "[COMMAND]", "says what a command does and takes", 0, 0, NULL, 0, 0},
+    {0},
+};
+
+#define AT(field) .offset = offsetof(Args, field)
+
+/* clang-format off */
+const OptionRow option_rows[] = {
+    {"-o", "OUT", RENDER | RUN, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
+    {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
+    {"--every", "S", RUN, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
+     .help = "seconds from snapshot to snapshot (1/30)"},
+    {"--frames", "N", RENDER | BENCH, OPTION_COUNT, AT(frames), .min = 1, .max = 1e7, .help = "how many frames"},
+    {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .max = 1000, .flags = OPTION_OPEN_LOW,
+     .help = "frames in a second (30)"},
+    {"--size", "WxH", RENDER | BENCH, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
+     .help = "pixels (1280x720; bench 512x512)"},
+    {"--clock", "gl|finish", BENCH, OPTION_CLOCK, AT(clock),
+     .help = "GPU stages by GL timer queries, or by glFinish and the CPU's clock"},
+    {"--sweep", "KEY=A,B,...", BENCH, OPTION_SWEEP, AT(sweeps),
+     .help = "measure with each value: particles, backend, method, view, threads or any scene key; repeat for a product"},
+    {"--set", "PATH=VALUE", ALL, OPTION_SETTING, AT(settings),
+     .help = "any key of the scene, such as solver.step.dt=0.01; repeat for more"},
+    {"--particles", "N", ALL, OPTION_PARTICLES, AT(settings.particles), .min = 1, .max = 2147483647,
+     .help = "the spacing that gives about N particles"},
+    {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes"},
+    {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations"},
+    {"--view", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn; none: not at all"},
+    {"--threads", "N", ALL, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
+    {"--gpu", "N", RENDER | BENCH | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which device draws, counted from 0"},
+    {"--shaders", "DIR", RENDER | BENCH, OPTION_TEXT, AT(shaders), .help = "read the shaders from there"},
+    {"--json", "FILE", ALL, OPTION_TEXT, AT(json), .help = "write the figures there too"},
+    {"--quiet", NULL, ALL, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
+    {"--help", NULL, ALL, OPTION_HELP, .help = "this text"},
+    {0},
+};
+/* clang-format on */
+
+const CommandRow *command_row(Command command)
+{
+    const CommandRow *row = command_rows;
+    while (row->name && row->command != command)
+        row++;
+    return row;
+}
+
+static void help_program(FILE *file)
+{
+    fprintf(file, "slosh: a fluid of particles, simulated, shown and measured\n\n");
+    for (const CommandRow *row = command_rows; row->name; row++)
+        fprintf(file, "  slosh %-6s %-42s %s\n", row->name, row->usage, row->help);
+    fprintf(file, "  slosh %-49s %s\n", "--version", "says which slosh this is");
+    fprintf(
+        file,
+        "\n`slosh help COMMAND` lists its options. SCENE is a file, or the name of one that comes with slosh: "
+        "box_slosh, ...\n");
+}
+
+void args_help(Command command, FILE *file)
+{
+    const CommandRow *row = command_row(command);
+    if (!row->name || command == COMMAND_HELP || command == COMMAND_VERSION) {
+        help_program(file);
+        return;
+    }
+    fprintf(file, "slosh %s %s\n%s\n\n", row->name, row->usage, row->help);
+    for (const OptionRow *option = option_rows; option->name; option++) {
+        char left[64];
+        if (!(option->commands & 1u << command))
+            continue;
+        snprintf(left, sizeof left, "%s %s", option->name, option->value ? option->value : "");
+        fprintf(file, "  %-22s %s\n", left, option->help);
+    }
+}

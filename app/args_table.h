@@ -1,0 +1,48 @@
+/* The commands and their options, each once. */
+#ifndef SLOSH_ARGS_TABLE_H
+#define SLOSH_ARGS_TABLE_H
+
+#include "app/args.h"
+
+typedef struct CommandRow {
+    Command command;
+    const char *name, *usage, *help;
+    int scenes_min, scenes_max;
+    const char *output; /* what -o must name; NULL: none needed */
+    int width, height;  /* default of --size */
+} CommandRow;
+
+typedef enum OptionKind {
+    OPTION_FLAG,      /* bool */
+    OPTION_TEXT,      /* const char * */
+    OPTION_NUMBER,    /* double */
+    OPTION_COUNT,     /* int */
+    OPTION_SIZE,      /* WxH: width and height */
+    OPTION_PARTICLES, /* size_t */
+    OPTION_CLOCK,     /* ClockChoice */
+    OPTION_SETTING,   /* path=value for the scene: all of it, or the value for the row's `path` */
+    OPTION_SWEEP,     /* KEY=a,b,c */
+    OPTION_HELP
+} OptionKind;
+
+enum { OPTION_OPEN_LOW = 1 }; /* the least value itself is refused */
+
+typedef struct OptionRow {
+    const char *name;  /* "--time", "-o" */
+    const char *value; /* name of the value for the help; NULL: takes none */
+    unsigned commands; /* bits 1 << Command */
+    OptionKind kind;
+    size_t offset;   /* in Args */
+    double min, max; /* of a number */
+    unsigned flags;
+    const char *path; /* of a setting; short name of it: the option without its dashes */
+    const char *help;
+} OptionRow;
+
+/* Each ended by a row without a name. */
+extern const CommandRow command_rows[];
+extern const OptionRow option_rows[];
+
+const CommandRow *command_row(Command command);
+
+#endif

@@ -1,0 +1,88 @@
+#include "app/scene.h"
+
+#include "app/scene_check.h"
+#include "app/scene_particles.h"
+#include "app/scene_path.h"
+#include "app/scene_read.h"
+#include "app/scene_tree.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Without a title, the file's name without folder and ending. */
+static void title_default(Scene *scene)
+{
+    if (*scene->title)
+        return;
+    const char *slash = strrchr(scene->path, '/');
+    snprintf(scene->title, sizeof scene->title, "%.100s", slash ? slash + 1 : scene->path);
+    char *dot = strrchr(scene->title, '.');
+    if (dot && dot != scene->title)
+        *dot = 0;
+}
+
+static void view_fluids(Scene *scene)
+{
+    scene->view.fluid_count = scene->world.fluid_count;
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        memcpy(scene->view.fluid_name[f], scene->world.fluids[f].name, NAME_SIZE);
+        memcpy(scene->view.fluid_color[f], scene->world.fluids[f].color, sizeof scene->view.fluid_color[f]);
+    }
+}
+
+static bool apply_settings(Tree *tree, SceneSettings *settings, Error *error)
+{
+    for (int i = 0; i < settings->count; i++)
+        if (!tree_set(tree, settings->set[i], error))
+            return false;
+    const Node *dt = tree_near(tree, "solver.step.dt");
+    settings->dt_set = dt->setting && dt->key && strcmp(dt->key, "dt") == 0;
+    return true;
+}
+
+static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char note[256], Error *error)
+{
+    if (!apply_settings(tree, settings, error) || !scene_read(tree, out, error) ||
+        !scene_check(tree, out, error))
+        return false;
+    if (settings->particles > 0 && !scene_set_particles(tree, out, settings, note, error))
+        return false;
+    if (!scene_check_count(tree, out, error))
+        return false;
+    snprintf(out->path, sizeof out->path, "%s", tree->path);
+    title_default(out);
+    view_fluids(out);
+    return true;
+}
+
+bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings *settings, Scene *out,
+                 char note[256], Error *error)
+{
+    SceneSettings none = {0};
+    if (note)
+        *note = 0;
+    if (size > SCENE_BYTES_MAX)
+        return error_set(error, "%s: larger than 1 MiB; a scene file is a page of YAML", path);
+    Tree tree;
+    const bool ok = tree_read(&tree, path, bytes, size, error) &&
+                    fill_scene(&tree, settings ? settings : &none, out, note, error);
+    tree_free(&tree);
+    return ok;
+}
+
+bool scene_load(const char *name, SceneSettings *settings, Scene *out, char note[256], Error *error)
+{
+    char path[SCENE_PATH_SIZE];
+    size_t size;
+    if (note)
+        *note = 0;
+    if (!scene_path_find(name, path, error))
+        return false;
+    char *bytes = scene_file_read(path, &size, error);
+    if (!bytes)
+        return false;
+    const bool ok = scene_parse(path, bytes, size, settings, out, note, error);
+    free(bytes);
+    return ok;
+}

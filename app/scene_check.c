@@ -1,0 +1,235 @@
+#include "app/scene_check.h"
+
+#include "sim/seed.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { BYTES_A_PARTICLE = 300, BYTES_A_CELL = 8 };
+
+/* A scene under examination. */
+typedef struct Check {
+    const Tree *tree;
+    const Scene *scene;
+    Error *error;
+} Check;
+
+/* Points at the node of `path`, or at the nearest that is there. */
+#define FAIL(check, path, ...)                                                                               \
+    tree_error((check)->tree, tree_near((check)->tree, path), (check)->error, __VA_ARGS__)
+
+static const char axis_name[] = "xyz";
+
+/* Whether low..high on axis k lies between the walls, up to rounding. */
+static bool between_walls(const Check *check, const char *path, int k, double low, double high)
+{
+    const double size = check->scene->world.box_size[k];
+    const double wall_low = k == 1 ? 0 : -0.5 * size, wall_high = wall_low + size, slack = 1e-9 * size;
+    if (low >= wall_low - slack && high <= wall_high + slack)
+        return true;
+    return FAIL(check, path,
+                "the fluid is outside the box: it reaches from %g to %g m in %c; the box from %g to %g m",
+                low, high, axis_name[k], wall_low, wall_high);
+}
+
+static bool check_block(const Check *check, const Fill *fill, const char *path)
+{
+    char corner[96];
+    for (int k = 0; k < 3; k++) {
+        const double size = check->scene->world.box_size[k];
+        const bool low_out = fill->min[k] < (k == 1 ? 0 : -0.5 * size) - 1e-9 * size;
+        snprintf(corner, sizeof corner, "%s.block.max[%d]", path, k);
+        if (!(fill->min[k] < fill->max[k]))
+            return FAIL(check, corner,
+                        "the block's min is not below its max in %c (%g and %g m); swap or move them",
+                        axis_name[k], fill->min[k], fill->max[k]);
+        snprintf(corner, sizeof corner, "%s.block.%s[%d]", path, low_out ? "min" : "max", k);
+        if (!between_walls(check, corner, k, fill->min[k], fill->max[k]))
+            return false;
+    }
+    return true;
+}
+
+static bool check_ball(const Check *check, const Fill *fill, const char *path)
+{
+    char centre[96];
+    for (int k = 0; k < 3; k++) {
+        snprintf(centre, sizeof centre, "%s.ball.centre[%d]", path, k);
+        if (!between_walls(check, centre, k, fill->centre[k] - fill->radius, fill->centre[k] + fill->radius))
+            return false;
+    }
+    return true;
+}
+
+static bool check_fluid(const Check *check, int f)
+{
+    const FluidDef *fluid = &check->scene->world.fluids[f];
+    char path[64];
+    for (int other = 0; other < f; other++) {
+        snprintf(path, sizeof path, "fluids[%d].name", f);
+        if (strcmp(fluid->name, check->scene->world.fluids[other].name) == 0)
+            return FAIL(check, path, "two fluids have the name '%s'; give each its own", fluid->name);
+    }
+    for (int i = 0; i < fluid->fill_count; i++) {
+        snprintf(path, sizeof path, "fluids[%d].fill[%d]", f, i);
+        const Fill *fill = &fluid->fills[i];
+        if (!(fill->kind == FILL_BALL ? check_ball(check, fill, path) : check_block(check, fill, path)))
+            return false;
+    }
+    return true;
+}
+
+static bool check_motion(const Check *check, int m)
+{
+    const Motion *motion = &check->scene->world.motions[m];
+    char path[64];
+    snprintf(path, sizeof path, "motion[%d].%s.axis", m, motion_name(motion->kind));
+    if (hypot(hypot(motion->axis[0], motion->axis[1]), motion->axis[2]) < 1e-9)
+        return FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
+    return true;
+}
+
+static bool check_view(const Check *check)
+{
+    const ViewDef *view = &check->scene->view;
+    if (!view->range_auto && !(view->range[0] < view->range[1]))
+        return FAIL(check, "view.range", "the range's low (%g) is not below its high (%g); swap or move them",
+                    view->range[0], view->range[1]);
+    const double *from = view->camera.from, *to = view->camera.to;
+    if (!view->camera_auto && from[0] == to[0] && from[1] == to[1] && from[2] == to[2])
+        return FAIL(check, "view.camera", "the camera stands where it looks; move `from` or `to`");
+    return true;
+}
+
+static bool check_spacing(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    double width = INFINITY;
+    for (int k = 0; k < 3; k++)
+        width = fmin(width, world->box_size[k]);
+    if (world->spacing > 0.5 * width)
+        return FAIL(check, "particles.spacing",
+                    "the spacing of %g m is too large for the box; use at most %g m", world->spacing,
+                    0.5 * width);
+    return true;
+}
+
+bool scene_check(const Tree *tree, const Scene *scene, Error *error)
+{
+    const Check check = {tree, scene, error};
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        if (!check_fluid(&check, f))
+            return false;
+    for (int m = 0; m < scene->world.motion_count; m++)
+        if (!check_motion(&check, m))
+            return false;
+    return check_spacing(&check) && check_view(&check);
+}
+
+double scene_fluid_volume(const Scene *scene)
+{
+    double volume = 0;
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
+            volume += fill_volume(&scene->world.fluids[f].fills[i]);
+    return volume;
+}
+
+/* Points of the lattice that counting walks over: those of the block around all fills. */
+static double bounding_points(const WorldDef *world, double spacing)
+{
+    double points = 1;
+    for (int k = 0; k < 3; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int f = 0; f < world->fluid_count; f++)
+            for (int i = 0; i < world->fluids[f].fill_count; i++) {
+                const Fill *fill = &world->fluids[f].fills[i];
+                const bool ball = fill->kind == FILL_BALL;
+                low = fmin(low, ball ? fill->centre[k] - fill->radius : fill->min[k]);
+                high = fmax(high, ball ? fill->centre[k] + fill->radius : fill->max[k]);
+            }
+        points *= (high - low) / spacing + 1;
+    }
+    return points;
+}
+
+static double physical_bytes(void)
+{
+    return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+}
+
+static bool too_many(const Check *check, double particles)
+{
+    return FAIL(
+        check, "particles.spacing",
+        "about %.3g particles are more than this machine can hold (at most %.3g); use a larger spacing than "
+        "%g m",
+        particles, fmin(0x1p31 - 1, physical_bytes() / BYTES_A_PARTICLE), check->scene->world.spacing);
+}
+
+bool scene_fits_memory(double particles)
+{
+    return particles < 0x1p31 && particles * BYTES_A_PARTICLE < physical_bytes();
+}
+
+/* The grid of cells of side h covers the whole box, however little of it is filled. */
+static bool check_cells(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    const double h = world->support * world->spacing;
+    double cells = 1;
+    for (int k = 0; k < 3; k++)
+        cells *= world->box_size[k] / h + 3;
+    if (cells < 0x1p31 && cells * BYTES_A_CELL < physical_bytes())
+        return true;
+    return FAIL(
+        check, "particles.spacing",
+        "the box holds %.3g cells of %g m, more than this machine can; use a larger spacing or a smaller box",
+        cells, h);
+}
+
+bool scene_check_bounds(const Tree *tree, const Scene *scene, double spacing, Error *error)
+{
+    const Check check = {tree, scene, error};
+    double most = 0;
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
+            most = fmax(most, fill_volume(&scene->world.fluids[f].fills[i]));
+    most /= spacing * spacing * spacing;
+    if (!scene_fits_memory(0.5 * most)) /* half: rounding to the lattice can only lose so much of this many */
+        return too_many(&check, scene_fluid_volume(scene) / (spacing * spacing * spacing));
+    if (bounding_points(&scene->world, spacing) > 0x1p30)
+        return FAIL(
+            &check, "particles.spacing",
+            "the fluids are %.3g spacings of %g m apart in all; use a larger spacing or move them together",
+            cbrt(bounding_points(&scene->world, spacing)), spacing);
+    return true;
+}
+
+bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
+{
+    const Check check = {tree, scene, error};
+    const double spacing = scene->world.spacing;
+    if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
+        return false;
+    WorldDef part = scene->world;
+    size_t before = 0;
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        part.fluid_count = f + 1;
+        const size_t count = world_def_count(&part, spacing);
+        char path[64];
+        snprintf(path, sizeof path, "fluids[%d].fill", f);
+        if (!scene_fits_memory((double)count))
+            return too_many(&check, (double)count);
+        if (count == before)
+            return FAIL(
+                &check, path,
+                "the fluid '%s' has no particles: its fills hold no point of the lattice of spacing %g m that "
+                "is free; use a smaller spacing or larger fills",
+                scene->world.fluids[f].name, spacing);
+        before = count;
+    }
+    return true;
+}

@@ -1,0 +1,198 @@
+#include "app/scene_keys.h"
+
+#include "app/scene_lists.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#define WORLD(field)   offsetof(Scene, world.field)
+#define VIEW(field)    offsetof(Scene, view.field)
+#define FLUID(field)   offsetof(FluidDef, field)
+#define FILL(field)    offsetof(Fill, field)
+#define MOTION(field)  offsetof(Motion, field)
+#define PLACE(at)      .offset = (at), .aux = KEY_NOWHERE
+#define BOUNDS(lo, hi) .min = (lo), .max = (hi)
+#define NOT_STORED     .offset = KEY_NOWHERE, .aux = KEY_NOWHERE
+
+enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
+
+/* The rows by type. */
+#define MAPPING(PATH, HELP)                                                                                  \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_MAPPING, .unit = "", .help = HELP, NOT_STORED                              \
+    }
+#define VARIANT(PATH, AUX, VALUE, HELP)                                                                      \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_VARIANT, .unit = "", .help = HELP, .offset = KEY_NOWHERE, .aux = AUX,      \
+        .variant = VALUE                                                                                     \
+    }
+#define NUMBER(PATH, FLAGS, UNIT, LO, HI, AT, HELP)                                                          \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_NUMBER, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),           \
+        .help = HELP                                                                                         \
+    }
+#define VEC3(PATH, FLAGS, UNIT, LO, HI, AT, HELP)                                                            \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_VEC3, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),             \
+        .help = HELP                                                                                         \
+    }
+#define INTEGER(PATH, FLAGS, LO, HI, AT, HELP)                                                               \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_INTEGER, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), PLACE(AT),            \
+        .help = HELP                                                                                         \
+    }
+#define BOOLEAN(PATH, FLAGS, AT, HELP)                                                                       \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_BOOLEAN, .flags = FLAGS, .unit = "", PLACE(AT), .help = HELP               \
+    }
+#define CHOICE(PATH, FLAGS, CHOICES, AT, HELP)                                                               \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_CHOICE, .flags = FLAGS, .unit = "", .choice = CHOICES, PLACE(AT),          \
+        .help = HELP                                                                                         \
+    }
+#define TEXT(PATH, FLAGS, SIZE, AT, FALLBACK, HELP)                                                          \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_TEXT, .flags = FLAGS, .unit = "", BOUNDS(1, (SIZE)-1), .size = (SIZE),     \
+        .fallback = FALLBACK, PLACE(AT), .help = HELP                                                        \
+    }
+#define COLOR(PATH, FLAGS, AT, FALLBACK, HELP)                                                               \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_COLOR, .flags = FLAGS, .unit = "", BOUNDS(0, 1), .fallback = FALLBACK,     \
+        PLACE(AT), .help = HELP                                                                              \
+    }
+#define LIST(PATH, FLAGS, LO, HI, AT, COUNT, ELEMENT, INIT, HELP)                                            \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_LIST, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), .offset = AT,            \
+        .aux = COUNT, .size = sizeof(ELEMENT), .init = INIT, .help = HELP                                    \
+    }
+
+/* What each kind of motion names in MOTION_LIST; M is its name. A kind without such a line doesn't compile.
+ */
+#define AXIS(M)                                                                                              \
+    VEC3("motion[]." M ".axis", R, "", -1000, 1000, MOTION(axis), "direction, of any length but zero"),
+#define AMPLITUDE(M)                                                                                         \
+    NUMBER("motion[]." M ".amplitude", R, "m", 0, 100, MOTION(amplitude), "greatest distance from the start"),
+#define ANGLE(M, MOST)                                                                                       \
+    NUMBER("motion[]." M ".angle", R, "degrees", -(MOST), MOST, MOTION(angle_deg), "greatest angle"),
+#define FREQUENCY(M)                                                                                         \
+    NUMBER("motion[]." M ".frequency", R, "Hz", 0, 1000, MOTION(frequency),                                  \
+           "how often to and fro in a second"),
+#define RATE(M) NUMBER("motion[]." M ".rate", R, "rad/s", -1000, 1000, MOTION(rate), "angular velocity"),
+#define ACCELERATION(M)                                                                                      \
+    NUMBER("motion[]." M ".acceleration", R, "m/s2", -1000, 1000, MOTION(acceleration), "along the axis"),
+#define START(M)    NUMBER("motion[]." M ".start", 0, "s", 0, 1e6, MOTION(start), "still before it"),
+#define DURATION(M) NUMBER("motion[]." M ".duration", 0, "s", 0, 1e6, MOTION(duration), "0: for ever"),
+#define WITHIN(M)   NUMBER("motion[]." M ".duration", R | O, "s", 0, 1e6, MOTION(duration), "of the turn"),
+
+#define FIELDS_SHAKE(M)      AXIS(M) AMPLITUDE(M) FREQUENCY(M) START(M) DURATION(M)
+#define FIELDS_ROCK(M)       AXIS(M) ANGLE(M, 180) FREQUENCY(M) START(M) DURATION(M)
+#define FIELDS_TURN(M)       AXIS(M) ANGLE(M, 36000) START(M) WITHIN(M)
+#define FIELDS_SPIN(M)       AXIS(M) RATE(M) START(M) DURATION(M)
+#define FIELDS_ACCELERATE(M) AXIS(M) ACCELERATION(M) START(M) DURATION(M)
+#define MOTION_ROWS(KIND, NAME, HELP)                                                                        \
+    VARIANT("motion[]." NAME, MOTION(kind), MOTION_##KIND, HELP), FIELDS_##KIND(NAME)
+
+/* Bounds are wide: they catch slips of the unit and of the sign, not taste. */
+/* clang-format off */
+static const Key keys[] = {
+    TEXT("title", L, sizeof((Scene *)0)->title, offsetof(Scene, title), "the file's name", "what the scene shows"),
+
+    MAPPING("box", "the box that holds the fluid; its origin is the centre of its floor, y is up"),
+    VEC3("box.size", R, "m", 0.001, 1000, WORLD(box_size), "inner width (x), height (y), depth (z)"),
+    VEC3("gravity", L, "m/s2", -1000, 1000, WORLD(gravity), "in the world's frame"),
+
+    MAPPING("particles", "the resolution"),
+    NUMBER("particles.spacing", R, "m", 1e-6, 100, WORLD(spacing), "distance of neighbours at rest"),
+    NUMBER("particles.support", 0, "spacings", 1.5, 4, WORLD(support), "support radius h: how far a particle sees"),
+
+    LIST("fluids", R, 1, FLUIDS_MAX, WORLD(fluids), WORLD(fluid_count), FluidDef, fluid_init,
+         "the fluids; where fills overlap, the first has the place"),
+    TEXT("fluids[].name", 0, NAME_SIZE, FLUID(name), "fluid 1, fluid 2, ...", "for the legend; each its own"),
+    NUMBER("fluids[].density", 0, "kg/m3", 0.001, 1e5, FLUID(density), "at rest"),
+    NUMBER("fluids[].viscosity", L, "Pa s", 0, 1e6, FLUID(viscosity), "dynamic; water 0.001, olive oil 0.08, honey 10"),
+    VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
+    COLOR("fluids[].color", L | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
+    LIST("fluids[].fill", R, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, NULL,
+         "what the fluid fills at the start: blocks and balls"),
+    VARIANT("fluids[].fill[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
+    VEC3("fluids[].fill[].block.min", R, "m", -1000, 1000, FILL(min), "its corner with the least x, y, z"),
+    VEC3("fluids[].fill[].block.max", R, "m", -1000, 1000, FILL(max), "its corner with the greatest x, y, z"),
+    VARIANT("fluids[].fill[].ball", FILL(kind), FILL_BALL, "a ball"),
+    VEC3("fluids[].fill[].ball.centre", R, "m", -1000, 1000, FILL(centre), "its centre"),
+    NUMBER("fluids[].fill[].ball.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
+
+    MAPPING("solver", "how the fluid is computed"),
+    CHOICE("solver.method", 0, method_choice, WORLD(method), "the equations"),
+    CHOICE("solver.density_kernel", 0, density_kernel_choice, WORLD(density_kernel), "the kernel that density is summed by"),
+    CHOICE("solver.backend", 0, backend_choice, WORLD(backend), "what computes them"),
+    INTEGER("solver.threads", 0, 0, 1024, WORLD(threads), "of the CPU; 0: one a processor"),
+    NUMBER("solver.sound_speed", L, "m/s", 0.001, 1e4, WORLD(sound_speed),
+           "stiffness: 3 to 10 times the greatest speed of the flow; more is stiffer and needs smaller steps"),
+    BOOLEAN("solver.negative_pressure", L, WORLD(negative_pressure), "whether fluid may pull as well as push"),
+    MAPPING("solver.step", "the time step"),
+    CHOICE("solver.step.mode", 0, step_mode_choice, KEY_NOWHERE, "fixed: every frame simulates dt"),
+    NUMBER("solver.step.dt", L, "s", 1e-7, 1, WORLD(dt), "simulated time of a frame"),
+    INTEGER("solver.step.substeps", L, 1, 10000, WORLD(substeps), "steps in a frame"),
+
+    LIST("motion", 0, 0, MOTIONS_MAX, WORLD(motions), WORLD(motion_count), Motion, NULL,
+         "how the box moves; all together, turns from the outermost to the innermost"),
+    MOTION_LIST(MOTION_ROWS)
+
+    MAPPING("view", "the picture"),
+    CHOICE("view.kind", L, view_choice, VIEW(kind), "how the fluid is drawn"),
+    CHOICE("view.color_by", L | KEY_INDEX, scalar_choice, VIEW(color_by), "what the colour shows"),
+    CHOICE("view.colormap", L, colormap_choice, VIEW(colormap), "the colours of a scalar"),
+    {.path = "view.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = VIEW(range),
+     .aux = VIEW(range_auto), .help = "auto, or [low, high] in the scalar's unit"},
+    NUMBER("view.radius", L, "spacings", 0, 10, VIEW(radius), "of a particle; 0: the view's own"),
+    BOOLEAN("view.legend", L, VIEW(legend), "draw the legend"),
+    BOOLEAN("view.box", L, VIEW(box), "draw the box's edges"),
+    BOOLEAN("view.floor", L, VIEW(floor), "draw the floor below the box"),
+    COLOR("view.background", L, VIEW(background), NULL, "sRGB: [red, green, blue], each 0 to 1"),
+    {.path = "view.camera", .type = KEY_MAPPING, .unit = "", .offset = KEY_NOWHERE, .aux = VIEW(camera_auto),
+     .help = "the camera; without it, one that shows the whole box"},
+    VEC3("view.camera.from", R | L, "m", -1e5, 1e5, VIEW(camera.from), "the eye, in the world's frame"),
+    VEC3("view.camera.to", R | L, "m", -1e5, 1e5, VIEW(camera.to), "the point looked at"),
+    NUMBER("view.camera.fov", L, "degrees", 1, 170, VIEW(camera.fov_deg), "vertical field of view"),
+};
+/* clang-format on */
+
+const Key *scene_keys(int *count)
+{
+    *count = sizeof keys / sizeof *keys;
+    return keys;
+}
+
+/* Whether a path with indices ([0]) is that of a row, which has none ([]). */
+static bool path_matches(const char *row, const char *path)
+{
+    while (*row && *row == *path) {
+        if (*path == '[')
+            path += 1 + strspn(path + 1, "0123456789");
+        else
+            path++;
+        row++;
+    }
+    return !*row && !*path;
+}
+
+const Key *scene_key_find(const char *path)
+{
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (path_matches(keys[i].path, path))
+            return &keys[i];
+    return NULL;
+}
+
+const char *key_name_in(const Key *key, const char *parent)
+{
+    const size_t length = strlen(parent);
+    const char *name = key->path;
+    if (length > 0) {
+        if (strncmp(name, parent, length) != 0 || name[length] != '.')
+            return NULL;
+        name += length + 1;
+    }
+    return strpbrk(name, ".[") ? NULL : name;
+}

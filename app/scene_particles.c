@@ -1,0 +1,95 @@
+#include "app/scene_particles.h"
+
+#include "app/scene_check.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* A count jumps when the lattice gains a layer, so the nearest one is looked for among many spacings, about
+   the one that the volume asks for. */
+enum { TRIES = 96 };
+
+typedef struct Best {
+    double spacing;
+    size_t count;
+} Best;
+
+static double miss(size_t count, size_t wanted)
+{
+    return fabs((double)count - (double)wanted);
+}
+
+static void offer(const Scene *scene, size_t wanted, double spacing, Best *best)
+{
+    const size_t count = world_def_count(&scene->world, spacing);
+    if (best->spacing <= 0 || miss(count, wanted) < miss(best->count, wanted))
+        *best = (Best){spacing, count};
+}
+
+/* Of all spacings that give this count, the widest: its lattice leaves the least gap at the walls. */
+static double widest(const Scene *scene, Best best)
+{
+    double low = best.spacing, high = 1.03 * best.spacing;
+    for (int i = 0; i < 12; i++) {
+        const double middle = 0.5 * (low + high);
+        if (world_def_count(&scene->world, middle) == best.count)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The more particles, the smaller the jumps, and the dearer each count. */
+static int tries_for(size_t wanted)
+{
+    return wanted > 4000000 ? 4 : wanted > 400000 ? 24 : TRIES;
+}
+
+static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
+{
+    Best best = {0, 0};
+    for (int round = 0; round < 2; round++) { /* fills that overlap fill less than their volumes add up to */
+        offer(scene, wanted, guess, &best);
+        guess = best.spacing * cbrt(fmax(1, (double)best.count) / (double)wanted);
+    }
+    const int tries = tries_for(wanted);
+    const double width = wanted < 1000 ? 0.3 : 0.05;
+    for (int i = 0; i < tries; i++)
+        offer(scene, wanted, guess * (1 + width * (2.0 * i / (tries - 1) - 1)), &best);
+    best.spacing = widest(scene, best);
+    return best;
+}
+
+/* At most half of the box's least width, as for a spacing that a file gives. */
+static double greatest_spacing(const Scene *scene)
+{
+    const double *size = scene->world.box_size;
+    return 0.5 * fmin(size[0], fmin(size[1], size[2]));
+}
+
+bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, char note[256],
+                         Error *error)
+{
+    const size_t wanted = settings->particles;
+    const double guess = fmin(greatest_spacing(scene), cbrt(scene_fluid_volume(scene) / (double)wanted));
+    if (!(guess > 1e-6) || !scene_fits_memory((double)wanted) ||
+        !scene_check_bounds(tree, scene, 0.9 * guess, NULL))
+        return error_set(error, "--particles %zu: more than this machine can hold; use fewer", wanted);
+    const Best best = nearest_spacing(scene, wanted, guess);
+    if (best.count == 0 || best.spacing > greatest_spacing(scene))
+        return error_set(error, "--particles %zu: too few to fill this scene; use more", wanted);
+
+    const double scale = best.spacing / scene->world.spacing, dt = scene->world.dt;
+    scene->world.spacing = best.spacing;
+    if (settings->dt_set)
+        return true;
+    scene->world.dt = dt * scale;
+    if (note)
+        snprintf(
+            note, 256,
+            "--particles %zu: a spacing of %.4g m gives %zu; solver.step.dt goes with it from %.4g to %.4g s "
+            "(--set solver.step.dt=... chooses it)",
+            wanted, best.spacing, best.count, dt, scene->world.dt);
+    return true;
+}

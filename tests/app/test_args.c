@@ -1,0 +1,247 @@
+/* The command line: what it becomes, and the words for what it cannot be. */
+#include "tests/app/scene_text.h"
+
+#include "app/args.h"
+
+#include <stdlib.h>
+
+enum { WORDS_MAX = 80 };
+
+static Args args;
+static Error error;
+
+/* Parses "slosh " + line, split at blanks. */
+static bool parse(const char *line)
+{
+    static char words[512];
+    char *argv[WORDS_MAX + 1] = {"slosh"};
+    int argc = 1;
+    snprintf(words, sizeof words, "%s", line);
+    for (char *word = strtok(words, " "); word && argc < WORDS_MAX; word = strtok(NULL, " "))
+        argv[argc++] = word;
+    error.message[0] = 0;
+    return args_parse(argc, argv, &args, &error);
+}
+
+static void accept(const char *line)
+{
+    if (!parse(line))
+        fail_msg("%s", error.message);
+}
+
+static void refuse(const char *line, const char *message)
+{
+    if (parse(line))
+        fail_msg("accepted: %s", line);
+    if (strncmp(error.message, message, strlen(message)) != 0)
+        fail_msg("expected '%s'\n     got '%s'", message, error.message);
+}
+
+static void defaults(void **state)
+{
+    (void)state;
+    accept("render a.yaml -o a.png");
+    assert_int_equal(args.command, COMMAND_RENDER);
+    assert_true(args.scene_count == 1 && args.settings.count == 0 && args.settings.particles == 0);
+    assert_string_equal(args.scenes[0], "a.yaml");
+    assert_string_equal(args.output, "a.png");
+    assert_true(args.time == 5 && args.fps == 30 && args.every == 1.0 / 30 && !args.time_given &&
+                args.frames == 0);
+    assert_true(args.width == 1280 && args.height == 720 && args.gpu == -1 && !args.quiet && !args.json);
+    accept("bench");
+    assert_true(args.command == COMMAND_BENCH && args.scene_count == 0 && args.width == 512 &&
+                args.height == 512);
+    assert_true(args.clock == CLOCK_CHOICE_AUTO);
+    accept("info");
+    assert_int_equal(args.command, COMMAND_INFO);
+}
+
+static void every_option_reaches_its_field(void **state)
+{
+    (void)state;
+    accept(
+        "render -o out --time 2.5 --frames 7 --fps=24 --size 640x480 --gpu 1 --shaders sh --json j.json --quiet s");
+    assert_string_equal(args.output, "out");
+    assert_string_equal(args.scenes[0], "s");
+    assert_true(args.time == 2.5 && args.time_given && args.frames == 7 && args.fps == 24);
+    assert_true(args.width == 640 && args.height == 480 && args.gpu == 1 && args.quiet);
+    assert_string_equal(args.shaders, "sh");
+    assert_string_equal(args.json, "j.json");
+    accept("run s -o o.h5part --every 0.1 --time 0");
+    assert_true(args.command == COMMAND_RUN && args.every == 0.1 && args.time == 0 && args.time_given);
+    accept("bench a b c --clock finish");
+    assert_true(args.scene_count == 3 && args.clock == CLOCK_CHOICE_FINISH);
+    accept("bench --clock=gl");
+    assert_int_equal(args.clock, CLOCK_CHOICE_GL);
+    accept("info -- -odd-name");
+    assert_string_equal(args.scenes[0], "-odd-name");
+}
+
+static void settings_come_in_order(void **state)
+{
+    (void)state;
+    accept(
+        "info s --set a.b=1 --backend cpu --particles 5000 --method=mueller --view none --threads 2 --set c=d=e");
+    const char *const expected[] = {"a.b=1",          "solver.backend=cpu", "solver.method=mueller",
+                                    "view.kind=none", "solver.threads=2",   "c=d=e"};
+    assert_int_equal(args.settings.count, 6);
+    for (int i = 0; i < 6; i++)
+        assert_string_equal(args.settings.set[i], expected[i]);
+    assert_int_equal(args.settings.particles, 5000);
+}
+
+static void sweeps_are_split(void **state)
+{
+    (void)state;
+    accept("bench --sweep particles=1024,2048 --sweep backend=cpu --sweep gravity=[0,-1,0],[0,-2,0]");
+    assert_int_equal(args.sweep_count, 3);
+    assert_string_equal(args.sweeps[0].key, "particles");
+    assert_int_equal(args.sweeps[0].count, 2);
+    assert_string_equal(args.sweeps[0].values[1], "2048");
+    assert_string_equal(args.sweeps[1].key, "solver.backend");
+    assert_string_equal(args.sweeps[2].key, "gravity");
+    assert_int_equal(args.sweeps[2].count, 2);
+    assert_string_equal(args.sweeps[2].values[1], "[0,-2,0]");
+    refuse("bench --sweep threads",
+           "slosh bench: --sweep takes KEY=A,B,... such as threads=1,2, not 'threads'");
+    refuse("bench --sweep threads=1,,2", "slosh bench: --sweep threads=1,,2: a value is empty");
+    refuse("bench --sweep threads=1,", "slosh bench: --sweep threads=1,: a value is empty");
+    refuse("bench --sweep particles=many",
+           "slosh bench: --sweep particles takes whole numbers from 1 on, not 'many'");
+    refuse("run s -o o --sweep threads=1", "slosh run: unknown option '--sweep'");
+}
+
+static void slips_are_named(void **state)
+{
+    (void)state;
+    refuse("", "slosh: no command; `slosh help` lists them");
+    refuse("rendr s", "slosh: unknown command 'rendr'; did you mean 'render'?");
+    refuse("dance", "slosh: unknown command 'dance'; `slosh help` lists them");
+    refuse("play", "slosh: unknown command 'play'"); /* not before it works */
+    refuse("render s -o a.png --tme 3", "slosh render: unknown option '--tme'; did you mean '--time'?");
+    refuse("render s -o a.png --xyzzy",
+           "slosh render: unknown option '--xyzzy'; `slosh help render` lists them");
+    refuse("run s -o a --fps 3", "slosh run: unknown option '--fps'");
+    refuse("render -o a.png", "slosh render: the scene is missing; write slosh render SCENE -o");
+    refuse("render s", "slosh render: -o is missing; add -o with OUT.png, OUT.mp4 or a folder");
+    refuse("run s", "slosh run: -o is missing; add -o with OUT.h5part");
+    refuse("render s t -o a.png", "slosh render: one argument too many: 't'; it takes 1 scene");
+    refuse("render s -o", "slosh render: -o needs a value: OUT");
+    refuse("info --quiet=1", "slosh info: --quiet takes no value");
+    refuse("info --set a.b", "slosh info: --set takes PATH=VALUE such as solver.step.dt=0.01, not 'a.b'");
+    refuse("info --set =3", "slosh info: --set takes PATH=VALUE");
+    refuse("info --json=", "slosh info: --json needs a name after it, not an empty one");
+    refuse("info --backend=", "slosh info: --backend needs a name or number after it");
+    refuse("bench --clock sun", "slosh bench: --clock must be gl or finish, not 'sun'");
+}
+
+static void numbers_have_ranges(void **state)
+{
+    (void)state;
+    refuse("run s -o o --time -1", "slosh run: --time must be 0 to 1000000, not -1");
+    refuse("run s -o o --time nan", "slosh run: --time must be a number, not 'nan'");
+    refuse("run s -o o --time inf", "slosh run: --time must be a number, not 'inf'");
+    refuse("run s -o o --time 1e999", "slosh run: --time must be a number, not '1e999'");
+    refuse("run s -o o --time 5s", "slosh run: --time must be a number, not '5s'");
+    refuse("run s -o o --time=", "slosh run: --time must be a number, not ''");
+    refuse("run s -o o --every 0", "slosh run: --every must be more than 0 and at most 1000000, not 0");
+    refuse("render s -o o --fps 0", "slosh render: --fps must be more than 0 and at most 1000, not 0");
+    refuse("render s -o o --frames 0", "slosh render: --frames must be 1 to 10000000, not 0");
+    refuse("render s -o o --frames 1.5", "slosh render: --frames must be a whole number, not '1.5'");
+    refuse("info --particles 0", "slosh info: --particles must be 1 to 2147483647, not 0");
+    refuse("info --particles 3e9", "slosh info: --particles must be 1 to 2147483647, not 3e9");
+    refuse("render s -o o --gpu -1", "slosh render: --gpu must be 0 to 15, not -1");
+    accept("render s -o o --frames 1e3 --size 16384x1");
+    assert_true(args.frames == 1000 && args.width == 16384 && args.height == 1);
+}
+
+static void sizes_have_two_sides(void **state)
+{
+    (void)state;
+    static const char *const odd[] = {"640", "640x", "x480", "640x480x3", "-1x5", "axb", "640X480", "1e3x2"};
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        char line[64], message[128];
+        snprintf(line, sizeof line, "bench --size %s", odd[i]);
+        snprintf(message, sizeof message, "slosh bench: --size must be WxH such as 1280x720, not '%s'",
+                 odd[i]);
+        refuse(line, message);
+    }
+    refuse("bench --size 0x5", "slosh bench: --size must be 1 to 16384 pixels each way, not '0x5'");
+    refuse("bench --size 5x16385", "slosh bench: --size must be 1 to 16384 pixels each way");
+}
+
+static void too_many_are_refused(void **state)
+{
+    (void)state;
+    char *argv[2 * SCENE_SETTINGS_MAX + 8] = {"slosh", "info"};
+    int argc = 2;
+    for (int i = 0; i <= SCENE_SETTINGS_MAX; i++) {
+        argv[argc++] = "--set";
+        argv[argc++] = "a=1";
+    }
+    assert_true(args_parse(argc - 2, argv, &args, &error));
+    assert_false(args_parse(argc, argv, &args, &error));
+    assert_non_null(strstr(error.message, "more than 64 settings"));
+    char huge[4096];
+    memset(huge, 'x', sizeof huge);
+    memcpy(huge, "a=", 2);
+    huge[sizeof huge - 1] = 0;
+    argv[3] = huge;
+    assert_false(args_parse(4, argv, &args, &error));
+    assert_non_null(strstr(error.message, "--set: too long"));
+}
+
+static char *help_of(Command command)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&text, &size);
+    args_help(command, file);
+    fclose(file);
+    return text;
+}
+
+static void help_comes_from_the_table(void **state)
+{
+    (void)state;
+    accept("help");
+    assert_true(args.command == COMMAND_HELP && args.help_for == COMMAND_HELP);
+    accept("--help");
+    assert_int_equal(args.command, COMMAND_HELP);
+    accept("help bench");
+    assert_int_equal(args.help_for, COMMAND_BENCH);
+    accept("render --help");
+    assert_true(args.command == COMMAND_HELP && args.help_for == COMMAND_RENDER);
+    accept("run -h");
+    assert_int_equal(args.help_for, COMMAND_RUN);
+    accept("--version");
+    assert_int_equal(args.command, COMMAND_VERSION);
+    refuse("help dance", "slosh: unknown command 'dance'");
+
+    char *program = help_of(COMMAND_HELP), *bench = help_of(COMMAND_BENCH), *run = help_of(COMMAND_RUN);
+    assert_non_null(strstr(program, "slosh render SCENE -o OUT.png|OUT.mp4|FOLDER"));
+    assert_null(strstr(program, "slosh play"));
+    assert_non_null(strstr(bench, "--sweep KEY=A,B,..."));
+    assert_non_null(strstr(bench, "--clock gl|finish"));
+    assert_non_null(strstr(run, "--every S"));
+    assert_null(strstr(run, "--fps"));
+    free(program);
+    free(bench);
+    free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(defaults),
+        cmocka_unit_test(every_option_reaches_its_field),
+        cmocka_unit_test(settings_come_in_order),
+        cmocka_unit_test(sweeps_are_split),
+        cmocka_unit_test(slips_are_named),
+        cmocka_unit_test(numbers_have_ranges),
+        cmocka_unit_test(sizes_have_two_sides),
+        cmocka_unit_test(too_many_are_refused),
+        cmocka_unit_test(help_comes_from_the_table),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,129 @@
+/* --set and --particles: edits of the tree before it is read. */
+#include "tests/app/scene_text.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static Scene scene;
+static Error error;
+
+static void set(const char *setting)
+{
+    if (!parse_set(LEAST, setting, &scene, &error))
+        fail_msg("%s", error.message);
+}
+
+static void values_replace_and_are_added(void **state)
+{
+    (void)state;
+    set("particles.spacing=0.05");
+    assert_true(scene.world.spacing == 0.05);
+    set("box.size=[2, 1, 3]");
+    assert_true(scene.world.box_size[0] == 2 && scene.world.box_size[2] == 3);
+    set("box.size[1]=1.5");
+    assert_true(scene.world.box_size[0] == 1 && scene.world.box_size[1] == 1.5);
+    set("fluids[0].density=850");
+    assert_true(scene.world.fluids[0].density == 850);
+    set("solver.step.dt=0.004");
+    assert_true(scene.world.dt == 0.004);
+    set("title='Two words: and a colon'");
+    assert_string_equal(scene.title, "Two words: and a colon");
+}
+
+static void lists_grow_by_one(void **state)
+{
+    (void)state;
+    set("fluids[0].fill[1]={ball: {centre: [0, 0.8, 0], radius: 0.1}}");
+    assert_int_equal(scene.world.fluids[0].fill_count, 2);
+    set("motion=[{spin: {axis: [0, 1, 0], rate: 2}}]");
+    assert_true(scene.world.motion_count == 1 && scene.world.motions[0].rate == 2);
+    set("motion[0]={rock: {axis: [0, 0, 1], angle: 5, frequency: 1}}");
+    assert_true(scene.world.motion_count == 1 && scene.world.motions[0].kind == MOTION_ROCK);
+    assert_set_refused("fluids[2].density=3", "[2] is beyond the list's end; use at most 1, which appends");
+}
+
+static void later_settings_win(void **state)
+{
+    (void)state;
+    SceneSettings settings = {.count = 3,
+                              .set = {"solver.step={dt: 0.1}", "solver.step.dt=0.2", "solver.threads=3"}};
+    assert_true(parse_text(LEAST, &settings, &scene, &error));
+    assert_true(scene.world.dt == 0.2 && scene.world.threads == 3 && settings.dt_set);
+}
+
+static void bad_settings_are_named(void **state)
+{
+    (void)state;
+    assert_set_refused("box.size=[1, 1", "not valid YAML");
+    assert_set_refused("box.size=", "box.size must be three numbers [x, y, z] in m, not empty");
+    assert_set_refused("box.sise=1", "unknown key 'sise'; did you mean 'size'?");
+    assert_set_refused("box.size.x=1", "'x' stands in no mapping");
+    assert_set_refused("box[0]=1", "[0] follows something that is no list");
+    assert_set_refused("nothing", "no setting; write path=value");
+    assert_set_refused("=3", "no setting; write path=value");
+    assert_set_refused("a..b=3", "no path before the '='");
+    assert_set_refused("a.=3", "no path before the '='");
+    assert_set_refused("a[x]=3", "no path before the '='");
+    assert_set_refused("fluids[0]density=3", "no path before the '='");
+    assert_set_refused("title=*a", "an alias");
+    assert_set_refused("solver.backend=gpu", "solver.backend cannot be 'gpu'; it must be one of: cpu");
+}
+
+/* Parts of the scene that a setting didn't touch keep their place in the file. */
+static void the_file_keeps_its_places(void **state)
+{
+    (void)state;
+    SceneSettings settings = {.count = 1, .set = {"box.size=[1, 0.4, 1]"}};
+    assert_false(parse_text(LEAST, &settings, &scene, &error));
+    assert_non_null(strstr(error.message, "scene.yaml:6:50: the fluid is outside the box"));
+}
+
+static bool near_count(size_t wanted, double tolerance)
+{
+    const size_t count = world_def_count(&scene.world, scene.world.spacing);
+    return fabs((double)count - (double)wanted) <= tolerance * (double)wanted;
+}
+
+static void particles_choose_the_spacing_and_scale_dt(void **state)
+{
+    (void)state;
+    char note[256];
+    SceneSettings settings = {.particles = 4000};
+    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, note, &error));
+    assert_true(near_count(4000, 0));
+    assert_float_equal(scene.world.spacing, 0.05, 1e-4); /* 20 x 10 x 20: the widest that gives so many */
+    assert_float_equal(scene.world.dt, world_def_default().dt * scene.world.spacing / 0.1, 1e-9);
+    assert_int_equal(scene.world.substeps, world_def_default().substeps);
+    assert_non_null(
+        strstr(note, "--particles 4000: a spacing of 0.05 m gives 4000; solver.step.dt goes with it"));
+
+    settings.set[settings.count++] = "solver.step.dt=0.003";
+    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, note, &error));
+    assert_true(scene.world.dt == 0.003);
+    assert_string_equal(note, "");
+}
+
+static void particles_that_cannot_be_are_refused(void **state)
+{
+    (void)state;
+    SceneSettings settings = {.particles = 2000000000};
+    assert_false(parse_text(LEAST, &settings, &scene, &error));
+    assert_string_equal(error.message, "--particles 2000000000: more than this machine can hold; use fewer");
+    settings.particles = 1;
+    assert_false(parse_text(LEAST, &settings, &scene, &error));
+    assert_string_equal(error.message, "--particles 1: too few to fill this scene; use more");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_replace_and_are_added),
+        cmocka_unit_test(lists_grow_by_one),
+        cmocka_unit_test(later_settings_win),
+        cmocka_unit_test(bad_settings_are_named),
+        cmocka_unit_test(the_file_keeps_its_places),
+        cmocka_unit_test(particles_choose_the_spacing_and_scale_dt),
+        cmocka_unit_test(particles_that_cannot_be_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
