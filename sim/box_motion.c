@@ -27,7 +27,7 @@ static void cross(const double a[3], const double b[3], double out[3])
     memcpy(out, c, sizeof c);
 }
 
-static void quat_multiply(const double a[4], const double b[4], double out[4])
+void quat_multiply(const double a[4], const double b[4], double out[4])
 {
     const double c[4] = {
         a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],

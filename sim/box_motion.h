@@ -56,6 +56,9 @@ const char *motion_help(MotionKind kind);
    (m) places the centre about which it turns. */
 void box_state_at(const Motion list[], int count, double box_height, double time, BoxState *state);
 
+/* a * b; `out` may be either. */
+void quat_multiply(const double a[4], const double b[4], double out[4]);
+
 /* Rotates v by the quaternion q, or by its inverse. `out` may be `v`. */
 void quat_rotate(const double q[4], const double v[3], double out[3]);
 void quat_rotate_inverse(const double q[4], const double v[3], double out[3]);

@@ -4,6 +4,7 @@
 #include "sim/method.h"
 #include "sim/seed.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,7 +16,9 @@ struct World {
     void *state; /* the backend's */
     size_t count;
     uint64_t step;
-    BoxState box; /* at the present time */
+    BoxTarget target; /* of the hand */
+    BoxFilter filter; /* at the present time */
+    BoxState box;     /* at the present time, the hand's part included */
 };
 
 static const Backend *const backends[] = {&backend_cpu};
@@ -92,9 +95,11 @@ static bool seeds_make(const WorldDef *def, Seeds *seeds, InitialState *initial,
     return true;
 }
 
-static void box_at(const World *world, double time, BoxState *box)
+/* The pose at `time` with the hand's part as `filter` has it. */
+static void box_at(const World *world, const BoxFilter *filter, double time, BoxState *box)
 {
     box_state_at(world->def.motions, world->def.motion_count, world->def.box_size[1], time, box);
+    box_filter_apply(filter, world->def.box_size[1], box);
 }
 
 static bool world_start(World *world, Error *error)
@@ -134,7 +139,9 @@ World *world_create(const WorldDef *def, Error *error)
         world_destroy(world);
         return NULL;
     }
-    box_at(world, 0, &world->box);
+    world->filter = box_filter_at_rest();
+    world->target = (BoxTarget){.orientation = {0, 0, 0, 1}};
+    box_at(world, &world->filter, 0, &world->box);
     world->backend->grid(world->state);
     world->backend->density(world->state);
     return world;
@@ -156,20 +163,21 @@ static double time_of(const World *world, double step)
     return step * (world->def.dt / world->def.substeps);
 }
 
-static void substep_prepare(const World *world, StageClock *clock, Substep *step, BoxState *end)
+/* Carries box and filter to the end of the substep. */
+static void substep_prepare(World *world, StageClock *clock, Substep *step)
 {
-    const double at = (double)world->step;
+    const double at = (double)world->step, dt = world->def.dt / world->def.substeps;
+    const BoxState begin = world->box;
     BoxState middle;
-    box_at(world, time_of(world, at + 0.5), &middle);
-    box_at(world, time_of(world, at + 1), end);
+    box_filter_step(&world->filter, &world->target, &world->def.limits, 0.5 * dt);
+    box_at(world, &world->filter, time_of(world, at + 0.5), &middle);
+    box_filter_step(&world->filter, &world->target, &world->def.limits, 0.5 * dt);
+    box_at(world, &world->filter, time_of(world, at + 1), &world->box);
 
-    *step = (Substep){.backend = world->backend,
-                      .state = world->state,
-                      .clock = clock,
-                      .dt = world->def.dt / world->def.substeps};
-    frame_step(&world->box, &middle, 0.5 * step->dt, &step->first_half);
-    frame_step(&middle, end, 0.5 * step->dt, &step->second_half);
-    apparent_gravity(world->def.gravity, &world->box, &middle, end, step->dt, &step->apparent);
+    *step = (Substep){.backend = world->backend, .state = world->state, .clock = clock, .dt = dt};
+    frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
+    frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
+    apparent_gravity(world->def.gravity, &begin, &middle, &world->box, dt, &step->apparent);
     double gravity[3];
     quat_rotate_inverse(middle.orientation, world->def.gravity, gravity);
     for (int k = 0; k < 3; k++)
@@ -180,11 +188,9 @@ bool world_step(World *world, StageClock *clock, Error *error)
 {
     for (int i = 0; i < world->def.substeps; i++) {
         Substep step;
-        BoxState end;
-        substep_prepare(world, clock, &step, &end);
+        substep_prepare(world, clock, &step);
         const bool finite = world->method->substep(&step);
         world->step++;
-        world->box = end;
         if (!finite)
             return error_set(
                 error,
@@ -193,6 +199,33 @@ bool world_step(World *world, StageClock *clock, Error *error)
                 time_of(world, (double)world->step));
     }
     return true;
+}
+
+static bool target_take(World *world, const BoxTarget *target)
+{
+    const double *q = target->orientation, *x = target->position;
+    const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(norm > 0) || !isfinite(norm) || !isfinite(x[0] + x[1] + x[2]))
+        return false;
+    world->target = *target;
+    for (int k = 0; k < 4; k++)
+        world->target.orientation[k] /= norm;
+    return true;
+}
+
+void world_set_target(World *world, const BoxTarget *target)
+{
+    target_take(world, target);
+}
+
+void world_carry(World *world, const BoxTarget *target)
+{
+    if (!target_take(world, target))
+        return;
+    world->filter = box_filter_at_rest();
+    memcpy(world->filter.position, world->target.position, sizeof world->filter.position);
+    memcpy(world->filter.orientation, world->target.orientation, sizeof world->filter.orientation);
+    box_at(world, &world->filter, time_of(world, (double)world->step), &world->box);
 }
 
 void world_info(const World *world, WorldInfo *info)

@@ -25,6 +25,14 @@ void world_destroy(World *world); /* NULL is allowed */
    False with a message when the state is no longer finite: what the world holds then is of no use. */
 bool world_step(World *world, StageClock *clock, Error *error);
 
+/* Where the hand wants the box from the next step on: the box follows through the filter, on top of the
+   prescribed motion (sim/box_filter.h). The orientation is normalised; one that is not finite is not taken.
+ */
+void world_set_target(World *world, const BoxTarget *target);
+
+/* Puts the box there at once and at rest; the fluid comes along as it is and feels no force. */
+void world_carry(World *world, const BoxTarget *target);
+
 /* What a world is, apart from its particles. */
 typedef struct WorldInfo {
     double time;           /* simulated, s */

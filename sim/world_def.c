@@ -15,7 +15,8 @@ WorldDef world_def_default(void)
             20, /* ten times the speed of a fall of 0.2 m: density within 1 % in a scene of a hand's size */
         .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see sim/README.md */
         .dt = 0.01,                /* a frame of 100 Hz */
-        .substeps = 10,            /* paper 003's stable setting at 8,192 particles */
+        .limits = box_limits_default(),
+        .substeps = 10, /* paper 003's stable setting at 8,192 particles */
     };
 }
 

@@ -2,6 +2,7 @@
 #ifndef SLOSH_WORLD_DEF_H
 #define SLOSH_WORLD_DEF_H
 
+#include "sim/box_filter.h"
 #include "sim/box_motion.h"
 
 #include <stdbool.h>
@@ -55,6 +56,7 @@ typedef struct WorldDef {
     FluidDef fluids[FLUIDS_MAX];
     int motion_count;
     Motion motions[MOTIONS_MAX];
+    BoxLimits limits;            /* of the box in the hand */
     const InitialState *initial; /* NULL: the fills; read by world_create only */
 } WorldDef;
 
