@@ -135,6 +135,14 @@ static const Key keys[] = {
     NUMBER("solver.step.dt", L, "s", 1e-7, 1, WORLD(dt), "simulated time of a frame"),
     INTEGER("solver.step.substeps", L, 1, 10000, WORLD(substeps), "steps in a frame"),
 
+    MAPPING("hand", "what the box may do when a hand moves it, by mouse, keys or gamepad"),
+    NUMBER("hand.response", L, "s", 0.001, 10, WORLD(limits.response), "time in which the box follows the hand"),
+    NUMBER("hand.speed", L, "m/s", 0.001, 1000, WORLD(limits.speed), "greatest speed"),
+    NUMBER("hand.acceleration", L, "m/s2", 0.001, 1e4, WORLD(limits.acceleration), "greatest acceleration"),
+    NUMBER("hand.turn_speed", L, "degrees/s", 0.1, 1e4, WORLD(limits.turn_speed_deg), "greatest speed of turning"),
+    NUMBER("hand.turn_acceleration", L, "degrees/s2", 0.1, 1e6, WORLD(limits.turn_acceleration_deg),
+           "greatest acceleration of turning"),
+
     LIST("motion", 0, 0, MOTIONS_MAX, WORLD(motions), WORLD(motion_count), Motion, NULL,
          "how the box moves; all together, turns from the outermost to the innermost"),
     MOTION_LIST(MOTION_ROWS)
