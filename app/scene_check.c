@@ -137,22 +137,21 @@ double scene_fluid_volume(const Scene *scene)
     return volume;
 }
 
-/* Points of the lattice that counting walks over: those of the block around all fills. */
-static double bounding_points(const WorldDef *world, double spacing)
+/* Points of the lattice that counting walks over: those of the block around each fill. */
+static double points_walked(const WorldDef *world, double spacing)
 {
-    double points = 1;
-    for (int k = 0; k < 3; k++) {
-        double low = INFINITY, high = -INFINITY;
-        for (int f = 0; f < world->fluid_count; f++)
-            for (int i = 0; i < world->fluids[f].fill_count; i++) {
-                const Fill *fill = &world->fluids[f].fills[i];
-                const bool ball = fill->kind == FILL_BALL;
-                low = fmin(low, ball ? fill->centre[k] - fill->radius : fill->min[k]);
-                high = fmax(high, ball ? fill->centre[k] + fill->radius : fill->max[k]);
+    double sum = 0;
+    for (int f = 0; f < world->fluid_count; f++)
+        for (int i = 0; i < world->fluids[f].fill_count; i++) {
+            const Fill *fill = &world->fluids[f].fills[i];
+            double points = 1;
+            for (int k = 0; k < 3; k++) {
+                const double width = fill->kind == FILL_BALL ? 2 * fill->radius : fill->max[k] - fill->min[k];
+                points *= width / spacing + 2;
             }
-        points *= (high - low) / spacing + 1;
-    }
-    return points;
+            sum += points;
+        }
+    return sum;
 }
 
 static double physical_bytes(void)
@@ -200,11 +199,8 @@ bool scene_check_bounds(const Tree *tree, const Scene *scene, double spacing, Er
     most /= spacing * spacing * spacing;
     if (!scene_fits_memory(0.5 * most)) /* half: rounding to the lattice can only lose so much of this many */
         return too_many(&check, scene_fluid_volume(scene) / (spacing * spacing * spacing));
-    if (bounding_points(&scene->world, spacing) > 0x1p30)
-        return FAIL(
-            &check, "particles.spacing",
-            "the fluids are %.3g spacings of %g m apart in all; use a larger spacing or move them together",
-            cbrt(bounding_points(&scene->world, spacing)), spacing);
+    if (points_walked(&scene->world, spacing) > 0x1p30) /* a wide fill thinner than a spacing, say */
+        return too_many(&check, points_walked(&scene->world, spacing));
     return true;
 }
 

@@ -1,6 +1,7 @@
 #include "sim/seed.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A point on a face of a block belongs to it at the low side only, to this part of a spacing. */
 static const double slack = 1e-6;
@@ -26,63 +27,64 @@ static bool fill_covers(const Fill *fill, const double x[3], double tolerance)
     return r2 <= fill->radius * fill->radius;
 }
 
-static int fluid_at(const WorldDef *def, const double x[3])
+/* Whether a fill that stands before fill `index` of fluid `fluid` has the point. */
+static bool taken_before(const WorldDef *def, int fluid, int index, const double x[3])
 {
-    for (int f = 0; f < def->fluid_count; f++)
-        for (int i = 0; i < def->fluids[f].fill_count; i++)
+    for (int f = 0; f <= fluid; f++)
+        for (int i = 0; i < (f == fluid ? index : def->fluids[f].fill_count); i++)
             if (fill_covers(&def->fluids[f].fills[i], x, slack * def->spacing))
-                return f;
-    return -1;
+                return true;
+    return false;
 }
 
-/* Range of lattice indices that some fill may cover; the point of index i lies at first + i * spacing. */
+/* Range of lattice indices that a fill may cover; the point of index i lies at first + i * spacing. */
 typedef struct Axis {
     double first;
     long begin, end;
 } Axis;
 
-static Axis lattice_axis(const WorldDef *def, int k)
+static Axis lattice_axis(const WorldDef *def, const Fill *fill, int k)
 {
-    const double s = def->spacing;
-    const double points = floor(def->box_size[k] / s + slack);
+    const double s = def->spacing, points = floor(def->box_size[k] / s + slack);
+    const bool ball = fill->kind == FILL_BALL;
+    const double low = ball ? fill->centre[k] - fill->radius : fill->min[k];
+    const double high = ball ? fill->centre[k] + fill->radius : fill->max[k];
     Axis axis = {.first = k == 1 ? 0.5 * s : -0.5 * (points - 1) * s};
-    double low = INFINITY, high = -INFINITY;
-    for (int f = 0; f < def->fluid_count; f++)
-        for (int i = 0; i < def->fluids[f].fill_count; i++) {
-            const Fill *fill = &def->fluids[f].fills[i];
-            const bool ball = fill->kind == FILL_BALL;
-            low = fmin(low, ball ? fill->centre[k] - fill->radius : fill->min[k]);
-            high = fmax(high, ball ? fill->centre[k] + fill->radius : fill->max[k]);
-        }
-    if (low > high)
-        return axis;
     axis.begin = (long)fmax(0, floor((low - axis.first) / s));
     axis.end = (long)fmin(points, ceil((high - axis.first) / s) + 1);
     return axis;
 }
 
-size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
+static size_t seed_fill(const WorldDef *def, int fluid, int index, float *position)
 {
-    Axis axis[3];
-    for (int k = 0; k < 3; k++)
-        axis[k] = lattice_axis(def, k);
-
+    const Fill *fill = &def->fluids[fluid].fills[index];
+    const double s = def->spacing;
+    const Axis ax = lattice_axis(def, fill, 0), ay = lattice_axis(def, fill, 1),
+               az = lattice_axis(def, fill, 2);
     size_t count = 0;
-    for (long iz = axis[2].begin; iz < axis[2].end; iz++)
-        for (long iy = axis[1].begin; iy < axis[1].end; iy++)
-            for (long ix = axis[0].begin; ix < axis[0].end; ix++) {
-                const double s = def->spacing;
-                const double x[3] = {axis[0].first + (double)ix * s, axis[1].first + (double)iy * s,
-                                     axis[2].first + (double)iz * s};
-                const int f = fluid_at(def, x);
-                if (f < 0)
+    for (long iz = az.begin; iz < az.end; iz++)
+        for (long iy = ay.begin; iy < ay.end; iy++)
+            for (long ix = ax.begin; ix < ax.end; ix++) {
+                const double x[3] = {ax.first + (double)ix * s, ay.first + (double)iy * s,
+                                     az.first + (double)iz * s};
+                if (!fill_covers(fill, x, slack * s) || taken_before(def, fluid, index, x))
                     continue;
-                if (position) {
-                    for (int k = 0; k < 3; k++)
-                        position[3 * count + (size_t)k] = (float)x[k];
-                    fluid[count] = (uint8_t)f;
-                }
+                for (size_t k = 0; position && k < 3; k++)
+                    position[3 * count + k] = (float)x[k];
                 count++;
             }
+    return count;
+}
+
+size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
+{
+    size_t count = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].fill_count; i++) {
+            const size_t added = seed_fill(def, f, i, position ? position + 3 * count : NULL);
+            if (fluid)
+                memset(fluid + count, f, added);
+            count += added;
+        }
     return count;
 }

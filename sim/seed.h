@@ -8,8 +8,8 @@
 
 #include "sim/world_def.h"
 
-/* Writes positions (3 each) and fluid of every lattice point that a fill covers, in the order z, y, x (x
-   fastest), and returns how many there are; with NULLs it only counts. */
+/* Writes positions (3 each) and fluid of every lattice point that a fill covers, fill by fill and in each in
+   the order z, y, x (x fastest), and returns how many there are; with NULLs it only counts. */
 size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid);
 
 /* m3. */

@@ -298,7 +298,7 @@ static void what_no_machine_can_hold_is_refused(void **state)
                                     "      - ball: {centre: [-499, 1, -499], radius: 0.05}\n"
                                     "      - ball: {centre: [499, 999, 499], radius: 0.05}\n";
     assert_false(parse_text(far_apart, NULL, &scene, &error));
-    assert_non_null(strstr(error.message, "scene.yaml:2:22: the fluids are"));
+    assert_non_null(strstr(error.message, "scene.yaml:2:22: the box holds"));
 }
 
 int main(void)
