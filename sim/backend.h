@@ -20,7 +20,8 @@ typedef struct Backend {
     void (*density)(void *state);
     /* Acceleration by pressure, viscosity and walls; eq. 10 and 14. */
     void (*force)(void *state, const ApparentGravity *gravity);
-    /* v += (acceleration + gravity) dt; false when a velocity is not finite. */
+    /* v += (acceleration + gravity) dt; false when a particle now moves further than the support radius in
+       dt, or its velocity is not finite: the step is too large for the forces. */
     bool (*kick)(void *state, const float gravity[3], float dt);
     void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
     void (*read)(void *state, const ParticleArrays *out);

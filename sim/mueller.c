@@ -8,7 +8,7 @@ static bool mueller_substep(const Substep *step)
 {
     const Backend *b = step->backend;
     void *state = step->state;
-    bool finite = true;
+    bool bounded = true;
 
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->first_half);
@@ -19,10 +19,10 @@ static bool mueller_substep(const Substep *step)
     STAGE (step->clock, STAGE_FORCE)
         b->force(state, &step->apparent);
     STAGE (step->clock, STAGE_INTEGRATE) {
-        finite = b->kick(state, step->gravity, (float)step->dt);
+        bounded = b->kick(state, step->gravity, (float)step->dt);
         b->drift(state, &step->second_half);
     }
-    return finite;
+    return bounded;
 }
 
 const Method method_mueller = {

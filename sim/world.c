@@ -189,13 +189,12 @@ bool world_step(World *world, StageClock *clock, Error *error)
     for (int i = 0; i < world->def.substeps; i++) {
         Substep step;
         substep_prepare(world, clock, &step);
-        const bool finite = world->method->substep(&step);
+        const bool bounded = world->method->substep(&step);
         world->step++;
-        if (!finite)
+        if (!bounded)
             return error_set(
                 error,
-                "the simulation blew up at t = %g s: velocities are no longer finite; use a smaller "
-                "solver.step.dt, more substeps or a lower solver.sound_speed",
+                "the simulation blew up at t = %g s: a particle moves further than the support radius in one step; use a smaller solver.step.dt, more solver.step.substeps or a lower solver.sound_speed",
                 time_of(world, (double)world->step));
     }
     return true;

@@ -22,7 +22,8 @@ World *world_create(const WorldDef *def, Error *error);
 void world_destroy(World *world); /* NULL is allowed */
 
 /* Carries the world one frame (dt, in `substeps` steps) on; stage times go into `clock` (NULL: not measured).
-   False with a message when the state is no longer finite: what the world holds then is of no use. */
+   False with a message when the simulation blew up (a particle moves further than the support radius in one
+   step): what the world holds then is of no use. */
 bool world_step(World *world, StageClock *clock, Error *error);
 
 /* Where the hand wants the box from the next step on: the box follows through the filter, on top of the

@@ -30,7 +30,7 @@ typedef struct Cpu {
     uint32_t *cell_start;        /* by `grid`: cells + 1 */
     size_t bytes;                /* of all these */
     size_t guarded;              /* atomic */
-    bool unbounded;              /* atomic: some velocity is not finite */
+    bool unbounded;              /* atomic: some particle moves further than h in a step, or is not finite */
 } Cpu;
 
 enum { CPU_GRAIN = 512 }; /* particles in a range: some 0.2 ms of work, small against a step */

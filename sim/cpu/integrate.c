@@ -45,14 +45,18 @@ static void kick_range(void *context, size_t begin, size_t end)
     const Kick *kick = context;
     const Cpu *cpu = kick->cpu;
     const CpuParticles *p = &cpu->now;
-    float sum = 0; /* of v * 0: 0 unless a velocity is infinite or NaN */
+    const float fastest = cpu->solver->support_radius / kick->dt;
+    bool bounded = true; /* false for NaN as well */
     for (size_t i = begin; i < end; i++) {
-        p->vx[i] += (cpu->ax[i] + kick->gravity[0]) * kick->dt;
-        p->vy[i] += (cpu->ay[i] + kick->gravity[1]) * kick->dt;
-        p->vz[i] += (cpu->az[i] + kick->gravity[2]) * kick->dt;
-        sum += (p->vx[i] + p->vy[i] + p->vz[i]) * 0.0f;
+        const float vx = p->vx[i] + (cpu->ax[i] + kick->gravity[0]) * kick->dt;
+        const float vy = p->vy[i] + (cpu->ay[i] + kick->gravity[1]) * kick->dt;
+        const float vz = p->vz[i] + (cpu->az[i] + kick->gravity[2]) * kick->dt;
+        p->vx[i] = vx;
+        p->vy[i] = vy;
+        p->vz[i] = vz;
+        bounded &= vx * vx + vy * vy + vz * vz <= fastest * fastest;
     }
-    if (sum != 0)
+    if (!bounded)
         __atomic_store_n(&kick->cpu->unbounded, true, __ATOMIC_RELAXED);
 }
 
