@@ -56,19 +56,23 @@ static json_t *result_json(const BenchResult *r)
                              r->upload_ms, "render_ms", r->render_ms, "frame_ms", r->frame_ms,
                              "particle_steps_per_second", r->particle_steps_per_second, "real_time_factor",
                              r->real_time_factor, "bytes_per_particle", r->bytes_per_particle);
-    json_object_update(json, more);
-    json_object_update(json, sums);
+    const bool ok =
+        json && more && sums && json_object_update(json, more) == 0 && json_object_update(json, sums) == 0;
     json_decref(more);
     json_decref(sums);
-    return json;
+    if (ok)
+        return json;
+    json_decref(json);
+    return NULL;
 }
 
 bool bench_write_json(const BenchResult *results, size_t count, const char *path, Error *error)
 {
     json_t *all = json_array();
+    bool ok = true;
     for (size_t i = 0; i < count; i++)
-        json_array_append_new(all, result_json(&results[i]));
-    const bool written = json_file_write(all, path, error);
+        ok &= json_array_append_new(all, result_json(&results[i])) == 0;
+    const bool written = json_file_write(ok ? all : NULL, path, error);
     json_decref(all);
     return written;
 }

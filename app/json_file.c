@@ -22,10 +22,13 @@ bool json_file_write(const json_t *json, const char *path, Error *error)
     Output output = {0};
     if (!output_begin(&output, path, error))
         return false;
-    errno = json ? 0 : ENOMEM;
     if (json && write_text(json, output.temp))
         return output_commit(&output, error);
-    error_set(error, "%s: cannot write the results: %s", path, strerror(errno));
+    if (!json)
+        error_set(error, "%s: the results hold a name that is not UTF-8, or a number that is not finite",
+                  path);
+    else
+        error_set(error, "%s: cannot write the results: %s", path, strerror(errno));
     output_discard(&output);
     return false;
 }

@@ -6,8 +6,9 @@
 
 #include <jansson.h>
 
-/* Writes `json` (NULL: memory ran out while it was made) to that file, indented, with a newline at the end;
-   false with the reason, and no file. Does not take the reference. */
+/* Writes `json` (NULL: it could not be made, for jansson takes no text but UTF-8 and no number that is not
+   finite) to that file, indented, with a newline at the end; false with the reason, and no file. Does not
+   take the reference. */
 bool json_file_write(const json_t *json, const char *path, Error *error);
 
 #endif

@@ -32,8 +32,9 @@ void upload_destroy(Upload *upload); /* NULL is allowed */
 /* What a picture coloured by that scalar needs. */
 unsigned upload_attributes_for(Scalar color_by);
 
-/* Writes the world's state. `out` stays good until UPLOAD_SLOTS - 1 states later. False when the world has
-   more particles than the capacity. */
+/* Writes the world's state. `out` stays readable until UPLOAD_SLOTS - 1 states later,
+   but is to be drawn from only until the next state is written: that is when its fence is made. False when
+   the world has more particles than the capacity. */
 bool upload_write(Upload *upload, World *world, ParticleBuffers *out, Error *error);
 
 /* The same from plain arrays, for a fluid without a world. `state` gives count, spacing, box, time; its

@@ -8,6 +8,19 @@ static bool positive(double value)
     return value > 0 && isfinite(value);
 }
 
+static bool motions_check(const WorldDef *def, Error *error)
+{
+    if (def->motion_count < 0 || def->motion_count > MOTIONS_MAX)
+        return error_set(error, "a box may have up to %d motions, not %d", MOTIONS_MAX, def->motion_count);
+    for (int i = 0; i < def->motion_count; i++) {
+        const Motion *m = &def->motions[i];
+        const double axis2 = m->axis[0] * m->axis[0] + m->axis[1] * m->axis[1] + m->axis[2] * m->axis[2];
+        if (!positive(axis2) || (m->kind == MOTION_TURN && !positive(m->duration)))
+            return error_set(error, "motion %d: the axis must not be zero, nor the duration of a turn", i);
+    }
+    return true;
+}
+
 static bool def_check(const WorldDef *def, Error *error)
 {
     for (int k = 0; k < 3; k++)
@@ -22,7 +35,9 @@ static bool def_check(const WorldDef *def, Error *error)
     for (int f = 0; f < def->fluid_count; f++)
         if (!positive(def->fluids[f].density) || !(def->fluids[f].viscosity >= 0))
             return error_set(error, "fluid %d: density must be positive, viscosity not negative", f);
-    return true;
+    if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
+        return error_set(error, "gravity must be finite");
+    return motions_check(def, error);
 }
 
 static bool cells_set(CellGrid *cells, const double box_size[3], double h, Error *error)
@@ -32,9 +47,12 @@ static bool cells_set(CellGrid *cells, const double box_size[3], double h, Error
         const double low = k == 1 ? 0 : -0.5 * box_size[k];
         const double first = floor(low / h) - 1, last = floor((low + box_size[k]) / h) + 1;
         count *= last - first + 1;
-        if (!(count < 0x1p31))
-            return error_set(error, "the box holds more than 2^31 cells of side %g m; use a larger spacing",
-                             h);
+        /* whole numbers up to 2^24 are exact in single precision */
+        if (!(count < 0x1p31) || !(last - first < 0x1p24))
+            return error_set(
+                error,
+                "the box holds more than 2^31 cells of side %g m, or 2^24 along an axis; use a larger spacing",
+                h);
         cells->first[k] = (int)first;
         cells->size[k] = (int)(last - first) + 1;
     }
@@ -44,7 +62,9 @@ static bool cells_set(CellGrid *cells, const double box_size[3], double h, Error
 
 static void fluids_set(Solver *solver, const WorldDef *def)
 {
-    const double c2 = def->sound_speed * def->sound_speed * solver->lattice.stiffness_scale;
+    const double compression = solver->lattice.stiffness_scale;
+    const double c2 = def->sound_speed * def->sound_speed * compression;
+    solver->compression = (float)compression;
     solver->fluid_count = def->fluid_count;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];

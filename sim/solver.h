@@ -26,7 +26,8 @@ typedef struct Solver {
     int fluid_count;
     float mass[FLUIDS_MAX];      /* of a particle: rho0 / n0, kg */
     float density[FLUIDS_MAX];   /* rho0, kg/m3 */
-    float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0, calibrated, Pa */
+    float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0 compression, Pa */
+    float compression;           /* relative change of density over that of n / n0, see Lattice */
     float viscosity[FLUIDS_MAX]; /* mu, Pa s */
     bool viscous;                /* some mu is not zero */
     bool negative_pressure;

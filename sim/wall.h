@@ -10,10 +10,10 @@
    exactly the density that its own continuation would give.
 
    The force is the gradient of that same density, -p_i V_i^2 grad lambda: particles and walls then have one
-   energy, sum e(n_i), and nothing heats the fluid. But the lattice at rest needs twice the gradient of the
-   half-space, since fluid behind the wall would push with p_j as well. So the tables are read not at the
-   distance d but at u(d), which is d at the layers of the lattice (1/2, 3/2, ... spacings) and has slope 2
-   there: density and force are both right at rest.
+   energy, sum e(n_i), and nothing heats the fluid, as long as there is no gravity. But the lattice at rest
+   needs twice the gradient of the half-space, since fluid behind the wall would push with p_j as well. So the
+   tables are read not at the distance d but at u(d), which is d at the layers of the lattice (1/2, 3/2, ...
+   spacings) and has slope 2 there: density and force are both right at rest.
 
    With w = -W'(r) / r of the pressure kernel and x = x_i - x_j, a wall particle whose pressure continues the
    fluid's hydrostatically, p_j = p_i - rho0 g.x, adds -V_i V_j rho0 w (x x^T) g; the moment m = sum w x x^T

@@ -102,6 +102,21 @@ static void box_at(const World *world, const BoxFilter *filter, double time, Box
     box_filter_apply(filter, world->def.box_size[1], box);
 }
 
+static bool initial_check(const WorldDef *def, const InitialState *initial, Error *error)
+{
+    if (initial->count == 0 || initial->count > INT32_MAX)
+        return error_set(error, "an initial state needs 1 to 2^31 - 1 particles");
+    for (size_t i = 0; i < initial->count; i++) {
+        const float *x = initial->position + 3 * i;
+        if (!isfinite(x[0] + x[1] + x[2]))
+            return error_set(error, "the position of particle %zu is not finite", i);
+        if (initial->fluid && initial->fluid[i] >= def->fluid_count)
+            return error_set(error, "particle %zu belongs to fluid %d, and there are %d", i,
+                             initial->fluid[i], def->fluid_count);
+    }
+    return true;
+}
+
 static bool world_start(World *world, Error *error)
 {
     Seeds seeds = {0};
@@ -109,7 +124,8 @@ static bool world_start(World *world, Error *error)
     const bool given = world->def.initial;
     if (given)
         initial = *world->def.initial;
-    bool ok = given || seeds_make(&world->def, &seeds, &initial, error);
+    bool ok = given ? initial_check(&world->def, &initial, error)
+                    : seeds_make(&world->def, &seeds, &initial, error);
     if (ok) {
         world->count = initial.count;
         world->state = world->backend->create(&world->solver, &initial, world->def.threads, error);

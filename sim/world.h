@@ -62,14 +62,15 @@ typedef struct WorldSums {
     double kinetic_energy;      /* J */
     double centre[3];           /* of mass, m */
     double max_speed;           /* m/s */
-    double neighbours_mean;     /* others with r < h */
+    double neighbours_mean;     /* others with r < h, of those that the grid of the last substep shows */
 } WorldSums;
 
 void world_sums(World *world, WorldSums *sums);
 
 /* Where world_read writes; NULL where something is not wanted. All arrays hold `count` particles in one
-   common order, which changes from step to step; `id` tells who is who. Density and pressure are those that
-   the last substep used, at the middle of it (at time 0: those of the initial state). */
+   common order, which changes from step to step; `id` tells who is who. Density (calibrated, so that
+   p = c^2 (rho - rho0)), pressure and volume are those that the last substep used, at the middle of it (at
+   time 0: those of the initial state). */
 typedef struct ParticleArrays {
     float *position;             /* 4 a particle: x y z (box frame, m), volume 1 / number density (m3) */
     float *velocity;             /* 4 a particle: x y z (box frame, m/s), 0 */
@@ -80,7 +81,8 @@ typedef struct ParticleArrays {
 
 void world_read(World *world, const ParticleArrays *out);
 
-/* A hash of id, position and velocity of every particle in the order of their ids: equal for equal bits. */
+/* A hash of id, position and velocity of every particle in the order of their ids: equal for equal bits; 0
+   when memory is short. */
 uint64_t world_hash(World *world);
 
 /* The lists of what there is, ended by a NULL name. */

@@ -64,8 +64,8 @@ typedef struct WorldDef {
    reason for each number stands beside it in world_def.c. */
 WorldDef world_def_default(void);
 
-/* How many particles the fills give at `spacing` (m); SIZE_MAX when more than 2^32. Cheap: bounds of the
-   lattice, nothing is allocated. */
+/* How many particles the fills give at `spacing` (m); SIZE_MAX when more than 2^32. Walks the
+   lattice's points in each fill, allocates nothing. */
 size_t world_def_count(const WorldDef *def, double spacing);
 
 #endif

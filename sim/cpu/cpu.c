@@ -42,6 +42,7 @@ static void cpu_destroy(void *state)
                          cpu->order,  cpu->cell_start};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
+    free(cpu->partial);
     free(cpu);
 }
 
@@ -57,6 +58,7 @@ static bool arrays_create(Cpu *cpu)
         ok &= (*floats[k] = array(cpu, cpu->count, sizeof(float))) != NULL;
     for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
         ok &= (*integers[k] = array(cpu, cpu->count, sizeof(uint32_t))) != NULL;
+    ok &= (cpu->partial = array(cpu, cpu->count / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
     ok &= (cpu->cell_start = array(cpu, s->cells.count + 1, sizeof(uint32_t))) != NULL;
     if (s->fluid_count > 1 && s->viscous)
         ok &= (cpu->viscosity = array(cpu, cpu->count, sizeof(float))) != NULL;

@@ -28,6 +28,7 @@ typedef struct Cpu {
     uint32_t *rank;              /* by `grid`: place within the cell before its sort by id */
     uint32_t *order;             /* by `grid`: old place of each new one */
     uint32_t *cell_start;        /* by `grid`: cells + 1 */
+    WorldSums *partial;          /* by `sums`: one a range */
     size_t bytes;                /* of all these */
     size_t guarded;              /* atomic */
     bool unbounded;              /* atomic: some particle moves further than h in a step, or is not finite */

@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* p = c^2 (rho - rho0), Müller 2003, eq. 12; the sum of the pairs stands in `volume`. */
+/* p = c^2 (rho - rho0), Müller 2003, eq. 12, with rho as cpu_read gives it; the sum of the pairs stands in
+   `volume`. */
 static void finish_density(Cpu *cpu, size_t i)
 {
     const Solver *s = cpu->solver;
@@ -41,7 +42,7 @@ typedef struct ForcePass {
 
 /* The force of the walls on particle i: p_i V_i^2 s - V_i V0 rho0 m g with the sums of sim/wall.h. The
    hydrostatic part fades out below the pressure of one layer, so that a drop on a wall falls freely, and must
-   not turn the push into a pull. */
+   not turn a push into a pull; fluid under tension pulls by itself. */
 static void wall_force(const Cpu *cpu, size_t i, const float g[3], const WallSums *sums, float out[3])
 {
     const Solver *s = cpu->solver;
@@ -55,7 +56,7 @@ static void wall_force(const Cpu *cpu, size_t i, const float g[3], const WallSum
     for (int k = 0; k < 3; k++) {
         const float push = cpu->pressure_term[i] * sums->push[k];
         const float hydrostatic = -weight * moment_g[k];
-        const bool pulls = sums->push[k] * (push + hydrostatic) < 0;
+        const bool pulls = cpu->pressure[i] >= 0 && sums->push[k] * (push + hydrostatic) < 0;
         out[k] = pulls ? 0 : push + hydrostatic;
     }
 }

@@ -2,12 +2,18 @@
 #include "sim/cpu/cpu.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 typedef struct Read {
     const Cpu *cpu;
     const ParticleArrays *out;
 } Read;
+
+/* rho0 (1 + compression (n / n0 - 1)): the calibrated density, of which p = c^2 (rho - rho0) holds. */
+static float density_of(const Solver *s, int fluid, float volume)
+{
+    return s->density[fluid] * (1 + s->compression * (1 / (volume * s->rest_number_density) - 1));
+}
 
 static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
 {
@@ -16,7 +22,7 @@ static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
     case SCALAR_SPEED:
         return sqrtf(p->vx[i] * p->vx[i] + p->vy[i] * p->vy[i] + p->vz[i] * p->vz[i]);
     case SCALAR_DENSITY:
-        return cpu->solver->mass[p->fluid[i]] / cpu->volume[i];
+        return density_of(cpu->solver, p->fluid[i], cpu->volume[i]);
     case SCALAR_PRESSURE:
         return cpu->pressure[i];
     case SCALAR_FLUID:
@@ -131,15 +137,13 @@ void cpu_sums(void *state, WorldSums *sums)
 {
     Cpu *cpu = state;
     const size_t ranges = (cpu->count + CPU_GRAIN - 1) / CPU_GRAIN;
-    SumPass pass = {cpu, cpu_pair_args(cpu), calloc(ranges, sizeof *pass.partial)};
+    SumPass pass = {cpu, cpu_pair_args(cpu), cpu->partial};
     *sums = (WorldSums){0};
-    if (!pass.partial)
-        return;
+    memset(cpu->partial, 0, ranges * sizeof *cpu->partial);
     parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, sum_range, &pass);
     for (size_t r = 0; r < ranges; r++)
         add_sums(&pass.partial[r], sums);
     for (int k = 0; k < 3; k++)
         sums->centre[k] /= sums->mass;
     sums->neighbours_mean /= (double)cpu->count;
-    free(pass.partial);
 }

@@ -12,18 +12,29 @@ static const Motion wild[] = {
     {.kind = MOTION_TURN, .axis = {1, 0, 0}, .angle_deg = 70, .start = 0.1, .duration = 0.6},
     {.kind = MOTION_ACCELERATE, .axis = {0, 0, 1}, .acceleration = 1.5, .start = 0.2},
 };
+/* Motions that begin late and end. */
+static const Motion passing[] = {
+    {.kind = MOTION_SHAKE,
+     .axis = {0, 0, 1},
+     .amplitude = 0.2,
+     .frequency = 2,
+     .start = 0.1,
+     .duration = 0.5},
+    {.kind = MOTION_TURN, .axis = {0, 1, 0}, .angle_deg = 50, .start = 0.2, .duration = 0.3},
+    {.kind = MOTION_ACCELERATE, .axis = {1, 0, 0}, .acceleration = 3, .start = 0.15, .duration = 0.4},
+};
+enum { PASSING = sizeof passing / sizeof *passing };
 enum { WILD = sizeof wild / sizeof *wild };
 
 /* The rates are the derivatives of the poses. */
-static void rates_are_derivatives(void **state)
+static void check_rates(const Motion *list, int count)
 {
-    (void)state;
     for (double t = 0.01; t < 1.2; t += 0.037) {
         const double e = 1e-6, point[3] = {0.3, 0.2, -0.4}, still[3] = {0};
         BoxState before, now, after;
-        box_state_at(wild, WILD, 2, t - e, &before);
-        box_state_at(wild, WILD, 2, t, &now);
-        box_state_at(wild, WILD, 2, t + e, &after);
+        box_state_at(list, count, 2, t - e, &before);
+        box_state_at(list, count, 2, t, &now);
+        box_state_at(list, count, 2, t + e, &after);
         double x0[3], x1[3], x[3], v[3], unused[3];
         box_to_world(&before, point, still, x0, unused);
         box_to_world(&after, point, still, x1, unused);
@@ -31,6 +42,42 @@ static void rates_are_derivatives(void **state)
         for (int k = 0; k < 3; k++)
             if (fabs((x1[k] - x0[k]) / (2 * e) - v[k]) > 1e-5)
                 fail_msg("at t = %g component %d moves at %g, not %g", t, k, (x1[k] - x0[k]) / (2 * e), v[k]);
+    }
+}
+
+static void rates_are_derivatives(void **state)
+{
+    (void)state;
+    check_rates(wild, WILD);
+    check_rates(passing, PASSING);
+}
+
+/* What a body at rest in the box feels is gravity less the acceleration of its place in the world. */
+static void apparent_gravity_is_that_of_the_place(void **state)
+{
+    (void)state;
+    const double gravity[3] = {0.5, -9.81, 0.2}, dt = 1e-3, still[3] = {0};
+    const double points[3][3] = {{0, 0, 0}, {0.9, 1.7, -0.6}, {-0.8, 0.2, 1.1}};
+    for (double t = 0.3; t < 1; t += 0.11) {
+        BoxState box[3];
+        for (int i = 0; i < 3; i++)
+            box_state_at(wild, WILD, 2, t + (i - 1) * 0.5 * dt, &box[i]);
+        ApparentGravity apparent;
+        apparent_gravity(gravity, &box[0], &box[1], &box[2], dt, &apparent);
+        for (int p = 0; p < 3; p++) {
+            double x[3], v[2][3], felt[3], expected[3];
+            for (int i = 0; i < 2; i++)
+                box_to_world(&box[2 * i], points[p], still, x, v[i]);
+            for (int k = 0; k < 3; k++)
+                felt[k] = gravity[k] - (v[1][k] - v[0][k]) / dt;
+            quat_rotate_inverse(box[1].orientation, felt, expected);
+            const float at[3] = {(float)points[p][0], (float)points[p][1], (float)points[p][2]};
+            float g[3];
+            apparent_gravity_at(&apparent, at, g);
+            for (int k = 0; k < 3; k++)
+                if (fabs(g[k] - expected[k]) > 2e-3 * (10 + fabs(expected[k])))
+                    fail_msg("t = %g, point %d: component %d is %g, not %g", t, p, k, g[k], expected[k]);
+        }
     }
 }
 
@@ -180,8 +227,11 @@ static void bucket_has_its_parabola(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rates_are_derivatives),     cmocka_unit_test(lone_particle_follows_the_parabola),
-        cmocka_unit_test(fluid_floats_in_free_fall), cmocka_unit_test(tilted_box_ends_level),
+        cmocka_unit_test(rates_are_derivatives),
+        cmocka_unit_test(apparent_gravity_is_that_of_the_place),
+        cmocka_unit_test(lone_particle_follows_the_parabola),
+        cmocka_unit_test(fluid_floats_in_free_fall),
+        cmocka_unit_test(tilted_box_ends_level),
         cmocka_unit_test(bucket_has_its_parabola),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

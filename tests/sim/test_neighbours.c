@@ -1,7 +1,7 @@
 /* The grid search, the pair sums and the order of particles against brute force over all pairs. */
 #include "fixture.h"
 
-#include "sim/kernel.h"
+#include "sim/lattice.h"
 
 typedef struct Cloud {
     size_t count;
@@ -89,7 +89,7 @@ static void neighbours_equal_brute_force(void **state)
     free(x);
 }
 
-/* Far from the walls the density is m sum W over all particles. */
+/* Far from the walls the density is that of the sum of W over all particles, calibrated. */
 static void density_equals_brute(const char *name)
 {
     const Kernel *kernel = density_kernel_find(name);
@@ -105,11 +105,8 @@ static void density_equals_brute(const char *name)
     State s = fixture_read(world);
 
     const double h = def.support * def.spacing;
-    double lattice = 0; /* n0, summed here again */
-    for (int i = -3; i <= 3; i++)
-        for (int j = -3; j <= 3; j++)
-            for (int k = -3; k <= 3; k++)
-                lattice += kernel->value(def.spacing * sqrt(i * i + j * j + k * k), h);
+    Lattice lattice; /* tested in test_kernel.c */
+    lattice_calibrate(def.spacing, h, kernel, &lattice);
     double worst = 0;
     size_t worst_id = 0;
     for (size_t i = 0; i < COUNT; i++) {
@@ -119,7 +116,8 @@ static void density_equals_brute(const char *name)
                          dz = x[3 * i + 2] - x[3 * j + 2];
             sum += kernel->value(sqrt(dx * dx + dy * dy + dz * dz), h);
         }
-        const double error = fabs(s.density[i] - 1000 * sum / lattice) / 1000;
+        const double n = sum * lattice.density_scale / lattice.number_density;
+        const double error = fabs(s.density[i] / 1000 - (1 + lattice.stiffness_scale * (n - 1)));
         if (error > worst) {
             worst = error;
             worst_id = i;

@@ -217,16 +217,22 @@ static void bad_defs_are_refused(void **state)
     struct {
         WorldDef def;
         const char *says;
-    } bad[] = {{good, "backend"}, {good, "method"}, {good, "spacing"}, {good, "no particle"},
-               {good, "dt"},      {good, "box"},    {good, "cells"},   {good, "density"}};
-    strcpy(bad[0].def.backend, "abacus");
-    strcpy(bad[1].def.method, "guess");
-    bad[2].def.spacing = NAN;
-    bad[3].def.fluids[0].fill_count = 0;
-    bad[4].def.dt = 0;
-    bad[5].def.box_size[1] = -1;
-    bad[6].def.box_size[1] = bad[6].def.box_size[0] = bad[6].def.box_size[2] = 1e6;
-    bad[7].def.fluids[0].density = -1;
+    } bad[] = {{good, "motion"},  {good, "gravity"}, {good, "fluid 7"}, {good, "not finite"},
+               {good, "backend"}, {good, "method"},  {good, "spacing"}, {good, "no particle"},
+               {good, "dt"},      {good, "box"},     {good, "cells"},   {good, "density"}};
+    strcpy(bad[4].def.backend, "abacus");
+    strcpy(bad[5].def.method, "guess");
+    bad[6].def.spacing = NAN;
+    bad[7].def.fluids[0].fill_count = 0;
+    bad[8].def.dt = 0;
+    bad[9].def.box_size[1] = -1;
+    bad[10].def.box_size[1] = bad[10].def.box_size[0] = bad[10].def.box_size[2] = 1e6;
+    bad[11].def.fluids[0].density = -1;
+    bad[0].def.motion_count = 1;
+    bad[1].def.gravity[2] = NAN;
+    const float at[2][3] = {{0, 0.5f, 0}, {0, NAN, 0}};
+    bad[2].def.initial = &(InitialState){.count = 1, .position = at[0], .fluid = &(uint8_t){7}};
+    bad[3].def.initial = &(InitialState){.count = 2, .position = at[0]};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         Error error = {0};
         assert_null(world_create(&bad[i].def, &error));
