@@ -89,14 +89,6 @@ void box_filter_step(BoxFilter *filter, const BoxTarget *target, const BoxLimits
     turn_by(moved, filter->orientation);
 }
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        out[k] = a[i] * b[j] - a[j] * b[i];
-    }
-}
-
 /* The hand moves and turns the centre's frame; the prescribed pose rides on it. */
 void box_filter_apply(const BoxFilter *filter, double box_height, BoxState *state)
 {
@@ -106,7 +98,7 @@ void box_filter_apply(const BoxFilter *filter, double box_height, BoxState *stat
         arm[k] = state->position[k] - centre[k];
     quat_rotate(filter->orientation, arm, turned);
     quat_rotate(filter->orientation, state->velocity, arm_velocity);
-    cross(filter->angular_velocity, turned, swirl);
+    cross_product(filter->angular_velocity, turned, swirl);
     quat_rotate(filter->orientation, state->angular_velocity, angular);
     for (int k = 0; k < 3; k++) {
         state->position[k] = centre[k] + filter->position[k] + turned[k];

@@ -21,7 +21,7 @@ const char *motion_help(MotionKind kind)
     return motions[kind].help;
 }
 
-static void cross(const double a[3], const double b[3], double out[3])
+void cross_product(const double a[3], const double b[3], double out[3])
 {
     const double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     memcpy(out, c, sizeof c);
@@ -42,8 +42,8 @@ void quat_rotate(const double q[4], const double v[3], double out[3])
 {
     /* v + 2 w (u x v) + 2 u x (u x v) with q = (u, w) */
     double t[3], s[3];
-    cross(q, v, t);
-    cross(q, t, s);
+    cross_product(q, v, t);
+    cross_product(q, t, s);
     for (int k = 0; k < 3; k++)
         out[k] = v[k] + 2 * (q[3] * t[k] + s[k]);
 }
@@ -64,7 +64,7 @@ void box_to_world(const BoxState *box, const double x[3], const double v[3], dou
     if (!v)
         return;
     quat_rotate(box->orientation, v, relative);
-    cross(box->angular_velocity, arm, swirl);
+    cross_product(box->angular_velocity, arm, swirl);
     for (int k = 0; k < 3; k++)
         v_world[k] = box->velocity[k] + swirl[k] + relative[k];
 }
@@ -173,7 +173,7 @@ void box_state_at(const Motion list[], int count, double box_height, double time
     const double below[3] = {0, -0.5 * box_height, 0};
     double arm[3], swirl[3];
     quat_rotate(state->orientation, below, arm);
-    cross(state->angular_velocity, arm, swirl);
+    cross_product(state->angular_velocity, arm, swirl);
     for (int k = 0; k < 3; k++) {
         state->position[k] = centre[k] + arm[k];
         state->velocity[k] = centre_velocity[k] + swirl[k];

@@ -56,6 +56,9 @@ const char *motion_help(MotionKind kind);
    (m) places the centre about which it turns. */
 void box_state_at(const Motion list[], int count, double box_height, double time, BoxState *state);
 
+/* a x b; `out` may be either. */
+void cross_product(const double a[3], const double b[3], double out[3]);
+
 /* a * b; `out` may be either. */
 void quat_multiply(const double a[4], const double b[4], double out[4]);
 
