@@ -45,9 +45,28 @@ static void check_rates(const Motion *list, int count)
     }
 }
 
+/* No pose jumps, where a motion begins or ends neither. */
+static void check_no_jump(const Motion *list, int count)
+{
+    const double point[3] = {0.3, 0.2, -0.4}, e = 1e-4;
+    double before[3] = {0};
+    for (double t = 0; t < 1.2; t += e) {
+        BoxState box;
+        double x[3];
+        box_state_at(list, count, 2, t, &box);
+        box_to_world(&box, point, NULL, x, NULL);
+        for (int k = 0; k < 3; k++)
+            if (t > 0 && fabs(x[k] - before[k]) > 10 * e)
+                fail_msg("at t = %g component %d jumps by %g", t, k, x[k] - before[k]);
+        memcpy(before, x, sizeof before);
+    }
+}
+
 static void rates_are_derivatives(void **state)
 {
     (void)state;
+    check_no_jump(wild, WILD);
+    check_no_jump(passing, PASSING);
     check_rates(wild, WILD);
     check_rates(passing, PASSING);
 }

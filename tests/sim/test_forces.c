@@ -240,12 +240,34 @@ static void fluids_start_with_their_velocity(void **state)
     world_destroy(world);
 }
 
+/* A fluid behaves the same, to the bit, whether it is the first of the def or stands behind a heavy one. */
+static void fluids_do_not_depend_on_their_place(void **state)
+{
+    (void)state;
+    uint64_t hash[2];
+    for (int place = 0; place < 2; place++) {
+        WorldDef def = fixture_def(0.8, 1.2, 0.8);
+        def.fluid_count = 1 + place;
+        def.fluids[0].density = place ? 4000 : 250;
+        def.fluids[place] = (FluidDef){.name = "light", .density = 250};
+        fixture_block(&def, place, -0.4, 0, -0.4, 0.2, 0.8, 0.4);
+        World *world = fixture_world(&def);
+        fixture_step(world, 200);
+        hash[place] = world_hash(world);
+        world_destroy(world);
+    }
+    assert_int_equal(hash[0], hash[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(accelerations_equal_brute_force),  cmocka_unit_test(viscosity_keeps_momentum),
-        cmocka_unit_test(compression_gives_pressure),       cmocka_unit_test(tension_does_not_heat_a_tank),
+        cmocka_unit_test(accelerations_equal_brute_force),
+        cmocka_unit_test(viscosity_keeps_momentum),
+        cmocka_unit_test(compression_gives_pressure),
+        cmocka_unit_test(tension_does_not_heat_a_tank),
         cmocka_unit_test(fluids_start_with_their_velocity),
+        cmocka_unit_test(fluids_do_not_depend_on_their_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,6 +127,36 @@ static void lattice_has_its_neighbours(void **state)
     assert_true(fabs(lattice.stiffness_scale - 1) < 2e-2);
 }
 
+/* On the lattice the calibrated sums give the gradient of p = x, the Laplacian of v = y^2 and one particle a
+   spacing^3, at any support; and squeezing it by 0.1 % changes n / n0 as stiffness_scale says. */
+static void calibration_is_exact_on_the_lattice(void **state)
+{
+    (void)state;
+    const double in_spacings[] = {1.6, 2.1, 2.6, 3.3}, s = 0.02, squeeze = 1e-3;
+    for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
+        for (int n = 0; n < 4; n++) {
+            const double h = in_spacings[n] * s, volume = s * s * s;
+            Lattice lattice;
+            lattice_calibrate(s, h, kernel, &lattice);
+            double density = kernel->value(0, h), squeezed = density, gradient = 0, laplacian = 0;
+            for (int i = 0; i < 11 * 11 * 11; i++) {
+                const double x = s * (i % 11 - 5), y = s * (i / 11 % 11 - 5), z = s * (i / 121 - 5);
+                const double r = sqrt(x * x + y * y + z * z);
+                if (r < 0.5 * s)
+                    continue;
+                density += kernel->value(r, h);
+                squeezed += kernel->value(r * (1 - squeeze), h);
+                gradient -= volume * x * kernel_spiky_derivative(r, h) * x / r;
+                laplacian += volume * y * y * kernel_viscosity_laplacian(r, h);
+            }
+            const double change = pow(1 - squeeze, -3) - 1;
+            assert_true(fabs(lattice.density_scale * density * volume - 1) < 1e-9);
+            assert_true(fabs(lattice.gradient_scale * gradient - 1) < 1e-9);
+            assert_true(fabs(lattice.laplacian_scale * laplacian - 2) < 1e-9);
+            assert_true(fabs(lattice.stiffness_scale * (squeezed / density - 1) / change - 1) < 0.02);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -135,6 +165,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(gradient_sums_to_zero, traps_on, traps_off),
         cmocka_unit_test_setup_teardown(laplacian_is_that_of_the_kernel, traps_on, traps_off),
         cmocka_unit_test_setup_teardown(lattice_has_its_neighbours, traps_on, traps_off),
+        cmocka_unit_test_setup_teardown(calibration_is_exact_on_the_lattice, traps_on, traps_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

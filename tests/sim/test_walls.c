@@ -189,13 +189,32 @@ static void nothing_leaves(void **state)
     world_destroy(world);
 }
 
+/* A drop on a wall has no pressure behind which the wall's could go on: it falls as if the wall were not
+ * there. */
+static void a_drop_slides_down_freely(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 4, 1);
+    const float x0[3] = {-0.47f, 3, -0.46f};
+    def.initial = &(InitialState){.count = 1, .position = x0};
+    World *world = fixture_world(&def);
+    fixture_step(world, 200);
+    WorldInfo info;
+    world_info(world, &info);
+    State s = fixture_read(world);
+    const double fall = 0.5 * 9.81 * info.time * info.time;
+    if (fabs(s.position[1] - (3 - fall)) > 1e-3 * fall)
+        fail_msg("a drop at the wall fell by %g m, not by %g m", 3 - s.position[1], fall);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(full_box_has_rest_density),
-        cmocka_unit_test(full_box_stays),
-        cmocka_unit_test(tables_equal_sums),
-        cmocka_unit_test(nothing_leaves),
+        cmocka_unit_test(full_box_has_rest_density), cmocka_unit_test(full_box_stays),
+        cmocka_unit_test(tables_equal_sums),         cmocka_unit_test(nothing_leaves),
+        cmocka_unit_test(a_drop_slides_down_freely),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
