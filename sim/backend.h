@@ -12,6 +12,8 @@ typedef struct Backend {
     /* The state of `initial->count` particles; NULL with the reason. `solver` outlives it. */
     void *(*create)(const Solver *solver, const InitialState *initial, int threads, Error *error);
     void (*destroy)(void *state);
+    /* After solver_change; false when there is no memory for what the solver's new terms need. */
+    bool (*adapt)(void *state);
     /* Free flight over `step`, then the walls' last guard. */
     void (*drift)(void *state, const FrameStep *step);
     /* Sorts the particles by cell, in a cell by id. */

@@ -66,6 +66,8 @@ static void fluids_set(Solver *solver, const WorldDef *def)
     const double c2 = def->sound_speed * def->sound_speed * compression;
     solver->compression = (float)compression;
     solver->fluid_count = def->fluid_count;
+    solver->negative_pressure = def->negative_pressure;
+    solver->viscous = false;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
         solver->mass[f] = (float)(fluid->density / solver->lattice.number_density);
@@ -94,10 +96,17 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     solver->kernel_scale = (float)(kernel->value(0, h) * solver->lattice.density_scale);
     solver->pressure_scale = (float)(-kernel_spiky_derivative(0, h) * solver->lattice.gradient_scale);
     solver->viscosity_scale = (float)(kernel_viscosity_laplacian(0, h) * solver->lattice.laplacian_scale);
-    solver->negative_pressure = def->negative_pressure;
     fluids_set(solver, def);
     if (!walls_create(&solver->walls, def->box_size, def->spacing, h, kernel, &solver->lattice))
         return error_set(error, "no memory for the tables of the walls");
+    return true;
+}
+
+bool solver_change(Solver *solver, const WorldDef *def, Error *error)
+{
+    if (!def_check(def, error))
+        return false;
+    fluids_set(solver, def);
     return true;
 }
 

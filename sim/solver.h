@@ -38,6 +38,10 @@ typedef struct Solver {
 
 /* False with the reason: a def out of range, too many cells, no memory. */
 bool solver_create(Solver *solver, const WorldDef *def, Error *error);
+/* Takes what may change while a world lives: viscosities, sound speed, negative pressure. False with the
+   reason: nothing has changed. */
+bool solver_change(Solver *solver, const WorldDef *def, Error *error);
+
 void solver_destroy(Solver *solver);
 
 #endif

@@ -16,9 +16,11 @@ struct World {
     void *state; /* the backend's */
     size_t count;
     uint64_t step;
-    BoxTarget target; /* of the hand */
-    BoxFilter filter; /* at the present time */
-    BoxState box;     /* at the present time, the hand's part included */
+    uint64_t since_step; /* when the present dt began, */
+    double since_time;   /* at this time, s */
+    BoxTarget target;    /* of the hand */
+    BoxFilter filter;    /* at the present time */
+    BoxState box;        /* at the present time, the hand's part included */
 };
 
 static const Backend *const backends[] = {&backend_cpu};
@@ -173,10 +175,10 @@ void world_destroy(World *world)
     free(world);
 }
 
-/* Multiplied, not added up: the time of a step depends on its number alone. */
+/* Multiplied, not added up: as long as dt is the same, the time of a step depends on its number alone. */
 static double time_of(const World *world, double step)
 {
-    return step * (world->def.dt / world->def.substeps);
+    return world->since_time + (step - (double)world->since_step) * (world->def.dt / world->def.substeps);
 }
 
 /* Carries box and filter to the end of the substep. */
@@ -241,6 +243,31 @@ void world_carry(World *world, const BoxTarget *target)
     memcpy(world->filter.position, world->target.position, sizeof world->filter.position);
     memcpy(world->filter.orientation, world->target.orientation, sizeof world->filter.orientation);
     box_at(world, &world->filter, time_of(world, (double)world->step), &world->box);
+}
+
+bool world_change(World *world, const WorldDef *def, Error *error)
+{
+    const WorldDef before = world->def;
+    WorldDef after = before;
+    const double now = time_of(world, (double)world->step);
+    memcpy(after.gravity, def->gravity, sizeof after.gravity);
+    for (int f = 0; f < after.fluid_count; f++)
+        after.fluids[f].viscosity = def->fluids[f].viscosity;
+    after.sound_speed = def->sound_speed;
+    after.negative_pressure = def->negative_pressure;
+    after.dt = def->dt;
+    after.substeps = def->substeps;
+    after.limits = def->limits;
+    if (!solver_change(&world->solver, &after, error))
+        return false;
+    if (!world->backend->adapt(world->state)) {
+        solver_change(&world->solver, &before, error);
+        return error_set(error, "no memory for another term; use a larger spacing");
+    }
+    world->def = after;
+    world->since_step = world->step;
+    world->since_time = now;
+    return true;
 }
 
 void world_info(const World *world, WorldInfo *info)

@@ -34,6 +34,11 @@ void world_set_target(World *world, const BoxTarget *target);
 /* Puts the box there at once and at rest; the fluid comes along as it is and feels no force. */
 void world_carry(World *world, const BoxTarget *target);
 
+/* Takes from `def` what may change while a world lives: gravity, viscosities, sound speed, negative pressure,
+   dt, substeps, the hand's limits; all else must be as it was. It holds from the next step on, and is as much
+   a part of the world's history as a target is. False with the reason: nothing has changed. */
+bool world_change(World *world, const WorldDef *def, Error *error);
+
 /* What a world is, apart from its particles. */
 typedef struct WorldInfo {
     double time;           /* simulated, s */

@@ -46,6 +46,15 @@ static void cpu_destroy(void *state)
     free(cpu);
 }
 
+static bool cpu_adapt(void *state)
+{
+    Cpu *cpu = state;
+    const Solver *s = cpu->solver;
+    if (s->fluid_count > 1 && s->viscous && !cpu->viscosity)
+        cpu->viscosity = array(cpu, cpu->count, sizeof(float));
+    return cpu->viscosity || s->fluid_count == 1 || !s->viscous;
+}
+
 static bool arrays_create(Cpu *cpu)
 {
     const Solver *s = cpu->solver;
@@ -60,9 +69,7 @@ static bool arrays_create(Cpu *cpu)
         ok &= (*integers[k] = array(cpu, cpu->count, sizeof(uint32_t))) != NULL;
     ok &= (cpu->partial = array(cpu, cpu->count / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
     ok &= (cpu->cell_start = array(cpu, s->cells.count + 1, sizeof(uint32_t))) != NULL;
-    if (s->fluid_count > 1 && s->viscous)
-        ok &= (cpu->viscosity = array(cpu, cpu->count, sizeof(float))) != NULL;
-    return ok;
+    return cpu_adapt(cpu) && ok;
 }
 
 static void particles_set(CpuParticles *p, const InitialState *initial)
@@ -139,6 +146,7 @@ const Backend backend_cpu = {
     .help = "threads and SIMD on the processor; the reference",
     .create = cpu_create,
     .destroy = cpu_destroy,
+    .adapt = cpu_adapt,
     .drift = cpu_drift,
     .grid = cpu_grid,
     .density = cpu_density,
