@@ -19,7 +19,7 @@ bool studio_draw(Studio *studio, World *world, StageClock *clock, GlTimer *timer
     ParticleBuffers particles;
     bool ok = false;
     STAGE (clock, STAGE_UPLOAD)
-        ok = upload_write(studio->upload, world, &particles, error);
+        ok = upload_write(studio->upload, world, error) && upload_take(studio->upload, &particles);
     if (ok)
         renderer_draw(studio->renderer, &particles, timer);
     return ok;

@@ -1,13 +1,15 @@
 #include "render/upload.h"
 
+#include "render/slots.h"
+
 #include <epoxy/gl.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct Slot {
     GLuint buffer;
-    char *bytes;  /* mapped for the buffer's whole life */
-    GLsync fence; /* behind the last drawing that reads it, or NULL */
+    char *bytes;           /* mapped for the buffer's whole life */
+    ParticleBuffers state; /* what stands in it */
 } Slot;
 
 /* Offsets in each slot, bytes; SIZE_MAX for what is not carried. */
@@ -20,8 +22,10 @@ struct Upload {
     size_t capacity;
     unsigned attributes;
     Layout layout;
-    int newest;
-    Slot slots[UPLOAD_SLOTS];
+    Slots turn;
+    GLsync fence; /* behind the last drawing from the slot in flight, or NULL */
+    int drawn;    /* slot, or SLOT_NONE; of the drawing thread */
+    Slot slots[SLOTS];
 };
 
 static size_t place(Layout *layout, size_t capacity, size_t stride, bool wanted)
@@ -68,11 +72,12 @@ Upload *upload_create(size_t capacity, unsigned attributes, Error *error)
     upload->capacity = capacity ? capacity : 1;
     upload->attributes = attributes;
     upload->layout = make_layout(upload->capacity, attributes);
-    upload->newest = -1;
-    for (int i = 0; i < UPLOAD_SLOTS; i++)
+    upload->drawn = SLOT_NONE;
+    slots_create(&upload->turn);
+    for (int i = 0; i < SLOTS; i++)
         if (!slot_create(&upload->slots[i], upload->layout.size)) {
             error_set(error, "the GPU has no %zu bytes for four states of %zu particles; use fewer particles",
-                      UPLOAD_SLOTS * upload->layout.size, capacity);
+                      SLOTS * upload->layout.size, capacity);
             upload_destroy(upload);
             return NULL;
         }
@@ -83,39 +88,16 @@ void upload_destroy(Upload *upload)
 {
     if (!upload)
         return;
-    for (int i = 0; i < UPLOAD_SLOTS; i++) {
-        glDeleteSync(upload->slots[i].fence);
+    glDeleteSync(upload->fence);
+    for (int i = 0; i < SLOTS; i++)
         glDeleteBuffers(1, &upload->slots[i].buffer);
-    }
+    slots_destroy(&upload->turn);
     free(upload);
 }
 
 unsigned upload_attributes_for(Scalar color_by)
 {
     return color_by == SCALAR_FLUID ? UPLOAD_FLUID : UPLOAD_SCALAR(color_by);
-}
-
-static void slot_wait(Slot *slot)
-{
-    if (!slot->fence)
-        return;
-    while (glClientWaitSync(slot->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000) == GL_TIMEOUT_EXPIRED)
-        continue;
-    glDeleteSync(slot->fence);
-    slot->fence = NULL;
-}
-
-/* The next slot in turn, free of readers; the newest one so far gets its fence. */
-static Slot *take_slot(Upload *upload)
-{
-    if (upload->newest >= 0) {
-        Slot *drawn = &upload->slots[upload->newest];
-        glDeleteSync(drawn->fence);
-        drawn->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    }
-    upload->newest = (upload->newest + 1) % UPLOAD_SLOTS;
-    slot_wait(&upload->slots[upload->newest]);
-    return &upload->slots[upload->newest];
 }
 
 static void *in_slot(const Slot *slot, size_t offset)
@@ -151,8 +133,9 @@ static void find_range(const float *values, size_t count, double *min, double *m
     *max = high;
 }
 
-static void describe(const Upload *upload, const Slot *slot, ParticleBuffers *out)
+static void describe(const Upload *upload, Slot *slot)
 {
+    ParticleBuffers *out = &slot->state;
     const Layout *layout = &upload->layout;
     ParticleArrays arrays = slot_arrays(upload, slot);
     out->position = attribute(slot, layout->position, 4 * sizeof(float));
@@ -174,15 +157,16 @@ static bool fits(const Upload *upload, size_t count, Error *error)
                      upload->capacity);
 }
 
-bool upload_write(Upload *upload, World *world, ParticleBuffers *out, Error *error)
+bool upload_write(Upload *upload, World *world, Error *error)
 {
     WorldInfo info;
     world_info(world, &info);
     if (!fits(upload, info.count, error))
         return false;
-    Slot *slot = take_slot(upload);
+    Slot *slot = &upload->slots[slots_write_begin(&upload->turn)];
     ParticleArrays arrays = slot_arrays(upload, slot);
     world_read(world, &arrays);
+    ParticleBuffers *out = &slot->state;
     *out = (ParticleBuffers){.count = info.count,
                              .spacing = info.spacing,
                              .support_radius = info.support_radius,
@@ -191,7 +175,8 @@ bool upload_write(Upload *upload, World *world, ParticleBuffers *out, Error *err
                              .step = info.step};
     memcpy(out->box_size, info.box_size, sizeof out->box_size);
     memcpy(out->gravity, info.gravity, sizeof out->gravity);
-    describe(upload, slot, out);
+    describe(upload, slot);
+    slots_write_end(&upload->turn);
     return true;
 }
 
@@ -201,12 +186,11 @@ static void copy(void *to, const void *from, size_t bytes)
         memcpy(to, from, bytes);
 }
 
-bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state,
-                   ParticleBuffers *out, Error *error)
+bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state, Error *error)
 {
     if (!fits(upload, state->count, error))
         return false;
-    Slot *slot = take_slot(upload);
+    Slot *slot = &upload->slots[slots_write_begin(&upload->turn)];
     ParticleArrays to = slot_arrays(upload, slot);
     size_t count = state->count;
     copy(to.position, arrays->position, 4 * count * sizeof(float));
@@ -215,12 +199,38 @@ bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleB
     copy(to.id, arrays->id, count * sizeof(uint32_t));
     for (int s = 0; s < SCALAR_COUNT; s++)
         copy(to.scalar[s], arrays->scalar[s], count * sizeof(float));
-    *out = *state;
-    describe(upload, slot, out);
+    slot->state = *state;
+    describe(upload, slot);
+    slots_write_end(&upload->turn);
     return true;
 }
 
-int upload_newest(const Upload *upload)
+bool upload_fresh(Upload *upload)
 {
-    return upload->newest;
+    return slots_fresh(&upload->turn);
+}
+
+static void land(Upload *upload)
+{
+    if (!upload->fence)
+        return;
+    while (glClientWaitSync(upload->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000) == GL_TIMEOUT_EXPIRED)
+        continue;
+    glDeleteSync(upload->fence);
+    upload->fence = NULL;
+    slots_landed(&upload->turn);
+}
+
+bool upload_take(Upload *upload, ParticleBuffers *out)
+{
+    if (slots_fresh(&upload->turn)) {
+        land(upload);
+        if (upload->drawn != SLOT_NONE)
+            upload->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+        upload->drawn = slots_draw(&upload->turn);
+    }
+    if (upload->drawn == SLOT_NONE)
+        return false;
+    *out = upload->slots[upload->drawn].state;
+    return true;
 }

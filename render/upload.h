@@ -1,8 +1,8 @@
-/* The CPU backend's way to the GPU: a ring of persistently mapped slots, one state each.
+/* The CPU backend's way to the GPU: a ring of persistently mapped slots, one state each (render/slots.h).
 
-   A state is written into a slot that no drawing reads any more: when the next state is written, a fence goes
-   behind all drawing that was asked for meanwhile, and the slot is taken again only after its fence. Four
-   slots, so that one being written, the newest, the one drawn and one in flight never meet. */
+   One thread writes states; it needs no GL context and never waits. The thread of the context takes the
+   newest one and draws from it for as long as it likes; a slot is written again only after a fence behind the
+   last drawing that read it. */
 #ifndef SLOSH_UPLOAD_H
 #define SLOSH_UPLOAD_H
 
@@ -12,8 +12,6 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-
-enum { UPLOAD_SLOTS = 4 };
 
 /* Which attributes are carried; positions always are. */
 enum {
@@ -32,17 +30,18 @@ void upload_destroy(Upload *upload); /* NULL is allowed */
 /* What a picture coloured by that scalar needs. */
 unsigned upload_attributes_for(Scalar color_by);
 
-/* Writes the world's state. `out` stays readable until UPLOAD_SLOTS - 1 states later,
-   but is to be drawn from only until the next state is written: that is when its fence is made. False when
-   the world has more particles than the capacity. */
-bool upload_write(Upload *upload, World *world, ParticleBuffers *out, Error *error);
+/* Writes the world's state. False when the world has more particles than the capacity. */
+bool upload_write(Upload *upload, World *world, Error *error);
 
 /* The same from plain arrays, for a fluid without a world. `state` gives count, spacing, box, time; its
    attributes and ranges are not read. Arrays that the upload carries must be there. */
-bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state,
-                   ParticleBuffers *out, Error *error);
+bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state, Error *error);
 
-/* The slot of the newest state, 0 .. UPLOAD_SLOTS - 1, or -1. */
-int upload_newest(const Upload *upload);
+/* Whether a state waits that upload_take has not handed out yet. */
+bool upload_fresh(Upload *upload);
+
+/* The newest state, or the one that was newest the last time; it stays as it is until the next call. False
+   before the first state. Needs the context; waits when the GPU is more than one state behind. */
+bool upload_take(Upload *upload, ParticleBuffers *out);
 
 #endif

@@ -124,7 +124,8 @@ static inline Upload *upload_particles(const Particles *particles, const Particl
     ParticleArrays arrays = {.position = (float *)particles->position, .fluid = (uint32_t *)particles->fluid};
     arrays.scalar[SCALAR_SPEED] = (float *)particles->speed;
     assert_non_null(upload);
-    assert_true(upload_arrays(upload, &arrays, state, out, &error));
+    assert_true(upload_arrays(upload, &arrays, state, &error));
+    assert_true(upload_take(upload, out));
     return upload;
 }
 

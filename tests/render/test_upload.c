@@ -1,5 +1,6 @@
 /* The ring of slots: what is written is what the GPU reads, round and round, without touching what is still
  * drawn. */
+#include "render/slots.h"
 #include "tests/render/fixture.h"
 
 #include <epoxy/gl.h>
@@ -34,17 +35,16 @@ static void assert_on_gpu(const ParticleAttribute *attribute, const void *wanted
 static void test_more_states_than_slots(void **state)
 {
     (void)state;
-    enum { STATES = 3 * UPLOAD_SLOTS + 1 };
+    enum { STATES = 3 * SLOTS + 1 };
     Error error = {0};
     Particles *particles = calloc(1, sizeof *particles);
     Upload *upload = upload_create(COUNT, UPLOAD_SCALAR(SCALAR_SPEED) | UPLOAD_FLUID, &error);
-    assert_int_equal(upload_newest(upload), -1);
     for (int number = 0; number < STATES; number++) {
         ParticleBuffers box = box_state(COUNT, 0.1), buffers;
         fill(particles, number);
         ParticleArrays arrays = arrays_of(particles);
-        assert_true(upload_arrays(upload, &arrays, &box, &buffers, &error));
-        assert_int_equal(upload_newest(upload), number % UPLOAD_SLOTS);
+        assert_true(upload_arrays(upload, &arrays, &box, &error));
+        assert_true(upload_take(upload, &buffers));
         assert_on_gpu(&buffers.position, particles->position, 16 * COUNT);
         assert_on_gpu(&buffers.fluid, particles->fluid, 4 * COUNT);
         assert_on_gpu(&buffers.scalar[SCALAR_SPEED], particles->speed, 4 * COUNT);
@@ -57,22 +57,34 @@ static void test_more_states_than_slots(void **state)
     free(particles);
 }
 
-/* The older states stay whole while newer ones are written: drawn, in flight. */
-static void test_older_states_stay(void **state)
+/* What is drawn stays whole, however many states are written meanwhile, and the newest comes next. */
+static void test_drawn_state_stays(void **state)
 {
     (void)state;
     Error error = {0};
     Particles *particles = calloc(1, sizeof *particles);
     Upload *upload = upload_create(COUNT, UPLOAD_SCALAR(SCALAR_SPEED), &error);
-    ParticleBuffers box = box_state(COUNT, 0.1), buffers[UPLOAD_SLOTS];
-    for (int number = 0; number < UPLOAD_SLOTS; number++) {
+    ParticleBuffers box = box_state(COUNT, 0.1), drawn, before, again;
+    assert_false(upload_take(upload, &drawn));
+    for (int number = 0; number < 40; number++) {
         fill(particles, number);
         ParticleArrays arrays = arrays_of(particles);
-        assert_true(upload_arrays(upload, &arrays, &box, &buffers[number], &error));
-    }
-    for (int number = 0; number < UPLOAD_SLOTS; number++) {
-        fill(particles, number);
-        assert_on_gpu(&buffers[number].position, particles->position, 16 * COUNT);
+        box.step = (uint64_t)number;
+        assert_true(upload_arrays(upload, &arrays, &box, &error));
+        assert_true(upload_fresh(upload));
+        if (number % 7 == 0) {
+            before = drawn;
+            assert_true(upload_take(upload, &drawn));
+            assert_false(upload_fresh(upload));
+            assert_int_equal(drawn.step, number);
+        }
+        assert_true(upload_fresh(upload) || upload_take(upload, &again));
+        fill(particles, number - number % 7);
+        assert_on_gpu(&drawn.position, particles->position, 16 * COUNT);
+        if (number >= 7) { /* in flight */
+            fill(particles, number - number % 7 - 7);
+            assert_on_gpu(&before.position, particles->position, 16 * COUNT);
+        }
     }
     upload_destroy(upload);
     free(particles);
@@ -84,10 +96,10 @@ static void test_too_many(void **state)
     Error error = {0};
     Particles *particles = calloc(1, sizeof *particles);
     Upload *upload = upload_create(COUNT - 1, 0, &error);
-    ParticleBuffers box = box_state(COUNT, 0.1), buffers;
+    ParticleBuffers box = box_state(COUNT, 0.1);
     fill(particles, 0);
     ParticleArrays arrays = arrays_of(particles);
-    assert_false(upload_arrays(upload, &arrays, &box, &buffers, &error));
+    assert_false(upload_arrays(upload, &arrays, &box, &error));
     assert_non_null(strstr(error.message, "999"));
     upload_destroy(upload);
     upload_destroy(NULL);
@@ -115,7 +127,8 @@ static void test_world(void **state)
     Upload *upload = upload_create(2, UPLOAD_SCALAR(SCALAR_SPEED) | UPLOAD_ID, &error);
     ParticleBuffers buffers;
     assert_true(world_step(world, NULL, &error));
-    assert_true(upload_write(upload, world, &buffers, &error));
+    assert_true(upload_write(upload, world, &error));
+    assert_true(upload_take(upload, &buffers));
     WorldInfo info;
     world_info(world, &info);
     assert_int_equal(buffers.count, 2);
@@ -133,7 +146,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_more_states_than_slots, no_gl_errors),
-        cmocka_unit_test_teardown(test_older_states_stay, no_gl_errors),
+        cmocka_unit_test_teardown(test_drawn_state_stays, no_gl_errors),
         cmocka_unit_test_teardown(test_too_many, no_gl_errors),
         cmocka_unit_test_teardown(test_world, no_gl_errors),
     };
