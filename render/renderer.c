@@ -18,7 +18,7 @@ struct Renderer {
     Shadow shadow;
     Backdrop backdrop;
     Edges edges;
-    Text *text; /* NULL without a legend */
+    Text *text; /* NULL before the first legend */
     View *view; /* NULL for "none" */
 };
 
@@ -36,6 +36,20 @@ ViewDef view_def_default(void)
                      .background = {0.72, 0.76, 0.80}};
 }
 
+/* Letters for a picture that high, or none where the def wants no legend. */
+static bool follow_legend(Renderer *renderer, const ViewDef *def, int height, Error *error)
+{
+    const float pixels = legend_text_pixels(height);
+    if (!def->legend || (renderer->text && text_height(renderer->text) == pixels))
+        return true;
+    Text *text = text_create(pixels, error);
+    if (!text)
+        return false;
+    text_destroy(renderer->text);
+    renderer->text = text;
+    return true;
+}
+
 static bool create_parts(Renderer *renderer, int width, int height, Error *error)
 {
     const ViewDef *def = &renderer->def;
@@ -43,9 +57,8 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
         !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
-    if (def->legend && !(renderer->text = text_create(legend_text_pixels(height), error)))
-        return false;
-    return strcmp(def->kind, "none") == 0 || (renderer->view = view_create(def, error)) != NULL;
+    return follow_legend(renderer, def, height, error) &&
+           (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(def, error)) != NULL);
 }
 
 Renderer *renderer_create(const ViewDef *def, int width, int height, Error *error)
@@ -76,6 +89,38 @@ void renderer_destroy(Renderer *renderer)
     free(renderer);
 }
 
+bool renderer_set_def(Renderer *renderer, const ViewDef *def, Error *error)
+{
+    const ViewDef *old = &renderer->def;
+    if (!follow_legend(renderer, def, renderer->target.height, error))
+        return false;
+    if (strcmp(def->kind, old->kind) != 0 || strcmp(def->colormap, old->colormap) != 0) {
+        View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
+        if (!view && strcmp(def->kind, "none") != 0)
+            return false;
+        view_destroy(renderer->view);
+        renderer->view = view;
+    }
+    renderer->def = *def;
+    return true;
+}
+
+bool renderer_resize(Renderer *renderer, int width, int height, Error *error)
+{
+    Target target;
+    if (width == renderer->target.width && height == renderer->target.height)
+        return true;
+    if (!target_create(&target, width, height, error))
+        return false;
+    if (!follow_legend(renderer, &renderer->def, height, error)) {
+        target_destroy(&target);
+        return false;
+    }
+    target_destroy(&renderer->target);
+    renderer->target = target;
+    return true;
+}
+
 static void draw_shadow(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
     shadow_begin(&renderer->shadow);
@@ -88,7 +133,7 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
 {
     if (renderer->def.box)
         edges_draw(&renderer->edges, frame);
-    if (!renderer->text)
+    if (!renderer->def.legend)
         return;
     text_begin(renderer->text, frame->width, frame->height);
     legend_draw(renderer->text, frame, particles->time);
@@ -118,6 +163,11 @@ void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer
 void renderer_read(const Renderer *renderer, uint8_t *rgb)
 {
     target_read(&renderer->target, rgb);
+}
+
+void renderer_present(const Renderer *renderer)
+{
+    target_present(&renderer->target);
 }
 
 void renderer_read_depth(const Renderer *renderer, float *depth)

@@ -23,12 +23,21 @@ ViewDef view_def_default(void);
 Renderer *renderer_create(const ViewDef *def, int width, int height, Error *error);
 void renderer_destroy(Renderer *renderer); /* NULL is allowed */
 
+/* From the next picture on; copies the def. On failure all stays as it was: an unknown view or colormap, a
+   size that the driver does not take. Cheap where only numbers change. */
+bool renderer_set_def(Renderer *renderer, const ViewDef *def, Error *error);
+bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
+
 /* Draws one state into the renderer's own target; stages go to `timer` (NULL: not measured). Does not wait.
  */
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
 
 /* The picture: 3 * width * height bytes of sRGB, rows from the top down. Waits for the drawing. */
 void renderer_read(const Renderer *renderer, uint8_t *rgb);
+
+/* Copies the picture into the default framebuffer, its lower left corner at 0, 0; leaves that one bound, with
+   its viewport as large as the picture. */
+void renderer_present(const Renderer *renderer);
 
 /* width * height reversed depths (1 at the near plane, 0 where nothing is), rows from the bottom up. */
 void renderer_read_depth(const Renderer *renderer, float *depth);

@@ -11,7 +11,7 @@ typedef struct Spheres {
     GLuint visibility, shading, casting; /* programs */
     GLuint colormap;
     GLuint framebuffer, seen; /* id + 1 of the nearest particle, R32UI; with the target's own depth */
-    GLuint target_depth;      /* which the framebuffer was made for */
+    unsigned target_number;   /* which the framebuffer was made for */
     GLuint screen;            /* vertex array without attributes */
     QuadIndices quads;
 } Spheres;
@@ -62,7 +62,7 @@ static void *spheres_create(const ViewDef *def, Error *error)
 
 static void follow_target(Spheres *spheres, const Target *target)
 {
-    if (spheres->target_depth == target->depth)
+    if (spheres->target_number == target->number)
         return;
     glDeleteFramebuffers(1, &spheres->framebuffer);
     glDeleteTextures(1, &spheres->seen);
@@ -75,7 +75,7 @@ static void follow_target(Spheres *spheres, const Target *target)
     glObjectLabel(GL_FRAMEBUFFER, spheres->framebuffer, -1, "seen particles");
     glNamedFramebufferTexture(spheres->framebuffer, GL_COLOR_ATTACHMENT0, spheres->seen, 0);
     glNamedFramebufferTexture(spheres->framebuffer, GL_DEPTH_ATTACHMENT, target->depth, 0);
-    spheres->target_depth = target->depth;
+    spheres->target_number = target->number;
 }
 
 static void spheres_cast(void *state, const ParticleBuffers *particles, const Frame *frame)

@@ -16,8 +16,9 @@ static GLuint create_texture(GLenum format, int width, int height, const char *l
 
 bool target_create(Target *target, int width, int height, Error *error)
 {
+    static unsigned targets;
     GLint limit = 0;
-    *target = (Target){.width = width, .height = height};
+    *target = (Target){.width = width, .height = height, .number = ++targets};
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width < 1 || height < 1 || width > limit || height > limit)
         return error_set(error, "a picture of %d x %d pixels cannot be drawn; 1 to %d a side can", width,
@@ -75,6 +76,16 @@ void target_read(const Target *target, uint8_t *rgb)
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, target->width, target->height, GL_RGB, GL_UNSIGNED_BYTE, rgb);
     flip_rows(rgb, 3 * (size_t)target->width, (size_t)target->height);
+}
+
+void target_present(const Target *target)
+{
+    glDisable(GL_FRAMEBUFFER_SRGB); /* encoded once is enough */
+    glDisable(GL_SCISSOR_TEST);
+    glBlitNamedFramebuffer(target->framebuffer, 0, 0, 0, target->width, target->height, 0, 0, target->width,
+                           target->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, target->width, target->height);
 }
 
 void target_read_depth(const Target *target, float *depth)

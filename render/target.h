@@ -11,6 +11,7 @@
 
 typedef struct Target {
     int width, height;
+    unsigned number; /* each target's own: names of textures come again */
     unsigned framebuffer;
     unsigned color; /* texture, SRGB8_ALPHA8 */
     unsigned depth; /* texture, DEPTH_COMPONENT32F */
@@ -25,6 +26,9 @@ void target_begin(const Target *target);
 
 /* 3 * width * height bytes, rows from the top down; waits for the drawing. */
 void target_read(const Target *target, uint8_t *rgb);
+
+/* Copies the colour as it is into the default framebuffer, and leaves that one bound. */
+void target_present(const Target *target);
 
 /* width * height depths, rows from the bottom up; for tests and for picking. */
 void target_read_depth(const Target *target, float *depth);

@@ -1,0 +1,103 @@
+/* A renderer whose size and def change while it lives draws what a new one would. */
+#include "tests/render/fixture.h"
+
+enum { MOST = 3 * 400 * 300 };
+
+typedef struct Stand {
+    Particles *particles;
+    Upload *upload;
+    ParticleBuffers buffers;
+} Stand;
+
+static Stand stand_create(void)
+{
+    Stand stand = {.particles = particles_wave(0.1)};
+    ParticleBuffers box = box_state(stand.particles->count, 0.1);
+    stand.upload = upload_particles(stand.particles, &box, &stand.buffers);
+    return stand;
+}
+
+static void stand_destroy(Stand *stand)
+{
+    upload_destroy(stand->upload);
+    free(stand->particles);
+}
+
+static void draw(Renderer *renderer, const Stand *stand, uint8_t *rgb)
+{
+    renderer_draw(renderer, &stand->buffers, NULL);
+    renderer_read(renderer, rgb);
+}
+
+static void assert_like_new(Renderer *renderer, const Stand *stand, const ViewDef *def, int width, int height)
+{
+    static uint8_t seen[MOST], wanted[MOST];
+    Error error = {0};
+    draw(renderer, stand, seen);
+    Renderer *fresh = renderer_create(def, width, height, &error);
+    assert_non_null(fresh);
+    draw(fresh, stand, wanted);
+    renderer_destroy(fresh);
+    assert_memory_equal(seen, wanted, 3 * (size_t)width * (size_t)height);
+}
+
+static void sizes_follow(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{400, 300}, {1, 1}, {200, 300}, {400, 300}, {320, 8}, {399, 299}};
+    Error error = {0};
+    Stand stand = stand_create();
+    const ViewDef def = view_def_default();
+    Renderer *renderer = renderer_create(&def, 64, 64, &error);
+    for (int i = 0; i < 6; i++) {
+        assert_true(renderer_resize(renderer, 7 + i, 9, &error)); /* never drawn */
+        assert_true(renderer_resize(renderer, sizes[i][0], sizes[i][1], &error));
+        assert_like_new(renderer, &stand, &def, sizes[i][0], sizes[i][1]);
+    }
+    assert_false(renderer_resize(renderer, 1 << 20, 4, &error));
+    assert_non_null(strstr(error.message, "1048576 x 4"));
+    assert_like_new(renderer, &stand, &def, 399, 299);
+    renderer_destroy(renderer);
+    stand_destroy(&stand);
+}
+
+static void defs_follow(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Stand stand = stand_create();
+    ViewDef def = view_def_default();
+    Renderer *renderer = renderer_create(&def, 320, 200, &error);
+    ViewDef changed = def;
+    text_set(changed.colormap, "gray");
+    assert_true(renderer_set_def(renderer, &changed, &error));
+    assert_like_new(renderer, &stand, &changed, 320, 200);
+    changed.color_by = SCALAR_FLUID;
+    changed.legend = changed.floor = false;
+    changed.radius = 0.8;
+    changed.background[0] = 0.1;
+    assert_true(renderer_set_def(renderer, &changed, &error));
+    assert_like_new(renderer, &stand, &changed, 320, 200);
+    text_set(changed.kind, "none");
+    assert_true(renderer_set_def(renderer, &changed, &error));
+    assert_like_new(renderer, &stand, &changed, 320, 200);
+    assert_true(renderer_set_def(renderer, &def, &error));
+    assert_like_new(renderer, &stand, &def, 320, 200);
+
+    ViewDef bad = def;
+    text_set(bad.colormap, "mud");
+    assert_false(renderer_set_def(renderer, &bad, &error));
+    assert_non_null(strstr(error.message, "mud"));
+    assert_like_new(renderer, &stand, &def, 320, 200);
+    renderer_destroy(renderer);
+    stand_destroy(&stand);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(sizes_follow, no_gl_errors),
+        cmocka_unit_test_teardown(defs_follow, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
