@@ -17,6 +17,8 @@ typedef struct Scene {
     char title[128];
     WorldDef world;
     ViewDef view;
+    bool
+        realtime; /* the window simulates as many frames as the wall clock asks for, else as many as it can */
 } Scene;
 
 enum { SCENE_SETTINGS_MAX = 64, SCENE_BYTES_MAX = 1 << 20 };

@@ -134,6 +134,8 @@ static const Key keys[] = {
     CHOICE("solver.step.mode", 0, step_mode_choice, KEY_NOWHERE, "fixed: every frame simulates dt"),
     NUMBER("solver.step.dt", L, "s", 1e-7, 1, WORLD(dt), "simulated time of a frame"),
     INTEGER("solver.step.substeps", L, 1, 10000, WORLD(substeps), "steps in a frame"),
+    BOOLEAN("solver.step.realtime", L, offsetof(Scene, realtime),
+            "in the window, simulate as many frames as the clock asks for; false: as many as it can"),
 
     MAPPING("hand", "what the box may do when a hand moves it, by mouse, keys or gamepad"),
     NUMBER("hand.response", L, "s", 0.001, 10, WORLD(limits.response), "time in which the box follows the hand"),

@@ -86,5 +86,5 @@ void fluid_init(void *element, int index)
 
 void scene_default(Scene *scene)
 {
-    *scene = (Scene){.world = world_def_default(), .view = view_def_default()};
+    *scene = (Scene){.world = world_def_default(), .view = view_def_default(), .realtime = true};
 }
