@@ -1,0 +1,97 @@
+/* The one list of what a user can do in the window. The window's bindings, the help overlay, the panel's
+   buttons and the table of app/README.md come from it. Pure: of GLFW only the numbers of keys and buttons are
+   used. */
+#ifndef SLOSH_PLAY_COMMANDS_H
+#define SLOSH_PLAY_COMMANDS_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+typedef enum PlayCommand {
+    PLAY_NONE = -1,
+    /* done once by a press of a key, a gamepad's button or the panel's button */
+    PLAY_PAUSE,
+    PLAY_STEP,
+    PLAY_RESET,
+    PLAY_SLOWER,
+    PLAY_FASTER,
+    PLAY_NEXT_SCENE,
+    PLAY_PREVIOUS_SCENE,
+    PLAY_NEXT_SCALAR,
+    PLAY_NEXT_COLORMAP,
+    PLAY_SCREENSHOT,
+    PLAY_VIDEO,
+    PLAY_SAVE_RECORDING,
+    PLAY_FULLSCREEN,
+    PLAY_PANEL,
+    PLAY_HELP,
+    PLAY_CAMERA_HOME,
+    PLAY_BOX_HOME,
+    PLAY_QUIT, /* Escape closes the help first when it is open: the window's affair */
+    /* done for as long as it lasts: drags, the wheel, sticks, and the keys of play_held_keys */
+    PLAY_ORBIT,
+    PLAY_PAN,
+    PLAY_ZOOM,
+    PLAY_MOVE_DRAG,
+    PLAY_TURN_DRAG,
+    PLAY_MOVE_KEYS,
+    PLAY_TILT_KEYS,
+    PLAY_MOVE_STICK,
+    PLAY_TILT_STICK,
+    PLAY_COMMAND_COUNT
+} PlayCommand;
+
+enum {
+    PLAY_BUTTON = 1, /* has a button in the panel */
+    PLAY_REPEATS = 2 /* goes on while its key is held (GLFW_REPEAT) */
+};
+
+typedef struct PlayKey {
+    int key;       /* GLFW_KEY_*; 0: none */
+    int modifiers; /* GLFW_MOD_SHIFT, _CONTROL, _ALT, _SUPER: exactly these */
+} PlayKey;
+
+typedef struct PlayCommandRow {
+    PlayCommand command;
+    const char *name; /* a word, or words with hyphens between */
+    const char *help; /* one plain line */
+    PlayKey keys[2];
+    const char *gamepad; /* name of the gamepad's button that does it; NULL: none */
+    const char *gesture; /* how, for what is no single press: "Shift + left drag"; NULL: a press */
+    unsigned flags;
+} PlayCommandRow;
+
+/* In the order of PlayCommand, so that play_command_rows[PLAY_PAUSE] is the row of PLAY_PAUSE; ended by a row
+   whose name is NULL. */
+extern const PlayCommandRow play_command_rows[];
+
+/* A key that moves (PLAY_MOVE_KEYS) or tilts (PLAY_TILT_KEYS) the box while it is down. */
+typedef struct PlayHeldKey {
+    PlayCommand command;
+    int key, modifiers; /* as in PlayKey */
+    int axis;           /* of HandInput.move_rate: 0 .. 2, or of HandInput.tilt_rate: 0 .. 1 */
+    int sign;           /* +1 or -1 */
+} PlayHeldKey;
+
+extern const PlayHeldKey play_held_keys[]; /* ended by key 0 */
+
+/* The command of a pressed key (GLFW_KEY_*, as play_key_on_layout gives it) with its modifiers (GLFW_MOD_*;
+   the locks do not count), or PLAY_NONE. A sign is found with Shift too, so that "+" is one whether it is
+   typed with Shift or without. */
+PlayCommand play_command_of_key(int key, int modifiers);
+
+/* The command of a pressed GLFW_GAMEPAD_BUTTON_*, or PLAY_NONE. */
+PlayCommand play_command_of_gamepad(int button);
+
+/* GLFW numbers keys by their place on a US keyboard. This gives the number of the key that bears that letter
+   or sign on the user's keyboard; `label` is glfwGetKeyName's for the key, NULL allowed. Other keys, and
+   labels that are no Latin letter, stay what they are. */
+int play_key_on_layout(int key, const char *label);
+
+/* How to give the command: "Space, Pause or gamepad Start", "Ctrl+S", "Shift + left drag"; cut at `size`. */
+void play_command_keys_text(const PlayCommandRow *row, char *text, size_t size);
+
+/* The list as a Markdown table, for app/README.md. */
+void play_commands_print(FILE *file);
+
+#endif
