@@ -63,16 +63,6 @@ static void rotation_between(const double a[4], const double b[4], double out[3]
         out[k] = scale * d[k];
 }
 
-static void turn_by(const double rotation[3], double q[4])
-{
-    const double angle = length(rotation), s = angle > 0 ? sin(0.5 * angle) / angle : 0.5;
-    const double turn[4] = {s * rotation[0], s * rotation[1], s * rotation[2], cos(0.5 * angle)};
-    quat_multiply(turn, q, q);
-    const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (int k = 0; k < 4; k++)
-        q[k] /= norm;
-}
-
 void box_filter_step(BoxFilter *filter, const BoxTarget *target, const BoxLimits *limits, double dt)
 {
     const double radians = M_PI / 180;
@@ -86,7 +76,7 @@ void box_filter_step(BoxFilter *filter, const BoxTarget *target, const BoxLimits
     rotation_between(target->orientation, filter->orientation, error);
     follow(error, limits->response, limits->turn_speed_deg * radians, limits->turn_acceleration_deg * radians,
            dt, filter->angular_velocity, moved);
-    turn_by(moved, filter->orientation);
+    quat_turn(moved, filter->orientation);
 }
 
 /* The hand moves and turns the centre's frame; the prescribed pose rides on it. */

@@ -38,6 +38,18 @@ void quat_multiply(const double a[4], const double b[4], double out[4])
     memcpy(out, c, sizeof c);
 }
 
+void quat_turn(const double rotation[3], double q[4])
+{
+    const double angle =
+        sqrt(rotation[0] * rotation[0] + rotation[1] * rotation[1] + rotation[2] * rotation[2]);
+    const double s = angle > 0 ? sin(0.5 * angle) / angle : 0.5;
+    const double turn[4] = {s * rotation[0], s * rotation[1], s * rotation[2], cos(0.5 * angle)};
+    quat_multiply(turn, q, q);
+    const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int k = 0; k < 4; k++)
+        q[k] /= norm;
+}
+
 void quat_rotate(const double q[4], const double v[3], double out[3])
 {
     /* v + 2 w (u x v) + 2 u x (u x v) with q = (u, w) */

@@ -62,6 +62,9 @@ void cross_product(const double a[3], const double b[3], double out[3]);
 /* a * b; `out` may be either. */
 void quat_multiply(const double a[4], const double b[4], double out[4]);
 
+/* Turns q further by a rotation vector (radians, along the axis, both in the world), to a unit quaternion. */
+void quat_turn(const double rotation[3], double q[4]);
+
 /* Rotates v by the quaternion q, or by its inverse. `out` may be `v`. */
 void quat_rotate(const double q[4], const double v[3], double out[3]);
 void quat_rotate_inverse(const double q[4], const double v[3], double out[3]);
