@@ -1,5 +1,6 @@
 /* The table of keys: every row's range holds on both sides, and what is made from the table agrees with it.
  */
+#include "tests/app/readme_table.h"
 #include "tests/app/scene_text.h"
 
 #include "app/scene_keys.h"
@@ -200,39 +201,10 @@ static void what_is_printed_can_be_set(void **state)
     free(first);
 }
 
-static char *file_text(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    char *text = calloc(1, 1 << 20);
-    assert_non_null(text);
-    assert_true(fread(text, 1, (1 << 20) - 1, file) > 0);
-    fclose(file);
-    return text;
-}
-
-/* With SLOSH_KEYS=FILE the table is written there, to be pasted. */
 static void readme_has_the_table(void **state)
 {
     (void)state;
-    char *table = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&table, &size);
-    scene_keys_print(file);
-    fclose(file);
-    if (getenv("SLOSH_KEYS")) {
-        file = fopen(getenv("SLOSH_KEYS"), "w");
-        assert_non_null(file);
-        fputs(table, file);
-        fclose(file);
-    }
-    char *readme = file_text(SLOSH_SOURCE_DIR "/scenes/README.md");
-    if (!strstr(readme, table))
-        fail_msg(
-            "the table in scenes/README.md is not that of app/scene_keys.c; run this with SLOSH_KEYS=FILE and "
-            "paste FILE");
-    free(readme);
-    free(table);
+    check_readme_table(scene_keys_print, "scenes/README.md", "app/scene_keys.c");
 }
 
 static void nearest_names(void **state)
