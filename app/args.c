@@ -282,11 +282,15 @@ static bool parse_help(Parser *parser)
     return true;
 }
 
+/* An option or a scene file in place of a command. */
+static bool is_for_play(const char *word)
+{
+    return word[0] == '-' || strchr(word, '/') || strstr(word, ".yaml");
+}
+
 static bool parse_command(Parser *parser)
 {
-    if (parser->at == parser->argc)
-        return fail(parser, "no command; `slosh help` lists them");
-    const char *name = parser->argv[parser->at++];
+    const char *name = parser->at < parser->argc ? parser->argv[parser->at++] : "play";
     if (strcmp(name, "--version") == 0) {
         parser->args->command = COMMAND_VERSION;
         return true;
@@ -294,8 +298,12 @@ static bool parse_command(Parser *parser)
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
         name = "help";
     const CommandRow *row = command_find(name);
-    if (!row)
+    if (!row && !is_for_play(name))
         return unknown_command(parser, name);
+    if (!row) {
+        row = command_row(COMMAND_PLAY);
+        parser->at--;
+    }
     parser->row = row;
     parser->args->command = parser->args->help_for = row->command;
     parser->args->width = row->width;
@@ -329,6 +337,7 @@ bool args_parse(int argc, char *const argv[], Args *args, Error *error)
     args->time = 5;
     args->every = 1.0 / 30;
     args->fps = 30;
+    args->seconds = 20;
     args->gpu = -1;
     Parser parser = {.argc = argc, .at = 1, .argv = argv, .args = args, .error = error};
     if (!parse_command(&parser))

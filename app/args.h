@@ -15,9 +15,11 @@ enum { ARGS_SCENES_MAX = 64, ARGS_SWEEPS_MAX = 8, ARGS_SWEEP_VALUES_MAX = 32, AR
 typedef enum Command {
     COMMAND_HELP, /* also --help: of `help_for`, or of the program where that is COMMAND_HELP */
     COMMAND_VERSION,
+    COMMAND_PLAY, /* also without a command */
     COMMAND_RENDER,
     COMMAND_RUN,
     COMMAND_BENCH,
+    COMMAND_REPLAY, /* `scenes` holds the recording */
     COMMAND_INFO,
     COMMAND_COUNT
 } Command;
@@ -51,6 +53,9 @@ typedef struct Args {
     int width, height; /* pixels, 1 to 16384; default 1280 x 720, of bench 512 x 512 */
     int gpu;           /* number of the EGL device; -1: not given */
     ClockChoice clock;
+    bool play;          /* bench: the live window */
+    double seconds;     /* of it; more than 0; default 20 */
+    const char *record; /* FILE, or NULL */
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
     size_t pool_used;

@@ -3,14 +3,18 @@
 #include <stddef.h>
 
 enum {
+    PLAY = 1 << COMMAND_PLAY,
     RENDER = 1 << COMMAND_RENDER,
     RUN = 1 << COMMAND_RUN,
     BENCH = 1 << COMMAND_BENCH,
+    REPLAY = 1 << COMMAND_REPLAY,
     INFO = 1 << COMMAND_INFO,
-    ALL = RENDER | RUN | BENCH | INFO
+    ALL = PLAY | RENDER | RUN | BENCH | INFO
 };
 
 const CommandRow command_rows[] = {
+    {COMMAND_PLAY, "play", "[SCENE] [OPTIONS]",
+     "opens the window: the box in your hand; without a scene, box_slosh", 0, 1, NULL, 1280, 720},
     {COMMAND_RENDER, "render", "SCENE -o OUT.png|OUT.mp4|FOLDER [OPTIONS]",
      "simulates a scene into a picture, a video or a folder of pictures; needs no display", 1, 1,
      "OUT.png, OUT.mp4 or a folder", 1280, 720},
@@ -18,6 +22,8 @@ const CommandRow command_rows[] = {
      "simulates a scene into snapshots that ParaView opens", 1, 1, "OUT.h5part", 1280, 720},
     {COMMAND_BENCH, "bench", "[SCENE...] [OPTIONS]", "measures how long each stage of a frame takes", 0,
      ARGS_SCENES_MAX, NULL, 512, 512},
+    {COMMAND_REPLAY, "replay", "FILE [OPTIONS]",
+     "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
      0, 1, NULL, 1280, 720},
     {COMMAND_HELP, "help", "[COMMAND]", "says what a command does and takes", 0, 0, NULL, 0, 0},
@@ -35,8 +41,12 @@ const OptionRow option_rows[] = {
     {"--frames", "N", RENDER | BENCH, OPTION_COUNT, AT(frames), .min = 1, .max = 1e7, .help = "how many frames"},
     {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .max = 1000, .flags = OPTION_OPEN_LOW,
      .help = "frames in a second (30)"},
-    {"--size", "WxH", RENDER | BENCH, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
+    {"--size", "WxH", PLAY | RENDER | BENCH, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
      .help = "pixels (1280x720; bench 512x512)"},
+    {"--record", "FILE", PLAY, OPTION_TEXT, AT(record), .help = "write the session there at the end, for slosh replay"},
+    {"--play", NULL, BENCH, OPTION_FLAG, AT(play), .help = "measure the live window, the box shaken by a script"},
+    {"--seconds", "S", BENCH, OPTION_NUMBER, AT(seconds), .max = 1e5, .flags = OPTION_OPEN_LOW,
+     .help = "how long, with --play (20)"},
     {"--clock", "gl|finish", BENCH, OPTION_CLOCK, AT(clock),
      .help = "GPU stages by GL timer queries, or by glFinish and the CPU's clock"},
     {"--sweep", "KEY=A,B,...", BENCH, OPTION_SWEEP, AT(sweeps),
@@ -48,12 +58,12 @@ const OptionRow option_rows[] = {
     {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes"},
     {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations"},
     {"--view", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn; none: not at all"},
-    {"--threads", "N", ALL, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
+    {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
     {"--gpu", "N", RENDER | BENCH | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which device draws, counted from 0"},
-    {"--shaders", "DIR", RENDER | BENCH, OPTION_TEXT, AT(shaders), .help = "read the shaders from there"},
-    {"--json", "FILE", ALL, OPTION_TEXT, AT(json), .help = "write the figures there too"},
-    {"--quiet", NULL, ALL, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
-    {"--help", NULL, ALL, OPTION_HELP, .help = "this text"},
+    {"--shaders", "DIR", PLAY | RENDER | BENCH, OPTION_TEXT, AT(shaders), .help = "read the shaders from there"},
+    {"--json", "FILE", ALL | REPLAY, OPTION_TEXT, AT(json), .help = "write the figures there too"},
+    {"--quiet", NULL, ALL | REPLAY, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
+    {"--help", NULL, ALL | REPLAY, OPTION_HELP, .help = "this text"},
     {0},
 };
 /* clang-format on */

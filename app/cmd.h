@@ -7,9 +7,11 @@
 
 enum { EXIT_FAILED = 1, EXIT_USAGE = 2 };
 
+int cmd_play(const Args *args);
 int cmd_render(const Args *args);
 int cmd_run(const Args *args);
 int cmd_bench(const Args *args);
+int cmd_replay(const Args *args);
 int cmd_info(const Args *args);
 
 #endif

@@ -2,6 +2,8 @@
 #include "app/cmd.h"
 #include "app/interrupt.h"
 #include "app/output.h"
+#include "app/play.h"
+#include "app/play_report.h"
 #include "sim/gl/shader_source.h"
 
 #include <stdlib.h>
@@ -151,6 +153,35 @@ static int bench(const Plan *plan, bool draws, Error *error)
     return interrupted() ? EXIT_INTERRUPTED : 0;
 }
 
+/* One window after the other, each with its scene and its settings. */
+static int bench_play(const Args *args, Error *error)
+{
+    static const char *const scene = "scenes/box_slosh.yaml";
+    const size_t count = args->scene_count ? (size_t)args->scene_count : 1;
+    PlayFigures *figures = calloc(count, sizeof *figures);
+    if (!figures || (args->json && !output_check(args->json, error))) {
+        free(figures);
+        return fail(error, EXIT_FAILED);
+    }
+    int code = 0;
+    shader_source_set_directory(args->shaders);
+    for (size_t i = 0; i < count && code == 0 && !interrupted(); i++) {
+        const PlaySetup setup = {.scene = args->scene_count ? args->scenes[i] : scene,
+                                 .settings = &args->settings,
+                                 .width = args->width,
+                                 .height = args->height,
+                                 .shake_seconds = args->seconds,
+                                 .quiet = args->quiet};
+        code = play(&setup, &figures[i]);
+        if (code == 0 && !args->quiet)
+            play_print(&figures[i], stdout);
+    }
+    if (code == 0 && args->json && !play_write_json_array(figures, count, args->json, error))
+        code = fail(error, EXIT_FAILED);
+    free(figures);
+    return code;
+}
+
 int cmd_bench(const Args *args)
 {
     Error error = {{0}};
@@ -159,5 +190,7 @@ int cmd_bench(const Args *args)
     interrupt_install();
     if (!cases_check(&plan, &draws, &error))
         return fail(&error, EXIT_USAGE);
+    if (args->play)
+        return bench_play(args, &error);
     return bench(&plan, draws, &error);
 }

@@ -18,12 +18,16 @@ static void bound_spinning(char *argv[])
 static int run_command(const Args *args)
 {
     switch (args->command) {
+    case COMMAND_PLAY:
+        return cmd_play(args);
     case COMMAND_RENDER:
         return cmd_render(args);
     case COMMAND_RUN:
         return cmd_run(args);
     case COMMAND_BENCH:
         return cmd_bench(args);
+    case COMMAND_REPLAY:
+        return cmd_replay(args);
     case COMMAND_INFO:
         return cmd_info(args);
     case COMMAND_VERSION:

@@ -281,6 +281,8 @@ void world_info(const World *world, WorldInfo *info)
         .box = world->box,
     };
     memcpy(info->box_size, world->def.box_size, sizeof info->box_size);
+    memcpy(info->hand.position, world->filter.position, sizeof info->hand.position);
+    memcpy(info->hand.orientation, world->filter.orientation, sizeof info->hand.orientation);
     quat_rotate_inverse(world->box.orientation, world->def.gravity, info->gravity);
     world->backend->info(world->state, info);
 }

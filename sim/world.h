@@ -49,6 +49,7 @@ typedef struct WorldInfo {
     double spacing;        /* m */
     double box_size[3];    /* m */
     BoxState box;          /* of the state that world_read reads */
+    BoxTarget hand;        /* the hand's part of its pose, as the filter has it */
     double gravity[3];     /* in the box's frame, m/s2 */
     size_t state_bytes;    /* memory that the backend holds for its particles and grid */
     size_t guarded;        /* times that the last guard of a wall held a particle back, since the start */

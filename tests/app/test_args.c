@@ -114,10 +114,8 @@ static void sweeps_are_split(void **state)
 static void slips_are_named(void **state)
 {
     (void)state;
-    refuse("", "slosh: no command; `slosh help` lists them");
     refuse("rendr s", "slosh: unknown command 'rendr'; did you mean 'render'?");
     refuse("dance", "slosh: unknown command 'dance'; `slosh help` lists them");
-    refuse("play", "slosh: unknown command 'play'"); /* not before it works */
     refuse("render s -o a.png --tme 3", "slosh render: unknown option '--tme'; did you mean '--time'?");
     refuse("render s -o a.png --xyzzy",
            "slosh render: unknown option '--xyzzy'; `slosh help render` lists them");
@@ -191,6 +189,28 @@ static void too_many_are_refused(void **state)
     assert_non_null(strstr(error.message, "--set: too long"));
 }
 
+/* `slosh [play] [SCENE]` */
+static void play_is_what_is_meant_without_a_command(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {"",         "play",    "play a.yaml", "a.yaml",
+                                        "folder/a", "--quiet", "--quiet -- a"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        accept(lines[i]);
+        assert_int_equal(args.command, COMMAND_PLAY);
+        assert_int_equal(args.width, 1280);
+    }
+    accept("x/y.yaml --set gravity=[0,0,0] --record r");
+    assert_string_equal(args.scenes[0], "x/y.yaml");
+    assert_string_equal(args.record, "r");
+    assert_int_equal(args.settings.count, 1);
+    accept("bench --play --seconds 3 a");
+    assert_true(args.play && args.seconds == 3);
+    refuse("play a b", "slosh play: one argument too many");
+    refuse("--fps 3", "slosh play: unknown option '--fps'");
+    refuse("bench --seconds 0", "slosh bench:");
+}
+
 static char *help_of(Command command)
 {
     char *text = NULL;
@@ -220,7 +240,7 @@ static void help_comes_from_the_table(void **state)
 
     char *program = help_of(COMMAND_HELP), *bench = help_of(COMMAND_BENCH), *run = help_of(COMMAND_RUN);
     assert_non_null(strstr(program, "slosh render SCENE -o OUT.png|OUT.mp4|FOLDER"));
-    assert_null(strstr(program, "slosh play"));
+    assert_non_null(strstr(program, "slosh play"));
     assert_non_null(strstr(bench, "--sweep KEY=A,B,..."));
     assert_non_null(strstr(bench, "--clock gl|finish"));
     assert_non_null(strstr(run, "--every S"));
@@ -241,6 +261,7 @@ int main(void)
         cmocka_unit_test(numbers_have_ranges),
         cmocka_unit_test(sizes_have_two_sides),
         cmocka_unit_test(too_many_are_refused),
+        cmocka_unit_test(play_is_what_is_meant_without_a_command),
         cmocka_unit_test(help_comes_from_the_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

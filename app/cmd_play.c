@@ -1,0 +1,40 @@
+#include "app/cmd.h"
+#include "app/output.h"
+#include "app/play.h"
+#include "app/play_report.h"
+#include "sim/gl/shader_source.h"
+
+#include <stdio.h>
+
+static const char *const default_scene = "scenes/box_slosh.yaml";
+
+static int fail(const Error *error, int code)
+{
+    fprintf(stderr, "%s\n", error->message);
+    return code;
+}
+
+int cmd_play(const Args *args)
+{
+    const char *scene = args->scene_count ? args->scenes[0] : default_scene;
+    const PlaySetup setup = {.scene = scene,
+                             .settings = &args->settings,
+                             .width = args->width,
+                             .height = args->height,
+                             .record = args->record,
+                             .quiet = args->quiet};
+    static PlayFigures figures;
+    static Scene checked;
+    SceneSettings settings = args->settings;
+    Error error = {{0}};
+    if (!scene_load(scene, &settings, &checked, NULL, &error))
+        return fail(&error, EXIT_USAGE);
+    if ((args->record && !output_check(args->record, &error)) ||
+        (args->json && !output_check(args->json, &error)))
+        return fail(&error, EXIT_FAILED);
+    shader_source_set_directory(args->shaders);
+    const int code = play(&setup, &figures);
+    if (code == 0 && args->json && !play_write_json(&figures, args->json, &error))
+        return fail(&error, EXIT_FAILED);
+    return code;
+}

@@ -1,0 +1,306 @@
+#include "app/play.h"
+
+#include "app/cmd.h"
+#include "app/interrupt.h"
+#include "app/play_script.h"
+#include "app/play_state.h"
+#include "app/scene_live.h"
+#include "render/legend.h"
+#include "sim/gl/debug.h"
+#include "sim/stage.h"
+#include "sim/world.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000;
+
+void play_tell(Play *play, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(play->notice, sizeof play->notice, format, arguments);
+    va_end(arguments);
+    play->notice_until_ms = wall_ms() + NOTICE_MS;
+    play->dirty = true;
+    if (!play->setup->quiet)
+        fprintf(stderr, "%s\n", play->notice);
+}
+
+void play_view_changed(Play *play)
+{
+    Error error = {{0}};
+    play->dirty = true;
+    if (!renderer_set_def(play->renderer, &play->open.scene.view, &error))
+        play_tell(play, "%s", error.message);
+}
+
+void play_set(Play *play, const char *setting)
+{
+    Error error = {{0}};
+    bool concerns_world;
+    SimCommand command = {.kind = SIM_SET};
+    if (!scene_set_live(&play->open.scene, setting, &concerns_world, &error)) {
+        play_tell(play, "%s", error.message);
+        return;
+    }
+    simulator_set_realtime(play->open.simulator, play->open.scene.realtime);
+    play_view_changed(play);
+    snprintf(command.setting, sizeof command.setting, "%s", setting);
+    if (concerns_world && !simulator_send(play->open.simulator, &command))
+        play_tell(play, "too many changes wait for the next step; let the time run");
+}
+
+static double cpu_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+static void adopt(Play *play, const PlayScene *opened)
+{
+    char title[192];
+    play->open = *opened;
+    play->file_view = opened->scene.view;
+    play->has_particles = play->orbiting = false;
+    play->hand = hand_at_rest();
+    play->input = (PlayInput){.drag = PLAY_NONE, .looked_ms = wall_ms()};
+    play->saves = play->messages = 0;
+    play->scenes_opened++;
+    play->dirty = true;
+    meter_forget(&play->meter);
+    snprintf(title, sizeof title, "%s - slosh", opened->scene.title);
+    window_title(play->window, title);
+    simulator_set_speed(play->open.simulator, play->speed);
+}
+
+/* On failure the scene that is open stays. */
+bool play_open(Play *play, const char *scene, const SceneSettings *settings, Error *error)
+{
+    PlayScene opened;
+    char note[256] = "";
+    if (!play_scene_read(&opened, scene, settings, note, error) ||
+        !play_scene_start(&opened, window_wake, play->paused, error)) {
+        play_scene_close(&opened, INFINITY);
+        return false;
+    }
+    play->simulated_s += play->status.time - play->scene_began_s;
+    play->scene_began_s = 0;
+    play->status = (SimulatorStatus){.time = 0};
+    play_scene_close(&play->open, INFINITY);
+    adopt(play, &opened);
+    if (note[0])
+        play_tell(play, "%s", note);
+    if (play->renderer)
+        play_view_changed(play);
+    return true;
+}
+
+static bool follow_size(Play *play, Error *error)
+{
+    int width, height;
+    window_size(play->window, &width, &height);
+    if (width == play->width && height == play->height)
+        return true;
+    play->width = width;
+    play->height = height;
+    play->dirty = true;
+    return width < 1 || height < 1 || renderer_resize(play->renderer, width, height, error);
+}
+
+static bool start(Play *play, Error *error)
+{
+    const PlaySetup *setup = play->setup;
+    play->window = window_create("slosh", setup->width, setup->height, error);
+    if (!play->window)
+        return false;
+    fprintf(stderr, "renderer: %s\n", window_renderer(play->window));
+    gl_debug_install();
+    play->refresh = window_refresh(play->window);
+    window_size(play->window, &play->width, &play->height);
+    if (!play_open(play, setup->scene, setup->settings, error))
+        return false;
+    play->renderer =
+        renderer_create(&play->open.scene.view, (int)fmax(play->width, 1), (int)fmax(play->height, 1), error);
+    if (!play->renderer)
+        return false;
+    play->text = text_create((float)(14 * window_scale(play->window)), error);
+    if (!gl_renderer_is_software())
+        play->timer = gl_timer_create(GL_CLOCK_QUERY);
+    return play->text != NULL;
+}
+
+/* What the solver has to say. */
+static void listen(Play *play)
+{
+    simulator_status(play->open.simulator, &play->status);
+    if (play->status.messages != play->messages) {
+        play->messages = play->status.messages;
+        play_tell(play, "%s", play->status.message);
+    }
+    if (play->status.saves != play->saves) {
+        play->saves = play->status.saves;
+        play_tell(play, "%s", play->status.save_message);
+    }
+}
+
+static bool hand_busy(const Play *play)
+{
+    bool busy = play->input.drag != PLAY_NONE;
+    WindowGamepad pad;
+    for (const PlayHeldKey *held = play_held_keys; held->key; held++)
+        busy |= play->input.down[held->key];
+    return busy || window_gamepad(play->window, &pad);
+}
+
+static void shake(Play *play, PlayScript *script)
+{
+    WindowEvent event;
+    const double now = wall_ms();
+    if (play->setup->shake_seconds <= 0 || !play->has_particles)
+        return;
+    while (play_script_next(script, now, play->width, play->height, &event))
+        play_event(play, &event);
+    if (now - script->began_ms >= 1000 * play->setup->shake_seconds)
+        play->quit = true;
+}
+
+/* A picture when there is something new to see, and no more than the display shows. */
+static void pause_or_draw(Play *play)
+{
+    const double now = wall_ms(), due = play->drew_ms + 900 / play->refresh;
+    const bool wanted = play->dirty || upload_fresh(play->open.upload);
+    if (wanted && now >= due)
+        play_draw(play);
+    else if (wanted)
+        window_wait(play->window, 1e-3 * fmax(due - now, 0.1));
+    else
+        window_wait(play->window, 1e-3 * (hand_busy(play) ? HELD_MS : IDLE_MS));
+}
+
+static bool run(Play *play, Error *error)
+{
+    PlayScript script = {0};
+    bool noticed = false;
+    while (!play->quit && !interrupted()) {
+        shake(play, &script);
+        play_events(play);
+        listen(play);
+        if (!follow_size(play, error))
+            return false;
+        const bool notice = wall_ms() < play->notice_until_ms;
+        play->dirty |= noticed && !notice;
+        noticed = notice;
+        if (!play->quit)
+            pause_or_draw(play);
+    }
+    return true;
+}
+
+/* The window goes at once; what is being written is finished behind it. */
+static bool finish(Play *play, Error *error)
+{
+    bool ok = true;
+    window_hide(play->window);
+    play_movie_end(play);
+    if (play->setup->record && play->open.simulator) {
+        const unsigned saves = play->status.saves;
+        simulator_save(play->open.simulator, play->setup->record);
+        do {
+            window_wait(play->window, 0.01);
+            simulator_status(play->open.simulator, &play->status);
+        } while (play->status.saves == saves);
+        ok = play->status.saved || error_set(error, "%s", play->status.save_message);
+    }
+    return ok;
+}
+
+static void describe(const Play *play, PlayFigures *figures)
+{
+    const Scene *scene = &play->open.scene;
+    const double wall = 1e-3 * (wall_ms() - play->began_ms);
+    *figures = (PlayFigures){
+        .width = play->width,
+        .height = play->height,
+        .threads = scene->world.threads ? scene->world.threads : world_processors(),
+        .substeps = scene->world.substeps,
+        .dt = scene->world.dt,
+        .particles = play->particles.count,
+        .pictures = play->meter.pictures,
+        .scenes_opened = play->scenes_opened,
+        .step = play->status.step,
+        .time = play->status.time,
+        .simulated_s = play->simulated_s + play->status.time - play->scene_began_s,
+        .wall_s = play->began_ms > 0 ? wall : 0,
+        .first_picture_ms = play->meter.first_ms,
+        .sim_ms = play->status.frames ? play->status.solved_ms / (double)play->status.frames : 0,
+        .render_ms = play->rendered ? play->render_ms / (double)play->rendered : 0,
+        .latency_median_ms = meter_latency(&play->meter, 0.5),
+        .latency_p95_ms = meter_latency(&play->meter, 0.95),
+        .latency_events = play->meter.latencies,
+        .panel_ms = play->panels ? play->panel_ms / (double)play->panels : 0,
+        .speed = play->speed,
+        .paused = play->paused,
+        .fullscreen = window_is_fullscreen(play->window),
+        .camera_auto = scene->view.camera_auto,
+        .panel = play->panel,
+        .help = play->help,
+        .gl_errors = gl_debug_errors()};
+    if (play->began_ms > 0) {
+        figures->real_time_factor = figures->simulated_s / wall;
+        figures->pictures_per_second = (double)(play->meter.pictures - 1) / wall;
+        figures->frame_ms = 1000 / fmax(figures->pictures_per_second, 1e-3);
+        figures->cpus_busy = 1e-3 * (cpu_ms() - play->began_cpu_ms) / wall;
+    }
+    memcpy(figures->box_position, play->status.hand.position, sizeof figures->box_position);
+    memcpy(figures->box_orientation, play->status.hand.orientation, sizeof figures->box_orientation);
+    memcpy(figures->camera_from, scene->view.camera.from, sizeof figures->camera_from);
+    memcpy(figures->camera_to, scene->view.camera.to, sizeof figures->camera_to);
+    snprintf(figures->scene, sizeof figures->scene, "%s", scene->path);
+    snprintf(figures->renderer, sizeof figures->renderer, "%s", window_renderer(play->window));
+    snprintf(figures->view, sizeof figures->view, "%s", scene->view.kind);
+    snprintf(figures->color_by, sizeof figures->color_by, "%s", scalar_name(scene->view.color_by));
+    snprintf(figures->colormap, sizeof figures->colormap, "%s", scene->view.colormap);
+    snprintf(figures->backend, sizeof figures->backend, "%s", scene->world.backend);
+    snprintf(figures->method, sizeof figures->method, "%s", scene->world.method);
+}
+
+static void close_all(Play *play)
+{
+    play->stuck = !play_scene_close(&play->open, PATIENCE_MS);
+    if (play->stuck) /* in a frame that lasts seconds: the end of the process ends it */
+        return;
+    text_destroy(play->text);
+    gl_timer_destroy(play->timer);
+    renderer_destroy(play->renderer);
+    window_destroy(play->window);
+}
+
+int play(const PlaySetup *setup, PlayFigures *figures)
+{
+    Error error = {{0}};
+    Play *play = calloc(1, sizeof *play);
+    if (!play) {
+        fprintf(stderr, "no memory for the window\n");
+        return EXIT_FAILED;
+    }
+    *play = (Play){.setup = setup, .speed = 1, .panel = true, .input = {.drag = PLAY_NONE}};
+    interrupt_install();
+    bool ok = start(play, &error) && run(play, &error);
+    if (play->window && play->open.simulator) {
+        simulator_status(play->open.simulator, &play->status);
+        describe(play, figures);
+        ok = finish(play, &error) && ok;
+    }
+    if (!ok)
+        fprintf(stderr, "%s\n", error.message);
+    close_all(play);
+    if (!play->stuck)
+        free(play);
+    return ok ? 0 : EXIT_FAILED;
+}

@@ -1,0 +1,150 @@
+/* The commands of the window, one function each where it takes more than a line. */
+#include "app/play_state.h"
+#include "render/colormap.h"
+#include "sim/scalar.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static void set_speed(Play *play, double factor)
+{
+    static const double slowest = 1.0 / 64, fastest = 64;
+    play->speed = fmin(fmax(play->speed * factor, slowest), fastest);
+    simulator_set_speed(play->open.simulator, play->speed);
+    play_tell(play, "speed %g", play->speed);
+}
+
+static void set_paused(Play *play, bool paused)
+{
+    play->paused = paused;
+    simulator_pause(play->open.simulator, paused);
+}
+
+static void step_once(Play *play)
+{
+    play->paused = true;
+    simulator_single_step(play->open.simulator);
+}
+
+static void reset(Play *play)
+{
+    play->hand = hand_at_rest();
+    play->simulated_s += play->status.time - play->scene_began_s;
+    play->scene_began_s = 0;
+    simulator_reset(play->open.simulator);
+}
+
+static void open_neighbour(Play *play, int by)
+{
+    char path[1024];
+    Error error = {{0}};
+    if (!play_scene_neighbour(play->open.scene.path, by, path))
+        play_tell(play, "there is no other scene beside %s", play->open.scene.path);
+    else if (!play_open(play, path, NULL, &error))
+        play_tell(play, "%s", error.message);
+}
+
+/* A range that the file gives belongs to the file's scalar. */
+static void next_scalar(Play *play)
+{
+    ViewDef *view = &play->open.scene.view;
+    view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
+    const bool files = view->color_by == play->file_view.color_by;
+    view->range_auto = files ? play->file_view.range_auto : true;
+    memcpy(view->range, play->file_view.range, sizeof view->range);
+    play_view_changed(play);
+    play_tell(play, "coloured by %s", scalar_name(view->color_by));
+}
+
+static void next_colormap(Play *play)
+{
+    ViewDef *view = &play->open.scene.view;
+    int i = 0;
+    while (colormap_list[i] && strcmp(colormap_list[i], view->colormap) != 0)
+        i++;
+    const char *next = colormap_list[i] && colormap_list[i + 1] ? colormap_list[i + 1] : colormap_list[0];
+    snprintf(view->colormap, sizeof view->colormap, "%s", next);
+    play_view_changed(play);
+    play_tell(play, "colours %s", next);
+}
+
+static void camera_home(Play *play)
+{
+    ViewDef *view = &play->open.scene.view;
+    play->orbiting = false;
+    view->camera_auto = play->file_view.camera_auto;
+    view->camera = play->file_view.camera;
+    play_view_changed(play);
+}
+
+static void quit_or_close(Play *play)
+{
+    if (play->help)
+        play->help = false;
+    else
+        play->quit = true;
+}
+
+void play_do(Play *play, PlayCommand command)
+{
+    play->dirty = true;
+    switch (command) {
+    case PLAY_PAUSE:
+        set_paused(play, !play->paused);
+        break;
+    case PLAY_STEP:
+        step_once(play);
+        break;
+    case PLAY_RESET:
+        reset(play);
+        break;
+    case PLAY_SLOWER:
+        set_speed(play, 0.5);
+        break;
+    case PLAY_FASTER:
+        set_speed(play, 2);
+        break;
+    case PLAY_NEXT_SCENE:
+        open_neighbour(play, 1);
+        break;
+    case PLAY_PREVIOUS_SCENE:
+        open_neighbour(play, -1);
+        break;
+    case PLAY_NEXT_SCALAR:
+        next_scalar(play);
+        break;
+    case PLAY_NEXT_COLORMAP:
+        next_colormap(play);
+        break;
+    case PLAY_SCREENSHOT:
+        play_screenshot(play);
+        break;
+    case PLAY_VIDEO:
+        play_movie_toggle(play);
+        break;
+    case PLAY_SAVE_RECORDING:
+        play_save(play);
+        break;
+    case PLAY_FULLSCREEN:
+        window_fullscreen(play->window, !window_is_fullscreen(play->window));
+        break;
+    case PLAY_PANEL:
+        play->panel = !play->panel;
+        break;
+    case PLAY_HELP:
+        play->help = !play->help;
+        break;
+    case PLAY_CAMERA_HOME:
+        camera_home(play);
+        break;
+    case PLAY_BOX_HOME:
+        hand_home(&play->hand);
+        break;
+    case PLAY_QUIT:
+        quit_or_close(play);
+        break;
+    default: /* what is done by drags, wheels and sticks: play_input.c */
+        break;
+    }
+}

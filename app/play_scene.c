@@ -1,0 +1,82 @@
+#include "app/play_scene.h"
+
+#include "app/scene_path.h"
+#include "sim/scalar.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, char note[256],
+                     Error *error)
+{
+    static const SceneSettings none;
+    SceneSettings applied = settings ? *settings : none;
+    char path[SCENE_PATH_SIZE];
+    size_t size;
+    *open = (PlayScene){.upload = NULL};
+    if (!scene_path_find(name, path, error))
+        return false;
+    char *text = scene_file_read(path, &size, error);
+    const bool ok = text && scene_parse(path, text, size, &applied, &open->scene, note, error) &&
+                    recording_create(&open->recording, path, text, size, settings ? settings : &none, error);
+    free(text);
+    return ok;
+}
+
+bool play_scene_start(PlayScene *open, void (*wake)(void), bool paused, Error *error)
+{
+    unsigned attributes = UPLOAD_FLUID;
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        attributes |= upload_attributes_for((Scalar)s);
+    open->upload =
+        upload_create(world_def_count(&open->scene.world, open->scene.world.spacing), attributes, error);
+    if (!open->upload)
+        return false;
+    const SimulatorSetup setup = {.scene = &open->scene,
+                                  .recording = &open->recording,
+                                  .upload = open->upload,
+                                  .wake = wake,
+                                  .paused = paused};
+    open->simulator = simulator_create(&setup, error);
+    return open->simulator != NULL;
+}
+
+bool play_scene_close(PlayScene *open, double patience_ms)
+{
+    if (!simulator_destroy(open->simulator, patience_ms))
+        return false;
+    upload_destroy(open->upload);
+    recording_destroy(&open->recording);
+    *open = (PlayScene){.upload = NULL};
+    return true;
+}
+
+static int is_scene(const struct dirent *entry)
+{
+    const char *dot = strrchr(entry->d_name, '.');
+    return dot && dot != entry->d_name && strcmp(dot, ".yaml") == 0;
+}
+
+bool play_scene_neighbour(const char *path, int by, char out[1024])
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    char folder[1024] = ".";
+    struct dirent **entries;
+    int place = -1;
+    if (slash)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
+    const int count = scandir(*folder ? folder : "/", &entries, is_scene, alphasort);
+    for (int i = 0; i < count; i++)
+        if (strcmp(entries[i]->d_name, name) == 0)
+            place = i;
+    const bool found = count > 1 && place >= 0;
+    if (found)
+        snprintf(out, 1024, "%.760s/%s", folder, entries[((place + by) % count + count) % count]->d_name);
+    for (int i = 0; i < count; i++)
+        free(entries[i]);
+    if (count >= 0)
+        free(entries);
+    return found;
+}

@@ -1,0 +1,33 @@
+/* The scene in the window: its file, its particles' way to the GPU, its simulator. */
+#ifndef SLOSH_PLAY_SCENE_H
+#define SLOSH_PLAY_SCENE_H
+
+#include "app/recording.h"
+#include "app/scene.h"
+#include "app/simulator.h"
+#include "render/upload.h"
+#include "sim/error.h"
+
+typedef struct PlayScene {
+    Scene scene;         /* as it stands now: the file's values, and what was changed since */
+    Recording recording; /* the file's text and the settings: where the session begins */
+    Upload *upload;      /* carries every scalar, so that colours may change at once */
+    Simulator *simulator;
+} PlayScene;
+
+/* Reads a scene; starts nothing yet. `settings` are those of the command line, or NULL. False with the
+   loader's message; `note` as of scene_load. */
+bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, char note[256],
+                     Error *error);
+
+/* Begins to simulate it; needs the context. */
+bool play_scene_start(PlayScene *open, void (*wake)(void), bool paused, Error *error);
+
+/* False when the solver still runs after `patience_ms`: then nothing is freed. A zeroed one is allowed. */
+bool play_scene_close(PlayScene *open, double patience_ms);
+
+/* The scene file that comes `by` places after `path` among those of its folder, in order of their names,
+   round and round; false when there is no other. */
+bool play_scene_neighbour(const char *path, int by, char out[1024]);
+
+#endif

@@ -1,0 +1,106 @@
+/* Inside the live window: what its files share. */
+#ifndef SLOSH_PLAY_STATE_H
+#define SLOSH_PLAY_STATE_H
+
+#include "app/hand.h"
+#include "app/orbit.h"
+#include "app/play.h"
+#include "app/play_commands.h"
+#include "app/play_meter.h"
+#include "app/play_scene.h"
+#include "app/video.h"
+#include "app/window.h"
+#include "render/renderer.h"
+#include "render/text.h"
+#include "sim/gl/timer.h"
+
+enum { PLAY_KEYS = 512, PLAY_NOTICE_SIZE = 320 };
+
+/* What the mouse, the keys and the gamepad are doing. */
+typedef struct PlayInput {
+    double mouse[2];  /* pixels */
+    PlayCommand drag; /* PLAY_ORBIT, ..., or PLAY_NONE */
+    int drag_button;
+    bool down[PLAY_KEYS]; /* keys, by their number */
+    unsigned pad_buttons; /* at the last look */
+    double move_drag[2];  /* since the hand's last update: pixels to the right and up */
+    double turn_drag[2];
+    double hand_event_ms; /* the first event since then that concerns the box; 0: none */
+    double looked_ms;     /* wall time of that update */
+} PlayInput;
+
+typedef struct PlayMovie {
+    Video *video; /* NULL: none */
+    char path[1024];
+    int width, height;
+    double next_ms; /* when the next picture is due */
+    size_t pictures;
+} PlayMovie;
+
+typedef struct Play {
+    const PlaySetup *setup;
+    Window *window;
+    Renderer *renderer;
+    GlTimer *timer; /* NULL on a software renderer, where nothing can be measured without waiting */
+    StageTimes gl_times;
+    Text *text;
+    PlayScene open;
+    ViewDef file_view;         /* the view as the scene's file has it */
+    ParticleBuffers particles; /* what is drawn */
+    bool has_particles;
+    SimulatorStatus status;
+    PlayInput input;
+    Hand hand;
+    Orbit orbit;
+    bool orbiting; /* the camera is in the hand */
+    PlayMeter meter;
+    PlayMovie movie;
+    int width, height; /* of the framebuffer */
+    double refresh;    /* pictures a second that the display shows */
+    double speed;
+    bool paused, panel, help, quit;
+    bool dirty;     /* a picture is due though no new state is there */
+    bool stuck;     /* the solver did not end in time: nothing may be freed */
+    unsigned saves; /* of sessions, that were told */
+    unsigned messages;
+    char notice[PLAY_NOTICE_SIZE];
+    double notice_until_ms;
+    double drew_ms;  /* wall time at which the last picture was begun */
+    double began_ms; /* wall time of the first picture; 0: none yet */
+    double began_cpu_ms;
+    double simulated_s, scene_began_s; /* before the last reset; time at which counting began */
+    double render_ms, panel_ms;        /* sums over all pictures */
+    size_t rendered, panels;
+    double shake_began_ms, shaken_ms;
+    size_t scenes_opened;
+} Play;
+
+/* Shows a line in the picture for some seconds and says it on standard error. */
+void play_tell(Play *play, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* play.c */
+bool play_open(Play *play, const char *scene, const SceneSettings *settings, Error *error);
+void play_view_changed(Play *play);
+/* "path=value" of a live key: for the picture now, for the solver from its next frame on. */
+void play_set(Play *play, const char *setting);
+
+/* play_do.c: does what a row of the list of commands says. */
+void play_do(Play *play, PlayCommand command);
+
+/* play_input.c */
+void play_events(Play *play); /* takes what has come, sends what it means */
+void play_event(Play *play, const WindowEvent *event);
+void play_let_go(Play *play);
+void play_hand(Play *play);
+
+/* play_draw.c: one picture on the screen; false when it could not be drawn. */
+void play_draw(Play *play);
+
+/* play_files.c */
+void play_screenshot(Play *play);
+void play_movie_toggle(Play *play);
+void play_movie_picture(Play *play); /* takes what was drawn, when a picture is due */
+void play_movie_end(Play *play);
+void play_save(Play *play); /* the session, under a name of its own */
+
+#endif

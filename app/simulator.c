@@ -1,0 +1,483 @@
+#include "app/simulator.h"
+
+#include "sim/world.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { QUEUE_MAX = 256, OBEYED_MAX = 512 };
+
+static const double BEHIND_MS = 100; /* less is caught up with; more is left out */
+static const double PACE_MS = 1000;  /* the real-time factor is of this long */
+
+/* How many commands the state of a step had obeyed. */
+typedef struct Obeyed {
+    uint64_t step, commands;
+} Obeyed;
+
+struct Simulator {
+    pthread_t thread;
+    pthread_mutex_t lock; /* of all down to `obeyed` */
+    pthread_cond_t changed;
+    bool quit, ended;
+    bool paused, realtime, reset, save;
+    bool single; /* one frame although paused */
+    double speed;
+    char save_path[1024];
+    int queued;
+    SimCommand queue[QUEUE_MAX];
+    uint64_t sent;     /* commands */
+    double last_due;   /* wall time at which the last frame was to begin, ms */
+    double frame_time; /* dt, s */
+    SimulatorStatus status;
+    int history_next, obeyed_next;
+    Obeyed obeyed[OBEYED_MAX];
+
+    /* of the solver's thread alone */
+    Scene start, scene; /* as given; as the commands have changed it */
+    World *world;
+    Recording recording;
+    bool recording_lost; /* no memory for all of its commands */
+    Upload *upload;
+    void (*wake)(void);
+    uint64_t taken; /* commands */
+    double pace_began_ms, pace_began_s;
+};
+
+/* What the solver's thread is to do next. */
+typedef struct Work {
+    bool reset, save, frame;
+    int count;
+    SimCommand commands[QUEUE_MAX];
+    uint64_t taken;
+} Work;
+
+static void tell(Simulator *simulator, bool failed, const char *message)
+{
+    pthread_mutex_lock(&simulator->lock);
+    SimulatorStatus *status = &simulator->status;
+    status->failed |= failed;
+    status->messages++;
+    snprintf(status->message, sizeof status->message, "%s", message);
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+/* With the lock held, after each state: what a view may want to know of it. */
+static void describe(Simulator *simulator, const WorldInfo *info)
+{
+    SimulatorStatus *status = &simulator->status;
+    status->ready = true;
+    status->time = info->time;
+    status->step = info->step;
+    status->hand = info->hand;
+    simulator->frame_time = simulator->scene.world.dt;
+    simulator->obeyed[simulator->obeyed_next] = (Obeyed){info->step, simulator->taken};
+    simulator->obeyed_next = (simulator->obeyed_next + 1) % OBEYED_MAX;
+}
+
+/* Describes the state, then shows it: in this order, so that who sees it can ask for its commands. */
+static bool publish(Simulator *simulator, Error *error)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    pthread_mutex_lock(&simulator->lock);
+    describe(simulator, &info);
+    pthread_mutex_unlock(&simulator->lock);
+    return upload_write(simulator->upload, simulator->world, error);
+}
+
+static void awaken(const Simulator *simulator)
+{
+    if (simulator->wake)
+        simulator->wake();
+}
+
+/* The world at the scene's start, or a message. */
+static void world_start(Simulator *simulator)
+{
+    Error error = {{0}};
+    simulator->scene = simulator->start;
+    world_destroy(simulator->world);
+    simulator->world = world_create(&simulator->start.world, &error);
+    if (!simulator->world || !publish(simulator, &error))
+        tell(simulator, true, error.message);
+    awaken(simulator);
+}
+
+static void obey(Simulator *simulator, const SimCommand *command)
+{
+    Error error = {{0}};
+    if (!sim_command_apply(command, simulator->world, &simulator->scene, &error)) {
+        tell(simulator, false, error.message);
+    } else if (!simulator->recording_lost && !recording_add(&simulator->recording, command)) {
+        simulator->recording_lost = true;
+        tell(simulator, false, "this session has become too long to be saved; a reset begins a new one");
+    }
+}
+
+/* The new session begins with what the hand has set in the old one: settings stay, poses do not. */
+static void restart(Simulator *simulator)
+{
+    Recording before = simulator->recording;
+    Error error = {{0}};
+    pthread_mutex_lock(&simulator->lock);
+    simulator->status.failed = false;
+    simulator->status.frames = 0;
+    pthread_mutex_unlock(&simulator->lock);
+    world_start(simulator);
+    simulator->recording_lost = !recording_create(&simulator->recording, before.path, before.text,
+                                                  before.size, &before.settings, &error);
+    for (size_t i = 0; i < before.count && simulator->world; i++) {
+        SimCommand command = before.commands[i];
+        command.step = 0;
+        if (command.kind == SIM_SET)
+            obey(simulator, &command);
+    }
+    recording_destroy(&before);
+}
+
+static void save(Simulator *simulator)
+{
+    Error error = {{0}};
+    bool ok = false;
+    WorldInfo info;
+    if (!simulator->world) {
+        error_set(&error, "%s: there is no session to save", simulator->save_path);
+    } else if (simulator->recording_lost) {
+        error_set(&error, "%s: the session was too long to be kept", simulator->save_path);
+    } else {
+        world_info(simulator->world, &info);
+        ok = recording_write(&simulator->recording, info.step, world_hash(simulator->world),
+                             simulator->save_path, &error);
+    }
+    pthread_mutex_lock(&simulator->lock);
+    SimulatorStatus *status = &simulator->status;
+    status->saves++;
+    status->saved = ok;
+    if (ok)
+        snprintf(status->save_message, sizeof status->save_message, "%.900s: the session, %.4g s",
+                 simulator->save_path, info.time);
+    else
+        snprintf(status->save_message, sizeof status->save_message, "%s", error.message);
+    pthread_mutex_unlock(&simulator->lock);
+    awaken(simulator);
+}
+
+/* With the lock held: the real-time factor of about the last second. */
+static void pace(Simulator *simulator, double now)
+{
+    const double ms = now - simulator->pace_began_ms, time = simulator->status.time;
+    if (ms < PACE_MS && simulator->status.real_time_factor > 0)
+        return;
+    if (ms < PACE_MS / 4)
+        return;
+    simulator->status.real_time_factor = fmax(time - simulator->pace_began_s, 0) / (1e-3 * ms);
+    simulator->pace_began_ms = now;
+    simulator->pace_began_s = time;
+}
+
+static void count_frame(Simulator *simulator, double began, const StageClock *clock)
+{
+    pthread_mutex_lock(&simulator->lock);
+    SimulatorStatus *status = &simulator->status;
+    const double now = wall_ms();
+    status->frames++;
+    status->stages = clock->frame;
+    status->solved_ms += now - began;
+    status->history[simulator->history_next] = (float)(now - began);
+    simulator->history_next = (simulator->history_next + 1) % SIMULATOR_HISTORY;
+    if (status->history_count < SIMULATOR_HISTORY)
+        status->history_count++;
+    pace(simulator, now);
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+static void run_frame(Simulator *simulator, Work *work)
+{
+    StageClock clock = {0};
+    Error error = {{0}};
+    WorldInfo info;
+    const double began = wall_ms();
+    bool ok = false;
+    world_info(simulator->world, &info);
+    for (int i = 0; i < work->count; i++) {
+        work->commands[i].step = info.step;
+        obey(simulator, &work->commands[i]);
+    }
+    simulator->taken = work->taken;
+    if (world_step(simulator->world, &clock, &error))
+        STAGE (&clock, STAGE_UPLOAD)
+            ok = publish(simulator, &error);
+    count_frame(simulator, began, &clock);
+    if (!ok)
+        tell(simulator, true, error.message);
+    awaken(simulator);
+}
+
+static void wait_until(Simulator *simulator, double ms)
+{
+    struct timespec until;
+    until.tv_sec = (time_t)(ms / 1000);
+    until.tv_nsec = (long)(1e6 * (ms - 1000.0 * (double)until.tv_sec));
+    pthread_cond_timedwait(&simulator->changed, &simulator->lock, &until);
+}
+
+/* With the lock held: whether a frame is due now; else waits a while for that or for other work. */
+static bool frame_due(Simulator *simulator)
+{
+    const double now = wall_ms(), due = simulator->last_due + 1000 * simulator->frame_time / simulator->speed;
+    if (simulator->status.failed || (simulator->paused && !simulator->single)) {
+        simulator->status.real_time_factor = 0;
+        pthread_cond_wait(&simulator->changed, &simulator->lock);
+        simulator->last_due = simulator->pace_began_ms = wall_ms();
+        simulator->pace_began_s = simulator->status.time;
+        return false;
+    }
+    if (simulator->single || !simulator->realtime || now >= due) {
+        const double late = simulator->realtime ? now - due : 0;
+        simulator->status.behind_s += late > BEHIND_MS ? 1e-3 * late : 0;
+        simulator->last_due = simulator->realtime && late <= BEHIND_MS && !simulator->single ? due : now;
+        return true;
+    }
+    wait_until(simulator, due);
+    return false;
+}
+
+/* False at the end. */
+static bool take_work(Simulator *simulator, Work *work)
+{
+    *work = (Work){0};
+    pthread_mutex_lock(&simulator->lock);
+    while (!simulator->quit && !work->reset && !work->save && !work->frame) {
+        work->reset = simulator->reset;
+        work->save = simulator->save;
+        if (!work->reset && !work->save)
+            work->frame = frame_due(simulator);
+    }
+    simulator->reset = simulator->save = false;
+    if (work->frame) {
+        work->count = simulator->queued;
+        memcpy(work->commands, simulator->queue, sizeof *work->commands * (size_t)work->count);
+        work->taken = simulator->sent;
+        simulator->queued = 0;
+        simulator->single = false;
+    }
+    const bool go_on = !simulator->quit;
+    pthread_mutex_unlock(&simulator->lock);
+    return go_on;
+}
+
+static void *simulate(void *argument)
+{
+    Simulator *simulator = argument;
+    Work *work = calloc(1, sizeof *work);
+    if (work)
+        world_start(simulator);
+    else
+        tell(simulator, true, "no memory for the commands");
+    pthread_mutex_lock(&simulator->lock);
+    simulator->last_due = simulator->pace_began_ms = wall_ms();
+    pthread_mutex_unlock(&simulator->lock);
+    while (work && take_work(simulator, work)) {
+        if (work->reset)
+            restart(simulator);
+        if (work->save)
+            save(simulator);
+        if (work->frame)
+            run_frame(simulator, work);
+    }
+    world_destroy(simulator->world);
+    free(work);
+    pthread_mutex_lock(&simulator->lock);
+    simulator->ended = true;
+    pthread_cond_broadcast(&simulator->changed);
+    pthread_mutex_unlock(&simulator->lock);
+    return NULL;
+}
+
+/* Signals are for the thread of the window. */
+static bool start_thread(Simulator *simulator)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const bool started = pthread_create(&simulator->thread, NULL, simulate, simulator) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return started;
+}
+
+static void release(Simulator *simulator)
+{
+    recording_destroy(&simulator->recording);
+    pthread_cond_destroy(&simulator->changed);
+    pthread_mutex_destroy(&simulator->lock);
+    free(simulator);
+}
+
+Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
+{
+    Simulator *simulator = calloc(1, sizeof *simulator);
+    const Recording *from = setup->recording;
+    pthread_condattr_t clock;
+    if (!simulator) {
+        error_set(error, "no memory for the simulation");
+        return NULL;
+    }
+    simulator->start = simulator->scene = *setup->scene;
+    simulator->upload = setup->upload;
+    simulator->wake = setup->wake;
+    simulator->paused = setup->paused;
+    simulator->realtime = setup->scene->realtime;
+    simulator->speed = 1;
+    simulator->frame_time = setup->scene->world.dt;
+    pthread_condattr_init(&clock);
+    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
+    pthread_cond_init(&simulator->changed, &clock);
+    pthread_condattr_destroy(&clock);
+    pthread_mutex_init(&simulator->lock, NULL);
+    if (recording_create(&simulator->recording, from->path, from->text, from->size, &from->settings, error) &&
+        (start_thread(simulator) || error_set(error, "no thread for the simulation")))
+        return simulator;
+    release(simulator);
+    return NULL;
+}
+
+bool simulator_destroy(Simulator *simulator, double patience_ms)
+{
+    if (!simulator)
+        return true;
+    const double until = wall_ms() + patience_ms;
+    pthread_mutex_lock(&simulator->lock);
+    simulator->quit = true;
+    pthread_cond_broadcast(&simulator->changed);
+    while (!simulator->ended && wall_ms() < until)
+        wait_until(simulator, until);
+    const bool ended = simulator->ended;
+    pthread_mutex_unlock(&simulator->lock);
+    if (!ended)
+        return false;
+    pthread_join(simulator->thread, NULL);
+    release(simulator);
+    return true;
+}
+
+static void change_begin(Simulator *simulator)
+{
+    pthread_mutex_lock(&simulator->lock);
+}
+
+static void change_end(Simulator *simulator)
+{
+    pthread_cond_broadcast(&simulator->changed);
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+void simulator_pause(Simulator *simulator, bool paused)
+{
+    change_begin(simulator);
+    simulator->paused = paused;
+    change_end(simulator);
+}
+
+void simulator_single_step(Simulator *simulator)
+{
+    change_begin(simulator);
+    simulator->paused = simulator->single = true;
+    change_end(simulator);
+}
+
+void simulator_set_speed(Simulator *simulator, double speed)
+{
+    change_begin(simulator);
+    simulator->speed = speed;
+    change_end(simulator);
+}
+
+void simulator_set_realtime(Simulator *simulator, bool realtime)
+{
+    change_begin(simulator);
+    simulator->realtime = realtime;
+    change_end(simulator);
+}
+
+void simulator_reset(Simulator *simulator)
+{
+    change_begin(simulator);
+    simulator->reset = true;
+    change_end(simulator);
+}
+
+void simulator_save(Simulator *simulator, const char *path)
+{
+    change_begin(simulator);
+    simulator->save = true;
+    snprintf(simulator->save_path, sizeof simulator->save_path, "%s", path);
+    change_end(simulator);
+}
+
+/* Whether `newer` leaves nothing of `older` to be seen. */
+static bool replaces(const SimCommand *newer, const SimCommand *older)
+{
+    if (newer->kind != older->kind || newer->kind == SIM_CARRY)
+        return false;
+    if (newer->kind == SIM_TARGET)
+        return true;
+    const size_t key = strcspn(newer->setting, "=");
+    return key == strcspn(older->setting, "=") && strncmp(newer->setting, older->setting, key) == 0;
+}
+
+static bool enqueue(Simulator *simulator, const SimCommand *command)
+{
+    int last = simulator->queued - 1;
+    if (last >= 0 && replaces(command, &simulator->queue[last])) {
+        simulator->queue[last] = *command;
+        return true;
+    }
+    if (simulator->queued == QUEUE_MAX)
+        return false;
+    simulator->queue[simulator->queued++] = *command;
+    return true;
+}
+
+uint64_t simulator_send(Simulator *simulator, const SimCommand *command)
+{
+    uint64_t number = 0;
+    change_begin(simulator);
+    if (enqueue(simulator, command))
+        number = ++simulator->sent;
+    change_end(simulator);
+    return number;
+}
+
+uint64_t simulator_obeyed(Simulator *simulator, uint64_t step)
+{
+    uint64_t commands = 0;
+    bool found = false;
+    pthread_mutex_lock(&simulator->lock);
+    for (int back = 1; back <= OBEYED_MAX && !found; back++) {
+        const Obeyed *obeyed = &simulator->obeyed[(simulator->obeyed_next + OBEYED_MAX - back) % OBEYED_MAX];
+        found = obeyed->step == step;
+        commands = found ? obeyed->commands : 0;
+    }
+    pthread_mutex_unlock(&simulator->lock);
+    return commands;
+}
+
+void simulator_status(Simulator *simulator, SimulatorStatus *status)
+{
+    pthread_mutex_lock(&simulator->lock);
+    *status = simulator->status;
+    status->paused = simulator->paused;
+    status->realtime = simulator->realtime;
+    status->speed = simulator->speed;
+    const int count = status->history_count, next = simulator->history_next;
+    for (int i = 0; i < count; i++)
+        status->history[i] =
+            simulator->status.history[(next - count + i + SIMULATOR_HISTORY) % SIMULATOR_HISTORY];
+    pthread_mutex_unlock(&simulator->lock);
+}

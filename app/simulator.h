@@ -1,0 +1,88 @@
+/* The solver at its own pace, beside the view: a thread that owns the World, obeys commands at the start of a
+   frame, and hands each state to the upload ring.
+
+   It paces itself by the wall clock where the scene says `realtime` (as many frames as the clock asks for,
+   times the speed; what it cannot keep up with is left out, dt stays), else runs as fast as it can. It is the
+   only thread that opens parallel regions, and it never waits for the view. All functions here belong to one
+   other thread, that of the window. */
+#ifndef SLOSH_SIMULATOR_H
+#define SLOSH_SIMULATOR_H
+
+#include "app/recording.h"
+#include "app/scene.h"
+#include "app/sim_command.h"
+#include "render/upload.h"
+#include "sim/error.h"
+#include "sim/stage.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct Simulator Simulator;
+
+typedef struct SimulatorSetup {
+    const Scene *scene; /* copied */
+    const Recording
+        *recording;     /* of this scene, without commands: where the recorded session begins; copied */
+    Upload *upload;     /* for the scene's particles; outlives the simulator */
+    void (*wake)(void); /* called on the solver's thread after each new state; may be NULL */
+    bool paused;
+} SimulatorSetup;
+
+/* Starts the thread, which makes the world. NULL when there is no memory or no thread. */
+Simulator *simulator_create(const SimulatorSetup *setup, Error *error);
+
+/* Asks the thread to end and waits for it, at most `patience_ms`: a frame of a large scene may take longer.
+   False when it still runs; then all that it uses must stay, and only the end of the program ends it. */
+bool simulator_destroy(Simulator *simulator, double patience_ms);
+
+void simulator_pause(Simulator *simulator, bool paused);
+void simulator_single_step(Simulator *simulator); /* one frame, then paused */
+void simulator_set_speed(Simulator *simulator,
+                         double speed); /* simulated seconds in a second, in real time */
+void simulator_set_realtime(Simulator *simulator, bool realtime);
+
+/* The scene from its start, with the values that its file and the command line gave it: a new world, and a
+   new recording. */
+void simulator_reset(Simulator *simulator);
+
+/* A command for the start of the next frame; its `step` is set there. A target replaces one that still waits,
+   and so does a setting of the same key. Returns its number, counted from 1, or 0 when too many wait (the
+   simulation is paused and hundreds of keys were set). */
+uint64_t simulator_send(Simulator *simulator, const SimCommand *command);
+
+/* How many commands the state of that step had obeyed, of those counted by simulator_send; of the last few
+   hundred states. */
+uint64_t simulator_obeyed(Simulator *simulator, uint64_t step);
+
+/* Writes the session since the last start of the scene to `path`, from the solver's thread, when the frame in
+   hand is done; SimulatorStatus.saved tells the end. */
+void simulator_save(Simulator *simulator, const char *path);
+
+enum { SIMULATOR_HISTORY = 120 };
+
+typedef struct SimulatorStatus {
+    bool ready;  /* the world is there */
+    bool failed; /* it stopped, or could not be made: `message` says why; a reset starts it anew */
+    bool paused, realtime;
+    char message[1024]; /* of the failure, or of a command that could not be obeyed; "" */
+    unsigned messages;  /* counts messages */
+    double speed;
+    double time;             /* s, of the last state */
+    uint64_t step, frames;   /* since the scene's start */
+    double real_time_factor; /* simulated over wall time in the last second; 0 while paused */
+    double solved_ms;        /* wall time of all frames since the thread began */
+    double behind_s;         /* wall time that the solver could not keep up with, in all, s */
+    BoxTarget hand;          /* the hand's part of the box's pose, as the filter has it */
+    StageTimes stages;       /* of the last frame */
+    int history_count;       /* of `history`: wall time of the last frames, ms, oldest first */
+    float history[SIMULATOR_HISTORY];
+    unsigned saves;          /* counts simulator_save that ended */
+    bool saved;              /* whether the last one succeeded */
+    char save_message[1024]; /* its error, or what it saved */
+} SimulatorStatus;
+
+void simulator_status(Simulator *simulator, SimulatorStatus *status);
+
+#endif
