@@ -26,7 +26,7 @@ static void refuse(const char *setting, const char *words)
     static Scene before;
     before = scene;
     assert_false(scene_set_live(&scene, setting, NULL, &error));
-    if (!strstr(error.message, words) || !strstr(error.message, "; "))
+    if (!strstr(error.message, words) || !(strstr(error.message, "; ") || strstr(error.message, "must be")))
         fail_msg("'%s' is no '%s'", error.message, words);
     assert_memory_equal(&before, &scene, sizeof scene);
 }
@@ -67,11 +67,11 @@ static void nonsense_is_refused(void **state)
     refuse("fluids[0].density=3", "cannot change while");
     refuse("fluids[7].viscosity=3", "no such fluid");
     refuse("fluids[-1].viscosity=3", "no such key");
-    refuse("fluids[0].viscosity=-1", "0 to");
+    refuse("fluids[0].viscosity=-1", "must be");
     refuse("gravity=[0, 1]", "gravity must be");
     refuse("gravity={a: 1}", "gravity must be");
-    refuse("solver.step.dt=nan", "finite");
-    refuse("view.kind=teapot", "view.kind must be");
+    refuse("solver.step.dt=nan", "must be a finite");
+    refuse("view.kind=teapot", "view.kind cannot be");
     refuse("view.range=[2, 1]", "view.range");
 }
 
