@@ -17,7 +17,7 @@
 #include <string.h>
 #include <time.h>
 
-static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000;
+static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, FOR_EVER_MS = 1e9;
 
 void play_tell(Play *play, const char *format, ...)
 {
@@ -86,13 +86,13 @@ bool play_open(Play *play, const char *scene, const SceneSettings *settings, Err
     char note[256] = "";
     if (!play_scene_read(&opened, scene, settings, note, error) ||
         !play_scene_start(&opened, window_wake, play->paused, error)) {
-        play_scene_close(&opened, INFINITY);
+        play_scene_close(&opened, FOR_EVER_MS);
         return false;
     }
     play->simulated_s += play->status.time - play->scene_began_s;
     play->scene_began_s = 0;
     play->status = (SimulatorStatus){.time = 0};
-    play_scene_close(&play->open, INFINITY);
+    play_scene_close(&play->open, FOR_EVER_MS);
     adopt(play, &opened);
     if (note[0])
         play_tell(play, "%s", note);

@@ -132,9 +132,17 @@ void play_let_go(Play *play)
     hand_let_go(&play->hand, &play->status.hand);
 }
 
+/* Before the first picture there is nothing that a mouse could take. */
+static bool too_early(const Play *play, WindowEventKind kind)
+{
+    return !play->has_particles && (kind == WINDOW_BUTTON || kind == WINDOW_MOVE || kind == WINDOW_WHEEL);
+}
+
 void play_event(Play *play, const WindowEvent *event)
 {
     Error error = {{0}};
+    if (too_early(play, event->kind))
+        return;
     switch (event->kind) {
     case WINDOW_KEY:
         on_key(play, event);

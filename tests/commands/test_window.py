@@ -1,0 +1,355 @@
+"""The window under a virtual display, driven by real key and mouse events."""
+import json
+import os
+import re
+import signal
+import struct
+import subprocess
+import time
+
+import command
+from command import CommandTest, obey_interrupts, video_frames
+
+WIDTH, HEIGHT = 480, 360
+
+# At rest, and gentle: nothing moves but what a hand moves.
+STILL = """\
+title: A still tank
+box: {size: [1, 1, 1]}
+particles: {spacing: 0.1}
+fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}]
+solver: {sound_speed: 15, step: {dt: 0.01, substeps: 5}}
+"""
+
+
+def png_size(data):
+    return struct.unpack('>II', data[16:24])
+
+
+class Display:
+    """An Xvfb of its own, without a window manager."""
+    def __init__(self):
+        read, write = os.pipe()
+        self.process = subprocess.Popen(['Xvfb', '-displayfd', str(write), '-screen', '0', '800x600x24', '-nolisten', 'tcp'],
+                                        pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as answer:
+            self.name = ':' + answer.readline().strip()
+
+    def close(self):
+        self.process.terminate()
+        self.process.wait()
+
+
+class Window(CommandTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.display = Display()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.display.close()
+
+    def setUp(self):
+        super().setUp()
+        self.write('still.yaml', STILL)
+        self.environment = dict(os.environ, DISPLAY=self.display.name)
+
+    def xdo(self, *arguments):
+        return subprocess.run(['xdotool', *map(str, arguments)], env=self.environment, capture_output=True, text=True,
+                              check=True, timeout=30).stdout
+
+    def open(self, *arguments):
+        """Starts the window and waits until it shows its first picture."""
+        self.said = open(self.path('said.txt'), 'w+')
+        self.addCleanup(self.said.close)
+        self.process = subprocess.Popen([command.PROGRAM, *arguments, '--size', f'{WIDTH}x{HEIGHT}', '--json', 'out.json'],
+                                        cwd=self.folder, env=self.environment, stderr=self.said, stdout=self.said,
+                                        preexec_fn=obey_interrupts)
+        self.addCleanup(self.process.wait)
+        self.addCleanup(self.process.kill)
+        self.window = self.xdo('search', '--sync', '--onlyvisible', '--class', 'slosh').split()[0]
+        self.xdo('windowfocus', '--sync', self.window)
+        time.sleep(1.0)
+
+    def keys(self, *keys):
+        for key in keys:
+            self.xdo('key', key)
+            time.sleep(0.15)
+
+    def at(self, x, y):
+        self.xdo('mousemove', '--window', self.window, x, y)
+        time.sleep(0.08)
+
+    def drag(self, button, points, modifier=None):
+        self.at(*points[0])
+        if modifier:
+            self.xdo('keydown', modifier)
+        self.xdo('mousedown', button)
+        for point in points[1:]:
+            self.at(*point)
+        self.xdo('mouseup', button)
+        if modifier:
+            self.xdo('keyup', modifier)
+        time.sleep(0.1)
+
+    def end(self):
+        """Waits for the end, which must be a good one; the session's figures."""
+        code = self.process.wait(timeout=60)
+        self.said.seek(0)
+        self.messages = self.said.read()
+        self.assertEqual(code, 0, self.messages)
+        figures = json.loads(self.read('out.json'))
+        self.assertEqual(figures['gl_errors'], 0, self.messages)
+        return figures
+
+    def quit(self):
+        self.keys('Escape')
+        return self.end()
+
+    def files(self, extension):
+        return [name for name in self.entries() if re.fullmatch(r'slosh-\d{8}-\d{6}(-\d)?\.' + extension, name)]
+
+
+class Keys(Window):
+    def test_nothing_pressed(self):
+        self.open('still.yaml')
+        out = self.quit()
+        self.assertGreater(out['pictures'], 5)
+        self.assertGreater(out['simulated_seconds'], 0.3)
+        self.assertEqual((out['paused'], out['speed'], out['camera_auto'], out['color_by'], out['help']),
+                         (False, 1, True, 'speed', False))
+        self.assertEqual(out['size'], [WIDTH, HEIGHT])
+        self.assertEqual(out['box_position'], [0, 0, 0])
+        self.assertLess(out['first_picture_ms'], 2000)
+
+    def test_time(self):
+        self.open('still.yaml')
+        self.keys('space')
+        time.sleep(0.5)
+        self.keys('space', 'equal', 'plus', 'minus', 'space')
+        self.keys('r')
+        time.sleep(0.4)  # back at the start, and paused
+        self.keys('period', 'n', 'period')
+        out = self.quit()
+        self.assertEqual((out['paused'], out['speed']), (True, 2))
+        self.assertEqual(out['steps'], 15)  # three frames of five substeps
+        self.assertAlmostEqual(out['time'], 0.03)
+
+    def test_looks(self):
+        self.open('still.yaml')
+        self.keys('s', 'c', 'c', 'p', 'h')
+        self.keys('Escape')  # closes the help
+        self.assertIsNone(self.process.poll())
+        self.keys('F1')
+        self.keys('F1', 'F2')
+        out = self.quit()
+        self.assertEqual((out['color_by'], out['colormap']), ('density', 'plasma'))
+        self.assertEqual((out['help'], out['panel']), (False, True))
+
+    def test_files(self):
+        self.open('still.yaml')
+        self.keys('F12')
+        self.keys('v')
+        time.sleep(1.0)
+        self.keys('v', 'ctrl+s', 'i')
+        time.sleep(0.5)
+        self.quit()
+        pictures, videos, recordings = self.files('png'), self.files('mp4'), self.files('recording')
+        self.assertEqual([len(pictures), len(videos), len(recordings)], [2, 1, 1], self.messages)
+        self.assertEqual(png_size(self.read(pictures[0])), (WIDTH, HEIGHT))
+        self.assertGreater(len(set(self.read(pictures[0]))), 200)  # not one colour
+        self.assertGreater(video_frames(self.path(videos[0])), 20)
+        for name in pictures + videos + recordings:
+            self.assertIn(name, self.messages)
+        self.assertEqual(self.slosh('replay', recordings[0], '--quiet'), (0, ''))
+
+    def test_a_video_is_whole_when_the_window_is_closed(self):
+        self.open('still.yaml')
+        self.keys('F9')
+        time.sleep(0.7)
+        self.quit()
+        self.assertGreater(video_frames(self.path(self.files('mp4')[0])), 10)
+
+    def test_scenes(self):
+        self.write('zz.yaml', STILL.replace('0.4, 0.5', '0.3, 0.5'))
+        self.write('yy.yaml', 'box: {size: wide}\n')
+        self.open('still.yaml')
+        self.keys('bracketright')  # broken: the open one stays
+        self.keys('Tab')
+        time.sleep(0.3)
+        self.keys('bracketleft')  # scene.yaml
+        time.sleep(0.5)
+        self.keys('bracketleft')  # zz.yaml, round and round
+        time.sleep(0.5)
+        self.keys('Tab')
+        time.sleep(0.5)
+        out = self.quit()
+        self.assertRegex(self.messages, r'yy\.yaml:1:\d+: box\.size')
+        self.assertEqual((os.path.basename(out['scene']), out['particles']), ('scene.yaml', 500))
+        self.assertEqual(out['scenes_opened'], 4)
+
+    def test_fullscreen(self):
+        self.open('still.yaml')
+        self.keys('F11')
+        time.sleep(0.5)
+        out = self.quit()
+        self.assertEqual((out['fullscreen'], out['size']), (True, [800, 600]))
+
+
+class Mouse(Window):
+    def test_camera(self):
+        self.open('still.yaml', '--record', 'a.recording')
+        self.drag(1, [(240, 180), (260, 180), (300, 190)])
+        self.drag(3, [(240, 180), (240, 200)])
+        self.xdo('click', 4)
+        time.sleep(0.3)
+        out = self.quit()
+        self.assertFalse(out['camera_auto'])
+        self.assertEqual(out['box_position'], [0, 0, 0])
+        self.assertLess(out['camera_from'][0], 0.9)  # the scene went to the right: the eye to the left
+
+    def test_camera_goes_home(self):
+        self.open('still.yaml')
+        self.drag(2, [(240, 180), (260, 190)])
+        self.keys('Home')
+        self.assertTrue(self.quit()['camera_auto'])
+
+    def test_box_follows_and_the_fluid_answers(self):
+        self.open('still.yaml', '--record', 'a.recording')
+        self.drag(1, [(200, 200), (230, 200), (260, 200)], 'shift')
+        time.sleep(0.6)
+        out = self.quit()
+        self.assertGreater(out['box_position'][0], 0.1)
+        self.assertGreater(out['latency_events'], 0)
+        self.assertTrue(out['camera_auto'])
+        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
+        text = self.read('a.recording').decode()
+        self.write('b.recording', re.sub(r'\d+ target .*\n', '', text))
+        code, said = self.slosh('replay', 'b.recording')
+        self.assertEqual(code, 1)
+        self.assertIn('other bits', said)
+
+    def test_box_turns_and_comes_home(self):
+        self.open('still.yaml', '--record', 'a.recording')
+        self.drag(1, [(200, 200), (220, 200), (240, 210)], 'ctrl')
+        time.sleep(0.6)
+        self.keys('ctrl+s')
+        time.sleep(0.3)
+        self.keys('BackSpace')
+        time.sleep(1.5)
+        out = self.quit()
+        self.assertGreater(out['box_orientation'][3], 0.9999)
+        poses = [line.split()[5:] for line in self.read('a.recording').decode().split('\n') if ' target ' in line]
+        turned = min(abs(float.fromhex(pose[3])) for pose in poses)
+        self.assertLess(turned, 0.99)
+
+    def test_arrow_keys(self):
+        self.open('still.yaml')
+        self.xdo('keydown', 'Right')
+        time.sleep(0.4)
+        self.xdo('keyup', 'Right')
+        self.xdo('keydown', 'shift')
+        self.xdo('keydown', 'Left')
+        time.sleep(0.4)
+        self.xdo('keyup', 'Left')
+        self.xdo('keyup', 'shift')
+        time.sleep(0.5)
+        out = self.quit()
+        self.assertGreater(out['box_position'][0], 0.1)
+        self.assertLess(out['box_orientation'][3], 0.995)
+
+    def test_lost_focus_lets_go(self):
+        self.open('still.yaml')
+        self.at(200, 200)
+        self.xdo('keydown', 'shift')
+        self.xdo('mousedown', 1)
+        self.at(230, 200)
+        self.at(260, 200)
+        time.sleep(0.8)
+        from Xlib import X, display
+        connection = display.Display(self.display.name)
+        connection.set_input_focus(X.NONE, X.RevertToNone, X.CurrentTime)
+        connection.sync()
+        time.sleep(0.3)
+        for x in (300, 340, 380, 420):
+            self.at(x, 200)
+        time.sleep(0.8)
+        self.xdo('mouseup', 1)
+        self.xdo('keyup', 'shift')
+        self.xdo('windowfocus', '--sync', self.window)
+        out = self.quit()
+        first = out['box_position'][0]
+        self.assertGreater(first, 0.05)
+        self.assertLess(first, 0.6)  # all of the drag would be four times the first part
+
+
+class Ends(Window):
+    def test_close_button(self):
+        self.open('still.yaml')
+        from Xlib import X, display
+        from Xlib.protocol import event
+        connection = display.Display(self.display.name)
+        window = connection.create_resource_object('window', int(self.window))
+        window.send_event(event.ClientMessage(window=window, client_type=connection.intern_atom('WM_PROTOCOLS'),
+                                              data=(32, [connection.intern_atom('WM_DELETE_WINDOW'), X.CurrentTime, 0, 0, 0])))
+        connection.sync()
+        began = time.monotonic()
+        self.end()
+        self.assertLess(time.monotonic() - began, 2)
+
+    def test_sigterm(self):
+        self.open('still.yaml', '--record', 'a.recording')
+        self.process.send_signal(signal.SIGTERM)
+        self.end()
+        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet'), (0, ''))
+
+    def test_a_large_scene_closes_at_once(self):
+        self.open('still.yaml', '--particles', '300000')
+        began = time.monotonic()
+        self.process.send_signal(signal.SIGTERM)
+        self.process.wait(timeout=60)
+        self.assertLess(time.monotonic() - began, 4)
+
+    def test_smallest_size_and_back(self):
+        self.open('still.yaml')
+        self.xdo('windowsize', self.window, 1, 1)
+        time.sleep(0.5)
+        self.xdo('windowsize', self.window, 300, 200)
+        time.sleep(0.5)
+        self.keys('F12')
+        out = self.quit()
+        self.assertEqual(out['size'], [300, 200])
+        self.assertEqual(png_size(self.read(self.files('png')[0])), (300, 200))
+
+    def test_a_simulation_that_blows_up_does_not_end_the_program(self):
+        self.open('scene.yaml', '--set', 'solver.step.dt=0.3', '--set', 'solver.step.substeps=1')
+        time.sleep(0.5)
+        self.assertIsNone(self.process.poll())
+        self.quit()
+        self.assertIn('blew up', self.messages)
+
+
+class Without(CommandTest):
+    def test_no_display(self):
+        environment = {name: value for name, value in os.environ.items() if name != 'DISPLAY'}
+        done = subprocess.run([command.PROGRAM, 'play', 'scene.yaml'], cwd=self.folder, env=environment,
+                              capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r'no display.*slosh render SCENE -o OUT\.mp4')
+
+    def test_bad_scene(self):
+        self.write('bad.yaml', 'box: 3\n')
+        code, said = self.slosh('bad.yaml')
+        self.assertEqual(code, 2)
+        self.assertRegex(said, r'bad\.yaml:1:\d+: ')
+        self.assertEqual(self.entries(), ['bad.yaml'])
+
+    def test_record_where_nothing_can_be_written(self):
+        code, said = self.slosh('play', 'scene.yaml', '--record', 'no/such/x')
+        self.assertEqual(code, 1)
+        self.assertIn('no/such/x', said)
+
+
+if __name__ == '__main__':
+    command.main()
