@@ -98,17 +98,23 @@ static float distance_to_fit(const Camera *camera, const double size[3], Room ro
     return distance;
 }
 
+void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double moved = box->position[k], free_way = box_size[k] / 2;
+        anchor[k] = (float)(moved - fmax(-free_way, fmin(free_way, moved)));
+    }
+}
+
 static void look_at_box(Camera *camera, const double size[3], const BoxState *box, double covered)
 {
-    vec3 at = {0, (float)size[1] / 2, 0}, eye, back = {0.50F, 0.42F, 1}, right, up = {0, 1, 0};
+    vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up = {0, 1, 0};
     Room room = make_room(covered);
     glm_vec3_normalize(back);
     glm_vec3_crossn(up, back, right);
     glm_vec3_crossn(back, right, up);
-    for (int k = 0; k < 3; k++) {
-        double moved = box->position[k], free_way = size[k] / 2;
-        at[k] += (float)(moved - fmax(-free_way, fmin(free_way, moved)));
-    }
+    camera_anchor(size, box, at);
+    at[1] += (float)size[1] / 2;
     float distance = distance_to_fit(camera, size, room, back, right, up);
     glm_vec3_muladds(right, -(room.left + room.right) / 2 * camera->tangent[0] * distance, at);
     glm_vec3_copy(at, eye);

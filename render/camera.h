@@ -19,6 +19,9 @@ typedef struct Camera {
 void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
                  double covered, Camera *camera);
 
+/* What the automatic camera and the floor stand by: the box's position less its free way of half its size. */
+void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3]);
+
 /* Pose of the box as a matrix: box frame to world. */
 void camera_box_matrix(const BoxState *box, float matrix[16]);
 
