@@ -3,32 +3,106 @@
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
+#include <string.h>
 
 bool backdrop_create(Backdrop *backdrop, Error *error)
 {
+    static const char *const stages[] = {"render/backdrop.vert", "render/backdrop.frag", NULL};
+    *backdrop = (Backdrop){0};
     glCreateVertexArrays(1, &backdrop->vertex_array);
-    backdrop->program =
-        program_create_pair("backdrop", "render/backdrop.vert", "render/backdrop.frag", error);
-    return backdrop->program != 0;
+    backdrop->program = program_create("backdrop", stages, NULL, error);
+    if (backdrop->program)
+        backdrop->shadow_program = program_create("shaded floor", stages, "#define FLOOR_SHADOW 1\n", error);
+    return backdrop->shadow_program != 0;
+}
+
+static void forget(Backdrop *backdrop)
+{
+    glDeleteFramebuffers(1, &backdrop->kept_framebuffer);
+    glDeleteTextures(1, &backdrop->kept_color);
+    backdrop->kept_framebuffer = backdrop->kept_color = backdrop->kept_target = 0;
+    backdrop->kept = false;
 }
 
 void backdrop_destroy(Backdrop *backdrop)
 {
+    forget(backdrop);
     glDeleteProgram(backdrop->program);
+    glDeleteProgram(backdrop->shadow_program);
     glDeleteVertexArrays(1, &backdrop->vertex_array);
     *backdrop = (Backdrop){0};
 }
 
-void backdrop_draw(const Backdrop *backdrop, const Frame *frame, const Shadow *shadow)
+static BackdropKey make_key(const Frame *frame)
 {
+    BackdropKey key;
+    memset(&key, 0, sizeof key); /* padding as well: keys are compared by their bytes */
+    key.camera = frame->camera;
+    key.floor_height = frame->floor_height;
+    memcpy(key.floor_center, frame->floor_center, sizeof key.floor_center);
+    key.floor_radius = frame->floor_radius;
+    key.target_number = frame->target->number;
+    memcpy(key.background, frame->def->background, sizeof key.background);
+    return key;
+}
+
+static void draw_unshaded(const Backdrop *backdrop, const Frame *frame, GLuint framebuffer)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glUseProgram(backdrop->program);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+static void keep(Backdrop *backdrop, const Frame *frame)
+{
+    if (backdrop->kept_target != frame->target->number) {
+        forget(backdrop);
+        glCreateTextures(GL_TEXTURE_2D, 1, &backdrop->kept_color);
+        glTextureStorage2D(backdrop->kept_color, 1, GL_SRGB8_ALPHA8, frame->width, frame->height);
+        glObjectLabel(GL_TEXTURE, backdrop->kept_color, -1, "kept backdrop");
+        glCreateFramebuffers(1, &backdrop->kept_framebuffer);
+        glNamedFramebufferTexture(backdrop->kept_framebuffer, GL_COLOR_ATTACHMENT0, backdrop->kept_color, 0);
+        glObjectLabel(GL_FRAMEBUFFER, backdrop->kept_framebuffer, -1, "kept backdrop");
+        backdrop->kept_target = frame->target->number;
+    }
+    draw_unshaded(backdrop, frame, backdrop->kept_framebuffer);
+    backdrop->kept = true;
+}
+
+/* Kept from the second picture of a camera on: one that moves pays nothing for it. */
+static void lay(Backdrop *backdrop, const Frame *frame)
+{
+    BackdropKey key = make_key(frame);
+    bool still = memcmp(&key, &backdrop->seen, sizeof key) == 0;
+    if (!still) {
+        backdrop->seen = key;
+        backdrop->kept = false;
+        draw_unshaded(backdrop, frame, frame->target->framebuffer);
+        return;
+    }
+    if (!backdrop->kept)
+        keep(backdrop, frame);
+    glCopyImageSubData(backdrop->kept_color, GL_TEXTURE_2D, 0, 0, 0, 0, frame->target->color, GL_TEXTURE_2D,
+                       0, 0, 0, 0, frame->width, frame->height, 1);
+}
+
+static void shade_floor(const Backdrop *backdrop, const Frame *frame, const Shadow *shadow)
+{
+    if (frame->floor_radius <= 0 || frame->camera.eye[1] <= frame->floor_height)
+        return;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_EQUAL); /* the triangle lies at infinity, where the depth was cleared to */
-    glDepthMask(GL_FALSE);
+    glBindTextureUnit(3, shadow->floor_map);
+    glUseProgram(backdrop->shadow_program);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void backdrop_draw(Backdrop *backdrop, const Frame *frame, const Shadow *shadow)
+{
+    glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    glBindTextureUnit(0, shadow->floor_map);
-    glUseProgram(backdrop->program);
     glBindVertexArray(backdrop->vertex_array);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    lay(backdrop, frame);
+    shade_floor(backdrop, frame, shadow);
 }

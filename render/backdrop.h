@@ -1,5 +1,7 @@
-/* The backdrop: sky and floor wherever the target's depth says that nothing has been drawn. Reads the floor's
-   shadow map; writes colour only. */
+/* The backdrop: sky and floor, the first thing in a picture. Writes the target's colour; no depth.
+
+   Without the fluid's shadow it depends on the camera alone, so it is kept while that stands still: then a
+   picture costs a copy, and shading where the shadow may lie. */
 #ifndef SLOSH_BACKDROP_H
 #define SLOSH_BACKDROP_H
 
@@ -7,12 +9,24 @@
 #include "render/shadow.h"
 #include "sim/error.h"
 
+/* All that sky and lit floor depend on. */
+typedef struct BackdropKey {
+    Camera camera;
+    float floor_height, floor_center[2], floor_radius;
+    unsigned target_number;
+    double background[3];
+} BackdropKey;
+
 typedef struct Backdrop {
-    unsigned program, vertex_array;
+    unsigned program, shadow_program, vertex_array;
+    BackdropKey seen; /* of the last picture */
+    bool kept;        /* `kept_color` holds the backdrop of `seen` */
+    unsigned kept_framebuffer, kept_color;
+    unsigned kept_target; /* number of the target that these are as large as; 0: there are none */
 } Backdrop;
 
 bool backdrop_create(Backdrop *backdrop, Error *error);
 void backdrop_destroy(Backdrop *backdrop);
-void backdrop_draw(const Backdrop *backdrop, const Frame *frame, const Shadow *shadow);
+void backdrop_draw(Backdrop *backdrop, const Frame *frame, const Shadow *shadow);
 
 #endif

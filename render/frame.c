@@ -15,6 +15,9 @@ typedef struct FrameBlock {
     float fluid_color[FLUIDS_MAX][4];
 } FrameBlock;
 
+/* Of the softness of shadows on the floor, in sides of the shadow map. */
+static const float LIGHT_RADIUS = 0.035F;
+
 static void make_range(Frame *frame, const ParticleBuffers *particles)
 {
     const ViewDef *def = frame->def;
@@ -47,19 +50,39 @@ static void make_light(Frame *frame, const double size[3], const float center[3]
     }
 }
 
-static void make_floor(Frame *frame, const double size[3], const float center[3])
+/* Where the light's rays through the corners of the box meet the floor, and a margin for its soft rim. */
+static void make_floor_map(Frame *frame, const double size[3])
+{
+    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int corner = 0; corner < 8; corner++) {
+        float at[3] = {(float)size[0] * ((corner & 1) ? 0.5F : -0.5F), (corner & 2) ? (float)size[1] : 0,
+                       (float)size[2] * ((corner & 4) ? 0.5F : -0.5F)};
+        matrix_transform(frame->box_to_world, at, at);
+        float drop = (at[1] - frame->floor_height) / frame->to_light[1];
+        for (int k = 0; k < 2; k++) {
+            low[k] = fminf(low[k], at[2 * k] - drop * frame->to_light[2 * k]);
+            high[k] = fmaxf(high[k], at[2 * k] - drop * frame->to_light[2 * k]);
+        }
+    }
+    float margin = 1.5F * (LIGHT_RADIUS * frame->light_depth + frame->particle_radius);
+    for (int k = 0; k < 2; k++) {
+        frame->floor_map_corner[k] = low[k] - margin;
+        frame->floor_map_size[k] = high[k] - low[k] + 2 * margin;
+    }
+}
+
+/* The floor stands still while the box moves about, as the automatic camera does. */
+static void make_floor(Frame *frame, const double size[3], const BoxState *box)
 {
     double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
+    float anchor[3];
+    camera_anchor(size, box, anchor);
     frame->floor_height =
         (float)(-0.045 * diagonal); /* a gap, so that the box casts a shadow that one sees */
-    frame->floor_center[0] = center[0];
-    frame->floor_center[1] = center[2];
+    frame->floor_center[0] = anchor[0];
+    frame->floor_center[1] = anchor[2];
     frame->floor_radius = frame->def->floor ? (float)(4.0 * diagonal) : 0;
-    /* where the light's ray through the box's centre meets the floor */
-    float drop = (center[1] - frame->floor_height) / frame->to_light[1];
-    frame->floor_map_side = (float)(1.7 * diagonal);
-    frame->floor_map_corner[0] = center[0] - drop * frame->to_light[0] - frame->floor_map_side / 2;
-    frame->floor_map_corner[1] = center[2] - drop * frame->to_light[2] - frame->floor_map_side / 2;
+    make_floor_map(frame, size);
 }
 
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
@@ -73,9 +96,9 @@ void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particl
     float middle[3] = {0, (float)particles->box_size[1] / 2, 0}, center[3];
     matrix_transform(frame->box_to_world, middle, center);
     make_light(frame, particles->box_size, center);
-    make_floor(frame, particles->box_size, center);
-    make_range(frame, particles);
     frame->particle_radius = (float)((def->radius > 0 ? def->radius : radius) * particles->spacing);
+    make_floor(frame, particles->box_size, &particles->box);
+    make_range(frame, particles);
     frame->by_fluid = def->color_by == SCALAR_FLUID || !particles->scalar[def->color_by].buffer;
 }
 
@@ -138,9 +161,9 @@ static void fill_places(FrameBlock *block, const Frame *frame, const double box_
     rotate(camera->view, up, 0, block->up_in_eye);
     set(block->floor_place, frame->floor_height, frame->floor_center[0], frame->floor_center[1],
         frame->floor_radius);
-    set(block->floor_map, frame->floor_map_corner[0], frame->floor_map_corner[1], 1 / frame->floor_map_side,
-        FLOOR_MAP_TEXELS);
-    set(block->light_to, frame->to_light[0], frame->to_light[1], frame->to_light[2], 0.035);
+    set(block->floor_map, frame->floor_map_corner[0], frame->floor_map_corner[1], frame->floor_map_size[0],
+        frame->floor_map_size[1]);
+    set(block->light_to, frame->to_light[0], frame->to_light[1], frame->to_light[2], LIGHT_RADIUS);
     set(block->particle, frame->particle_radius, spacing, 0, 0);
     set(block->coloring, frame->range[0], 1 / (frame->range[1] - frame->range[0]), frame->by_fluid, 0);
     set(block->box_size, box_size[0], box_size[1], box_size[2], 0);

@@ -21,15 +21,15 @@ typedef struct Frame {
     float floor_height;        /* m, world */
     float floor_center[2];     /* x z, m */
     float floor_radius;        /* at which it has faded, m; 0 without a floor */
-    float floor_map_corner[2]; /* x z of the floor's shadow map, m */
-    float floor_map_side;      /* m */
+    float floor_map_corner[2]; /* x z of the floor's shadow map, which covers all that the box may shade, m */
+    float floor_map_size[2];   /* m */
     float particle_radius;     /* m */
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
     bool by_fluid;             /* coloured by the fluids' own colours */
     bool plain;                /* colours as they are, without light and shadow */
 } Frame;
 
-enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 128 };
+enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
 
 /* Fills all of `frame` but the timer. `radius` of a particle in spacings where the def says 0. */
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,

@@ -151,11 +151,12 @@ void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer
     GL_STAGE(timer, STAGE_SHADOW)
     draw_shadow(renderer, particles, &frame);
     GL_STAGE(timer, STAGE_BACKDROP)
-    target_begin(&renderer->target);
+    {
+        target_begin(&renderer->target);
+        backdrop_draw(&renderer->backdrop, &frame, &renderer->shadow);
+    }
     if (renderer->view)
         view_draw(renderer->view, particles, &frame);
-    GL_STAGE(timer, STAGE_BACKDROP)
-    backdrop_draw(&renderer->backdrop, &frame, &renderer->shadow);
     GL_STAGE(timer, STAGE_OVERLAY)
     draw_overlays(renderer, particles, &frame);
 }

@@ -39,10 +39,12 @@ bool shadow_create(Shadow *shadow, Error *error)
     glCreateVertexArrays(1, &shadow->vertex_array);
     shadow->floor_program =
         program_create_pair("floor shadow", "common/screen.vert", "render/floor_shadow.frag", error);
-    if (shadow->floor_program)
-        return true;
-    shadow_destroy(shadow);
-    return false;
+    if (!shadow->floor_program) {
+        shadow_destroy(shadow);
+        return false;
+    }
+    glProgramUniform1f(shadow->floor_program, 0, 1.0F / FLOOR_MAP_TEXELS);
+    return true;
 }
 
 void shadow_destroy(Shadow *shadow)

@@ -1,11 +1,23 @@
-// One triangle over the whole screen at infinite distance (reversed depth 0), with its view rays in the world.
+// Sky and floor: one triangle over the whole screen or, with FLOOR_SHADOW, the part of the floor that the fluid may shade.
 #include "common/frame.glsl"
 
-layout(location = 0) noperspective out vec3 ray;
+// The view ray in the world: at the screen's corner, and a pixel's step in x and y. Not interpolated, so that both
+// triangles get the same colours, to the bit.
+layout(location = 0) flat out vec3 ray_corner;
+layout(location = 1) flat out vec3 ray_x;
+layout(location = 2) flat out vec3 ray_y;
 
 void main()
 {
-    vec2 ndc = 2.0 * vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) - 1.0;
-    ray = mat3(eye_to_world) * ray_of_ndc(ndc);
-    gl_Position = vec4(ndc, 0.0, 1.0);
+    mat3 turn = mat3(eye_to_world);
+    ray_corner = turn * ray_of_ndc(vec2(-1.0));
+    ray_x = turn[0] * (2.0 * viewport.z * lens.x);
+    ray_y = turn[1] * (2.0 * viewport.w * lens.y);
+#ifdef FLOOR_SHADOW
+    vec2 xz = floor_map.xy + floor_map.zw * vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    vec3 at = (vec3(xz.x, floor_place.x, xz.y) - eye_to_world[3].xyz) * turn;
+    gl_Position = vec4(at.xy / lens.xy, lens.z, -at.z);
+#else
+    gl_Position = vec4(2.0 * vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) - 1.0, 0.0, 1.0);
+#endif
 }

@@ -3,13 +3,14 @@
 #include "common/frame.glsl"
 #include "common/light.glsl"
 
+layout(location = 0) uniform float texel; // as a share of the map's side
 layout(location = 0) out float light_left;
 
 const int taps = 24;
 
 void main()
 {
-    vec2 xz = floor_map.xy + gl_FragCoord.xy / (floor_map.z * floor_map.w);
+    vec2 xz = floor_map.xy + gl_FragCoord.xy * texel * floor_map.zw;
     vec2 at = (world_to_light * vec4(xz.x, floor_place.x, xz.y, 1.0)).xy;
     float covered = 0.0;
     for (int i = 0; i < taps; i++) { // a sunflower's seeds: even over the disc
