@@ -33,17 +33,38 @@ void backdrop_destroy(Backdrop *backdrop)
     *backdrop = (Backdrop){0};
 }
 
-static BackdropKey make_key(const Frame *frame)
+static double *append(double *to, const float *from, int count)
 {
-    BackdropKey key;
-    memset(&key, 0, sizeof key); /* padding as well: keys are compared by their bytes */
-    key.camera = frame->camera;
-    key.floor_height = frame->floor_height;
-    memcpy(key.floor_center, frame->floor_center, sizeof key.floor_center);
-    key.floor_radius = frame->floor_radius;
-    key.target_number = frame->target->number;
-    memcpy(key.background, frame->def->background, sizeof key.background);
-    return key;
+    for (int i = 0; i < count; i++)
+        *to++ = from[i];
+    return to;
+}
+
+static void make_key(const Frame *frame, double key[BACKDROP_KEY_SIZE])
+{
+    const Camera *camera = &frame->camera;
+    key = append(key, camera->eye, 3);
+    key = append(key, camera->view, 16);
+    key = append(key, camera->tangent, 2);
+    key = append(key, &camera->near_plane, 1);
+    key = append(key, &frame->floor_height, 1);
+    key = append(key, frame->floor_center, 2);
+    key = append(key, &frame->floor_radius, 1);
+    for (int i = 0; i < 3; i++)
+        *key++ = frame->def->background[i];
+    *key = frame->target->number;
+}
+
+/* True when the backdrop is that of the last picture. */
+static bool stands_still(Backdrop *backdrop, const Frame *frame)
+{
+    double key[BACKDROP_KEY_SIZE];
+    bool same = true;
+    make_key(frame, key);
+    for (int i = 0; i < BACKDROP_KEY_SIZE; i++)
+        same = same && key[i] == backdrop->seen[i];
+    memcpy(backdrop->seen, key, sizeof key);
+    return same;
 }
 
 static void draw_unshaded(const Backdrop *backdrop, const Frame *frame, GLuint framebuffer)
@@ -73,10 +94,7 @@ static void keep(Backdrop *backdrop, const Frame *frame)
 /* Kept from the second picture of a camera on: one that moves pays nothing for it. */
 static void lay(Backdrop *backdrop, const Frame *frame)
 {
-    BackdropKey key = make_key(frame);
-    bool still = memcmp(&key, &backdrop->seen, sizeof key) == 0;
-    if (!still) {
-        backdrop->seen = key;
+    if (!stands_still(backdrop, frame)) {
         backdrop->kept = false;
         draw_unshaded(backdrop, frame, frame->target->framebuffer);
         return;

@@ -9,18 +9,12 @@
 #include "render/shadow.h"
 #include "sim/error.h"
 
-/* All that sky and lit floor depend on. */
-typedef struct BackdropKey {
-    Camera camera;
-    float floor_height, floor_center[2], floor_radius;
-    unsigned target_number;
-    double background[3];
-} BackdropKey;
+enum { BACKDROP_KEY_SIZE = 30 };
 
 typedef struct Backdrop {
     unsigned program, shadow_program, vertex_array;
-    BackdropKey seen; /* of the last picture */
-    bool kept;        /* `kept_color` holds the backdrop of `seen` */
+    double seen[BACKDROP_KEY_SIZE]; /* all that sky and lit floor of the last picture depend on */
+    bool kept;                      /* `kept_color` holds the backdrop of `seen` */
     unsigned kept_framebuffer, kept_color;
     unsigned kept_target; /* number of the target that these are as large as; 0: there are none */
 } Backdrop;

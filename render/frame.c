@@ -85,6 +85,32 @@ static void make_floor(Frame *frame, const double size[3], const BoxState *box)
     make_floor_map(frame, size);
 }
 
+/* Of the box and a radius around it: a cube around each sphere is inside. */
+static void make_bounds(Frame *frame, const double size[3])
+{
+    const float r = frame->particle_radius, *tangent = frame->camera.tangent;
+    float box_to_eye[16], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    matrix_multiply(frame->camera.view, frame->box_to_world, box_to_eye);
+    frame->nearest = INFINITY;
+    for (int corner = 0; corner < 8; corner++) {
+        float at[3] = {((corner & 1) ? 1.0F : -1.0F) * ((float)size[0] / 2 + r),
+                       (corner & 2) ? (float)size[1] + r : -r,
+                       ((corner & 4) ? 1.0F : -1.0F) * ((float)size[2] / 2 + r)};
+        matrix_transform(box_to_eye, at, at);
+        frame->nearest = fminf(frame->nearest, -at[2]);
+        for (int k = 0; k < 2; k++) {
+            low[k] = fminf(low[k], at[k] / (-at[2] * tangent[k]));
+            high[k] = fmaxf(high[k], at[k] / (-at[2] * tangent[k]));
+        }
+    }
+    bool before = frame->nearest > frame->camera.near_plane;
+    for (int k = 0; k < 2; k++) {
+        frame->bounds[2 * k] = before ? fmaxf(-1, fminf(low[k], 1)) : -1;
+        frame->bounds[2 * k + 1] = before ? fmaxf(-1, fminf(high[k], 1)) : 1;
+    }
+    frame->all_in_view = before && low[0] > -1 && low[1] > -1 && high[0] < 1 && high[1] < 1;
+}
+
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
                 double radius)
 {
@@ -97,6 +123,7 @@ void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particl
     matrix_transform(frame->box_to_world, middle, center);
     make_light(frame, particles->box_size, center);
     frame->particle_radius = (float)((def->radius > 0 ? def->radius : radius) * particles->spacing);
+    make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box);
     make_range(frame, particles);
     frame->by_fluid = def->color_by == SCALAR_FLUID || !particles->scalar[def->color_by].buffer;

@@ -2,15 +2,19 @@
 
 #include "render/colormap.h"
 #include "render/particle_bind.h"
+#include "render/shadow.h"
 #include "sim/gl/program.h"
+#include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
+#include <math.h>
 #include <stdlib.h>
 
 typedef struct Spheres {
-    GLuint visibility, shading, casting; /* programs */
+    GLuint visibility, points, shading, casting; /* programs */
+    float point_limit;                           /* largest point to be drawn, pixels; 0: quads only */
     GLuint colormap;
-    GLuint framebuffer, seen; /* id + 1 of the nearest particle, R32UI; with the target's own depth */
+    GLuint framebuffer, seen; /* number of the nearest particle where the target's own depth has one, R32UI */
     unsigned target_number;   /* which the framebuffer was made for */
     GLuint screen;            /* vertex array without attributes */
     QuadIndices quads;
@@ -20,6 +24,7 @@ static void spheres_destroy(void *state)
 {
     Spheres *spheres = state;
     glDeleteProgram(spheres->visibility);
+    glDeleteProgram(spheres->points);
     glDeleteProgram(spheres->shading);
     glDeleteProgram(spheres->casting);
     glDeleteTextures(1, &spheres->colormap);
@@ -33,13 +38,27 @@ static void spheres_destroy(void *state)
 static bool create_programs(Spheres *spheres, Error *error)
 {
     spheres->visibility = program_create_pair("spheres", "render/spheres.vert", "render/spheres.frag", error);
-    spheres->shading = spheres->visibility ? program_create_pair("spheres shade", "common/screen.vert",
-                                                                 "render/spheres_shade.frag", error)
-                                           : 0;
+    spheres->points = spheres->visibility ? program_create_pair("spheres point", "render/spheres_point.vert",
+                                                                "render/spheres_point.frag", error)
+                                          : 0;
+    spheres->shading = spheres->points ? program_create_pair("spheres shade", "common/screen.vert",
+                                                             "render/spheres_shade.frag", error)
+                                       : 0;
     spheres->casting = spheres->shading ? program_create_pair("spheres shadow", "render/spheres_shadow.vert",
                                                               "render/depth_only.frag", error)
                                         : 0;
+    if (spheres->casting)
+        glProgramUniform1f(spheres->casting, 1, SHADOW_MAP_TEXELS);
     return spheres->casting != 0;
+}
+
+/* Points are cheaper than quads on a software driver only, and not all hardware draws them to the bit. */
+static float find_point_limit(void)
+{
+    GLfloat range[2] = {0};
+    if (gl_renderer_is_software())
+        glGetFloatv(GL_POINT_SIZE_RANGE, range);
+    return range[1];
 }
 
 static void *spheres_create(const ViewDef *def, Error *error)
@@ -54,6 +73,7 @@ static void *spheres_create(const ViewDef *def, Error *error)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     glCreateVertexArrays(1, &spheres->screen);
     quad_indices_create(&spheres->quads);
+    spheres->point_limit = find_point_limit();
     if (spheres->colormap && create_programs(spheres, error))
         return spheres;
     spheres_destroy(spheres);
@@ -81,25 +101,54 @@ static void follow_target(Spheres *spheres, const Target *target)
 static void spheres_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     Spheres *spheres = state;
+    glEnable(GL_PROGRAM_POINT_SIZE);
     glUseProgram(spheres->casting);
     particle_bind(spheres->casting, particles, frame->def->color_by);
     glBindVertexArray(spheres->screen);
-    glDrawArrays(GL_TRIANGLES, 0, (GLsizei)(3 * particles->count));
+    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+}
+
+/* A point whose centre is outside the view is lost, and none is larger than the limit. */
+static bool points_will_do(const Spheres *spheres, const Frame *frame)
+{
+    const float *tangent = frame->camera.tangent, r = frame->particle_radius, nearest = frame->nearest + r;
+    if (!frame->all_in_view || nearest <= 2 * r)
+        return false;
+    float slant = sqrtf(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+    float half = r * slant / (nearest - r) / tangent[1] * (float)frame->height / 2;
+    return 2 * half + 1 <= spheres->point_limit;
 }
 
 static void find_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
 {
-    static const GLuint nobody[4] = {0};
     glBindFramebuffer(GL_FRAMEBUFFER, spheres->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
-    glClearNamedFramebufferuiv(spheres->framebuffer, GL_COLOR, 0, nobody);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
-    glUseProgram(spheres->visibility);
-    particle_bind(spheres->visibility, particles, frame->def->color_by);
-    quad_indices_draw(&spheres->quads, particles->count);
+    bool points = points_will_do(spheres, frame);
+    GLuint program = points ? spheres->points : spheres->visibility;
+    glUseProgram(program);
+    particle_bind(program, particles, frame->def->color_by);
+    if (!points) {
+        quad_indices_draw(&spheres->quads, particles->count);
+        return;
+    }
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glBindVertexArray(spheres->screen);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+}
+
+static void cut_to_bounds(const Frame *frame)
+{
+    const float *bounds = frame->bounds, width = (float)frame->width, height = (float)frame->height;
+    int x0 = (int)floorf((0.5F + 0.5F * bounds[0]) * width),
+        x1 = (int)ceilf((0.5F + 0.5F * bounds[1]) * width);
+    int y0 = (int)floorf((0.5F + 0.5F * bounds[2]) * height),
+        y1 = (int)ceilf((0.5F + 0.5F * bounds[3]) * height);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x0, y0, x1 - x0, y1 - y0);
 }
 
 /* The triangle at depth 0 passes where something has been drawn. */
@@ -113,7 +162,9 @@ static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, co
     glUseProgram(spheres->shading);
     particle_bind(spheres->shading, particles, frame->def->color_by);
     glBindVertexArray(spheres->screen);
+    cut_to_bounds(frame);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 static void spheres_draw(void *state, const ParticleBuffers *particles, const Frame *frame)

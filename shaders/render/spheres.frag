@@ -5,7 +5,7 @@
 layout(location = 0) noperspective in vec3 offset;
 layout(location = 1) flat in vec3 constants;
 layout(location = 2) flat in uint index;
-layout(location = 0) out uint seen; // index + 1
+layout(location = 0) out uint seen;
 
 void main()
 {
@@ -13,5 +13,5 @@ void main()
     if (!(e >= 0.0 && depth > 0.0 && depth <= 1.0))
         discard;
     gl_FragDepth = depth;
-    seen = index + 1u;
+    seen = index;
 }

@@ -1,9 +1,10 @@
-// Colours the particle that spheres.frag found in this pixel.
+// Colours the particle that spheres.frag found in this pixel. Where it found none the map holds anything: the test of depth
+// leaves these out.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/particles.glsl"
-#include "common/sphere.glsl"
 
+layout(early_fragment_tests) in;
 layout(binding = 1) uniform usampler2D seen_map;
 layout(binding = 2) uniform sampler2D colormap;
 layout(location = 0) out vec4 color;
@@ -26,16 +27,24 @@ vec3 shade(vec3 albedo, vec3 normal, vec3 to_eye, float lit)
     return albedo * sky + light_color.rgb * (lit * (albedo * max(to_light, 0.0) + 0.10 * glint));
 }
 
+// Where the ray meets the sphere, as its normal there: that is u + k ray with u = (w ray - c) / r, w = -c.z and |normal| = 1,
+// of which no term cancels when the sphere is small and far.
+vec3 normal_at(vec3 centre, vec3 ray, float per_ray2)
+{
+    vec2 u = (-centre.z * ray.xy - centre.xy) / particle.x;
+    float slant = dot(u, ray.xy) * per_ray2;
+    float k = slant + sqrt(max(slant * slant + (1.0 - dot(u, u)) * per_ray2, 0.0));
+    return vec3(u - k * ray.xy, k);
+}
+
 void main()
 {
-    uint seen = texelFetch(seen_map, ivec2(gl_FragCoord.xy), 0).x;
-    if (seen == 0u)
-        discard;
-    Sphere sphere = sphere_at((box_to_eye * vec4(particle_position(seen - 1u), 1.0)).xyz, particle.x);
+    uint index = texelFetch(seen_map, ivec2(gl_FragCoord.xy), 0).x;
+    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
     vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
-    float e, depth = sphere_depth(sphere_offset(sphere, ray), sphere_constants(sphere), e);
-    vec3 hit = ray * (lens.z / depth);
-    vec3 normal = (hit - sphere.centre) / sphere.radius;
-    vec3 albedo = particle_color(seen - 1u);
-    color = vec4(mix(albedo, shade(albedo, normal, -normalize(hit), fluid_light(hit)), light_in_eye.w), 1.0);
+    float per_ray = inversesqrt(dot(ray, ray));
+    vec3 normal = normal_at(centre, ray, per_ray * per_ray);
+    vec3 albedo = particle_color(index);
+    vec3 lit = shade(albedo, normal, -per_ray * ray, fluid_light(centre + particle.x * normal));
+    color = vec4(mix(albedo, lit, light_in_eye.w), 1.0);
 }

@@ -159,6 +159,39 @@ static void test_small_and_far(void **state)
     assert_int_equal(compare(&scene) > 500, 1);
 }
 
+static void fill_box(Scene *scene, int count)
+{
+    for (int i = 0; i < count; i++)
+        particles_add(scene->particles, 0.9 * sin(12.9 * i), 0.5 + 0.4 * sin(78.2 * i), 0.4 * sin(37.7 * i),
+                      1, 0);
+}
+
+/* The whole box is in the picture: drawn as points where that is cheaper. */
+static void test_all_in_view(void **state)
+{
+    (void)state; /* from afar, through a wide lens from near, upside down */
+    Scene far_off = scene_create((double[]){2, 3, 6}, (double[]){0, 0.5, 0}, 30, 0.05);
+    fill_box(&far_off, 300);
+    assert_true(compare(&far_off) > 500);
+    Scene wide = scene_create((double[]){0.3, 0.8, 1.9}, (double[]){0, 0.4, 0}, 120, 0.1);
+    fill_box(&wide, 60);
+    assert_true(compare(&wide) > 200);
+    Scene turned = scene_create((double[]){1, 1, 4}, (double[]){0, -0.4, 0}, 40, 0.08);
+    turned.state.box.orientation[2] = 1, turned.state.box.orientation[3] = 0;
+    fill_box(&turned, 100);
+    assert_true(compare(&turned) > 500);
+}
+
+/* As ellipses far from the middle, which meet. */
+static void test_all_in_view_and_large(void **state)
+{
+    (void)state;
+    Scene scene = scene_create((double[]){0, 0.5, 3.2}, (double[]){0, 0.5, 0}, 70, 0.4);
+    particles_add(scene.particles, 0, 0.5, 0, 1, 0);
+    particles_add(scene.particles, 0.9, 0.4, 0.3, 1, 0);
+    assert_true(compare(&scene) > 500);
+}
+
 /* The nearest wins whatever the order, in a box that has moved and turned. */
 static void test_many_in_any_order(void **state)
 {
@@ -189,6 +222,8 @@ int main(void)
         cmocka_unit_test_teardown(test_centre_beside_and_behind_the_eye, no_gl_errors),
         cmocka_unit_test_teardown(test_not_seen, no_gl_errors),
         cmocka_unit_test_teardown(test_small_and_far, no_gl_errors),
+        cmocka_unit_test_teardown(test_all_in_view, no_gl_errors),
+        cmocka_unit_test_teardown(test_all_in_view_and_large, no_gl_errors),
         cmocka_unit_test_teardown(test_many_in_any_order, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

@@ -1,0 +1,33 @@
+// One point a particle: the same as spheres.vert for spheres that are wholly before the eye, centres in view. With centre c,
+// w = -c.z, radius r, q = w^2 - r^2, Q = c.c - r^2 the sphere is on the screen an ellipse with half axes r sqrt(Q) / q away
+// from the picture's middle and r / sqrt(q) across; with the place (x, y) in it in units of these, its reversed depth is
+//   near / q (w + r / sqrt(Q) (|c.xy| x + sqrt(q) sqrt(1 - x^2 - y^2))).
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+
+layout(location = 0) flat out vec3 along;  // x of a place in the point: constant, slopes
+layout(location = 1) flat out vec3 across; // the same of y
+layout(location = 2) flat out vec3 depth;  // constant, of x, of the root
+layout(location = 3) flat out uint index;
+
+void main()
+{
+    index = uint(gl_VertexID);
+    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
+    float r = particle.x, w = -centre.z, q = w * w - r * r, out2 = dot(centre.xy, centre.xy);
+    float outwards = sqrt(out2), slant = inversesqrt(max(q + out2, 1e-30)), root = sqrt(max(q, 1e-30));
+    vec2 direction = outwards > 1e-6 * w ? centre.xy / outwards : vec2(1.0, 0.0);
+    vec2 axes = vec2(r / (q * slant), r / root);
+    vec2 reach = sqrt(axes.x * axes.x * direction * direction + axes.y * axes.y * direction.yx * direction.yx);
+    float pixel = 2.0 * lens.y * viewport.w;
+    float size = ceil(8.0 * (2.0 * max(reach.x, reach.y) / pixel)) / 8.0; // hardware rounds to such steps
+
+    vec2 unit = vec2(size, -size) * pixel; // gl_PointCoord counts from the top
+    along.yz = direction * unit / axes.x;
+    across.yz = vec2(-direction.y, direction.x) * unit / axes.y;
+    along.x = -0.5 * (along.y + along.z);
+    across.x = -0.5 * (across.y + across.z);
+    depth = lens.z / q * vec3(w, r * slant * outwards, r * slant * root);
+    gl_Position = w > r + lens.z ? vec4(centre.xy * w / (q * lens.xy), 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
+    gl_PointSize = size;
+}
