@@ -66,7 +66,7 @@ static void adopt(Play *play, const PlayScene *opened)
 {
     char title[192];
     play->open = *opened;
-    play->file_view = opened->scene.view;
+    play->file_scene = opened->scene;
     play->has_particles = play->orbiting = false;
     play->hand = hand_at_rest();
     play->input = (PlayInput){.drag = PLAY_NONE, .looked_ms = wall_ms()};
@@ -130,9 +130,12 @@ static bool start(Play *play, Error *error)
     if (!play->renderer)
         return false;
     play->text = text_create((float)(14 * window_scale(play->window)), error);
+    play->panel = play->width > 60 * 14 * window_scale(play->window); /* beside the fluid, not over it */
+    play->ui.ui = play->text ? ui_create((float)(14 * window_scale(play->window)), error) : NULL;
+    play->ui.panel = panel_create();
     if (!gl_renderer_is_software())
         play->timer = gl_timer_create(GL_CLOCK_QUERY);
-    return play->text != NULL;
+    return play->ui.ui && (play->ui.panel || error_set(error, "no memory for the panel"));
 }
 
 /* What the solver has to say. */
@@ -275,6 +278,8 @@ static void close_all(Play *play)
     play->stuck = !play_scene_close(&play->open, PATIENCE_MS);
     if (play->stuck) /* in a frame that lasts seconds: the end of the process ends it */
         return;
+    panel_destroy(play->ui.panel);
+    ui_destroy(play->ui.ui);
     text_destroy(play->text);
     gl_timer_destroy(play->timer);
     renderer_destroy(play->renderer);
@@ -289,7 +294,7 @@ int play(const PlaySetup *setup, PlayFigures *figures)
         fprintf(stderr, "no memory for the window\n");
         return EXIT_FAILED;
     }
-    *play = (Play){.setup = setup, .speed = 1, .panel = true, .input = {.drag = PLAY_NONE}};
+    *play = (Play){.setup = setup, .speed = 1, .input = {.drag = PLAY_NONE}};
     interrupt_install();
     bool ok = start(play, &error) && run(play, &error);
     if (play->window && play->open.simulator) {

@@ -50,9 +50,9 @@ static void next_scalar(Play *play)
 {
     ViewDef *view = &play->open.scene.view;
     view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
-    const bool files = view->color_by == play->file_view.color_by;
-    view->range_auto = files ? play->file_view.range_auto : true;
-    memcpy(view->range, play->file_view.range, sizeof view->range);
+    const bool files = view->color_by == play->file_scene.view.color_by;
+    view->range_auto = files ? play->file_scene.view.range_auto : true;
+    memcpy(view->range, play->file_scene.view.range, sizeof view->range);
     play_view_changed(play);
     play_tell(play, "coloured by %s", scalar_name(view->color_by));
 }
@@ -73,8 +73,8 @@ static void camera_home(Play *play)
 {
     ViewDef *view = &play->open.scene.view;
     play->orbiting = false;
-    view->camera_auto = play->file_view.camera_auto;
-    view->camera = play->file_view.camera;
+    view->camera_auto = play->file_scene.view.camera_auto;
+    view->camera = play->file_scene.view.camera;
     play_view_changed(play);
 }
 

@@ -63,10 +63,13 @@ void play_draw(Play *play)
     } else {
         draw_waiting(play);
     }
+    if (play->has_particles)
+        play_panel_draw(play);
     draw_words(play);
     play_events(play); /* while the GPU draws: what comes now is obeyed a picture sooner */
     window_present(play->window);
     const double now = wall_ms();
+    play->last_render_ms = now - began;
     play->render_ms += now - began;
     play->rendered++;
     if (!play->has_particles)

@@ -143,6 +143,9 @@ void play_event(Play *play, const WindowEvent *event)
     Error error = {{0}};
     if (too_early(play, event->kind))
         return;
+    play_panel_event(play, event);
+    if (play_panel_takes(play, event))
+        return;
     switch (event->kind) {
     case WINDOW_KEY:
         on_key(play, event);

@@ -4,6 +4,7 @@
 
 #include "app/hand.h"
 #include "app/orbit.h"
+#include "app/panel.h"
 #include "app/play.h"
 #include "app/play_commands.h"
 #include "app/play_meter.h"
@@ -12,6 +13,7 @@
 #include "app/window.h"
 #include "render/renderer.h"
 #include "render/text.h"
+#include "render/ui.h"
 #include "sim/gl/timer.h"
 
 enum { PLAY_KEYS = 512, PLAY_NOTICE_SIZE = 320 };
@@ -29,6 +31,18 @@ typedef struct PlayInput {
     double looked_ms;     /* wall time of that update */
 } PlayInput;
 
+typedef struct PlayUi {
+    Ui *ui;
+    Panel *panel;
+    UiInput input;
+    bool buttons_down[3];
+    unsigned keys_down;
+    double drawn_ms; /* wall time of the last drawing */
+    int shown;       /* what was drawn then */
+    const char *warnings[8];
+    int warning_count;
+} PlayUi;
+
 typedef struct PlayMovie {
     Video *video; /* NULL: none */
     char path[1024];
@@ -44,8 +58,9 @@ typedef struct Play {
     GlTimer *timer; /* NULL on a software renderer, where nothing can be measured without waiting */
     StageTimes gl_times;
     Text *text;
+    PlayUi ui;
     PlayScene open;
-    ViewDef file_view;         /* the view as the scene's file has it */
+    Scene file_scene;          /* as its file has it */
     ParticleBuffers particles; /* what is drawn */
     bool has_particles;
     SimulatorStatus status;
@@ -70,6 +85,7 @@ typedef struct Play {
     double began_cpu_ms;
     double simulated_s, scene_began_s; /* before the last reset; time at which counting began */
     double render_ms, panel_ms;        /* sums over all pictures */
+    double last_render_ms;
     size_t rendered, panels;
     double shake_began_ms, shaken_ms;
     size_t scenes_opened;
@@ -95,6 +111,12 @@ void play_hand(Play *play);
 
 /* play_draw.c: one picture on the screen; false when it could not be drawn. */
 void play_draw(Play *play);
+
+/* play_panel.c: tells the widgets of an event; whether it is theirs alone; draws them and does what they ask.
+ */
+void play_panel_event(Play *play, const WindowEvent *event);
+bool play_panel_takes(const Play *play, const WindowEvent *event);
+void play_panel_draw(Play *play);
 
 /* play_files.c */
 void play_screenshot(Play *play);

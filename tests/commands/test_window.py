@@ -145,7 +145,7 @@ class Keys(Window):
         self.keys('F1', 'F2')
         out = self.quit()
         self.assertEqual((out['color_by'], out['colormap']), ('density', 'plasma'))
-        self.assertEqual((out['help'], out['panel']), (False, True))
+        self.assertEqual((out['help'], out['panel']), (False, False))
 
     def test_files(self):
         self.open('still.yaml')
