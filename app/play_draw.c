@@ -38,6 +38,17 @@ static void draw_words(Play *play)
         draw_notice(play, play->notice);
 }
 
+/* What the user does while the GPU draws is obeyed a picture sooner. */
+static void look_while_drawing(Play *play)
+{
+    static const GLuint64 pause_ns = 2000000;
+    GLsync drawn = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    do
+        play_events(play);
+    while (drawn && glClientWaitSync(drawn, GL_SYNC_FLUSH_COMMANDS_BIT, pause_ns) == GL_TIMEOUT_EXPIRED);
+    glDeleteSync(drawn);
+}
+
 static void begin_counting(Play *play)
 {
     struct timespec cpu;
@@ -66,7 +77,7 @@ void play_draw(Play *play)
     if (play->has_particles)
         play_panel_draw(play);
     draw_words(play);
-    play_events(play); /* while the GPU draws: what comes now is obeyed a picture sooner */
+    look_while_drawing(play);
     window_present(play->window);
     const double now = wall_ms();
     play->last_render_ms = now - began;

@@ -242,9 +242,22 @@ void play_hand(Play *play)
     input->hand_event_ms = 0;
 }
 
+void play_shake(Play *play)
+{
+    WindowEvent event;
+    const double now = wall_ms();
+    if (play->setup->shake_seconds <= 0 || !play->has_particles)
+        return;
+    while (play_script_next(&play->script, now, play->width, play->height, &event))
+        play_event(play, &event);
+    if (now - play->script.began_ms >= 1000 * play->setup->shake_seconds)
+        play->quit = true;
+}
+
 void play_events(Play *play)
 {
     WindowEvent event;
+    play_shake(play);
     window_poll(play->window);
     while (window_next(play->window, &event))
         play_event(play, &event);

@@ -9,6 +9,7 @@
 #include "app/play_commands.h"
 #include "app/play_meter.h"
 #include "app/play_scene.h"
+#include "app/play_script.h"
 #include "app/video.h"
 #include "app/window.h"
 #include "render/renderer.h"
@@ -87,7 +88,7 @@ typedef struct Play {
     double render_ms, panel_ms;        /* sums over all pictures */
     double last_render_ms;
     size_t rendered, panels;
-    double shake_began_ms, shaken_ms;
+    PlayScript script;
     size_t scenes_opened;
 } Play;
 
@@ -104,6 +105,7 @@ void play_set(Play *play, const char *setting);
 void play_do(Play *play, PlayCommand command);
 
 /* play_input.c */
+void play_shake(Play *play);  /* the script's events that are due */
 void play_events(Play *play); /* takes what has come, sends what it means */
 void play_event(Play *play, const WindowEvent *event);
 void play_let_go(Play *play);
