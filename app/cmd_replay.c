@@ -43,16 +43,12 @@ static void replay_close(Replay *replay)
     recording_destroy(&replay->recording);
 }
 
-/* The commands of the present step; one that belongs to an earlier step fell between two frames. */
+/* The commands of the present step. */
 static bool obey(Replay *replay, Error *error)
 {
     const Recording *recording = &replay->recording;
-    while (replay->done < recording->count && recording->commands[replay->done].step <= replay->step) {
-        const SimCommand *command = &recording->commands[replay->done++];
-        if (command->step < replay->step)
-            return error_set(error, "the command of step %llu is not at the start of a frame",
-                             (unsigned long long)command->step);
-        if (!sim_command_apply(command, replay->world, &replay->scene, error))
+    while (replay->done < recording->count && recording->commands[replay->done].step == replay->step) {
+        if (!sim_command_apply(&recording->commands[replay->done++], replay->world, &replay->scene, error))
             return false;
     }
     return true;
@@ -62,7 +58,7 @@ static bool simulate(Replay *replay, uint64_t steps, Progress *progress, Error *
 {
     while (replay->step < steps && !interrupted()) {
         WorldInfo info;
-        if (!obey(replay, error) || !world_step(replay->world, NULL, error))
+        if (!obey(replay, error) || !world_substep(replay->world, NULL, error))
             return false;
         world_info(replay->world, &info);
         replay->step = info.step;

@@ -69,6 +69,7 @@ void play_draw(Play *play)
     if (play->has_particles) {
         renderer_draw(play->renderer, &play->particles, play->timer);
         gl_timer_frame(play->timer, &play->gl_times);
+        play_events(play);
         renderer_present(play->renderer);
         play_movie_picture(play);
     } else {

@@ -19,7 +19,7 @@ typedef enum SimCommandKind {
 enum { SIM_SETTING_SIZE = 96 };
 
 typedef struct SimCommand {
-    uint64_t step; /* WorldInfo.step at which it applies: the start of a frame */
+    uint64_t step; /* WorldInfo.step at which it applies */
     SimCommandKind kind;
     union {
         BoxTarget target;

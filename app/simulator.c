@@ -197,20 +197,36 @@ static void count_frame(Simulator *simulator, double began, const StageClock *cl
     pthread_mutex_unlock(&simulator->lock);
 }
 
-static void run_frame(Simulator *simulator, Work *work)
+/* The commands that wait apply at once, between two substeps: sooner by most of a frame than at its start. */
+static void obey_all(Simulator *simulator, Work *work)
 {
-    StageClock clock = {0};
-    Error error = {{0}};
     WorldInfo info;
-    const double began = wall_ms();
-    bool ok = false;
+    pthread_mutex_lock(&simulator->lock);
+    work->count = simulator->queued;
+    memcpy(work->commands, simulator->queue, sizeof *work->commands * (size_t)work->count);
+    work->taken = simulator->sent;
+    simulator->queued = 0;
+    pthread_mutex_unlock(&simulator->lock);
     world_info(simulator->world, &info);
     for (int i = 0; i < work->count; i++) {
         work->commands[i].step = info.step;
         obey(simulator, &work->commands[i]);
     }
     simulator->taken = work->taken;
-    if (world_step(simulator->world, &clock, &error))
+}
+
+static void run_frame(Simulator *simulator, Work *work)
+{
+    StageClock clock = {0};
+    Error error = {{0}};
+    const double began = wall_ms();
+    const int substeps = simulator->scene.world.substeps;
+    bool ok = true;
+    for (int i = 0; i < substeps && ok; i++) {
+        obey_all(simulator, work);
+        ok = world_substep(simulator->world, &clock, &error);
+    }
+    if (ok)
         STAGE (&clock, STAGE_UPLOAD)
             ok = publish(simulator, &error);
     count_frame(simulator, began, &clock);
@@ -260,13 +276,8 @@ static bool take_work(Simulator *simulator, Work *work)
             work->frame = frame_due(simulator);
     }
     simulator->reset = simulator->save = false;
-    if (work->frame) {
-        work->count = simulator->queued;
-        memcpy(work->commands, simulator->queue, sizeof *work->commands * (size_t)work->count);
-        work->taken = simulator->sent;
-        simulator->queued = 0;
+    if (work->frame)
         simulator->single = false;
-    }
     const bool go_on = !simulator->quit;
     pthread_mutex_unlock(&simulator->lock);
     return go_on;

@@ -1,5 +1,5 @@
-/* The solver at its own pace, beside the view: a thread that owns the World, obeys commands at the start of a
-   frame, and hands each state to the upload ring.
+/* The solver at its own pace, beside the view: a thread that owns the World, obeys commands between two
+   steps, and hands each state to the upload ring.
 
    It paces itself by the wall clock where the scene says `realtime` (as many frames as the clock asks for,
    times the speed; what it cannot keep up with is left out, dt stays), else runs as fast as it can. It is the
@@ -47,7 +47,7 @@ void simulator_set_realtime(Simulator *simulator, bool realtime);
    new recording. */
 void simulator_reset(Simulator *simulator);
 
-/* A command for the start of the next frame; its `step` is set there. A target replaces one that still waits,
+/* A command for the next step; its `step` is set there. A target replaces one that still waits,
    and so does a setting of the same key. Returns its number, counted from 1, or 0 when too many wait (the
    simulation is paused and hundreds of keys were set). */
 uint64_t simulator_send(Simulator *simulator, const SimCommand *command);

@@ -202,20 +202,25 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
         step->gravity[k] = (float)gravity[k];
 }
 
+bool world_substep(World *world, StageClock *clock, Error *error)
+{
+    Substep step;
+    substep_prepare(world, clock, &step);
+    const bool bounded = world->method->substep(&step);
+    world->step++;
+    return bounded ||
+           error_set(
+               error,
+               "the simulation blew up at t = %g s: a particle moves further than the support radius in one step; use a smaller solver.step.dt, more solver.step.substeps or a lower solver.sound_speed",
+               time_of(world, (double)world->step));
+}
+
 bool world_step(World *world, StageClock *clock, Error *error)
 {
-    for (int i = 0; i < world->def.substeps; i++) {
-        Substep step;
-        substep_prepare(world, clock, &step);
-        const bool bounded = world->method->substep(&step);
-        world->step++;
-        if (!bounded)
-            return error_set(
-                error,
-                "the simulation blew up at t = %g s: a particle moves further than the support radius in one step; use a smaller solver.step.dt, more solver.step.substeps or a lower solver.sound_speed",
-                time_of(world, (double)world->step));
-    }
-    return true;
+    bool bounded = true;
+    for (int i = 0; i < world->def.substeps && bounded; i++)
+        bounded = world_substep(world, clock, error);
+    return bounded;
 }
 
 static bool target_take(World *world, const BoxTarget *target)

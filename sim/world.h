@@ -26,6 +26,9 @@ void world_destroy(World *world); /* NULL is allowed */
    step): what the world holds then is of no use. */
 bool world_step(World *world, StageClock *clock, Error *error);
 
+/* The same for one step of the frame's `substeps`: for who wants a say in between. */
+bool world_substep(World *world, StageClock *clock, Error *error);
+
 /* Where the hand wants the box from the next step on: the box follows through the filter, on top of the
    prescribed motion (sim/box_filter.h). The orientation is normalised; one that is not finite is not taken.
  */

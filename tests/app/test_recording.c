@@ -161,7 +161,7 @@ static uint64_t replay(const Recording *recording, int threads)
     while (info.step < recording->steps) {
         while (done < recording->count && recording->commands[done].step == info.step)
             assert_true(sim_command_apply(&recording->commands[done++], world, &scene, &error));
-        assert_true(world_step(world, NULL, &error));
+        assert_true(world_substep(world, NULL, &error));
         world_info(world, &info);
     }
     const uint64_t hash = world_hash(world);
