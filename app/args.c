@@ -237,12 +237,18 @@ static bool parse_option(Parser *parser, const char *argument)
     return parse_value(parser, option, equals ? equals + 1 : parser->argv[parser->at++]);
 }
 
+/* What the arguments of a command are. */
+static const char *takes(const CommandRow *row)
+{
+    return row->command == COMMAND_REPLAY ? "recording" : "scene";
+}
+
 static bool parse_scene(const Parser *parser, const char *name)
 {
     Args *args = parser->args;
     if (args->scene_count == parser->row->scenes_max)
-        return fail(parser, "one argument too many: '%.60s'; it takes %d scene%s", name, args->scene_count,
-                    args->scene_count == 1 ? "" : "s");
+        return fail(parser, "one argument too many: '%.60s'; it takes %d %s%s", name, args->scene_count,
+                    takes(parser->row), args->scene_count == 1 ? "" : "s");
     args->scenes[args->scene_count++] = name;
     return true;
 }
@@ -325,7 +331,8 @@ static bool parse_rest(Parser *parser)
     if (parser->args->command == COMMAND_HELP)
         return true;
     if (parser->args->scene_count < parser->row->scenes_min)
-        return fail(parser, "the scene is missing; write slosh %s %s", parser->row->name, parser->row->usage);
+        return fail(parser, "the %s is missing; write slosh %s %s", takes(parser->row), parser->row->name,
+                    parser->row->usage);
     if (parser->row->output && !parser->args->output)
         return fail(parser, "-o is missing; add -o with %s", parser->row->output);
     return true;

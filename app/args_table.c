@@ -34,9 +34,9 @@ const CommandRow command_rows[] = {
 
 /* clang-format off */
 const OptionRow option_rows[] = {
-    {"-o", "OUT", RENDER | RUN, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
+    {"-o", "OUT", RENDER | RUN | REPLAY, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
-    {"--every", "S", RUN, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
+    {"--every", "S", RUN | REPLAY, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
      .help = "seconds from snapshot to snapshot (1/30)"},
     {"--frames", "N", RENDER | BENCH, OPTION_COUNT, AT(frames), .min = 1, .max = 1e7, .help = "how many frames"},
     {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .max = 1000, .flags = OPTION_OPEN_LOW,

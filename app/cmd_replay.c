@@ -3,137 +3,171 @@
 #include "app/json_file.h"
 #include "app/output.h"
 #include "app/progress.h"
-#include "app/recording.h"
-#include "sim/world.h"
+#include "app/recording_play.h"
+#include "app/snapshot_series.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A recording on its way. */
+/* A recording on its way through the simulation. */
 typedef struct Replay {
+    const Args *args;
+    const char *path;
     Recording recording;
-    Scene scene;
-    World *world;
-    size_t done; /* commands */
-    uint64_t step, hash;
+    RecordingPlay play;
+    Session session;
+    SnapshotSeries series;
+    uint64_t hash; /* at the end */
+    bool ended;    /* false: a signal came before */
+    bool broke;    /* the simulation blew up where the recording ends */
 } Replay;
 
-static bool replay_open(Replay *replay, const Args *args, Error *error)
+static int fail(int code, const Error *error)
 {
-    const char *path = args->scenes[0];
-    if (!recording_read(path, &replay->recording, error))
-        return false;
-    Recording *recording = &replay->recording;
-    SceneSettings settings = recording->settings;
-    for (int i = 0; i < args->settings.count && settings.count < SCENE_SETTINGS_MAX; i++)
-        settings.set[settings.count++] = args->settings.set[i];
-    if (!scene_parse(recording->path, recording->text, recording->size, &settings, &replay->scene, NULL,
-                     error))
-        return false;
-    replay->world = world_create(&replay->scene.world, error);
-    if (replay->world && strcmp(recording->program, SLOSH_VERSION) != 0 && !args->quiet)
-        fprintf(stderr, "%s: recorded by slosh %s, replayed by %s: the bits may differ\n", path,
-                recording->program, SLOSH_VERSION);
-    return replay->world != NULL;
+    fprintf(stderr, "%s\n", error->message);
+    return code;
 }
 
-static void replay_close(Replay *replay)
-{
-    world_destroy(replay->world);
-    recording_destroy(&replay->recording);
-}
-
-/* The commands of the present step. */
-static bool obey(Replay *replay, Error *error)
+/* A session that blew up was recorded up to that step, in the middle of a frame or at its end. */
+static bool broke_as_recorded(const Replay *replay)
 {
     const Recording *recording = &replay->recording;
-    while (replay->done < recording->count && recording->commands[replay->done].step == replay->step) {
-        if (!sim_command_apply(&recording->commands[replay->done++], replay->world, &replay->scene, error))
-            return false;
-    }
-    return true;
+    return !recording->cut && replay->play.next == recording->count &&
+           replay->session.info.step == recording->steps;
 }
 
-static bool simulate(Replay *replay, uint64_t steps, Progress *progress, Error *error)
+/* 0, or the exit code with the reason. */
+static int simulate(Replay *replay, Progress *progress, Error *error)
 {
-    while (replay->step < steps && !interrupted()) {
-        WorldInfo info;
-        if (!obey(replay, error) || !world_substep(replay->world, NULL, error))
-            return false;
-        world_info(replay->world, &info);
-        replay->step = info.step;
-        progress_update(progress, (double)info.step / (double)steps);
+    Session *session = &replay->session;
+    for (;;) {
+        if (!recording_play_apply(&replay->play, session, error))
+            return EXIT_USAGE;
+        if (!snapshot_series_add(&replay->series, session, error))
+            return EXIT_FAILED;
+        replay->ended = recording_play_ended(&replay->play, session);
+        if (replay->ended || interrupted())
+            return 0;
+        if (!session_substep(session, error)) {
+            replay->broke = replay->ended = broke_as_recorded(replay);
+            return replay->broke ? 0 : EXIT_FAILED;
+        }
+        progress_update(progress, (double)session->info.step / (double)replay->recording.steps);
     }
-    replay->hash = world_hash(replay->world);
-    return true;
 }
 
-static bool write_json(const Replay *replay, const Args *args, bool same, Error *error)
+static bool same_bits(const Replay *replay)
 {
-    char hash[32], recorded[32];
-    snprintf(hash, sizeof hash, "0x%016llx", (unsigned long long)replay->hash);
-    snprintf(recorded, sizeof recorded, "0x%016llx", (unsigned long long)replay->recording.hash);
-    json_t *json = json_pack("{s:s, s:s, s:s, s:I, s:I, s:s, s:s, s:b}", "command", "replay", "recording",
-                             args->scenes[0], "scene", replay->recording.path, "steps",
-                             (json_int_t)replay->step, "commands", (json_int_t)replay->done, "hash", hash,
-                             "recorded_hash", recorded, "same", same);
-    const bool written = json_file_write(json, args->json, error);
+    return replay->ended && !replay->recording.cut && replay->hash == replay->recording.hash;
+}
+
+/* What came of it, in words and as exit code. */
+static int judge(const Replay *replay)
+{
+    const Recording *recording = &replay->recording;
+    const uint64_t step = replay->session.info.step;
+    if (!replay->ended) {
+        fprintf(stderr, "stopped at step %" PRIu64 " of %" PRIu64 "; nothing was compared\n", step,
+                recording->steps);
+        return EXIT_INTERRUPTED;
+    }
+    if (recording->cut) {
+        fprintf(stderr,
+                "%s:%zu: the recording was cut here, its last line 'end STEPS HASH' is missing; %" PRIu64
+                " steps were replayed, hash %016" PRIx64 ", and nothing is proven\n",
+                replay->path, recording_line(recording, recording->count), step, replay->hash);
+        return EXIT_FAILED;
+    }
+    if (!same_bits(replay)) {
+        fprintf(stderr,
+                "different after %" PRIu64 " steps: hash %016" PRIx64 ", and %016" PRIx64 " was recorded%s\n",
+                step, replay->hash, recording->hash,
+                strcmp(recording->program, SLOSH_VERSION) == 0 ? "" : " by another version");
+        return EXIT_FAILED;
+    }
+    if (!replay->args->quiet)
+        fprintf(stderr, "the same bits: %" PRIu64 " steps, hash %016" PRIx64 "\n", step, replay->hash);
+    return 0;
+}
+
+static bool write_json(const Replay *replay, Error *error)
+{
+    const Session *session = &replay->session;
+    const WorldInfo *info = &session->info;
+    const WorldDef *def = &session->scene.world;
+    char hash[17], recorded[17];
+    if (!replay->args->json)
+        return true;
+    snprintf(hash, sizeof hash, "%016" PRIx64, replay->hash);
+    snprintf(recorded, sizeof recorded, "%016" PRIx64, replay->recording.hash);
+    json_t *json = json_pack(
+        "{s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:I, s:I, s:I, s:f, s:f, s:s, s:s*, s:b, s:b}", "command",
+        "replay", "recording", replay->path, "program", replay->recording.program, "scene",
+        session->scene.path, "backend", def->backend, "method", def->method, "threads", info->threads,
+        "particles", (json_int_t)info->count, "steps", (json_int_t)info->step, "commands",
+        (json_int_t)replay->play.next, "simulated_seconds", info->time, "wall_seconds",
+        (wall_ms() - session->began_ms) / 1000, "hash", hash, "recorded_hash",
+        replay->recording.cut ? NULL : recorded, "same", same_bits(replay), "stopped", !replay->ended);
+    const bool written = json_file_write(json, replay->args->json, error);
     json_decref(json);
     return written;
 }
 
-static int compare(const Replay *replay, const Args *args, Error *error)
+static int finish(Replay *replay, Error *error)
 {
-    const Recording *recording = &replay->recording;
-    const char *path = args->scenes[0];
-    const bool same =
-        recording->complete && replay->step == recording->steps && replay->hash == recording->hash;
-    if (!recording->complete)
-        fprintf(stderr, "%s: the recording was cut off; %llu steps were replayed, to compare with nothing\n",
-                path, (unsigned long long)replay->step);
-    else if (!same)
-        fprintf(stderr, "%s: other bits: hash 0x%016llx after %llu steps, recorded 0x%016llx after %llu\n",
-                path, (unsigned long long)replay->hash, (unsigned long long)replay->step,
-                (unsigned long long)recording->hash, (unsigned long long)recording->steps);
-    else if (!args->quiet)
-        printf("%s: the same bits: %llu steps, %zu commands, hash 0x%016llx\n", path,
-               (unsigned long long)replay->step, replay->done, (unsigned long long)replay->hash);
-    if (args->json && !write_json(replay, args, same, error))
+    replay->hash = world_hash(replay->session.world);
+    if (replay->series.file && !replay->args->quiet)
+        fprintf(stderr, "%s: %zu snapshots\n", replay->args->output, snapshot_steps(replay->series.file));
+    if (replay->broke)
         fprintf(stderr, "%s\n", error->message);
-    else if (same)
-        return 0;
-    return EXIT_FAILED;
+    const int code = judge(replay);
+    return write_json(replay, error) ? code : fail(EXIT_FAILED, error);
 }
 
-/* Without an end: up to the last command. */
-static uint64_t steps_of(const Recording *recording)
+static int run(Replay *replay, Error *error)
 {
-    return recording->complete    ? recording->steps
-           : recording->count > 0 ? recording->commands[recording->count - 1].step
-                                  : 0;
+    const Args *args = replay->args;
+    Progress progress;
+    if (args->json && !output_check(args->json, error))
+        return fail(EXIT_FAILED, error);
+    if (args->output) {
+        Snapshot *file = snapshot_create(args->output, &replay->session.scene, error);
+        if (!file)
+            return fail(EXIT_FAILED, error);
+        replay->series = (SnapshotSeries){.file = file, .every = args->every};
+    }
+    progress_begin(&progress, stderr, "replay", args->quiet);
+    const int code = simulate(replay, &progress, error);
+    progress_end(&progress);
+    if (code == 0)
+        return finish(replay, error);
+    fail(code, error);
+    snapshot_series_left(replay->series.file, args->output);
+    return code;
+}
+
+static bool open_recording(Replay *replay, Error *error)
+{
+    const Args *args = replay->args;
+    if ((args->output && !snapshot_series_name(args->output, error)) ||
+        !recording_read(replay->path, &replay->recording, error))
+        return false;
+    if (strcmp(replay->recording.program, SLOSH_VERSION) != 0)
+        fprintf(stderr, "%s: recorded by slosh %s; this is %s, whose bits may differ\n", replay->path,
+                replay->recording.program, SLOSH_VERSION);
+    replay->play = (RecordingPlay){.path = replay->path, .recording = &replay->recording};
+    return recording_play_open(&replay->play, &args->settings, &replay->session, error);
 }
 
 int cmd_replay(const Args *args)
 {
-    static Replay replay;
-    Progress progress;
+    Replay replay = {.args = args, .path = args->scenes[0]};
     Error error = {{0}};
-    int code = EXIT_USAGE;
     interrupt_install();
-    if (!replay_open(&replay, args, &error)) {
-        fprintf(stderr, "%s\n", error.message);
-    } else if (args->json && !output_check(args->json, &error)) {
-        fprintf(stderr, "%s\n", error.message);
-        code = EXIT_FAILED;
-    } else {
-        progress_begin(&progress, stderr, "replay", args->quiet);
-        const bool ok = simulate(&replay, steps_of(&replay.recording), &progress, &error);
-        progress_end(&progress);
-        if (!ok)
-            fprintf(stderr, "%s: step %llu: %s\n", args->scenes[0], (unsigned long long)replay.step,
-                    error.message);
-        code = !ok ? EXIT_FAILED : interrupted() ? EXIT_INTERRUPTED : compare(&replay, args, &error);
-    }
-    replay_close(&replay);
+    const int code = open_recording(&replay, &error) ? run(&replay, &error) : fail(EXIT_USAGE, &error);
+    snapshot_close(replay.series.file);
+    session_close(&replay.session);
+    recording_destroy(&replay.recording);
     return code;
 }

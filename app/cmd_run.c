@@ -3,24 +3,18 @@
 #include "app/output.h"
 #include "app/progress.h"
 #include "app/session.h"
-#include "app/snapshot.h"
+#include "app/snapshot_series.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
-#include <strings.h>
 
 /* From the first state to the last, with a snapshot of the first state at or after each multiple of --every.
    Ends early, with a whole file, when a signal came. */
 static bool simulate(Session *session, const Args *args, Snapshot *file, Progress *progress, Error *error)
 {
-    double next = 0; /* multiple of --every */
+    SnapshotSeries series = {.file = file, .every = args->every};
     for (;;) {
-        if (session_reached(session, next * args->every)) {
-            if (!snapshot_append(file, session->world, error))
-                return false;
-            next = fmax(next, floor(session->info.time / args->every + 1e-6)) + 1;
-        }
+        if (!snapshot_series_add(&series, session, error))
+            return false;
         if (session_reached(session, args->time) || interrupted())
             return true;
         if (!session_step(session, error))
@@ -45,9 +39,7 @@ static int finish(const Session *session, const Args *args, const Snapshot *file
 static int fail(const Args *args, const Snapshot *file, const Error *error)
 {
     fprintf(stderr, "%s\n", error->message);
-    if (file && snapshot_steps(file) > 0)
-        fprintf(stderr, "%s: holds the %zu whole snapshots before that\n", args->output,
-                snapshot_steps(file));
+    snapshot_series_left(file, args->output);
     return EXIT_FAILED;
 }
 
@@ -67,21 +59,13 @@ static int run(Session *session, const Args *args, Error *error)
     return code;
 }
 
-/* ParaView knows the format by the name. */
-static bool understand(const Args *args, Error *error)
-{
-    const char *extension = strrchr(args->output, '.');
-    return (extension && strcasecmp(extension, ".h5part") == 0) ||
-           error_set(error, "'%s' is no name for snapshots; name a FILE.h5part", args->output);
-}
-
 int cmd_run(const Args *args)
 {
     Session session = {.world = NULL};
     Error error = {{0}};
     int code = EXIT_USAGE;
     interrupt_install();
-    if (understand(args, &error) && session_open(&session, args, &error))
+    if (snapshot_series_name(args->output, &error) && session_open(&session, args, &error))
         code = run(&session, args, &error);
     else
         fprintf(stderr, "%s\n", error.message);

@@ -1,119 +1,106 @@
 #include "app/recording.h"
 
-#include "app/output.h"
-
-#include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+static bool copy_settings(Recording *recording, const SceneSettings *settings)
+{
+    static const char threads[] = "solver.threads=";
+    SceneSettings *own = &recording->settings;
+    own->particles = settings->particles;
+    for (int i = 0; i < settings->count; i++) {
+        if (strncmp(settings->set[i], threads, strlen(threads)) == 0)
+            continue;
+        own->set[own->count] = strdup(settings->set[i]);
+        if (!own->set[own->count])
+            return false;
+        own->count++;
+    }
+    return true;
+}
+
 bool recording_create(Recording *recording, const char *path, const char *text, size_t size,
                       const SceneSettings *settings, Error *error)
 {
-    *recording = (Recording){.size = size, .settings = {.particles = settings->particles}};
-    snprintf(recording->path, sizeof recording->path, "%s", path);
+    *recording = (Recording){0};
+    if (size > SCENE_BYTES_MAX)
+        return error_set(error, "%s: larger than 1 MiB; a scene file is a page of YAML", path);
+    if (size > 0 && memchr(text, 0, size))
+        return error_set(error, "%s: has a byte 0; a scene is a YAML file in UTF-8", path);
+    recording->path = strdup(path);
     recording->text = malloc(size + 1);
-    bool ok = recording->text;
-    if (ok && size > 0)
-        memcpy(recording->text, text, size);
-    for (int i = 0; i < settings->count && ok; i++) {
-        ok = (recording->settings.set[i] = strdup(settings->set[i])) != NULL;
-        recording->settings.count += ok;
+    if (!recording->path || !recording->text || (settings && !copy_settings(recording, settings))) {
+        recording_destroy(recording);
+        return error_set(error, "no memory for a recording");
     }
-    if (ok)
-        return true;
-    recording_destroy(recording);
-    return error_set(error, "no memory for the recording");
+    if (size > 0)
+        memcpy(recording->text, text, size);
+    recording->size = size;
+    snprintf(recording->program, sizeof recording->program, "%s", SLOSH_VERSION);
+    return true;
 }
 
-void recording_destroy(Recording *recording)
+static bool grow(Recording *recording)
 {
-    for (int i = 0; i < recording->settings.count; i++)
-        free((char *)recording->settings.set[i]);
-    free(recording->text);
-    free(recording->commands);
-    *recording = (Recording){.size = 0};
+    if (recording->count < recording->capacity)
+        return true;
+    const size_t capacity = recording->capacity ? 2 * recording->capacity : 256;
+    SimCommand *commands = realloc(recording->commands, capacity * sizeof *commands);
+    if (!commands)
+        return false;
+    recording->commands = commands;
+    recording->capacity = capacity;
+    return true;
+}
+
+static bool is_finite(const BoxTarget *target)
+{
+    double numbers[7];
+    memcpy(numbers, target->position, sizeof target->position);
+    memcpy(numbers + 3, target->orientation, sizeof target->orientation);
+    for (int k = 0; k < 7; k++)
+        if (!isfinite(numbers[k]))
+            return false;
+    return true;
 }
 
 bool recording_add(Recording *recording, const SimCommand *command)
 {
-    if (recording->count == recording->capacity) {
-        const size_t capacity = recording->capacity ? 2 * recording->capacity : 256;
-        SimCommand *larger = capacity <= RECORDING_COMMANDS_MAX
-                                 ? realloc(recording->commands, capacity * sizeof *larger)
-                                 : NULL;
-        if (!larger)
-            return false;
-        recording->commands = larger;
-        recording->capacity = capacity;
-    }
+    if (command->kind == SIM_SET && !memchr(command->setting, 0, sizeof command->setting))
+        return false;
+    if (command->kind != SIM_SET && !is_finite(&command->target))
+        return true;
+    const size_t count = recording->count;
+    if (count == RECORDING_COMMANDS_MAX || !grow(recording) ||
+        (count > 0 && command->step < recording->commands[count - 1].step))
+        return false;
     recording->commands[recording->count++] = *command;
     return true;
 }
 
-/* On one line whatever it holds. */
-static void write_escaped(FILE *file, const char *word, const char *text)
+void recording_clear(Recording *recording)
 {
-    fprintf(file, "%s ", word);
-    for (; *text; text++)
-        if (*text == '\n' || *text == '\r' || *text == '%')
-            fprintf(file, "%%%02x", (unsigned)*text);
-        else
-            fputc(*text, file);
-    fputc('\n', file);
+    recording->count = 0;
 }
 
-static void write_scene(FILE *file, const char *text, size_t size)
+size_t recording_line(const Recording *recording, size_t index)
 {
-    while (size > 0) {
-        const char *end = memchr(text, '\n', size);
-        const size_t length = end ? (size_t)(end - text) : size;
-        fputs(end ? "| " : "\\ ", file);
-        fwrite(text, 1, length, file);
-        fputc('\n', file);
-        text += length + (end != NULL);
-        size -= length + (end != NULL);
-    }
+    size_t line = recording->command_line + index;
+    for (size_t i = 0; i < index; i++)
+        if (recording->commands[i].kind == SIM_SET)
+            for (const char *at = recording->commands[i].setting; *at; at++)
+                line += *at == '\n';
+    return line;
 }
 
-static void write_command(FILE *file, const SimCommand *command)
+void recording_destroy(Recording *recording)
 {
-    const double *x = command->target.position, *q = command->target.orientation;
-    const unsigned long long step = command->step;
-    if (command->kind == SIM_SET)
-        fprintf(file, "%llu set %s\n", step, command->setting);
-    else
-        fprintf(file, "%llu %s %a %a %a %a %a %a %a\n", step,
-                command->kind == SIM_TARGET ? "target" : "carry", x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
-}
-
-static bool write_all(const Recording *recording, uint64_t steps, uint64_t hash, FILE *file)
-{
-    fprintf(file, "slosh recording 1\nprogram %s\n", SLOSH_VERSION);
-    write_escaped(file, "scene", recording->path);
+    free(recording->path);
+    free(recording->text);
     for (int i = 0; i < recording->settings.count; i++)
-        write_escaped(file, "set", recording->settings.set[i]);
-    if (recording->settings.particles > 0)
-        fprintf(file, "particles %zu\n", recording->settings.particles);
-    write_scene(file, recording->text, recording->size);
-    for (size_t i = 0; i < recording->count; i++)
-        write_command(file, &recording->commands[i]);
-    fprintf(file, "end %llu 0x%016llx\n", (unsigned long long)steps, (unsigned long long)hash);
-    return fflush(file) == 0 && !ferror(file);
-}
-
-bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, const char *path,
-                     Error *error)
-{
-    Output output = {.temp = ""};
-    if (!output_begin(&output, path, error))
-        return false;
-    FILE *file = fopen(output.temp, "wb");
-    bool ok = file && write_all(recording, steps, hash, file);
-    const int reason = errno;
-    ok = file && fclose(file) == 0 && ok;
-    if (ok)
-        return output_commit(&output, error);
-    output_discard(&output);
-    return error_set(error, "%s: cannot be written: %s", path, strerror(reason));
+        free((char *)recording->settings.set[i]);
+    free(recording->commands);
+    *recording = (Recording){0};
 }

@@ -1,89 +1,117 @@
 #include "app/scene_live.h"
 
+#include "app/scene_check.h"
 #include "app/scene_keys.h"
+#include "app/scene_suggest.h"
+#include "app/scene_tree.h"
 #include "app/scene_value.h"
-#include "app/scene_yaml.h"
 
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH_SIZE = 64 };
+enum { PATH_SIZE = 256 };
 
-static bool fail(const char *setting, const char *what, Error *error)
+/* A setting on its way into the scene. */
+typedef struct Change {
+    const char *setting;
+    char path[PATH_SIZE];
+    const Key *key;
+    int fluid; /* index in the path */
+    Error *error;
+} Change;
+
+/* The tree of a scene that says nothing but that it has its fluids, and the setting: what the checks read and
+   messages point at. tree_free is needed in either case. */
+static bool tree_make(Tree *tree, const Scene *scene, const char *setting, Error *error)
 {
-    return error_set(error, "--set %.80s: %s", setting, what);
+    char fluid[FLUIDS_MAX][32];
+    if (!tree_read(tree, scene->path, "{}", 2, error))
+        return false;
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        snprintf(fluid[f], sizeof fluid[f], "fluids[%d]=", f);
+        if (!tree_set(tree, fluid[f], error))
+            return false;
+    }
+    return tree_set(tree, setting, error);
 }
 
-/* Splits "path=value"; the value, or NULL. */
-static const char *split(const char *setting, char path[PATH_SIZE])
+static bool unknown_key(const Change *change)
 {
-    const char *equals = strchr(setting, '=');
-    if (!equals || equals == setting || equals - setting >= PATH_SIZE)
-        return NULL;
-    memcpy(path, setting, (size_t)(equals - setting));
-    path[equals - setting] = 0;
-    return equals + 1;
+    int count;
+    const Key *keys = scene_keys(&count);
+    Suggestion near = suggest_for(change->path);
+    for (int i = 0; i < count; i++)
+        if (keys[i].flags & KEY_LIVE)
+            suggest_offer(&near, keys[i].path);
+    if (near.best)
+        return error_set(change->error, "--set %s: unknown key '%.60s'; did you mean '%s'?", change->setting,
+                         change->path, near.best);
+    return error_set(change->error,
+                     "--set %s: unknown key '%.60s'; `slosh info SCENE` lists the keys of a scene",
+                     change->setting, change->path);
 }
 
-/* Where the offsets of a path's row count from: the scene, or the fluid that it names; NULL when there is no
- * such. */
-static char *base_of(Scene *scene, const char *path)
+static bool find_key(const Scene *scene, Change *change)
 {
-    static const char list[] = "fluids[";
-    if (!strchr(path, '['))
-        return (char *)scene;
-    if (strncmp(path, list, sizeof list - 1) != 0)
-        return NULL;
-    const long fluid = strtol(path + sizeof list - 1, NULL, 10);
-    return fluid >= 0 && fluid < scene->world.fluid_count ? (char *)&scene->world.fluids[fluid] : NULL;
+    change->key = scene_key_find(change->path);
+    if (!change->key)
+        return unknown_key(change);
+    if (!(change->key->flags & KEY_LIVE))
+        return error_set(change->error,
+                         "--set %s: %s cannot change while the simulation runs; set it before the start",
+                         change->setting, change->path);
+    const char *index = strchr(change->path, '[');
+    change->fluid = index ? (int)strtol(index + 1, NULL, 10) : 0;
+    if (change->fluid >= scene->world.fluid_count)
+        return error_set(change->error, "--set %s: the scene has no fluids[%d]; use at most fluids[%d]",
+                         change->setting, change->fluid, scene->world.fluid_count - 1);
+    if (strncmp(change->path, "view.camera.", strlen("view.camera.")) == 0 && scene->view.camera_auto)
+        return error_set(change->error,
+                         "--set %s: the camera is automatic; give the scene a view.camera with from and to",
+                         change->setting);
+    return true;
 }
 
-static bool starts_with(const char *text, const char *start)
+/* The fluids are the only list with keys that may change. */
+static char *base_of(Scene *scene, const Change *change)
 {
-    return strncmp(text, start, strlen(start)) == 0;
+    const bool of_fluid = strncmp(change->key->path, "fluids[]", strlen("fluids[]")) == 0;
+    return of_fluid ? (char *)&scene->world.fluids[change->fluid] : (char *)scene;
 }
 
-/* What the loader derives from the values. */
-static void follow(Scene *scene, const char *path)
+static bool in_world(const Scene *scene, const Change *change, const char *base)
 {
-    if (starts_with(path, "view.camera."))
-        scene->view.camera_auto = false;
-    for (int f = 0; f < scene->world.fluid_count; f++)
-        memcpy(scene->view.fluid_color[f], scene->world.fluids[f].color, sizeof scene->view.fluid_color[f]);
+    const uintptr_t world = (uintptr_t)&scene->world, field = (uintptr_t)base + change->key->offset;
+    return field >= world && field < world + sizeof scene->world &&
+           strcmp(change->key->path, "fluids[].color") != 0;
 }
 
-static bool read_into(Scene *scene, const char *setting, const char *path, const char *value, Error *error)
+static bool take(const Tree *tree, const Change *change, Scene *scene, bool *concerns_world)
 {
-    const Key *key = scene_key_find(path);
-    if (!key)
-        return fail(setting, "no such key; `slosh info SCENE` lists them", error);
-    if (!(key->flags & KEY_LIVE))
-        return fail(setting,
-                    "cannot change while the simulation runs; change it in the file, or at the start", error);
-    char *base = base_of(scene, path);
-    if (!base)
-        return fail(setting, "there is no such fluid; they count from 0", error);
-    Tree tree = {.path = scene->path};
-    Node *node = NULL;
-    const bool ok = yaml_read(&tree, setting, value, strlen(value), &node, error) &&
-                    value_read(&tree, key, node, path, base, error);
-    tree_free(&tree);
-    return ok;
+    Scene after = *scene;
+    char *base = base_of(&after, change);
+    if (!value_read(tree, change->key, tree_near(tree, change->path), change->path, base, change->error) ||
+        !scene_check(tree, &after, change->error))
+        return false;
+    memcpy(after.view.fluid_color[change->fluid], after.world.fluids[change->fluid].color,
+           sizeof after.view.fluid_color[change->fluid]);
+    if (concerns_world)
+        *concerns_world = in_world(&after, change, base);
+    *scene = after;
+    return true;
 }
 
 bool scene_set_live(Scene *scene, const char *setting, bool *concerns_world, Error *error)
 {
-    char path[PATH_SIZE];
-    Scene changed = *scene;
-    const char *value = split(setting, path);
-    if (!value || !value[strspn(value, " \t")])
-        return fail(setting, "no setting; write path=value, such as gravity=[0, -3, 0]", error);
-    if (!read_into(&changed, setting, path, value, error))
-        return false;
-    follow(&changed, path);
-    *scene = changed;
-    if (concerns_world)
-        *concerns_world = !starts_with(path, "view.") && strcmp(path, "title") != 0 &&
-                          !strstr(path, "].color") && strcmp(path, "solver.step.realtime") != 0;
-    return true;
+    Tree tree;
+    Change change = {.setting = setting, .error = error};
+    bool ok = tree_make(&tree, scene, setting, error);
+    if (ok) {
+        snprintf(change.path, sizeof change.path, "%.*s", (int)strcspn(setting, "="), setting);
+        ok = find_key(scene, &change) && take(&tree, &change, scene, concerns_world);
+    }
+    tree_free(&tree);
+    return ok;
 }

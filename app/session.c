@@ -18,6 +18,11 @@ bool session_open(Session *session, const Args *args, Error *error)
         return false;
     if (note[0] && !args->quiet)
         fprintf(stderr, "%s\n", note);
+    return session_start(session, error);
+}
+
+bool session_start(Session *session, Error *error)
+{
     session->world = world_create(&session->scene.world, error);
     if (session->world)
         world_info(session->world, &session->info);
@@ -38,6 +43,13 @@ bool session_reached(const Session *session, double time)
 bool session_step(Session *session, Error *error)
 {
     bool stepped = world_step(session->world, NULL, error);
+    world_info(session->world, &session->info);
+    return stepped;
+}
+
+bool session_substep(Session *session, Error *error)
+{
+    bool stepped = world_substep(session->world, NULL, error);
     world_info(session->world, &session->info);
     return stepped;
 }

@@ -20,6 +20,10 @@ typedef struct Session {
 /* Loads the only scene of the command line, says on standard error what --particles did to dt, makes the
    world. Creates no file. False: the command line or the scene is wrong. */
 bool session_open(Session *session, const Args *args, Error *error);
+
+/* Makes the world of session->scene: the second half of session_open. */
+bool session_start(Session *session, Error *error);
+
 void session_close(Session *session);
 
 /* Whether the present state is the first one at or after `time` (s) or a later one. */
@@ -27,6 +31,7 @@ bool session_reached(const Session *session, double time);
 
 /* One frame on; false when the simulation broke. */
 bool session_step(Session *session, Error *error);
+bool session_substep(Session *session, Error *error); /* one step of a frame */
 
 /* What a command says when it is done, on standard error and in --json FILE. */
 typedef struct Summary {

@@ -4,13 +4,12 @@
 
 static bool apply_setting(const char *setting, World *world, Scene *scene, Error *error)
 {
-    Scene changed = *scene;
+    Scene after = *scene;
     bool concerns_world;
-    if (!scene_set_live(&changed, setting, &concerns_world, error))
+    if (!scene_set_live(&after, setting, &concerns_world, error) ||
+        (concerns_world && !world_change(world, &after.world, error)))
         return false;
-    if (concerns_world && !world_change(world, &changed.world, error))
-        return false;
-    *scene = changed;
+    *scene = after;
     return true;
 }
 
@@ -19,12 +18,12 @@ bool sim_command_apply(const SimCommand *command, World *world, Scene *scene, Er
     switch (command->kind) {
     case SIM_TARGET:
         world_set_target(world, &command->target);
-        return true;
+        break;
     case SIM_CARRY:
         world_carry(world, &command->target);
-        return true;
+        break;
     case SIM_SET:
         return apply_setting(command->setting, world, scene, error);
     }
-    return error_set(error, "unknown command %d", (int)command->kind);
+    return true;
 }

@@ -1,9 +1,10 @@
-/* What a hand, a panel or a script may ask of a running simulation. Commands are stamped with the step at
-   which they apply, and recorded (app/recording.h); nothing else changes a world. */
+/* What acts on a running simulation from outside: the hand, and changed settings. Input, panel and scripts
+   send nothing else, so that a list of these commands is all that it takes to do a session again. */
 #ifndef SLOSH_SIM_COMMAND_H
 #define SLOSH_SIM_COMMAND_H
 
 #include "app/scene.h"
+#include "sim/box_filter.h"
 #include "sim/error.h"
 #include "sim/world.h"
 
@@ -13,22 +14,22 @@
 typedef enum SimCommandKind {
     SIM_TARGET, /* world_set_target */
     SIM_CARRY,  /* world_carry */
-    SIM_SET     /* a live key of the scene, then world_change */
+    SIM_SET     /* scene_set_live, then world_change */
 } SimCommandKind;
 
 enum { SIM_SETTING_SIZE = 96 };
 
 typedef struct SimCommand {
-    uint64_t step; /* WorldInfo.step at which it applies */
+    uint64_t step; /* WorldInfo.step when it applies */
     SimCommandKind kind;
     union {
-        BoxTarget target;
-        char setting[SIM_SETTING_SIZE]; /* "path=value" */
+        BoxTarget target;               /* SIM_TARGET, SIM_CARRY */
+        char setting[SIM_SETTING_SIZE]; /* SIM_SET: "path=value" of a key that may change */
     };
 } SimCommand;
 
-/* `scene` is what the world was made from, with all settings since; a setting is written into it. False with
-   the reason, and nothing has changed: the setting is wrong, or the world does not take it. */
+/* Applies the command now, whatever its step. `scene` is the one that the world was made from, with all that
+   was set since. False with the reason: the setting is wrong, or the memory short; nothing has changed. */
 bool sim_command_apply(const SimCommand *command, World *world, Scene *scene, Error *error);
 
 #endif

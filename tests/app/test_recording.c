@@ -1,233 +1,405 @@
-/* Recordings: exact, whole, refused where they are wrong; and a session that replays to the same bits. */
+/* Recordings: what is written comes back to the bit; what is wrong is named with its line. */
+#include "output_fixture.h"
+
 #include "app/recording.h"
-#include "sim/world.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include <errno.h>
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#define HEAD                                                                                                 \
+    "slosh recording 1\nprogram 0.1\nscene a.yaml\ntext\n| box:\ncommands\n" /* commands begin in line 7 */
+#define POSE " 0 0 0 0 0 0 1\n"
+#define END  "end 8 0123456789abcdef\n"
 
 static Error error;
-static const char scene_text[] = "box: {size: [0.4, 0.4, 0.4]}\n"
-                                 "particles: {spacing: 0.05}\n"
-                                 "fluids: [{fill: [{block: {min: [-0.2, 0, -0.2], max: [0.2, 0.2, 0.2]}}]}]\n"
-                                 "solver: {step: {dt: 0.004, substeps: 2}}\n";
 
-static char *write_and_slurp(const Recording *recording, uint64_t steps, uint64_t hash, size_t *size)
+static SimCommand target_at(uint64_t step, double x)
 {
-    char path[] = "/tmp/slosh-recording-XXXXXX";
-    const int fd = mkstemp(path);
-    assert_true(fd >= 0);
-    close(fd);
-    if (!recording_write(recording, steps, hash, path, &error))
+    return (SimCommand){step, SIM_TARGET, {.target = {{x, 0, 0}, {0, 0, 0, 1}}}};
+}
+
+static SimCommand setting_at(uint64_t step, const char *setting)
+{
+    SimCommand command = {step, SIM_SET, {.setting = ""}};
+    snprintf(command.setting, sizeof command.setting, "%s", setting);
+    return command;
+}
+
+static Recording create(const char *text, size_t size, const SceneSettings *settings)
+{
+    Recording recording;
+    if (!recording_create(&recording, "a.yaml", text, size, settings, &error))
         fail_msg("%s", error.message);
-    FILE *file = fopen(path, "rb");
-    char *bytes = malloc(1 << 20);
-    *size = fread(bytes, 1, 1 << 20, file);
-    fclose(file);
-    unlink(path);
-    return bytes;
+    return recording;
 }
 
-static void assert_same(const Recording *a, const Recording *b)
+static void add(Recording *recording, SimCommand command)
 {
-    assert_string_equal(a->path, b->path);
-    assert_int_equal(a->size, b->size);
-    assert_memory_equal(a->text, b->text, a->size);
-    assert_int_equal(a->settings.count, b->settings.count);
-    assert_int_equal(a->settings.particles, b->settings.particles);
-    for (int i = 0; i < a->settings.count; i++)
-        assert_string_equal(a->settings.set[i], b->settings.set[i]);
-    assert_int_equal(a->count, b->count);
-    for (size_t i = 0; i < a->count; i++) {
-        const SimCommand *x = &a->commands[i], *y = &b->commands[i];
-        assert_true(x->step == y->step && x->kind == y->kind);
-        if (x->kind == SIM_SET)
-            assert_string_equal(x->setting, y->setting);
-        else
-            assert_memory_equal(&x->target, &y->target, sizeof x->target);
-    }
+    assert_true(recording_add(recording, &command));
 }
 
-/* Any bytes that a scene may have, any number, any setting. */
-static void everything_comes_back(void **state)
-{
-    (void)state;
-    static const char *const texts[] = {
-        "", "a", "a\n", "\n", "\n\n", "a\r\nb\r\n\r", "| x\n\\ y", "end 3 0x1\n", "\xc3\xa4%0a\n"};
-    static const double numbers[] = {0, -0.0, DBL_MIN / 4, -DBL_MAX, 1.0 / 3, 1e-300, 123456789.123456789};
-    const SceneSettings settings = {
-        .count = 3, .set = {"a=1", "title='100 %\n\r'", "b=[1, %0a]"}, .particles = 77};
-    for (size_t t = 0; t < sizeof texts / sizeof *texts; t++) {
-        Recording recording, again;
-        size_t size;
-        assert_true(
-            recording_create(&recording, "folder/a\nb.yaml", texts[t], strlen(texts[t]), &settings, &error));
-        for (uint64_t i = 0; i < 1000; i++) {
-            SimCommand command = {.step = i * i, .kind = (SimCommandKind)(i % 3)};
-            if (command.kind == SIM_SET)
-                snprintf(command.setting, sizeof command.setting, "gravity=[0, %d, 0]", (int)i);
-            for (int k = 0; k < 7 && command.kind != SIM_SET; k++)
-                (k < 3 ? command.target.position : command.target.orientation - 3)[k] =
-                    numbers[(i + (uint64_t)k) % 7];
-            assert_true(recording_add(&recording, &command));
-        }
-        char *bytes = write_and_slurp(&recording, 12345678, 0xfedcba9876543210u, &size);
-        if (!recording_parse("x", bytes, size, &again, &error) && texts[t][0])
-            fail_msg("%s", error.message);
-        if (texts[t][0]) {
-            assert_same(&recording, &again);
-            assert_true(again.complete && again.steps == 12345678 && again.hash == 0xfedcba9876543210u);
-        }
-        recording_destroy(&again);
-        recording_destroy(&recording);
-        free(bytes);
-    }
-}
-
-static void refuse(const char *text, const char *words)
+static Recording write_and_read(const Recording *recording, uint64_t steps, uint64_t hash)
 {
     Recording out;
-    assert_false(recording_parse("f", text, strlen(text), &out, &error));
-    if (!strstr(error.message, words))
-        fail_msg("'%s' is no '%s'", error.message, words);
-    assert_null(out.text);
+    if (!recording_write(recording, steps, hash, "a.rec", &error) || !recording_read("a.rec", &out, &error))
+        fail_msg("%s", error.message);
+    assert_int_equal(count_files("."), 1);
+    assert_true(!out.cut && out.steps == steps && out.hash == hash && out.count == recording->count);
+    return out;
 }
 
-#define HEAD "slosh recording 1\nscene a\n| b: 1\n"
-
-static void wrong_files_are_refused(void **state)
+static void texts_come_back(void **state)
 {
     (void)state;
-    refuse("", "f:1: no recording");
-    refuse("title: x\n", "f:1: no recording");
-    refuse("slosh recording 2\n", "f:1: 'slosh recording 2' is of another version");
-    refuse("slosh recording 1\n", "the scene is missing");
-    refuse("slosh recording 1\nparticles -3\n| a\n", "f:2: 'particles -3'");
-    refuse(HEAD "x\n", "f:4: 'x' is no command");
-    refuse(HEAD "3 dance\n", "f:4: unknown command 'dance'");
-    refuse(HEAD "3 target 1 2 3\n", "seven numbers");
-    refuse(HEAD "3 target 1 2 3 0 0 0 nan\n", "seven numbers");
-    refuse(HEAD "3 target 1 2 3 0 0 0 1 1\n", "too much");
-    refuse(HEAD "3 set a=1\n2 set a=1\n", "f:5: step 2 comes after step 3");
-    refuse(HEAD "99999999999999999999999 set a=1\n", "no command");
-    refuse(HEAD "end 3\n", "is no end");
-    refuse(HEAD "end 3 0x1\n4 set a=1\n", "something follows the end");
-    refuse(HEAD "9 set a=1\nend 3 0x1\n", "before the last command");
-    refuse(HEAD "1 set a=1\n| b: 2\nend 3 0x1\n", "f:5:");
-}
-
-/* A writer that was stopped: what is whole counts, and that the end is missing is known. */
-static void cut_files_are_known(void **state)
-{
-    (void)state;
-    static const char text[] = HEAD "3 set a=1\n5 set b=2\nend 9 0x7\n";
-    for (size_t size = sizeof HEAD; size < sizeof text - 1; size++) {
-        Recording out;
-        if (!recording_parse("f", text, size, &out, &error))
-            fail_msg("%s", error.message);
-        assert_false(out.complete);
-        assert_true(out.count <= 2);
+    char all[2 * 255];
+    static const char *const texts[] = {
+        "",
+        "\n",
+        "a",
+        "a\n",
+        "a\n\n",
+        "\n\na",
+        "a\r\nb\r\n",
+        "\r",
+        " a",
+        "| a",
+        "|\n|",
+        "+ a",
+        "%a\n",
+        "%s%n",
+        "\xc3\xa9\xe2\x82\xac",
+        "\\ no newline at the end\n",
+        "\t",
+        "a \n",
+        "a\n \n",
+        "commands\nend 0 0123456789abcdef\n",
+    };
+    for (size_t i = 0; i < sizeof all; i++)
+        all[i] = (char)(i % 255 + 1);
+    for (size_t i = 0; i <= sizeof texts / sizeof *texts; i++) {
+        const bool last = i == sizeof texts / sizeof *texts;
+        const char *text = last ? all : texts[i];
+        const size_t size = last ? sizeof all : strlen(text);
+        Recording in = create(text, size, NULL), out = write_and_read(&in, 3, UINT64_MAX);
+        assert_int_equal(out.size, size);
+        assert_memory_equal(out.text, text, size);
+        assert_string_equal(out.path, "a.yaml");
+        assert_string_equal(out.program, SLOSH_VERSION);
+        recording_destroy(&in);
         recording_destroy(&out);
     }
 }
 
-static World *world_of(const Recording *recording, int threads, Scene *scene)
+static void settings_come_back(void **state)
 {
-    SceneSettings settings = recording->settings;
-    if (!scene_parse(recording->path, recording->text, recording->size, &settings, scene, NULL, &error))
+    (void)state;
+    char full[SIM_SETTING_SIZE];
+    memset(full, '=', sizeof full - 1);
+    full[sizeof full - 1] = 0;
+    const SceneSettings settings = {
+        .particles = 2147483647,
+        .count = 5,
+        .set = {"gravity=[0,\n-1,\n\n2]", "solver.threads=3", "title='%d'", "", "+ \n+ \r\n"},
+    };
+    Recording in = create("a: b", 4, &settings);
+    add(&in, setting_at(0, "gravity=[0,\n+ 1,\n\n3]"));
+    add(&in, setting_at(0, ""));
+    add(&in, setting_at(1, full));
+    add(&in, target_at(1, 2));
+    Recording out = write_and_read(&in, 4, 0);
+    assert_int_equal(out.settings.particles, 2147483647);
+    assert_int_equal(out.settings.count, 4); /* threads change no bit */
+    for (int i = 0; i < 4; i++)
+        assert_string_equal(out.settings.set[i], settings.set[i == 0 ? 0 : i + 1]);
+    for (size_t i = 0; i < 3; i++)
+        assert_string_equal(out.commands[i].setting, in.commands[i].setting);
+    recording_destroy(&in);
+    recording_destroy(&out);
+}
+
+static void numbers_come_back(void **state)
+{
+    (void)state;
+    static const double numbers[] = {0.0,     -0.0,     DBL_TRUE_MIN, -DBL_TRUE_MIN,   DBL_MIN, 0.1,
+                                     1.0 / 3, -DBL_MAX, DBL_MAX,      1 + DBL_EPSILON, -1e-300, 12345.678};
+    enum { COUNT = sizeof numbers / sizeof *numbers };
+    Recording in = create("", 0, NULL);
+    for (size_t i = 0; i < COUNT; i++) {
+        SimCommand command = {i == COUNT - 1 ? UINT64_MAX : i, i % 2 ? SIM_CARRY : SIM_TARGET, {{{0}, {0}}}};
+        for (size_t k = 0; k < 7; k++)
+            *(k < 3 ? &command.target.position[k] : &command.target.orientation[k - 3]) =
+                numbers[(i + k) % COUNT];
+        add(&in, command);
+    }
+    Recording out = write_and_read(&in, UINT64_MAX, 0x0123456789abcdef);
+    for (size_t i = 0; i < COUNT; i++) {
+        assert_true(out.commands[i].step == in.commands[i].step &&
+                    out.commands[i].kind == in.commands[i].kind);
+        assert_memory_equal(&out.commands[i].target, &in.commands[i].target, sizeof(BoxTarget));
+    }
+    recording_destroy(&in);
+    recording_destroy(&out);
+}
+
+static bool parse(const char *text, Recording *out)
+{
+    error.message[0] = 0;
+    return recording_parse("a.rec", text, strlen(text), out, &error);
+}
+
+static void people_may_write_it(void **state)
+{
+    (void)state;
+    Recording out;
+    assert_true(parse("slosh recording 1\nprogram 9.9 of mine\nscene a b\ntext\n|\n| x\ncommands\n"
+                      "0 carry 0.5 -1e-3 +2 0x1p-1 .25 0 1\n" END,
+                      &out));
+    assert_int_equal(out.size, 3);
+    assert_memory_equal(out.text, "\nx\n", 3);
+    assert_string_equal(out.program, "9.9 of mine");
+    assert_true(out.commands[0].kind == SIM_CARRY && out.commands[0].target.position[1] == -1e-3 &&
+                out.commands[0].target.orientation[0] == 0.5);
+    recording_destroy(&out);
+}
+
+static void slips_are_named(void **state)
+{
+    static const struct {
+        const char *text, *message;
+    } slips[] = {
+        {"", "1: this is no recording; the first line of one is 'slosh recording 1'"},
+        {"box: {}\n", "1: this is no recording; "},
+        {"slosh recording 2\n",
+         "1: 'slosh recording 2' stands where 'slosh recording 1', the one format that this slosh reads, must stand"},
+        {"slosh recording 1\r\nprogram 1\r\n", "1: 'slosh recording 1\r' stands where "},
+        {"slosh recording 1", "0: the recording was cut before its commands; "},
+        {"slosh recording 1\n", "1: the recording was cut before its commands; "},
+        {"slosh recording 1\nscene a\n", "2: 'scene a' stands where 'program ...' must stand"},
+        {"slosh recording 1\nprogram 01234567890123456789012345678901\n",
+         "2: the program's version is too long; "},
+        {"slosh recording 1\nprogram 1\ntext\n", "3: 'text' stands where 'scene ...' must stand"},
+        {"slosh recording 1\nprogram 1\nscene a\n+ b\nparticles 0\n",
+         "5: particles must be a whole number from 1 "},
+        {"slosh recording 1\nprogram 1\nscene a\nparticles 3.5\n", "4: particles must be "},
+        {"slosh recording 1\nprogram 1\nscene a\nset a=1\nparticles 3\n",
+         "5: 'particles 3' stands where 'text' "},
+        {"slosh recording 1\nprogram 1\nscene a\ntext\n|a\n", "5: no blank after the '|'; "},
+        {"slosh recording 1\nprogram 1\nscene a\ntext\n| a\nb\n", "6: 'b' stands where '| ' and a line "},
+        {"slosh recording 1\nprogram 1\nscene a\ntext\n\\ no newline at the end\n", "5: '\\ no newline "},
+        {HEAD "target" POSE END, "7: 'target 0 0 0 0 0 0 1' is no command; it must begin with the step "},
+        {HEAD "-1 target" POSE END, "7: '-1 target"},
+        {HEAD "99999999999999999999 target" POSE END, "7: '99999999999999999999"},
+        {HEAD "1 jump" POSE END,
+         "7: ' jump 0 0 0 0 0 0 1' is no command; after the step stands target, carry or "},
+        {HEAD "1 target\n" END, "7: ' target' is no command"},
+        {HEAD "1 target 0 0 0 0 0 0\n" END, "7: number 7 of 7 is missing or not finite; "},
+        {HEAD "1 target 0  0 0 0 0 0 1\n" END, "7: number 2 of 7 "},
+        {HEAD "1 target 0\t0 0 0 0 0 1\n" END, "7: number 2 of 7 "},
+        {HEAD "1 target nan 0 0 0 0 0 1\n" END, "7: number 1 of 7 "},
+        {HEAD "1 target 0 0 inf 0 0 0 1\n" END, "7: number 3 of 7 "},
+        {HEAD "1 target 0 0 1e999 0 0 0 1\n" END, "7: number 3 of 7 "},
+        {HEAD "1 target 0 0 0x 0 0 0 1\n" END, "7: number 4 of 7 "},
+        {HEAD "1 target 0 0 0 0 0 0 1 2\n" END, "7: ' 2' follows the seven numbers; leave it out"},
+        {HEAD "5 target" POSE "4 carry" POSE END, "8: step 4 is before step 5 of the line above; "},
+        {HEAD "1 set a=1\n+ b\n0 set a=1\n" END, "9: step 0 is before step 1"},
+        {HEAD "\n" END, "7: '' is no command"},
+        {HEAD "9 target" POSE END, "8: the end at step 8 is before the last command's step 9; "},
+        {HEAD "end 8 0123456789abcde\n", "7: the last line must be 'end STEPS HASH'"},
+        {HEAD "end 8 0123456789abcdef0\n", "7: the last line must be "},
+        {HEAD "end 8 0123456789ABCDEF\n", "7: the last line must be "},
+        {HEAD "end x 0123456789abcdef\n", "7: the last line must be "},
+        {HEAD END END, "8: something follows the end; leave it out"},
+        {HEAD END "x", "8: something follows the end; leave it out"},
+    };
+    (void)state;
+    Recording out;
+    for (size_t i = 0; i < sizeof slips / sizeof *slips; i++) {
+        char expected[256];
+        snprintf(expected, sizeof expected, "a.rec:%s", slips[i].message);
+        if (parse(slips[i].text, &out))
+            fail_msg("accepted:\n%s", slips[i].text);
+        if (strncmp(error.message, expected, strlen(expected)) != 0)
+            fail_msg("expected '%s'\n     got '%s'", expected, error.message);
+        assert_true(!out.text && !out.commands);
+    }
+}
+
+static void long_ones_are_refused(void **state)
+{
+    (void)state;
+    Recording out;
+    char text[600], setting[SIM_SETTING_SIZE + 1];
+    memset(setting, 'x', SIM_SETTING_SIZE);
+    setting[SIM_SETTING_SIZE] = 0;
+    snprintf(text, sizeof text, HEAD "0 set %s\n+ \n" END, setting);
+    assert_false(parse(text, &out));
+    assert_string_equal(error.message, "a.rec:7: the setting is too long; at most 95 bytes are");
+    snprintf(text, sizeof text, HEAD "0 target %0300d\n" END, 0);
+    assert_false(parse(text, &out));
+    assert_string_equal(error.message, "a.rec:7: the line is too long; at most 255 bytes are");
+}
+
+static void too_many_settings_are_refused(void **state)
+{
+    (void)state;
+    Recording out;
+    char text[2048] = "slosh recording 1\nprogram 1\nscene a\n";
+    for (int i = 0; i < SCENE_SETTINGS_MAX; i++)
+        strcat(text, "set a=b\n");
+    const size_t length = strlen(text);
+    strcat(text, "text\ncommands\n" END);
+    assert_true(parse(text, &out));
+    assert_int_equal(out.settings.count, SCENE_SETTINGS_MAX);
+    recording_destroy(&out);
+    strcpy(text + length, "set a=b\ntext\ncommands\n" END);
+    assert_false(parse(text, &out));
+    assert_string_equal(error.message, "a.rec:68: more than 64 settings; write them into the scene's text");
+}
+
+static void a_byte_0_is_refused(void **state)
+{
+    (void)state;
+    static const char text[] = HEAD "0 carry 0\0" POSE END;
+    Recording out;
+    assert_false(recording_parse("a.rec", text, sizeof text - 1, &out, &error));
+    assert_string_equal(error.message, "a.rec:7: a byte 0 stands here; a recording is text");
+    assert_false(recording_create(&out, "a.yaml", "a\0b", 3, NULL, &error));
+    assert_string_equal(error.message, "a.yaml: has a byte 0; a scene is a YAML file in UTF-8");
+}
+
+static void a_large_scene_is_refused(void **state)
+{
+    (void)state;
+    Recording out;
+    char *text = malloc(SCENE_BYTES_MAX + 200);
+    assert_non_null(text);
+    const int head = sprintf(text, "slosh recording 1\nprogram 1\nscene a\ntext\n| ");
+    memset(text + head, 'x', SCENE_BYTES_MAX + 1);
+    strcpy(text + head + SCENE_BYTES_MAX + 1, "\ncommands\n" END);
+    assert_false(parse(text, &out));
+    assert_string_equal(error.message, "a.rec:5: the scene is larger than 1 MiB; a scene is a page of YAML");
+    assert_false(recording_create(&out, "a.yaml", text, SCENE_BYTES_MAX + 1, NULL, &error));
+    text[head + SCENE_BYTES_MAX - 1] = '\n'; /* the largest that a scene may be */
+    strcpy(text + head + SCENE_BYTES_MAX, "commands\n" END);
+    if (!parse(text, &out))
         fail_msg("%s", error.message);
-    scene->world.threads = threads;
-    World *world = world_create(&scene->world, &error);
-    assert_non_null(world);
-    return world;
+    assert_int_equal(out.size, SCENE_BYTES_MAX);
+    recording_destroy(&out);
+    free(text);
 }
 
-static uint64_t replay(const Recording *recording, int threads)
-{
-    Scene scene;
-    WorldInfo info = {.step = 0};
-    size_t done = 0;
-    World *world = world_of(recording, threads, &scene);
-    while (info.step < recording->steps) {
-        while (done < recording->count && recording->commands[done].step == info.step)
-            assert_true(sim_command_apply(&recording->commands[done++], world, &scene, &error));
-        assert_true(world_substep(world, NULL, &error));
-        world_info(world, &info);
-    }
-    const uint64_t hash = world_hash(world);
-    world_destroy(world);
-    return hash;
-}
-
-static void a_session_replays_to_the_same_bits(void **state)
+/* Wherever a file is cut, it is read as cut or refused, and says so. */
+static void cuts_are_seen(void **state)
 {
     (void)state;
-    Scene scene;
-    Recording recording, again;
-    WorldInfo info;
-    size_t size;
-    assert_true(
-        recording_create(&recording, "a", scene_text, sizeof scene_text - 1, &(SceneSettings){0}, &error));
-    World *world = world_of(&recording, 1, &scene);
-    for (int frame = 0; frame < 150; frame++) {
-        const double t = 0.004 * frame, turn = 0.3 * sin(9 * t);
-        SimCommand command = {.kind = frame == 70 ? SIM_CARRY : SIM_TARGET,
-                              .target = {{0.1 * sin(20 * t), 0.02 * t, 0}, {0, 0, sin(turn), cos(turn)}}};
-        world_info(world, &info);
-        command.step = info.step;
-        if (frame % 50 == 49) {
-            command.kind = SIM_SET;
-            snprintf(command.setting, sizeof command.setting, "%s",
-                     frame == 49   ? "gravity=[1, -5, 0]"
-                     : frame == 99 ? "solver.step.substeps=3"
-                                   : "fluids[0].viscosity=2");
+    static const char whole[] = HEAD "0 target" POSE "5 carry" POSE END;
+    const size_t head = strlen(HEAD), line = strlen("0 target" POSE), last = strlen("5 carry" POSE);
+    for (size_t size = 0; size < sizeof whole - 1; size++) {
+        Recording out;
+        if (!recording_parse("a.rec", whole, size, &out, &error)) {
+            assert_true(size < head);
+            continue;
         }
-        assert_true(sim_command_apply(&command, world, &scene, &error));
-        assert_true(recording_add(&recording, &command));
-        assert_true(world_step(world, NULL, &error));
+        assert_true(size >= head && out.cut && !out.hash);
+        assert_int_equal(out.count, size < head + line ? 0 : size < head + line + last ? 1 : 2);
+        assert_int_equal(out.steps, out.count == 2 ? 5 : 0);
+        recording_destroy(&out);
     }
-    world_info(world, &info);
-    const uint64_t hash = world_hash(world);
-    world_destroy(world);
-    char *bytes = write_and_slurp(&recording, info.step, hash, &size);
-    assert_true(recording_parse("f", bytes, size, &again, &error));
-    assert_true(replay(&again, 1) == hash);
-    assert_true(replay(&again, 2) == hash);
-    again.commands[20].target.position[1] += 1e-3;
-    assert_true(replay(&again, 1) != hash);
-    recording_destroy(&recording);
-    recording_destroy(&again);
-    free(bytes);
 }
 
-static void what_cannot_be_written_says_so(void **state)
+static void lines_are_counted(void **state)
 {
     (void)state;
-    Recording recording;
-    assert_true(recording_create(&recording, "a", "b", 1, &(SceneSettings){0}, &error));
-    assert_false(recording_write(&recording, 0, 0, "/no/such/folder/x.recording", &error));
-    assert_non_null(strstr(error.message, "/no/such/folder/x.recording"));
+    Recording out;
+    assert_true(parse(HEAD "0 target" POSE "0 set a=1\n+ 2\n+ 3\n1 carry" POSE END, &out));
+    assert_int_equal(recording_line(&out, 0), 7);
+    assert_int_equal(recording_line(&out, 1), 8);
+    assert_int_equal(recording_line(&out, 2), 11);
+    assert_int_equal(recording_line(&out, 3), 12);
+    recording_destroy(&out);
+}
+
+static void only_what_can_be_read_is_recorded(void **state)
+{
+    (void)state;
+    Recording recording = create("", 0, NULL);
+    SimCommand command = target_at(3, 1);
+    add(&recording, command);
+    command.step = 2;
+    assert_false(recording_add(&recording, &command));
+    command = target_at(3, (double)NAN);
+    assert_true(recording_add(&recording, &command)); /* no world takes it */
+    command = target_at(3, 0);
+    command.target.orientation[3] = (double)INFINITY;
+    assert_true(recording_add(&recording, &command));
+    command = setting_at(3, "");
+    memset(command.setting, 'x', sizeof command.setting);
+    assert_false(recording_add(&recording, &command));
+    assert_int_equal(recording.count, 1);
+    recording_clear(&recording);
+    add(&recording, target_at(1, 0));
+    assert_int_equal(recording.count, 1);
+    while (recording.count < RECORDING_COMMANDS_MAX)
+        add(&recording, target_at(1, 0));
+    assert_false(recording_add(&recording, &recording.commands[0]));
+    recording_destroy(&recording);
+}
+
+static void files_are_named(void **state)
+{
+    (void)state;
+    Recording recording = create("", 0, NULL), out;
+    assert_false(recording_read("none.rec", &out, &error));
+    assert_contains(error.message, "none.rec: cannot be opened (No such file");
+    assert_false(recording_read(".", &out, &error));
+    assert_contains(error.message, ".: a directory; ");
+    assert_false(recording_write(&recording, 0, 0, "none/a.rec", &error));
+    assert_contains(error.message, "none/a.rec: cannot be written: the folder none");
+    recording_destroy(&recording);
+}
+
+static void a_full_disk_leaves_the_old_file(void **state)
+{
+    (void)state;
+    Recording recording = create("", 0, NULL);
+    struct rlimit old;
+    for (uint64_t i = 0; i < 1000; i++)
+        add(&recording, target_at(i, 0.1));
+    write_text("a.rec", "old");
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &old);
+    const struct rlimit small = {20000, old.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    const bool written = recording_write(&recording, 1000, 0, "a.rec", &error);
+    setrlimit(RLIMIT_FSIZE, &old);
+    assert_false(written);
+    assert_string_equal(error.message, "a.rec: cannot be written: File too large; free some space, or choose "
+                                       "another folder");
+    assert_text("a.rec", "old");
+    assert_int_equal(count_files("."), 1);
     recording_destroy(&recording);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(everything_comes_back),
-        cmocka_unit_test(wrong_files_are_refused),
-        cmocka_unit_test(cut_files_are_known),
-        cmocka_unit_test(a_session_replays_to_the_same_bits),
-        cmocka_unit_test(what_cannot_be_written_says_so),
+        cmocka_unit_test(texts_come_back),
+        cmocka_unit_test(settings_come_back),
+        cmocka_unit_test(numbers_come_back),
+        cmocka_unit_test(people_may_write_it),
+        cmocka_unit_test(slips_are_named),
+        cmocka_unit_test(long_ones_are_refused),
+        cmocka_unit_test(too_many_settings_are_refused),
+        cmocka_unit_test(a_byte_0_is_refused),
+        cmocka_unit_test(a_large_scene_is_refused),
+        cmocka_unit_test(cuts_are_seen),
+        cmocka_unit_test(lines_are_counted),
+        cmocka_unit_test(only_what_can_be_read_is_recorded),
+        cmocka_unit_test(files_are_named),
+        cmocka_unit_test(a_full_disk_leaves_the_old_file),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, folder_setup, folder_teardown);
 }

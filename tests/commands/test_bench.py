@@ -90,9 +90,9 @@ class Info(Case):
 
     def test_help_lists_what_works(self):
         done = self.slosh_out("help", code=0)
-        for word in ["render", "run", "bench", "info"]:
+        for word in ["play", "render", "run", "bench", "replay", "info"]:
             self.assertIn(word, done.stdout)
-        for word in ["validate", "chart", "stability", "replay"]:
+        for word in ["validate", "chart", "stability", "export"]:
             self.assertNotIn(word, done.stdout)
 
 

@@ -228,7 +228,7 @@ class Mouse(Window):
         self.write('b.recording', re.sub(r'\d+ target .*\n', '', text))
         code, said = self.slosh('replay', 'b.recording')
         self.assertEqual(code, 1)
-        self.assertIn('other bits', said)
+        self.assertIn('different after', said)
 
     def test_box_turns_and_comes_home(self):
         self.open('still.yaml', '--record', 'a.recording')
