@@ -269,8 +269,11 @@ bool ui_set_pixels(Ui *ui, float pixels, Error *error)
     Current current(ui->context);
     if (!set_fonts(ui, pixels, error))
         return false;
-    ImGui_ImplOpenGL3_DestroyDeviceObjects();
-    ImGui_ImplOpenGL3_CreateDeviceObjects();
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    if (ui->pixels == 0)
+        ImGui_ImplOpenGL3_CreateDeviceObjects(); // with the letters
+    else
+        ImGui_ImplOpenGL3_CreateFontsTexture();
     const GLuint letters = (GLuint)(intptr_t)ImGui::GetIO().Fonts->TexID;
     glTextureParameteri(letters, GL_TEXTURE_MIN_FILTER,
                         GL_NEAREST); // a texel a pixel; half the cost in software
@@ -346,14 +349,15 @@ bool ui_wants_keys(const Ui *ui)
     return ui->places > 0 && ui->context->IO.WantTextInput;
 }
 
-// Whether the windows may look different for what the user does.
+// Whether the windows may look different for what the user does. A press elsewhere counts too: ImGui must
+// know where a drag began.
 static bool concerns(const Ui *ui, const UiInput *now, bool moved)
 {
     const UiInput *last = &ui->input;
     const bool pressed = memcmp(now->button, last->button, sizeof now->button) != 0;
     const bool near = ui_wants_mouse(ui) || ui_covers(ui, now->mouse[0], now->mouse[1]);
     const bool typed = now->keys != last->keys || now->text[0];
-    return now->changed || (near && (pressed || moved || now->wheel != 0)) || (ui_wants_keys(ui) && typed);
+    return now->changed || pressed || (near && (moved || now->wheel != 0)) || (ui_wants_keys(ui) && typed);
 }
 
 static void fit(Ui *ui, int width, int height)
@@ -726,17 +730,19 @@ bool ui_color(Ui *ui, const UiField *field, float srgb[3])
     return changed;
 }
 
-static void draw_slider(const ImRect &box, const UiScale *scale, double value, const char *text, bool active)
+static void draw_slider(const ImRect &box, const UiScale *scale, double value, bool active)
 {
-    const ImGuiStyle &style = ImGui::GetStyle();
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
     const float end = box.Min.x + box.GetWidth() * (float)ui_scale_share(scale, value);
     ImDrawList *list = ImGui::GetWindowDrawList();
+    char text[48];
+    ui_scale_text(scale, value, text, sizeof text);
     list->AddRectFilled(box.Min, box.Max,
                         ImGui::GetColorU32(active ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg));
     list->AddRectFilled(box.Min, ImVec2(end, box.Max.y),
                         ImGui::GetColorU32(active ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab));
-    list->AddText(ImVec2(box.Min.x + style.FramePadding.x, box.Min.y + style.FramePadding.y),
-                  ImGui::GetColorU32(ImGuiCol_Text), text);
+    list->AddText(ImVec2(box.Min.x + padding.x, box.Min.y + padding.y), ImGui::GetColorU32(ImGuiCol_Text),
+                  text);
 }
 
 // Ends the typing; whether that changes the value.
@@ -752,12 +758,13 @@ static bool take_typed(Ui *ui, const UiScale *scale, double *value)
 
 // What is typed counts when it is whole: by Enter, or when the field is left; Escape brings the old value
 // back.
-static bool type_value(Ui *ui, const ImRect &box, ImGuiID id, const UiScale *scale, double *value)
+static bool type_value(Ui *ui, const ImRect &box, const char *name, const UiScale *scale, double *value)
 {
+    const ImGuiID id = ImGui::GetCurrentWindow()->GetID(name);
     if (ui->typing != id)
         ui->typed = *value;
     ui->typing = id;
-    ImGui::TempInputScalar(box, id, "##", ImGuiDataType_Double, &ui->typed, "%.9g");
+    ImGui::TempInputScalar(box, id, name, ImGuiDataType_Double, &ui->typed, "%.9g");
     return !ImGui::TempInputIsActive(id) && take_typed(ui, scale, value);
 }
 
@@ -770,9 +777,9 @@ static bool slide(const ImRect &box, const UiScale *scale, double *value)
     return changed;
 }
 
-static bool slider(Ui *ui, const ImRect &box, const UiScale *scale, double *value, const char *text)
+static bool slider(Ui *ui, const ImRect &box, const char *name, const UiScale *scale, double *value)
 {
-    const ImGuiID id = ImGui::GetItemID();
+    const ImGuiID id = ImGui::GetCurrentWindow()->GetID(name);
     bool hovered = false, held = false, typing = ImGui::TempInputIsActive(id);
     if (!typing && ui->typing == id && take_typed(ui, scale, value))
         return true;
@@ -781,24 +788,28 @@ static bool slider(Ui *ui, const ImRect &box, const UiScale *scale, double *valu
         ui->held = *scale;
     }
     if (typing)
-        return type_value(ui, box, id, scale, value);
+        return type_value(ui, box, name, scale, value);
     const UiScale *shown = held ? &ui->held : scale;
     const bool changed = held && slide(box, shown, value);
-    draw_slider(box, shown, *value, text, hovered || held);
+    draw_slider(box, shown, *value, hovered || held);
     return changed;
 }
 
 // The slider of a value, `width` wide, at the cursor.
-static bool place_slider(Ui *ui, int number, float width, const UiScale *scale, double *value, float *needed)
+static bool place_slider(Ui *ui, const char *name, float width, const UiScale *scale, double *value)
 {
-    const ImVec2 corner = ImGui::GetCursorScreenPos(), padding = ImGui::GetStyle().FramePadding;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImRect box(corner, ImVec2(corner.x + width, corner.y + ImGui::GetFrameHeight()));
-    const ImGuiID id = ImGui::GetCurrentWindow()->GetID(number);
+    const ImGuiID id = ImGui::GetCurrentWindow()->GetID(name);
+    ImGui::ItemSize(box, ImGui::GetStyle().FramePadding.y);
+    return ImGui::ItemAdd(box, id, &box, ImGuiItemFlags_Inputable) && slider(ui, box, name, scale, value);
+}
+
+static float slider_needs(const UiScale *scale, double value)
+{
     char text[48];
-    ui_scale_text(scale, *value, text, sizeof text);
-    *needed = std::max(*needed, ImGui::CalcTextSize(text).x + 2 * padding.x);
-    ImGui::ItemSize(box, padding.y);
-    return ImGui::ItemAdd(box, id, &box, ImGuiItemFlags_Inputable) && slider(ui, box, scale, value, text);
+    ui_scale_text(scale, value, text, sizeof text);
+    return ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
 }
 
 bool ui_sliders(Ui *ui, const UiField *field, double *values, int count, const UiScale *scale)
@@ -807,13 +818,15 @@ bool ui_sliders(Ui *ui, const UiField *field, double *values, int count, const U
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x / 2;
     const float all = begin_field(ui, field),
                 each = std::floor((all - gap * (float)(count - 1)) / (float)count);
+    static const char *const names[] = {"0", "1", "2"};
     float needed = 0;
     bool changed = false;
     ImGui::BeginGroup();
     for (int i = 0; i < count; i++) {
         if (i > 0)
             ImGui::SameLine(0, gap);
-        changed |= place_slider(ui, i, each, scale, &values[i], &needed);
+        changed |= place_slider(ui, names[i], each, scale, &values[i]);
+        needed = std::max(needed, slider_needs(scale, values[i]));
     }
     ImGui::EndGroup();
     end_field(ui, field, needed * (float)count + gap * (float)(count - 1));
