@@ -1,0 +1,404 @@
+/* The panel: every live key can be set in it, what it asks for is accepted, nothing is cut off at any scale.
+ */
+#include "tests/render/ui_fixture.h"
+
+#include "app/panel.h"
+#include "app/play_commands.h"
+#include "app/scene_keys.h"
+#include "app/scene_live.h"
+
+enum { HISTORY = 120 };
+
+static const char *const sections[] = {"History", "Colours", "World", "Fluids", "Solver", "Hand", "View"};
+enum { SECTIONS = sizeof sections / sizeof *sections };
+
+/* Live keys that have no widget, and why: see app/README.md. */
+static const char *const without_widget[] = {"title", "view.camera.from", "view.camera.to",
+                                             "view.camera.fov"};
+
+/* A session: the scene is changed as the window would change it. */
+typedef struct Session {
+    Panel *panel;
+    Scene scene;
+    PanelData data;
+    float history[HISTORY];
+    bool help;
+    int settings, refused; /* in all */
+    char last[PANEL_SETTING_SIZE];
+    PlayCommand command; /* the last one */
+} Session;
+
+static void take(Session *session, const PanelEvents *events)
+{
+    if (events->command != PLAY_NONE)
+        session->command = events->command;
+    for (int i = 0; i < events->setting_count; i++) {
+        Error error = {{0}};
+        session->settings++;
+        snprintf(session->last, sizeof session->last, "%s", events->settings[i]);
+        if (!scene_set_live(&session->scene, events->settings[i], NULL, &error)) {
+            print_error("%s\n", error.message);
+            session->refused++;
+        }
+    }
+}
+
+static void draw_panel(void *user, Desk *desk)
+{
+    Session *session = user;
+    PanelEvents events;
+    panel_draw(session->panel, desk->ui, desk->target.width, desk->target.height, &session->data, &events);
+    take(session, &events);
+    if (session->help)
+        panel_help_draw(desk->ui, desk->target.width, desk->target.height);
+}
+
+static void load(Session *session, const char *name)
+{
+    Error error = {{0}};
+    SceneSettings settings = {.count = 0};
+    char note[256];
+    assert_true(scene_load(name, &settings, &session->scene, note, &error));
+}
+
+static void fill(Session *session)
+{
+    static const char *const warnings[] = {
+        "The solver cannot keep up: 0.81 of real time. Fewer particles or fewer substeps would help."};
+    for (int i = 0; i < HISTORY; i++)
+        session->history[i] = 12 + 5 * sinf(0.3F * (float)i);
+    session->data = (PanelData){.scene = &session->scene,
+                                .render_stages_known = true,
+                                .sim_ms = 11,
+                                .render_ms = 1622.5,
+                                .frame_history = session->history,
+                                .step_history = session->history,
+                                .frame_count = HISTORY,
+                                .step_count = HISTORY,
+                                .particles = 1234567,
+                                .time = 1234.56,
+                                .real_time_factor = 0.81,
+                                .speed = 0.015625,
+                                .pictures_per_second = 59.9,
+                                .realtime = true,
+                                .scalar_range = {-1234.5, 102345},
+                                .renderer = "llvmpipe (LLVM 15.0.6, 256 bits)",
+                                .warnings = warnings,
+                                .warning_count = 1,
+                                .panel_ms = 0.05};
+    for (int i = 0; i < STAGE_COUNT; i++) {
+        session->data.stage_ran[i] = true;
+        session->data.stage_ms[i] = 0.3 * (i + 1) * (i + 1);
+    }
+}
+
+static Desk *session_open(Session *session, const char *scene, int width, int height, float pixels)
+{
+    Desk *desk = calloc(1, sizeof *desk);
+    assert_non_null(desk);
+    desk_open(desk, width, height, pixels);
+    *session = (Session){.panel = panel_create(), .command = PLAY_NONE};
+    assert_non_null(session->panel);
+    load(session, scene);
+    fill(session);
+    desk->draw = draw_panel;
+    desk->user = session;
+    desk_frames(desk, 30);
+    return desk;
+}
+
+static void session_close(Session *session, Desk *desk)
+{
+    panel_destroy(session->panel);
+    desk_close(desk);
+    free(desk);
+}
+
+static void open_sections(Desk *desk)
+{
+    for (int i = 0; i < SECTIONS; i++)
+        desk_click_at(desk, sections[i], 0.3F);
+}
+
+static Desk *all_open(Session *session, const char *scene)
+{
+    Desk *desk = session_open(session, scene, 400, 1400, 13);
+    open_sections(desk);
+    return desk;
+}
+
+static bool has_widget(const char *path)
+{
+    for (size_t i = 0; i < sizeof without_widget / sizeof *without_widget; i++)
+        if (strcmp(path, without_widget[i]) == 0)
+            return false;
+    return true;
+}
+
+/* "fluids[].color" of the second fluid; other paths as they are. */
+static void in_second_fluid(const char *path, char out[64])
+{
+    const char *list = strstr(path, "[]");
+    if (list)
+        snprintf(out, 64, "%.*s[1]%s", (int)(list - path), path, list + 2);
+    else
+        snprintf(out, 64, "%s", path);
+}
+
+static void test_every_live_key_has_a_widget(void **state)
+{
+    (void)state;
+    int count, live = 0;
+    const Key *keys = scene_keys(&count);
+    Session session;
+    Desk *desk = all_open(&session, "two_oils");
+    assert_true(scene_set_live(&session.scene, "view.range=[0, 2]", NULL, NULL));
+    desk_frames(desk, 30);
+    for (int i = 0; i < count; i++) {
+        char path[64];
+        in_second_fluid(keys[i].path, path);
+        const bool expected = keys[i].flags & KEY_LIVE && has_widget(keys[i].path);
+        if (keys[i].type == KEY_MAPPING) /* "box" is also what "view.box" is called */
+            continue;
+        if ((desk_find(desk, path) != NULL) != expected)
+            fail_msg("%s: %s", path, expected ? "live, without a widget" : "has a widget");
+        live += expected;
+    }
+    assert_true(live > 20);
+    session_close(&session, desk);
+}
+
+/* What a click on the widget leads to: the value itself, or a list or picker that opens below. */
+static void click_for_change(Desk *desk, const Key *key, const char *path, float share)
+{
+    desk_click_at(desk, path, share);
+    const Seen *seen = desk_find(desk, path);
+    const float line = seen->rect[3] - seen->rect[1], middle = (seen->rect[0] + seen->rect[2]) / 2;
+    if (key->type == KEY_CHOICE)
+        desk_click(desk, seen->rect[0] + 10, seen->rect[3] + 1.5F * line);
+    if (key->type == KEY_COLOR)
+        desk_click(desk, middle + 60, seen->rect[3] + 60);
+    desk_click(desk, 395, 1395); /* closes it */
+}
+
+static void test_what_it_asks_for_is_accepted(void **state)
+{
+    (void)state;
+    int count;
+    const Key *keys = scene_keys(&count);
+    Session session;
+    Desk *desk = all_open(&session, "two_oils");
+    assert_true(scene_set_live(&session.scene, "view.range=[0, 2]", NULL, NULL));
+    desk_frames(desk, 30);
+    for (int i = 0; i < count; i++) {
+        static const float shares[] = {0.005F, 0.3F, 0.62F, 0.995F};
+        char path[64];
+        in_second_fluid(keys[i].path, path);
+        if (!desk_find(desk, path) || !(keys[i].flags & KEY_LIVE))
+            continue;
+        const int before = session.settings;
+        for (int k = 0; k < 4; k++)
+            click_for_change(desk, &keys[i], path, shares[k]);
+        if (session.settings == before && keys[i].choice && !keys[i].choice(2))
+            continue; /* a list of one or two, of which the other may be chosen already */
+        if (session.settings == before || strncmp(session.last, path, strlen(path)) != 0)
+            fail_msg("%s: asks for nothing, or for %s", path, session.last);
+    }
+    assert_int_equal(session.refused, 0);
+    session_close(&session, desk);
+}
+
+static void type_into(Desk *desk, const char *path, const char *text)
+{
+    desk->input.keys = UI_KEY_CTRL;
+    desk_click_at(desk, path, 0.1F);
+    desk->input.keys = 0;
+    desk_frames(desk, 3);
+    assert_true(ui_wants_keys(desk->ui));
+    desk_type(desk, text);
+    desk_key(desk, UI_KEY_ENTER);
+}
+
+/* Whatever is typed comes out in the key's range. */
+static void test_typed_numbers_are_accepted(void **state)
+{
+    (void)state;
+    static const char *const typed[] = {"-1e300", "0.333333333", "1e300"};
+    int count, tried = 0;
+    const Key *keys = scene_keys(&count);
+    Session session;
+    Desk *desk = all_open(&session, "two_oils");
+    for (int i = 0; i < count; i++) {
+        char path[64];
+        in_second_fluid(keys[i].path, path);
+        if (!desk_find(desk, path) ||
+            (keys[i].type != KEY_NUMBER && keys[i].type != KEY_INTEGER && keys[i].type != KEY_VEC3))
+            continue;
+        for (size_t k = 0; k < sizeof typed / sizeof *typed; k++)
+            type_into(desk, path, typed[k]);
+        tried++;
+    }
+    assert_true(tried > 10 && session.settings >= 2 * tried);
+    assert_int_equal(session.refused, 0);
+    assert_true(session.scene.world.dt == 1);
+    session_close(&session, desk);
+}
+
+static void test_one_click_one_value(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = all_open(&session, "two_oils");
+    desk_click_at(desk, "fluids[0].viscosity", 0.5F);
+    assert_true(fabs(session.scene.world.fluids[0].viscosity - 0.8) < 0.05); /* the start is in the middle */
+    desk_click_at(desk, "fluids[1].viscosity", 0.995F);
+    assert_true(fabs(session.scene.world.fluids[1].viscosity - 3) < 0.1); /* ten times the start */
+    desk_click_at(desk, "solver.step.realtime", 0.5F);
+    assert_false(session.scene.realtime);
+    desk_click_at(desk, "gravity", 0.5F);
+    assert_true(fabs(session.scene.world.gravity[1]) < 1 && session.scene.world.gravity[0] == 0);
+    desk_click_at(desk, "view.range.auto", 0.5F);
+    assert_string_equal(session.last, "view.range=[-1234, 1.023e+05]");
+    desk_click_at(desk, "view.range.auto", 0.5F);
+    assert_true(session.scene.view.range_auto);
+    assert_int_equal(session.refused, 0);
+    session_close(&session, desk);
+}
+
+static void test_sliders_follow_another_scene(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = all_open(&session, "two_oils");
+    load(&session, "box_slosh");
+    desk->input.changed = true;
+    desk_frames(desk, 10);
+    assert_null(desk_find(desk, "fluids[1].viscosity"));
+    desk_click_at(desk, "fluids[0].viscosity", 0.995F);
+    assert_true(fabs(session.scene.world.fluids[0].viscosity - 50) < 2);
+    session_close(&session, desk);
+}
+
+static void test_buttons_are_the_commands(void **state)
+{
+    (void)state;
+    Session session;
+    int buttons = 0;
+    Desk *desk = session_open(&session, "box_slosh", 1280, 720, 13);
+    for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
+        const bool button = row->flags & PLAY_BUTTON;
+        assert_true((desk_find(desk, row->name) != NULL) == button);
+        if (!button)
+            continue;
+        session.command = PLAY_NONE;
+        desk_click_at(desk, row->name, 0.5F);
+        assert_int_equal(session.command, row->command);
+        buttons++;
+    }
+    assert_true(buttons > 8);
+    session_close(&session, desk);
+}
+
+static void test_stages_as_they_are_known(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = session_open(&session, "box_slosh", 1280, 720, 13);
+    assert_non_null(desk_find(desk, "visibility"));
+    assert_non_null(desk_find(desk, "density"));
+    assert_null(desk_find(desk, "all rendering"));
+    session.data.render_stages_known = false;
+    session.data.stage_ran[STAGE_GRID] = false;
+    desk_frames(desk, 30);
+    assert_null(desk_find(desk, "visibility"));
+    assert_null(desk_find(desk, "grid"));
+    assert_non_null(desk_find(desk, "all rendering"));
+    assert_non_null(desk_find(desk, session.data.warnings[0]));
+    assert_non_null(desk_find(desk, "1,234,567"));
+    desk_click(desk, 60, 25); /* its title hides all below */
+    assert_null(desk_find(desk, "density"));
+    session_close(&session, desk);
+}
+
+static void assert_nothing_is_cut(const Desk *desk)
+{
+    assert_true(desk->seen_count > 40);
+    for (int i = 0; i < desk->seen_count; i++) {
+        const Seen *seen = &desk->seen[i];
+        if (seen->needed > seen->rect[2] - seen->rect[0] + 1.5F) /* places are rounded */
+            fail_msg("%s: needs %g of %g pixels", seen->id, (double)seen->needed,
+                     (double)(seen->rect[2] - seen->rect[0]));
+        assert_true(seen->rect[0] >= 0 && seen->rect[2] <= (float)desk->target.width);
+    }
+}
+
+static void test_nothing_is_cut_at_any_scale(void **state)
+{
+    (void)state;
+    static const float scales[] = {1, 1.5F, 2, 3};
+    for (int i = 0; i < 4; i++) {
+        Session session;
+        Desk *desk = session_open(&session, "two_oils", (int)(700 * scales[i]), (int)(1400 * scales[i]),
+                                  13 * scales[i]);
+        open_sections(desk);
+        session.help = true;
+        desk_frames(desk, 30);
+        assert_nothing_is_cut(desk);
+        session_close(&session, desk);
+    }
+}
+
+static void test_small_windows_scroll(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = session_open(&session, "two_oils", 640, 360, 13);
+    assert_nothing_is_cut(desk);
+    assert_true(desk_find(desk, "View")->rect[1] > 360);
+    desk_move(desk, 100, 200);
+    for (int i = 0; i < 20; i++) {
+        desk->input.wheel = -1;
+        desk_frame(desk);
+    }
+    desk_frames(desk, 3);
+    assert_true(desk_find(desk, "View")->rect[3] < 350);
+    desk_click_at(desk, "View", 0.3F);
+    assert_non_null(desk_find(desk, "view.legend"));
+    session_close(&session, desk);
+}
+
+static void test_help_lists_every_row(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = session_open(&session, "box_slosh", 640, 360, 13);
+    session.help = true;
+    desk->input.changed = true;
+    desk_frames(desk, 30);
+    for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
+        char keys[80];
+        play_command_keys_text(row, keys, sizeof keys);
+        assert_non_null(desk_find(desk, row->help));
+        assert_non_null(desk_find(desk, keys));
+    }
+    assert_nothing_is_cut(desk);
+    assert_true(ui_covers(desk->ui, 320, 180) && ui_covers(desk->ui, 600, 340));
+    session_close(&session, desk);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_every_live_key_has_a_widget, no_gl_errors),
+        cmocka_unit_test_teardown(test_what_it_asks_for_is_accepted, no_gl_errors),
+        cmocka_unit_test_teardown(test_typed_numbers_are_accepted, no_gl_errors),
+        cmocka_unit_test_teardown(test_one_click_one_value, no_gl_errors),
+        cmocka_unit_test_teardown(test_sliders_follow_another_scene, no_gl_errors),
+        cmocka_unit_test_teardown(test_buttons_are_the_commands, no_gl_errors),
+        cmocka_unit_test_teardown(test_stages_as_they_are_known, no_gl_errors),
+        cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),
+        cmocka_unit_test_teardown(test_small_windows_scroll, no_gl_errors),
+        cmocka_unit_test_teardown(test_help_lists_every_row, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
