@@ -98,7 +98,7 @@ void play_tell(Play *play, const char *format, ...) __attribute__((format(printf
 /* play.c */
 bool play_open(Play *play, const char *scene, const SceneSettings *settings, Error *error);
 void play_view_changed(Play *play);
-/* "path=value" of a live key: for the picture now, for the solver from its next frame on. */
+/* "path=value" of a live key: for the picture now, for the solver from its next step on. */
 void play_set(Play *play, const char *setting);
 
 /* play_do.c: does what a row of the list of commands says. */

@@ -225,10 +225,10 @@ static void run_frame(Simulator *simulator, Work *work)
     for (int i = 0; i < substeps && ok; i++) {
         obey_all(simulator, work);
         ok = world_substep(simulator->world, &clock, &error);
+        if (ok)
+            STAGE (&clock, STAGE_UPLOAD)
+                ok = publish(simulator, &error);
     }
-    if (ok)
-        STAGE (&clock, STAGE_UPLOAD)
-            ok = publish(simulator, &error);
     count_frame(simulator, began, &clock);
     if (!ok)
         tell(simulator, true, error.message);

@@ -1,5 +1,6 @@
 /* The solver at its own pace, beside the view: a thread that owns the World, obeys commands between two
-   steps, and hands each state to the upload ring.
+   steps, and hands the state after each step to the upload ring: a picture shows what is newest, not the last
+   whole frame, which answers the hand sooner by some half a frame.
 
    It paces itself by the wall clock where the scene says `realtime` (as many frames as the clock asks for,
    times the speed; what it cannot keep up with is left out, dt stays), else runs as fast as it can. It is the
