@@ -1,7 +1,5 @@
 #include "app/orbit.h"
 
-#include "render/camera.h"
-
 #include <math.h>
 
 /* Short of the poles, where right and left change places, by a degree: nearer to them render/camera.c takes
@@ -34,7 +32,7 @@ static void box_centre(const double box_size[3], const BoxState *box, double cen
 }
 
 Orbit orbit_begin(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                  double covered)
+                  Covered covered)
 {
     Camera camera;
     Orbit orbit = {0};

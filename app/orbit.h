@@ -2,6 +2,7 @@
 #ifndef SLOSH_ORBIT_H
 #define SLOSH_ORBIT_H
 
+#include "render/camera.h"
 #include "render/view_def.h"
 
 typedef struct Orbit {
@@ -18,7 +19,7 @@ typedef struct Orbit {
 /* Begins with the picture that camera_make (render/camera.h) gives for these arguments, automatic or not. The
    pivot is the box's centre, or what the def's own camera looks at. */
 Orbit orbit_begin(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                  double covered);
+                  Covered covered);
 
 /* A drag of the scene by so many radians to the right and up; the pitch stays short of the poles. For these
    three: numbers that are not finite are ignored. */

@@ -16,6 +16,7 @@
 #include <string.h>
 #include <time.h>
 
+static const double LETTERS = 14; /* pixels high at scale 1 */
 static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, FOR_EVER_MS = 1e9;
 
 void play_tell(Play *play, const char *format, ...)
@@ -37,6 +38,8 @@ void play_view_changed(Play *play)
     if (!renderer_set_def(play->renderer, &play->open.scene.view, &error))
         play_tell(play, "%s", error.message);
 }
+
+_Static_assert((int)PANEL_SETTING_SIZE == SIM_SETTING_SIZE, "what the panel asks for fits into a command");
 
 void play_set(Play *play, const char *setting)
 {
@@ -122,6 +125,23 @@ static bool follow_size(Play *play, Error *error)
     return width < 1 || height < 1 || renderer_resize(play->renderer, width, height, error);
 }
 
+/* The letters follow the display's scale; where that fails they stay as they are. */
+static void follow_scale(Play *play)
+{
+    Error error = {{0}};
+    const float pixels = (float)(LETTERS * window_scale(play->window));
+    if (pixels == text_height(play->text))
+        return;
+    Text *text = text_create(pixels, &error);
+    if (text && ui_set_pixels(play->ui.ui, pixels, &error)) {
+        text_destroy(play->text);
+        play->text = text;
+        play->ui.input.changed = play->dirty = true;
+        return;
+    }
+    text_destroy(text);
+}
+
 static bool start(Play *play, Error *error)
 {
     const PlaySetup *setup = play->setup;
@@ -138,9 +158,10 @@ static bool start(Play *play, Error *error)
         renderer_create(&play->open.scene.view, (int)fmax(play->width, 1), (int)fmax(play->height, 1), error);
     if (!play->renderer)
         return false;
-    play->text = text_create((float)(14 * window_scale(play->window)), error);
-    play->panel = play->width > 60 * 14 * window_scale(play->window); /* beside the fluid, not over it */
-    play->ui.ui = play->text ? ui_create((float)(14 * window_scale(play->window)), error) : NULL;
+    const double letters = LETTERS * window_scale(play->window);
+    play->text = text_create((float)letters, error);
+    play->panel = play->width > 60 * letters; /* beside the fluid, not over it */
+    play->ui.ui = play->text ? ui_create((float)letters, error) : NULL;
     play->ui.panel = panel_create();
     if (!gl_renderer_is_software())
         play->timer = gl_timer_create(GL_CLOCK_QUERY);
@@ -189,6 +210,7 @@ static bool run(Play *play, Error *error)
     while (!play->quit && !interrupted()) {
         play_events(play);
         listen(play);
+        follow_scale(play);
         if (!follow_size(play, error))
             return false;
         const bool notice = wall_ms() < play->notice_until_ms;
@@ -242,6 +264,7 @@ static void describe(const Play *play, PlayFigures *figures)
         .latency_p95_ms = meter_latency(&play->meter, 0.95),
         .latency_events = play->meter.latencies,
         .panel_ms = play->panels ? play->panel_ms / (double)play->panels : 0,
+        .display_scale = window_scale(play->window),
         .speed = play->speed,
         .paused = play->paused,
         .fullscreen = window_is_fullscreen(play->window),

@@ -34,7 +34,7 @@ typedef struct PlayFigures {
     size_t latency_events;
     double panel_ms;  /* CPU time of the panel in a picture, mean; 0 when never shown */
     double cpus_busy; /* CPU time over wall time */
-    double speed;
+    double speed, display_scale;
     bool paused, fullscreen, camera_auto, panel, help;
     double box_position[3], box_orientation[4]; /* the hand's part of the pose */
     double camera_from[3], camera_to[3];

@@ -67,6 +67,7 @@ void play_draw(Play *play)
     play->dirty = false;
     play->drew_ms = began;
     if (play->has_particles) {
+        renderer_set_covered(play->renderer, play_covered_left(play));
         renderer_draw(play->renderer, &play->particles, play->timer);
         gl_timer_frame(play->timer, &play->gl_times);
         play_events(play);

@@ -167,6 +167,12 @@ static void input_seen(PlayUi *ui)
     ui->input.changed = false;
 }
 
+double play_covered_left(const Play *play)
+{
+    const double part = play->panel ? panel_width(play->ui.ui, play->width) / fmax(play->width, 1) : 0;
+    return part < 0.5 ? part : 0;
+}
+
 void play_panel_draw(Play *play)
 {
     PlayUi *ui = &play->ui;

@@ -24,10 +24,11 @@ static json_t *figures_json(const PlayFigures *f)
                   f->first_picture_ms, "latency_median_ms", f->latency_median_ms, "latency_p95_ms",
                   f->latency_p95_ms, "cpus_busy", f->cpus_busy, "wall_seconds", f->wall_s, "latency_events",
                   (json_int_t)f->latency_events);
-    json_t *state = json_pack("{s:I, s:f, s:f, s:I, s:I, s:s, s:s, s:f}", "steps", (json_int_t)f->step,
-                              "time", f->time, "simulated_seconds", f->simulated_s, "pictures",
-                              (json_int_t)f->pictures, "scenes_opened", (json_int_t)f->scenes_opened,
-                              "color_by", f->color_by, "colormap", f->colormap, "speed", f->speed);
+    json_t *state =
+        json_pack("{s:I, s:f, s:f, s:I, s:I, s:s, s:s, s:f, s:f}", "steps", (json_int_t)f->step, "time",
+                  f->time, "simulated_seconds", f->simulated_s, "pictures", (json_int_t)f->pictures,
+                  "scenes_opened", (json_int_t)f->scenes_opened, "color_by", f->color_by, "colormap",
+                  f->colormap, "speed", f->speed, "display_scale", f->display_scale);
     json_t *hands = json_pack("{s:b, s:b, s:b, s:b, s:b, s:o, s:o, s:o, s:o, s:i}", "paused", f->paused,
                               "fullscreen", f->fullscreen, "camera_auto", f->camera_auto, "panel", f->panel,
                               "help", f->help, "box_position", vector(f->box_position, 3), "box_orientation",

@@ -119,6 +119,9 @@ void play_draw(Play *play);
 void play_panel_event(Play *play, const WindowEvent *event);
 bool play_panel_takes(const Play *play, const WindowEvent *event);
 void play_panel_draw(Play *play);
+/* How much of the width the panel takes from the box, 0 .. 1: one that leaves less than half takes nothing.
+ */
+double play_covered_left(const Play *play);
 
 /* play_files.c */
 void play_screenshot(Play *play);

@@ -69,12 +69,14 @@ typedef struct Room {
     float left, right, high;
 } Room;
 
-static Room make_room(double covered)
+static Room make_room(Covered covered)
 {
     Room room = {-0.80F, 0.80F, 0.80F};
-    float clear = (float)(1 - 2 * covered - 0.04);
-    if (clear < room.right) /* too narrow beside the legend: out of its way, and nearer to the left side */
-        room.left = -0.92F, room.right = fmaxf(clear, -0.5F);
+    const float right = (float)(1 - 2 * covered.right - 0.04), left = (float)(1 - 2 * covered.left - 0.04);
+    if (right < room.right) /* too narrow beside the legend: out of its way, and nearer to the left side */
+        room.left = -0.92F, room.right = fmaxf(right, -0.5F);
+    if (left < -room.left)
+        room.left = fminf(-left, room.right - 0.4F);
     return room;
 }
 
@@ -106,7 +108,7 @@ void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3
     }
 }
 
-static void look_at_box(Camera *camera, const double size[3], const BoxState *box, double covered)
+static void look_at_box(Camera *camera, const double size[3], const BoxState *box, Covered covered)
 {
     vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up = {0, 1, 0};
     Room room = make_room(covered);
@@ -123,7 +125,7 @@ static void look_at_box(Camera *camera, const double size[3], const BoxState *bo
 }
 
 void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                 double covered, Camera *camera)
+                 Covered covered, Camera *camera)
 {
     static const double auto_fov_deg = 32; /* long enough a lens that the box looks calm */
     double fov = def->camera_auto ? auto_fov_deg : def->camera.fov_deg;

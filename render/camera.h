@@ -12,12 +12,16 @@ typedef struct Camera {
     float near_plane; /* m */
 } Camera;
 
+/* What lies over a picture at its sides, a panel and a legend: parts of its width, 0 .. 1. */
+typedef struct Covered {
+    double left, right;
+} Covered;
+
 /* The def's camera, or with camera_auto one that shows the whole box from the front, the right and above, for
-   a picture `aspect` times as wide as high whose right `covered` (0 .. 1 of the width) is taken by the
-   legend. It stays while the box moves about, and goes along only with what the box moves farther than half
-   its size. */
+   a picture `aspect` times as wide as high, beside what is covered. It stays while the box moves about, and
+   goes along only with what the box moves farther than half its size. */
 void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                 double covered, Camera *camera);
+                 Covered covered, Camera *camera);
 
 /* What the automatic camera and the floor stand by: the box's position less its free way of half its size. */
 void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3]);

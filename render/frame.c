@@ -112,10 +112,10 @@ static void make_bounds(Frame *frame, const double size[3])
 }
 
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
-                double radius)
+                double radius, double covered_left)
 {
     *frame = (Frame){.width = target->width, .height = target->height, .def = def, .target = target};
-    double covered = legend_width_pixels(def, target->height) / target->width;
+    const Covered covered = {covered_left, legend_width_pixels(def, target->height) / target->width};
     camera_make(def, particles->box_size, &particles->box, (double)target->width / target->height, covered,
                 &frame->camera);
     camera_box_matrix(&particles->box, frame->box_to_world);

@@ -35,9 +35,10 @@ typedef struct Frame {
 
 enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
 
-/* Fills all of `frame` but the timer. `radius` of a particle in spacings where the def says 0. */
+/* Fills all of `frame` but the timer. `radius` of a particle in spacings where the def says 0; what lies over
+   the left side of the picture, as in Covered. */
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
-                double radius);
+                double radius, double covered_left);
 
 /* The uniform block of shaders/common/frame.glsl; the caller deletes the buffer. */
 unsigned frame_uniforms_create(void);

@@ -13,6 +13,7 @@
 struct Renderer {
     ViewDef def;
     bool plain;
+    double covered_left; /* part of the width */
     Target target;
     unsigned uniforms;
     Shadow shadow;
@@ -144,7 +145,7 @@ void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer
 {
     Frame frame;
     double radius = renderer->view ? view_kind(renderer->view)->radius : 0;
-    frame_make(&frame, &renderer->def, particles, &renderer->target, radius);
+    frame_make(&frame, &renderer->def, particles, &renderer->target, radius, renderer->covered_left);
     frame.timer = timer;
     frame.plain = renderer->plain;
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
@@ -174,6 +175,11 @@ void renderer_present(const Renderer *renderer)
 void renderer_read_depth(const Renderer *renderer, float *depth)
 {
     target_read_depth(&renderer->target, depth);
+}
+
+void renderer_set_covered(Renderer *renderer, double left)
+{
+    renderer->covered_left = left;
 }
 
 void renderer_set_plain(Renderer *renderer, bool plain)

@@ -42,6 +42,9 @@ void renderer_present(const Renderer *renderer);
 /* width * height reversed depths (1 at the near plane, 0 where nothing is), rows from the bottom up. */
 void renderer_read_depth(const Renderer *renderer, float *depth);
 
+/* From the next picture on an automatic camera leaves that part of the width, 0 .. 1, free on the left. */
+void renderer_set_covered(Renderer *renderer, double left);
+
 /* Colours exactly as the colormap has them, without light and shadow. */
 void renderer_set_plain(Renderer *renderer, bool plain);
 

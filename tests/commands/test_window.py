@@ -59,11 +59,11 @@ class Window(CommandTest):
         return subprocess.run(['xdotool', *map(str, arguments)], env=self.environment, capture_output=True, text=True,
                               check=True, timeout=30).stdout
 
-    def open(self, *arguments):
+    def open(self, *arguments, size=(WIDTH, HEIGHT)):
         """Starts the window and waits until it shows its first picture."""
         self.said = open(self.path('said.txt'), 'w+')
         self.addCleanup(self.said.close)
-        self.process = subprocess.Popen([command.PROGRAM, *arguments, '--size', f'{WIDTH}x{HEIGHT}', '--json', 'out.json'],
+        self.process = subprocess.Popen([command.PROGRAM, *arguments, '--size', f'{size[0]}x{size[1]}', '--json', 'out.json'],
                                         cwd=self.folder, env=self.environment, stderr=self.said, stdout=self.said,
                                         preexec_fn=obey_interrupts)
         self.addCleanup(self.process.wait)
@@ -282,6 +282,55 @@ class Mouse(Window):
         first = out['box_position'][0]
         self.assertGreater(first, 0.05)
         self.assertLess(first, 0.6)  # all of the drag would be four times the first part
+
+
+class Panel(Window):
+    def open(self, *arguments):
+        super().open('still.yaml', *arguments, size=(760, 560))
+        self.keys('p')
+        time.sleep(0.3)
+
+    def test_a_button_is_the_panels_own(self):
+        self.open()
+        self.drag(1, [(44, 128), (44, 128)])  # pause
+        time.sleep(0.3)
+        self.drag(1, [(120, 60), (200, 90)])  # between the widgets: nothing
+        out = self.quit()
+        self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (True, True, True))
+
+    def test_hidden_it_takes_nothing(self):
+        self.open()
+        self.keys('F2')
+        self.drag(1, [(44, 128), (94, 128)])
+        out = self.quit()
+        self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (False, False, False))
+
+    def test_a_slider_changes_the_fluid(self):
+        self.open('--record', 'a.rec')
+        self.drag(1, [(60, 434), (60, 434)])  # the heading World, closed at first
+        time.sleep(0.4)
+        self.drag(1, [(248, 455), (255, 455), (262, 455)])
+        time.sleep(0.2)
+        self.quit()
+        self.assertRegex(self.read('a.rec').decode(), r'\d+ set gravity=\[')
+        self.assertEqual(self.slosh('replay', 'a.rec', '--quiet'), (0, ''))
+
+    def test_high_density(self):
+        from Xlib import Xatom, display
+        connection = display.Display(self.display.name)
+        root = connection.screen().root
+        root.change_property(Xatom.RESOURCE_MANAGER, Xatom.STRING, 8, b'Xft.dpi:\t192\n')
+        connection.sync()
+        try:
+            self.open()
+            self.keys('h', 'Escape')
+            out = self.quit()
+        finally:
+            root.delete_property(Xatom.RESOURCE_MANAGER)
+            connection.sync()
+        self.assertEqual(out['display_scale'], 2)
+        self.assertEqual(out['size'], [1520, 1120])  # as large on such a display
+        self.assertTrue(out['panel'])
 
 
 class Ends(Window):

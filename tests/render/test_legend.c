@@ -51,7 +51,7 @@ static void test_camera_shows_the_box(void **state)
             int width = pictures[p][0], height = pictures[p][1];
             double largest = 0;
             Camera camera;
-            camera_make(&def, sizes[s], &box, (double)width / height, 0, &camera);
+            camera_make(&def, sizes[s], &box, (double)width / height, (Covered){0}, &camera);
             for (int corner = 0; corner < 8; corner++) {
                 double world[3] = {sizes[s][0] * ((corner & 1) - 0.5), sizes[s][1] * (corner >> 1 & 1),
                                    sizes[s][2] * ((corner >> 2) - 0.5)};
@@ -69,11 +69,11 @@ static void test_camera_shows_the_box(void **state)
 static void test_camera_leaves_room_for_the_legend(void **state)
 {
     (void)state;
-    double size[3] = {2, 1, 1}, covered = 0.3, rightmost = 0;
+    double size[3] = {2, 1, 1}, rightmost = 0;
     BoxState box = {.orientation = {0, 0, 0, 1}};
     ViewDef def = view_def_default();
     Camera camera;
-    camera_make(&def, size, &box, 1, covered, &camera);
+    camera_make(&def, size, &box, 1, (Covered){0, 0.3}, &camera);
     for (int corner = 0; corner < 8; corner++) {
         double world[3] = {(corner & 1) * 2 - 1, corner >> 1 & 1, (corner >> 2) - 0.5}, pixel[2], depth;
         assert_true(camera_project(&camera, world, 100, 100, pixel, &depth));
@@ -83,6 +83,27 @@ static void test_camera_leaves_room_for_the_legend(void **state)
     assert_true(rightmost > 60);
 }
 
+/* Nor beside a panel on the left, with and without a legend. */
+static void test_camera_leaves_room_for_a_panel(void **state)
+{
+    (void)state;
+    double size[3] = {2, 1, 1};
+    BoxState box = {.orientation = {0, 0, 0, 1}};
+    ViewDef def = view_def_default();
+    for (int legend = 0; legend <= 1; legend++) {
+        Camera camera;
+        double leftmost = 100, rightmost = 0;
+        camera_make(&def, size, &box, 1.5, (Covered){0.3, 0.2 * legend}, &camera);
+        for (int corner = 0; corner < 8; corner++) {
+            double world[3] = {(corner & 1) * 2 - 1, corner >> 1 & 1, (corner >> 2) - 0.5}, pixel[2], depth;
+            assert_true(camera_project(&camera, world, 100, 100, pixel, &depth));
+            leftmost = fmin(leftmost, pixel[0]);
+            rightmost = fmax(rightmost, pixel[0]);
+        }
+        assert_true(leftmost > 30 && leftmost < 45 && rightmost < 100 - 20 * legend && rightmost > 70);
+    }
+}
+
 /* A shaken box moves in the picture; one that drives off is followed. */
 static void test_camera_follows_late(void **state)
 {
@@ -90,9 +111,11 @@ static void test_camera_follows_late(void **state)
     double size[3] = {1, 1, 1};
     ViewDef def = view_def_default();
     Camera rest, shaken, gone;
-    camera_make(&def, size, &(BoxState){.orientation = {0, 0, 0, 1}}, 1, 0, &rest);
-    camera_make(&def, size, &(BoxState){.position = {0.3, 0, 0}, .orientation = {0, 0, 0, 1}}, 1, 0, &shaken);
-    camera_make(&def, size, &(BoxState){.position = {9.5, 0, 0}, .orientation = {0, 0, 0, 1}}, 1, 0, &gone);
+    camera_make(&def, size, &(BoxState){.orientation = {0, 0, 0, 1}}, 1, (Covered){0}, &rest);
+    camera_make(&def, size, &(BoxState){.position = {0.3, 0, 0}, .orientation = {0, 0, 0, 1}}, 1,
+                (Covered){0}, &shaken);
+    camera_make(&def, size, &(BoxState){.position = {9.5, 0, 0}, .orientation = {0, 0, 0, 1}}, 1,
+                (Covered){0}, &gone);
     assert_true(fabsf(shaken.eye[0] - rest.eye[0]) < 1e-6F);
     assert_true(fabsf(gone.eye[0] - rest.eye[0] - 9) < 1e-4F);
 }
@@ -132,6 +155,7 @@ int main(void)
         cmocka_unit_test(test_units_as_people_write_them),
         cmocka_unit_test(test_camera_shows_the_box),
         cmocka_unit_test(test_camera_leaves_room_for_the_legend),
+        cmocka_unit_test(test_camera_leaves_room_for_a_panel),
         cmocka_unit_test(test_camera_follows_late),
         cmocka_unit_test_teardown(test_legend_is_drawn, no_gl_errors),
     };
