@@ -1,0 +1,107 @@
+/* What the window measures of itself, against what was put in; and the script that shakes the box. */
+#include "near.h"
+
+#include "app/play_meter.h"
+#include "app/play_script.h"
+
+#include <math.h>
+
+static void pictures_a_second(void **state)
+{
+    (void)state;
+    PlayMeter meter = {0};
+    float history[METER_HISTORY];
+    for (int i = 0; i < 101; i++)
+        meter_picture(&meter, 1000 + 20.0 * i, 0);
+    assert_int_equal(meter.pictures, 101);
+    assert_true(fabs(meter.pictures_per_second - 50) < 0.5);
+    assert_int_equal(meter_history(&meter, history), 100);
+    for (int i = 0; i < 100; i++)
+        assert_true(fabsf(history[i] - 20) < 1e-3F);
+    for (int i = 0; i < 200; i++) /* the ring keeps the last ones, in order */
+        meter_picture(&meter, 3000 + i + 0.001 * i * i, 0);
+    assert_int_equal(meter_history(&meter, history), METER_HISTORY);
+    for (int i = 1; i < METER_HISTORY; i++)
+        assert_true(history[i] > history[i - 1]);
+}
+
+/* An event is shown by the first picture whose state has obeyed its command, and by no other. */
+static void events_wait_for_their_picture(void **state)
+{
+    (void)state;
+    PlayMeter meter = {0};
+    meter_event(&meter, 100, 1);
+    meter_event(&meter, 110, 2);
+    meter_event(&meter, 115, 3);
+    meter_picture(&meter, 120, 0);
+    assert_int_equal(meter.latencies, 0);
+    meter_picture(&meter, 150, 2);
+    assert_int_equal(meter.latencies, 2);
+    meter_picture(&meter, 180, 2);
+    assert_int_equal(meter.latencies, 2);
+    meter_picture(&meter, 210, 9);
+    assert_int_equal(meter.latencies, 3);
+    assert_true(meter_latency(&meter, 0) == 40);
+    assert_true(meter_latency(&meter, 0.5) == 50);
+    assert_true(meter_latency(&meter, 1) == 95);
+    meter_event(&meter, 220, 10);
+    meter_forget(&meter);
+    meter_picture(&meter, 300, 10);
+    assert_int_equal(meter.latencies, 3);
+}
+
+static void more_than_it_holds(void **state)
+{
+    (void)state;
+    PlayMeter meter = {0};
+    assert_true(meter_latency(&meter, 0.5) == 0);
+    for (int i = 0; i < 2 * METER_WAITING_MAX; i++)
+        meter_event(&meter, 0, (uint64_t)i + 1);
+    meter_picture(&meter, 7, 4 * METER_WAITING_MAX);
+    assert_int_equal(meter.latencies, METER_WAITING_MAX);
+    for (int i = 0; i < METER_SAMPLES_MAX + 50; i++) {
+        meter_event(&meter, i, (uint64_t)i + 1);
+        meter_picture(&meter, i + 3, (uint64_t)i + 1);
+    }
+    assert_true(meter_latency(&meter, 0) == 3 && meter_latency(&meter, 1) == 3);
+}
+
+static void the_process_has_an_age(void **state)
+{
+    (void)state;
+    const double age = meter_process_age_ms();
+    assert_true(age >= 0 && age < 60000);
+    assert_true(meter_process_age_ms() >= age);
+}
+
+/* 125 events a second, with the times at which they were due; a drag with Shift, within the picture. */
+static void the_script_keeps_its_times(void **state)
+{
+    (void)state;
+    PlayScript script = {0};
+    WindowEvent event;
+    int events = 0;
+    double last = 0, least = 1e9, most = 0;
+    for (double now = 5000; now <= 7000; now += 37)
+        while (play_script_next(&script, now, 400, 300, &event)) {
+            assert_int_equal(event.kind, events == 0 ? WINDOW_BUTTON : WINDOW_MOVE);
+            assert_true(event.when_ms <= now && event.when_ms > last);
+            assert_true(event.x > 0 && event.x < 400 && event.y > 0 && event.y < 300);
+            last = event.when_ms;
+            least = fmin(least, event.x);
+            most = fmax(most, event.x);
+            events++;
+        }
+    assert_true(events > 245 && events < 253);
+    assert_true(most - least > 150);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pictures_a_second),          cmocka_unit_test(events_wait_for_their_picture),
+        cmocka_unit_test(more_than_it_holds),         cmocka_unit_test(the_process_has_an_age),
+        cmocka_unit_test(the_script_keeps_its_times),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

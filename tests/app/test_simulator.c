@@ -1,0 +1,330 @@
+/* The solver's thread, from the thread of the window: time, commands, sessions, ends. The pictures' thread
+   takes states meanwhile, as the window does; ThreadSanitizer watches. */
+#include "output_fixture.h"
+
+#include "app/headless.h"
+#include "app/recording_play.h"
+#include "app/simulator.h"
+
+#include <math.h>
+
+static const char still[] = "box: {size: [1, 1, 1]}\n"
+                            "particles: {spacing: 0.1}\n"
+                            "fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}]\n"
+                            "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n";
+
+static Headless *context;
+static Error error;
+
+typedef struct Rig {
+    Scene scene;
+    Recording recording;
+    Upload *upload;
+    Simulator *simulator;
+    SimulatorStatus status;
+    ParticleBuffers particles;
+} Rig;
+
+static void must(bool ok)
+{
+    if (!ok)
+        fail_msg("%s", error.message);
+}
+
+static void rig_open(Rig *rig, const char *setting, bool paused)
+{
+    SceneSettings settings = {.count = setting ? 1 : 0};
+    if (setting)
+        settings.set[0] = setting;
+    *rig = (Rig){.upload = NULL};
+    must(scene_parse("a.yaml", still, strlen(still), &settings, &rig->scene, NULL, &error));
+    must(recording_create(&rig->recording, "a.yaml", still, strlen(still), &settings, &error));
+    rig->upload = upload_create(world_def_count(&rig->scene.world, rig->scene.world.spacing),
+                                upload_attributes_for(SCALAR_SPEED), &error);
+    const SimulatorSetup setup = {
+        .scene = &rig->scene, .recording = &rig->recording, .upload = rig->upload, .paused = paused};
+    rig->simulator = simulator_create(&setup, &error);
+    assert_non_null(rig->simulator);
+}
+
+static void rig_close(Rig *rig)
+{
+    assert_true(simulator_destroy(rig->simulator, 10000));
+    upload_destroy(rig->upload);
+    recording_destroy(&rig->recording);
+}
+
+/* Draws along until `ready` says so. */
+static void wait_for(Rig *rig, bool (*ready)(const Rig *rig))
+{
+    const double until = wall_ms() + 20000;
+    do {
+        simulator_status(rig->simulator, &rig->status);
+        if (upload_fresh(rig->upload))
+            assert_true(upload_take(rig->upload, &rig->particles));
+        usleep(200);
+    } while (!ready(rig) && wall_ms() < until);
+    assert_true(ready(rig));
+}
+
+static bool is_ready(const Rig *rig)
+{
+    return rig->status.ready && rig->particles.count > 0;
+}
+
+static bool has_shown_all(const Rig *rig)
+{
+    return is_ready(rig) && rig->particles.step == rig->status.step;
+}
+
+static bool is_at_15(const Rig *rig)
+{
+    return rig->status.step == 15 && rig->particles.step == 15;
+}
+
+static bool is_past_200(const Rig *rig)
+{
+    return rig->particles.step > 200;
+}
+
+static bool is_back(const Rig *rig)
+{
+    return rig->status.step == 0 && rig->particles.step == 0;
+}
+
+static bool has_saved(const Rig *rig)
+{
+    return rig->status.saves == 1;
+}
+
+static bool has_failed(const Rig *rig)
+{
+    return rig->status.failed;
+}
+
+static bool has_messages(const Rig *rig)
+{
+    return rig->status.messages > 0;
+}
+
+static void paused_it_steps_by_frames(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, NULL, true);
+    wait_for(&rig, is_ready);
+    usleep(50000);
+    wait_for(&rig, has_shown_all);
+    assert_int_equal(rig.status.step, 0);
+    for (int i = 1; i <= 3; i++) {
+        simulator_single_step(rig.simulator);
+        do
+            wait_for(&rig, has_shown_all);
+        while (rig.status.step < 5 * (uint64_t)i);
+    }
+    usleep(50000);
+    wait_for(&rig, is_at_15);
+    assert_true(fabs(rig.status.time - 0.03) < 1e-9);
+    simulator_reset(rig.simulator);
+    wait_for(&rig, is_back);
+    rig_close(&rig);
+}
+
+static double time_in(Rig *rig, double ms)
+{
+    simulator_status(rig->simulator, &rig->status);
+    const double began = rig->status.time, clock = wall_ms();
+    while (wall_ms() < clock + ms)
+        usleep(1000);
+    simulator_status(rig->simulator, &rig->status);
+    return 1e3 * (rig->status.time - began) / (wall_ms() - clock);
+}
+
+/* In real time as fast as the clock, times the speed; never faster, and slower only on a busy machine. */
+static void time_follows_the_clock(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, NULL, false);
+    wait_for(&rig, is_ready);
+    const double real = time_in(&rig, 500);
+    simulator_set_speed(rig.simulator, 0.25);
+    const double slow = time_in(&rig, 500);
+    simulator_set_realtime(rig.simulator, false);
+    const double free_running = time_in(&rig, 500);
+    simulator_pause(rig.simulator, true);
+    usleep(50000);
+    const double paused = time_in(&rig, 100);
+    assert_true(real < 1.3 && slow < 0.35 && slow > 0);
+    assert_true(real > slow && free_running > slow);
+    assert_true(paused == 0);
+    rig_close(&rig);
+}
+
+static uint64_t send_target(Rig *rig, double x)
+{
+    return simulator_send(rig->simulator,
+                          &(SimCommand){.kind = SIM_TARGET, .target = {{x, 0, 0}, {0, 0, 0, 1}}});
+}
+
+/* Commands have numbers, and a state tells which it has obeyed. */
+static void states_tell_what_they_obey(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, NULL, true);
+    wait_for(&rig, is_ready);
+    assert_int_equal(send_target(&rig, 0.1), 1);
+    assert_int_equal(send_target(&rig, 0.2), 2); /* in the place of the first */
+    assert_int_equal(simulator_obeyed(rig.simulator, 0), 0);
+    simulator_single_step(rig.simulator);
+    do
+        wait_for(&rig, has_shown_all);
+    while (rig.status.step < 5);
+    assert_int_equal(simulator_obeyed(rig.simulator, 5), 2);
+    assert_int_equal(simulator_obeyed(rig.simulator, 0), 0);
+    assert_true(rig.particles.box.position[0] > 0);
+    rig_close(&rig);
+}
+
+/* While time stands still what is sent waits; too much is refused, and nothing of it is lost. */
+static void a_queue_has_an_end(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, NULL, true);
+    wait_for(&rig, is_ready);
+    uint64_t taken = 0, number;
+    const SimCommand carry = {.kind = SIM_CARRY, .target = {{0.01, 0, 0}, {0, 0, 0, 1}}};
+    while ((number = simulator_send(rig.simulator, &carry)) > 0)
+        assert_int_equal(number, ++taken);
+    assert_true(taken > 100);
+    simulator_single_step(rig.simulator);
+    do
+        wait_for(&rig, has_shown_all);
+    while (rig.status.step < 5);
+    assert_int_equal(simulator_obeyed(rig.simulator, 5), taken);
+    assert_int_equal(simulator_send(rig.simulator, &carry), taken + 1);
+    rig_close(&rig);
+}
+
+/* A session of random commands on a running simulation gives its bits again; a reset keeps what was set. */
+static void a_saved_session_gives_the_same_bits(void **state)
+{
+    (void)state;
+    Rig rig;
+    static Session session;
+    Recording recording;
+    rig_open(&rig, NULL, false);
+    wait_for(&rig, is_ready);
+    SimCommand set = {.kind = SIM_SET, .setting = "gravity=[0, -3, 0]"};
+    assert_true(simulator_send(rig.simulator, &set) > 0);
+    usleep(30000);
+    simulator_reset(rig.simulator);
+    wait_for(&rig, is_ready);
+    for (int i = 0; !is_past_200(&rig) && i < 10000; i++) {
+        send_target(&rig, 0.2 * sin(i));
+        usleep(4000);
+        wait_for(&rig, is_ready);
+    }
+    assert_true(is_past_200(&rig));
+    simulator_save(rig.simulator, "a.rec");
+    wait_for(&rig, has_saved);
+    assert_true(rig.status.saved);
+    rig_close(&rig);
+
+    must(recording_read("a.rec", &recording, &error));
+    assert_true(recording.count > 10 && recording.steps > 200 && !recording.cut);
+    assert_int_equal(recording.commands[0].kind, SIM_SET);
+    RecordingPlay play = {.path = "a.rec", .recording = &recording};
+    must(recording_play_open(&play, NULL, &session, &error));
+    bool within_a_frame = false;
+    while (recording_play_apply(&play, &session, &error) && !recording_play_ended(&play, &session)) {
+        within_a_frame |= play.next > 0 && recording.commands[play.next - 1].step % 5 != 0;
+        must(session_substep(&session, &error));
+    }
+    assert_true(within_a_frame);
+    assert_true(world_hash(session.world) == recording.hash);
+    session_close(&session);
+    recording_destroy(&recording);
+}
+
+static void saving_may_fail(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, NULL, false);
+    wait_for(&rig, is_ready);
+    simulator_save(rig.simulator, "none/a.rec");
+    wait_for(&rig, has_saved);
+    assert_false(rig.status.saved);
+    assert_non_null(strstr(rig.status.save_message, "none"));
+    rig_close(&rig);
+}
+
+/* A wrong setting is told and changes nothing; what blows up stops, and a reset begins anew. */
+static void trouble_is_told(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, NULL, false);
+    wait_for(&rig, is_ready);
+    SimCommand set = {.kind = SIM_SET, .setting = "particles.spacing=0.05"};
+    assert_true(simulator_send(rig.simulator, &set) > 0);
+    wait_for(&rig, has_messages);
+    assert_false(rig.status.failed);
+    assert_non_null(strstr(rig.status.message, "particles.spacing"));
+    rig_close(&rig);
+
+    rig_open(&rig, "solver.step.dt=1", false);
+    wait_for(&rig, has_failed);
+    assert_non_null(strstr(rig.status.message, "blew up"));
+    simulator_reset(rig.simulator);
+    rig.status.failed = false;
+    wait_for(&rig, has_failed); /* the same again */
+    rig_close(&rig);
+}
+
+/* A frame that takes longer than the patience: the thread is left, and ends later. */
+static void an_end_does_not_wait_for_ever(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, "solver.step={dt: 0.01, substeps: 400}", false);
+    wait_for(&rig, is_ready);
+    usleep(20000);
+    const double began = wall_ms();
+    const bool ended = simulator_destroy(rig.simulator, 1);
+    assert_true(wall_ms() - began < 1000);
+    if (!ended)
+        assert_true(simulator_destroy(rig.simulator, 20000));
+    upload_destroy(rig.upload);
+    recording_destroy(&rig.recording);
+}
+
+static int setup(void **state)
+{
+    context = headless_create(HEADLESS_GPU_AUTO, &error);
+    return context ? folder_setup(state) : -1;
+}
+
+static int teardown(void **state)
+{
+    headless_destroy(context);
+    return folder_teardown(state);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(paused_it_steps_by_frames),
+        cmocka_unit_test(time_follows_the_clock),
+        cmocka_unit_test(states_tell_what_they_obey),
+        cmocka_unit_test(a_queue_has_an_end),
+        cmocka_unit_test(a_saved_session_gives_the_same_bits),
+        cmocka_unit_test(saving_may_fail),
+        cmocka_unit_test(trouble_is_told),
+        cmocka_unit_test(an_end_does_not_wait_for_ever),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
