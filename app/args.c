@@ -1,6 +1,7 @@
 #include "app/args.h"
 
 #include "app/args_table.h"
+#include "app/scene_path.h"
 #include "app/scene_suggest.h"
 
 #include <math.h>
@@ -288,10 +289,19 @@ static bool parse_help(Parser *parser)
     return true;
 }
 
-/* An option or a scene file in place of a command. */
+/* The name of a scene that comes with slosh: "dam_break". */
+static bool is_scene(const char *word)
+{
+    char path[SCENE_PATH_SIZE];
+    Error none;
+    const char *dot = scene_path_find(word, path, &none) ? strrchr(path, '.') : NULL;
+    return dot && strcmp(dot, ".yaml") == 0;
+}
+
+/* An option or a scene in place of a command. */
 static bool is_for_play(const char *word)
 {
-    return word[0] == '-' || strchr(word, '/') || strstr(word, ".yaml");
+    return word[0] == '-' || strchr(word, '/') || strstr(word, ".yaml") || is_scene(word);
 }
 
 static bool parse_command(Parser *parser)

@@ -115,6 +115,7 @@ static void slips_are_named(void **state)
 {
     (void)state;
     refuse("rendr s", "slosh: unknown command 'rendr'; did you mean 'render'?");
+    refuse("sim", "slosh: unknown command 'sim'");
     refuse("dance", "slosh: unknown command 'dance'; `slosh help` lists them");
     refuse("render s -o a.png --tme 3", "slosh render: unknown option '--tme'; did you mean '--time'?");
     refuse("render s -o a.png --xyzzy",
@@ -193,8 +194,8 @@ static void too_many_are_refused(void **state)
 static void play_is_what_is_meant_without_a_command(void **state)
 {
     (void)state;
-    static const char *const lines[] = {"",         "play",    "play a.yaml", "a.yaml",
-                                        "folder/a", "--quiet", "--quiet -- a"};
+    static const char *const lines[] = {"",         "play",    "play a.yaml",  "a.yaml",
+                                        "folder/a", "--quiet", "--quiet -- a", "dam_break"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         accept(lines[i]);
         assert_int_equal(args.command, COMMAND_PLAY);
