@@ -60,7 +60,7 @@ const OptionRow option_rows[] = {
     {"--view", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn; none: not at all"},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
     {"--gpu", "N", RENDER | BENCH | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which device draws, counted from 0"},
-    {"--shaders", "DIR", PLAY | RENDER | BENCH, OPTION_TEXT, AT(shaders), .help = "read the shaders from there"},
+    {"--shaders", "DIR", PLAY | RENDER | BENCH, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
     {"--json", "FILE", ALL | REPLAY, OPTION_TEXT, AT(json), .help = "write the figures there too"},
     {"--quiet", NULL, ALL | REPLAY, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
     {"--help", NULL, ALL | REPLAY, OPTION_HELP, .help = "this text"},

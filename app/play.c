@@ -6,6 +6,7 @@
 #include "app/scene_live.h"
 #include "render/legend.h"
 #include "sim/gl/debug.h"
+#include "sim/gl/shader_source.h"
 #include "sim/stage.h"
 #include "sim/world.h"
 
@@ -17,7 +18,8 @@
 #include <time.h>
 
 static const double LETTERS = 14; /* pixels high at scale 1 */
-static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, FOR_EVER_MS = 1e9;
+static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, SHADERS_MS = 300,
+                    FOR_EVER_MS = 1e9;
 
 void play_tell(Play *play, const char *format, ...)
 {
@@ -142,6 +144,27 @@ static void follow_scale(Play *play)
     text_destroy(text);
 }
 
+/* With --shaders: those that have changed are read again; where one is wrong, the last good ones stay. */
+static void follow_shaders(Play *play)
+{
+    Error error = {{0}};
+    if (wall_ms() < play->shaders_due_ms)
+        return;
+    play->shaders_due_ms = wall_ms() + SHADERS_MS;
+    const uint64_t stamp = shader_source_stamp();
+    if (stamp == play->shaders_stamp || play->width < 1 || play->height < 1)
+        return;
+    play->shaders_stamp = stamp;
+    Renderer *renderer = renderer_create(&play->open.scene.view, play->width, play->height, &error);
+    if (!renderer) {
+        play_tell(play, "%s", error.message);
+        return;
+    }
+    renderer_destroy(play->renderer);
+    play->renderer = renderer;
+    play_tell(play, "the shaders were read again");
+}
+
 static bool start(Play *play, Error *error)
 {
     const PlaySetup *setup = play->setup;
@@ -159,6 +182,7 @@ static bool start(Play *play, Error *error)
     if (!play->renderer)
         return false;
     const double letters = LETTERS * window_scale(play->window);
+    play->shaders_stamp = shader_source_stamp();
     play->text = text_create((float)letters, error);
     play->panel = play->width > 60 * letters; /* beside the fluid, not over it */
     play->ui.ui = play->text ? ui_create((float)letters, error) : NULL;
@@ -211,6 +235,7 @@ static bool run(Play *play, Error *error)
         play_events(play);
         listen(play);
         follow_scale(play);
+        follow_shaders(play);
         if (!follow_size(play, error))
             return false;
         const bool notice = wall_ms() < play->notice_until_ms;

@@ -89,6 +89,8 @@ typedef struct Play {
     double last_render_ms;
     size_t rendered, panels;
     PlayScript script;
+    uint64_t shaders_stamp; /* of the files of --shaders when they were read */
+    double shaders_due_ms;  /* wall time of the next look at them */
     size_t scenes_opened;
 } Play;
 

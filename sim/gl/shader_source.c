@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static char shader_directory[1024];
 
@@ -56,10 +57,31 @@ static char *read_stream(FILE *file)
     return text;
 }
 
+enum { NAME_MAX_SIZE = sizeof shader_directory + SHADER_PATH_MAX + 2 };
+
+static void name_in_directory(const char *path, char name[NAME_MAX_SIZE])
+{
+    snprintf(name, NAME_MAX_SIZE, "%s/%s", shader_directory, path);
+}
+
+uint64_t shader_source_stamp(void)
+{
+    uint64_t stamp = 0;
+    for (const EmbeddedShader *shader = embedded_shaders; shader_directory[0] && shader->path; shader++) {
+        char name[NAME_MAX_SIZE];
+        struct stat status;
+        name_in_directory(shader->path, name);
+        if (stat(name, &status) == 0)
+            stamp = stamp * 31 + (uint64_t)status.st_mtim.tv_sec * 1000000007U +
+                    (uint64_t)status.st_mtim.tv_nsec + 1;
+    }
+    return stamp;
+}
+
 static char *read_from_directory(const char *path)
 {
-    char name[sizeof shader_directory + SHADER_PATH_MAX + 2];
-    snprintf(name, sizeof name, "%s/%s", shader_directory, path);
+    char name[NAME_MAX_SIZE];
+    name_in_directory(path, name);
     FILE *file = fopen(name, "rb");
     if (!file)
         return NULL;

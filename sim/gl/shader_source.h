@@ -9,6 +9,7 @@
 #include "sim/error.h"
 
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct EmbeddedShader {
     const char *path, *text;
@@ -28,6 +29,10 @@ typedef struct ShaderSource {
 /* Shaders are read from `directory` from now on; NULL: the embedded ones. For all threads; set it before use.
  */
 void shader_source_set_directory(const char *directory);
+
+/* A number that changes with the files in that directory (by the times of their last change); 0 without a
+   directory. */
+uint64_t shader_source_stamp(void);
 
 /* `defines` are lines ("#define A 1\n") that stand before the file, or NULL. False when a file is missing:
    `error` says which, and where it is included. */

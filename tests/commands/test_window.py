@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -287,6 +288,26 @@ class Mouse(Window):
         first = out['box_position'][0]
         self.assertGreater(first, 0.05)
         self.assertLess(first, 0.6)  # all of the drag would be four times the first part
+
+
+class Shaders(Window):
+    def change(self, old, new):
+        with open(self.path('shaders/render/spheres_shade.frag'), 'r+', encoding='utf-8') as file:
+            text = file.read()
+            self.assertIn(old, text)
+            file.seek(0)
+            file.truncate()
+            file.write(text.replace(old, new))
+        time.sleep(0.8)
+
+    def test_changed_shaders_are_read_again(self):
+        shutil.copytree('shaders', self.path('shaders'))
+        self.open('still.yaml', '--shaders', 'shaders')
+        self.change('void main()', 'void main(')
+        self.change('void main(', 'void main()')
+        pictures = self.quit()['pictures']
+        self.assertGreater(pictures, 20)
+        self.assertRegex(self.messages, r'spheres_shade\.frag:\d+:[^\0]*the shaders were read again')
 
 
 class Panel(Window):
