@@ -129,7 +129,7 @@ static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelE
         if (automatic)
             emit(row, events, "auto");
         else
-            emit(row, events, "[%.4g, %.4g]", seen[0], seen[1] > seen[0] ? seen[1] : seen[0] + 1);
+            emit(row, events, "[%.9g, %.9g]", seen[0], seen[1] > seen[0] ? seen[1] : seen[0] + 1);
         return;
     }
     if (automatic)

@@ -18,19 +18,31 @@
 #include <time.h>
 
 static const double LETTERS = 14; /* pixels high at scale 1 */
-static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, SHADERS_MS = 300,
-                    FOR_EVER_MS = 1e9;
+static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, SHADERS_MS = 300;
+
+static void show_notice(Play *play, const char *words)
+{
+    snprintf(play->notice, sizeof play->notice, "%.300s", words);
+    play->notice_until_ms = wall_ms() + NOTICE_MS;
+    play->dirty = true;
+}
 
 void play_tell(Play *play, const char *format, ...)
 {
+    char words[sizeof(Error)];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(play->notice, sizeof play->notice, format, arguments);
+    vsnprintf(words, sizeof words, format, arguments);
     va_end(arguments);
-    play->notice_until_ms = wall_ms() + NOTICE_MS;
-    play->dirty = true;
+    show_notice(play, words);
     if (!play->setup->quiet)
-        fprintf(stderr, "%s\n", play->notice);
+        fprintf(stderr, "%s\n", words);
+}
+
+void play_error(Play *play, const char *message)
+{
+    show_notice(play, message);
+    fprintf(stderr, "%s\n", message);
 }
 
 void play_view_changed(Play *play)
@@ -38,7 +50,7 @@ void play_view_changed(Play *play)
     Error error = {{0}};
     play->dirty = true;
     if (!renderer_set_def(play->renderer, &play->open.scene.view, &error))
-        play_tell(play, "%s", error.message);
+        play_error(play, error.message);
 }
 
 _Static_assert((int)PANEL_SETTING_SIZE == SIM_SETTING_SIZE, "what the panel asks for fits into a command");
@@ -49,14 +61,14 @@ void play_set(Play *play, const char *setting)
     bool concerns_world;
     SimCommand command = {.kind = SIM_SET};
     if (!scene_set_live(&play->open.scene, setting, &concerns_world, &error)) {
-        play_tell(play, "%s", error.message);
+        play_error(play, error.message);
         return;
     }
     simulator_set_realtime(play->open.simulator, play->open.scene.realtime);
     play_view_changed(play);
     snprintf(command.setting, sizeof command.setting, "%s", setting);
     if (concerns_world && !simulator_send(play->open.simulator, &command))
-        play_tell(play, "too many changes wait for the next step; let the time run");
+        play_error(play, "too many changes wait for the next step; let the time run");
 }
 
 static double cpu_ms(void)
@@ -64,55 +76,6 @@ static double cpu_ms(void)
     struct timespec now;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
-
-static void adopt(Play *play, const PlayScene *opened)
-{
-    char title[192];
-    play->open = *opened;
-    play->file_scene = opened->scene;
-    play->has_particles = play->orbiting = false;
-    play->hand = hand_at_rest();
-    play->input = (PlayInput){.drag = PLAY_NONE, .looked_ms = wall_ms()};
-    play->saves = play->messages = 0;
-    play->scenes_opened++;
-    play->dirty = true;
-    meter_forget(&play->meter);
-    snprintf(title, sizeof title, "%s - slosh", opened->scene.title);
-    window_title(play->window, title);
-    simulator_set_speed(play->open.simulator, play->speed);
-}
-
-/* A software renderer keeps all processors busy by itself. A solver on as many threads waits at each of its
-   many barriers until the last of them gets its turn: on two processors a frame took 30 ms with two threads,
-   and 18 with one. The bits do not depend on it. */
-static void share_processors(WorldDef *def)
-{
-    if (def->threads == 0 && gl_renderer_is_software())
-        def->threads = world_processors() > 1 ? world_processors() / 2 : 1;
-}
-
-/* On failure the scene that is open stays. */
-bool play_open(Play *play, const char *scene, const SceneSettings *settings, Error *error)
-{
-    PlayScene opened;
-    char note[256] = "";
-    bool ok = play_scene_read(&opened, scene, settings, note, error);
-    share_processors(&opened.scene.world);
-    if (!ok || !play_scene_start(&opened, window_wake, play->paused, error)) {
-        play_scene_close(&opened, FOR_EVER_MS);
-        return false;
-    }
-    play->simulated_s += play->status.time - play->scene_began_s;
-    play->scene_began_s = 0;
-    play->status = (SimulatorStatus){.time = 0};
-    play_scene_close(&play->open, FOR_EVER_MS);
-    adopt(play, &opened);
-    if (note[0])
-        play_tell(play, "%s", note);
-    if (play->renderer)
-        play_view_changed(play);
-    return true;
 }
 
 static bool follow_size(Play *play, Error *error)
@@ -157,7 +120,7 @@ static void follow_shaders(Play *play)
     play->shaders_stamp = stamp;
     Renderer *renderer = renderer_create(&play->open.scene.view, play->width, play->height, &error);
     if (!renderer) {
-        play_tell(play, "%s", error.message);
+        play_error(play, error.message);
         return;
     }
     renderer_destroy(play->renderer);
@@ -192,18 +155,21 @@ static bool start(Play *play, Error *error)
     return play->ui.ui && (play->ui.panel || error_set(error, "no memory for the panel"));
 }
 
-/* What the solver has to say. */
-static void listen(Play *play)
+void play_listen(Play *play)
 {
-    simulator_status(play->open.simulator, &play->status);
-    if (play->status.messages != play->messages) {
-        play->messages = play->status.messages;
-        play_tell(play, "%s", play->status.message);
+    SimulatorStatus *status = &play->status;
+    simulator_status(play->open.simulator, status);
+    if (status->messages != play->messages) {
+        play->messages = status->messages;
+        play_error(play, status->message);
     }
-    if (play->status.saves != play->saves) {
-        play->saves = play->status.saves;
-        play_tell(play, "%s", play->status.save_message);
-    }
+    if (status->saves == play->saves)
+        return;
+    play->saves = status->saves;
+    if (status->saved)
+        play_tell(play, "%s", status->save_message);
+    else
+        play_error(play, status->save_message);
 }
 
 static bool hand_busy(const Play *play)
@@ -219,7 +185,8 @@ static bool hand_busy(const Play *play)
 static void pause_or_draw(Play *play)
 {
     const double now = wall_ms(), due = play->drew_ms + 900 / play->refresh;
-    const bool wanted = play->dirty || upload_fresh(play->open.upload);
+    const bool visible = play->width > 0 && play->height > 0;
+    const bool wanted = visible && (play->dirty || upload_fresh(play->open.upload) || play_movie_due(play));
     if (wanted && now >= due)
         play_draw(play);
     else if (wanted)
@@ -233,7 +200,8 @@ static bool run(Play *play, Error *error)
     bool noticed = false;
     while (!play->quit && !interrupted()) {
         play_events(play);
-        listen(play);
+        play_listen(play);
+        play_leave(play, 0);
         follow_scale(play);
         follow_shaders(play);
         if (!follow_size(play, error))
@@ -250,19 +218,12 @@ static bool run(Play *play, Error *error)
 /* The window goes at once; what is being written is finished behind it. */
 static bool finish(Play *play, Error *error)
 {
-    bool ok = true;
+    if (play->shoot) /* asked for in the last moment */
+        play_draw(play);
     window_hide(play->window);
-    play_movie_end(play);
-    if (play->setup->record && play->open.simulator) {
-        const unsigned saves = play->status.saves;
-        simulator_save(play->open.simulator, play->setup->record);
-        do {
-            window_wait(play->window, 0.01);
-            simulator_status(play->open.simulator, &play->status);
-        } while (play->status.saves == saves);
-        ok = play->status.saved || error_set(error, "%s", play->status.save_message);
-    }
-    return ok;
+    const bool movie = play_movie_end(play);
+    return (!play->setup->record || play_save_now(play, play->setup->record, error)) &&
+           (movie || error_set(error, "the video was not written"));
 }
 
 static void describe(const Play *play, PlayFigures *figures)
@@ -280,7 +241,7 @@ static void describe(const Play *play, PlayFigures *figures)
         .scenes_opened = play->scenes_opened,
         .step = play->status.step,
         .time = play->status.time,
-        .simulated_s = play->simulated_s + play->status.time - play->scene_began_s,
+        .simulated_s = play->simulated_s + play->status.simulated_s,
         .wall_s = play->began_ms > 0 ? wall : 0,
         .first_picture_ms = play->meter.first_ms,
         .sim_ms = play->status.frames ? play->status.solved_ms / (double)play->status.frames : 0,
@@ -318,7 +279,7 @@ static void describe(const Play *play, PlayFigures *figures)
 
 static void close_all(Play *play)
 {
-    play->stuck = !play_scene_close(&play->open, PATIENCE_MS);
+    play->stuck = !play_scene_close(&play->open, PATIENCE_MS) || !play_leave(play, PATIENCE_MS);
     if (play->stuck) /* in a frame that lasts seconds: the end of the process ends it */
         return;
     panel_destroy(play->ui.panel);
@@ -339,14 +300,18 @@ int play(const PlaySetup *setup, PlayFigures *figures)
     }
     *play = (Play){.setup = setup, .speed = 1, .input = {.drag = PLAY_NONE}};
     interrupt_install();
-    bool ok = start(play, &error) && run(play, &error);
-    if (play->window && play->open.simulator) {
-        simulator_status(play->open.simulator, &play->status);
-        describe(play, figures);
-        ok = finish(play, &error) && ok;
-    }
+    const bool started = start(play, &error);
+    bool ok = started && run(play, &error);
     if (!ok)
         fprintf(stderr, "%s\n", error.message);
+    if (started) {
+        simulator_status(play->open.simulator, &play->status);
+        describe(play, figures);
+        if (!finish(play, &error)) {
+            fprintf(stderr, "%s\n", error.message);
+            ok = false;
+        }
+    }
     close_all(play);
     if (!play->stuck)
         free(play);

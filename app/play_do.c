@@ -27,22 +27,21 @@ static void step_once(Play *play)
     simulator_single_step(play->open.simulator);
 }
 
-static void reset(Play *play)
-{
-    play->hand = hand_at_rest();
-    play->simulated_s += play->status.time - play->scene_began_s;
-    play->scene_began_s = 0;
-    simulator_reset(play->open.simulator);
-}
-
+/* One that is broken is left out. */
 static void open_neighbour(Play *play, int by)
 {
-    char path[1024];
-    Error error = {{0}};
-    if (!play_scene_neighbour(play->open.scene.path, by, path))
-        play_tell(play, "there is no other scene beside %s", play->open.scene.path);
-    else if (!play_open(play, path, NULL, &error))
-        play_tell(play, "%s", error.message);
+    char path[1024], present[1024];
+    bool opened = false;
+    snprintf(present, sizeof present, "%s", play->open.scene.path);
+    for (int way = by; !opened && play_scene_neighbour(present, way, path) && strcmp(path, present) != 0;
+         way += by) {
+        Error error = {{0}};
+        opened = play_open(play, path, NULL, &error);
+        if (!opened)
+            play_error(play, error.message);
+    }
+    if (!opened)
+        play_tell(play, "there is no other scene to open beside %s", present);
 }
 
 /* A range that the file gives belongs to the file's scalar. */
@@ -97,7 +96,7 @@ void play_do(Play *play, PlayCommand command)
         step_once(play);
         break;
     case PLAY_RESET:
-        reset(play);
+        play_reset(play);
         break;
     case PLAY_SLOWER:
         set_speed(play, 0.5);
@@ -118,7 +117,7 @@ void play_do(Play *play, PlayCommand command)
         next_colormap(play);
         break;
     case PLAY_SCREENSHOT:
-        play_screenshot(play);
+        play->shoot = true;
         break;
     case PLAY_VIDEO:
         play_movie_toggle(play);

@@ -30,12 +30,12 @@ static void draw_notice(Play *play, const char *notice)
 
 static void draw_words(Play *play)
 {
-    if (play->status.failed)
+    if (wall_ms() < play->notice_until_ms)
+        draw_notice(play, play->notice);
+    else if (play->status.failed)
         draw_notice(play, play->status.message);
     else if (!play->has_particles)
         draw_notice(play, "filling the box ...");
-    else if (wall_ms() < play->notice_until_ms)
-        draw_notice(play, play->notice);
 }
 
 /* What the user does while the GPU draws is obeyed a picture sooner. */
@@ -55,7 +55,7 @@ static void begin_counting(Play *play)
     play->began_ms = wall_ms();
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
     play->began_cpu_ms = 1e3 * (double)cpu.tv_sec + 1e-6 * (double)cpu.tv_nsec;
-    play->scene_began_s = play->particles.time;
+    play->simulated_s = -play->status.simulated_s;
 }
 
 void play_draw(Play *play)
@@ -73,6 +73,8 @@ void play_draw(Play *play)
         play_events(play);
         renderer_present(play->renderer);
         play_movie_picture(play);
+        if (play->shoot)
+            play_screenshot(play);
     } else {
         draw_waiting(play);
     }

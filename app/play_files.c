@@ -11,7 +11,7 @@
 static const double MOVIE_FPS = 30;
 
 /* slosh-20261121-101500.png, or -2, -3, ... where that is there. */
-static void name_file(char path[1024], const char *extension)
+void play_name_file(char path[1024], const char *extension)
 {
     char stamp[32];
     const time_t now = time(NULL);
@@ -36,30 +36,36 @@ void play_screenshot(Play *play)
     Output output = {.temp = ""};
     Error error = {{0}};
     char path[1024];
-    name_file(path, "png");
-    if (!play->has_particles)
-        return;
+    play_name_file(path, "png");
+    play->shoot = false;
     if (read_picture(play, &image, &error) && output_begin(&output, path, &error) &&
         image_write(&image, output.temp, &error) && output_commit(&output, &error))
         play_tell(play, "%s: the picture", path);
     else
-        play_tell(play, "%s", error.message);
+        play_error(play, error.message);
     output_discard(&output);
     image_destroy(&image);
 }
 
-void play_movie_end(Play *play)
+bool play_movie_end(Play *play)
 {
     PlayMovie *movie = &play->movie;
     Error error = {{0}};
     Video *video = movie->video;
     if (!video)
-        return;
+        return true;
     movie->video = NULL;
-    if (video_finish(video, &error))
-        play_tell(play, "%s: the video, %.1f s", movie->path, (double)movie->pictures / MOVIE_FPS);
-    else
-        play_tell(play, "%s", error.message);
+    if (!video_finish(video, &error)) {
+        play_error(play, error.message);
+        return false;
+    }
+    play_tell(play, "%s: the video, %.1f s", movie->path, (double)movie->pictures / MOVIE_FPS);
+    return true;
+}
+
+bool play_movie_due(const Play *play)
+{
+    return play->movie.video && wall_ms() >= play->movie.next_ms;
 }
 
 void play_movie_toggle(Play *play)
@@ -71,20 +77,21 @@ void play_movie_toggle(Play *play)
         return;
     }
     *movie = (PlayMovie){.width = play->width, .height = play->height};
-    name_file(movie->path, "mp4");
+    play_name_file(movie->path, "mp4");
     movie->video = video_create(movie->path, movie->width, movie->height, MOVIE_FPS, &error);
     if (movie->video)
         play_tell(play, "%s: recording until you ask again", movie->path);
     else
-        play_tell(play, "%s", error.message);
+        play_error(play, error.message);
     play->dirty = true;
 }
 
-/* As many times as its frames are due: a video runs at its own, even pace. */
+/* As many times as its frames are due: a video runs at its own, even pace. What a stall of more than a second
+   left out stays out. */
 static bool add_due(PlayMovie *movie, const Image *image, Error *error)
 {
     const double now = wall_ms();
-    if (movie->pictures == 0)
+    if (movie->pictures == 0 || movie->next_ms < now - 1000)
         movie->next_ms = now;
     while (movie->next_ms <= now) {
         if (!video_add(movie->video, image->rgb, error))
@@ -100,7 +107,7 @@ void play_movie_picture(Play *play)
     PlayMovie *movie = &play->movie;
     Image image = {0};
     Error error = {{0}};
-    if (!movie->video || (movie->pictures > 0 && wall_ms() < movie->next_ms))
+    if (!play_movie_due(play))
         return;
     if (play->width != movie->width || play->height != movie->height) {
         play_movie_end(play);
@@ -109,7 +116,7 @@ void play_movie_picture(Play *play)
     if (!read_picture(play, &image, &error) || !add_due(movie, &image, &error)) {
         video_discard(movie->video);
         movie->video = NULL;
-        play_tell(play, "%s", error.message);
+        play_error(play, error.message);
     }
     image_destroy(&image);
 }
@@ -117,6 +124,7 @@ void play_movie_picture(Play *play)
 void play_save(Play *play)
 {
     char path[1024];
-    name_file(path, "recording");
-    simulator_save(play->open.simulator, path);
+    play_name_file(path, "recording");
+    if (!simulator_save(play->open.simulator, path))
+        play_error(play, "the session before is still being saved; try again in a moment");
 }

@@ -17,9 +17,9 @@ static Orbit present_orbit(const Play *play)
     const ViewDef *view = &play->open.scene.view;
     const ParticleBuffers *particles = &play->particles;
     const Covered covered = {play_covered_left(play), legend_width_pixels(view, play->height) / play->width};
-    return play->orbiting ? play->orbit
-                          : orbit_begin(view, particles->box_size, &particles->box,
-                                        (double)play->width / play->height, covered);
+    return play->orbiting && !view->camera_auto ? play->orbit
+                                                : orbit_begin(view, particles->box_size, &particles->box,
+                                                              (double)play->width / play->height, covered);
 }
 
 static void take_camera(Play *play)
@@ -122,12 +122,26 @@ static void on_key(Play *play, const WindowEvent *event)
         play_do(play, command);
 }
 
+/* Whether a drag or a key has the box. */
+static bool holds_box(const PlayInput *input)
+{
+    bool holds = input->drag == PLAY_MOVE_DRAG || input->drag == PLAY_TURN_DRAG;
+    for (const PlayHeldKey *held = play_held_keys; held->key; held++)
+        holds |= input->down[held->key];
+    return holds;
+}
+
 /* What was held is let go: the box stops where it is. */
-void play_let_go(Play *play)
+static void let_go(Play *play)
 {
     PlayInput *input = &play->input;
+    const bool held = holds_box(input);
     memset(input->down, 0, sizeof input->down);
+    memset(input->move_drag, 0, sizeof input->move_drag);
+    memset(input->turn_drag, 0, sizeof input->turn_drag);
     input->drag = PLAY_NONE;
+    if (!held)
+        return;
     simulator_status(play->open.simulator, &play->status);
     hand_let_go(&play->hand, &play->status.hand);
 }
@@ -138,12 +152,12 @@ static bool too_early(const Play *play, WindowEventKind kind)
     return !play->has_particles && (kind == WINDOW_BUTTON || kind == WINDOW_MOVE || kind == WINDOW_WHEEL);
 }
 
-void play_event(Play *play, const WindowEvent *event)
+static void take_event(Play *play, const WindowEvent *event)
 {
     Error error = {{0}};
+    play_panel_event(play, event);
     if (too_early(play, event->kind))
         return;
-    play_panel_event(play, event);
     if (play_panel_takes(play, event))
         return;
     switch (event->kind) {
@@ -161,11 +175,11 @@ void play_event(Play *play, const WindowEvent *event)
         break;
     case WINDOW_FOCUS:
         if (!event->down && play->has_particles)
-            play_let_go(play);
+            let_go(play);
         break;
     case WINDOW_DROP:
         if (!play_open(play, event->path, NULL, &error))
-            play_tell(play, "%s", error.message);
+            play_error(play, error.message);
         break;
     case WINDOW_CLOSE:
         play->quit = true;
@@ -176,6 +190,15 @@ void play_event(Play *play, const WindowEvent *event)
         break;
     }
     play->dirty |= event->kind == WINDOW_RESIZE || event->kind == WINDOW_EXPOSE;
+}
+
+/* Letters and signs count as the user's keyboard has them. */
+void play_event(Play *play, const WindowEvent *event)
+{
+    WindowEvent own = *event;
+    if (own.kind == WINDOW_KEY)
+        own.key = play_key_on_layout(own.key, own.label);
+    take_event(play, &own);
 }
 
 static int modifiers_of(const bool *down)
@@ -236,7 +259,7 @@ void play_hand(Play *play)
     input->looked_ms = now;
     if (hand_update(&play->hand, &hand, particles->box_size, &command.target)) {
         const uint64_t number = simulator_send(play->open.simulator, &command);
-        if (number && input->hand_event_ms > 0)
+        if (number && input->hand_event_ms > 0 && !play->paused)
             meter_event(&play->meter, input->hand_event_ms, number);
     }
     input->hand_event_ms = 0;

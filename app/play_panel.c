@@ -84,7 +84,7 @@ void play_panel_event(Play *play, const WindowEvent *event)
 bool play_panel_takes(const Play *play, const WindowEvent *event)
 {
     const PlayUi *ui = &play->ui;
-    if ((!play->panel && !play->help) || !ui->ui || play->input.drag != PLAY_NONE)
+    if ((!play->panel && !play->help) || !play->has_particles || play->input.drag != PLAY_NONE)
         return false;
     switch (event->kind) {
     case WINDOW_BUTTON:

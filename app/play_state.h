@@ -61,6 +61,7 @@ typedef struct Play {
     Text *text;
     PlayUi ui;
     PlayScene open;
+    PlayScene left;            /* the one before, whose solver has not ended yet; or zero */
     Scene file_scene;          /* as its file has it */
     ParticleBuffers particles; /* what is drawn */
     bool has_particles;
@@ -75,6 +76,7 @@ typedef struct Play {
     double refresh;    /* pictures a second that the display shows */
     double speed;
     bool paused, panel, help, quit;
+    bool shoot;     /* the next picture is to be saved */
     bool dirty;     /* a picture is due though no new state is there */
     bool stuck;     /* the solver did not end in time: nothing may be freed */
     unsigned saves; /* of sessions, that were told */
@@ -84,8 +86,8 @@ typedef struct Play {
     double drew_ms;  /* wall time at which the last picture was begun */
     double began_ms; /* wall time of the first picture; 0: none yet */
     double began_cpu_ms;
-    double simulated_s, scene_began_s; /* before the last reset; time at which counting began */
-    double render_ms, panel_ms;        /* sums over all pictures */
+    double simulated_s;         /* of the scenes before, less what was simulated before the first picture */
+    double render_ms, panel_ms; /* sums over all pictures */
     double last_render_ms;
     size_t rendered, panels;
     PlayScript script;
@@ -97,11 +99,21 @@ typedef struct Play {
 /* Shows a line in the picture for some seconds and says it on standard error. */
 void play_tell(Play *play, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* The same for what is wrong, which --quiet does not silence. */
+void play_error(Play *play, const char *message);
+
 /* play.c */
-bool play_open(Play *play, const char *scene, const SceneSettings *settings, Error *error);
+void play_listen(Play *play); /* asks the solver how it stands, and shows what it has to say */
 void play_view_changed(Play *play);
 /* "path=value" of a live key: for the picture now, for the solver from its next step on. */
 void play_set(Play *play, const char *setting);
+
+/* play_open.c */
+bool play_open(Play *play, const char *scene, const SceneSettings *settings, Error *error);
+bool play_leave(Play *play, double patience_ms); /* whether the scene that was open before has ended */
+void play_reset(Play *play);
+/* Writes the session so far, and waits for it. */
+bool play_save_now(Play *play, const char *path, Error *error);
 
 /* play_do.c: does what a row of the list of commands says. */
 void play_do(Play *play, PlayCommand command);
@@ -110,7 +122,6 @@ void play_do(Play *play, PlayCommand command);
 void play_shake(Play *play);  /* the script's events that are due */
 void play_events(Play *play); /* takes what has come, sends what it means */
 void play_event(Play *play, const WindowEvent *event);
-void play_let_go(Play *play);
 void play_hand(Play *play);
 
 /* play_draw.c: one picture on the screen; false when it could not be drawn. */
@@ -126,10 +137,12 @@ void play_panel_draw(Play *play);
 double play_covered_left(const Play *play);
 
 /* play_files.c */
-void play_screenshot(Play *play);
+void play_name_file(char path[1024], const char *extension); /* a new name with the time */
+void play_screenshot(Play *play);                            /* of what was just drawn */
 void play_movie_toggle(Play *play);
-void play_movie_picture(Play *play); /* takes what was drawn, when a picture is due */
-void play_movie_end(Play *play);
-void play_save(Play *play); /* the session, under a name of its own */
+void play_movie_picture(Play *play);   /* takes what was drawn, when a picture is due */
+bool play_movie_due(const Play *play); /* whether the video needs a picture now */
+bool play_movie_end(Play *play);       /* false when it could not be written whole */
+void play_save(Play *play);            /* the session, under a name of its own */
 
 #endif

@@ -1,5 +1,6 @@
 #include "app/simulator.h"
 
+#include "app/command_queue.h"
 #include "sim/world.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { QUEUE_MAX = 256, OBEYED_MAX = 512 };
+enum { OBEYED_MAX = 512 };
 
 static const double BEHIND_MS = 100; /* less is caught up with; more is left out */
 static const double PACE_MS = 1000;  /* the real-time factor is of this long */
@@ -25,12 +26,13 @@ struct Simulator {
     pthread_mutex_t lock; /* of all down to `obeyed` */
     pthread_cond_t changed;
     bool quit, ended;
-    bool paused, realtime, reset, save;
+    bool paused, realtime, reset;
     bool single; /* one frame although paused */
     double speed;
+    bool save, saving; /* asked for; asked for and not done */
+    bool save_later;   /* a reset was asked for before it */
     char save_path[1024];
-    int queued;
-    SimCommand queue[QUEUE_MAX];
+    CommandQueue queue;
     uint64_t sent;     /* commands */
     double last_due;   /* wall time at which the last frame was to begin, ms */
     double frame_time; /* dt, s */
@@ -52,9 +54,8 @@ struct Simulator {
 /* What the solver's thread is to do next. */
 typedef struct Work {
     bool reset, save, frame;
-    int count;
-    SimCommand commands[QUEUE_MAX];
-    uint64_t taken;
+    char save_path[1024];
+    CommandQueue commands;
 } Work;
 
 static void tell(Simulator *simulator, bool failed, const char *message)
@@ -72,6 +73,7 @@ static void describe(Simulator *simulator, const WorldInfo *info)
 {
     SimulatorStatus *status = &simulator->status;
     status->ready = true;
+    status->simulated_s += fmax(info->time - status->time, 0);
     status->time = info->time;
     status->step = info->step;
     status->hand = info->hand;
@@ -121,47 +123,51 @@ static void obey(Simulator *simulator, const SimCommand *command)
 }
 
 /* The new session begins with what the hand has set in the old one: settings stay, poses do not. */
-static void restart(Simulator *simulator)
+static void restart(Simulator *simulator, Work *work)
 {
     Recording before = simulator->recording;
     Error error = {{0}};
     pthread_mutex_lock(&simulator->lock);
     simulator->status.failed = false;
     simulator->status.frames = 0;
+    simulator->status.solved_ms = 0;
     pthread_mutex_unlock(&simulator->lock);
     world_start(simulator);
     simulator->recording_lost = !recording_create(&simulator->recording, before.path, before.text,
                                                   before.size, &before.settings, &error);
-    for (size_t i = 0; i < before.count && simulator->world; i++) {
-        SimCommand command = before.commands[i];
-        command.step = 0;
-        if (command.kind == SIM_SET)
-            obey(simulator, &command);
+    static const CommandQueue none;
+    work->commands = none;
+    for (size_t i = 0; i < before.count; i++)
+        if (before.commands[i].kind == SIM_SET)
+            command_queue_add(&work->commands, &before.commands[i]);
+    for (int i = 0; i < work->commands.count && simulator->world; i++) {
+        work->commands.commands[i].step = 0;
+        obey(simulator, &work->commands.commands[i]);
     }
     recording_destroy(&before);
 }
 
-static void save(Simulator *simulator)
+static void save(Simulator *simulator, const char *path)
 {
     Error error = {{0}};
     bool ok = false;
     WorldInfo info;
     if (!simulator->world) {
-        error_set(&error, "%s: there is no session to save", simulator->save_path);
+        error_set(&error, "%s: there is no session to save", path);
     } else if (simulator->recording_lost) {
-        error_set(&error, "%s: the session was too long to be kept", simulator->save_path);
+        error_set(&error, "%s: the session was too long to be kept", path);
     } else {
         world_info(simulator->world, &info);
-        ok = recording_write(&simulator->recording, info.step, world_hash(simulator->world),
-                             simulator->save_path, &error);
+        ok = recording_write(&simulator->recording, info.step, world_hash(simulator->world), path, &error);
     }
     pthread_mutex_lock(&simulator->lock);
     SimulatorStatus *status = &simulator->status;
+    simulator->saving = false;
     status->saves++;
     status->saved = ok;
     if (ok)
-        snprintf(status->save_message, sizeof status->save_message, "%.900s: the session, %.4g s",
-                 simulator->save_path, info.time);
+        snprintf(status->save_message, sizeof status->save_message, "%.900s: the session, %.4g s", path,
+                 info.time);
     else
         snprintf(status->save_message, sizeof status->save_message, "%s", error.message);
     pthread_mutex_unlock(&simulator->lock);
@@ -197,22 +203,24 @@ static void count_frame(Simulator *simulator, double began, const StageClock *cl
     pthread_mutex_unlock(&simulator->lock);
 }
 
-/* The commands that wait apply at once, between two substeps: sooner by most of a frame than at its start. */
-static void obey_all(Simulator *simulator, Work *work)
+/* The commands that wait apply at once, between two substeps: sooner by most of a frame than at its start.
+   False when the end has come. */
+static bool obey_all(Simulator *simulator, Work *work)
 {
     WorldInfo info;
     pthread_mutex_lock(&simulator->lock);
-    work->count = simulator->queued;
-    memcpy(work->commands, simulator->queue, sizeof *work->commands * (size_t)work->count);
-    work->taken = simulator->sent;
-    simulator->queued = 0;
+    const bool go_on = !simulator->quit;
+    const uint64_t taken = simulator->sent;
+    work->commands = simulator->queue;
+    simulator->queue.count = 0;
     pthread_mutex_unlock(&simulator->lock);
     world_info(simulator->world, &info);
-    for (int i = 0; i < work->count; i++) {
-        work->commands[i].step = info.step;
-        obey(simulator, &work->commands[i]);
+    for (int i = 0; i < work->commands.count; i++) {
+        work->commands.commands[i].step = info.step;
+        obey(simulator, &work->commands.commands[i]);
     }
-    simulator->taken = work->taken;
+    simulator->taken = taken;
+    return go_on;
 }
 
 static void run_frame(Simulator *simulator, Work *work)
@@ -222,12 +230,12 @@ static void run_frame(Simulator *simulator, Work *work)
     const double began = wall_ms();
     const int substeps = simulator->scene.world.substeps;
     bool ok = true;
-    for (int i = 0; i < substeps && ok; i++) {
-        obey_all(simulator, work);
+    for (int i = 0; i < substeps && ok && obey_all(simulator, work); i++) {
         ok = world_substep(simulator->world, &clock, &error);
         if (ok)
             STAGE (&clock, STAGE_UPLOAD)
                 ok = publish(simulator, &error);
+        awaken(simulator);
     }
     count_frame(simulator, began, &clock);
     if (!ok)
@@ -264,23 +272,31 @@ static bool frame_due(Simulator *simulator)
     return false;
 }
 
-/* False at the end. */
+static void take_save(Simulator *simulator, Work *work)
+{
+    work->save = true;
+    simulator->save = false;
+    memcpy(work->save_path, simulator->save_path, sizeof work->save_path);
+}
+
+/* One thing to do, in the order in which it was asked for; a save is done even at the end. False then. */
 static bool take_work(Simulator *simulator, Work *work)
 {
-    *work = (Work){0};
+    work->reset = work->save = work->frame = false;
     pthread_mutex_lock(&simulator->lock);
-    while (!simulator->quit && !work->reset && !work->save && !work->frame) {
-        work->reset = simulator->reset;
-        work->save = simulator->save;
-        if (!work->reset && !work->save)
-            work->frame = frame_due(simulator);
+    while (!work->save && !work->reset && !work->frame && !(simulator->quit && !simulator->save)) {
+        if (simulator->save && !(simulator->save_later && simulator->reset)) {
+            take_save(simulator, work);
+        } else if (simulator->reset) {
+            work->reset = true;
+            simulator->reset = false;
+        } else if (frame_due(simulator)) {
+            work->frame = true;
+            simulator->single = false;
+        }
     }
-    simulator->reset = simulator->save = false;
-    if (work->frame)
-        simulator->single = false;
-    const bool go_on = !simulator->quit;
     pthread_mutex_unlock(&simulator->lock);
-    return go_on;
+    return work->save || work->reset || work->frame;
 }
 
 static void *simulate(void *argument)
@@ -296,9 +312,9 @@ static void *simulate(void *argument)
     pthread_mutex_unlock(&simulator->lock);
     while (work && take_work(simulator, work)) {
         if (work->reset)
-            restart(simulator);
+            restart(simulator, work);
         if (work->save)
-            save(simulator);
+            save(simulator, work->save_path);
         if (work->frame)
             run_frame(simulator, work);
     }
@@ -420,46 +436,29 @@ void simulator_reset(Simulator *simulator)
 {
     change_begin(simulator);
     simulator->reset = true;
+    simulator->single = false;
+    command_queue_drop_poses(&simulator->queue);
     change_end(simulator);
 }
 
-void simulator_save(Simulator *simulator, const char *path)
+bool simulator_save(Simulator *simulator, const char *path)
 {
     change_begin(simulator);
-    simulator->save = true;
-    snprintf(simulator->save_path, sizeof simulator->save_path, "%s", path);
-    change_end(simulator);
-}
-
-/* Whether `newer` leaves nothing of `older` to be seen. */
-static bool replaces(const SimCommand *newer, const SimCommand *older)
-{
-    if (newer->kind != older->kind || newer->kind == SIM_CARRY)
-        return false;
-    if (newer->kind == SIM_TARGET)
-        return true;
-    const size_t key = strcspn(newer->setting, "=");
-    return key == strcspn(older->setting, "=") && strncmp(newer->setting, older->setting, key) == 0;
-}
-
-static bool enqueue(Simulator *simulator, const SimCommand *command)
-{
-    int last = simulator->queued - 1;
-    if (last >= 0 && replaces(command, &simulator->queue[last])) {
-        simulator->queue[last] = *command;
-        return true;
+    const bool taken = !simulator->saving && !simulator->ended;
+    if (taken) {
+        simulator->save = simulator->saving = true;
+        simulator->save_later = simulator->reset;
+        snprintf(simulator->save_path, sizeof simulator->save_path, "%s", path);
     }
-    if (simulator->queued == QUEUE_MAX)
-        return false;
-    simulator->queue[simulator->queued++] = *command;
-    return true;
+    change_end(simulator);
+    return taken;
 }
 
 uint64_t simulator_send(Simulator *simulator, const SimCommand *command)
 {
     uint64_t number = 0;
     change_begin(simulator);
-    if (enqueue(simulator, command))
+    if (command_queue_add(&simulator->queue, command))
         number = ++simulator->sent;
     change_end(simulator);
     return number;
@@ -484,6 +483,8 @@ void simulator_status(Simulator *simulator, SimulatorStatus *status)
     pthread_mutex_lock(&simulator->lock);
     *status = simulator->status;
     status->paused = simulator->paused;
+    status->ended = simulator->ended;
+    status->saving = simulator->saving;
     status->realtime = simulator->realtime;
     status->speed = simulator->speed;
     const int count = status->history_count, next = simulator->history_next;

@@ -44,13 +44,13 @@ void simulator_set_speed(Simulator *simulator,
                          double speed); /* simulated seconds in a second, in real time */
 void simulator_set_realtime(Simulator *simulator, bool realtime);
 
-/* The scene from its start, with the values that its file and the command line gave it: a new world, and a
-   new recording. */
+/* The scene from its start: a new world, and a new recording. What was set since stays set; poses that wait
+   are forgotten. */
 void simulator_reset(Simulator *simulator);
 
-/* A command for the next step; its `step` is set there. A target replaces one that still waits,
-   and so does a setting of the same key. Returns its number, counted from 1, or 0 when too many wait (the
-   simulation is paused and hundreds of keys were set). */
+/* A command for the next step; its `step` is set there. It replaces what waits and is moot by it
+   (app/command_queue.h). Returns its number, counted from 1, or 0 when too many wait, which takes more keys
+   than there are. */
 uint64_t simulator_send(Simulator *simulator, const SimCommand *command);
 
 /* How many commands the state of that step had obeyed, of those counted by simulator_send; of the last few
@@ -58,27 +58,31 @@ uint64_t simulator_send(Simulator *simulator, const SimCommand *command);
 uint64_t simulator_obeyed(Simulator *simulator, uint64_t step);
 
 /* Writes the session since the last start of the scene to `path`, from the solver's thread, when the frame in
-   hand is done; SimulatorStatus.saved tells the end. */
-void simulator_save(Simulator *simulator, const char *path);
+   hand is done and before anything that is asked for later, the end included; SimulatorStatus.saves counts
+   what is done. False while an earlier one is not. */
+bool simulator_save(Simulator *simulator, const char *path);
 
 enum { SIMULATOR_HISTORY = 120 };
 
 typedef struct SimulatorStatus {
     bool ready;  /* the world is there */
     bool failed; /* it stopped, or could not be made: `message` says why; a reset starts it anew */
+    bool ended;  /* the thread; nothing will be done any more */
     bool paused, realtime;
     char message[1024]; /* of the failure, or of a command that could not be obeyed; "" */
     unsigned messages;  /* counts messages */
     double speed;
     double time;             /* s, of the last state */
+    double simulated_s;      /* all resets together */
     uint64_t step, frames;   /* since the scene's start */
     double real_time_factor; /* simulated over wall time in the last second; 0 while paused */
-    double solved_ms;        /* wall time of all frames since the thread began */
+    double solved_ms;        /* wall time of these frames */
     double behind_s;         /* wall time that the solver could not keep up with, in all, s */
     BoxTarget hand;          /* the hand's part of the box's pose, as the filter has it */
     StageTimes stages;       /* of the last frame */
     int history_count;       /* of `history`: wall time of the last frames, ms, oldest first */
     float history[SIMULATOR_HISTORY];
+    bool saving;             /* a simulator_save is not done yet */
     unsigned saves;          /* counts simulator_save that ended */
     bool saved;              /* whether the last one succeeded */
     char save_message[1024]; /* its error, or what it saved */

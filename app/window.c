@@ -31,8 +31,12 @@ static void on_error(int code, const char *text)
     snprintf(last_reason, sizeof last_reason, "%s", text);
 }
 
+/* When nobody asks for long, what repeats gives way to what must not be lost: releases, an end. */
 static void append(Window *window, const WindowEvent *event)
 {
+    const bool repeats = event->repeated || event->kind == WINDOW_TEXT || event->kind == WINDOW_WHEEL;
+    if (repeats && window->count > EVENTS_MAX / 2)
+        return;
     if (window->count == EVENTS_MAX) /* nobody asked for so long: the oldest are stale */
         window->first = (window->first + 1) % EVENTS_MAX, window->count--;
     WindowEvent *place = &window->events[(window->first + window->count++) % EVENTS_MAX];
@@ -51,12 +55,14 @@ static double density(GLFWwindow *glfw)
 
 static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int modifiers)
 {
-    (void)scancode;
-    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_KEY,
-                                                          .key = key,
-                                                          .modifiers = modifiers,
-                                                          .down = action != GLFW_RELEASE,
-                                                          .repeated = action == GLFW_REPEAT});
+    const char *label = glfwGetKeyName(key, scancode);
+    WindowEvent event = {.kind = WINDOW_KEY,
+                         .key = key,
+                         .modifiers = modifiers,
+                         .down = action != GLFW_RELEASE,
+                         .repeated = action == GLFW_REPEAT};
+    snprintf(event.label, sizeof event.label, "%s", label ? label : "");
+    append(glfwGetWindowUserPointer(glfw), &event);
 }
 
 static void on_text(GLFWwindow *glfw, unsigned codepoint)

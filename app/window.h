@@ -29,6 +29,7 @@ typedef struct WindowEvent {
     double when_ms; /* wall time */
     bool down, repeated;
     int key, button, modifiers; /* as GLFW counts them */
+    char label[8];              /* what the key types on the user's keyboard; "": nothing */
     unsigned codepoint;
     double x, y;
     char path[1024];

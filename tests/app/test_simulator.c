@@ -140,7 +140,8 @@ static double time_in(Rig *rig, double ms)
     return 1e3 * (rig->status.time - began) / (wall_ms() - clock);
 }
 
-/* In real time as fast as the clock, times the speed; never faster, and slower only on a busy machine. */
+/* In real time as fast as the clock, times the speed, but for the tenth of a second that may be caught up
+   with; slower only on a busy machine. */
 static void time_follows_the_clock(void **state)
 {
     (void)state;
@@ -153,9 +154,9 @@ static void time_follows_the_clock(void **state)
     simulator_set_realtime(rig.simulator, false);
     const double free_running = time_in(&rig, 500);
     simulator_pause(rig.simulator, true);
-    usleep(50000);
+    usleep(300000); /* the frame in hand is finished */
     const double paused = time_in(&rig, 100);
-    assert_true(real < 1.3 && slow < 0.35 && slow > 0);
+    assert_true(real < 1.5 && slow < 0.5 && slow > 0);
     assert_true(real > slow && free_running > slow);
     assert_true(paused == 0);
     rig_close(&rig);
@@ -187,25 +188,87 @@ static void states_tell_what_they_obey(void **state)
     rig_close(&rig);
 }
 
-/* While time stands still what is sent waits; too much is refused, and nothing of it is lost. */
-static void a_queue_has_an_end(void **state)
+/* While time stands still what is sent waits, however much it is. */
+static void what_waits_is_replaced(void **state)
+{
+    (void)state;
+    Rig rig;
+    uint64_t sent = 0;
+    rig_open(&rig, NULL, true);
+    wait_for(&rig, is_ready);
+    for (int i = 0; i <= 1000; i++) {
+        SimCommand set = {.kind = SIM_SET};
+        snprintf(set.setting, sizeof set.setting, "gravity=[0, %d, 0]", -i);
+        assert_int_equal(simulator_send(rig.simulator, &set), ++sent);
+        assert_int_equal(send_target(&rig, 1e-3 * i), ++sent);
+    }
+    simulator_single_step(rig.simulator);
+    do
+        wait_for(&rig, has_shown_all);
+    while (rig.status.step < 5);
+    assert_int_equal(simulator_obeyed(rig.simulator, 5), sent);
+    simulator_save(rig.simulator, "a.rec");
+    wait_for(&rig, has_saved);
+    rig_close(&rig);
+    Recording recording;
+    must(recording_read("a.rec", &recording, &error));
+    assert_int_equal(recording.count, 2);
+    assert_string_equal(recording.commands[0].setting, "gravity=[0, -1000, 0]");
+    assert_true(recording.commands[1].target.position[0] == 1);
+    recording_destroy(&recording);
+}
+
+/* What waits for the box is of the old session; what was set stays set. */
+static void a_reset_forgets_poses(void **state)
 {
     (void)state;
     Rig rig;
     rig_open(&rig, NULL, true);
     wait_for(&rig, is_ready);
-    uint64_t taken = 0, number;
-    const SimCommand carry = {.kind = SIM_CARRY, .target = {{0.01, 0, 0}, {0, 0, 0, 1}}};
-    while ((number = simulator_send(rig.simulator, &carry)) > 0)
-        assert_int_equal(number, ++taken);
-    assert_true(taken > 100);
+    SimCommand set = {.kind = SIM_SET, .setting = "gravity=[0, -3, 0]"};
+    assert_true(simulator_send(rig.simulator, &set) > 0);
+    send_target(&rig, 0.5);
+    simulator_reset(rig.simulator);
     simulator_single_step(rig.simulator);
     do
         wait_for(&rig, has_shown_all);
     while (rig.status.step < 5);
-    assert_int_equal(simulator_obeyed(rig.simulator, 5), taken);
-    assert_int_equal(simulator_send(rig.simulator, &carry), taken + 1);
+    assert_true(rig.particles.box.position[0] == 0);
+    simulator_save(rig.simulator, "a.rec");
+    wait_for(&rig, has_saved);
     rig_close(&rig);
+    Recording recording;
+    must(recording_read("a.rec", &recording, &error));
+    assert_int_equal(recording.count, 1);
+    assert_string_equal(recording.commands[0].setting, set.setting);
+    recording_destroy(&recording);
+}
+
+/* A save is of the session in which it was asked for, and is done even when all ends at once. */
+static void a_save_keeps_its_place(void **state)
+{
+    (void)state;
+    Rig rig;
+    Recording recording;
+    rig_open(&rig, NULL, false);
+    do
+        wait_for(&rig, has_shown_all);
+    while (rig.status.step < 20);
+    assert_true(simulator_save(rig.simulator, "before.rec"));
+    assert_false(simulator_save(rig.simulator, "none.rec")); /* one at a time */
+    simulator_reset(rig.simulator);
+    wait_for(&rig, has_saved);
+    simulator_pause(rig.simulator, true);
+    simulator_reset(rig.simulator);
+    assert_true(simulator_save(rig.simulator, "after.rec"));
+    rig_close(&rig);
+    must(recording_read("before.rec", &recording, &error));
+    assert_true(recording.steps >= 20);
+    recording_destroy(&recording);
+    must(recording_read("after.rec", &recording, &error));
+    assert_true(recording.steps == 0);
+    recording_destroy(&recording);
+    assert_false(exists("none.rec"));
 }
 
 /* A session of random commands on a running simulation gives its bits again; a reset keeps what was set. */
@@ -320,7 +383,9 @@ int main(void)
         cmocka_unit_test(paused_it_steps_by_frames),
         cmocka_unit_test(time_follows_the_clock),
         cmocka_unit_test(states_tell_what_they_obey),
-        cmocka_unit_test(a_queue_has_an_end),
+        cmocka_unit_test(what_waits_is_replaced),
+        cmocka_unit_test(a_reset_forgets_poses),
+        cmocka_unit_test(a_save_keeps_its_place),
         cmocka_unit_test(a_saved_session_gives_the_same_bits),
         cmocka_unit_test(saving_may_fail),
         cmocka_unit_test(trouble_is_told),

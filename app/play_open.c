@@ -1,0 +1,111 @@
+/* From scene to scene: what is open, what is still ending, and the session of it. */
+#include "app/play_state.h"
+#include "sim/gl/debug.h"
+#include "sim/stage.h"
+#include "sim/world.h"
+
+#include <stdio.h>
+
+static const double LEAVE_MS = 200, SAVE_MS = 5000;
+
+static void adopt(Play *play, const PlayScene *opened)
+{
+    char title[192];
+    play->open = *opened;
+    play->file_scene = opened->scene;
+    play->has_particles = play->orbiting = false;
+    play->hand = hand_at_rest();
+    play->input = (PlayInput){.drag = PLAY_NONE, .looked_ms = wall_ms()};
+    play->saves = play->messages = 0;
+    play->scenes_opened++;
+    play->dirty = true;
+    meter_forget(&play->meter);
+    snprintf(title, sizeof title, "%s - slosh", opened->scene.title);
+    window_title(play->window, title);
+    simulator_set_speed(play->open.simulator, play->speed);
+}
+
+/* A software renderer keeps all processors busy by itself. A solver on as many threads waits at each of its
+   many barriers until the last of them gets its turn: on two processors a frame took 30 ms with two threads,
+   and 18 with one. The bits do not depend on it. */
+static void share_processors(WorldDef *def)
+{
+    if (def->threads == 0 && gl_renderer_is_software())
+        def->threads = world_processors() > 1 ? world_processors() / 2 : 1;
+}
+
+bool play_save_now(Play *play, const char *path, Error *error)
+{
+    const double until = wall_ms() + SAVE_MS;
+    for (bool asked = false;; window_wait(play->window, 0.01)) {
+        play_listen(play);
+        if (asked && !play->status.saving)
+            return play->status.saved || error_set(error, "%s", play->status.save_message);
+        if (play->status.ended || wall_ms() > until)
+            return error_set(error, "%s: the session cannot be saved, its simulation does not answer", path);
+        asked = asked || simulator_save(play->open.simulator, path);
+    }
+}
+
+/* With --record nothing that was done goes without a trace, though only the last session gets that name. */
+static void keep_session(Play *play)
+{
+    Error error = {{0}};
+    char path[1024];
+    play_name_file(path, "recording");
+    if (play->setup->record && play->status.step > 0 && !play_save_now(play, path, &error))
+        play_error(play, error.message);
+}
+
+bool play_leave(Play *play, double patience_ms)
+{
+    return play_scene_close(&play->left, patience_ms);
+}
+
+/* A frame of a large scene lasts: its solver ends behind the next one's back. */
+static void leave(Play *play)
+{
+    const double until = wall_ms() + SAVE_MS;
+    if (!play->open.simulator)
+        return;
+    keep_session(play);
+    while (play->status.saving && !play->status.ended && wall_ms() < until) {
+        window_wait(play->window, 0.01);
+        play_listen(play);
+    }
+    play->simulated_s += play->status.simulated_s;
+    play->status = (SimulatorStatus){.time = 0};
+    if (play_scene_close(&play->open, LEAVE_MS))
+        return;
+    play->left = play->open;
+    play->open = (PlayScene){.upload = NULL};
+}
+
+/* On failure the scene that is open stays. */
+bool play_open(Play *play, const char *scene, const SceneSettings *settings, Error *error)
+{
+    PlayScene opened;
+    char note[256] = "";
+    if (!play_leave(play, 0))
+        return error_set(error, "the scene before the present one is still ending; try again in a moment");
+    const bool read = play_scene_read(&opened, scene, settings, note, error);
+    share_processors(&opened.scene.world);
+    if (!read || !play_scene_start(&opened, window_wake, play->paused, error)) {
+        play_scene_close(&opened, SAVE_MS);
+        return false;
+    }
+    leave(play);
+    adopt(play, &opened);
+    if (note[0])
+        play_tell(play, "%s", note);
+    if (play->renderer)
+        play_view_changed(play);
+    return true;
+}
+
+void play_reset(Play *play)
+{
+    keep_session(play);
+    play->hand = hand_at_rest();
+    simulator_reset(play->open.simulator);
+}
