@@ -27,6 +27,9 @@ typedef struct Backend {
     bool (*kick)(void *state, const float gravity[3], float dt);
     void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
     void (*read)(void *state, const ParticleArrays *out);
+    /* Takes position, velocity, fluid and id of as many particles as there are, in any order; `grid` and
+       `density` must follow. */
+    void (*load)(void *state, const ParticleArrays *from, size_t guarded);
     void (*info)(const void *state, WorldInfo *info); /* threads, state_bytes, guarded */
 } Backend;
 

@@ -1,27 +1,12 @@
 #include "sim/world.h"
 
 #include "sim/cpu/parallel.h"
-#include "sim/method.h"
 #include "sim/seed.h"
+#include "sim/world_struct.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct World {
-    WorldDef def; /* `initial` is not kept */
-    Solver solver;
-    const Backend *backend;
-    const Method *method;
-    void *state; /* the backend's */
-    size_t count;
-    uint64_t step;
-    uint64_t since_step; /* when the present dt began, */
-    double since_time;   /* at this time, s */
-    BoxTarget target;    /* of the hand */
-    BoxFilter filter;    /* at the present time */
-    BoxState box;        /* at the present time, the hand's part included */
-};
 
 static const Backend *const backends[] = {&backend_cpu};
 static const Method *const methods[] = {&method_mueller};
@@ -250,10 +235,21 @@ void world_carry(World *world, const BoxTarget *target)
     box_at(world, &world->filter, time_of(world, (double)world->step), &world->box);
 }
 
+bool world_adopt(World *world, const WorldDef *def, Error *error)
+{
+    if (!solver_change(&world->solver, def, error))
+        return false;
+    if (!world->backend->adapt(world->state)) {
+        solver_change(&world->solver, &world->def, error);
+        return error_set(error, "no memory for another term; use a larger spacing");
+    }
+    world->def = *def;
+    return true;
+}
+
 bool world_change(World *world, const WorldDef *def, Error *error)
 {
-    const WorldDef before = world->def;
-    WorldDef after = before;
+    WorldDef after = world->def;
     const double now = time_of(world, (double)world->step);
     memcpy(after.gravity, def->gravity, sizeof after.gravity);
     for (int f = 0; f < after.fluid_count; f++)
@@ -263,13 +259,8 @@ bool world_change(World *world, const WorldDef *def, Error *error)
     after.dt = def->dt;
     after.substeps = def->substeps;
     after.limits = def->limits;
-    if (!solver_change(&world->solver, &after, error))
+    if (!world_adopt(world, &after, error))
         return false;
-    if (!world->backend->adapt(world->state)) {
-        solver_change(&world->solver, &before, error);
-        return error_set(error, "no memory for another term; use a larger spacing");
-    }
-    world->def = after;
     world->since_step = world->step;
     world->since_time = now;
     return true;

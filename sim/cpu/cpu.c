@@ -141,6 +141,24 @@ static void cpu_info(const void *state, WorldInfo *info)
     info->guarded = cpu->guarded;
 }
 
+static void cpu_load(void *state, const ParticleArrays *from, size_t guarded)
+{
+    Cpu *cpu = state;
+    CpuParticles *p = &cpu->now;
+    for (size_t i = 0; i < cpu->count; i++) {
+        p->x[i] = from->position[4 * i];
+        p->y[i] = from->position[4 * i + 1];
+        p->z[i] = from->position[4 * i + 2];
+        p->vx[i] = from->velocity[4 * i];
+        p->vy[i] = from->velocity[4 * i + 1];
+        p->vz[i] = from->velocity[4 * i + 2];
+        p->id[i] = from->id[i];
+        p->fluid[i] = (uint8_t)from->fluid[i];
+    }
+    cpu->guarded = guarded;
+    cpu->unbounded = false;
+}
+
 const Backend backend_cpu = {
     .name = "cpu",
     .help = "threads and SIMD on the processor; the reference",
@@ -154,5 +172,6 @@ const Backend backend_cpu = {
     .kick = cpu_kick,
     .sums = cpu_sums,
     .read = cpu_read,
+    .load = cpu_load,
     .info = cpu_info,
 };

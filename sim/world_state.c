@@ -1,0 +1,145 @@
+#include "sim/world_state.h"
+
+#include "sim/world_struct.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void world_state_free(WorldState *state)
+{
+    free(state->position);
+    free(state->velocity);
+    free(state->fluid);
+    free(state->id);
+    *state = (WorldState){.count = 0};
+}
+
+bool world_state_reserve(WorldState *state, size_t count)
+{
+    state->count = count;
+    if (count <= state->capacity)
+        return true;
+    world_state_free(state);
+    state->position = malloc(4 * count * sizeof *state->position);
+    state->velocity = malloc(4 * count * sizeof *state->velocity);
+    state->fluid = malloc(count * sizeof *state->fluid);
+    state->id = malloc(count * sizeof *state->id);
+    state->count = state->capacity = count;
+    const bool all = state->position && state->velocity && state->fluid && state->id;
+    if (!all)
+        world_state_free(state);
+    return all;
+}
+
+static ParticleArrays arrays_of(const WorldState *state)
+{
+    return (ParticleArrays){
+        .position = state->position, .velocity = state->velocity, .fluid = state->fluid, .id = state->id};
+}
+
+static void save_numbers(const World *world, WorldNumbers *numbers)
+{
+    const WorldDef *def = &world->def;
+    WorldInfo info;
+    world_info(world, &info);
+    *numbers = (WorldNumbers){
+        .version = WORLD_STATE_VERSION,
+        .step = (double)world->step,
+        .since_step = (double)world->since_step,
+        .since_time = world->since_time,
+        .guarded = (double)info.guarded,
+        .target = world->target,
+        .filter = world->filter,
+        .box = world->box,
+        .sound_speed = def->sound_speed,
+        .negative_pressure = def->negative_pressure,
+        .dt = def->dt,
+        .substeps = def->substeps,
+        .limits = def->limits,
+    };
+    memcpy(numbers->gravity, def->gravity, sizeof numbers->gravity);
+    for (int f = 0; f < def->fluid_count; f++)
+        numbers->viscosity[f] = def->fluids[f].viscosity;
+}
+
+bool world_save(World *world, WorldState *state, Error *error)
+{
+    if (!world_state_reserve(state, world->count))
+        return error_set(error, "no memory for the state of %zu particles", world->count);
+    save_numbers(world, &state->numbers);
+    const ParticleArrays arrays = arrays_of(state);
+    world_read(world, &arrays);
+    return true;
+}
+
+static bool numbers_check(const WorldNumbers *numbers, Error *error)
+{
+    double all[WORLD_NUMBERS];
+    memcpy(all, numbers, sizeof all);
+    if (numbers->version != WORLD_STATE_VERSION)
+        return error_set(error, "a saved state of version %g; this is version %d", numbers->version,
+                         WORLD_STATE_VERSION);
+    for (int i = 0; i < WORLD_NUMBERS; i++)
+        if (!isfinite(all[i]))
+            return error_set(error, "the saved state is damaged: a number of it is not finite");
+    if (!(numbers->step >= numbers->since_step && numbers->since_step >= 0 && numbers->step < 0x1p53 &&
+          numbers->substeps >= 1 && numbers->substeps < 0x1p31 && numbers->guarded >= 0))
+        return error_set(error, "the saved state is damaged: its steps do not count");
+    return true;
+}
+
+/* Every id once, every number finite. */
+static bool particles_check(const World *world, const WorldState *state, Error *error)
+{
+    if (state->count != world->count)
+        return error_set(error, "the saved state has %zu particles, the scene %zu", state->count,
+                         world->count);
+    bool *seen = calloc(state->count, sizeof *seen), whole = true;
+    if (!seen)
+        return error_set(error, "no memory");
+    for (size_t i = 0; i < state->count && whole; i++) {
+        const float *x = state->position + 4 * i, *v = state->velocity + 4 * i;
+        whole = isfinite(x[0] + x[1] + x[2] + v[0] + v[1] + v[2]) && state->id[i] < state->count &&
+                !seen[state->id[i]] && state->fluid[i] < (uint32_t)world->def.fluid_count;
+        if (whole)
+            seen[state->id[i]] = true;
+    }
+    free(seen);
+    return whole || error_set(error, "the saved state is damaged: its particles are not those of the scene");
+}
+
+static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
+{
+    WorldDef def = *present;
+    memcpy(def.gravity, numbers->gravity, sizeof def.gravity);
+    def.sound_speed = numbers->sound_speed;
+    def.negative_pressure = numbers->negative_pressure != 0;
+    def.dt = numbers->dt;
+    def.substeps = (int)numbers->substeps;
+    def.limits = numbers->limits;
+    for (int f = 0; f < def.fluid_count; f++)
+        def.fluids[f].viscosity = numbers->viscosity[f];
+    return def;
+}
+
+bool world_load(World *world, const WorldState *state, Error *error)
+{
+    const WorldNumbers *numbers = &state->numbers;
+    if (!numbers_check(numbers, error) || !particles_check(world, state, error))
+        return false;
+    const WorldDef def = def_of(&world->def, numbers);
+    if (!world_adopt(world, &def, error))
+        return false;
+    world->step = (uint64_t)numbers->step;
+    world->since_step = (uint64_t)numbers->since_step;
+    world->since_time = numbers->since_time;
+    world->target = numbers->target;
+    world->filter = numbers->filter;
+    world->box = numbers->box;
+    const ParticleArrays arrays = arrays_of(state);
+    world->backend->load(world->state, &arrays, (size_t)numbers->guarded);
+    world->backend->grid(world->state);
+    world->backend->density(world->state);
+    return true;
+}

@@ -1,0 +1,48 @@
+/* The one saved state of a world (DESIGN 2): all that its next step reads. Snapshots, resume, going back
+   after trouble and a change of backend use it and nothing else: save, load, step is step, to the bit. */
+#ifndef SLOSH_WORLD_STATE_H
+#define SLOSH_WORLD_STATE_H
+
+#include "sim/world.h"
+
+/* What is not of a particle. Doubles only, so that it is also an array of WORLD_NUMBERS of them: files keep
+   it as that. */
+typedef struct WorldNumbers {
+    double version;               /* WORLD_STATE_VERSION */
+    double step, since_step;      /* substeps; where the present dt began */
+    double since_time;            /* s, then */
+    double guarded;               /* as WorldInfo has it */
+    BoxTarget target;             /* of the hand */
+    BoxFilter filter;             /* where its part of the pose is */
+    BoxState box;                 /* the pose, in the world's frame */
+    double gravity[3];            /* these down to the limits may change while a world lives */
+    double sound_speed;           /* m/s */
+    double negative_pressure;     /* 0 or 1 */
+    double dt, substeps;          /* of a frame, s */
+    BoxLimits limits;             /* of the hand */
+    double viscosity[FLUIDS_MAX]; /* Pa s */
+} WorldNumbers;
+
+enum { WORLD_STATE_VERSION = 1, WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double) };
+
+/* Zero-initialise it; owns its arrays. Particles stand in any order, `id` tells who is who. */
+typedef struct WorldState {
+    WorldNumbers numbers;
+    size_t count, capacity; /* particles; room for them */
+    float *position;        /* 4 a particle: x y z (box's frame, m), unused */
+    float *velocity;        /* 4 a particle: x y z (box's frame, m/s), 0 */
+    uint32_t *fluid, *id;   /* as ParticleArrays has them */
+} WorldState;
+
+/* Room for so many particles; what was in it is lost. False when memory is short: then it is empty. */
+bool world_state_reserve(WorldState *state, size_t count);
+void world_state_free(WorldState *state); /* a zeroed one is allowed */
+
+/* Copies the world's state. False, and nothing in it, when memory is short. */
+bool world_save(World *world, WorldState *state, Error *error);
+
+/* Puts a world that was made from the same def, but for what may change while it lives, into that state.
+   False with the reason: another version, other particles, numbers that are none; the world is as it was. */
+bool world_load(World *world, const WorldState *state, Error *error);
+
+#endif
