@@ -47,6 +47,7 @@ typedef struct Args {
     const char *shaders; /* DIR, or NULL: those in the program */
     bool time_given;
     double time;       /* s, at least 0; default 5 */
+    bool resume;       /* run: go on behind the last snapshot of the output */
     double every;      /* s, more than 0; default 1/30 */
     double fps;        /* more than 0; default 30 */
     int frames;        /* at least 1; 0: not given */

@@ -38,6 +38,7 @@ const OptionRow option_rows[] = {
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
     {"--every", "S", RUN | REPLAY, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
      .help = "seconds from snapshot to snapshot (1/30)"},
+    {"--resume", NULL, RUN, OPTION_FLAG, AT(resume), .help = "go on behind the last snapshot of OUT, to the same bits"},
     {"--frames", "N", RENDER | BENCH, OPTION_COUNT, AT(frames), .min = 1, .max = 1e7, .help = "how many frames"},
     {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .max = 1000, .flags = OPTION_OPEN_LOW,
      .help = "frames in a second (30)"},

@@ -6,12 +6,15 @@
 #include "app/snapshot_series.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
 /* From the first state to the last, with a snapshot of the first state at or after each multiple of --every.
    Ends early, with a whole file, when a signal came. */
 static bool simulate(Session *session, const Args *args, Snapshot *file, Progress *progress, Error *error)
 {
     SnapshotSeries series = {.file = file, .every = args->every};
+    if (snapshot_steps(file) > 0)
+        snapshot_series_resume(&series, session);
     for (;;) {
         if (!snapshot_series_add(&series, session, error))
             return false;
@@ -43,14 +46,40 @@ static int fail(const Args *args, const Snapshot *file, const Error *error)
     return EXIT_FAILED;
 }
 
+/* --resume: the file to go on with, and the world as it was at its end. */
+static Snapshot *resume(Session *session, const Args *args, Error *error)
+{
+    WorldState state = {.count = 0};
+    Snapshot *file = snapshot_resume(args->output, &session->scene, &state, error);
+    Error why = {{0}};
+    if (file && !world_load(session->world, &state, &why)) {
+        error_set(error, "%.300s: cannot be resumed: %.600s", args->output, why.message);
+        snapshot_close(file);
+        file = NULL;
+    }
+    world_state_free(&state);
+    world_info(session->world, &session->info);
+    if (file && !args->quiet)
+        fprintf(stderr, "%s: goes on from %.4g s, behind %zu snapshots\n", args->output, session->info.time,
+                snapshot_steps(file));
+    return file;
+}
+
 static int run(Session *session, const Args *args, Error *error)
 {
     Progress progress;
+    Snapshot *file;
     if (args->json && !output_check(args->json, error))
         return fail(args, NULL, error);
-    Snapshot *file = snapshot_create(args->output, &session->scene, error);
-    if (!file)
+    if (args->resume && access(args->output, F_OK) == 0) {
+        file = resume(session, args, error);
+        if (!file) {
+            fprintf(stderr, "%s\n", error->message);
+            return EXIT_USAGE;
+        }
+    } else if (!(file = snapshot_create(args->output, &session->scene, error))) {
         return fail(args, NULL, error);
+    }
     progress_begin(&progress, stderr, "run", args->quiet);
     bool done = simulate(session, args, file, &progress, error);
     progress_end(&progress);

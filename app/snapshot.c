@@ -78,6 +78,14 @@ static bool write_texts(hid_t at, const char *name, size_t count, size_t stride,
     return written;
 }
 
+static bool write_settings(hid_t file, const Scene *scene)
+{
+    char *text = snapshot_settings_text(scene);
+    const bool written = text && write_texts(file, SNAPSHOT_SETTINGS, SCALAR, strlen(text) + 1, text);
+    free(text);
+    return written;
+}
+
 static bool write_root(hid_t file, const Scene *scene)
 {
     const WorldDef *def = &scene->world;
@@ -90,6 +98,7 @@ static bool write_root(hid_t file, const Scene *scene)
         densities[i] = def->fluids[i].density;
     }
     return write_texts(file, "title", SCALAR, sizeof scene->title, scene->title) &&
+           write_settings(file, scene) &&
            write_texts(file, "slosh_version", SCALAR, sizeof SLOSH_VERSION, SLOSH_VERSION) &&
            write_texts(file, "method", SCALAR, NAME_SIZE, def->method) &&
            write_doubles(file, "spacing", SCALAR, &def->spacing) &&
@@ -130,6 +139,29 @@ Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error)
         hdf5_fail(error, path, "cannot be written");
         snapshot_close(snapshot);
         snapshot = NULL;
+    }
+    return snapshot;
+}
+
+Snapshot *snapshot_continue(const char *path, size_t steps, Error *error)
+{
+    Snapshot *snapshot = calloc(1, sizeof *snapshot);
+    char name[32];
+    if (!snapshot) {
+        error_set(error, "%s: out of memory", path);
+        return NULL;
+    }
+    const hid_t access = snapshot_access();
+    snapshot->steps = steps;
+    snprintf(snapshot->output.path, sizeof snapshot->output.path, "%s", path);
+    snapshot->file = H5Fopen(path, H5F_ACC_RDWR, access);
+    H5Pclose(access);
+    snapshot_group_name(steps, name);
+    if (snapshot->file < 0 || (H5Lexists(snapshot->file, name, H5P_DEFAULT) > 0 &&
+                               H5Ldelete(snapshot->file, name, H5P_DEFAULT) < 0)) {
+        hdf5_fail(error, path, "cannot be written");
+        snapshot_close(snapshot);
+        return NULL;
     }
     return snapshot;
 }
@@ -242,6 +274,8 @@ static bool write_fields(hid_t group, const SnapshotStep *step)
     written = written && write_field(group, name, SNAPSHOT_TYPE(step->field), step->count, step->field);
     SNAPSHOT_FIELDS(X)
 #undef X
+    written =
+        written && write_doubles(group, SNAPSHOT_RESTART, WORLD_NUMBERS, (const double *)&step->restart);
     return written && write_values(group, SNAPSHOT_STEP_NUMBER, H5T_STD_U64LE, SCALAR, &step->step);
 }
 
@@ -308,6 +342,7 @@ static void read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
     step->box = info->box;
     memcpy(step->gravity, info->gravity, sizeof step->gravity);
     step->count = info->count;
+    world_save_numbers(world, &step->restart);
     world_read(world, &(ParticleArrays){
                           .position = snapshot->position,
                           .velocity = snapshot->velocity,

@@ -1,15 +1,16 @@
 /* Snapshots: a file of states in the H5Part layout, that ParaView opens as a time series.
 
    Group Step#k (k = 0, 1, ... without a gap) is one state: the attribute TimeValue (s), one-dimensional
-   datasets of one value a particle, and as attributes the pose and rates of the box, gravity, the step number
-   and `complete`, which is written last. All in SI units and in the box's frame; pose and rates of the box in
-   the world's. Attributes of the root say what scene it was. */
+   datasets of one value a particle, and as attributes the pose and rates of the box, gravity, the step
+   number, `restart` (the WorldNumbers of sim/world_state.h, from which with the particles a run goes on) and
+   `complete`, which is written last. All in SI units and in the box's frame; pose and rates of the box in the
+   world's. Attributes of the root say what scene it was, `settings` each key as slosh info prints it. */
 #ifndef SLOSH_SNAPSHOT_H
 #define SLOSH_SNAPSHOT_H
 
 #include "app/scene.h"
 #include "sim/error.h"
-#include "sim/world.h"
+#include "sim/world_state.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -30,16 +31,17 @@
 
 /* One state as the file has it. */
 typedef struct SnapshotStep {
-    double time;        /* s */
-    uint64_t step;      /* substeps since the start */
-    BoxState box;       /* in the world's frame */
-    double gravity[3];  /* in the box's frame, m/s2 */
-    size_t count;       /* particles; each array below has as many */
-    float *position[3]; /* box frame, m */
-    float *velocity[3]; /* box frame, m/s */
-    float *density;     /* kg/m3 */
-    float *pressure;    /* Pa */
-    int32_t *fluid;     /* index into the root's fluid_names */
+    double time;          /* s */
+    uint64_t step;        /* substeps since the start */
+    BoxState box;         /* in the world's frame */
+    double gravity[3];    /* in the box's frame, m/s2 */
+    WorldNumbers restart; /* version 0: a file that has none */
+    size_t count;         /* particles; each array below has as many */
+    float *position[3];   /* box frame, m */
+    float *velocity[3];   /* box frame, m/s */
+    float *density;       /* kg/m3 */
+    float *pressure;      /* Pa */
+    int32_t *fluid;       /* index into the root's fluid_names */
     int64_t *id;
 } SnapshotStep;
 
@@ -66,6 +68,11 @@ size_t snapshot_steps(const Snapshot *snapshot);
 
 /* NULL is allowed. A file without a whole step leaves nothing behind. */
 void snapshot_close(Snapshot *snapshot);
+
+/* A file to go on with behind its last whole step; `state` becomes that step's. What a killed program left
+   behind it is dropped. NULL with the reason: no such file, not HDF5, no whole step, a scene with other
+   settings (but for title, views and threads), a file too old to go on from. */
+Snapshot *snapshot_resume(const char *path, const Scene *scene, WorldState *state, Error *error);
 
 /* ---- reading ---- */
 

@@ -20,6 +20,12 @@
     X("box_angular_velocity", 3, step->box.angular_velocity)                                                 \
     X("gravity", 3, step->gravity)
 
+/* The settings of the scene, of the root: see scene_print. */
+#define SNAPSHOT_SETTINGS "settings"
+
+/* What a run goes on from: WORLD_NUMBERS doubles of a step. */
+#define SNAPSHOT_RESTART "restart"
+
 /* A step's number of substeps, and the mark of a whole step: each one integer. */
 #define SNAPSHOT_STEP_NUMBER "step"
 #define SNAPSHOT_COMPLETE    "complete"
@@ -33,5 +39,14 @@ static inline void snapshot_group_name(size_t index, char name[32])
 /* Access without file locks: others may look at a file that is being written, and network folders that have
    no locks still work. -1 on failure; the caller closes it. */
 hid_t snapshot_access(void);
+
+/* What scene_print prints; the caller frees it. NULL when memory is short. */
+char *snapshot_settings_text(const Scene *scene);
+
+/* A Snapshot that appends to a file that has so many whole steps. NULL with the reason. */
+Snapshot *snapshot_continue(const char *path, size_t steps, Error *error);
+
+/* The text attribute of the root in new memory; NULL when there is none. */
+char *snapshot_root_text(const SnapshotReader *reader, const char *name);
 
 #endif

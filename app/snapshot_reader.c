@@ -81,6 +81,24 @@ size_t snapshot_count_steps(const SnapshotReader *reader)
     return reader->steps;
 }
 
+char *snapshot_root_text(const SnapshotReader *reader, const char *name)
+{
+    const hid_t attribute = H5Aexists(reader->file, name) > 0 ? H5Aopen(reader->file, name, H5P_DEFAULT) : -1;
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+    char *text = NULL;
+    if (type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0)
+        text = calloc(1, H5Tget_size(type) + 1);
+    if (text && H5Aread(attribute, type, text) < 0) {
+        free(text);
+        text = NULL;
+    }
+    if (type >= 0)
+        H5Tclose(type);
+    if (attribute >= 0)
+        H5Aclose(attribute);
+    return text;
+}
+
 /* The length of a one-dimensional dataset; false when there is no such dataset. */
 static bool field_length(hid_t group, const char *name, size_t *length)
 {
@@ -116,6 +134,9 @@ static const char *read_group(hid_t group, SnapshotStep *step)
         return name;
     SNAPSHOT_ATTRIBUTES(X)
 #undef X
+    if (H5Aexists(group, SNAPSHOT_RESTART) > 0 &&
+        !read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS, &step->restart))
+        step->restart.version = 0; /* of another version of slosh */
     if (!read_values(group, SNAPSHOT_STEP_NUMBER, H5T_NATIVE_UINT64, 1, &step->step))
         return SNAPSHOT_STEP_NUMBER;
 #define X(name, type, field)                                                                                 \

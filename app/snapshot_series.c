@@ -5,13 +5,18 @@
 #include <string.h>
 #include <strings.h>
 
+void snapshot_series_resume(SnapshotSeries *series, const Session *session)
+{
+    series->next = fmax(series->next, floor(session->info.time / series->every + 1e-6)) + 1;
+}
+
 bool snapshot_series_add(SnapshotSeries *series, const Session *session, Error *error)
 {
     if (!series->file || !session_reached(session, series->next * series->every))
         return true;
     if (!snapshot_append(series->file, session->world, error))
         return false;
-    series->next = fmax(series->next, floor(session->info.time / series->every + 1e-6)) + 1;
+    snapshot_series_resume(series, session);
     return true;
 }
 

@@ -21,4 +21,7 @@ void snapshot_series_left(const Snapshot *file, const char *path);
 /* Whether `path` is a name for snapshots, FILE.h5part: ParaView knows the format by it. */
 bool snapshot_series_name(const char *path, Error *error);
 
+/* Goes on behind the present state, which the file has. */
+void snapshot_series_resume(SnapshotSeries *series, const Session *session);
+
 #endif

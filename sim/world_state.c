@@ -38,7 +38,7 @@ static ParticleArrays arrays_of(const WorldState *state)
         .position = state->position, .velocity = state->velocity, .fluid = state->fluid, .id = state->id};
 }
 
-static void save_numbers(const World *world, WorldNumbers *numbers)
+void world_save_numbers(const World *world, WorldNumbers *numbers)
 {
     const WorldDef *def = &world->def;
     WorldInfo info;
@@ -67,7 +67,7 @@ bool world_save(World *world, WorldState *state, Error *error)
 {
     if (!world_state_reserve(state, world->count))
         return error_set(error, "no memory for the state of %zu particles", world->count);
-    save_numbers(world, &state->numbers);
+    world_save_numbers(world, &state->numbers);
     const ParticleArrays arrays = arrays_of(state);
     world_read(world, &arrays);
     return true;

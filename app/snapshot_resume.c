@@ -1,0 +1,117 @@
+/* A run goes on where its file ends. */
+#include "app/scene_keys.h"
+#include "app/snapshot_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+char *snapshot_settings_text(const Scene *scene)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return NULL;
+    scene_print(scene, file);
+    if (fclose(file) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+/* Keys that change no bit of a run. */
+static bool is_idle(const char *line)
+{
+    static const char *const idle[] = {"title ", "view.", "solver.threads ", "solver.step.realtime "};
+    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
+        if (strncmp(line, idle[i], strlen(idle[i])) == 0)
+            return true;
+    return false;
+}
+
+/* The next line of `*text` that counts, cut into `line`; false at the end. */
+static bool next_line(const char **text, char line[160])
+{
+    while (**text) {
+        const size_t size = strcspn(*text, "\n");
+        snprintf(line, 160, "%.*s", (int)size, *text);
+        *text += size + ((*text)[size] == '\n');
+        if (!is_idle(line))
+            return true;
+    }
+    return false;
+}
+
+static bool same_settings(const char *path, const char *file, const char *scene, Error *error)
+{
+    char was[160], is[160];
+    for (;;) {
+        const bool more = next_line(&file, was), also = next_line(&scene, is);
+        if (!more && !also)
+            return true;
+        if (!more || !also || strcmp(was, is) != 0)
+            return error_set(
+                error,
+                "%.300s: was made with '%s', and this is '%s'; resume with the same scene and settings, or name another file",
+                path, more ? was : "nothing more", also ? is : "nothing more");
+    }
+}
+
+static bool check_scene(const SnapshotReader *reader, const char *path, const Scene *scene, Error *error)
+{
+    char *file = snapshot_root_text(reader, SNAPSHOT_SETTINGS), *now = snapshot_settings_text(scene);
+    bool same = false;
+    if (!file)
+        error_set(error, "%s: was made by a slosh that could not resume; name another file", path);
+    else
+        same = now ? same_settings(path, file, now, error) : error_set(error, "%s: out of memory", path);
+    free(file);
+    free(now);
+    return same;
+}
+
+static bool state_of(const SnapshotStep *step, WorldState *state)
+{
+    if (!world_state_reserve(state, step->count))
+        return false;
+    state->numbers = step->restart;
+    for (size_t i = 0; i < step->count; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            state->position[4 * i + k] = step->position[k][i];
+            state->velocity[4 * i + k] = step->velocity[k][i];
+        }
+        state->position[4 * i + 3] = state->velocity[4 * i + 3] = 0;
+        state->fluid[i] = (uint32_t)step->fluid[i];
+        state->id[i] = (uint32_t)step->id[i];
+    }
+    return true;
+}
+
+static bool read_last(SnapshotReader *reader, const char *path, WorldState *state, Error *error)
+{
+    SnapshotStep step;
+    const size_t steps = snapshot_count_steps(reader);
+    if (steps == 0)
+        return error_set(error, "%s: has no whole step to resume from; remove it to start anew", path);
+    if (!snapshot_read_step(reader, steps - 1, &step, error))
+        return false;
+    const bool known = step.restart.version != 0;
+    const bool read = known && state_of(&step, state);
+    snapshot_step_free(&step);
+    return read || error_set(error,
+                             known ? "%s: out of memory"
+                                   : "%s: was made by a slosh that could not resume; name another file",
+                             path);
+}
+
+Snapshot *snapshot_resume(const char *path, const Scene *scene, WorldState *state, Error *error)
+{
+    SnapshotReader *reader = snapshot_open(path, error);
+    if (!reader)
+        return NULL;
+    const bool good = check_scene(reader, path, scene, error) && read_last(reader, path, state, error);
+    const size_t steps = snapshot_count_steps(reader);
+    snapshot_reader_close(reader);
+    return good ? snapshot_continue(path, steps, error) : NULL;
+}

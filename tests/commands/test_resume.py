@@ -1,0 +1,112 @@
+"""slosh run --resume: whatever ended a run, the rest of it comes out with the same bits."""
+import os
+import random
+import shutil
+import signal
+import time
+
+import h5py
+
+import command
+from command import CommandTest, SCENE, whole_steps
+
+TIME, EVERY = '0.4', '0.004'
+
+
+class Resume(CommandTest):
+    def go(self, *more, code=0, name='a.h5part'):
+        done, said = self.slosh('run', 'scene.yaml', '-o', name, '--time', TIME, '--every', EVERY, '--quiet', *more)
+        self.assertEqual(done, code, said)
+        return said
+
+    def same(self, a, b):
+        """Every number of every step, of particles and attributes."""
+        with h5py.File(self.path(a)) as one, h5py.File(self.path(b)) as other:
+            self.assertEqual(sorted(one), sorted(other))
+            for step in one:
+                for name, value in one[step].attrs.items():
+                    self.assertEqual(value.tobytes(), other[step].attrs[name].tobytes(), (step, name))
+                order = [group[step]['id'][:].argsort() for group in (one, other)]
+                for name in one[step]:
+                    if name not in ('density', 'pressure'):
+                        self.assertEqual(one[step][name][:][order[0]].tobytes(),
+                                         other[step][name][:][order[1]].tobytes(), (step, name))
+
+    def whole(self):
+        self.go(name='whole.h5part')
+        return len(whole_steps(self.path('whole.h5part')))
+
+    def test_killed_at_random_moments(self):
+        steps = self.whole()
+        began = time.monotonic()
+        self.go(name='again.h5part')
+        seconds = time.monotonic() - began
+        seed = random.randrange(1 << 30)
+        moments = random.Random(seed)
+        kills = 0
+        for _ in range(20):
+            process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', TIME, '--every', EVERY, '--quiet',
+                                 '--resume', '--threads', str(1 + kills % 2))
+            time.sleep(0.02 + moments.random() * seconds * 0.6)
+            process.kill()
+            kills += process.wait() == -signal.SIGKILL
+            if os.path.exists(self.path('a.h5part')):
+                self.assertGreater(len(whole_steps(self.path('a.h5part'))), 0, f'seed {seed}')
+                shutil.copy(self.path('a.h5part'), self.path('b.h5part'))
+                self.go('--resume', name='b.h5part')
+                self.same('whole.h5part', 'b.h5part')
+                if len(whole_steps(self.path('a.h5part'))) > steps / 2:
+                    os.remove(self.path('a.h5part'))
+        self.assertGreater(kills, 10)
+
+    def test_interrupted(self):
+        self.whole()
+        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', TIME, '--every', EVERY)
+        while not os.path.exists(self.path('a.h5part')):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), 130)
+        self.go('--resume')
+        self.same('whole.h5part', 'a.h5part')
+
+    def test_longer_and_anew(self):
+        self.whole()
+        self.go('--resume')  # without a file: from the start
+        self.same('whole.h5part', 'a.h5part')
+        before = self.read('a.h5part')
+        self.go('--resume')  # finished
+        self.assertEqual(self.read('a.h5part'), before)
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'b.h5part', '--time', '0.1', '--every', EVERY, '--quiet')
+        self.assertEqual(code, 0, said)
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'b.h5part', '--time', TIME, '--every', EVERY, '--resume',
+                                '--json', 'out.json')
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r'b\.h5part: goes on from 0\.1 s, behind 26 snapshots\n')
+        self.same('whole.h5part', 'b.h5part')
+
+    def test_another_scene_is_refused(self):
+        self.go()
+        before = self.read('a.h5part')
+        said = self.go('--resume', '--set', 'solver.sound_speed=16', code=2)
+        self.assertIn("a.h5part: was made with 'solver.sound_speed = 15 m/s', and this is 'solver.sound_speed = 16 m/s'; "
+                      'resume with the same scene and settings, or name another file', said)
+        self.assertEqual(self.read('a.h5part'), before)
+        self.go('--resume', '--set', 'view.color_by=density', '--threads', '1')
+        self.write('b.h5part', b'no snapshots')
+        said = self.go('--resume', code=2, name='b.h5part')
+        self.assertIn('b.h5part: is no file of snapshots', said)
+        self.assertEqual(self.read('b.h5part'), b'no snapshots')
+
+    def test_other_particles_are_refused(self):
+        self.go()
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            last = file[f'Step#{len(file) - 1}']
+            last['id'][0] = last['id'][1]
+        self.assertIn('the saved state is damaged', self.go('--resume', code=2))
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file[f'Step#{len(file) - 1}'].attrs['restart']
+        self.assertIn('was made by a slosh that could not resume', self.go('--resume', code=2))
+
+
+if __name__ == '__main__':
+    command.main()
