@@ -13,13 +13,20 @@ typedef struct Samples {
     StageTimes *cpu, *gl;
     double *frame_ms;
     int frames, gl_frames;
+    uint64_t steps;
+    double simulated; /* s */
 } Samples;
 
 static bool samples_create(Samples *samples, int frames, Error *error)
 {
     const size_t count = frames > 0 ? (size_t)frames : 1;
-    *samples = (Samples){calloc(count, sizeof(StageTimes)), calloc(count, sizeof(StageTimes)),
-                         calloc(count, sizeof(double)), 0, 0};
+    *samples = (Samples){calloc(count, sizeof(StageTimes)),
+                         calloc(count, sizeof(StageTimes)),
+                         calloc(count, sizeof(double)),
+                         0,
+                         0,
+                         0,
+                         0};
     return (samples->cpu && samples->gl && samples->frame_ms) ||
            error_set(error, "no memory for the times of %d frames", frames);
 }
@@ -107,9 +114,8 @@ static bool figures(const Samples *samples, const char *gl_clock, BenchResult *r
         wall += samples->frame_ms[f];
     result->frame_ms = quantile(samples->frame_ms, samples->frames, 0.5);
     result->frames = samples->frames;
-    result->particle_steps_per_second =
-        (double)result->particles * result->substeps * samples->frames / (1e-3 * sim);
-    result->real_time_factor = result->dt * samples->frames / (1e-3 * wall);
+    result->particle_steps_per_second = (double)result->particles * (double)samples->steps / (1e-3 * sim);
+    result->real_time_factor = samples->simulated / (1e-3 * wall);
     free(work);
     return true;
 }
@@ -170,6 +176,8 @@ static bool warm_up(Stand *stand, Error *error)
 static bool measure(Stand *stand, int frames, Progress *progress, double done, double part, Samples *samples,
                     Error *error)
 {
+    WorldInfo first, last;
+    world_info(stand->world, &first);
     for (double began = wall_ms(); samples->frames < frames && !interrupted();) {
         StageClock clock;
         if (!frame(stand, &clock, error))
@@ -181,6 +189,9 @@ static bool measure(Stand *stand, int frames, Progress *progress, double done, d
         progress_update(progress, done + part * samples->frames / frames);
         began = wall_ms();
     }
+    world_info(stand->world, &last);
+    samples->steps = last.step - first.step;
+    samples->simulated = last.time - first.time;
     while (samples->gl_frames < samples->frames &&
            gl_timer_drain(stand->timer, &samples->gl[samples->gl_frames]))
         samples->gl_frames++;
@@ -198,11 +209,11 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
         .threads = info.threads,
         .width = setup->width,
         .height = setup->height,
-        .substeps = def->substeps,
+        .substeps = def->step_mode == STEP_CFL ? 1 : def->substeps,
         .particles = info.count,
         .neighbours_mean = sums.neighbours_mean,
-        .dt = def->dt,
-        .dt_substep = def->dt / def->substeps,
+        .dt = def->step_mode == STEP_CFL ? info.dt : def->dt,
+        .dt_substep = info.dt,
         .bytes_per_particle = (double)info.state_bytes / (double)info.count,
     };
     snprintf(result->scene, sizeof result->scene, "%s", setup->scene->path);

@@ -8,6 +8,14 @@
 #include <stdio.h>
 #include <unistd.h>
 
+/* After trouble that no smaller step cured the world holds its last good state: what one wants to look at. */
+static void keep_last(const Session *session, Snapshot *file)
+{
+    Error none = {{0}};
+    if (session->scene.world.retries > 0 && session->info.time > snapshot_time(file))
+        snapshot_append(file, session->world, &none);
+}
+
 /* From the first state to the last, with a snapshot of the first state at or after each multiple of --every.
    Ends early, with a whole file, when a signal came. */
 static bool simulate(Session *session, const Args *args, Snapshot *file, Progress *progress, Error *error)
@@ -20,8 +28,10 @@ static bool simulate(Session *session, const Args *args, Snapshot *file, Progres
             return false;
         if (session_reached(session, args->time) || interrupted())
             return true;
-        if (!session_step(session, error))
+        if (!session_step(session, error)) {
+            keep_last(session, file);
             return false;
+        }
         progress_update(progress, session->info.time / args->time);
     }
 }

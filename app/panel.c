@@ -73,6 +73,8 @@ static void draw_figures(Ui *ui, const PanelData *data)
     else
         snprintf(text, sizeof text, "%.2f × real time, as it can", data->real_time_factor);
     ui_row(ui, "pace", text);
+    snprintf(text, sizeof text, "%.3g ms, bounded by %s", 1e3 * data->dt, step_limit_name(data->limit));
+    ui_row(ui, "time step", text);
     snprintf(text, sizeof text, "%.1f a second", data->pictures_per_second);
     ui_row(ui, "pictures", text);
 }

@@ -8,6 +8,7 @@
 #include "app/scene.h"
 #include "render/ui.h"
 #include "sim/stage.h"
+#include "sim/step_control.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -26,6 +27,8 @@ typedef struct PanelData {
     int frame_count, step_count; /* of them */
     size_t particles;
     double time;             /* simulated, s */
+    double dt;               /* of the last step, s */
+    StepLimit limit;         /* what bounded it */
     double real_time_factor; /* simulated over wall time */
     double speed;            /* that is asked for; 1: real time */
     double pictures_per_second;

@@ -137,6 +137,8 @@ static void collect(Play *play, float pictures[METER_HISTORY], PanelData *data)
                         .step_count = status->history_count,
                         .particles = play->particles.count,
                         .time = play->particles.time,
+                        .dt = status->dt,
+                        .limit = status->limit,
                         .real_time_factor = status->real_time_factor,
                         .speed = play->speed,
                         .pictures_per_second = play->meter.pictures_per_second,

@@ -58,7 +58,8 @@ const char *scalar_choice(int index)
 
 const char *step_mode_choice(int index)
 {
-    return index == 0 ? "fixed" : NULL;
+    static const char *const modes[] = {[STEP_FIXED] = "fixed", [STEP_CFL] = "cfl"};
+    return index <= STEP_CFL ? modes[index] : NULL;
 }
 
 double srgb_to_linear(double value)

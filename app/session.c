@@ -40,23 +40,63 @@ bool session_reached(const Session *session, double time)
     return session->info.time >= time - ROUNDING * session->scene.world.dt;
 }
 
-bool session_step(Session *session, Error *error)
+/* After a step: what is there now, and what the sentinel did. */
+static void look(Session *session)
 {
-    bool stepped = world_step(session->world, NULL, error);
+    const unsigned troubles = session->info.trouble.count;
+    char words[256];
     world_info(session->world, &session->info);
-    return stepped;
+    if (session->info.trouble.count != troubles)
+        fprintf(stderr, "%s\n", session_trouble_text(&session->info.trouble, words));
+}
+
+const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
+{
+    snprintf(words, 256, "t = %.4g s: %s; back to %.4g s with 1/%d of the step (%d of %d)", trouble->time,
+             step_trouble_words(trouble->what), trouble->back_to, 1 << trouble->tries, trouble->tries,
+             trouble->retries);
+    return words;
 }
 
 bool session_substep(Session *session, Error *error)
 {
-    bool stepped = world_substep(session->world, NULL, error);
-    world_info(session->world, &session->info);
+    const bool stepped = world_substep(session->world, NULL, error);
+    look(session);
+    return stepped;
+}
+
+bool session_step(Session *session, Error *error)
+{
+    bool stepped = true;
+    do
+        stepped = session_substep(session, error);
+    while (stepped && session->info.within_frame);
     return stepped;
 }
 
 static double wall_seconds(const Session *session)
 {
     return fmax((wall_ms() - session->began_ms) / 1000, 1e-6);
+}
+
+static void print_limits(const WorldInfo *info)
+{
+    fputs("steps bounded by", stderr);
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        if (info->limited[i])
+            fprintf(stderr, " %s %.3g %%", step_limit_name((StepLimit)i),
+                    100.0 * (double)info->limited[i] / (double)info->step);
+    fputc('\n', stderr);
+}
+
+static json_t *limits_json(const WorldInfo *info)
+{
+    json_t *limits = json_object();
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        if (info->limited[i])
+            json_object_set_new(limits, step_limit_name((StepLimit)i),
+                                json_integer((json_int_t)info->limited[i]));
+    return limits;
 }
 
 void session_report(const Session *session, const Args *args, const Summary *summary)
@@ -69,6 +109,8 @@ void session_report(const Session *session, const Args *args, const Summary *sum
         fprintf(stderr, "%zu particles, %.3g s simulated in %.3g s (%.3g times real time): %s, %zu %.*s\n",
                 info->count, info->time, wall, info->time / wall, args->output, summary->products,
                 (int)strlen(summary->product) - (summary->products == 1), summary->product);
+    if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
+        print_limits(info);
 }
 
 static json_t *summary_json(const Session *session, const Args *args, const Summary *summary)
@@ -83,6 +125,10 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
         info->spacing, "dt", def->dt, "substeps", def->substeps, "steps", (json_int_t)info->step,
         summary->product, (json_int_t)summary->products, "simulated_seconds", info->time, "wall_seconds",
         wall, "real_time_factor", info->time / wall, "stopped", summary->stopped);
+    if (json) {
+        json_object_set_new(json, "limits", limits_json(info));
+        json_object_set_new(json, "troubles", json_integer(info->trouble.count));
+    }
     if (json && summary->renderer)
         json_object_set_new(json, "renderer", json_string(summary->renderer));
     return json;

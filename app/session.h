@@ -29,9 +29,12 @@ void session_close(Session *session);
 /* Whether the present state is the first one at or after `time` (s) or a later one. */
 bool session_reached(const Session *session, double time);
 
-/* One frame on; false when the simulation broke. */
+/* One frame on, what the sentinel did said on standard error; false when the simulation broke. */
 bool session_step(Session *session, Error *error);
 bool session_substep(Session *session, Error *error); /* one step of a frame */
+
+/* What the sentinel did, in words. */
+const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);
 
 /* What a command says when it is done, on standard error and in --json FILE. */
 typedef struct Summary {

@@ -1,6 +1,7 @@
 #include "app/simulator.h"
 
 #include "app/command_queue.h"
+#include "app/session.h"
 #include "sim/world.h"
 
 #include <math.h>
@@ -35,7 +36,7 @@ struct Simulator {
     CommandQueue queue;
     uint64_t sent;     /* commands */
     double last_due;   /* wall time at which the last frame was to begin, ms */
-    double frame_time; /* dt, s */
+    double frame_time; /* simulated by the last frame, s */
     SimulatorStatus status;
     int history_next, obeyed_next;
     Obeyed obeyed[OBEYED_MAX];
@@ -44,6 +45,7 @@ struct Simulator {
     Scene start, scene; /* as given; as the commands have changed it */
     World *world;
     Recording recording;
+    unsigned troubles;   /* of the world, that were told */
     bool recording_lost; /* no memory for all of its commands */
     Upload *upload;
     void (*wake)(void);
@@ -76,8 +78,9 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     status->simulated_s += fmax(info->time - status->time, 0);
     status->time = info->time;
     status->step = info->step;
+    status->dt = info->dt;
+    status->limit = info->limit;
     status->hand = info->hand;
-    simulator->frame_time = simulator->scene.world.dt;
     simulator->obeyed[simulator->obeyed_next] = (Obeyed){info->step, simulator->taken};
     simulator->obeyed_next = (simulator->obeyed_next + 1) % OBEYED_MAX;
 }
@@ -105,6 +108,7 @@ static void world_start(Simulator *simulator)
     Error error = {{0}};
     simulator->scene = simulator->start;
     world_destroy(simulator->world);
+    simulator->troubles = 0;
     simulator->world = world_create(&simulator->start.world, &error);
     if (!simulator->world || !publish(simulator, &error))
         tell(simulator, true, error.message);
@@ -187,11 +191,12 @@ static void pace(Simulator *simulator, double now)
     simulator->pace_began_s = time;
 }
 
-static void count_frame(Simulator *simulator, double began, const StageClock *clock)
+static void count_frame(Simulator *simulator, double began, double simulated, const StageClock *clock)
 {
     pthread_mutex_lock(&simulator->lock);
     SimulatorStatus *status = &simulator->status;
     const double now = wall_ms();
+    simulator->frame_time = simulated;
     status->frames++;
     status->stages = clock->frame;
     status->solved_ms += now - began;
@@ -223,21 +228,37 @@ static bool obey_all(Simulator *simulator, Work *work)
     return go_on;
 }
 
+/* The sentinel went back: that is worth a word. */
+static void tell_trouble(Simulator *simulator, const WorldInfo *info)
+{
+    char words[256];
+    if (info->trouble.count == simulator->troubles)
+        return;
+    simulator->troubles = info->trouble.count;
+    tell(simulator, false, session_trouble_text(&info->trouble, words));
+}
+
 static void run_frame(Simulator *simulator, Work *work)
 {
     StageClock clock = {0};
     Error error = {{0}};
     const double began = wall_ms();
-    const int substeps = simulator->scene.world.substeps;
+    WorldInfo info;
     bool ok = true;
-    for (int i = 0; i < substeps && ok && obey_all(simulator, work); i++) {
+    world_info(simulator->world, &info);
+    const double from = info.time;
+    do {
+        if (!obey_all(simulator, work))
+            break;
         ok = world_substep(simulator->world, &clock, &error);
+        world_info(simulator->world, &info);
+        tell_trouble(simulator, &info);
         if (ok)
             STAGE (&clock, STAGE_UPLOAD)
                 ok = publish(simulator, &error);
         awaken(simulator);
-    }
-    count_frame(simulator, began, &clock);
+    } while (ok && info.within_frame);
+    count_frame(simulator, began, info.time - from, &clock);
     if (!ok)
         tell(simulator, true, error.message);
     awaken(simulator);

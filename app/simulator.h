@@ -74,6 +74,8 @@ typedef struct SimulatorStatus {
     double speed;
     double time;             /* s, of the last state */
     double simulated_s;      /* all resets together */
+    double dt;               /* of the last step, s */
+    StepLimit limit;         /* what bounded it */
     uint64_t step, frames;   /* since the scene's start */
     double real_time_factor; /* simulated over wall time in the last second; 0 while paused */
     double solved_ms;        /* wall time of these frames */

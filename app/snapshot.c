@@ -25,6 +25,7 @@ struct Snapshot {
     Output output;
     hid_t file;
     size_t steps;
+    double time; /* of the last one written */
     bool failed;
     SnapshotStep buffer; /* of the last world, arrays of `capacity` particles */
     size_t capacity;
@@ -134,6 +135,7 @@ Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error)
         return NULL;
     }
     hdf5_listen();
+    snapshot->time = -1;
     snapshot->file = create_file(snapshot->output.temp);
     if (snapshot->file < 0 || !write_root(snapshot->file, scene)) {
         hdf5_fail(error, path, "cannot be written");
@@ -153,6 +155,7 @@ Snapshot *snapshot_continue(const char *path, size_t steps, Error *error)
     }
     const hid_t access = snapshot_access();
     snapshot->steps = steps;
+    snapshot->time = -1;
     snprintf(snapshot->output.path, sizeof snapshot->output.path, "%s", path);
     snapshot->file = H5Fopen(path, H5F_ACC_RDWR, access);
     H5Pclose(access);
@@ -197,6 +200,11 @@ void snapshot_close(Snapshot *snapshot)
     output_discard(&snapshot->output);
     free_buffers(snapshot);
     free(snapshot);
+}
+
+double snapshot_time(const Snapshot *snapshot)
+{
+    return snapshot->time;
 }
 
 size_t snapshot_steps(const Snapshot *snapshot)
@@ -310,6 +318,7 @@ bool snapshot_append_step(Snapshot *snapshot, const SnapshotStep *step, Error *e
     if (snapshot->steps == 0 && !output_commit(&snapshot->output, error))
         return false;
     snapshot->steps++;
+    snapshot->time = step->time;
     snapshot->failed = false;
     return true;
 }

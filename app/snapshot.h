@@ -63,8 +63,9 @@ Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error);
 bool snapshot_append(Snapshot *snapshot, World *world, Error *error);
 bool snapshot_append_step(Snapshot *snapshot, const SnapshotStep *step, Error *error);
 
-/* Steps that are whole. */
+/* Steps that are whole; the time of the last one that was written here, s (-1: none). */
 size_t snapshot_steps(const Snapshot *snapshot);
+double snapshot_time(const Snapshot *snapshot);
 
 /* NULL is allowed. A file without a whole step leaves nothing behind. */
 void snapshot_close(Snapshot *snapshot);

@@ -76,14 +76,15 @@ static bool state_of(const SnapshotStep *step, WorldState *state)
     if (!world_state_reserve(state, step->count))
         return false;
     state->numbers = step->restart;
+    const ParticleColumns *p = &state->particles;
+    float *const to[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz};
+    const float *const from[] = {step->position[0], step->position[1], step->position[2],
+                                 step->velocity[0], step->velocity[1], step->velocity[2]};
+    for (size_t k = 0; k < sizeof to / sizeof *to; k++)
+        memcpy(to[k], from[k], step->count * sizeof(float));
     for (size_t i = 0; i < step->count; i++) {
-        for (size_t k = 0; k < 3; k++) {
-            state->position[4 * i + k] = step->position[k][i];
-            state->velocity[4 * i + k] = step->velocity[k][i];
-        }
-        state->position[4 * i + 3] = state->velocity[4 * i + 3] = 0;
-        state->fluid[i] = (uint32_t)step->fluid[i];
-        state->id[i] = (uint32_t)step->id[i];
+        p->fluid[i] = (uint8_t)step->fluid[i];
+        p->id[i] = (uint32_t)step->id[i];
     }
     return true;
 }

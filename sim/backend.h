@@ -5,7 +5,8 @@
 
 #include "sim/frame_step.h"
 #include "sim/solver.h"
-#include "sim/world.h"
+#include "sim/step_control.h"
+#include "sim/world_state.h"
 
 typedef struct Backend {
     const char *name, *help;
@@ -22,14 +23,14 @@ typedef struct Backend {
     void (*density)(void *state);
     /* Acceleration by pressure, viscosity and walls; eq. 10 and 14. */
     void (*force)(void *state, const ApparentGravity *gravity);
-    /* v += (acceleration + gravity) dt; false when a particle now moves further than the support radius in
-       dt, or its velocity is not finite: the step is too large for the forces. */
-    bool (*kick)(void *state, const float gravity[3], float dt);
+    /* v += (acceleration + gravity) dt, and what it finds: sim/step_control.h. */
+    StepWatch (*kick)(void *state, const float gravity[3], float dt);
     void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
     void (*read)(void *state, const ParticleArrays *out);
-    /* Takes position, velocity, fluid and id of as many particles as there are, in any order; `grid` and
-       `density` must follow. */
-    void (*load)(void *state, const ParticleArrays *from, size_t guarded);
+    /* Copies the particles into columns of as many; takes them, in any order, whereupon `grid` and `density`
+       must follow. */
+    void (*save)(void *state, const ParticleColumns *to);
+    void (*load)(void *state, const ParticleColumns *from, size_t guarded);
     void (*info)(const void *state, WorldInfo *info); /* threads, state_bytes, guarded */
 } Backend;
 

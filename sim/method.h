@@ -17,7 +17,7 @@ typedef struct Substep {
 
 typedef struct Method {
     const char *name, *help;
-    bool (*substep)(const Substep *step); /* false: the simulation blew up, see Backend.kick */
+    StepWatch (*substep)(const Substep *step);
 } Method;
 
 extern const Method method_mueller;

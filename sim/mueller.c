@@ -4,11 +4,11 @@
 
 /* Symplectic Euler with the drift in two halves around the kick (position Verlet): the same single evaluation
    of the forces and the same stability, but second order, and exact for free flight under gravity. */
-static bool mueller_substep(const Substep *step)
+static StepWatch mueller_substep(const Substep *step)
 {
     const Backend *b = step->backend;
     void *state = step->state;
-    bool bounded = true;
+    StepWatch watch = {.bounded = true};
 
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->first_half);
@@ -19,10 +19,10 @@ static bool mueller_substep(const Substep *step)
     STAGE (step->clock, STAGE_FORCE)
         b->force(state, &step->apparent);
     STAGE (step->clock, STAGE_INTEGRATE) {
-        bounded = b->kick(state, step->gravity, (float)step->dt);
+        watch = b->kick(state, step->gravity, (float)step->dt);
         b->drift(state, &step->second_half);
     }
-    return bounded;
+    return watch;
 }
 
 const Method method_mueller = {

@@ -2,6 +2,7 @@
 
 #include "sim/cpu/parallel.h"
 #include "sim/seed.h"
+#include "sim/sentinel.h"
 #include "sim/world_struct.h"
 
 #include <math.h>
@@ -144,6 +145,8 @@ World *world_create(const WorldDef *def, Error *error)
     }
     world->filter = box_filter_at_rest();
     world->target = (BoxTarget){.orientation = {0, 0, 0, 1}};
+    world->stepping = (StepState){.dt = def->dt / def->substeps, .refine = 1};
+    world->trouble.retries = def->retries;
     box_at(world, &world->filter, 0, &world->box);
     world->backend->grid(world->state);
     world->backend->density(world->state);
@@ -157,25 +160,26 @@ void world_destroy(World *world)
     if (world->state)
         world->backend->destroy(world->state);
     solver_destroy(&world->solver);
+    world_state_free(&world->good);
     free(world);
 }
 
 /* Multiplied, not added up: as long as dt is the same, the time of a step depends on its number alone. */
-static double time_of(const World *world, double step)
+double world_time_at(const World *world, double step)
 {
-    return world->since_time + (step - (double)world->since_step) * (world->def.dt / world->def.substeps);
+    return world->since_time + (step - (double)world->since_step) * world->stepping.dt;
 }
 
 /* Carries box and filter to the end of the substep. */
 static void substep_prepare(World *world, StageClock *clock, Substep *step)
 {
-    const double at = (double)world->step, dt = world->def.dt / world->def.substeps;
+    const double at = (double)world->step, dt = world->stepping.dt;
     const BoxState begin = world->box;
     BoxState middle;
     box_filter_step(&world->filter, &world->target, &world->def.limits, 0.5 * dt);
-    box_at(world, &world->filter, time_of(world, at + 0.5), &middle);
+    box_at(world, &world->filter, world_time_at(world, at + 0.5), &middle);
     box_filter_step(&world->filter, &world->target, &world->def.limits, 0.5 * dt);
-    box_at(world, &world->filter, time_of(world, at + 1), &world->box);
+    box_at(world, &world->filter, world_time_at(world, at + 1), &world->box);
 
     *step = (Substep){.backend = world->backend, .state = world->state, .clock = clock, .dt = dt};
     frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
@@ -187,25 +191,65 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
         step->gravity[k] = (float)gravity[k];
 }
 
+/* The size of the next step; where it is another than the last one's, the time counts on from here. */
+static void choose_step(World *world)
+{
+    const WorldDef *def = &world->def;
+    StepState *s = &world->stepping;
+    StepLimit limit = STEP_LIMIT_DT;
+    const double before = world->step > 0 ? s->refine * s->dt : 0;
+    const double dt = def->step_mode == STEP_CFL
+                          ? step_cfl(def, s->max_speed, s->max_acceleration, before, &limit) / s->refine
+                          : def->dt / def->substeps / s->refine;
+    s->limit = limit;
+    if (dt == s->dt)
+        return;
+    world->since_time = world_time_at(world, (double)world->step);
+    world->since_step = world->step;
+    s->dt = dt;
+}
+
+/* False when memory is short. */
+static bool begin_step(World *world, Error *error)
+{
+    StepState *s = &world->stepping;
+    if (s->frame_left < 1) {
+        sentinel_relieve(world);
+        if (!sentinel_mark(world, error))
+            return false;
+        s->frame_left = world->def.step_mode == STEP_CFL ? 1 : world->def.substeps * s->refine;
+    }
+    choose_step(world);
+    return true;
+}
+
 bool world_substep(World *world, StageClock *clock, Error *error)
 {
     Substep step;
+    StepState *s = &world->stepping;
+    if (!begin_step(world, error))
+        return false;
     substep_prepare(world, clock, &step);
-    const bool bounded = world->method->substep(&step);
+    const StepWatch watch = world->method->substep(&step);
+    const StepTrouble trouble = step_trouble_of(&watch, world->def.retries > 0);
     world->step++;
-    return bounded ||
-           error_set(
-               error,
-               "the simulation blew up at t = %g s: a particle moves further than the support radius in one step; use a smaller solver.step.dt, more solver.step.substeps or a lower solver.sound_speed",
-               time_of(world, (double)world->step));
+    world->limited[(int)s->limit]++;
+    if (trouble)
+        return sentinel_back(world, trouble, error);
+    s->max_speed = watch.max_speed;
+    s->max_acceleration = watch.max_acceleration;
+    s->frame_left--;
+    s->calm++;
+    return true;
 }
 
 bool world_step(World *world, StageClock *clock, Error *error)
 {
-    bool bounded = true;
-    for (int i = 0; i < world->def.substeps && bounded; i++)
-        bounded = world_substep(world, clock, error);
-    return bounded;
+    bool good = true;
+    do
+        good = world_substep(world, clock, error);
+    while (good && world->stepping.frame_left != 0);
+    return good;
 }
 
 static bool target_take(World *world, const BoxTarget *target)
@@ -232,7 +276,7 @@ void world_carry(World *world, const BoxTarget *target)
     world->filter = box_filter_at_rest();
     memcpy(world->filter.position, world->target.position, sizeof world->filter.position);
     memcpy(world->filter.orientation, world->target.orientation, sizeof world->filter.orientation);
-    box_at(world, &world->filter, time_of(world, (double)world->step), &world->box);
+    box_at(world, &world->filter, world_time_at(world, (double)world->step), &world->box);
 }
 
 bool world_adopt(World *world, const WorldDef *def, Error *error)
@@ -250,7 +294,6 @@ bool world_adopt(World *world, const WorldDef *def, Error *error)
 bool world_change(World *world, const WorldDef *def, Error *error)
 {
     WorldDef after = world->def;
-    const double now = time_of(world, (double)world->step);
     memcpy(after.gravity, def->gravity, sizeof after.gravity);
     for (int f = 0; f < after.fluid_count; f++)
         after.fluids[f].viscosity = def->fluids[f].viscosity;
@@ -258,24 +301,27 @@ bool world_change(World *world, const WorldDef *def, Error *error)
     after.negative_pressure = def->negative_pressure;
     after.dt = def->dt;
     after.substeps = def->substeps;
+    after.cfl_number = def->cfl_number;
+    after.max_dt = def->max_dt;
     after.limits = def->limits;
-    if (!world_adopt(world, &after, error))
-        return false;
-    world->since_step = world->step;
-    world->since_time = now;
-    return true;
+    return world_adopt(world, &after, error);
 }
 
 void world_info(const World *world, WorldInfo *info)
 {
     *info = (WorldInfo){
-        .time = time_of(world, (double)world->step),
+        .time = world_time_at(world, (double)world->step),
         .step = world->step,
         .count = world->count,
         .support_radius = world->def.support * world->def.spacing,
         .spacing = world->def.spacing,
         .box = world->box,
+        .within_frame = world->stepping.frame_left != 0,
+        .dt = world->stepping.dt,
+        .limit = (StepLimit)world->stepping.limit,
+        .trouble = world->trouble,
     };
+    memcpy(info->limited, world->limited, sizeof info->limited);
     memcpy(info->box_size, world->def.box_size, sizeof info->box_size);
     memcpy(info->hand.position, world->filter.position, sizeof info->hand.position);
     memcpy(info->hand.orientation, world->filter.orientation, sizeof info->hand.orientation);

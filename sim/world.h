@@ -8,6 +8,7 @@
 #include "sim/error.h"
 #include "sim/scalar.h"
 #include "sim/stage.h"
+#include "sim/step_control.h"
 #include "sim/world_def.h"
 
 #include <stdbool.h>
@@ -21,9 +22,10 @@ typedef struct World World;
 World *world_create(const WorldDef *def, Error *error);
 void world_destroy(World *world); /* NULL is allowed */
 
-/* Carries the world one frame (dt, in `substeps` steps) on; stage times go into `clock` (NULL: not measured).
-   False with a message when the simulation blew up (a particle moves further than the support radius in one
-   step): what the world holds then is of no use. */
+/* Carries the world one frame on (mode fixed: dt, in `substeps` steps; cfl: one step), or what is left of it;
+   stage times go into `clock` (NULL: not measured). On trouble the sentinel goes back and halves the step:
+   WorldInfo.trouble. False with a message when that did not help, `retries` times: the world then holds the
+   last good state; without retries what it holds is of no use. */
 bool world_step(World *world, StageClock *clock, Error *error);
 
 /* The same for one step of the frame's `substeps`: for who wants a say in between. */
@@ -38,24 +40,40 @@ void world_set_target(World *world, const BoxTarget *target);
 void world_carry(World *world, const BoxTarget *target);
 
 /* Takes from `def` what may change while a world lives: gravity, viscosities, sound speed, negative pressure,
-   dt, substeps, the hand's limits; all else must be as it was. It holds from the next step on, and is as much
-   a part of the world's history as a target is. False with the reason: nothing has changed. */
+   dt, substeps, number and max_dt of mode cfl, the hand's limits; all else must be as it was. It holds from
+   the next step on, and is as much a part of the world's history as a target is. False with the reason:
+   nothing has changed. */
 bool world_change(World *world, const WorldDef *def, Error *error);
+
+/* The last trouble that the sentinel found. The world then went back to the begin of the frame, with half the
+   step. */
+typedef struct WorldTrouble {
+    unsigned count; /* in all */
+    StepTrouble what;
+    double time;        /* when it was found, s */
+    double back_to;     /* the state that it went back to, s */
+    int tries, retries; /* halvings in force, and how many there may be */
+} WorldTrouble;
 
 /* What a world is, apart from its particles. */
 typedef struct WorldInfo {
-    double time;           /* simulated, s */
-    uint64_t step;         /* substeps since the start */
-    size_t count;          /* particles */
-    int threads;           /* that the backend uses */
-    double support_radius; /* h, m */
-    double spacing;        /* m */
-    double box_size[3];    /* m */
-    BoxState box;          /* of the state that world_read reads */
-    BoxTarget hand;        /* the hand's part of its pose, as the filter has it */
-    double gravity[3];     /* in the box's frame, m/s2 */
-    size_t state_bytes;    /* memory that the backend holds for its particles and grid */
-    size_t guarded;        /* times that the last guard of a wall held a particle back, since the start */
+    double time;                        /* simulated, s */
+    uint64_t step;                      /* substeps since the start */
+    size_t count;                       /* particles */
+    int threads;                        /* that the backend uses */
+    double support_radius;              /* h, m */
+    double spacing;                     /* m */
+    double box_size[3];                 /* m */
+    BoxState box;                       /* of the state that world_read reads */
+    BoxTarget hand;                     /* the hand's part of its pose, as the filter has it */
+    double gravity[3];                  /* in the box's frame, m/s2 */
+    size_t state_bytes;                 /* memory that the backend holds for its particles and grid */
+    bool within_frame;                  /* steps of the frame are left */
+    double dt;                          /* of the last step, s */
+    StepLimit limit;                    /* what bounded it */
+    uint64_t limited[STEP_LIMIT_COUNT]; /* steps by what bounded them, since the start */
+    WorldTrouble trouble;
+    size_t guarded; /* times that the last guard of a wall held a particle back, since the start */
 } WorldInfo;
 
 void world_info(const World *world, WorldInfo *info);

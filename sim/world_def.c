@@ -16,7 +16,10 @@ WorldDef world_def_default(void)
         .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see sim/README.md */
         .dt = 0.01,                /* a frame of 100 Hz */
         .limits = box_limits_default(),
-        .substeps = 10, /* paper 003's stable setting at 8,192 particles */
+        .substeps = 10,    /* paper 003's stable setting at 8,192 particles */
+        .cfl_number = 0.3, /* three quarters of what mueller stands at support 2.1 */
+        .max_dt = 0.01,
+        .retries = 3, /* to an eighth of the step: trouble that stays is no matter of the step */
     };
 }
 

@@ -39,6 +39,8 @@ typedef struct InitialState {
     const uint8_t *fluid;  /* count, or NULL for the first fluid */
 } InitialState;
 
+typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;
+
 typedef struct WorldDef {
     double box_size[3];             /* inner width, height, depth, m */
     double gravity[3];              /* in the world's frame, m/s2 */
@@ -50,8 +52,12 @@ typedef struct WorldDef {
     double sound_speed;             /* c, m/s: p = c^2 (rho - rho0) */
     char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel.h */
     bool negative_pressure;         /* false: p = max(0, p) */
-    double dt;                      /* simulated time of a frame, s */
-    int substeps;                   /* steps in a frame */
+    StepMode step_mode;
+    double dt;         /* simulated time of a frame, s; mode fixed */
+    int substeps;      /* steps in a frame; mode fixed */
+    double cfl_number; /* of its limits; mode cfl, whose frame is one step: see sim/step_control.h */
+    double max_dt;     /* greatest step, s; mode cfl */
+    int retries; /* times that the step is halved after trouble before the world gives up; 0: no sentinel */
     int fluid_count;
     FluidDef fluids[FLUIDS_MAX];
     int motion_count;

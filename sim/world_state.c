@@ -8,34 +8,31 @@
 
 void world_state_free(WorldState *state)
 {
-    free(state->position);
-    free(state->velocity);
-    free(state->fluid);
-    free(state->id);
+    const ParticleColumns *p = &state->particles;
+    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->id, p->fluid};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        free(all[k]);
     *state = (WorldState){.count = 0};
 }
 
 bool world_state_reserve(WorldState *state, size_t count)
 {
+    ParticleColumns *p = &state->particles;
+    float **const floats[] = {&p->x, &p->y, &p->z, &p->vx, &p->vy, &p->vz};
+    bool all = true;
+    if (count > state->capacity) {
+        world_state_free(state);
+        for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
+            all &= (*floats[k] = malloc(count * sizeof(float))) != NULL;
+        p->id = malloc(count * sizeof *p->id);
+        p->fluid = malloc(count * sizeof *p->fluid);
+        all &= p->id && p->fluid;
+        state->capacity = count;
+    }
     state->count = count;
-    if (count <= state->capacity)
-        return true;
-    world_state_free(state);
-    state->position = malloc(4 * count * sizeof *state->position);
-    state->velocity = malloc(4 * count * sizeof *state->velocity);
-    state->fluid = malloc(count * sizeof *state->fluid);
-    state->id = malloc(count * sizeof *state->id);
-    state->count = state->capacity = count;
-    const bool all = state->position && state->velocity && state->fluid && state->id;
     if (!all)
         world_state_free(state);
     return all;
-}
-
-static ParticleArrays arrays_of(const WorldState *state)
-{
-    return (ParticleArrays){
-        .position = state->position, .velocity = state->velocity, .fluid = state->fluid, .id = state->id};
 }
 
 void world_save_numbers(const World *world, WorldNumbers *numbers)
@@ -49,6 +46,7 @@ void world_save_numbers(const World *world, WorldNumbers *numbers)
         .since_step = (double)world->since_step,
         .since_time = world->since_time,
         .guarded = (double)info.guarded,
+        .stepping = world->stepping,
         .target = world->target,
         .filter = world->filter,
         .box = world->box,
@@ -56,6 +54,8 @@ void world_save_numbers(const World *world, WorldNumbers *numbers)
         .negative_pressure = def->negative_pressure,
         .dt = def->dt,
         .substeps = def->substeps,
+        .cfl_number = def->cfl_number,
+        .max_dt = def->max_dt,
         .limits = def->limits,
     };
     memcpy(numbers->gravity, def->gravity, sizeof numbers->gravity);
@@ -68,8 +68,7 @@ bool world_save(World *world, WorldState *state, Error *error)
     if (!world_state_reserve(state, world->count))
         return error_set(error, "no memory for the state of %zu particles", world->count);
     world_save_numbers(world, &state->numbers);
-    const ParticleArrays arrays = arrays_of(state);
-    world_read(world, &arrays);
+    world->backend->save(world->state, &state->particles);
     return true;
 }
 
@@ -84,7 +83,9 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
         if (!isfinite(all[i]))
             return error_set(error, "the saved state is damaged: a number of it is not finite");
     if (!(numbers->step >= numbers->since_step && numbers->since_step >= 0 && numbers->step < 0x1p53 &&
-          numbers->substeps >= 1 && numbers->substeps < 0x1p31 && numbers->guarded >= 0))
+          numbers->stepping.dt > 0 && numbers->stepping.refine >= 1 && numbers->stepping.limit >= 0 &&
+          numbers->stepping.limit < STEP_LIMIT_COUNT && numbers->substeps >= 1 &&
+          numbers->substeps < 0x1p31 && numbers->guarded >= 0))
         return error_set(error, "the saved state is damaged: its steps do not count");
     return true;
 }
@@ -95,15 +96,15 @@ static bool particles_check(const World *world, const WorldState *state, Error *
     if (state->count != world->count)
         return error_set(error, "the saved state has %zu particles, the scene %zu", state->count,
                          world->count);
+    const ParticleColumns *p = &state->particles;
     bool *seen = calloc(state->count, sizeof *seen), whole = true;
     if (!seen)
         return error_set(error, "no memory");
     for (size_t i = 0; i < state->count && whole; i++) {
-        const float *x = state->position + 4 * i, *v = state->velocity + 4 * i;
-        whole = isfinite(x[0] + x[1] + x[2] + v[0] + v[1] + v[2]) && state->id[i] < state->count &&
-                !seen[state->id[i]] && state->fluid[i] < (uint32_t)world->def.fluid_count;
+        whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) &&
+                p->id[i] < state->count && !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
         if (whole)
-            seen[state->id[i]] = true;
+            seen[p->id[i]] = true;
     }
     free(seen);
     return whole || error_set(error, "the saved state is damaged: its particles are not those of the scene");
@@ -117,10 +118,19 @@ static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
     def.negative_pressure = numbers->negative_pressure != 0;
     def.dt = numbers->dt;
     def.substeps = (int)numbers->substeps;
+    def.cfl_number = numbers->cfl_number;
+    def.max_dt = numbers->max_dt;
     def.limits = numbers->limits;
     for (int f = 0; f < def.fluid_count; f++)
         def.fluids[f].viscosity = numbers->viscosity[f];
     return def;
+}
+
+void world_put_particles(World *world, const WorldState *state)
+{
+    world->backend->load(world->state, &state->particles, (size_t)state->numbers.guarded);
+    world->backend->grid(world->state);
+    world->backend->density(world->state);
 }
 
 bool world_load(World *world, const WorldState *state, Error *error)
@@ -134,12 +144,10 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->step = (uint64_t)numbers->step;
     world->since_step = (uint64_t)numbers->since_step;
     world->since_time = numbers->since_time;
+    world->stepping = numbers->stepping;
     world->target = numbers->target;
     world->filter = numbers->filter;
     world->box = numbers->box;
-    const ParticleArrays arrays = arrays_of(state);
-    world->backend->load(world->state, &arrays, (size_t)numbers->guarded);
-    world->backend->grid(world->state);
-    world->backend->density(world->state);
-    return true;
+    world_put_particles(world, state);
+    return world->def.retries == 0 || world_save(world, &world->good, error);
 }

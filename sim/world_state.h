@@ -3,6 +3,7 @@
 #ifndef SLOSH_WORLD_STATE_H
 #define SLOSH_WORLD_STATE_H
 
+#include "sim/step_control.h"
 #include "sim/world.h"
 
 /* What is not of a particle. Doubles only, so that it is also an array of WORLD_NUMBERS of them: files keep
@@ -12,6 +13,7 @@ typedef struct WorldNumbers {
     double step, since_step;      /* substeps; where the present dt began */
     double since_time;            /* s, then */
     double guarded;               /* as WorldInfo has it */
+    StepState stepping;           /* how it steps */
     BoxTarget target;             /* of the hand */
     BoxFilter filter;             /* where its part of the pose is */
     BoxState box;                 /* the pose, in the world's frame */
@@ -19,19 +21,26 @@ typedef struct WorldNumbers {
     double sound_speed;           /* m/s */
     double negative_pressure;     /* 0 or 1 */
     double dt, substeps;          /* of a frame, s */
+    double cfl_number, max_dt;    /* of mode cfl, s */
     BoxLimits limits;             /* of the hand */
     double viscosity[FLUIDS_MAX]; /* Pa s */
 } WorldNumbers;
 
 enum { WORLD_STATE_VERSION = 1, WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double) };
 
-/* Zero-initialise it; owns its arrays. Particles stand in any order, `id` tells who is who. */
+/* What is of a particle, a column each. */
+typedef struct ParticleColumns {
+    float *x, *y, *z;    /* box's frame, m */
+    float *vx, *vy, *vz; /* box's frame, m/s */
+    uint32_t *id;        /* place in the initial state */
+    uint8_t *fluid;      /* index into WorldDef.fluids */
+} ParticleColumns;
+
+/* Zero-initialise it; owns its columns. Particles stand in any order, `id` tells who is who. */
 typedef struct WorldState {
     WorldNumbers numbers;
     size_t count, capacity; /* particles; room for them */
-    float *position;        /* 4 a particle: x y z (box's frame, m), unused */
-    float *velocity;        /* 4 a particle: x y z (box's frame, m/s), 0 */
-    uint32_t *fluid, *id;   /* as ParticleArrays has them */
+    ParticleColumns particles;
 } WorldState;
 
 /* Room for so many particles; what was in it is lost. False when memory is short: then it is empty. */

@@ -3,6 +3,7 @@
 #define SLOSH_WORLD_STRUCT_H
 
 #include "sim/method.h"
+#include "sim/world_state.h"
 
 struct World {
     WorldDef def; /* `initial` is not kept */
@@ -12,12 +13,22 @@ struct World {
     void *state; /* the backend's */
     size_t count;
     uint64_t step;
-    uint64_t since_step; /* when the present dt began, */
+    uint64_t since_step; /* when the present step size began, */
     double since_time;   /* at this time, s */
-    BoxTarget target;    /* of the hand */
-    BoxFilter filter;    /* at the present time */
-    BoxState box;        /* at the present time, the hand's part included */
+    StepState stepping;
+    WorldState good; /* what the sentinel goes back to */
+    WorldTrouble trouble;
+    uint64_t limited[STEP_LIMIT_COUNT]; /* steps since the start, by what bounded them */
+    BoxTarget target;                   /* of the hand */
+    BoxFilter filter;                   /* at the present time */
+    BoxState box;                       /* at the present time, the hand's part included */
 };
+
+/* The particles of the state, with a grid and densities of their own. */
+void world_put_particles(World *world, const WorldState *state);
+
+/* s, of a step by its number, as far as the present step size holds. */
+double world_time_at(const World *world, double step);
 
 /* The def, whose constant part is the world's own, becomes the world's. False with the reason: nothing has
    changed. */

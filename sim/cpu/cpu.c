@@ -141,22 +141,35 @@ static void cpu_info(const void *state, WorldInfo *info)
     info->guarded = cpu->guarded;
 }
 
-static void cpu_load(void *state, const ParticleArrays *from, size_t guarded)
+typedef struct Copy {
+    const CpuParticles *from, *to;
+} Copy;
+
+static void copy_range(void *context, size_t begin, size_t end)
+{
+    const Copy *copy = context;
+    const CpuParticles *from = copy->from, *to = copy->to;
+    const float *const columns[] = {from->x, from->y, from->z, from->vx, from->vy, from->vz};
+    float *const others[] = {to->x, to->y, to->z, to->vx, to->vy, to->vz};
+    for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
+        memcpy(others[k] + begin, columns[k] + begin, (end - begin) * sizeof(float));
+    memcpy(to->id + begin, from->id + begin, (end - begin) * sizeof *to->id);
+    memcpy(to->fluid + begin, from->fluid + begin, (end - begin) * sizeof *to->fluid);
+}
+
+static void cpu_save(void *state, const ParticleColumns *to)
 {
     Cpu *cpu = state;
-    CpuParticles *p = &cpu->now;
-    for (size_t i = 0; i < cpu->count; i++) {
-        p->x[i] = from->position[4 * i];
-        p->y[i] = from->position[4 * i + 1];
-        p->z[i] = from->position[4 * i + 2];
-        p->vx[i] = from->velocity[4 * i];
-        p->vy[i] = from->velocity[4 * i + 1];
-        p->vz[i] = from->velocity[4 * i + 2];
-        p->id[i] = from->id[i];
-        p->fluid[i] = (uint8_t)from->fluid[i];
-    }
+    Copy copy = {&cpu->now, to};
+    parallel_ranges(cpu->threads, cpu->count, 8 * CPU_GRAIN, copy_range, &copy);
+}
+
+static void cpu_load(void *state, const ParticleColumns *from, size_t guarded)
+{
+    Cpu *cpu = state;
+    Copy copy = {from, &cpu->now};
+    parallel_ranges(cpu->threads, cpu->count, 8 * CPU_GRAIN, copy_range, &copy);
     cpu->guarded = guarded;
-    cpu->unbounded = false;
 }
 
 const Backend backend_cpu = {
@@ -172,6 +185,7 @@ const Backend backend_cpu = {
     .kick = cpu_kick,
     .sums = cpu_sums,
     .read = cpu_read,
+    .save = cpu_save,
     .load = cpu_load,
     .info = cpu_info,
 };

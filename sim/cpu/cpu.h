@@ -6,13 +6,7 @@
 #include "sim/cpu/pairs.h"
 #include "sim/cpu/parallel.h"
 
-/* What moves when particles are sorted. */
-typedef struct CpuParticles {
-    float *x, *y, *z;    /* box frame, m */
-    float *vx, *vy, *vz; /* box frame, m/s */
-    uint32_t *id;        /* place in the initial state */
-    uint8_t *fluid;
-} CpuParticles;
+typedef ParticleColumns CpuParticles; /* what moves when particles are sorted */
 
 typedef struct Cpu {
     const Solver *solver;
@@ -31,7 +25,7 @@ typedef struct Cpu {
     WorldSums *partial;          /* by `sums`: one a range */
     size_t bytes;                /* of all these */
     size_t guarded;              /* atomic */
-    bool unbounded;              /* atomic: some particle moves further than h in a step, or is not finite */
+    StepWatch watch;             /* by `kick`; atomic while it runs */
 } Cpu;
 
 enum { CPU_GRAIN = 512 }; /* particles in a range: some 0.2 ms of work, small against a step */
@@ -42,7 +36,7 @@ void cpu_grid(void *state);
 void cpu_density(void *state);
 void cpu_force(void *state, const ApparentGravity *gravity);
 void cpu_drift(void *state, const FrameStep *step);
-bool cpu_kick(void *state, const float gravity[3], float dt);
+StepWatch cpu_kick(void *state, const float gravity[3], float dt);
 void cpu_sums(void *state, WorldSums *sums);
 void cpu_read(void *state, const ParticleArrays *out);
 

@@ -1,6 +1,7 @@
 #include "sim/cpu/cpu.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct Drift {
     Cpu *cpu;
@@ -40,30 +41,52 @@ typedef struct Kick {
     float dt;
 } Kick;
 
+/* The greatest of values that are not negative: their bits are in the same order. */
+static void atomic_greatest(float *greatest, float value)
+{
+    uint32_t bits, *at = (uint32_t *)greatest;
+    memcpy(&bits, &value, sizeof bits);
+    uint32_t seen = __atomic_load_n(at, __ATOMIC_RELAXED);
+    while (bits > seen &&
+           !__atomic_compare_exchange_n(at, &seen, bits, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+        ;
+}
+
 static void kick_range(void *context, size_t begin, size_t end)
 {
     const Kick *kick = context;
-    const Cpu *cpu = kick->cpu;
+    Cpu *cpu = kick->cpu;
     const CpuParticles *p = &cpu->now;
     const float fastest = cpu->solver->support_radius / kick->dt;
+    float speed2 = 0, acceleration2 = 0, volume = INFINITY;
     bool bounded = true; /* false for NaN as well */
     for (size_t i = begin; i < end; i++) {
-        const float vx = p->vx[i] + (cpu->ax[i] + kick->gravity[0]) * kick->dt;
-        const float vy = p->vy[i] + (cpu->ay[i] + kick->gravity[1]) * kick->dt;
-        const float vz = p->vz[i] + (cpu->az[i] + kick->gravity[2]) * kick->dt;
+        const float ax = cpu->ax[i] + kick->gravity[0], ay = cpu->ay[i] + kick->gravity[1],
+                    az = cpu->az[i] + kick->gravity[2];
+        const float vx = p->vx[i] + ax * kick->dt;
+        const float vy = p->vy[i] + ay * kick->dt;
+        const float vz = p->vz[i] + az * kick->dt;
+        const float v2 = vx * vx + vy * vy + vz * vz, a2 = ax * ax + ay * ay + az * az;
         p->vx[i] = vx;
         p->vy[i] = vy;
         p->vz[i] = vz;
-        bounded &= vx * vx + vy * vy + vz * vz <= fastest * fastest;
+        bounded &= v2 <= fastest * fastest;
+        speed2 = v2 > speed2 ? v2 : speed2;
+        acceleration2 = a2 > acceleration2 ? a2 : acceleration2;
+        volume = cpu->volume[i] < volume ? cpu->volume[i] : volume;
     }
+    atomic_greatest(&cpu->watch.max_speed, sqrtf(speed2));
+    atomic_greatest(&cpu->watch.max_acceleration, sqrtf(acceleration2));
+    atomic_greatest(&cpu->watch.max_compression, 1 / (volume * cpu->solver->rest_number_density));
     if (!bounded)
-        __atomic_store_n(&kick->cpu->unbounded, true, __ATOMIC_RELAXED);
+        __atomic_store_n(&cpu->watch.bounded, false, __ATOMIC_RELAXED);
 }
 
-bool cpu_kick(void *state, const float gravity[3], float dt)
+StepWatch cpu_kick(void *state, const float gravity[3], float dt)
 {
     Cpu *cpu = state;
     Kick kick = {cpu, gravity, dt};
+    cpu->watch = (StepWatch){.bounded = true};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, kick_range, &kick);
-    return !cpu->unbounded;
+    return cpu->watch;
 }

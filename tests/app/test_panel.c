@@ -122,7 +122,7 @@ static void open_sections(Desk *desk)
 
 static Desk *all_open(Session *session, const char *scene)
 {
-    Desk *desk = session_open(session, scene, 400, 1400, 13);
+    Desk *desk = session_open(session, scene, 400, 1600, 13);
     open_sections(desk);
     return desk;
 }
@@ -178,7 +178,7 @@ static void click_for_change(Desk *desk, const Key *key, const char *path, float
         desk_click(desk, seen->rect[0] + 10, seen->rect[3] + 1.5F * line);
     if (key->type == KEY_COLOR)
         desk_click(desk, middle + 60, seen->rect[3] + 60);
-    desk_click(desk, 395, 1395); /* closes it */
+    desk_click(desk, 395, 1595); /* closes it */
 }
 
 static void test_what_it_asks_for_is_accepted(void **state)
@@ -338,7 +338,7 @@ static void test_nothing_is_cut_at_any_scale(void **state)
     static const float scales[] = {1, 1.5F, 2, 3};
     for (int i = 0; i < 4; i++) {
         Session session;
-        Desk *desk = session_open(&session, "two_oils", (int)(700 * scales[i]), (int)(1400 * scales[i]),
+        Desk *desk = session_open(&session, "two_oils", (int)(700 * scales[i]), (int)(1600 * scales[i]),
                                   13 * scales[i]);
         open_sections(desk);
         session.help = true;

@@ -360,7 +360,7 @@ class Panel(Window):
 
     def test_a_button_is_the_panels_own(self):
         self.open()
-        self.drag(1, [(44, 128), (44, 128)])  # pause
+        self.drag(1, [(44, 146), (44, 146)])  # pause
         time.sleep(0.3)
         self.drag(1, [(120, 60), (200, 90)])  # between the widgets: nothing
         out = self.quit()
@@ -369,15 +369,15 @@ class Panel(Window):
     def test_hidden_it_takes_nothing(self):
         self.open()
         self.keys('F2')
-        self.drag(1, [(44, 128), (94, 128)])
+        self.drag(1, [(44, 146), (94, 146)])
         out = self.quit()
         self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (False, False, False))
 
     def test_a_slider_changes_the_fluid(self):
         self.open('--record', 'a.rec')
-        self.drag(1, [(60, 434), (60, 434)])  # the heading World, closed at first
+        self.drag(1, [(60, 452), (60, 452)])  # the heading World, closed at first
         time.sleep(0.4)
-        self.drag(1, [(248, 455), (255, 455), (262, 455)])
+        self.drag(1, [(248, 473), (255, 473), (262, 473)])
         time.sleep(0.2)
         self.quit()
         self.assertRegex(self.read('a.rec').decode(), r'\d+ set gravity=\[')

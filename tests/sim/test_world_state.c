@@ -16,6 +16,7 @@ static WorldDef moving_def(int threads)
 {
     WorldDef def = fixture_def(1, 1, 1);
     def.threads = threads;
+    def.retries = 3;
     def.substeps = 3;
     def.dt = 0.01;
     def.fluid_count = 2;
@@ -138,14 +139,14 @@ static void what_is_no_state_is_refused(void **state)
     saved.count--;
     refuse(world, &saved, "particles, the scene");
     saved.count++;
-    const uint32_t id = saved.id[5];
-    saved.id[5] = saved.id[6];
+    const uint32_t id = saved.particles.id[5];
+    saved.particles.id[5] = saved.particles.id[6];
     refuse(world, &saved, "not those of the scene");
-    saved.id[5] = id;
-    saved.fluid[0] = 2;
+    saved.particles.id[5] = id;
+    saved.particles.fluid[0] = 2;
     refuse(world, &saved, "not those of the scene");
-    saved.fluid[0] = 0;
-    saved.position[4] = INFINITY;
+    saved.particles.fluid[0] = 0;
+    saved.particles.x[1] = INFINITY;
     refuse(world, &saved, "not those of the scene");
     world_state_free(&saved);
     world_destroy(world);

@@ -1,0 +1,67 @@
+#include "sim/sentinel.h"
+
+#include <stdio.h>
+
+static const double CALM_STEPS = 200;
+
+bool sentinel_mark(World *world, Error *error)
+{
+    return world->def.retries == 0 || world_save(world, &world->good, error);
+}
+
+void sentinel_relieve(World *world)
+{
+    StepState *s = &world->stepping;
+    if (s->refine <= 1 || s->calm < CALM_STEPS * s->refine)
+        return;
+    s->refine /= 2;
+    s->tries--;
+    s->calm = 0;
+}
+
+static void restore(World *world)
+{
+    const WorldNumbers *numbers = &world->good.numbers;
+    world->since_step = world->step;
+    world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
+    world->filter = numbers->filter;
+    world->box = numbers->box;
+    world->stepping.max_speed = numbers->stepping.max_speed;
+    world->stepping.max_acceleration = numbers->stepping.max_acceleration;
+    world->stepping.frame_left = -1;
+    world->stepping.calm = 0;
+    world_put_particles(world, &world->good);
+}
+
+static bool give_up(World *world, StepTrouble trouble, double time, Error *error)
+{
+    const int retries = world->def.retries;
+    char also[96] = "";
+    if (retries > 0)
+        snprintf(also, sizeof also, ", with 1/%d of the step too; the state at t = %g s is kept",
+                 1 << retries, world_time_at(world, (double)world->step));
+    return error_set(
+        error,
+        "the simulation blew up at t = %g s: %s%s; use a smaller solver.step.dt, more solver.step.substeps or a lower solver.sound_speed",
+        time, step_trouble_words(trouble), also);
+}
+
+bool sentinel_back(World *world, StepTrouble trouble, Error *error)
+{
+    StepState *s = &world->stepping;
+    WorldTrouble *told = &world->trouble;
+    const double time = world_time_at(world, (double)world->step);
+    if (world->def.retries == 0)
+        return give_up(world, trouble, time, error);
+    restore(world);
+    if (s->tries >= world->def.retries)
+        return give_up(world, trouble, time, error);
+    s->refine *= 2;
+    s->tries++;
+    told->count++;
+    told->what = trouble;
+    told->time = time;
+    told->back_to = world->since_time;
+    told->tries = (int)s->tries;
+    return true;
+}

@@ -1,0 +1,70 @@
+/* How large a step may be, and what to do when it was too large. Pure: numbers in, numbers out. */
+#ifndef SLOSH_STEP_CONTROL_H
+#define SLOSH_STEP_CONTROL_H
+
+#include "sim/world_def.h"
+
+#include <stdbool.h>
+
+/* X(ENUM, name, help): what bounds a step */
+#define STEP_LIMITS(X)                                                                                       \
+    X(DT, "dt", "the scene's fixed step")                                                                    \
+    X(COURANT, "courant", "number h / (c + greatest speed)")                                                 \
+    X(FORCE, "force", "number sqrt(h / greatest acceleration)")                                              \
+    X(VISCOUS, "viscous", "number h^2 / 4 nu, nu the greatest kinematic viscosity")                          \
+    X(MAX_DT, "max_dt", "the scene's greatest step")                                                         \
+    X(GROWTH, "growth", "a tenth more than the step before")
+
+typedef enum StepLimit {
+#define X(NAME, name, help) STEP_LIMIT_##NAME,
+    STEP_LIMITS(X)
+#undef X
+        STEP_LIMIT_COUNT
+} StepLimit;
+
+const char *step_limit_name(StepLimit limit);
+
+/* How a world steps. Doubles only: part of its saved state. */
+typedef struct StepState {
+    double dt;               /* of the step in hand or the last one, s */
+    double limit;            /* a StepLimit: what bounds it */
+    double max_speed;        /* m/s, after the last step */
+    double max_acceleration; /* m/s2, in the last step */
+    double frame_left;       /* steps until the frame ends; -1: it is to be begun again */
+    double refine;           /* 1, 2, 4, ...: the step is divided by that after trouble */
+    double tries;            /* halvings that have not been taken back */
+    double calm;             /* steps since the last trouble or relief */
+} StepState;
+
+/* What a substep found, over all particles. */
+typedef struct StepWatch {
+    bool bounded;           /* no particle moves further than the support radius in the step, none is NaN */
+    float max_speed;        /* m/s */
+    float max_acceleration; /* m/s2, gravity included */
+    float max_compression;  /* of number density over that at rest */
+} StepWatch;
+
+/* X(ENUM, words): trouble that the sentinel finds */
+#define STEP_TROUBLES(X)                                                                                     \
+    X(NONE, "")                                                                                              \
+    X(SPEED, "a particle moves further than the support radius in one step")                                 \
+    X(DENSITY, "fluid is pressed to more than five times its density")
+
+typedef enum StepTrouble {
+#define X(NAME, words) STEP_TROUBLE_##NAME,
+    STEP_TROUBLES(X)
+#undef X
+        STEP_TROUBLE_COUNT
+} StepTrouble;
+
+const char *step_trouble_words(StepTrouble trouble);
+/* Without a `sentinel` only what no step can go on from. */
+StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel);
+
+/* The adaptive step (mode cfl; Monaghan, "Smoothed particle hydrodynamics", 1992, eq. 10.1 f.): the least of
+   its limits at the speed and acceleration of the step before, never much longer than that one (`before`, s;
+   0: there was none), so that what a blow frees has time to show. */
+double step_cfl(const WorldDef *def, double max_speed, double max_acceleration, double before,
+                StepLimit *binding);
+
+#endif

@@ -1,0 +1,77 @@
+"""Adaptive steps and the sentinel, as a user meets them."""
+import json
+
+import h5py
+
+import command
+from command import CommandTest, whole_steps
+
+
+class Steps(CommandTest):
+    def go(self, *more, code=0):
+        done, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0.4', '--json', 'a.json', *more)
+        self.assertEqual(done, code, said)
+        return said
+
+    def last(self):
+        with h5py.File(self.path('a.h5part')) as file:
+            return file[f"Step#{len(whole_steps(self.path('a.h5part'))) - 1}"].attrs['TimeValue']
+
+    def test_cfl(self):
+        said = self.go('--set', 'solver.step.mode=cfl')
+        self.assertRegex(said, r'steps bounded by courant [0-9.]+ % growth [0-9.]+ %\n')
+        found = json.loads(self.read('a.json'))
+        self.assertEqual(sum(found['limits'].values()), found['steps'])
+        self.assertEqual(found['troubles'], 0)
+        self.assertGreaterEqual(found['simulated_seconds'], 0.4)
+        self.assertLess(found['simulated_seconds'], 0.41)
+        self.go('--set', 'solver.step={mode: cfl, max_dt: 0.0001}')
+        found = json.loads(self.read('a.json'))
+        self.assertGreater(found['limits']['max_dt'], 0.9 * found['steps'])
+
+    def test_cfl_resumes(self):
+        cfl = ('--set', 'solver.step.mode=cfl', '--every', '0.01', '--quiet')
+        self.assertEqual(self.slosh('run', 'scene.yaml', '-o', 'b.h5part', '--time', '0.4', *cfl)[0], 0)
+        self.assertEqual(self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0.2', *cfl)[0], 0)
+        self.go(*cfl, '--resume')
+        with h5py.File(self.path('a.h5part')) as a, h5py.File(self.path('b.h5part')) as b:
+            self.assertEqual(len(a), len(b))
+            one, other = a[f'Step#{len(a) - 1}'], b[f'Step#{len(a) - 1}']
+            self.assertEqual(one.attrs['restart'].tobytes(), other.attrs['restart'].tobytes())
+            for name in ('id', 'x', 'velocity_1'):
+                self.assertEqual(one[name][:].tobytes(), other[name][:].tobytes())
+
+    def test_bench(self):
+        code, said = self.slosh('bench', 'scene.yaml', '--view', 'none', '--frames', '20', '--json', 'b.json', '--set',
+                                'solver.step.mode=cfl')
+        self.assertEqual(code, 0, said)
+        found = json.loads(self.read('b.json'))[0]
+        self.assertEqual(found['substeps'], 1)
+        self.assertGreater(found['particle_steps_per_second'], 1000)
+
+    def test_trouble_is_told_and_cured(self):
+        said = self.go('--set', 'solver.step={dt: 0.04, substeps: 1}')
+        self.assertRegex(said, r't = [0-9.]+ s: a particle moves further than the support radius in one step; '
+                               r'back to [0-9.]+ s with 1/2 of the step \(1 of 3\)\n')
+        self.assertGreater(json.loads(self.read('a.json'))['troubles'], 0)
+
+    def test_it_gives_up_with_a_snapshot(self):
+        said = self.go('--set', 'solver.step={dt: 0.04, substeps: 1, retries: 0}', code=1)
+        self.assertNotIn('kept', said)
+        said = self.go('--set', 'solver.step={dt: 0.05, substeps: 1, retries: 1}', '--set', 'solver.sound_speed=60',
+                       '--every', '10', code=1)
+        self.assertRegex(said, r'the simulation blew up at t = [0-9.]+ s: .*; the state at t = [0-9.e-]+ s is kept')
+        kept = float(said.split('the state at t = ')[1].split(' ')[0])
+        self.assertAlmostEqual(self.last(), kept, places=6)
+
+    def test_bounds(self):
+        for setting in ('mode=rk4', 'number=0', 'number=2.1', 'max_dt=0', 'max_dt=1.1', 'retries=-1', 'retries=11'):
+            code, said = self.slosh('info', 'scene.yaml', '--set', f'solver.step.{setting}')
+            self.assertEqual(code, 2, setting)
+            self.assertIn('solver.step.' + setting.split('=')[0], said)
+        for setting in ('mode=cfl', 'number=0.001', 'number=2', 'max_dt=1e-7', 'max_dt=1', 'retries=0', 'retries=10'):
+            self.assertEqual(self.slosh('info', 'scene.yaml', '--set', f'solver.step.{setting}')[0], 0, setting)
+
+
+if __name__ == '__main__':
+    command.main()

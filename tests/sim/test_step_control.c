@@ -1,0 +1,227 @@
+/* The adaptive step's limits against numbers by hand; and the sentinel: back, half the step, on, or an end
+   with the last good state. */
+#include "fixture.h"
+
+#include "sim/step_control.h"
+#include "sim/world_state.h"
+
+static Error error;
+
+static void each_limit_binds(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1, 1); /* h = 0.21 m */
+    StepLimit limit;
+    def.support = 2.1;
+    def.sound_speed = 20;
+    def.cfl_number = 0.3;
+    def.max_dt = 1;
+    assert_true(fabs(step_cfl(&def, 1, 1, 1, &limit) - 0.3 * 0.21 / 21) < 1e-12);
+    assert_int_equal(limit, STEP_LIMIT_COURANT);
+    assert_true(fabs(step_cfl(&def, 1, 1e6, 1, &limit) - 0.3 * sqrt(0.21e-6)) < 1e-12);
+    assert_int_equal(limit, STEP_LIMIT_FORCE);
+    def.fluids[0].viscosity = 4000; /* nu = 4 m2/s */
+    assert_true(fabs(step_cfl(&def, 1, 1, 1, &limit) - 0.3 * 0.21 * 0.21 / 16) < 1e-12);
+    assert_int_equal(limit, STEP_LIMIT_VISCOUS);
+    def.max_dt = 1e-4;
+    assert_true(step_cfl(&def, 1, 1, 1, &limit) == 1e-4);
+    assert_int_equal(limit, STEP_LIMIT_MAX_DT);
+    assert_true(fabs(step_cfl(&def, 1, 1, 1e-6, &limit) - 1.1e-6) < 1e-15);
+    assert_int_equal(limit, STEP_LIMIT_GROWTH);
+    def.max_dt = 1;
+    def.fluids[0].viscosity = 0;
+    assert_true(fabs(step_cfl(&def, 0, 0, 0, &limit) - 0.1 * 0.3 * 0.21 / 20) < 1e-12); /* the first one */
+    assert_int_equal(limit, STEP_LIMIT_GROWTH);
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        assert_non_null(step_limit_name((StepLimit)i));
+}
+
+static WorldDef falling_block(void)
+{
+    WorldDef def = fixture_def(1, 1, 0.6);
+    fixture_block(&def, 0, -0.5, 0, -0.3, 0, 0.7, 0.3);
+    def.sound_speed = 20;
+    return def;
+}
+
+/* Steps as long as each state allows, the same on any number of threads; a frame is one of them. */
+static void cfl_follows_the_flow(void **state)
+{
+    (void)state;
+    uint64_t hash[2];
+    for (int threads = 1; threads <= 2; threads++) {
+        WorldDef def = falling_block();
+        def.step_mode = STEP_CFL;
+        def.threads = threads;
+        def.retries = 3;
+        World *world = fixture_world(&def);
+        double time = 0, longest = 0, shortest = 1;
+        for (int i = 0; i < 400; i++) {
+            WorldSums sums;
+            WorldInfo info;
+            world_sums(world, &sums);
+            fixture_step(world, 1);
+            world_info(world, &info);
+            assert_int_equal(info.step, i + 1);
+            assert_false(info.within_frame);
+            assert_true(info.dt <= 0.3 * 0.21 / (20 + sums.max_speed) * (1 + 1e-6));
+            time += info.dt;
+            assert_true(fabs(info.time - time) < 1e-9);
+            longest = fmax(longest, info.dt);
+            shortest = i > 50 ? fmin(shortest, info.dt) : 1;
+        }
+        WorldInfo info;
+        world_info(world, &info);
+        assert_int_equal(info.trouble.count, 0);
+        assert_true(info.limited[STEP_LIMIT_COURANT] > 300 && info.limited[STEP_LIMIT_GROWTH] > 10);
+        assert_true(longest > 1.03 * shortest);
+        hash[threads - 1] = world_hash(world);
+        world_destroy(world);
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
+static WorldInfo info_of(const World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    return info;
+}
+
+/* A step three times too long is halved until it holds, and the fluid comes to rest all the same. */
+static void the_step_is_halved(void **state)
+{
+    (void)state;
+    WorldDef def = falling_block();
+    def.retries = 3;
+    def.dt = 0.04; /* a substep of 20 ms: 2 h / c */
+    def.substeps = 2;
+    def.fluids[0].viscosity = 50;
+    World *world = fixture_world(&def);
+    double before = 0;
+    unsigned troubles = 0;
+    for (int i = 0; i < 100; i++) {
+        fixture_step(world, 1);
+        const WorldInfo info = info_of(world);
+        if (info.trouble.count > troubles) {
+            assert_true(fabs(info.trouble.back_to - before) < 1e-9); /* no finished frame is taken back */
+            assert_true(info.trouble.time > info.trouble.back_to);
+            assert_int_equal(info.trouble.retries, 3);
+        }
+        troubles = info.trouble.count;
+        before = info.time;
+        assert_true(fabs(info.time - 0.04 * (i + 1)) < 1e-9);
+    }
+    WorldSums sums;
+    world_sums(world, &sums);
+    assert_true(troubles > 0);
+    assert_true(sums.max_speed < 20 && isfinite(sums.kinetic_energy));
+    world_destroy(world);
+}
+
+/* Trouble that no step cures ends with the last good state. */
+static void it_gives_up_with_the_last_good_state(void **state)
+{
+    (void)state;
+    WorldDef def = falling_block();
+    def.retries = 2;
+    def.dt = 100;
+    def.substeps = 2;
+    World *world = fixture_world(&def);
+    fixture_step(world, 0);
+    const uint64_t hash = world_hash(world);
+    assert_false(world_step(world, NULL, &error));
+    assert_non_null(strstr(error.message, "the simulation blew up at t = "));
+    assert_non_null(strstr(error.message, "with 1/4 of the step too; the state at t = 0 s is kept"));
+    assert_true(world_hash(world) == hash);
+    assert_true(info_of(world).time == 0);
+    assert_int_equal(info_of(world).trouble.count, 2);
+    world_destroy(world);
+}
+
+static void without_a_sentinel_it_stops_at_once(void **state)
+{
+    (void)state;
+    WorldDef def = falling_block();
+    def.dt = 1;
+    World *world = fixture_world(&def);
+    assert_false(world_step(world, NULL, &error));
+    assert_non_null(strstr(error.message, "the simulation blew up at t = 1 s: "));
+    assert_null(strstr(error.message, "kept"));
+    world_destroy(world);
+}
+
+/* After many calm steps the step is as long as before. */
+static void calm_brings_the_step_back(void **state)
+{
+    (void)state;
+    WorldDef def = falling_block();
+    def.retries = 3;
+    def.dt = 0.03;
+    def.substeps = 10;
+    def.fluids[0].viscosity = 100;
+    World *world = fixture_world(&def);
+    WorldDef wild = def;
+    wild.sound_speed = 100;
+    assert_true(world_change(world, &wild, &error));
+    for (int i = 0; i < 20 && info_of(world).trouble.count == 0; i++)
+        fixture_step(world, 1);
+    assert_true(info_of(world).trouble.count > 0);
+    fixture_step(world, 1);
+    assert_true(info_of(world).dt < 0.002);
+    assert_true(world_change(world, &def, &error));
+    fixture_step(world, 300);
+    assert_true(fabs(info_of(world).dt - 0.003) < 1e-12);
+    world_destroy(world);
+}
+
+/* What was said after the state that it goes back to stays said; saved within trouble it goes on the same. */
+static void a_session_with_trouble_comes_out_the_same(void **state)
+{
+    (void)state;
+    WorldDef def = falling_block();
+    def.retries = 3;
+    def.dt = 0.04;
+    def.substeps = 2;
+    def.fluids[0].viscosity = 50;
+    uint64_t hash[3];
+    for (int run = 0; run < 3; run++) {
+        def.threads = 1 + run % 2;
+        World *world = fixture_world(&def);
+        WorldState saved = {.count = 0};
+        for (int i = 0; i < 40; i++) {
+            const BoxTarget target = {{0.05 * sin(i), 0, 0}, {0, 0, 0, 1}};
+            if (run == 2 && i == 11) {
+                assert_true(world_save(world, &saved, &error));
+                world_destroy(world);
+                world = fixture_world(&def);
+                assert_true(world_load(world, &saved, &error));
+            }
+            assert_true(world_substep(world, NULL, &error));
+            world_set_target(world, &target);
+            while (info_of(world).within_frame)
+                assert_true(world_substep(world, NULL, &error));
+        }
+        if (run < 2)
+            assert_true(info_of(world).trouble.count > 0);
+        hash[run] = world_hash(world);
+        assert_true(fabs(info_of(world).hand.position[0]) > 1e-6);
+        world_state_free(&saved);
+        world_destroy(world);
+    }
+    assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_limit_binds),
+        cmocka_unit_test(cfl_follows_the_flow),
+        cmocka_unit_test(the_step_is_halved),
+        cmocka_unit_test(it_gives_up_with_the_last_good_state),
+        cmocka_unit_test(without_a_sentinel_it_stops_at_once),
+        cmocka_unit_test(calm_brings_the_step_back),
+        cmocka_unit_test(a_session_with_trouble_comes_out_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
