@@ -34,6 +34,9 @@ static void print_lists(void)
     printf("density kernels\n");
     for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
         print_row(kernel->name, kernel->help);
+    printf("kernels of wcsph\n");
+    for (const Kernel *kernel = wcsph_kernels; kernel->name; kernel++)
+        print_row(kernel->name, kernel->help);
     printf("views\n");
     for (const ViewKind *const *view = view_list; *view; view++)
         print_row((*view)->name, (*view)->help);

@@ -124,7 +124,11 @@ static const Key keys[] = {
 
     MAPPING("solver", "how the fluid is computed"),
     CHOICE("solver.method", 0, method_choice, WORLD(method), "the equations"),
-    CHOICE("solver.density_kernel", 0, density_kernel_choice, WORLD(density_kernel), "the kernel that density is summed by"),
+    CHOICE("solver.density_kernel", 0, density_kernel_choice, WORLD(density_kernel), "mueller: the kernel that density is summed by"),
+    CHOICE("solver.kernel", 0, wcsph_kernel_choice, WORLD(kernel), "wcsph: its kernel"),
+    NUMBER("solver.artificial_viscosity", 0, "", 0, 1, WORLD(artificial_viscosity),
+           "wcsph: alpha, for fluids without a viscosity; 0: none"),
+    NUMBER("solver.delta_sph", 0, "", 0, 0.5, WORLD(delta_sph), "wcsph: diffusion of density, 0.1 as a rule; 0: none"),
     CHOICE("solver.backend", 0, backend_choice, WORLD(backend), "what computes them"),
     INTEGER("solver.threads", 0, 0, 1024, WORLD(threads), "of the CPU; 0: one a processor"),
     NUMBER("solver.sound_speed", L, "m/s", 0.001, 1e4, WORLD(sound_speed),

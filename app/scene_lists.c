@@ -30,6 +30,14 @@ const char *density_kernel_choice(int index)
     return kernel->name;
 }
 
+const char *wcsph_kernel_choice(int index)
+{
+    const Kernel *kernel = wcsph_kernels;
+    for (int i = 0; i < index && kernel->name; i++)
+        kernel++;
+    return kernel->name;
+}
+
 const char *backend_choice(int index)
 {
     return named(world_backends(), index);

@@ -19,8 +19,11 @@ typedef struct Backend {
     void (*drift)(void *state, const FrameStep *step);
     /* Sorts the particles by cell, in a cell by id. */
     void (*grid)(void *state);
-    /* Number density, volume and pressure of every particle; Müller 2003, eq. 3 and 12. */
+    /* Number density, volume and pressure of every particle; Müller 2003, eq. 3 and 12. Of wcsph: volume and
+       pressure by the density that it carries. */
     void (*density)(void *state);
+    /* wcsph: density += dt times its rate by the equation of continuity; volume and pressure after it. */
+    void (*continuity)(void *state, float dt);
     /* Acceleration by pressure, viscosity and walls; eq. 10 and 14. */
     void (*force)(void *state, const ApparentGravity *gravity);
     /* v += (acceleration + gravity) dt, and what it finds: sim/step_control.h. */

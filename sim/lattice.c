@@ -2,10 +2,11 @@
 
 #include <math.h>
 
-void lattice_calibrate(double spacing, double support_radius, const Kernel *density_kernel, Lattice *lattice)
+void lattice_calibrate(double spacing, double support_radius, const Kernel *density_kernel,
+                       const Kernel *pressure_kernel, Lattice *lattice)
 {
     const double h = support_radius, volume = spacing * spacing * spacing;
-    *lattice = (Lattice){.number_density = 1 / volume};
+    *lattice = (Lattice){.number_density = 1 / volume, .pressure_kernel = pressure_kernel};
     const int reach = (int)ceil(h / spacing);
     double sum = density_kernel->value(0, h), gradient = 0, laplacian = 0, compression = 0;
 
@@ -19,7 +20,7 @@ void lattice_calibrate(double spacing, double support_radius, const Kernel *dens
                 sum += density_kernel->value(r, h);
                 compression -= r * density_kernel->derivative(r, h) / 3; /* -d sum / d ln V */
                 /* d(x)/dx = 1 = -sum V x_ij . grad W / 3; Laplacian of x^2 = 2 = sum V x_ij^2 lap W */
-                gradient -= volume * r * kernel_spiky_derivative(r, h) / 3;
+                gradient -= volume * r * pressure_kernel->derivative(r, h) / 3;
                 laplacian += volume * r * r * kernel_viscosity_laplacian(r, h) / 3;
             }
     lattice->density_scale = lattice->number_density / sum;

@@ -11,15 +11,17 @@
 #include "sim/kernel.h"
 
 typedef struct Lattice {
-    double number_density;  /* n0 = 1 / spacing^3, 1/m3; mass = rho0 / n0 */
-    double density_scale;   /* factor on the density kernel: n0 over its sum, self included */
-    double gradient_scale;  /* factor on the derivative of the spiky kernel */
+    double number_density; /* n0 = 1 / spacing^3, 1/m3; mass = rho0 / n0 */
+    double density_scale;  /* factor on the density kernel: n0 over its sum, self included */
+    double gradient_scale; /* factor on the derivative of the pressure kernel */
+    const Kernel *pressure_kernel;
     double laplacian_scale; /* factor on the Laplacian of the viscosity kernel */
     double stiffness_scale; /* relative change of volume over that of n / n0 */
     int neighbours;         /* others with r < h */
 } Lattice;
 
 /* Of the lattice with that spacing and support radius, m. */
-void lattice_calibrate(double spacing, double support_radius, const Kernel *density_kernel, Lattice *lattice);
+void lattice_calibrate(double spacing, double support_radius, const Kernel *density_kernel,
+                       const Kernel *pressure_kernel, Lattice *lattice);
 
 #endif

@@ -20,7 +20,7 @@ typedef struct Method {
     StepWatch (*substep)(const Substep *step);
 } Method;
 
-extern const Method method_mueller;
+extern const Method method_mueller, method_wcsph;
 
 /* NULL when there is none of that name. */
 const Method *method_find(const char *name);

@@ -68,8 +68,15 @@ static void fluids_set(Solver *solver, const WorldDef *def)
     solver->fluid_count = def->fluid_count;
     solver->negative_pressure = def->negative_pressure;
     solver->viscous = false;
+    const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
+    solver->diffusion = (float)(2 * def->delta_sph * c * reach / solver->lattice.number_density);
+    solver->artificial = false;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
+        const double alpha = fluid->viscosity > 0 ? 0 : def->artificial_viscosity;
+        solver->tait[f] = (float)(fluid->density * c * c / 7);
+        solver->artificial_viscosity[f] = (float)(0.5 * alpha * c * reach * fluid->density);
+        solver->artificial |= alpha > 0;
         solver->mass[f] = (float)(fluid->density / solver->lattice.number_density);
         solver->density[f] = (float)fluid->density;
         solver->stiffness[f] = (float)(c2 * fluid->density);
@@ -78,17 +85,33 @@ static void fluids_set(Solver *solver, const WorldDef *def)
     }
 }
 
+/* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
+static void wcsph_set(Solver *solver, const Kernel *kernel, double h)
+{
+    static const double f_half[] = {[KERNEL_CUBIC] = 3,
+                                    [KERNEL_WENDLAND_C2] = 2.5,
+                                    [KERNEL_QUINTIC] = (1.5 * 1.5 * 1.5 * 1.5 - 6 * 0.0625) / 0.5};
+    const double r = 0.5 * h, scale = solver->lattice.gradient_scale;
+    solver->kernel = (WcsphKernel)(kernel - wcsph_kernels);
+    solver->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[solver->kernel]);
+}
+
 bool solver_create(Solver *solver, const WorldDef *def, Error *error)
 {
     memset(solver, 0, sizeof *solver);
     const double h = def->support * def->spacing;
-    const Kernel *kernel = density_kernel_find(def->density_kernel);
+    const bool continuity = strcmp(def->method, "wcsph") == 0;
+    const Kernel *kernel =
+        continuity ? wcsph_kernel_find(def->kernel) : density_kernel_find(def->density_kernel);
     if (!kernel)
-        return error_set(error, "unknown density kernel '%s'; spiky or poly6", def->density_kernel);
+        return error_set(error, "unknown kernel '%s'; `slosh info` lists them",
+                         continuity ? def->kernel : def->density_kernel);
     if (!def_check(def, error) || !cells_set(&solver->cells, def->box_size, h, error))
         return false;
 
-    lattice_calibrate(def->spacing, h, kernel, &solver->lattice);
+    lattice_calibrate(def->spacing, h, kernel, continuity ? kernel : density_kernel_find("spiky"),
+                      &solver->lattice);
+    solver->continuity = continuity;
     solver->poly6 = kernel->value == kernel_poly6;
     solver->support_radius = (float)h;
     solver->spacing = (float)def->spacing;
@@ -96,6 +119,8 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     solver->kernel_scale = (float)(kernel->value(0, h) * solver->lattice.density_scale);
     solver->pressure_scale = (float)(-kernel_spiky_derivative(0, h) * solver->lattice.gradient_scale);
     solver->viscosity_scale = (float)(kernel_viscosity_laplacian(0, h) * solver->lattice.laplacian_scale);
+    if (continuity)
+        wcsph_set(solver, kernel, h);
     fluids_set(solver, def);
     if (!walls_create(&solver->walls, def->box_size, def->spacing, h, kernel, &solver->lattice))
         return error_set(error, "no memory for the tables of the walls");

@@ -31,6 +31,13 @@ typedef struct Solver {
     float viscosity[FLUIDS_MAX]; /* mu, Pa s */
     bool viscous;                /* some mu is not zero */
     bool negative_pressure;
+    bool continuity; /* wcsph: the particles carry their density; the next seven are its own */
+    WcsphKernel kernel;
+    float gradient;         /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f in sim/cpu/pairs_wcsph.c */
+    float tait[FLUIDS_MAX]; /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
+    bool artificial;
+    float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
+    float diffusion;                        /* 2 delta c (h / 2) V0, m5/s; 0: none */
     CellGrid cells;
     Lattice lattice;
     Walls walls;

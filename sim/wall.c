@@ -21,7 +21,8 @@ static void add_lattice_particle(const Behind *behind, const double x[3], Sums s
     const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
     if (r >= behind->h || r == 0)
         return;
-    const double w = -kernel_spiky_derivative(r, behind->h) / r * behind->lattice->gradient_scale;
+    const double w =
+        -behind->lattice->pressure_kernel->derivative(r, behind->h) / r * behind->lattice->gradient_scale;
     const double values[SUMS] = {behind->lattice->density_scale * behind->kernel->value(r, behind->h),
                                  w * x[0],
                                  w * x[1],

@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const Backend *const backends[] = {&backend_cpu};
-static const Method *const methods[] = {&method_mueller};
+static const Method *const methods[] = {&method_mueller, &method_wcsph};
 enum { BACKENDS = sizeof backends / sizeof backends[0], METHODS = sizeof methods / sizeof methods[0] };
 
 const Backend *backend_find(const char *name)
@@ -79,7 +79,7 @@ static bool seeds_make(const WorldDef *def, Seeds *seeds, InitialState *initial,
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < 3; k++)
             seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
-    *initial = (InitialState){count, seeds->position, seeds->velocity, seeds->fluid};
+    *initial = (InitialState){count, seeds->position, seeds->velocity, seeds->fluid, NULL};
     return true;
 }
 
@@ -98,6 +98,8 @@ static bool initial_check(const WorldDef *def, const InitialState *initial, Erro
         const float *x = initial->position + 3 * i;
         if (!isfinite(x[0] + x[1] + x[2]))
             return error_set(error, "the position of particle %zu is not finite", i);
+        if (initial->density && !(initial->density[i] > 0 && isfinite(initial->density[i])))
+            return error_set(error, "the density of particle %zu is not positive", i);
         if (initial->fluid && initial->fluid[i] >= def->fluid_count)
             return error_set(error, "particle %zu belongs to fluid %d, and there are %d", i,
                              initial->fluid[i], def->fluid_count);

@@ -13,8 +13,10 @@ WorldDef world_def_default(void)
         .backend = "cpu",
         .sound_speed =
             20, /* ten times the speed of a fall of 0.2 m: density within 1 % in a scene of a hand's size */
-        .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see sim/README.md */
-        .dt = 0.01,                /* a frame of 100 Hz */
+        .kernel = "cubic",
+        .artificial_viscosity = 0.05, /* calms what the walls' lattice stirs up, half of what breaks waves */
+        .density_kernel = "spiky",    /* the paper's poly6 heats the fluid: see sim/README.md */
+        .dt = 0.01,                   /* a frame of 100 Hz */
         .limits = box_limits_default(),
         .substeps = 10,    /* paper 003's stable setting at 8,192 particles */
         .cfl_number = 0.3, /* three quarters of what mueller stands at support 2.1 */

@@ -37,6 +37,7 @@ typedef struct InitialState {
     const float *position; /* 3 * count, x y z of each particle */
     const float *velocity; /* 3 * count, or NULL for rest in the box's frame */
     const uint8_t *fluid;  /* count, or NULL for the first fluid */
+    const float *density;  /* count, kg/m3, for a method whose particles carry it; NULL: at rest */
 } InitialState;
 
 typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;
@@ -52,6 +53,9 @@ typedef struct WorldDef {
     double sound_speed;             /* c, m/s: p = c^2 (rho - rho0) */
     char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel.h */
     bool negative_pressure;         /* false: p = max(0, p) */
+    char kernel[NAME_SIZE];         /* of wcsph: see wcsph_kernels in sim/kernel.h */
+    double artificial_viscosity;    /* alpha of wcsph, for fluids without a viscosity */
+    double delta_sph;               /* delta of wcsph's density diffusion; 0: none */
     StepMode step_mode;
     double dt;         /* simulated time of a frame, s; mode fixed */
     int substeps;      /* steps in a frame; mode fixed */

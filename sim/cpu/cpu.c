@@ -22,12 +22,14 @@ static bool particles_create(Cpu *cpu, CpuParticles *p)
         ok &= (*floats[k] = array(cpu, cpu->count, sizeof(float))) != NULL;
     p->id = array(cpu, cpu->count, sizeof *p->id);
     p->fluid = array(cpu, cpu->count, sizeof *p->fluid);
+    if (cpu->solver->continuity)
+        ok &= (p->density = array(cpu, cpu->count, sizeof(float))) != NULL;
     return ok && p->id && p->fluid;
 }
 
 static void particles_destroy(CpuParticles *p)
 {
-    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->id, p->fluid};
+    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->density, p->id, p->fluid};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
 }
@@ -37,9 +39,10 @@ static void cpu_destroy(void *state)
     Cpu *cpu = state;
     particles_destroy(&cpu->now);
     particles_destroy(&cpu->spare);
-    void *const all[] = {cpu->volume, cpu->pressure,  cpu->pressure_term, cpu->viscosity,  cpu->ax,
-                         cpu->ay,     cpu->az,        cpu->cell,          cpu->spare_cell, cpu->rank,
-                         cpu->order,  cpu->cell_start};
+    void *const all[] = {cpu->volume,     cpu->pressure, cpu->pressure_term, cpu->viscosity,
+                         cpu->artificial, cpu->relative, cpu->kind,          cpu->ax,
+                         cpu->ay,         cpu->az,       cpu->cell,          cpu->spare_cell,
+                         cpu->rank,       cpu->order,    cpu->cell_start};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     free(cpu->partial);
@@ -50,9 +53,22 @@ static bool cpu_adapt(void *state)
 {
     Cpu *cpu = state;
     const Solver *s = cpu->solver;
-    if (s->fluid_count > 1 && s->viscous && !cpu->viscosity)
-        cpu->viscosity = array(cpu, cpu->count, sizeof(float));
-    return cpu->viscosity || s->fluid_count == 1 || !s->viscous;
+    const struct {
+        float **array;
+        bool needed;
+    } terms[] = {
+        {&cpu->viscosity, s->viscous && (s->fluid_count > 1 || s->continuity)},
+        {&cpu->artificial, s->continuity && s->artificial},
+        {&cpu->relative, s->continuity && s->diffusion > 0},
+        {&cpu->kind, s->continuity && s->diffusion > 0},
+    };
+    bool ok = true;
+    for (size_t k = 0; k < sizeof terms / sizeof *terms; k++) {
+        if (terms[k].needed && !*terms[k].array)
+            *terms[k].array = array(cpu, cpu->count, sizeof(float));
+        ok &= *terms[k].array || !terms[k].needed;
+    }
+    return ok;
 }
 
 static bool arrays_create(Cpu *cpu)
@@ -72,7 +88,7 @@ static bool arrays_create(Cpu *cpu)
     return cpu_adapt(cpu) && ok;
 }
 
-static void particles_set(CpuParticles *p, const InitialState *initial)
+static void particles_set(const Solver *solver, CpuParticles *p, const InitialState *initial)
 {
     for (size_t i = 0; i < initial->count; i++) {
         p->x[i] = initial->position[3 * i];
@@ -80,6 +96,8 @@ static void particles_set(CpuParticles *p, const InitialState *initial)
         p->z[i] = initial->position[3 * i + 2];
         p->id[i] = (uint32_t)i;
         p->fluid[i] = initial->fluid ? initial->fluid[i] : 0;
+        if (p->density)
+            p->density[i] = initial->density ? initial->density[i] : solver->density[p->fluid[i]];
         if (!initial->velocity)
             continue;
         p->vx[i] = initial->velocity[3 * i];
@@ -105,7 +123,7 @@ static void *cpu_create(const Solver *solver, const InitialState *initial, int t
         cpu_destroy(cpu);
         return NULL;
     }
-    particles_set(&cpu->now, initial);
+    particles_set(solver, &cpu->now, initial);
     return cpu;
 }
 
@@ -126,6 +144,10 @@ PairArgs cpu_pair_args(const Cpu *cpu)
         .volume = cpu->volume,
         .pressure_term = cpu->pressure_term,
         .viscosity = cpu->viscosity,
+        .artificial = cpu->artificial,
+        .relative = cpu->relative,
+        .kind = cpu->kind,
+        .rate = cpu->ax,
         .number_density = cpu->volume,
         .fx = cpu->ax,
         .fy = cpu->ay,
@@ -153,6 +175,8 @@ static void copy_range(void *context, size_t begin, size_t end)
     float *const others[] = {to->x, to->y, to->z, to->vx, to->vy, to->vz};
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
         memcpy(others[k] + begin, columns[k] + begin, (end - begin) * sizeof(float));
+    if (from->density && to->density)
+        memcpy(to->density + begin, from->density + begin, (end - begin) * sizeof(float));
     memcpy(to->id + begin, from->id + begin, (end - begin) * sizeof *to->id);
     memcpy(to->fluid + begin, from->fluid + begin, (end - begin) * sizeof *to->fluid);
 }
@@ -181,6 +205,7 @@ const Backend backend_cpu = {
     .drift = cpu_drift,
     .grid = cpu_grid,
     .density = cpu_density,
+    .continuity = cpu_continuity,
     .force = cpu_force,
     .kick = cpu_kick,
     .sums = cpu_sums,

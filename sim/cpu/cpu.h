@@ -17,7 +17,9 @@ typedef struct Cpu {
     float *volume, *pressure;    /* by `density`: 1 / n, m3; Pa */
     float *pressure_term;        /* by `density`: p V^2, J m3 */
     float *viscosity;            /* by `density`: Pa s; NULL with one fluid or none viscous */
-    float *ax, *ay, *az;         /* by `force`, m/s2 */
+    float *artificial;           /* wcsph's, as PairArgs has it; NULL: none */
+    float *relative, *kind;      /* wcsph's, for the diffusion of density; NULL: none */
+    float *ax, *ay, *az;         /* by `force`, m/s2; `ax` also by `continuity` */
     uint32_t *cell, *spare_cell; /* by `grid`: of each particle, sorted; before the sort */
     uint32_t *rank;              /* by `grid`: place within the cell before its sort by id */
     uint32_t *order;             /* by `grid`: old place of each new one */
@@ -34,6 +36,10 @@ PairArgs cpu_pair_args(const Cpu *cpu);
 
 void cpu_grid(void *state);
 void cpu_density(void *state);
+void cpu_continuity(void *state, float dt);
+
+/* Of wcsph: volume, pressure and the pair sums' arrays, from the density that is carried. */
+void cpu_equation_of_state(Cpu *cpu);
 void cpu_force(void *state, const ApparentGravity *gravity);
 void cpu_drift(void *state, const FrameStep *step);
 StepWatch cpu_kick(void *state, const float gravity[3], float dt);

@@ -32,7 +32,10 @@ static void density_range(void *state, size_t begin, size_t end)
 void cpu_density(void *state)
 {
     Cpu *cpu = state;
-    parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, density_range, cpu);
+    if (cpu->solver->continuity)
+        cpu_equation_of_state(cpu);
+    else
+        parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, density_range, cpu);
 }
 
 typedef struct ForcePass {
@@ -83,7 +86,7 @@ static void force_range(void *context, size_t begin, size_t end)
     Cpu *cpu = pass->cpu;
     const Solver *s = cpu->solver;
     const PairArgs args = cpu_pair_args(cpu);
-    cpu->pairs->force(&args, begin, end);
+    (s->continuity ? cpu->pairs->wcsph_force : cpu->pairs->force)(&args, begin, end);
     for (size_t i = begin; i < end; i++) {
         add_walls(pass, i);
         const float inverse_mass = 1 / s->mass[cpu->now.fluid[i]];

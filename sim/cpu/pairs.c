@@ -1,24 +1,8 @@
 #include "sim/cpu/pairs.h"
 
-#include "sim/cpu/simd.h"
+#include "sim/cpu/pair_loop.h"
 
 #include <math.h>
-
-static const i8 lane_index = {0, 1, 2, 3, 4, 5, 6, 7};
-
-/* Nine rows of three cells, cached while the cell stays the same. */
-typedef struct Rows {
-    uint32_t cell, begin[9], end[9];
-} Rows;
-
-SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
-{
-    if (rows->cell == cell)
-        return;
-    rows->cell = cell;
-    for (int row = 0; row < 9; row++)
-        pair_row(args, cell, row, &rows->begin[row], &rows->end[row]);
-}
 
 /* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). poly6 = (1 - q^2)^3, spiky = (1 - q)^3; the
    scale comes last. */
@@ -52,42 +36,6 @@ static void density(const PairArgs *args, size_t begin, size_t end)
         density_range(args, begin, end, true);
     else
         density_range(args, begin, end, false);
-}
-
-typedef struct Separation {
-    f8 x, y, z, r2;
-} Separation;
-
-/* A direction that only the two ids decide, opposite for (a, b) and (b, a). */
-static void direction_of_ids(uint32_t a, uint32_t b, float out[3])
-{
-    const uint32_t low = a < b ? a : b, high = a < b ? b : a;
-    uint32_t hash = low * 0x9e3779b1u ^ (high * 0x85ebca77u + 0x165667b1u);
-    float length2 = 0;
-    for (int k = 0; k < 3; k++) {
-        hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
-        hash ^= hash >> 13;
-        out[k] = (float)(hash >> 8) * 0x1p-23f - 1 + 0x1p-24f; /* never 0 */
-        length2 += out[k] * out[k];
-    }
-    const float scale = (a < b ? 1.0f : -1.0f) / sqrtf(length2);
-    for (int k = 0; k < 3; k++)
-        out[k] *= scale;
-}
-
-/* Gives coincident pairs the length `least` and a direction by their ids (DESIGN 3). */
-static __attribute__((noinline)) void separate(const PairArgs *args, size_t i, uint32_t j, int bits,
-                                               float least, Separation *d)
-{
-    for (int k = 0; k < LANES; k++)
-        if (bits >> k & 1) {
-            float direction[3];
-            direction_of_ids(args->id[i], args->id[j + (uint32_t)k], direction);
-            d->x[k] = direction[0] * least;
-            d->y[k] = direction[1] * least;
-            d->z[k] = direction[2] * least;
-            d->r2[k] = least * least;
-        }
 }
 
 /* Forces of pressure and viscosity, eq. 10 and 14. With volumes V = 1 / n in place of m / rho and the
@@ -159,10 +107,5 @@ static void force(const PairArgs *args, size_t begin, size_t end)
         force_range(args, begin, end, true, true);
 }
 
-#define PAIR_OPS_NAME(set)   pair_ops_##set
-#define PAIR_OPS(set)        PAIR_OPS_NAME(set)
-#define PAIR_OPS_STRING(set) #set
-#define PAIR_OPS_LABEL(set)  PAIR_OPS_STRING(set)
-
-extern const PairOps PAIR_OPS(SIMD_SET);
-const PairOps PAIR_OPS(SIMD_SET) = {PAIR_OPS_LABEL(SIMD_SET), density, force};
+extern const PairOps PAIR_NAME(pair_ops);
+const PairOps PAIR_NAME(pair_ops) = {PAIR_SET, density, force, PAIR_NAME(wcsph_rate), PAIR_NAME(wcsph_force)};

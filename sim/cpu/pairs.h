@@ -17,14 +17,20 @@ typedef struct PairArgs {
     const float *volume;                   /* m3: set before `force` */
     const float *pressure_term;            /* p V^2, J m3: set before `force` */
     const float *viscosity;                /* Pa s, of each particle; NULL with one fluid */
-    float *number_density;                 /* out of `density`, 1/m3: all pairs, self included, no walls */
-    float *fx, *fy, *fz;                   /* out of `force`, N */
+    const float *artificial; /* Pa s, of each particle; NULL: none; wcsph's, like the next three */
+    const float *relative;   /* rho / rho0 of each; NULL: no diffusion */
+    const float *kind;       /* the fluid of each as a number; with `relative` */
+    float *rate;             /* out of `wcsph_rate`: of the number density, 1/(m3 s), no walls */
+    float *number_density;   /* out of `density`, 1/m3: all pairs, self included, no walls */
+    float *fx, *fy, *fz;     /* out of `force`, N */
 } PairArgs;
 
 typedef struct PairOps {
     const char *name; /* of the instruction set */
     void (*density)(const PairArgs *args, size_t begin, size_t end);
     void (*force)(const PairArgs *args, size_t begin, size_t end);
+    void (*wcsph_rate)(const PairArgs *args, size_t begin, size_t end);
+    void (*wcsph_force)(const PairArgs *args, size_t begin, size_t end);
 } PairOps;
 
 /* The widest that this processor has, or the one that the environment variable SLOSH_SIMD names, if it can.

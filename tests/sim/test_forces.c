@@ -59,7 +59,7 @@ static void brute_accelerations(const WorldDef *def, const Cloud *cloud, Referen
     const double h = def->support * def->spacing, s3 = pow(def->spacing, 3),
                  c2 = def->sound_speed * def->sound_speed;
     Lattice lattice;
-    lattice_calibrate(def->spacing, h, kernel, &lattice);
+    lattice_calibrate(def->spacing, h, kernel, &density_kernels[0], &lattice);
     double d[3];
     for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < 3; k++)
@@ -102,7 +102,7 @@ static void compare(const char *density_kernel, bool negative_pressure, double w
     static Reference reference;
     WorldDef def = two_fluids(density_kernel, negative_pressure);
     make_cloud(&cloud, width, 21);
-    def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid};
+    def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, NULL};
     World *world = fixture_world(&def);
     brute_accelerations(&def, &cloud, &reference);
     fixture_step(world, 1);
@@ -145,7 +145,7 @@ static void viscosity_keeps_momentum(void **state)
     make_cloud(&cloud, 0.95, 5);
     for (int i = 0; i < COUNT; i++)
         cloud.v[3 * i] += cloud.fluid[i] ? 1.0f : 0.0f;
-    def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid};
+    def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, NULL};
     World *world = fixture_world(&def);
     WorldSums before, after;
     world_sums(world, &before);

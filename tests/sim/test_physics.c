@@ -25,7 +25,7 @@ static void free_flight_keeps_momenta(void **state)
     }
     def.fluid_count = 2; /* a density ratio of 3 */
     def.fluids[1] = (FluidDef){.name = "heavy", .density = 3000};
-    def.initial = &(InitialState){COUNT, x, v, fluid};
+    def.initial = &(InitialState){COUNT, x, v, fluid, NULL};
     World *world = fixture_world(&def);
     WorldSums before, after;
     world_sums(world, &before);

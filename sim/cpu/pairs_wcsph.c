@@ -1,0 +1,169 @@
+/* The pair sums of wcsph. With grad W_ij = -F x_ij, x_ij = x_i - x_j, F = gradient f(r / h) >= 0:
+     d rho_i / dt = (rho0_i / n0) (-sum F v_ij . x_ij)      the rate of number density, so that an interface
+                                                            between fluids is none for it; Monaghan 1992
+     force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...      conserves the energy that goes with that rate */
+#include "sim/cpu/pair_loop.h"
+
+/* f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q); of the quintic's powers of
+   3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient` takes care of. */
+SIMD_INLINE f8 shape(f8 q, const WcsphKernel kernel)
+{
+    const f8 one = f8_splat(1), zero = f8_splat(0), t = one - q;
+    if (kernel == KERNEL_WENDLAND_C2)
+        return f8_splat(20) * (t * t * t);
+    if (kernel == KERNEL_CUBIC)
+        return f8_select(q < f8_splat(0.5f), f8_splat(12) - f8_splat(18) * q, f8_splat(6) * (t * t) / q);
+    const f8 a = f8_splat(3) * t, b = a - one, c = b - one;
+    const f8 a2 = a * a, b2 = f8_masked(b > zero, b * b), c2 = f8_masked(c > zero, c * c);
+    return (a2 * a2 - f8_splat(6) * (b2 * b2) + f8_splat(15) * (c2 * c2)) / q;
+}
+
+/* Sum of F v_ij . x_ij, the compression of the flow, less the diffusion of relative density (Molteni and
+   Colagrossi 2009), which acts within a fluid. */
+SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
+                            const bool diffusive)
+{
+    const Solver *s = args->solver;
+    const float h = s->support_radius, least = 1e-6f * h;
+    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 diffusion = f8_splat(s->diffusion);
+    Rows rows = {.cell = UINT32_MAX};
+
+    for (size_t i = begin; i < end; i++) {
+        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
+        const f8 ri = f8_splat(diffusive ? args->relative[i] : 0),
+                 fi = f8_splat(diffusive ? args->kind[i] : 0);
+        f8 sum = f8_splat(0);
+
+        rows_of(args, args->cell[i], &rows);
+        for (int row = 0; row < 9; row++)
+            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+                const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
+                         dz = zi - f8_load(args->z + j);
+                const f8 r2 = dx * dx + dy * dy + dz * dz;
+                const i8 near =
+                    (r2 < h2) & (r2 >= least2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+                if (!i8_bits(near))
+                    continue;
+                const f8 f = shape(f8_sqrt(f8_select(near, r2, h2)) * inverse_h, kernel);
+                f8 flow = (ui - f8_load(args->vx + j)) * dx + (vi - f8_load(args->vy + j)) * dy +
+                          (wi - f8_load(args->vz + j)) * dz;
+                if (diffusive) {
+                    const i8 same = f8_load(args->kind + j) == fi;
+                    flow -= f8_masked(same, diffusion * (f8_load(args->relative + j) - ri));
+                }
+                sum += f8_masked(near, f * flow);
+            }
+        args->rate[i] = -s->gradient * f8_sum(sum);
+    }
+}
+
+/* Pressure; laminar viscosity (Morris 1997) or artificial one (Monaghan 1992, for pairs that part too):
+   V_i V_j (mu_i + mu_j) F v_ji and -V_i V_j (a_i + a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. */
+SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
+                             const bool viscous, const bool artificial)
+{
+    const Solver *s = args->solver;
+    const float h = s->support_radius, least = 1e-6f * h;
+    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 soft = f8_splat(h * h / 400);
+    Rows rows = {.cell = UINT32_MAX};
+
+    for (size_t i = begin; i < end; i++) {
+        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
+        const f8 pi = f8_splat(args->pressure_term[i]), volume = f8_splat(args->volume[i]);
+        const f8 mi = f8_splat(viscous ? args->viscosity[i] : 0),
+                 ai = f8_splat(artificial ? args->artificial[i] : 0);
+        f8 fx = f8_splat(0), fy = fx, fz = fx;
+
+        rows_of(args, args->cell[i], &rows);
+        for (int row = 0; row < 9; row++)
+            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+                Separation d = {.x = xi - f8_load(args->x + j),
+                                .y = yi - f8_load(args->y + j),
+                                .z = zi - f8_load(args->z + j)};
+                d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
+                const i8 near = (d.r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j))) &
+                                (lane_index != i8_splat((int32_t)((uint32_t)i - j)));
+                if (!i8_bits(near))
+                    continue;
+                const int coincident = i8_bits(near & (d.r2 < least2));
+                if (__builtin_expect(coincident, 0))
+                    separate(args, i, j, coincident, least, &d);
+
+                const f8 f = f8_masked(near, shape(f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h, kernel));
+                f8 push = pi + f8_load(args->pressure_term + j);
+                if (viscous || artificial) {
+                    const f8 ux = f8_load(args->vx + j) - ui, uy = f8_load(args->vy + j) - vi,
+                             uz = f8_load(args->vz + j) - wi;
+                    const f8 both = volume * f8_load(args->volume + j);
+                    if (viscous) {
+                        const f8 drag = f * both * (mi + f8_load(args->viscosity + j));
+                        fx += drag * ux;
+                        fy += drag * uy;
+                        fz += drag * uz;
+                    }
+                    if (artificial)
+                        push += both * (ai + f8_load(args->artificial + j)) *
+                                (ux * d.x + uy * d.y + uz * d.z) / (d.r2 + soft);
+                }
+                push *= f;
+                fx += push * d.x;
+                fy += push * d.y;
+                fz += push * d.z;
+            }
+        args->fx[i] = s->gradient * f8_sum(fx);
+        args->fy[i] = s->gradient * f8_sum(fy);
+        args->fz[i] = s->gradient * f8_sum(fz);
+    }
+}
+
+SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+{
+    if (args->relative)
+        rate_range(args, begin, end, kernel, true);
+    else
+        rate_range(args, begin, end, kernel, false);
+}
+
+SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+{
+    if (args->viscosity && args->artificial)
+        wcsph_range(args, begin, end, kernel, true, true);
+    else if (args->viscosity)
+        wcsph_range(args, begin, end, kernel, true, false);
+    else if (args->artificial)
+        wcsph_range(args, begin, end, kernel, false, true);
+    else
+        wcsph_range(args, begin, end, kernel, false, false);
+}
+
+void PAIR_NAME(wcsph_rate)(const PairArgs *args, size_t begin, size_t end)
+{
+    switch (args->solver->kernel) {
+    case KERNEL_WENDLAND_C2:
+        rate_of(args, begin, end, KERNEL_WENDLAND_C2);
+        break;
+    case KERNEL_QUINTIC:
+        rate_of(args, begin, end, KERNEL_QUINTIC);
+        break;
+    default:
+        rate_of(args, begin, end, KERNEL_CUBIC);
+    }
+}
+
+void PAIR_NAME(wcsph_force)(const PairArgs *args, size_t begin, size_t end)
+{
+    switch (args->solver->kernel) {
+    case KERNEL_WENDLAND_C2:
+        force_of(args, begin, end, KERNEL_WENDLAND_C2);
+        break;
+    case KERNEL_QUINTIC:
+        force_of(args, begin, end, KERNEL_QUINTIC);
+        break;
+    default:
+        force_of(args, begin, end, KERNEL_CUBIC);
+    }
+}

@@ -1,0 +1,71 @@
+/* wcsph: the density that particles carry, and what follows from it. */
+#include "sim/cpu/cpu.h"
+
+/* Tait's p = B ((rho / rho0)^7 - 1) (Monaghan 1994), and V = V0 rho0 / rho. */
+static void state_range(void *context, size_t begin, size_t end)
+{
+    Cpu *cpu = context;
+    const Solver *s = cpu->solver;
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = begin; i < end; i++) {
+        const int fluid = p->fluid[i];
+        const float r = p->density[i] / s->density[fluid], r2 = r * r;
+        const float pressure = s->tait[fluid] * (r2 * r2 * r2 * r - 1);
+        cpu->volume[i] = 1 / (r * s->rest_number_density);
+        cpu->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
+        cpu->pressure_term[i] = cpu->pressure[i] * cpu->volume[i] * cpu->volume[i];
+        if (cpu->viscosity)
+            cpu->viscosity[i] = s->viscosity[fluid];
+        if (cpu->artificial)
+            cpu->artificial[i] = s->artificial_viscosity[fluid];
+        if (cpu->relative) {
+            cpu->relative[i] = r;
+            cpu->kind[i] = (float)fluid;
+        }
+    }
+}
+
+void cpu_equation_of_state(Cpu *cpu)
+{
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, state_range, cpu);
+}
+
+typedef struct Continuity {
+    Cpu *cpu;
+    float dt;
+} Continuity;
+
+/* The walls are at rest in the box's frame; their density has the gradient -push (sim/wall.h). */
+static float wall_rate(const Cpu *cpu, size_t i)
+{
+    const CpuParticles *p = &cpu->now;
+    const float x[3] = {p->x[i], p->y[i], p->z[i]};
+    WallSums sums;
+    if (!walls_at(&cpu->solver->walls, x, &sums))
+        return 0;
+    return -(sums.push[0] * p->vx[i] + sums.push[1] * p->vy[i] + sums.push[2] * p->vz[i]);
+}
+
+static void continuity_range(void *context, size_t begin, size_t end)
+{
+    const Continuity *pass = context;
+    Cpu *cpu = pass->cpu;
+    const Solver *s = cpu->solver;
+    const CpuParticles *p = &cpu->now;
+    const PairArgs args = cpu_pair_args(cpu);
+    cpu->pairs->wcsph_rate(&args, begin, end);
+    for (size_t i = begin; i < end; i++) {
+        const float rate = args.rate[i] + wall_rate(cpu, i);
+        p->density[i] += s->density[p->fluid[i]] / s->rest_number_density * rate * pass->dt;
+    }
+}
+
+void cpu_continuity(void *state, float dt)
+{
+    Cpu *cpu = state;
+    Continuity pass = {cpu, dt};
+    if (cpu->relative) /* it stands in the order before the last sort */
+        cpu_equation_of_state(cpu);
+    parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, continuity_range, &pass);
+    cpu_equation_of_state(cpu);
+}
