@@ -5,6 +5,7 @@
 
 #include "app/hdf5_error.h"
 #include "app/output.h"
+#include "app/scene_keys.h"
 #include "app/snapshot_file.h"
 
 #include <errno.h>
@@ -91,12 +92,14 @@ static bool write_root(hid_t file, const Scene *scene)
 {
     const WorldDef *def = &scene->world;
     char names[FLUIDS_MAX][NAME_SIZE] = {{0}};
-    double densities[FLUIDS_MAX] = {0};
+    double densities[FLUIDS_MAX] = {0}, colors[FLUIDS_MAX][3];
     double support_radius = def->support * def->spacing;
     size_t count = (size_t)def->fluid_count;
     for (size_t i = 0; i < count; i++) {
         snprintf(names[i], NAME_SIZE, "%s", def->fluids[i].name);
         densities[i] = def->fluids[i].density;
+        for (int k = 0; k < 3; k++)
+            colors[i][k] = linear_to_srgb(def->fluids[i].color[k]);
     }
     return write_texts(file, "title", SCALAR, sizeof scene->title, scene->title) &&
            write_settings(file, scene) &&
@@ -106,7 +109,8 @@ static bool write_root(hid_t file, const Scene *scene)
            write_doubles(file, "support_radius", SCALAR, &support_radius) &&
            write_doubles(file, "box_size", 3, def->box_size) &&
            write_texts(file, "fluid_names", count, NAME_SIZE, names[0]) &&
-           write_doubles(file, "fluid_densities", count, densities);
+           write_doubles(file, "fluid_densities", count, densities) &&
+           write_doubles(file, SNAPSHOT_COLORS, 3 * count, colors[0]);
 }
 
 /* ---- the file ---- */

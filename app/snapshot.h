@@ -85,6 +85,13 @@ SnapshotReader *snapshot_open(const char *path, Error *error);
 /* Whole steps; what a killed program left half-written at the end does not count. */
 size_t snapshot_count_steps(const SnapshotReader *reader);
 
+/* The time of step `index`, s; cheaper than the step. */
+bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Error *error);
+
+/* The colours of the fluids as in the scene file, sRGB 0 to 1. Returns how many fluids have one: 0 where the
+   file knows none. */
+size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_MAX][3]);
+
 /* Reads step `index` into new arrays, that the caller frees. */
 bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
 

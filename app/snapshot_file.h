@@ -23,6 +23,9 @@
 /* The settings of the scene, of the root: see scene_print. */
 #define SNAPSHOT_SETTINGS "settings"
 
+/* The colours of the fluids, of the root: red, green, blue of each as in the scene file, sRGB 0 to 1. */
+#define SNAPSHOT_COLORS "fluid_colors"
+
 /* What a run goes on from: WORLD_NUMBERS doubles of a step. */
 #define SNAPSHOT_RESTART "restart"
 

@@ -81,6 +81,24 @@ size_t snapshot_count_steps(const SnapshotReader *reader)
     return reader->steps;
 }
 
+bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Error *error)
+{
+    const hid_t group = index < reader->steps ? open_step(reader->file, index) : -1;
+    const bool read = group >= 0 && H5Aexists(group, "TimeValue") > 0 &&
+                      read_values(group, "TimeValue", H5T_NATIVE_DOUBLE, 1, time);
+    if (group >= 0)
+        H5Gclose(group);
+    return read || error_set(error, "%s: Step#%zu: 'TimeValue' is missing", reader->path, index);
+}
+
+size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_MAX][3])
+{
+    size_t count = H5Aexists(reader->file, SNAPSHOT_COLORS) > 0 ? FLUIDS_MAX : 0;
+    while (count > 0 && !read_values(reader->file, SNAPSHOT_COLORS, H5T_NATIVE_DOUBLE, 3 * count, colors[0]))
+        count--;
+    return count;
+}
+
 char *snapshot_root_text(const SnapshotReader *reader, const char *name)
 {
     const hid_t attribute = H5Aexists(reader->file, name) > 0 ? H5Aopen(reader->file, name, H5P_DEFAULT) : -1;

@@ -5,6 +5,7 @@
 #include "sim/world.h"
 
 #include <hdf5.h>
+#include <math.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -17,7 +18,7 @@ static Scene small_scene(void)
     for (int k = 0; k < 3; k++)
         def->box_size[k] = 1;
     def->fluid_count = 2;
-    def->fluids[0] = (FluidDef){.name = "water", .density = 1000, .fill_count = 1};
+    def->fluids[0] = (FluidDef){.name = "water", .density = 1000, .color = {0, 1, 0.5F}, .fill_count = 1};
     def->fluids[0].fills[0] = (Fill){.kind = FILL_BLOCK, .min = {-0.5, 0, -0.5}, .max = {0, 0.5, 0.5}};
     def->fluids[1] = (FluidDef){.name = "oil", .density = 900, .fill_count = 1};
     def->fluids[1].fills[0] = (Fill){.kind = FILL_BLOCK, .min = {0, 0, -0.5}, .max = {0.5, 0.5, 0.5}};
@@ -110,6 +111,10 @@ static void what_is_written_is_read(void **state)
         snapshot_step_free(&read);
         snapshot_step_free(&step[k]);
     }
+    double time = 0;
+    assert_true(snapshot_read_time(reader, 3, &time, &error));
+    assert_true(time == 0.75);
+    assert_false(snapshot_read_time(reader, STEPS, &time, &error));
     SnapshotStep none;
     assert_false(snapshot_read_step(reader, STEPS, &none, &error));
     assert_contains(error.message, "has no step 5");
@@ -162,6 +167,31 @@ static void a_world_is_written_as_it_is(void **state)
     snapshot_reader_close(reader);
     world_destroy(world);
     free(position), free(velocity), free(density), free(pressure), free(fluid), free(id);
+}
+
+static void colors_are_as_in_the_scene_file(void **state)
+{
+    (void)state;
+    Scene scene = small_scene();
+    Error error = {{0}};
+    double colors[FLUIDS_MAX][3];
+    SnapshotStep step = some_step(3, 0);
+    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    assert_true(snapshot_append_step(file, &step, &error));
+    snapshot_close(file);
+    SnapshotReader *reader = snapshot_open("a.h5part", &error);
+    assert_int_equal(snapshot_read_colors(reader, colors), 2);
+    assert_true(colors[0][0] == 0);
+    assert_true(fabs(colors[0][1] - 1) < 1e-9);
+    assert_true(fabs(colors[0][2] - 0.735357) < 1e-6); /* IEC 61966-2-1 of 0.5 */
+    snapshot_reader_close(reader);
+    hid_t edit = H5Fopen("a.h5part", H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Adelete(edit, "fluid_colors") >= 0);
+    H5Fclose(edit);
+    reader = snapshot_open("a.h5part", &error);
+    assert_int_equal(snapshot_read_colors(reader, colors), 0);
+    snapshot_reader_close(reader);
+    snapshot_step_free(&step);
 }
 
 /* The file gets its name with its first whole step. */
@@ -306,6 +336,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(what_is_written_is_read),
         TEST(a_world_is_written_as_it_is),
+        TEST(colors_are_as_in_the_scene_file),
         TEST(an_old_file_stays_until_the_first_step),
         TEST(an_incomplete_last_step_is_dropped),
         TEST(a_killed_program_leaves_whole_steps),
