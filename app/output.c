@@ -1,39 +1,18 @@
 #include "app/output.h"
 
+#include "app/output_pending.h"
+
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PENDING_MAX = 8 };
-
-/* What a signal that ends the program has to remove: the one state that a handler can reach. */
-static struct {
-    volatile sig_atomic_t used;
-    char temp[sizeof(((Output *)NULL)->temp)];
-} pending[PENDING_MAX];
-
-static void pending_add(const char *temp)
-{
-    int i = 0;
-    while (i < PENDING_MAX && pending[i].used)
-        i++;
-    if (i == PENDING_MAX)
-        return;
-    snprintf(pending[i].temp, sizeof pending[i].temp, "%s", temp);
-    pending[i].used = 1;
-}
-
 /* The file has got its name, or is gone. */
 static void forget(Output *output)
 {
-    for (int i = 0; i < PENDING_MAX; i++)
-        if (pending[i].used && strcmp(pending[i].temp, output->temp) == 0)
-            pending[i].used = 0;
+    output_pending_forget(output->temp);
     output->temp[0] = '\0';
 }
 
@@ -91,7 +70,7 @@ bool output_begin(Output *output, const char *path, Error *error)
         return refuse(path, reason, error);
     }
     close(file);
-    pending_add(output->temp);
+    output_pending_add(output->temp);
     return true;
 }
 
@@ -121,11 +100,4 @@ bool output_check(const char *path, Error *error)
         return false;
     output_discard(&output);
     return true;
-}
-
-void output_discard_all(void)
-{
-    for (int i = 0; i < PENDING_MAX; i++)
-        if (pending[i].used)
-            unlink(pending[i].temp);
 }

@@ -26,7 +26,8 @@ void output_discard(Output *output);
 /* Whether a file could be written there, without leaving one. */
 bool output_check(const char *path, Error *error);
 
-/* Removes the temporary files of all outputs in the making. May be called from a signal handler. */
+/* Removes the temporary files and folders of all outputs in the making. May be called from a signal handler.
+ */
 void output_discard_all(void);
 
 #endif

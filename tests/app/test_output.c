@@ -3,6 +3,7 @@
 
 #include "app/interrupt.h"
 #include "app/output.h"
+#include "app/output_folder.h"
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -81,6 +82,91 @@ static void a_check_leaves_nothing(void **state)
     assert_false(output_check("missing/out.txt", &error));
 }
 
+/* ---- folders ---- */
+
+/* `path` with one file in it, through the temporary folder. */
+static void make_folder(const char *path, const char *file, const char *text)
+{
+    OutputFolder folder = {.path = ""};
+    Error error = {{0}};
+    char name[1200];
+    if (!output_folder_begin(&folder, path, ".txt", &error))
+        fail_msg("%s", error.message);
+    snprintf(name, sizeof name, "%s/%s", folder.temp, file);
+    write_text(name, text);
+    if (!output_folder_commit(&folder, &error))
+        fail_msg("%s", error.message);
+    output_folder_discard(&folder); /* does nothing any more */
+}
+
+static void a_folder_replaces_an_older_one_whole(void **state)
+{
+    (void)state;
+    make_folder("a", "a-0000.txt", "first");
+    assert_text("a/a-0000.txt", "first");
+    make_folder("a", "a-0001.txt", "second");
+    assert_text("a/a-0001.txt", "second");
+    assert_int_equal(count_files("a"), 1);
+    mkdir("b", 0777); /* an empty one */
+    make_folder("b", "b-0.txt", "third");
+    assert_text("b/b-0.txt", "third");
+    assert_int_equal(count_files("."), 2);
+}
+
+static void a_discarded_folder_leaves_the_older_one(void **state)
+{
+    (void)state;
+    OutputFolder folder = {.path = ""};
+    char name[1200];
+    output_folder_discard(&folder);
+    make_folder("a", "a-0000.txt", "old");
+    assert_true(output_folder_begin(&folder, "a", ".txt", NULL));
+    for (int k = 0; k < 300; k++) { /* more than one buffer of entries */
+        snprintf(name, sizeof name, "%s/a-%04d.txt", folder.temp, k);
+        write_text(name, "half");
+    }
+    output_folder_discard(&folder);
+    assert_text("a/a-0000.txt", "old");
+    assert_int_equal(count_files("."), 1);
+}
+
+static void assert_folder_refused(const char *path, const char *reason)
+{
+    OutputFolder folder = {.path = ""};
+    Error error = {{0}};
+    assert_false(output_folder_begin(&folder, path, ".txt", &error));
+    assert_contains(error.message, reason);
+    assert_string_equal(folder.temp, "");
+}
+
+/* Nothing that someone else put there is lost, also when it came late. */
+static void a_folder_of_others_is_refused(void **state)
+{
+    (void)state;
+    static const char *const others[] = {"a/notes", "a/a-1.txt~", "a/a-.txt", "a/b-1.txt", "a/a-1x.txt"};
+    OutputFolder folder = {.path = ""};
+    Error error = {{0}};
+    char name[1200];
+    make_folder("a", "a-0000.txt", "old");
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        write_text(others[i], "mine");
+        assert_folder_refused("a", others[i] + 2);
+        unlink(others[i]);
+    }
+    assert_true(output_folder_begin(&folder, "a", ".txt", &error));
+    snprintf(name, sizeof name, "%s/a-0000.txt", folder.temp);
+    write_text(name, "new");
+    write_text("a/late", "mine");
+    assert_false(output_folder_commit(&folder, &error));
+    assert_contains(error.message, "'late' in it is not of an export");
+    assert_text("a/late", "mine");
+    assert_text("a/a-0000.txt", "old");
+    assert_int_equal(count_files("."), 1);
+    write_text("file", "");
+    assert_folder_refused("file", "file: is to be a folder");
+    assert_folder_refused("missing/a", "missing/a: the folder cannot be created: No such file");
+}
+
 /* In a child: one signal sets the flag, the second ends the program and removes the temporary file. */
 static void two_signals_end_the_program_and_leave_nothing(void **state)
 {
@@ -89,12 +175,17 @@ static void two_signals_end_the_program_and_leave_nothing(void **state)
     pid_t child = fork();
     if (child == 0) {
         Output output = {0};
+        OutputFolder folder = {.path = ""};
+        char name[1200];
         signal(SIGTERM, SIG_DFL);
         interrupt_install();
-        if (!output_begin(&output, "half.txt", NULL) || interrupted())
+        if (!output_begin(&output, "half.txt", NULL) || !output_folder_begin(&folder, "half", ".txt", NULL) ||
+            interrupted())
             _exit(1);
+        snprintf(name, sizeof name, "%s/half-0000.txt", folder.temp);
+        write_text(name, "half");
         raise(SIGTERM);
-        if (!interrupted() || !exists(output.temp))
+        if (!interrupted() || !exists(output.temp) || !exists(name))
             _exit(2);
         raise(SIGTERM);
         _exit(3);
@@ -130,6 +221,9 @@ int main(void)
         TEST(an_old_file_stays_until_then),
         TEST(what_cannot_be_written_is_refused_at_once),
         TEST(a_check_leaves_nothing),
+        TEST(a_folder_replaces_an_older_one_whole),
+        TEST(a_discarded_folder_leaves_the_older_one),
+        TEST(a_folder_of_others_is_refused),
         TEST(two_signals_end_the_program_and_leave_nothing),
         TEST(an_ignored_signal_stays_ignored),
     };

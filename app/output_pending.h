@@ -1,0 +1,16 @@
+/* What a signal that ends the program has to remove: the temporary files and folders of outputs in the
+   making. For output and output_folder; the way there for others is output_discard_all. */
+#ifndef SLOSH_OUTPUT_PENDING_H
+#define SLOSH_OUTPUT_PENDING_H
+
+#include <stdbool.h>
+
+void output_pending_add(const char *temp);
+
+/* It has got its name, or is gone. */
+void output_pending_forget(const char *temp);
+
+/* A folder and the files in it, but not what lies in folders of it. May be called from a signal handler. */
+void output_remove_folder(const char *path);
+
+#endif
