@@ -1,5 +1,6 @@
 """What the tests of the command line share: the program, a small scene, a folder of its own for each test."""
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -45,6 +46,14 @@ def obey_interrupts():
         signal.signal(number, signal.SIG_DFL)
 
 
+def limit_files(size):
+    """For the child: no file may have more bytes, as if the disk were full then."""
+    def limit():
+        obey_interrupts()
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    return limit
+
+
 class CommandTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix='slosh-test-')
@@ -88,6 +97,29 @@ class CommandTest(unittest.TestCase):
             self.assertIsNone(process.poll(), 'the program ended too early')
             self.assertLess(time.monotonic(), end, 'waited in vain')
             time.sleep(0.01)
+
+
+class TinyDiskTest(CommandTest):
+    """A file system that is really full; needs a kernel that lets users mount one of their own."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path('disk'))
+        if self.on_disk('64k', 'true').returncode != 0:
+            self.skipTest('no mount of a small file system: unshare -rm is not permitted here')
+
+    def on_disk(self, size, script):
+        script = f'mount -t tmpfs -o size={size} none disk && {script}'
+        return subprocess.run(['unshare', '-rm', 'sh', '-c', script], cwd=self.folder, capture_output=True,
+                              text=True, check=False, preexec_fn=obey_interrupts)
+
+    def full(self, size, arguments):
+        """The program's exit code must be 1; what is then on the disk is moved to the test's folder."""
+        done = self.on_disk(size, f'"{PROGRAM}" {arguments}; code=$?; cp -r disk/. .; exit $code')
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn('No space left on device', done.stderr)
+        self.assertEqual(os.listdir(self.path('disk')), [])
+        return [name for name in self.entries() if name != 'disk']
 
 
 def video_frames(path):

@@ -2,22 +2,13 @@
 import json
 import os
 import random
-import resource
 import signal
-import subprocess
 import time
 
 import command
-from command import CommandTest, obey_interrupts, video_frames, whole_steps
+from command import CommandTest, TinyDiskTest, limit_files, video_frames, whole_steps
 
 SMALL = ['--size', '160x120', '--quiet']
-
-
-def limit_files(size):
-    def limit():
-        obey_interrupts()
-        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
-    return limit
 
 
 class Whole(CommandTest):
@@ -115,28 +106,7 @@ class FullDisk(CommandTest):
         self.assertEqual(self.entries(), [])
 
 
-class TinyDisk(CommandTest):
-    """A file system that is really full; needs a kernel that lets users mount one of their own."""
-
-    def setUp(self):
-        super().setUp()
-        os.mkdir(self.path('disk'))
-        if self.on_disk('64k', 'true').returncode != 0:
-            self.skipTest('no mount of a small file system: unshare -rm is not permitted here')
-
-    def on_disk(self, size, script):
-        script = f'mount -t tmpfs -o size={size} none disk && {script}'
-        return subprocess.run(['unshare', '-rm', 'sh', '-c', script], cwd=self.folder, capture_output=True,
-                              text=True, check=False, preexec_fn=obey_interrupts)
-
-    def full(self, size, arguments):
-        """The program's exit code must be 1; what is then on the disk is moved to the test's folder."""
-        done = self.on_disk(size, f'"{command.PROGRAM}" {arguments}; code=$?; cp -r disk/. .; exit $code')
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn('No space left on device', done.stderr)
-        self.assertEqual(os.listdir(self.path('disk')), [])
-        return [name for name in self.entries() if name != 'disk']
-
+class TinyDisk(TinyDiskTest):
     def test_run(self):
         self.assertEqual(self.full('64k', 'run scene.yaml -o disk/a.h5part'), [])
         self.assertEqual(self.full('400k', 'run scene.yaml -o disk/a.h5part'), ['a.h5part'])
