@@ -84,13 +84,20 @@ static bool parse_size(const Parser *parser, const OptionRow *option, const char
     return true;
 }
 
-static bool parse_clock(const Parser *parser, const OptionRow *option, const char *text)
+/* One of the names in "a|b|c". */
+static bool parse_choice(const Parser *parser, const OptionRow *option, const char *text)
 {
-    ClockChoice *clock = field(parser, option);
-    if (strcmp(text, "gl") != 0 && strcmp(text, "finish") != 0)
-        return fail(parser, "--clock must be gl or finish, not '%.60s'", text);
-    *clock = *text == 'g' ? CLOCK_CHOICE_GL : CLOCK_CHOICE_FINISH;
-    return true;
+    const char *name = option->value;
+    for (int value = (int)option->min;; value++) {
+        const size_t length = strcspn(name, "|");
+        if (strlen(text) == length && strncmp(text, name, length) == 0) {
+            *(int *)field(parser, option) = value;
+            return true;
+        }
+        if (!name[length])
+            return fail(parser, "%s must be one of %s, not '%.60s'", option->name, option->value, text);
+        name += length + 1;
+    }
 }
 
 static bool parse_setting(const Parser *parser, const OptionRow *option, const char *text)
@@ -183,8 +190,8 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
         return true;
     case OPTION_SIZE:
         return parse_size(parser, option, text);
-    case OPTION_CLOCK:
-        return parse_clock(parser, option, text);
+    case OPTION_CHOICE:
+        return parse_choice(parser, option, text);
     case OPTION_SETTING:
         return parse_setting(parser, option, text);
     case OPTION_SWEEP:
@@ -241,7 +248,9 @@ static bool parse_option(Parser *parser, const char *argument)
 /* What the arguments of a command are. */
 static const char *takes(const CommandRow *row)
 {
-    return row->command == COMMAND_REPLAY ? "recording" : "scene";
+    return row->command == COMMAND_REPLAY   ? "recording"
+           : row->command == COMMAND_EXPORT ? "snapshot file"
+                                            : "scene";
 }
 
 static bool parse_scene(const Parser *parser, const char *name)

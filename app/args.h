@@ -4,6 +4,7 @@
 #define SLOSH_ARGS_H
 
 #include "app/scene.h"
+#include "app/snapshot_frame.h"
 #include "sim/error.h"
 
 #include <stdbool.h>
@@ -20,10 +21,12 @@ typedef enum Command {
     COMMAND_RUN,
     COMMAND_BENCH,
     COMMAND_REPLAY, /* `scenes` holds the recording */
+    COMMAND_EXPORT, /* `scenes` holds the snapshots */
     COMMAND_INFO,
     COMMAND_COUNT
 } Command;
 
+/* In the order of --clock's names, after none of them. */
 typedef enum ClockChoice { CLOCK_CHOICE_AUTO, CLOCK_CHOICE_GL, CLOCK_CHOICE_FINISH } ClockChoice;
 
 /* --sweep KEY=a,b,c: `key` is "particles" or the path of a scene key (backend, method, view and threads are
@@ -54,9 +57,10 @@ typedef struct Args {
     int width, height; /* pixels, 1 to 16384; default 1280 x 720, of bench 512 x 512 */
     int gpu;           /* number of the EGL device; -1: not given */
     ClockChoice clock;
-    bool play;          /* bench: the live window */
-    double seconds;     /* of it; more than 0; default 20 */
-    const char *record; /* FILE, or NULL */
+    SnapshotFrame frame; /* export: that positions and velocities are in */
+    bool play;           /* bench: the live window */
+    double seconds;      /* of it; more than 0; default 20 */
+    const char *record;  /* FILE, or NULL */
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
     size_t pool_used;

@@ -8,6 +8,7 @@ enum {
     RUN = 1 << COMMAND_RUN,
     BENCH = 1 << COMMAND_BENCH,
     REPLAY = 1 << COMMAND_REPLAY,
+    EXPORT = 1 << COMMAND_EXPORT,
     INFO = 1 << COMMAND_INFO,
     ALL = PLAY | RENDER | RUN | BENCH | INFO
 };
@@ -24,18 +25,28 @@ const CommandRow command_rows[] = {
      ARGS_SCENES_MAX, NULL, 512, 512},
     {COMMAND_REPLAY, "replay", "FILE [OPTIONS]",
      "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
+    {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply [OPTIONS]",
+     "writes snapshots in the formats of other programs", 1, 1, "OUT.pvd, OUT.vtp or OUT.ply", 0, 0},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
      0, 1, NULL, 1280, 720},
     {COMMAND_HELP, "help", "[COMMAND]", "says what a command does and takes", 0, 0, NULL, 0, 0},
     {0},
 };
 
+/* "box|world" */
+#define X(NAME, name) "|" name
+#define FRAMES        (&("" SNAPSHOT_FRAMES(X))[1])
+
 #define AT(field) .offset = offsetof(Args, field)
 
 /* clang-format off */
 const OptionRow option_rows[] = {
-    {"-o", "OUT", RENDER | RUN | REPLAY, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
+    {"-o", "OUT", RENDER | RUN | REPLAY | EXPORT, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
+    {"--time", "S", EXPORT, OPTION_NUMBER, AT(time), .max = 1e6,
+     .help = "the one snapshot at that time, or the first after it (the last)"},
+    {"--frame", FRAMES, EXPORT, OPTION_CHOICE, AT(frame), .min = FRAME_BOX,
+     .help = "whose positions and velocities are written (box)"},
     {"--every", "S", RUN | REPLAY, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
      .help = "seconds from snapshot to snapshot (1/30)"},
     {"--resume", NULL, RUN, OPTION_FLAG, AT(resume), .help = "go on behind the last snapshot of OUT, to the same bits"},
@@ -48,7 +59,7 @@ const OptionRow option_rows[] = {
     {"--play", NULL, BENCH, OPTION_FLAG, AT(play), .help = "measure the live window, the box shaken by a script"},
     {"--seconds", "S", BENCH, OPTION_NUMBER, AT(seconds), .max = 1e5, .flags = OPTION_OPEN_LOW,
      .help = "how long, with --play (20)"},
-    {"--clock", "gl|finish", BENCH, OPTION_CLOCK, AT(clock),
+    {"--clock", "gl|finish", BENCH, OPTION_CHOICE, AT(clock), .min = CLOCK_CHOICE_GL,
      .help = "GPU stages by GL timer queries, or by glFinish and the CPU's clock"},
     {"--sweep", "KEY=A,B,...", BENCH, OPTION_SWEEP, AT(sweeps),
      .help = "measure with each value: particles, backend, method, view, threads or any scene key; repeat for a product"},
@@ -62,12 +73,13 @@ const OptionRow option_rows[] = {
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
     {"--gpu", "N", RENDER | BENCH | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which device draws, counted from 0"},
     {"--shaders", "DIR", PLAY | RENDER | BENCH, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
-    {"--json", "FILE", ALL | REPLAY, OPTION_TEXT, AT(json), .help = "write the figures there too"},
-    {"--quiet", NULL, ALL | REPLAY, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
-    {"--help", NULL, ALL | REPLAY, OPTION_HELP, .help = "this text"},
+    {"--json", "FILE", ALL | REPLAY | EXPORT, OPTION_TEXT, AT(json), .help = "write the figures there too"},
+    {"--quiet", NULL, ALL | REPLAY | EXPORT, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
+    {"--help", NULL, ALL | REPLAY | EXPORT, OPTION_HELP, .help = "this text"},
     {0},
 };
 /* clang-format on */
+#undef X
 
 const CommandRow *command_row(Command command)
 {

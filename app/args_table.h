@@ -19,7 +19,7 @@ typedef enum OptionKind {
     OPTION_COUNT,     /* int */
     OPTION_SIZE,      /* WxH: width and height */
     OPTION_PARTICLES, /* size_t */
-    OPTION_CLOCK,     /* ClockChoice */
+    OPTION_CHOICE,    /* enum or int: `min` and the place of the name in `value`, "a|b|c" */
     OPTION_SETTING,   /* path=value for the scene: all of it, or the value for the row's `path` */
     OPTION_SWEEP,     /* KEY=a,b,c */
     OPTION_HELP
@@ -29,11 +29,11 @@ enum { OPTION_OPEN_LOW = 1 }; /* the least value itself is refused */
 
 typedef struct OptionRow {
     const char *name;  /* "--time", "-o" */
-    const char *value; /* name of the value for the help; NULL: takes none */
+    const char *value; /* name or names of the value; NULL: takes none */
     unsigned commands; /* bits 1 << Command */
     OptionKind kind;
     size_t offset;   /* in Args */
-    double min, max; /* of a number */
+    double min, max; /* of a number; min: also of a choice */
     unsigned flags;
     const char *path; /* of a setting; short name of it: the option without its dashes */
     const char *help;

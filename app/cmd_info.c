@@ -1,4 +1,5 @@
 #include "app/cmd.h"
+#include "app/export.h"
 #include "app/headless.h"
 #include "app/scene_keys.h"
 #include "render/view.h"
@@ -44,6 +45,7 @@ static void print_lists(void)
     printf("scalars\n");
     for (int s = 0; s < SCALAR_COUNT; s++)
         print_row(scalar_name((Scalar)s), scalar_unit((Scalar)s));
+    print_named("exports", export_kinds());
     printf("motions of the box\n");
     for (int m = 0; m < MOTION_KIND_COUNT; m++)
         print_row(motion_name((MotionKind)m), motion_help((MotionKind)m));

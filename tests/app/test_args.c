@@ -73,6 +73,10 @@ static void every_option_reaches_its_field(void **state)
     assert_true(args.scene_count == 3 && args.clock == CLOCK_CHOICE_FINISH);
     accept("bench --clock=gl");
     assert_int_equal(args.clock, CLOCK_CHOICE_GL);
+    accept("export a.h5part -o a.vtp --frame world --time 2");
+    assert_true(args.command == COMMAND_EXPORT && args.frame == FRAME_WORLD && args.time_given);
+    accept("export a.h5part -o a.ply --frame=box");
+    assert_true(args.frame == FRAME_BOX && !args.time_given);
     accept("info -- -odd-name");
     assert_string_equal(args.scenes[0], "-odd-name");
 }
@@ -131,7 +135,14 @@ static void slips_are_named(void **state)
     refuse("info --set =3", "slosh info: --set takes PATH=VALUE");
     refuse("info --json=", "slosh info: --json needs a name after it, not an empty one");
     refuse("info --backend=", "slosh info: --backend needs a name or number after it");
-    refuse("bench --clock sun", "slosh bench: --clock must be gl or finish, not 'sun'");
+    refuse("export -o a.ply", "slosh export: the snapshot file is missing; write slosh export IN.h5part -o");
+    refuse("export a.h5part", "slosh export: -o is missing; add -o with OUT.pvd, OUT.vtp or OUT.ply");
+    refuse("export a.h5part -o a.ply --frame moon",
+           "slosh export: --frame must be one of box|world, not 'moon'");
+    refuse("export a.h5part -o a.ply --frame wor",
+           "slosh export: --frame must be one of box|world, not 'wor'");
+    refuse("export a.h5part -o a.ply --set a=1", "slosh export: unknown option '--set'");
+    refuse("bench --clock sun", "slosh bench: --clock must be one of gl|finish, not 'sun'");
 }
 
 static void numbers_have_ranges(void **state)

@@ -1,0 +1,102 @@
+#include "app/cmd.h"
+#include "app/export.h"
+#include "app/interrupt.h"
+#include "app/json_file.h"
+#include "app/output.h"
+#include "sim/stage.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static int fail(int code, const Error *error)
+{
+    fprintf(stderr, "%s\n", error->message);
+    return code;
+}
+
+/* The last snapshot, or the first at or after --time, give or take what rounding does to a time. */
+static bool choose(const Args *args, SnapshotReader *reader, size_t *index, Error *error)
+{
+    const size_t last = snapshot_count_steps(reader) - 1;
+    const double least = args->time - 1e-9 * fmax(args->time, 1);
+    double time = -INFINITY;
+    *index = args->time_given ? 0 : last;
+    if (!args->time_given)
+        return true;
+    for (; *index <= last; ++*index)
+        if (!snapshot_read_time(reader, *index, &time, error))
+            return false;
+        else if (time >= least)
+            return true;
+    return error_set(error, "%s: ends at %.9g s, before --time %.9g", args->scenes[0], time, args->time);
+}
+
+static bool write_json(const Export *export, const Args *args, double wall_seconds, Error *error)
+{
+    if (!args->json)
+        return true;
+    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:I, s:I, s:f, s:f, s:b}", "command", "export", "input",
+                             args->scenes[0], "output", args->output, "frame",
+                             snapshot_frame_name(export->frame), "snapshots", (json_int_t) export->snapshots,
+                             "particles", (json_int_t) export->particles, "simulated_seconds", export->time,
+                             "wall_seconds", wall_seconds, "stopped", export->interrupted);
+    const bool written = json_file_write(json, args->json, error);
+    json_decref(json);
+    return written;
+}
+
+static void report(const Export *export, const Args *args)
+{
+    if (export->interrupted)
+        fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->time, args->output);
+    if (!args->quiet)
+        fprintf(stderr, "%s: %zu snapshot%s t = %.4g s, %zu particles, in the frame of the %s\n",
+                args->output, export->snapshots, export->snapshots == 1 ? " of" : "s up to", export->time,
+                export->particles, snapshot_frame_name(export->frame));
+}
+
+static int run(Export *export, size_t index, const Args *args, Error *error)
+{
+    const double began_ms = wall_ms();
+    Progress progress;
+    if (args->json && !output_check(args->json, error))
+        return fail(EXIT_FAILED, error);
+    progress_begin(&progress, stderr, "export", args->quiet);
+    const bool done = export->kind == EXPORT_PVD ? export_series(export, &progress, error)
+                                                 : export_one(export, index, error);
+    progress_end(&progress);
+    if (!done)
+        return fail(EXIT_FAILED, error);
+    report(export, args);
+    if (!write_json(export, args, (wall_ms() - began_ms) / 1000, error))
+        return fail(EXIT_FAILED, error);
+    return export->interrupted ? EXIT_INTERRUPTED : 0;
+}
+
+/* What is to be done, before anything is: false is a mistake of the command line or of the input. */
+static bool understand(Export *export, size_t *index, const Args *args, Error *error)
+{
+    if (!export_kind(args->output, &export->kind, error))
+        return false;
+    if (export->kind == EXPORT_PVD && args->time_given)
+        return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vtp or a FILE.ply",
+                         args->output);
+    export->reader = snapshot_open(args->scenes[0], error);
+    if (!export->reader)
+        return false;
+    if (snapshot_count_steps(export->reader) == 0)
+        return error_set(error, "%s: has no whole snapshot; make some with slosh run", args->scenes[0]);
+    return choose(args, export->reader, index, error);
+}
+
+int cmd_export(const Args *args)
+{
+    Export export = {.path = args->output, .frame = args->frame};
+    Error error = {{0}};
+    size_t index = 0;
+    interrupt_install();
+    const int code = understand(&export, &index, args, &error) ? run(&export, index, args, &error)
+                                                               : fail(EXIT_USAGE, &error);
+    snapshot_reader_close(export.reader);
+    return code;
+}

@@ -1,0 +1,37 @@
+/* Snapshots in the formats of other programs: what `slosh export` writes. */
+#ifndef SLOSH_EXPORT_H
+#define SLOSH_EXPORT_H
+
+#include "app/progress.h"
+#include "app/snapshot_frame.h"
+
+typedef enum ExportKind { EXPORT_PVD, EXPORT_VTP, EXPORT_PLY } ExportKind;
+
+/* Their names, which are the extensions, in the order of ExportKind; ended by a row without a name. */
+const Named *export_kinds(void);
+
+/* By the extension of the name; false with what would be right. */
+bool export_kind(const char *path, ExportKind *kind, Error *error);
+
+/* One export: where from, where to, and what came of it. */
+typedef struct Export {
+    SnapshotReader *reader; /* not owned; has at least one whole step */
+    const char *path;       /* of the output */
+    ExportKind kind;
+    SnapshotFrame frame;
+    size_t snapshots; /* written */
+    size_t particles; /* of the last one */
+    double time;      /* of the last one, s */
+    bool interrupted; /* by a signal, before the last snapshot of a series */
+} Export;
+
+/* Writes snapshot `index` into one file, .vtp or .ply. False with the reason: it cannot be read or written;
+   then what had that name before stays. */
+bool export_one(Export *export, size_t index, Error *error);
+
+/* Writes all snapshots: the index OUT.pvd, and beside it the folder OUT with OUT-0000.vtp, OUT-0001.vtp, ...
+   Both get their names when all is written, or after a signal with the snapshots that are; false with the
+   reason, and what had those names before stays. */
+bool export_series(Export *export, Progress *progress, Error *error);
+
+#endif

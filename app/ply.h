@@ -1,0 +1,26 @@
+/* Particles as a point cloud: PLY, binary little endian, for Blender, MeshLab, CloudCompare and scripts.
+
+   One element `vertex` with the properties x y z (m), vx vy vz (m/s), density (kg/m3), pressure (Pa): float;
+   fluid: int; id: uint, since PLY has no integer of 64 bits; and red green blue: uchar, sRGB, where the
+   fluids' colours are known. */
+#ifndef SLOSH_PLY_H
+#define SLOSH_PLY_H
+
+#include "app/snapshot.h"
+
+#include <stdio.h>
+
+/* Colours of fluids, sRGB 0 to 1. */
+typedef struct PlyColors {
+    size_t count; /* 0: no colours are written */
+    double color[FLUIDS_MAX][3];
+} PlyColors;
+
+/* Whether PLY can hold the step; false with the reason: an id of more than 32 bits. */
+bool ply_check(const SnapshotStep *step, Error *error);
+
+/* `frame` and the step's time go into a comment. A fluid that has no colour among others that have is grey.
+   False when the stream fails (errno tells why). */
+bool ply_write(FILE *file, const SnapshotStep *step, const char *frame, const PlyColors *colors);
+
+#endif

@@ -1,0 +1,263 @@
+/* Formats of other programs: what stands in the bytes, and the world's frame by hand. */
+#include "output_fixture.h"
+
+#include "app/export.h"
+#include "app/ply.h"
+#include "app/vtp.h"
+
+#include <math.h>
+
+static SnapshotStep some_step(size_t count)
+{
+    SnapshotStep step;
+    assert_true(snapshot_step_allocate(&step, count));
+    step.time = 0.1;
+    for (size_t i = 0; i < count; i++) {
+        for (int k = 0; k < 3; k++) {
+            step.position[k][i] = (float)k + 0.001F * (float)i;
+            step.velocity[k][i] = -10 - (float)k - 0.003F * (float)i;
+        }
+        step.density[i] = 1000 + (float)i;
+        step.pressure[i] = -5 * (float)i;
+        step.fluid[i] = (int32_t)(i % 3);
+        step.id[i] = (int64_t)(count - i);
+    }
+    return step;
+}
+
+/* All of a file; the caller frees it. */
+static char *read_all(const char *path, size_t *size)
+{
+    struct stat status;
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    assert_int_equal(fstat(fileno(file), &status), 0);
+    char *bytes = calloc(1, (size_t)status.st_size + 1);
+    *size = fread(bytes, 1, (size_t)status.st_size, file);
+    assert_int_equal(*size, status.st_size);
+    fclose(file);
+    return bytes;
+}
+
+/* A box turned by 90 degrees about z: its x axis points along the world's y, its y along the world's -x. */
+static void the_worlds_frame_by_hand(void **state)
+{
+    (void)state;
+    SnapshotStep step = some_step(2);
+    step.box = (BoxState){.position = {1, 2, 3},
+                          .orientation = {0, 0, sqrt(0.5), sqrt(0.5)},
+                          .velocity = {0.5, 0, -1},
+                          .angular_velocity = {0, 0, 2}};
+    const float position[2][3] = {{1, 0, 0}, {0, 0.5F, -2}}, velocity[2][3] = {{0, 3, 0}, {0, 0, 0}};
+    /* first: arm (0, 1, 0), swirl 2 z x arm = (-2, 0, 0), own velocity (-3, 0, 0)
+       second, at rest in the box: arm (-0.5, 0, -2), swirl (0, -1, 0) */
+    const float x_world[2][3] = {{1, 3, 3}, {0.5F, 2, 1}}, v_world[2][3] = {{-4.5F, 0, -1}, {0.5F, -1, -1}};
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) {
+            step.position[k][i] = position[i][k];
+            step.velocity[k][i] = velocity[i][k];
+        }
+    snapshot_step_to_world(&step);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) {
+            assert_true(fabsf(step.position[k][i] - x_world[i][k]) < 1e-6F);
+            assert_true(fabsf(step.velocity[k][i] - v_world[i][k]) < 1e-6F);
+        }
+    assert_true(step.density[1] == 1001 && step.id[0] == 2 && step.count == 2);
+    snapshot_step_free(&step);
+}
+
+static void write_ply(const SnapshotStep *step, const PlyColors *colors)
+{
+    FILE *file = fopen("a.ply", "wb");
+    assert_true(ply_write(file, step, "world", colors));
+    assert_int_equal(fclose(file), 0);
+}
+
+static void assert_ply_row(const SnapshotStep *step, size_t i, const char *row)
+{
+    float numbers[8];
+    int32_t fluid;
+    uint32_t id;
+    memcpy(numbers, row, 32);
+    memcpy(&fluid, row + 32, 4);
+    memcpy(&id, row + 36, 4);
+    for (int k = 0; k < 3; k++)
+        assert_true(numbers[k] == step->position[k][i] && numbers[3 + k] == step->velocity[k][i]);
+    assert_true(numbers[6] == step->density[i] && numbers[7] == step->pressure[i]);
+    assert_true(fluid == step->fluid[i] && id == step->id[i]);
+}
+
+static void a_ply_is_read_back(void **state)
+{
+    (void)state;
+    static const char head[] = "ply\nformat binary_little_endian 1.0\n"
+                               "comment slosh, time 0.10000000000000001 s, frame of the world, SI units\n"
+                               "element vertex 1000\nproperty float x\nproperty float y\nproperty float z\n"
+                               "property float vx\nproperty float vy\nproperty float vz\n"
+                               "property float density\nproperty float pressure\nproperty int fluid\n"
+                               "property uint id\n";
+    static const char color[] = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    /* of the third fluid nothing is known; a number that is none, or out of range, does no harm */
+    static const PlyColors colors = {2, {{0, 0.5, 1}, {-1, 2, NAN}}};
+    static const unsigned char bytes[3][3] = {{0, 128, 255}, {0, 255, 0}, {128, 128, 128}};
+    SnapshotStep step = some_step(1000);
+    for (int colored = 0; colored < 2; colored++) {
+        size_t size, at = strlen(head), width = colored ? 43 : 40;
+        write_ply(&step, colored ? &colors : &(PlyColors){0});
+        char *file = read_all("a.ply", &size);
+        assert_memory_equal(file, head, at);
+        if (colored) {
+            assert_memory_equal(file + at, color, strlen(color));
+            at += strlen(color);
+        }
+        assert_memory_equal(file + at, "end_header\n", 11);
+        at += 11;
+        assert_int_equal(size, at + 1000 * width);
+        for (size_t i = 0; i < 1000; i++) {
+            assert_ply_row(&step, i, file + at + i * width);
+            if (colored)
+                assert_memory_equal(file + at + i * width + 40, bytes[i % 3], 3);
+        }
+        free(file);
+    }
+    snapshot_step_free(&step);
+}
+
+static void an_id_that_ply_cannot_hold_is_refused(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    SnapshotStep step = some_step(3);
+    step.id[1] = UINT32_MAX;
+    assert_true(ply_check(&step, &error));
+    step.id[1] = (int64_t)UINT32_MAX + 1;
+    assert_false(ply_check(&step, &error));
+    assert_contains(error.message, "the id 4294967296 does not fit into a .ply; write a .vtp");
+    step.id[1] = -1;
+    assert_false(ply_check(&step, &error));
+    snapshot_step_free(&step);
+}
+
+/* The numbers of the array `name`, of `size` bytes, where its offset says. */
+static const char *vtp_array(const char *file, const char *name, uint64_t size)
+{
+    char quoted[64];
+    uint64_t found;
+    snprintf(quoted, sizeof quoted, "Name=\"%s\"", name);
+    const char *element = strstr(file, quoted);
+    assert_non_null(element);
+    const char *offset = strstr(element, "offset=\"");
+    const char *data = strstr(file, "<AppendedData encoding=\"raw\">\n_");
+    assert_non_null(data);
+    data = strchr(data, '_') + 1 + strtoull(offset + 8, NULL, 10);
+    memcpy(&found, data, sizeof found);
+    assert_int_equal(found, size);
+    return data + sizeof found;
+}
+
+static void assert_vtp_holds(const SnapshotStep *step, const char *file)
+{
+    const size_t count = step->count;
+    const char *points = vtp_array(file, "Points", 12 * count);
+    const char *velocity = vtp_array(file, "velocity", 12 * count);
+    const char *connectivity = vtp_array(file, "connectivity", 4 * count);
+    const char *offsets = vtp_array(file, "offsets", 4 * count);
+    assert_memory_equal(vtp_array(file, "density", 4 * count), step->density, 4 * count);
+    assert_memory_equal(vtp_array(file, "pressure", 4 * count), step->pressure, 4 * count);
+    assert_memory_equal(vtp_array(file, "fluid", 4 * count), step->fluid, 4 * count);
+    assert_memory_equal(vtp_array(file, "id", 8 * count), step->id, 8 * count);
+    for (size_t i = 0; i < count; i++) {
+        const int32_t vertex = (int32_t)i, end = vertex + 1;
+        for (size_t k = 0; k < 3; k++) {
+            assert_memory_equal(points + 12 * i + 4 * k, &step->position[k][i], 4);
+            assert_memory_equal(velocity + 12 * i + 4 * k, &step->velocity[k][i], 4);
+        }
+        assert_memory_equal(connectivity + 4 * i, &vertex, 4);
+        assert_memory_equal(offsets + 4 * i, &end, 4);
+    }
+}
+
+/* Few, none, and more than goes through its buffer at once. */
+static void a_vtp_is_read_back(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {3, 0, 1, 4096, 10000};
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        size_t size;
+        SnapshotStep step = some_step(counts[k]);
+        FILE *out = fopen("a.vtp", "wb");
+        assert_true(vtp_write(out, &step));
+        assert_int_equal(fclose(out), 0);
+        char *file = read_all("a.vtp", &size);
+        assert_contains(file,
+                        "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">0.10000000000000001<");
+        assert_vtp_holds(&step, file);
+        assert_memory_equal(file + size - 27, "</AppendedData>\n</VTKFile>\n", 27);
+        free(file);
+        snapshot_step_free(&step);
+    }
+}
+
+static void the_index_names_its_files(void **state)
+{
+    (void)state;
+    static const double times[] = {0, 0.1};
+    char name[64], text[1024] = "";
+    vtp_series_name("some/where/fluid", 7, name, sizeof name);
+    assert_string_equal(name, "fluid-0007.vtp");
+    vtp_series_name("fluid", 12345, name, sizeof name);
+    assert_string_equal(name, "fluid-12345.vtp");
+    FILE *file = fopen("a.pvd", "w+");
+    assert_true(vtp_write_index(file, "x/a&<b>\"", 2, times));
+    rewind(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    assert_contains(text, "<DataSet timestep=\"0\" group=\"\" part=\"0\" "
+                          "file=\"a&#38;&#60;b&#62;&#34;/a&#38;&#60;b&#62;&#34;-0000.vtp\"/>\n"
+                          "<DataSet timestep=\"0.10000000000000001\"");
+}
+
+static void a_failed_stream_is_told(void **state)
+{
+    (void)state;
+    SnapshotStep step = some_step(10000);
+    FILE *file = fopen("/dev/full", "wb");
+    assert_false(vtp_write(file, &step));
+    fclose(file);
+    file = fopen("/dev/full", "wb");
+    assert_false(ply_write(file, &step, "box", &(PlyColors){0}));
+    fclose(file);
+    snapshot_step_free(&step);
+}
+
+static void the_extension_says_what_is_written(void **state)
+{
+    (void)state;
+    static const char *const others[] = {"a", "a.h5part", ".ply", "a.vtp/b", "", "a.", "a.plyx", "b/.vtp"};
+    ExportKind kind;
+    Error error = {{0}};
+    assert_true(export_kind("a.b/c.PVD", &kind, &error) && kind == EXPORT_PVD);
+    assert_true(export_kind("a.vtp", &kind, &error) && kind == EXPORT_VTP);
+    assert_true(export_kind("a.vtp.ply", &kind, &error) && kind == EXPORT_PLY);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        assert_false(export_kind(others[i], &kind, &error));
+        assert_contains(error.message, "name a FILE.pvd, a FILE.vtp or a FILE.ply");
+    }
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, folder_setup, folder_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(the_worlds_frame_by_hand),
+        TEST(a_ply_is_read_back),
+        TEST(an_id_that_ply_cannot_hold_is_refused),
+        TEST(a_vtp_is_read_back),
+        TEST(the_index_names_its_files),
+        TEST(a_failed_stream_is_told),
+        TEST(the_extension_says_what_is_written),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,415 @@
+"""slosh export: ParaView and a plain reader find every number, and files are whole or not there."""
+import json
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy
+
+import command
+from command import CommandTest, TinyDiskTest, limit_files
+
+# Runs in ParaView's Python, apart from h5py: each brings an HDF5 of its own.
+READ = """
+import json, sys
+from paraview.simple import OpenDataFile
+from paraview import servermanager
+from vtk.util.numpy_support import vtk_to_numpy
+reader = OpenDataFile(sys.argv[1])
+reader.UpdatePipelineInformation()
+steps = []
+for time in list(reader.TimestepValues) or [None]:
+    reader.UpdatePipeline() if time is None else reader.UpdatePipeline(time)
+    data = servermanager.Fetch(reader)
+    arrays = data.GetPointData()
+    names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
+    own = data.GetFieldData().GetArray('TimeValue')
+    steps.append({'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
+                  'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
+                  'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
+                  'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}})
+with open(sys.argv[2], 'w') as file:
+    json.dump(steps, file)
+"""
+
+PLY_TYPES = {'float': '<f4', 'int': '<i4', 'uint': '<u4', 'uchar': 'u1'}
+
+
+def read_ply(content):
+    """By what its header says: {property: values}."""
+    head, rows = content.split(b'end_header\n', 1)
+    lines = head.decode().split('\n')
+    assert lines[:2] == ['ply', 'format binary_little_endian 1.0'], lines
+    count = int(re.search(r'^element vertex (\d+)$', head.decode(), re.M)[1])
+    kind = numpy.dtype([(name, PLY_TYPES[type_])
+                        for _, type_, name in (line.split() for line in lines if line.startswith('property'))])
+    assert len(rows) == count * kind.itemsize
+    return numpy.frombuffer(rows, kind)
+
+
+def rotated(q, v):
+    """Vectors v turned by the unit quaternion q = x y z w, by its matrix."""
+    x, y, z, w = q
+    matrix = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                          [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                          [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    return v @ matrix.T
+
+
+def in_box(group):
+    """Positions and velocities as the file has them."""
+    return (numpy.stack([group[axis] for axis in 'xyz'], 1),
+            numpy.stack([group[f'velocity_{k}'] for k in range(3)], 1))
+
+
+def in_world(group):
+    position, velocity = (numpy.float64(values) for values in in_box(group))
+    arm = rotated(group.attrs['box_orientation'], position)
+    return (group.attrs['box_position'] + arm, group.attrs['box_velocity']
+            + numpy.cross(group.attrs['box_angular_velocity'], arm)
+            + rotated(group.attrs['box_orientation'], velocity))
+
+
+class ExportTest(CommandTest):
+    def make(self, *more):
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0.4', '--every', '0.05', '--quiet',
+                                *more)
+        self.assertEqual(code, 0, said)
+
+    def export(self, output, *more, code=0, source='a.h5part'):
+        done, said = self.slosh('export', source, '-o', output, *more)
+        self.assertEqual(done, code, said)
+        return said
+
+    def stretch(self, count):
+        """The file as if it had so many steps: the same ones again and again."""
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            has = len(file)
+            for k in range(has, count):
+                file[f'Step#{k}'] = file[f'Step#{k % has}']
+
+    def assert_whole_series(self, name, count):
+        """The index and its folder, to the last byte of each file."""
+        index = self.read(f'{name}.pvd').decode()
+        files = re.findall(r'file="([^"]*)"', index)
+        self.assertTrue(index.endswith('</VTKFile>\n'))
+        self.assertEqual(files, [f'{name}/{name}-{k:04}.vtp' for k in range(count)])
+        self.assertEqual(sorted(os.listdir(self.path(name))), [os.path.basename(file) for file in files])
+        for file in files:
+            self.assertTrue(self.read(file).endswith(b'</AppendedData>\n</VTKFile>\n'))
+
+
+class ParaView(ExportTest):
+    def read_with_paraview(self, name):
+        if not shutil.which('pvpython'):
+            self.skipTest('pvpython is not there: install python3-paraview')
+        self.write('read.py', READ)
+        done = subprocess.run(['pvpython', '--no-mpi', 'read.py', name, 'read.json'], cwd=self.folder,
+                              capture_output=True, text=True, check=False, timeout=200)
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        return json.loads(self.read('read.json'))
+
+    def same_fields(self, seen, group):
+        for name in ('density', 'pressure', 'fluid', 'id'):
+            numpy.testing.assert_array_equal(seen['arrays'][name], group[name])
+        self.assertEqual(seen['types'], {'velocity': 'float', 'density': 'float', 'pressure': 'float', 'fluid': 'int',
+                                         'id': seen['types']['id']})
+        self.assertIn(seen['types']['id'], ('long long', 'vtkIdType', 'long'))
+        self.assertEqual(seen['vertices'], len(group['id']))
+
+    def test_series(self):
+        self.make()
+        os.mkdir(self.path('in & out'))  # moved as a whole, the index finds its files
+        self.export('in & out/a <b>.pvd', '--quiet')
+        os.rename(self.path('in & out'), self.path('moved'))
+        seen = self.read_with_paraview('moved/a <b>.pvd')
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            self.assertEqual(len(seen), 9)
+            self.assertEqual(len(seen), len(file))
+            for k, step in enumerate(seen):
+                group = file[f'Step#{k}']
+                self.assertEqual(step['time'], group.attrs['TimeValue'])
+                self.assertEqual(step['own_time'], step['time'])
+                position, velocity = in_box(group)
+                numpy.testing.assert_array_equal(numpy.float32(step['points']), position)
+                numpy.testing.assert_array_equal(numpy.float32(step['arrays']['velocity']), velocity)
+                self.same_fields(step, group)
+        self.assertNotEqual(seen[0]['points'], seen[8]['points'])
+
+    def test_series_in_the_world(self):
+        self.make('--set', 'motion=[{spin: {axis: [1, 2, 3], rate: 3}}, {shake: {axis: [1, 0, 0], amplitude: 0.2, '
+                           'frequency: 2}}]', '--time', '0.2')
+        self.export('a.pvd', '--frame', 'world')
+        seen = self.read_with_paraview('a.pvd')
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            self.assertEqual(len(seen), 5)
+            for k, step in enumerate(seen):
+                group = file[f'Step#{k}']
+                position, velocity = in_world(group)
+                numpy.testing.assert_allclose(step['points'], position, rtol=0, atol=3e-7)
+                numpy.testing.assert_allclose(step['arrays']['velocity'], velocity, rtol=0, atol=3e-6)
+                self.same_fields(step, group)
+            self.assertGreater(numpy.abs(in_world(file['Step#4'])[1] - in_box(file['Step#4'])[1]).max(), 1)
+
+    def test_one_and_none(self):
+        self.make('--time', '0.1')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            file.move('Step#1', 'kept')
+            group = file.create_group('Step#1')  # of no particles
+            for name, value in file['kept'].attrs.items():
+                group.attrs[name] = value
+            for name, values in file['kept'].items():
+                group.create_dataset(name, data=values[:0])
+            file.move('kept', 'Step#3')  # and one more behind Step#2
+        for name, index, more in (('a.vtp', 3, []), ('b.vtp', 1, ['--time', '0.04']), ('c.vtp', 0, ['--time', '0'])):
+            self.export(name, *more)
+            seen, = self.read_with_paraview(name)
+            with h5py.File(self.path('a.h5part'), 'r') as file:
+                group = file[f'Step#{index}']
+                self.assertEqual((seen['time'], seen['own_time']), (group.attrs['TimeValue'],) * 2)
+                self.assertEqual(len(seen['points']), len(group['x']))
+                if index != 1:
+                    numpy.testing.assert_array_equal(numpy.float32(seen['points']), in_box(group)[0])
+                    self.same_fields(seen, group)
+
+    def test_points_and_colours(self):
+        self.make('--set', 'fluids[0].color=[1, 0.5, 0]', '--time', '0')
+        self.export('a.ply')
+        seen, = self.read_with_paraview('a.ply')
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            numpy.testing.assert_array_equal(numpy.float32(seen['points']), in_box(file['Step#0'])[0])
+            first = file['Step#0']['fluid'][:] == 0
+        colors = numpy.array(seen['arrays']['RGB'])
+        self.assertTrue((colors[first] == (255, 128, 0)).all())
+        self.assertEqual(len(numpy.unique(colors[~first], axis=0)), 1)
+
+
+class Ply(ExportTest):
+    def same(self, rows, group, frame):
+        position, velocity = frame(group)
+        for k in range(3):
+            numpy.testing.assert_allclose(rows['xyz'[k]], position[:, k], rtol=0, atol=3e-7)
+            numpy.testing.assert_allclose(rows[('vx', 'vy', 'vz')[k]], velocity[:, k], rtol=0, atol=3e-6)
+        for name in ('density', 'pressure', 'fluid', 'id'):
+            numpy.testing.assert_array_equal(rows[name], group[name])
+
+    def test_every_number(self):
+        self.make()
+        self.export('last.ply')
+        self.export('at.ply', '--time', '0.12', '--frame', 'world')
+        self.export('exact.ply', '--time', '0.4')
+        self.assertEqual(self.read('exact.ply'), self.read('last.ply'))
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            self.same(read_ply(self.read('last.ply')), file['Step#8'], in_box)
+            self.same(read_ply(self.read('at.ply')), file['Step#3'], in_world)
+
+    def test_a_file_that_knows_no_colours(self):
+        self.make('--time', '0')
+        self.export('new.ply')
+        self.assertIn('red', read_ply(self.read('new.ply')).dtype.names)
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file.attrs['fluid_colors']
+        self.export('old.ply')
+        rows = read_ply(self.read('old.ply'))
+        self.assertNotIn('red', rows.dtype.names)
+        self.assertEqual(len(rows), 500)
+
+    def test_a_large_id(self):
+        self.make('--time', '0')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            file['Step#0']['id'][7] = 1 << 32
+        self.assertIn('write a .vtp', self.export('a.ply', code=1))
+        self.export('a.vtp')
+        self.assertEqual(self.entries(), ['a.h5part', 'a.vtp'])
+
+
+class Whole(ExportTest):
+    def test_series(self):
+        self.make()
+        said = self.export('b.pvd', '--json', 'b.json')
+        self.assertRegex(said, r'export: 100 % .*\nb\.pvd: 9 snapshots up to t = 0\.4 s, 500 particles, in the frame of '
+                               r'the box\n')
+        self.assert_whole_series('b', 9)
+        out = json.loads(self.read('b.json'))
+        wall = out.pop('wall_seconds')
+        self.assertTrue(0 < wall < 10)
+        self.assertEqual(out, {'command': 'export', 'input': 'a.h5part', 'output': 'b.pvd', 'frame': 'box',
+                               'snapshots': 9, 'particles': 500, 'simulated_seconds': 0.4, 'stopped': False})
+        self.make('--time', '0.1')
+        self.assertEqual(self.export('b.pvd', '--quiet'), '')
+        self.assert_whole_series('b', 3)  # none is left of the longer one
+        self.assertEqual(self.entries(), ['a.h5part', 'b', 'b.json', 'b.pvd'])
+
+    def test_an_incomplete_last_step_is_dropped(self):
+        self.make()
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#8'].attrs['complete']
+            del file['Step#8']['x']
+        self.export('a.pvd')
+        self.assert_whole_series('a', 8)
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            self.export('a.ply')
+            numpy.testing.assert_array_equal(read_ply(self.read('a.ply'))['x'], file['Step#7']['x'])
+
+    def test_a_run_that_was_killed(self):
+        for trial in range(3):
+            process = self.start('run', 'scene.yaml', '-o', f'{trial}.h5part', '--time', '100000', '--every', '0.004',
+                                 '--quiet')
+            self.wait_for(lambda: os.path.exists(self.path(f'{trial}.h5part')), process)
+            time.sleep(random.uniform(0, 0.3))
+            process.kill()
+            process.wait()
+            self.export(f'{trial}.pvd', source=f'{trial}.h5part')
+            self.assert_whole_series(str(trial), len(command.whole_steps(self.path(f'{trial}.h5part'))))
+
+    def test_while_it_is_being_written(self):
+        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000', '--every', '0.004', '--quiet')
+        self.wait_for(lambda: os.path.exists(self.path('a.h5part')), process)
+        for _ in range(5):
+            code, said = self.slosh('export', 'a.h5part', '-o', 'a.pvd', '--quiet')
+            if code == 0:
+                self.assert_whole_series('a', self.read('a.pvd').count(b'timestep'))
+            else:  # a moment between two writes: said, and nothing done
+                self.assertIn(code, (1, 2))
+                self.assertIn('a.h5part', said)
+
+
+class Bad(ExportTest):
+    def refused(self, source, output, *more, words, code=2):
+        before = self.entries()
+        said = self.export(output, *more, source=source, code=code)
+        self.assertRegex(said, words)
+        self.assertEqual(self.entries(), before)
+
+    def test_input(self):
+        self.write('text.h5part', 'no snapshots')
+        self.write('empty.h5part', '')
+        os.mkdir(self.path('folder.h5part'))
+        with h5py.File(self.path('none.h5part'), 'w') as file:
+            file.attrs['title'] = 'nothing'
+        for output in ('a.pvd', 'a.vtp', 'a.ply'):
+            self.refused('missing.h5part', output, words='missing.h5part: cannot be read: No such file')
+            for name in ('text', 'empty', 'folder'):
+                self.refused(f'{name}.h5part', output, words=f'{name}.h5part: is no file of snapshots')
+            self.refused('none.h5part', output, words='none.h5part: has no whole snapshot; make some with slosh run')
+
+    def test_no_whole_step(self):
+        self.make('--time', '0')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            file['Step#0'].attrs['complete'] = 0
+        self.refused('a.h5part', 'a.pvd', words='has no whole snapshot')
+
+    def test_damaged(self):
+        self.make()
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#5']['pressure']
+        self.refused('a.h5part', 'a.pvd', '--quiet', words=r"Step#5: 'pressure' is missing", code=1)
+        self.refused('a.h5part', 'a.vtp', '--time', '0.25', words=r"Step#5: 'pressure' is missing", code=1)
+        content = self.read('a.h5part')
+        self.write('a.h5part', content[:len(content) // 2])
+        self.refused('a.h5part', 'a.pvd', words='a.h5part: is no file of snapshots')
+
+    def test_output(self):
+        self.make('--time', '0')
+        for name in ('a.h5part', 'a.obj', 'a', 'a.pvd/', '.ply'):
+            self.refused('a.h5part', name, words='name a FILE.pvd, a FILE.vtp or a FILE.ply')
+        self.refused('a.h5part', 'no/a.vtp', words='No such file or directory; create it first', code=1)
+        self.refused('a.h5part', 'no/a.pvd', words='No such file or directory; create it first', code=1)
+        self.refused('a.h5part', 'a.vtp', '--json', 'no/a.json', words='no/a.json: cannot be written', code=1)
+        self.refused('a.h5part', 'a.pvd', '--frame', 'moon', words='box|world')
+        self.refused('a.h5part', 'a.pvd', '--time', '0', words='--time makes no sense for all snapshots, a.pvd')
+        self.refused('a.h5part', 'a.vtp', '--time', '1', words='a.h5part: ends at 0 s, before --time 1')
+        os.mkdir(self.path('b.vtp'))
+        self.refused('a.h5part', 'b.vtp', words='is a folder; name a file', code=1)
+
+    def test_a_folder_of_others(self):
+        self.make('--time', '0')
+        os.mkdir(self.path('thesis'))
+        self.write('thesis/chapter.tex', 'much work')
+        self.refused('a.h5part', 'thesis.pvd', words="'chapter.tex' in it is not of an export", code=1)
+        self.assertEqual(self.read('thesis/chapter.tex'), b'much work')
+        self.write('file', '')
+        self.refused('a.h5part', 'file.pvd', words='file: is to be a folder', code=1)
+
+
+class FullDisk(ExportTest):
+    def full(self, output, size):
+        code, said = self.slosh('export', 'a.h5part', '-o', output, '--quiet', before=limit_files(size))
+        self.assertEqual(code, 1, said)
+        self.assertIn(f'{output}: cannot be written: File too large', said)
+
+    def test_new(self):
+        self.make('--time', '0.1')
+        for output in ('b.pvd', 'b.vtp', 'b.ply'):
+            for size in (100, 5000, 20000):
+                self.full(output, size)
+        self.assertEqual(self.entries(), ['a.h5part'])
+
+    def test_an_older_one_stays(self):
+        self.make('--time', '0.1')
+        self.export('b.pvd')
+        self.make('--time', '0.4')
+        before = self.read('b.pvd')
+        self.full('b.pvd', 20000)
+        self.assertEqual(self.read('b.pvd'), before)
+        self.assert_whole_series('b', 3)
+        self.assertEqual(self.entries(), ['a.h5part', 'b', 'b.pvd'])
+
+    def test_no_room_for_the_index(self):
+        """500 particles take less than the index of 600 snapshots does."""
+        self.make('--time', '0.4')
+        self.stretch(600)
+        self.full('b.pvd', 40000)
+        self.assertEqual(self.entries(), ['a.h5part'])
+
+
+class TinyDisk(TinyDiskTest, ExportTest):
+    def test_nothing_is_left(self):
+        self.make('--time', '0.4')
+        for size, output in (('60k', 'a.pvd'), ('16k', 'a.vtp'), ('16k', 'a.ply')):
+            left = self.full(size, f'export a.h5part -o disk/{output}')
+            self.assertEqual(left, ['a.h5part'])
+
+
+class Signals(ExportTest):
+    STEPS = 3000
+
+    def begin(self):
+        process = self.start('export', 'a.h5part', '-o', 'b.pvd', '--quiet')
+        self.wait_for(lambda: any(os.listdir(self.path(name)) for name in self.entries()
+                                  if re.fullmatch(r'b\.\d+\.tmp', name)), process)
+        return process
+
+    def setUp(self):
+        super().setUp()
+        self.make()
+        self.stretch(self.STEPS)
+
+    def test_kill(self):
+        for _ in range(4):
+            process = self.begin()
+            time.sleep(random.uniform(0, 0.2))
+            process.kill()
+            self.assertEqual(process.wait(), -signal.SIGKILL)
+            self.assertFalse({'b', 'b.pvd'} & set(self.entries()))
+            self.assertTrue(all(name.endswith('.tmp') for name in self.entries() if name != 'a.h5part'))
+
+    def test_interrupt(self):
+        process = self.begin()
+        os.killpg(process.pid, signal.SIGINT)
+        said = process.stderr.read()
+        self.assertEqual(process.wait(timeout=60), 130, said)
+        self.assertRegex(said, r'^stopped at t = [0-9.]+ s; b\.pvd is whole\n$')
+        count = self.read('b.pvd').count(b'timestep')
+        self.assertTrue(0 < count < self.STEPS)
+        self.assert_whole_series('b', count)
+        self.assertEqual(self.entries(), ['a.h5part', 'b', 'b.pvd'])
+
+
+if __name__ == '__main__':
+    command.main()
