@@ -41,13 +41,32 @@ static bool apply_settings(Tree *tree, SceneSettings *settings, Error *error)
     return true;
 }
 
+/* A box with a width and a height, and no depth, makes a scene of two dimensions. */
+static int dimensions_of(const Tree *tree)
+{
+    const Node *size = tree_near(tree, "box.size");
+    return size->key && strcmp(size->key, "size") == 0 && size->kind == NODE_SEQUENCE && node_count(size) == 2
+               ? 2
+               : 3;
+}
+
+static bool read_scene(Tree *tree, Scene *out, Error *error)
+{
+    tree->dimensions = dimensions_of(tree);
+    if (!scene_read(tree, out, error))
+        return false;
+    out->world.dimensions = tree->dimensions;
+    return scene_check(tree, out, error);
+}
+
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char note[256], Error *error)
 {
-    if (!apply_settings(tree, settings, error) || !scene_read(tree, out, error) ||
-        !scene_check(tree, out, error))
+    if (!apply_settings(tree, settings, error) || !read_scene(tree, out, error))
         return false;
     if (settings->particles > 0 && !scene_set_particles(tree, out, settings, note, error))
         return false;
+    if (out->world.dimensions == 2)
+        out->world.box_size[2] = out->world.spacing;
     if (!scene_check_count(tree, out, error))
         return false;
     snprintf(out->path, sizeof out->path, "%s", tree->path);

@@ -37,7 +37,7 @@ static bool between_walls(const Check *check, const char *path, int k, double lo
 static bool check_block(const Check *check, const Fill *fill, const char *path)
 {
     char corner[96];
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < check->scene->world.dimensions; k++) {
         const double size = check->scene->world.box_size[k];
         const bool low_out = fill->min[k] < (k == 1 ? 0 : -0.5 * size) - 1e-9 * size;
         snprintf(corner, sizeof corner, "%s.block.max[%d]", path, k);
@@ -55,12 +55,19 @@ static bool check_block(const Check *check, const Fill *fill, const char *path)
 static bool check_ball(const Check *check, const Fill *fill, const char *path)
 {
     char centre[96];
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < check->scene->world.dimensions; k++) {
         snprintf(centre, sizeof centre, "%s.ball.centre[%d]", path, k);
         if (!between_walls(check, centre, k, fill->centre[k] - fill->radius, fill->centre[k] + fill->radius))
             return false;
     }
     return true;
+}
+
+/* In two dimensions nothing may point out of the plane. */
+static bool check_plane(const Check *check, const char *path, const double v[3])
+{
+    return check->scene->world.dimensions == 3 || v[2] == 0 ||
+           FAIL(check, path, "the third number must be 0, or left out, in a 2D scene, not %g", v[2]);
 }
 
 static bool check_fluid(const Check *check, int f)
@@ -72,9 +79,15 @@ static bool check_fluid(const Check *check, int f)
         if (strcmp(fluid->name, check->scene->world.fluids[other].name) == 0)
             return FAIL(check, path, "two fluids have the name '%s'; give each its own", fluid->name);
     }
+    snprintf(path, sizeof path, "fluids[%d].velocity", f);
+    if (!check_plane(check, path, fluid->velocity))
+        return false;
     for (int i = 0; i < fluid->fill_count; i++) {
         snprintf(path, sizeof path, "fluids[%d].fill[%d]", f, i);
         const Fill *fill = &fluid->fills[i];
+        if (!check_plane(check, path, fill->min) || !check_plane(check, path, fill->max) ||
+            !check_plane(check, path, fill->centre))
+            return false;
         if (!(fill->kind == FILL_BALL ? check_ball(check, fill, path) : check_block(check, fill, path)))
             return false;
     }
@@ -88,6 +101,9 @@ static bool check_motion(const Check *check, int m)
     snprintf(path, sizeof path, "motion[%d].%s.axis", m, motion_name(motion->kind));
     if (hypot(hypot(motion->axis[0], motion->axis[1]), motion->axis[2]) < 1e-9)
         return FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
+    if (check->scene->world.dimensions == 2 && !motion_in_plane(motion))
+        return FAIL(check, path,
+                    "the motion leaves the plane of a 2D scene; shake along x and y, turn about [0, 0, 1]");
     return true;
 }
 
@@ -107,7 +123,7 @@ static bool check_spacing(const Check *check)
 {
     const WorldDef *world = &check->scene->world;
     double width = INFINITY;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < world->dimensions; k++)
         width = fmin(width, world->box_size[k]);
     if (world->spacing > 0.5 * width)
         return FAIL(check, "particles.spacing",
@@ -125,7 +141,8 @@ bool scene_check(const Tree *tree, const Scene *scene, Error *error)
     for (int m = 0; m < scene->world.motion_count; m++)
         if (!check_motion(&check, m))
             return false;
-    return check_spacing(&check) && check_view(&check);
+    return check_plane(&check, "gravity", scene->world.gravity) && check_spacing(&check) &&
+           check_view(&check);
 }
 
 double scene_fluid_volume(const Scene *scene)
@@ -133,7 +150,7 @@ double scene_fluid_volume(const Scene *scene)
     double volume = 0;
     for (int f = 0; f < scene->world.fluid_count; f++)
         for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
-            volume += fill_volume(&scene->world.fluids[f].fills[i]);
+            volume += fill_volume(&scene->world.fluids[f].fills[i], scene->world.dimensions);
     return volume;
 }
 
@@ -145,7 +162,7 @@ static double points_walked(const WorldDef *world, double spacing)
         for (int i = 0; i < world->fluids[f].fill_count; i++) {
             const Fill *fill = &world->fluids[f].fills[i];
             double points = 1;
-            for (int k = 0; k < 3; k++) {
+            for (int k = 0; k < world->dimensions; k++) {
                 const double width = fill->kind == FILL_BALL ? 2 * fill->radius : fill->max[k] - fill->min[k];
                 points *= width / spacing + 2;
             }
@@ -179,7 +196,7 @@ static bool check_cells(const Check *check)
     const WorldDef *world = &check->scene->world;
     const double h = world->support * world->spacing;
     double cells = 1;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < world->dimensions; k++)
         cells *= world->box_size[k] / h + 3;
     if (cells < 0x1p31 && cells * BYTES_A_CELL < physical_bytes())
         return true;
@@ -195,8 +212,8 @@ bool scene_check_bounds(const Tree *tree, const Scene *scene, double spacing, Er
     double most = 0;
     for (int f = 0; f < scene->world.fluid_count; f++)
         for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
-            most = fmax(most, fill_volume(&scene->world.fluids[f].fills[i]));
-    most /= spacing * spacing * spacing;
+            most = fmax(most, fill_volume(&scene->world.fluids[f].fills[i], scene->world.dimensions));
+    most /= pow(spacing, scene->world.dimensions);
     if (!scene_fits_memory(0.5 * most)) /* half: rounding to the lattice can only lose so much of this many */
         return too_many(&check, scene_fluid_volume(scene) / (spacing * spacing * spacing));
     if (points_walked(&scene->world, spacing) > 0x1p30) /* a wide fill thinner than a spacing, say */

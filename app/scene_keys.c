@@ -99,7 +99,7 @@ static const Key keys[] = {
     TEXT("title", L, sizeof((Scene *)0)->title, offsetof(Scene, title), "the file's name", "what the scene shows"),
 
     MAPPING("box", "the box that holds the fluid; its origin is the centre of its floor, y is up"),
-    VEC3("box.size", R, "m", 0.001, 1000, WORLD(box_size), "inner width (x), height (y), depth (z)"),
+    VEC3("box.size", R, "m", 0.001, 1000, WORLD(box_size), "inner width (x), height (y), depth (z); [width, height] makes a scene of two dimensions, whose vectors may have two numbers"),
     VEC3("gravity", L, "m/s2", -1000, 1000, WORLD(gravity), "in the world's frame"),
 
     MAPPING("particles", "the resolution"),

@@ -88,9 +88,10 @@ static bool in_world(const Scene *scene, const Change *change, const char *base)
            strcmp(change->key->path, "fluids[].color") != 0;
 }
 
-static bool take(const Tree *tree, const Change *change, Scene *scene, bool *concerns_world)
+static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_world)
 {
     Scene after = *scene;
+    tree->dimensions = scene->world.dimensions;
     char *base = base_of(&after, change);
     if (!value_read(tree, change->key, tree_near(tree, change->path), change->path, base, change->error) ||
         !scene_check(tree, &after, change->error))

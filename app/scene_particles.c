@@ -14,6 +14,12 @@ typedef struct Best {
     size_t count;
 } Best;
 
+/* The width of a cube, or a square, of that volume. */
+static double root(const Scene *scene, double volume)
+{
+    return scene->world.dimensions == 3 ? cbrt(volume) : sqrt(volume);
+}
+
 static double miss(size_t count, size_t wanted)
 {
     return fabs((double)count - (double)wanted);
@@ -51,7 +57,7 @@ static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
     Best best = {0, 0};
     for (int round = 0; round < 2; round++) { /* fills that overlap fill less than their volumes add up to */
         offer(scene, wanted, guess, &best);
-        guess = best.spacing * cbrt(fmax(1, (double)best.count) / (double)wanted);
+        guess = best.spacing * root(scene, fmax(1, (double)best.count) / (double)wanted);
     }
     const int tries = tries_for(wanted);
     const double width = wanted < 1000 ? 0.3 : 0.05;
@@ -64,15 +70,16 @@ static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
 /* At most half of the box's least width, as for a spacing that a file gives. */
 static double greatest_spacing(const Scene *scene)
 {
-    const double *size = scene->world.box_size;
-    return 0.5 * fmin(size[0], fmin(size[1], size[2]));
+    const double *size = scene->world.box_size, width = fmin(size[0], size[1]);
+    return 0.5 * (scene->world.dimensions == 3 ? fmin(width, size[2]) : width);
 }
 
 bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, char note[256],
                          Error *error)
 {
     const size_t wanted = settings->particles;
-    const double guess = fmin(greatest_spacing(scene), cbrt(scene_fluid_volume(scene) / (double)wanted));
+    const double guess =
+        fmin(greatest_spacing(scene), root(scene, scene_fluid_volume(scene) / (double)wanted));
     if (!(guess > 1e-6) || !scene_fits_memory((double)wanted) ||
         !scene_check_bounds(tree, scene, 0.9 * guess, NULL))
         return error_set(error, "--particles %zu: more than this machine can hold; use fewer", wanted);

@@ -29,6 +29,7 @@ struct Node {
 
 typedef struct Tree {
     const char *path; /* what messages name; not owned */
+    int dimensions;   /* of the scene: 2 allows vectors of two numbers; 0 or 3: three */
     Node *root;
     struct TreeBlock *blocks; /* owned: nodes and texts */
 } Tree;

@@ -152,7 +152,13 @@ static bool read_numbers(const Value *value, size_t count, const char *wanted, d
 
 static bool read_vec3(const Value *value)
 {
-    return read_numbers(value, 3, "three numbers [x, y, z]", (double *)value->field);
+    double *v = (double *)value->field;
+    const bool flat = value->tree->dimensions == 2;
+    if (flat && value->node->kind == NODE_SEQUENCE && node_count(value->node) == 2) {
+        v[2] = 0;
+        return read_numbers(value, 2, "two numbers [x, y]", v);
+    }
+    return read_numbers(value, 3, flat ? "two numbers [x, y], or three" : "three numbers [x, y, z]", v);
 }
 
 static bool read_color(const Value *value)

@@ -108,10 +108,14 @@ void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3
     }
 }
 
+static const double FLAT = 0.1; /* of width and height */
+
 static void look_at_box(Camera *camera, const double size[3], const BoxState *box, Covered covered)
 {
     vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up = {0, 1, 0};
     Room room = make_room(covered);
+    if (size[2] < FLAT * fmin(size[0], size[1])) /* a picture, not a thing: seen as one */
+        back[0] = back[1] = 0;
     glm_vec3_normalize(back);
     glm_vec3_crossn(up, back, right);
     glm_vec3_crossn(back, right, up);

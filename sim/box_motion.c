@@ -191,3 +191,11 @@ void box_state_at(const Motion list[], int count, double box_height, double time
         state->velocity[k] = centre_velocity[k] + swirl[k];
     }
 }
+
+bool motion_in_plane(const Motion *motion)
+{
+    const double *a = motion->axis;
+    const bool turns =
+        motion->kind == MOTION_ROCK || motion->kind == MOTION_TURN || motion->kind == MOTION_SPIN;
+    return turns ? a[0] == 0 && a[1] == 0 : a[2] == 0;
+}

@@ -11,7 +11,8 @@
 #include "sim/kernel.h"
 
 typedef struct Lattice {
-    double number_density; /* n0 = 1 / spacing^3, 1/m3; mass = rho0 / n0 */
+    int dimensions;        /* 3, or 2: a square lattice; then all 1/m3 are 1/m2 */
+    double number_density; /* n0 = 1 / spacing^dimensions; mass = rho0 / n0, in 2D of a metre's depth */
     double density_scale;  /* factor on the density kernel: n0 over its sum, self included */
     double gradient_scale; /* factor on the derivative of the pressure kernel */
     const Kernel *pressure_kernel;
@@ -21,7 +22,7 @@ typedef struct Lattice {
 } Lattice;
 
 /* Of the lattice with that spacing and support radius, m. */
-void lattice_calibrate(double spacing, double support_radius, const Kernel *density_kernel,
+void lattice_calibrate(int dimensions, double spacing, double support_radius, const Kernel *density_kernel,
                        const Kernel *pressure_kernel, Lattice *lattice);
 
 #endif

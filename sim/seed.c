@@ -6,23 +6,25 @@
 /* A point on a face of a block belongs to it at the low side only, to this part of a spacing. */
 static const double slack = 1e-6;
 
-double fill_volume(const Fill *fill)
+double fill_volume(const Fill *fill, int dimensions)
 {
+    const double r = fill->radius, depth = dimensions == 3 ? fill->max[2] - fill->min[2] : 1;
     if (fill->kind == FILL_BALL)
-        return 4 * M_PI / 3 * fill->radius * fill->radius * fill->radius;
-    return (fill->max[0] - fill->min[0]) * (fill->max[1] - fill->min[1]) * (fill->max[2] - fill->min[2]);
+        return dimensions == 3 ? 4 * M_PI / 3 * r * r * r : M_PI * r * r;
+    return (fill->max[0] - fill->min[0]) * (fill->max[1] - fill->min[1]) * depth;
 }
 
-static bool fill_covers(const Fill *fill, const double x[3], double tolerance)
+static bool fill_covers(const WorldDef *def, const Fill *fill, const double x[3])
 {
+    const double tolerance = slack * def->spacing;
     if (fill->kind == FILL_BLOCK) {
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < def->dimensions; k++)
             if (x[k] < fill->min[k] - tolerance || x[k] >= fill->max[k] - tolerance)
                 return false;
         return true;
     }
     double r2 = 0;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < def->dimensions; k++)
         r2 += (x[k] - fill->centre[k]) * (x[k] - fill->centre[k]);
     return r2 <= fill->radius * fill->radius;
 }
@@ -32,7 +34,7 @@ static bool taken_before(const WorldDef *def, int fluid, int index, const double
 {
     for (int f = 0; f <= fluid; f++)
         for (int i = 0; i < (f == fluid ? index : def->fluids[f].fill_count); i++)
-            if (fill_covers(&def->fluids[f].fills[i], x, slack * def->spacing))
+            if (fill_covers(def, &def->fluids[f].fills[i], x))
                 return true;
     return false;
 }
@@ -45,6 +47,8 @@ typedef struct Axis {
 
 static Axis lattice_axis(const WorldDef *def, const Fill *fill, int k)
 {
+    if (k >= def->dimensions)
+        return (Axis){.first = 0, .begin = 0, .end = 1};
     const double s = def->spacing, points = floor(def->box_size[k] / s + slack);
     const bool ball = fill->kind == FILL_BALL;
     const double low = ball ? fill->centre[k] - fill->radius : fill->min[k];
@@ -67,7 +71,7 @@ static size_t seed_fill(const WorldDef *def, int fluid, int index, float *positi
             for (long ix = ax.begin; ix < ax.end; ix++) {
                 const double x[3] = {ax.first + (double)ix * s, ay.first + (double)iy * s,
                                      az.first + (double)iz * s};
-                if (!fill_covers(fill, x, slack * s) || taken_before(def, fluid, index, x))
+                if (!fill_covers(def, fill, x) || taken_before(def, fluid, index, x))
                     continue;
                 for (size_t k = 0; position && k < 3; k++)
                     position[3 * count + k] = (float)x[k];

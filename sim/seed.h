@@ -12,7 +12,7 @@
    the order z, y, x (x fastest), and returns how many there are; with NULLs it only counts. */
 size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid);
 
-/* m3. */
-double fill_volume(const Fill *fill);
+/* m3, or in two dimensions m2. */
+double fill_volume(const Fill *fill, int dimensions);
 
 #endif

@@ -17,13 +17,19 @@ static bool motions_check(const WorldDef *def, Error *error)
         const double axis2 = m->axis[0] * m->axis[0] + m->axis[1] * m->axis[1] + m->axis[2] * m->axis[2];
         if (!positive(axis2) || (m->kind == MOTION_TURN && !positive(m->duration)))
             return error_set(error, "motion %d: the axis must not be zero, nor the duration of a turn", i);
+        if (def->dimensions == 2 && !motion_in_plane(m))
+            return error_set(error, "motion %d: leaves the plane of a 2D scene", i);
     }
     return true;
 }
 
 static bool def_check(const WorldDef *def, Error *error)
 {
-    for (int k = 0; k < 3; k++)
+    if (def->dimensions != 2 && def->dimensions != 3)
+        return error_set(error, "a world has 2 or 3 dimensions, not %d", def->dimensions);
+    if (def->dimensions == 2 && def->gravity[2] != 0)
+        return error_set(error, "gravity leaves the plane of a 2D scene");
+    for (int k = 0; k < def->dimensions; k++)
         if (!positive(def->box_size[k]))
             return error_set(error, "the box has no size; give three positive lengths in metres");
     if (!positive(def->spacing) || !(def->support >= 1.5 && def->support <= 4))
@@ -40,12 +46,12 @@ static bool def_check(const WorldDef *def, Error *error)
     return motions_check(def, error);
 }
 
-static bool cells_set(CellGrid *cells, const double box_size[3], double h, Error *error)
+static bool cells_set(CellGrid *cells, const double box_size[3], int dimensions, double h, Error *error)
 {
     double count = 1;
     for (int k = 0; k < 3; k++) {
-        const double low = k == 1 ? 0 : -0.5 * box_size[k];
-        const double first = floor(low / h) - 1, last = floor((low + box_size[k]) / h) + 1;
+        const double size = k < dimensions ? box_size[k] : 0, low = k == 1 ? 0 : -0.5 * size;
+        const double first = floor(low / h) - 1, last = floor((low + size) / h) + 1;
         count *= last - first + 1;
         /* whole numbers up to 2^24 are exact in single precision */
         if (!(count < 0x1p31) || !(last - first < 0x1p24))
@@ -106,11 +112,13 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     if (!kernel)
         return error_set(error, "unknown kernel '%s'; `slosh info` lists them",
                          continuity ? def->kernel : def->density_kernel);
-    if (!def_check(def, error) || !cells_set(&solver->cells, def->box_size, h, error))
+    if (!def_check(def, error) || !cells_set(&solver->cells, def->box_size, def->dimensions, h, error))
         return false;
 
-    lattice_calibrate(def->spacing, h, kernel, continuity ? kernel : density_kernel_find("spiky"),
-                      &solver->lattice);
+    solver->first_row = def->dimensions == 2 ? 3 : 0;
+    solver->last_row = def->dimensions == 2 ? 6 : 9;
+    lattice_calibrate(def->dimensions, def->spacing, h, kernel,
+                      continuity ? kernel : density_kernel_find("spiky"), &solver->lattice);
     solver->continuity = continuity;
     solver->poly6 = kernel->value == kernel_poly6;
     solver->support_radius = (float)h;

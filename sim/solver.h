@@ -39,6 +39,7 @@ typedef struct Solver {
     float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
     float diffusion;                        /* 2 delta c (h / 2) V0, m5/s; 0: none */
     CellGrid cells;
+    int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
     Lattice lattice;
     Walls walls;
 } Solver;

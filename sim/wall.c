@@ -40,6 +40,8 @@ static void add_lattice_particle(const Behind *behind, const double x[3], Sums s
 /* x_i - x_j along one axis for the lattice index n; NAN where the lattice has no particle. */
 static double separation(const Behind *behind, int axis, int n, double u, double offset)
 {
+    if (axis >= behind->lattice->dimensions)
+        return n == 0 ? 0 : NAN;
     if (axis >= behind->faces)
         return (n + offset) * behind->spacing;
     return n < 0 ? NAN : u + (n + 0.5) * behind->spacing;
@@ -76,7 +78,8 @@ void wall_sums_brute(int faces, const double u[3], const double offset[3], doubl
 static void lattice_mean(const Behind *behind, const double u[3], Sums mean)
 {
     enum { POSITIONS = 8 };
-    const int along1 = behind->faces < 2 ? POSITIONS : 1, along2 = behind->faces < 3 ? POSITIONS : 1;
+    const int along1 = behind->faces < 2 ? POSITIONS : 1,
+              along2 = behind->faces < 3 && behind->lattice->dimensions == 3 ? POSITIONS : 1;
     memset(mean, 0, sizeof(Sums));
     for (int i = 0; i < along1; i++)
         for (int j = 0; j < along2; j++) {
@@ -140,12 +143,13 @@ bool walls_create(Walls *walls, const double box_size[3], double spacing, double
      */
     static const int nodes_per_spacing[3] = {64, 16, 8};
     memset(walls, 0, sizeof *walls);
+    walls->dimensions = lattice->dimensions;
     for (int k = 0; k < 3; k++)
         walls->half_size[k] = (float)(0.5 * box_size[k]);
     const double range = support_radius - 0.5 * spacing;
     walls->range = (float)(range + 0.1 * spacing); /* u(d) falls behind d by less than that */
     walls->spacing = (float)spacing;
-    for (int t = 0; t < 3; t++) {
+    for (int t = 0; t < 3 && t < walls->dimensions; t++) {
         const Behind behind = {t + 1, spacing, support_radius, density_kernel, lattice};
         if (!table_create(&walls->table[t], &behind, spacing / nodes_per_spacing[t], range)) {
             walls_destroy(walls);
@@ -190,7 +194,7 @@ static Face face_at(const Walls *walls, int axis, float sign, float d)
 static int faces_near(const Walls *walls, const float x[3], Face faces[6])
 {
     int count = 0;
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < walls->dimensions; a++) {
         const float centred = a == 1 ? x[1] - walls->half_size[1] : x[a];
         const float low = walls->half_size[a] + centred, high = walls->half_size[a] - centred;
         if (low < walls->range)
@@ -252,7 +256,10 @@ static void add_faces(const Walls *walls, const Face *const faces[], int count, 
         sign[used] = faces[used]->sign;
         slope[used] = faces[used]->slope;
     }
-    if (count == 1) {
+    if (count == 1 && walls->dimensions == 2) {
+        axis[1] = 1 - axis[0]; /* in the plane, as in the table */
+        axis[2] = 2;
+    } else if (count == 1) {
         axis[1] = (axis[0] + 1) % 3;
         axis[2] = (axis[0] + 2) % 3;
     } else if (count == 2) {
@@ -309,7 +316,7 @@ float walls_number_density(const Walls *walls, const float x[3])
 bool walls_guard(const Walls *walls, float x[3], float v[3])
 {
     bool held = false;
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < walls->dimensions; a++) {
         const float low = a == 1 ? 0 : -walls->half_size[a];
         const float high = a == 1 ? 2 * walls->half_size[1] : walls->half_size[a];
         if (x[a] < low) {

@@ -42,6 +42,7 @@ typedef struct WallTable {
 } WallTable;
 
 typedef struct Walls {
+    int dimensions;     /* 2: no wall in z */
     float half_size[3]; /* of the box, m; the box's frame has its floor at y = 0 */
     float range;        /* beyond this distance a wall adds nothing, m */
     float spacing;      /* m */

@@ -96,6 +96,8 @@ static bool initial_check(const WorldDef *def, const InitialState *initial, Erro
         return error_set(error, "an initial state needs 1 to 2^31 - 1 particles");
     for (size_t i = 0; i < initial->count; i++) {
         const float *x = initial->position + 3 * i;
+        if (def->dimensions == 2 && (x[2] != 0 || (initial->velocity && initial->velocity[3 * i + 2] != 0)))
+            return error_set(error, "particle %zu is not in the plane of a 2D scene", i);
         if (!isfinite(x[0] + x[1] + x[2]))
             return error_set(error, "the position of particle %zu is not finite", i);
         if (initial->density && !(initial->density[i] > 0 && isfinite(initial->density[i])))
@@ -134,6 +136,8 @@ World *world_create(const WorldDef *def, Error *error)
         return NULL;
     }
     world->def = *def;
+    if (def->dimensions == 2)
+        world->def.box_size[2] = def->spacing;
     world->backend = backend_find(def->backend);
     world->method = method_find(def->method);
     bool ok = true;
@@ -254,6 +258,16 @@ bool world_step(World *world, StageClock *clock, Error *error)
     return good;
 }
 
+/* What of it moves within the plane: the place without z, the turn about z. */
+static void target_into_plane(BoxTarget *target)
+{
+    double *q = target->orientation;
+    const double norm = hypot(q[2], q[3]);
+    target->position[2] = q[0] = q[1] = 0;
+    q[2] = norm > 0 ? q[2] / norm : 0;
+    q[3] = norm > 0 ? q[3] / norm : 1;
+}
+
 static bool target_take(World *world, const BoxTarget *target)
 {
     const double *q = target->orientation, *x = target->position;
@@ -263,6 +277,8 @@ static bool target_take(World *world, const BoxTarget *target)
     world->target = *target;
     for (int k = 0; k < 4; k++)
         world->target.orientation[k] /= norm;
+    if (world->def.dimensions == 2)
+        target_into_plane(&world->target);
     return true;
 }
 

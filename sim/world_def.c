@@ -7,6 +7,7 @@
 WorldDef world_def_default(void)
 {
     return (WorldDef){
+        .dimensions = 3,
         .gravity = {0, -9.81, 0},
         .support = 2.1, /* 32 neighbours in the lattice; at exactly 2 the shell at h flickers in and out */
         .method = "mueller",
@@ -28,15 +29,15 @@ WorldDef world_def_default(void)
 size_t world_def_count(const WorldDef *def, double spacing)
 {
     double volume = 0;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < def->dimensions; k++)
         if (def->box_size[k] / spacing > 1e7)
             return SIZE_MAX;
     WorldDef at = *def;
     at.spacing = spacing;
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].fill_count; i++)
-            volume += fill_volume(&def->fluids[f].fills[i]);
-    if (volume / (spacing * spacing * spacing) > 0x1p32)
+            volume += fill_volume(&def->fluids[f].fills[i], def->dimensions);
+    if (volume / pow(spacing, def->dimensions) > 0x1p32)
         return SIZE_MAX;
     return seed_lattice(&at, NULL, NULL);
 }

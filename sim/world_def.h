@@ -43,14 +43,16 @@ typedef struct InitialState {
 typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;
 
 typedef struct WorldDef {
-    double box_size[3];             /* inner width, height, depth, m */
-    double gravity[3];              /* in the world's frame, m/s2 */
-    double spacing;                 /* of the lattice at rest, m */
-    double support;                 /* support radius h over spacing */
-    char method[NAME_SIZE];         /* see method_list */
-    char backend[NAME_SIZE];        /* see backend_list */
-    int threads;                    /* 0: one a processor */
-    double sound_speed;             /* c, m/s: p = c^2 (rho - rho0) */
+    int dimensions;          /* 3, or 2: all in the plane z = 0, a metre deep; the box's depth is then the
+                                spacing, whatever box_size says */
+    double box_size[3];      /* inner width, height, depth, m */
+    double gravity[3];       /* in the world's frame, m/s2 */
+    double spacing;          /* of the lattice at rest, m */
+    double support;          /* support radius h over spacing */
+    char method[NAME_SIZE];  /* see method_list */
+    char backend[NAME_SIZE]; /* see backend_list */
+    int threads;             /* 0: one a processor */
+    double sound_speed;      /* c, m/s: p = c^2 (rho - rho0) */
     char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel.h */
     bool negative_pressure;         /* false: p = max(0, p) */
     char kernel[NAME_SIZE];         /* of wcsph: see wcsph_kernels in sim/kernel.h */

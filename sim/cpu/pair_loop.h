@@ -22,6 +22,7 @@ static const i8 lane_index = {0, 1, 2, 3, 4, 5, 6, 7};
 /* Nine rows of three cells, cached while the cell stays the same. */
 typedef struct Rows {
     uint32_t cell, begin[9], end[9];
+    int first, last;
 } Rows;
 
 SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
@@ -29,7 +30,9 @@ SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
     if (rows->cell == cell)
         return;
     rows->cell = cell;
-    for (int row = 0; row < 9; row++)
+    rows->first = args->solver->first_row;
+    rows->last = args->solver->last_row;
+    for (int row = rows->first; row < rows->last; row++)
         pair_row(args, cell, row, &rows->begin[row], &rows->end[row]);
 }
 

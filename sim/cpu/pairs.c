@@ -16,7 +16,7 @@ SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, c
         const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
         f8 sum = zero;
         rows_of(args, args->cell[i], &rows);
-        for (int row = 0; row < 9; row++)
+        for (int row = rows.first; row < rows.last; row++)
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
                 const f8 dx = xi - f8_load(args->x + j);
                 const f8 dy = yi - f8_load(args->y + j);
@@ -61,7 +61,7 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
         f8 fx = f8_splat(0), fy = fx, fz = fx;
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = 0; row < 9; row++)
+        for (int row = rows.first; row < rows.last; row++)
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
                 Separation d = {.x = xi - f8_load(args->x + j),
                                 .y = yi - f8_load(args->y + j),

@@ -37,7 +37,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         f8 sum = f8_splat(0);
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = 0; row < 9; row++)
+        for (int row = rows.first; row < rows.last; row++)
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
                 const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
                          dz = zi - f8_load(args->z + j);
@@ -79,7 +79,7 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
         f8 fx = f8_splat(0), fy = fx, fz = fx;
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = 0; row < 9; row++)
+        for (int row = rows.first; row < rows.last; row++)
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
                 Separation d = {.x = xi - f8_load(args->x + j),
                                 .y = yi - f8_load(args->y + j),

@@ -74,7 +74,7 @@ static int neighbours_of(const PairArgs *args, size_t i)
 {
     const float h2 = args->solver->support_radius * args->solver->support_radius;
     int count = -1; /* not itself */
-    for (int row = 0; row < 9; row++) {
+    for (int row = args->solver->first_row; row < args->solver->last_row; row++) {
         uint32_t begin, end;
         pair_row(args, args->cell[i], row, &begin, &end);
         for (uint32_t j = begin; j < end; j++) {

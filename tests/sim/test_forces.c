@@ -59,7 +59,7 @@ static void brute_accelerations(const WorldDef *def, const Cloud *cloud, Referen
     const double h = def->support * def->spacing, s3 = pow(def->spacing, 3),
                  c2 = def->sound_speed * def->sound_speed;
     Lattice lattice;
-    lattice_calibrate(def->spacing, h, kernel, &density_kernels[0], &lattice);
+    lattice_calibrate(3, def->spacing, h, kernel, &density_kernels[0], &lattice);
     double d[3];
     for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < 3; k++)

@@ -118,12 +118,12 @@ static void lattice_has_its_neighbours(void **state)
 {
     (void)state;
     Lattice lattice;
-    lattice_calibrate(0.01, 0.02, &density_kernels[0], &density_kernels[0], &lattice);
+    lattice_calibrate(3, 0.01, 0.02, &density_kernels[0], &density_kernels[0], &lattice);
     assert_int_equal(lattice.neighbours, 26);
-    lattice_calibrate(0.01, 0.021, &density_kernels[0], &density_kernels[0], &lattice);
+    lattice_calibrate(3, 0.01, 0.021, &density_kernels[0], &density_kernels[0], &lattice);
     assert_int_equal(lattice.neighbours, 32);
     /* sums over a fine lattice approach the integrals */
-    lattice_calibrate(0.01, 0.08, &density_kernels[0], &density_kernels[0], &lattice);
+    lattice_calibrate(3, 0.01, 0.08, &density_kernels[0], &density_kernels[0], &lattice);
     assert_true(fabs(lattice.density_scale - 1) < 1e-2);
     assert_true(fabs(lattice.gradient_scale - 1) < 1e-2);
     assert_true(fabs(lattice.laplacian_scale - 1) < 1e-2);
@@ -140,7 +140,7 @@ static void calibration_is_exact_on_the_lattice(void **state)
         for (int n = 0; n < 4; n++) {
             const double h = in_spacings[n] * s, volume = s * s * s;
             Lattice lattice;
-            lattice_calibrate(s, h, kernel, &density_kernels[0], &lattice);
+            lattice_calibrate(3, s, h, kernel, &density_kernels[0], &lattice);
             double density = kernel->value(0, h), squeezed = density, gradient = 0, laplacian = 0;
             for (int i = 0; i < 11 * 11 * 11; i++) {
                 const double x = s * (i % 11 - 5), y = s * (i / 11 % 11 - 5), z = s * (i / 121 - 5);

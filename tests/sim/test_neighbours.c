@@ -106,7 +106,7 @@ static void density_equals_brute(const char *name)
 
     const double h = def.support * def.spacing;
     Lattice lattice; /* tested in test_kernel.c */
-    lattice_calibrate(def.spacing, h, kernel, &density_kernels[0], &lattice);
+    lattice_calibrate(3, def.spacing, h, kernel, &density_kernels[0], &lattice);
     double worst = 0;
     size_t worst_id = 0;
     for (size_t i = 0; i < COUNT; i++) {

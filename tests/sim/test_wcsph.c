@@ -148,7 +148,7 @@ static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *
     Lattice lattice;
     r->kernel = wcsph_kernel_find(def->kernel);
     r->h = def->support * def->spacing;
-    lattice_calibrate(def->spacing, r->h, r->kernel, r->kernel, &lattice);
+    lattice_calibrate(3, def->spacing, r->h, r->kernel, r->kernel, &lattice);
     r->n0 = lattice.number_density;
     r->gradient = lattice.gradient_scale;
     assert_true(walls_create(&r->walls, def->box_size, def->spacing, r->h, r->kernel, &lattice));

@@ -1,0 +1,283 @@
+/* Two dimensions: sums of the plane against brute force, walls, a column at rest, nothing out of the plane.
+ */
+#include "fixture.h"
+
+#include "sim/kernel.h"
+#include "sim/lattice.h"
+#include "sim/world_state.h"
+
+static Error error;
+
+static WorldDef plane_def(const char *method, double width, double height)
+{
+    WorldDef def = fixture_def(width, height, 0);
+    def.dimensions = 2;
+    def.support = 2.6;
+    strcpy(def.method, method);
+    return def;
+}
+
+/* A lattice that fills its box has its rest density everywhere: inside, at faces, in corners. */
+static void full_box_has_rest_density(void **state)
+{
+    (void)state;
+    const double supports[] = {2.1, 2.6, 3};
+    for (int n = 0; n < 3; n++) {
+        WorldDef def = plane_def("mueller", 2, 1.5);
+        def.support = supports[n];
+        fixture_block(&def, 0, -1, 0, 0, 1, 1.5, 0);
+        World *world = fixture_world(&def);
+        State s = fixture_read(world);
+        assert_int_equal(s.count, 20 * 15);
+        for (size_t i = 0; i < s.count; i++)
+            if (fabs(s.density[i] - 1000) > 5)
+                fail_msg("density %g at %g, %g (support %g)", s.density[i], s.position[4 * i],
+                         s.position[4 * i + 1], supports[n]);
+        fixture_free(&s);
+        world_destroy(world);
+    }
+}
+
+enum { COUNT = 300 };
+
+/* Of `mueller` in free space, in double. */
+static void sums_equal_brute_force(void **state)
+{
+    (void)state;
+    static float x[3 * COUNT], v[3 * COUNT];
+    static double n[COUNT], term[COUNT];
+    WorldDef def = plane_def("mueller", 8, 8);
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.dt = 1e-4;
+    def.fluids[0].viscosity = 30;
+    uint32_t seed = 3;
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 2; k++) {
+            x[3 * i + k] = (float)(1.6 * (fixture_random(&seed) - 0.5) + 4 * k);
+            v[3 * i + k] = (float)(2 * fixture_random(&seed) - 1);
+        }
+    def.initial = &(InitialState){COUNT, x, v, NULL, NULL};
+    World *world = fixture_world(&def);
+    fixture_step(world, 1);
+    State s = fixture_read(world);
+
+    const double h = def.support * def.spacing, c = def.sound_speed;
+    Lattice lattice;
+    lattice_calibrate(2, def.spacing, h, &density_kernels[0], &density_kernels[0], &lattice);
+    assert_true(fabs(lattice.number_density - 100) < 1e-9);
+    double at[COUNT][2];
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 2; k++)
+            at[i][k] = x[3 * i + k] + 0.5 * def.dt * v[3 * i + k];
+    for (int i = 0; i < COUNT; i++) {
+        n[i] = 0;
+        for (int j = 0; j < COUNT; j++)
+            n[i] += lattice.density_scale * kernel_spiky(hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]), h);
+        const double stiffness = c * c * lattice.stiffness_scale * 1000;
+        const double p = fmax(stiffness * (n[i] / lattice.number_density - 1), 0);
+        term[i] = p / (n[i] * n[i]);
+        assert_true(fabs(s.position[4 * i + 3] * n[i] - 1) < 1e-4); /* the volume */
+        assert_true(fabs(s.pressure[i] - p) < 1e-4 * stiffness);
+    }
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 2; k++) {
+            double force = 0, scale = 0;
+            for (int j = 0; j < COUNT; j++) {
+                const double r = hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]);
+                if (i == j || r >= h)
+                    continue;
+                const double push = -lattice.gradient_scale * kernel_spiky_derivative(r, h) *
+                                    (term[i] + term[j]) * (at[i][k] - at[j][k]) / r;
+                const double drag = 30 * lattice.laplacian_scale * kernel_viscosity_laplacian(r, h) /
+                                    (n[i] * n[j]) * (v[3 * j + k] - v[3 * i + k]);
+                force += push + drag;
+                scale += fabs(push) + fabs(drag);
+            }
+            const double mass = 1000 / lattice.number_density;
+            const double found = (s.velocity[4 * i + k] - v[3 * i + k]) / def.dt;
+            if (fabs(found - force / mass) > 2e-4 * scale / mass + 5)
+                fail_msg("acceleration of %d is %g, not %g", i, found, force / mass);
+        }
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+/* rms (p - rho0 g depth) / (rho0 g H) of a column of 30 layers that starts near its rest. */
+static double column_error(const char *method)
+{
+    enum { SIDE = 12, LAYERS = 30, COLUMN = SIDE * LAYERS };
+    static float x[3 * COLUMN], density[COLUMN];
+    WorldDef def = plane_def(method, 1.2, 4);
+    def.sound_speed = 50;
+    def.fluids[0].viscosity = 2000;
+    def.dt = 0.001;
+    double y = 0;
+    for (int i = 0; i < COLUMN; i++) {
+        const double depth = (LAYERS - i / SIDE - 0.5) * 0.1, p = 9810 * depth, c2 = 2500;
+        const double r =
+            strcmp(method, "wcsph") == 0 ? pow(1 + 7 * p / (1000 * c2), 1.0 / 7) : 1 + p / (1000 * c2);
+        x[3 * i] = (float)((i % SIDE - 5.5) * 0.1);
+        x[3 * i + 1] = (float)(y + 0.05 / r);
+        density[i] = (float)(1000 * r);
+        y += i % SIDE == SIDE - 1 ? 0.1 / r : 0;
+    }
+    def.initial = &(InitialState){.count = COLUMN, .position = x, .density = density};
+    World *world = fixture_world(&def);
+    fixture_step(world, 4000);
+    State s = fixture_read(world);
+    double surface = 0, sum2 = 0;
+    for (size_t i = 0; i < s.count; i++)
+        surface = fmax(surface, s.position[4 * i + 1] + 0.05);
+    for (size_t i = 0; i < s.count; i++) {
+        const double p = 9810 * (surface - s.position[4 * i + 1]);
+        sum2 += (s.pressure[i] - p) * (s.pressure[i] - p);
+    }
+    fixture_free(&s);
+    world_destroy(world);
+    return sqrt(sum2 / COLUMN) / (9810 * surface);
+}
+
+static void column_at_rest(void **state)
+{
+    (void)state;
+    const double mueller = column_error("mueller"), wcsph = column_error("wcsph");
+    printf("column in the plane: rms pressure error %.2f %% with mueller, %.2f %% with wcsph\n",
+           100 * mueller, 100 * wcsph);
+    assert_true(mueller < 0.05);
+    assert_true(wcsph < 0.02);
+}
+
+/* A blob that spins and pulsates keeps its momenta; wcsph its energy too. */
+static void momenta_are_kept(void **state)
+{
+    (void)state;
+    const char *const methods[] = {"mueller", "wcsph"};
+    for (int m = 0; m < 2; m++) {
+        WorldDef def = plane_def(methods[m], 20, 20);
+        memset(def.gravity, 0, sizeof def.gravity);
+        def.artificial_viscosity = 0;
+        def.dt = 5e-4;
+        def.fluids[0].fills[0] = (Fill){.kind = FILL_BALL, .centre = {0, 10, 0}, .radius = 0.8};
+        def.fluids[0].fill_count = 1;
+        World *seeded = fixture_world(&def);
+        State s = fixture_read(seeded);
+        float *x = malloc(3 * s.count * sizeof *x), *v = malloc(3 * s.count * sizeof *v);
+        for (size_t i = 0; i < s.count; i++) {
+            const float dx = s.position[4 * i], dy = s.position[4 * i + 1] - 10;
+            memcpy(x + 3 * i, s.position + 4 * i, 3 * sizeof *x);
+            v[3 * i] = 0.3F - dy - 0.4F * dx;
+            v[3 * i + 1] = dx - 0.4F * dy;
+            v[3 * i + 2] = 0;
+        }
+        def.initial = &(InitialState){s.count, x, v, NULL, NULL};
+        World *world = fixture_world(&def);
+        WorldSums before, after;
+        world_sums(world, &before);
+        fixture_step(world, 50);
+        world_sums(world, &after);
+        if (!(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 1e-3))
+            fail_msg("%s: nothing happened, kinetic energy %g J, then %g J", methods[m],
+                     before.kinetic_energy, after.kinetic_energy);
+        for (int k = 0; k < 2; k++)
+            assert_true(fabs(after.momentum[k] - before.momentum[k]) < 1e-5 * before.momentum_scale);
+        assert_true(fabs(after.angular_momentum[2] - before.angular_momentum[2]) <
+                    1e-3 * before.angular_scale);
+        fixture_free(&s);
+        free(x);
+        free(v);
+        world_destroy(seeded);
+        world_destroy(world);
+    }
+}
+
+static WorldDef rocked(const char *method, int threads)
+{
+    WorldDef def = plane_def(method, 1.5, 1);
+    def.threads = threads;
+    fixture_block(&def, 0, -0.75, 0, 0, 0.2, 0.6, 0);
+    def.motions[0] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.2, 0}, .amplitude = 0.05, .frequency = 1};
+    def.motions[1] = (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 10, .frequency = 0.7};
+    def.motion_count = 2;
+    return def;
+}
+
+/* Also with a hand that pulls out of the plane; the same bits for any threads, and from a saved state. */
+static void all_stays_in_the_plane(void **state)
+{
+    (void)state;
+    const char *const methods[] = {"mueller", "wcsph"};
+    const BoxTarget target = {{0.1, 0, 0.3}, {0.3, 0.2, 0.1, 0.9}};
+    for (int m = 0; m < 2; m++) {
+        uint64_t hash[3];
+        WorldState saved = {.count = 0};
+        for (int run = 0; run < 3; run++) {
+            const WorldDef def = rocked(methods[m], 1 + run);
+            World *world = fixture_world(&def);
+            if (run == 2) {
+                assert_true(world_load(world, &saved, &error));
+            } else {
+                world_set_target(world, &target);
+                fixture_step(world, 200);
+            }
+            if (run == 1)
+                assert_true(world_save(world, &saved, &error));
+            fixture_step(world, 200);
+            hash[run] = world_hash(world);
+            State s = fixture_read(world);
+            WorldInfo info;
+            world_info(world, &info);
+            assert_true(info.box.position[2] == 0 && info.box.orientation[0] == 0 &&
+                        info.box.orientation[1] == 0);
+            assert_true(fabs(info.hand.position[0]) > 0.01);
+            assert_true(info.box_size[2] == def.spacing);
+            for (size_t i = 0; i < s.count; i++)
+                assert_true(s.position[4 * i + 2] == 0 && s.velocity[4 * i + 2] == 0);
+            fixture_free(&s);
+            world_destroy(world);
+        }
+        assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
+        world_state_free(&saved);
+    }
+}
+
+static void refuse(const WorldDef *def, const char *reason)
+{
+    World *world = world_create(def, &error);
+    assert_null(world);
+    if (!strstr(error.message, reason))
+        fail_msg("expected '%s' in '%s'", reason, error.message);
+}
+
+static void what_leaves_the_plane_is_refused(void **state)
+{
+    (void)state;
+    WorldDef good = rocked("mueller", 1), bad = good;
+    const float x[3] = {0, 0.5F, 0.01F};
+    bad.gravity[2] = 1;
+    refuse(&bad, "gravity leaves the plane");
+    bad = good;
+    bad.motions[0].axis[2] = 0.1;
+    refuse(&bad, "motion 0: leaves the plane");
+    bad = good;
+    bad.motions[1].axis[0] = 0.1;
+    refuse(&bad, "motion 1: leaves the plane");
+    bad = good;
+    bad.dimensions = 4;
+    refuse(&bad, "2 or 3 dimensions");
+    bad = good;
+    bad.initial = &(InitialState){.count = 1, .position = x};
+    refuse(&bad, "not in the plane");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(full_box_has_rest_density),
+        cmocka_unit_test(sums_equal_brute_force),
+        cmocka_unit_test(column_at_rest),
+        cmocka_unit_test(momenta_are_kept),
+        cmocka_unit_test(all_stays_in_the_plane),
+        cmocka_unit_test(what_leaves_the_plane_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
