@@ -17,14 +17,15 @@ double fill_volume(const Fill *fill, int dimensions)
 static bool fill_covers(const WorldDef *def, const Fill *fill, const double x[3])
 {
     const double tolerance = slack * def->spacing;
+    const int axes = def->dimensions == 2 ? 2 : 3;
     if (fill->kind == FILL_BLOCK) {
-        for (int k = 0; k < def->dimensions; k++)
+        for (int k = 0; k < axes; k++)
             if (x[k] < fill->min[k] - tolerance || x[k] >= fill->max[k] - tolerance)
                 return false;
         return true;
     }
     double r2 = 0;
-    for (int k = 0; k < def->dimensions; k++)
+    for (int k = 0; k < axes; k++)
         r2 += (x[k] - fill->centre[k]) * (x[k] - fill->centre[k]);
     return r2 <= fill->radius * fill->radius;
 }
