@@ -4,6 +4,7 @@
 #include "app/scene_keys.h"
 #include "render/view.h"
 #include "sim/kernel.h"
+#include "sim/tension.h"
 #include "sim/world.h"
 
 #include <stdio.h>
@@ -38,6 +39,9 @@ static void print_lists(void)
     printf("kernels of wcsph\n");
     for (const Kernel *kernel = wcsph_kernels; kernel->name; kernel++)
         print_row(kernel->name, kernel->help);
+    printf("models of surface tension\n");
+    for (const TensionKind *kind = tension_kinds; kind->name; kind++)
+        print_row(kind->name, kind->help);
     printf("views\n");
     for (const ViewKind *const *view = view_list; *view; view++)
         print_row((*view)->name, (*view)->help);

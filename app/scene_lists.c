@@ -5,6 +5,7 @@
 #include "render/renderer.h"
 #include "render/view.h"
 #include "sim/kernel.h"
+#include "sim/tension.h"
 #include "sim/world.h"
 
 #include <math.h>
@@ -36,6 +37,11 @@ const char *wcsph_kernel_choice(int index)
     for (int i = 0; i < index && kernel->name; i++)
         kernel++;
     return kernel->name;
+}
+
+const char *tension_choice(int index)
+{
+    return index <= TENSION_COHESION ? tension_kinds[index].name : NULL;
 }
 
 const char *backend_choice(int index)

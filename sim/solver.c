@@ -39,8 +39,10 @@ static bool def_check(const WorldDef *def, Error *error)
     if (def->fluid_count < 1 || def->fluid_count > FLUIDS_MAX)
         return error_set(error, "a world needs 1 to %d fluids, not %d", FLUIDS_MAX, def->fluid_count);
     for (int f = 0; f < def->fluid_count; f++)
-        if (!positive(def->fluids[f].density) || !(def->fluids[f].viscosity >= 0))
-            return error_set(error, "fluid %d: density must be positive, viscosity not negative", f);
+        if (!positive(def->fluids[f].density) || !(def->fluids[f].viscosity >= 0) ||
+            !(def->fluids[f].surface_tension >= 0))
+            return error_set(
+                error, "fluid %d: density must be positive, viscosity and surface tension not negative", f);
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
     return motions_check(def, error);
@@ -102,6 +104,20 @@ static void wcsph_set(Solver *solver, const Kernel *kernel, double h)
     solver->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[solver->kernel]);
 }
 
+static void tension_set(Solver *solver, const WorldDef *def)
+{
+    const double h = def->support * def->spacing;
+    const double scale =
+        def->tension_model == TENSION_COHESION ? cohesion_scale(def->dimensions, def->spacing, h) : 1;
+    bool any = false;
+    for (int f = 0; f < def->fluid_count; f++) {
+        solver->tension[f] = (float)(scale * def->fluids[f].surface_tension);
+        any |= def->fluids[f].surface_tension > 0;
+    }
+    solver->colour = (float)colour_scale(def->dimensions, h);
+    solver->tension_model = any ? (TensionModel)def->tension_model : TENSION_NONE;
+}
+
 bool solver_create(Solver *solver, const WorldDef *def, Error *error)
 {
     memset(solver, 0, sizeof *solver);
@@ -127,6 +143,7 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     solver->kernel_scale = (float)(kernel->value(0, h) * solver->lattice.density_scale);
     solver->pressure_scale = (float)(-kernel_spiky_derivative(0, h) * solver->lattice.gradient_scale);
     solver->viscosity_scale = (float)(kernel_viscosity_laplacian(0, h) * solver->lattice.laplacian_scale);
+    tension_set(solver, def);
     if (continuity)
         wcsph_set(solver, kernel, h);
     fluids_set(solver, def);

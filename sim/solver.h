@@ -4,6 +4,7 @@
 
 #include "sim/error.h"
 #include "sim/lattice.h"
+#include "sim/tension.h"
 #include "sim/wall.h"
 #include "sim/world_def.h"
 
@@ -38,6 +39,9 @@ typedef struct Solver {
     bool artificial;
     float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
     float diffusion;                        /* 2 delta c (h / 2) V0, m5/s; 0: none */
+    TensionModel tension_model;             /* none where no fluid has a tension */
+    float tension[FLUIDS_MAX];              /* sigma, N/m; of cohesion times its scale */
+    float colour;                           /* colour_scale */
     CellGrid cells;
     int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
     Lattice lattice;

@@ -23,10 +23,11 @@ typedef struct Fill {
 
 typedef struct FluidDef {
     char name[NAME_SIZE];
-    double density;     /* rest density rho0, kg/m3 */
-    double viscosity;   /* dynamic, mu, Pa s */
-    double velocity[3]; /* at the start, in the box's frame, m/s */
-    float color[3];     /* linear RGB 0..1: for the views, no solver reads it */
+    double density;         /* rest density rho0, kg/m3 */
+    double viscosity;       /* dynamic, mu, Pa s */
+    double surface_tension; /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
+    double velocity[3];     /* at the start, in the box's frame, m/s */
+    float color[3];         /* linear RGB 0..1: for the views, no solver reads it */
     int fill_count;
     Fill fills[FILLS_MAX];
 } FluidDef;
@@ -58,6 +59,7 @@ typedef struct WorldDef {
     char kernel[NAME_SIZE];         /* of wcsph: see wcsph_kernels in sim/kernel.h */
     double artificial_viscosity;    /* alpha of wcsph, for fluids without a viscosity */
     double delta_sph;               /* delta of wcsph's density diffusion; 0: none */
+    int tension_model;              /* a TensionModel of sim/tension.h */
     StepMode step_mode;
     double dt;         /* simulated time of a frame, s; mode fixed */
     int substeps;      /* steps in a frame; mode fixed */

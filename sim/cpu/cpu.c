@@ -39,10 +39,10 @@ static void cpu_destroy(void *state)
     Cpu *cpu = state;
     particles_destroy(&cpu->now);
     particles_destroy(&cpu->spare);
-    void *const all[] = {cpu->volume,     cpu->pressure, cpu->pressure_term, cpu->viscosity,
-                         cpu->artificial, cpu->relative, cpu->kind,          cpu->ax,
-                         cpu->ay,         cpu->az,       cpu->cell,          cpu->spare_cell,
-                         cpu->rank,       cpu->order,    cpu->cell_start};
+    void *const all[] = {cpu->volume,    cpu->pressure, cpu->pressure_term, cpu->viscosity, cpu->artificial,
+                         cpu->relative,  cpu->tension,  cpu->kind,          cpu->ax,        cpu->ay,
+                         cpu->az,        cpu->cell,     cpu->spare_cell,    cpu->rank,      cpu->order,
+                         cpu->cell_start};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     free(cpu->partial);
@@ -60,7 +60,8 @@ static bool cpu_adapt(void *state)
         {&cpu->viscosity, s->viscous && (s->fluid_count > 1 || s->continuity)},
         {&cpu->artificial, s->continuity && s->artificial},
         {&cpu->relative, s->continuity && s->diffusion > 0},
-        {&cpu->kind, s->continuity && s->diffusion > 0},
+        {&cpu->tension, s->tension_model != TENSION_NONE},
+        {&cpu->kind, s->tension_model != TENSION_NONE || (s->continuity && s->diffusion > 0)},
     };
     bool ok = true;
     for (size_t k = 0; k < sizeof terms / sizeof *terms; k++) {
@@ -147,6 +148,7 @@ PairArgs cpu_pair_args(const Cpu *cpu)
         .artificial = cpu->artificial,
         .relative = cpu->relative,
         .kind = cpu->kind,
+        .tension = cpu->tension,
         .rate = cpu->ax,
         .number_density = cpu->volume,
         .fx = cpu->ax,

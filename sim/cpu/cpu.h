@@ -18,7 +18,9 @@ typedef struct Cpu {
     float *pressure_term;        /* by `density`: p V^2, J m3 */
     float *viscosity;            /* by `density`: Pa s; NULL with one fluid or none viscous */
     float *artificial;           /* wcsph's, as PairArgs has it; NULL: none */
-    float *relative, *kind;      /* wcsph's, for the diffusion of density; NULL: none */
+    float *relative;             /* wcsph's, for the diffusion of density; NULL: none */
+    float *tension;              /* as PairArgs has it; NULL: none */
+    float *kind;                 /* the fluid as a number, for these two; NULL: not needed */
     float *ax, *ay, *az;         /* by `force`, m/s2; `ax` also by `continuity` */
     uint32_t *cell, *spare_cell; /* by `grid`: of each particle, sorted; before the sort */
     uint32_t *rank;              /* by `grid`: place within the cell before its sort by id */
@@ -33,6 +35,21 @@ typedef struct Cpu {
 enum { CPU_GRAIN = 512 }; /* particles in a range: some 0.2 ms of work, small against a step */
 
 PairArgs cpu_pair_args(const Cpu *cpu);
+
+/* What the pair sums need of particle i's fluid, of the terms that the scene names. */
+static inline void cpu_fill_terms(Cpu *cpu, size_t i)
+{
+    const Solver *s = cpu->solver;
+    const int fluid = cpu->now.fluid[i];
+    if (cpu->viscosity)
+        cpu->viscosity[i] = s->viscosity[fluid];
+    if (cpu->artificial)
+        cpu->artificial[i] = s->artificial_viscosity[fluid];
+    if (cpu->tension)
+        cpu->tension[i] = s->tension[fluid];
+    if (cpu->kind)
+        cpu->kind[i] = (float)fluid;
+}
 
 void cpu_grid(void *state);
 void cpu_density(void *state);

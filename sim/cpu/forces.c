@@ -16,8 +16,7 @@ static void finish_density(Cpu *cpu, size_t i)
     cpu->volume[i] = 1 / n;
     cpu->pressure[i] = s->negative_pressure ? pressure : fmaxf(pressure, 0);
     cpu->pressure_term[i] = cpu->pressure[i] * cpu->volume[i] * cpu->volume[i];
-    if (cpu->viscosity)
-        cpu->viscosity[i] = s->viscosity[p->fluid[i]];
+    cpu_fill_terms(cpu, i);
 }
 
 static void density_range(void *state, size_t begin, size_t end)
@@ -87,6 +86,8 @@ static void force_range(void *context, size_t begin, size_t end)
     const Solver *s = cpu->solver;
     const PairArgs args = cpu_pair_args(cpu);
     (s->continuity ? cpu->pairs->wcsph_force : cpu->pairs->force)(&args, begin, end);
+    if (cpu->tension)
+        cpu->pairs->tension(&args, begin, end);
     for (size_t i = begin; i < end; i++) {
         add_walls(pass, i);
         const float inverse_mass = 1 / s->mass[cpu->now.fluid[i]];

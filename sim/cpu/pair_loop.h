@@ -14,6 +14,7 @@
 #define PAIR_LABEL(set)        PAIR_STRING(set)
 #define PAIR_SET               PAIR_LABEL(SIMD_SET)
 
+void PAIR_NAME(tension)(const PairArgs *args, size_t begin, size_t end);
 void PAIR_NAME(wcsph_rate)(const PairArgs *args, size_t begin, size_t end);
 void PAIR_NAME(wcsph_force)(const PairArgs *args, size_t begin, size_t end);
 
@@ -58,8 +59,8 @@ static void direction_of_ids(uint32_t a, uint32_t b, float out[3])
 }
 
 /* Gives coincident pairs the length `least` and a direction by their ids (DESIGN 3). */
-static __attribute__((noinline)) void separate(const PairArgs *args, size_t i, uint32_t j, int bits,
-                                               float least, Separation *d)
+static __attribute__((noinline, unused)) void separate(const PairArgs *args, size_t i, uint32_t j, int bits,
+                                                       float least, Separation *d)
 {
     for (int k = 0; k < LANES; k++)
         if (bits >> k & 1) {

@@ -108,4 +108,5 @@ static void force(const PairArgs *args, size_t begin, size_t end)
 }
 
 extern const PairOps PAIR_NAME(pair_ops);
-const PairOps PAIR_NAME(pair_ops) = {PAIR_SET, density, force, PAIR_NAME(wcsph_rate), PAIR_NAME(wcsph_force)};
+const PairOps PAIR_NAME(pair_ops) = {
+    PAIR_SET, density, force, PAIR_NAME(tension), PAIR_NAME(wcsph_rate), PAIR_NAME(wcsph_force)};

@@ -14,14 +14,9 @@ static void state_range(void *context, size_t begin, size_t end)
         cpu->volume[i] = 1 / (r * s->rest_number_density);
         cpu->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
         cpu->pressure_term[i] = cpu->pressure[i] * cpu->volume[i] * cpu->volume[i];
-        if (cpu->viscosity)
-            cpu->viscosity[i] = s->viscosity[fluid];
-        if (cpu->artificial)
-            cpu->artificial[i] = s->artificial_viscosity[fluid];
-        if (cpu->relative) {
+        if (cpu->relative)
             cpu->relative[i] = r;
-            cpu->kind[i] = (float)fluid;
-        }
+        cpu_fill_terms(cpu, i);
     }
 }
 

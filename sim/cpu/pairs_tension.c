@@ -1,0 +1,92 @@
+/* The pair sums of surface tension, within each fluid; added to the forces that stand there. */
+#include "sim/cpu/pair_loop.h"
+
+/* -(g_i + g_j) / 2 V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 with volumes for masses. */
+SIMD_INLINE f8 cohesion(f8 r, f8 h, f8 repulsion)
+{
+    const f8 both = (h - r) * r, cube = both * both * both;
+    return f8_select(r + r > h, cube, cube + cube - repulsion);
+}
+
+static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
+{
+    const Solver *s = args->solver;
+    const float h = s->support_radius, least = 1e-6f * h;
+    const f8 wide = f8_splat(h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 repulsion = f8_splat(h * h * h * h * h * h / 64);
+    Rows rows = {.cell = UINT32_MAX};
+
+    for (size_t i = begin; i < end; i++) {
+        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const f8 ti = f8_splat(args->tension[i]), fi = f8_splat(args->kind[i]);
+        f8 fx = f8_splat(0), fy = fx, fz = fx;
+        rows_of(args, args->cell[i], &rows);
+        for (int row = rows.first; row < rows.last; row++)
+            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+                const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
+                         dz = zi - f8_load(args->z + j);
+                const f8 r2 = dx * dx + dy * dy + dz * dz;
+                const i8 near = (r2 < h2) & (r2 >= least2) & (f8_load(args->kind + j) == fi) &
+                                (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+                if (!i8_bits(near))
+                    continue;
+                const f8 r = f8_sqrt(f8_select(near, r2, h2));
+                const f8 pull =
+                    f8_masked(near, (ti + f8_load(args->tension + j)) * f8_load(args->volume + j) *
+                                        cohesion(r, wide, repulsion) / r);
+                fx -= pull * dx;
+                fy -= pull * dy;
+                fz -= pull * dz;
+            }
+        const float scale = 0.5f * args->volume[i];
+        args->fx[i] += scale * f8_sum(fx);
+        args->fy[i] += scale * f8_sum(fy);
+        args->fz[i] += scale * f8_sum(fz);
+    }
+}
+
+/* -sigma (Laplacian of c) n / |n| an unit volume, n = grad c, where |n| > 0.3 / h: Müller 2003, eq. 15 to 19,
+   c the fluid's own colour. */
+static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
+{
+    const Solver *s = args->solver;
+    const float h = s->support_radius, dims = s->last_row - s->first_row > 3 ? 3 : 2;
+    const f8 h2 = f8_splat(h * h), inner = f8_splat(dims * h * h), outer = f8_splat(dims + 4);
+    Rows rows = {.cell = UINT32_MAX};
+
+    for (size_t i = begin; i < end; i++) {
+        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const f8 fi = f8_splat(args->kind[i]);
+        f8 nx = f8_splat(0), ny = nx, nz = nx, bend = nx;
+        rows_of(args, args->cell[i], &rows);
+        for (int row = rows.first; row < rows.last; row++)
+            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+                const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
+                         dz = zi - f8_load(args->z + j);
+                const f8 r2 = dx * dx + dy * dy + dz * dz, t = h2 - r2;
+                const i8 near = (r2 < h2) & (f8_load(args->kind + j) == fi) &
+                                (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+                const f8 volume = f8_masked(near, f8_load(args->volume + j) * t);
+                nx -= volume * t * dx;
+                ny -= volume * t * dy;
+                nz -= volume * t * dz;
+                bend -= volume * (inner - outer * r2);
+            }
+        const float n[3] = {s->colour * f8_sum(nx), s->colour * f8_sum(ny), s->colour * f8_sum(nz)};
+        const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        if (length * h < 0.3f)
+            continue;
+        const float pull = -args->tension[i] * s->colour * f8_sum(bend) * args->volume[i] / length;
+        args->fx[i] += pull * n[0];
+        args->fy[i] += pull * n[1];
+        args->fz[i] += pull * n[2];
+    }
+}
+
+void PAIR_NAME(tension)(const PairArgs *args, size_t begin, size_t end)
+{
+    if (args->solver->tension_model == TENSION_COHESION)
+        add_cohesion(args, begin, end);
+    else
+        add_colour_field(args, begin, end);
+}
