@@ -77,7 +77,7 @@ static void fluids_set(Solver *solver, const WorldDef *def)
     solver->negative_pressure = def->negative_pressure;
     solver->viscous = false;
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
-    solver->diffusion = (float)(2 * def->delta_sph * c * reach / solver->lattice.number_density);
+    solver->diffusion = (float)(2 * def->delta_sph * c * reach);
     solver->artificial = false;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];

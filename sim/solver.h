@@ -38,7 +38,7 @@ typedef struct Solver {
     float tait[FLUIDS_MAX]; /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
     bool artificial;
     float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
-    float diffusion;                        /* 2 delta c (h / 2) V0, m5/s; 0: none */
+    float diffusion;                        /* 2 delta c (h / 2), m2/s; 0: none */
     TensionModel tension_model;             /* none where no fluid has a tension */
     float tension[FLUIDS_MAX];              /* sigma, N/m; of cohesion times its scale */
     float colour;                           /* colour_scale */

@@ -84,7 +84,7 @@ static void reference_rate(const WorldDef *def, const Cloud *cloud, Reference *r
             const double rj = r->density[j] / def->fluids[cloud->fluid[j]].density;
             sum -= f * dot(v, x);
             if (cloud->fluid[i] == cloud->fluid[j])
-                sum += 2 * delta * def->sound_speed * reach / r->n0 * f * (rj - ri);
+                sum += 2 * delta * def->sound_speed * reach * f * (rj - ri); /* n0 sum V0 ... */
         }
         const float at[3] = {(float)r->x[i][0], (float)r->x[i][1], (float)r->x[i][2]};
         WallSums walls;
@@ -396,7 +396,7 @@ static void any_threads_give_the_same_bits(void **state)
     }
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
     /* On x86-64 with any instruction set; what this build gave when sums equalled brute force. */
-    if (hash[0] != 0xae370349692d642bULL)
+    if (hash[0] != 0x2777a94db361591eULL)
         fail_msg("the bits have changed: hash %016llx", (unsigned long long)hash[0]);
 }
 
