@@ -359,7 +359,9 @@ static void read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
     world_read(world, &(ParticleArrays){
                           .position = snapshot->position,
                           .velocity = snapshot->velocity,
-                          .scalar = {[SCALAR_DENSITY] = step->density, [SCALAR_PRESSURE] = step->pressure},
+                          .scalar = {[SCALAR_DENSITY] = step->density,
+                                     [SCALAR_PRESSURE] = step->pressure,
+                                     [SCALAR_COMPRESSION] = step->compression},
                           .fluid = snapshot->fluid,
                           .id = snapshot->id,
                       });

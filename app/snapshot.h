@@ -26,6 +26,7 @@
     X("velocity_2", float, velocity[2])                                                                      \
     X("density", float, density)                                                                             \
     X("pressure", float, pressure)                                                                           \
+    X("compression", float, compression)                                                                     \
     X("fluid", int32_t, fluid)                                                                               \
     X("id", int64_t, id)
 
@@ -41,6 +42,7 @@ typedef struct SnapshotStep {
     float *velocity[3];   /* box frame, m/s */
     float *density;       /* kg/m3 */
     float *pressure;      /* Pa */
+    float *compression;   /* density over that at rest, less 1: a run with wcsph goes on from it */
     int32_t *fluid;       /* index into the root's fluid_names */
     int64_t *id;
 } SnapshotStep;

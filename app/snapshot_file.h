@@ -29,6 +29,9 @@
 /* What a run goes on from: WORLD_NUMBERS doubles of a step. */
 #define SNAPSHOT_RESTART "restart"
 
+/* The field that files of older versions lack. */
+#define SNAPSHOT_COMPRESSION "compression"
+
 /* A step's number of substeps, and the mark of a whole step: each one integer. */
 #define SNAPSHOT_STEP_NUMBER "step"
 #define SNAPSHOT_COMPLETE    "complete"

@@ -157,8 +157,11 @@ static const char *read_group(hid_t group, SnapshotStep *step)
         step->restart.version = 0; /* of another version of slosh */
     if (!read_values(group, SNAPSHOT_STEP_NUMBER, H5T_NATIVE_UINT64, 1, &step->step))
         return SNAPSHOT_STEP_NUMBER;
+    if (H5Lexists(group, SNAPSHOT_COMPRESSION, H5P_DEFAULT) <= 0)
+        step->restart.version = 0; /* of a slosh before it had that field */
 #define X(name, type, field)                                                                                 \
-    if (!read_field(group, name, SNAPSHOT_TYPE(step->field), step->count, step->field))                      \
+    if (!read_field(group, name, SNAPSHOT_TYPE(step->field), step->count, step->field) &&                    \
+        (step->restart.version != 0 || strcmp(name, SNAPSHOT_COMPRESSION) != 0))                             \
         return name;
     SNAPSHOT_FIELDS(X)
 #undef X

@@ -7,6 +7,7 @@
     X(SPEED, "speed", "m/s")                                                                                 \
     X(DENSITY, "density", "kg/m3")                                                                           \
     X(PRESSURE, "pressure", "Pa")                                                                            \
+    X(COMPRESSION, "compression", "")                                                                        \
     X(FLUID, "fluid", "")                                                                                    \
     X(ID, "id", "")
 

@@ -9,7 +9,7 @@
 void world_state_free(WorldState *state)
 {
     const ParticleColumns *p = &state->particles;
-    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->density, p->id, p->fluid};
+    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->compression, p->id, p->fluid};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     *state = (WorldState){.count = 0};
@@ -18,7 +18,7 @@ void world_state_free(WorldState *state)
 bool world_state_reserve(WorldState *state, size_t count)
 {
     ParticleColumns *p = &state->particles;
-    float **const floats[] = {&p->x, &p->y, &p->z, &p->vx, &p->vy, &p->vz, &p->density};
+    float **const floats[] = {&p->x, &p->y, &p->z, &p->vx, &p->vy, &p->vz, &p->compression};
     bool all = true;
     if (count > state->capacity) {
         world_state_free(state);
@@ -103,8 +103,8 @@ static bool particles_check(const World *world, const WorldState *state, Error *
     const bool carried = world->solver.continuity;
     for (size_t i = 0; i < state->count && whole; i++) {
         whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) &&
-                (!carried || (p->density[i] > 0 && isfinite(p->density[i]))) && p->id[i] < state->count &&
-                !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
+                (!carried || (p->compression[i] > -1 && isfinite(p->compression[i]))) &&
+                p->id[i] < state->count && !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
         if (whole)
             seen[p->id[i]] = true;
     }

@@ -34,7 +34,9 @@ typedef struct ParticleColumns {
     float *vx, *vy, *vz; /* box's frame, m/s */
     uint32_t *id;        /* place in the initial state */
     uint8_t *fluid;      /* index into WorldDef.fluids */
-    float *density;      /* kg/m3, of a method whose particles carry it; else NULL, or not read */
+    float
+        *compression; /* rho / rho0 - 1, of a method whose particles carry their density; else NULL, or not
+                         read. rho itself, in single precision, would lose what a slow flow adds in a step */
 } ParticleColumns;
 
 /* Zero-initialise it; owns its columns. Particles stand in any order, `id` tells who is who. */

@@ -23,13 +23,13 @@ static bool particles_create(Cpu *cpu, CpuParticles *p)
     p->id = array(cpu, cpu->count, sizeof *p->id);
     p->fluid = array(cpu, cpu->count, sizeof *p->fluid);
     if (cpu->solver->continuity)
-        ok &= (p->density = array(cpu, cpu->count, sizeof(float))) != NULL;
+        ok &= (p->compression = array(cpu, cpu->count, sizeof(float))) != NULL;
     return ok && p->id && p->fluid;
 }
 
 static void particles_destroy(CpuParticles *p)
 {
-    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->density, p->id, p->fluid};
+    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->compression, p->id, p->fluid};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
 }
@@ -97,8 +97,8 @@ static void particles_set(const Solver *solver, CpuParticles *p, const InitialSt
         p->z[i] = initial->position[3 * i + 2];
         p->id[i] = (uint32_t)i;
         p->fluid[i] = initial->fluid ? initial->fluid[i] : 0;
-        if (p->density)
-            p->density[i] = initial->density ? initial->density[i] : solver->density[p->fluid[i]];
+        if (p->compression && initial->density)
+            p->compression[i] = (float)(initial->density[i] / (double)solver->density[p->fluid[i]] - 1);
         if (!initial->velocity)
             continue;
         p->vx[i] = initial->velocity[3 * i];
@@ -177,8 +177,8 @@ static void copy_range(void *context, size_t begin, size_t end)
     float *const others[] = {to->x, to->y, to->z, to->vx, to->vy, to->vz};
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
         memcpy(others[k] + begin, columns[k] + begin, (end - begin) * sizeof(float));
-    if (from->density && to->density)
-        memcpy(to->density + begin, from->density + begin, (end - begin) * sizeof(float));
+    if (from->compression && to->compression)
+        memcpy(to->compression + begin, from->compression + begin, (end - begin) * sizeof(float));
     memcpy(to->id + begin, from->id + begin, (end - begin) * sizeof *to->id);
     memcpy(to->fluid + begin, from->fluid + begin, (end - begin) * sizeof *to->fluid);
 }

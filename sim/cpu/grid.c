@@ -87,8 +87,8 @@ static void move_particles(void *state, size_t begin, size_t end)
         to->id[i] = from->id[o];
         to->fluid[i] = from->fluid[o];
     }
-    for (size_t i = begin; to->density && i < end; i++)
-        to->density[i] = from->density[cpu->order[i]];
+    for (size_t i = begin; to->compression && i < end; i++)
+        to->compression[i] = from->compression[cpu->order[i]];
 }
 
 void cpu_grid(void *state)

@@ -18,7 +18,7 @@ typedef struct PairArgs {
     const float *pressure_term;            /* p V^2, J m3: set before `force` */
     const float *viscosity;                /* Pa s, of each particle; NULL with one fluid */
     const float *artificial; /* Pa s, of each particle; NULL: none; wcsph's, like the next three */
-    const float *relative;   /* rho / rho0 of each; NULL: no diffusion */
+    const float *relative;   /* rho / rho0 - 1 of each; NULL: no diffusion */
     const float *kind;       /* the fluid of each as a number; with `relative` */
     const float *tension;    /* sigma of each, N/m (cohesion: scaled); NULL: none; with `kind` */
     float *rate;             /* out of `wcsph_rate`: of the number density, 1/(m3 s), no walls */

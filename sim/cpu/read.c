@@ -9,15 +9,13 @@ typedef struct Read {
     const ParticleArrays *out;
 } Read;
 
-/* rho0 (1 + compression (n / n0 - 1)): the calibrated density, of which p = c^2 (rho - rho0) holds. */
-static float density_of(const Cpu *cpu, size_t i)
+/* rho / rho0 - 1: carried, or calibrated so that p = c^2 (rho - rho0) holds. */
+static float compression_of(const Cpu *cpu, size_t i)
 {
     const Solver *s = cpu->solver;
-    const int fluid = cpu->now.fluid[i];
-    const float volume = cpu->volume[i];
-    if (cpu->now.density)
-        return cpu->now.density[i];
-    return s->density[fluid] * (1 + s->compression * (1 / (volume * s->rest_number_density) - 1));
+    if (cpu->now.compression)
+        return cpu->now.compression[i];
+    return s->compression * (1 / (cpu->volume[i] * s->rest_number_density) - 1);
 }
 
 static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
@@ -27,9 +25,11 @@ static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
     case SCALAR_SPEED:
         return sqrtf(p->vx[i] * p->vx[i] + p->vy[i] * p->vy[i] + p->vz[i] * p->vz[i]);
     case SCALAR_DENSITY:
-        return density_of(cpu, i);
+        return cpu->solver->density[p->fluid[i]] * (1 + compression_of(cpu, i));
     case SCALAR_PRESSURE:
         return cpu->pressure[i];
+    case SCALAR_COMPRESSION:
+        return compression_of(cpu, i);
     case SCALAR_FLUID:
         return (float)p->fluid[i];
     case SCALAR_ID:

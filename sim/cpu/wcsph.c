@@ -1,7 +1,13 @@
 /* wcsph: the density that particles carry, and what follows from it. */
 #include "sim/cpu/cpu.h"
 
-/* Tait's p = B ((rho / rho0)^7 - 1) (Monaghan 1994), and V = V0 rho0 / rho. */
+/* p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1: its powers, without the difference. */
+static float tait(float b, float e)
+{
+    return b * e * (7 + e * (21 + e * (35 + e * (35 + e * (21 + e * (7 + e))))));
+}
+
+/* Pressure, and V = V0 rho0 / rho. */
 static void state_range(void *context, size_t begin, size_t end)
 {
     Cpu *cpu = context;
@@ -9,13 +15,12 @@ static void state_range(void *context, size_t begin, size_t end)
     const CpuParticles *p = &cpu->now;
     for (size_t i = begin; i < end; i++) {
         const int fluid = p->fluid[i];
-        const float r = p->density[i] / s->density[fluid], r2 = r * r;
-        const float pressure = s->tait[fluid] * (r2 * r2 * r2 * r - 1);
-        cpu->volume[i] = 1 / (r * s->rest_number_density);
+        const float e = p->compression[i], pressure = tait(s->tait[fluid], e);
+        cpu->volume[i] = 1 / ((1 + e) * s->rest_number_density);
         cpu->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
         cpu->pressure_term[i] = cpu->pressure[i] * cpu->volume[i] * cpu->volume[i];
-        if (cpu->relative)
-            cpu->relative[i] = r;
+        if (cpu->relative) /* a copy: neighbours read it while `continuity` changes theirs */
+            cpu->relative[i] = e;
         cpu_fill_terms(cpu, i);
     }
 }
@@ -51,7 +56,7 @@ static void continuity_range(void *context, size_t begin, size_t end)
     cpu->pairs->wcsph_rate(&args, begin, end);
     for (size_t i = begin; i < end; i++) {
         const float rate = args.rate[i] + wall_rate(cpu, i);
-        p->density[i] += s->density[p->fluid[i]] / s->rest_number_density * rate * pass->dt;
+        p->compression[i] += rate / s->rest_number_density * pass->dt;
     }
 }
 

@@ -51,6 +51,7 @@ static SnapshotStep some_step(size_t count, double time)
         }
         step.density[i] = 1000 + (float)i;
         step.pressure[i] = -5 * (float)i;
+        step.compression[i] = 1e-6f * (float)i;
         step.fluid[i] = (int32_t)(i % 3);
         step.id[i] = (int64_t)(count - i);
     }

@@ -396,7 +396,7 @@ static void any_threads_give_the_same_bits(void **state)
     }
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
     /* On x86-64 with any instruction set; what this build gave when sums equalled brute force. */
-    if (hash[0] != 0x2777a94db361591eULL)
+    if (hash[0] != 0xafe68e061c4b2988ULL)
         fail_msg("the bits have changed: hash %016llx", (unsigned long long)hash[0]);
 }
 
@@ -413,7 +413,7 @@ static void save_load_step_is_step(void **state)
     assert_true(world_load(loaded, &saved, &error));
     fixture_step(loaded, 50);
     assert_true(world_hash(straight) == world_hash(loaded));
-    saved.particles.density[3] = 0;
+    saved.particles.compression[3] = -1;
     assert_false(world_load(loaded, &saved, &error));
     world_state_free(&saved);
     world_destroy(straight);
