@@ -30,6 +30,9 @@ typedef struct ViewDef {
     int fluid_count;
     char fluid_name[FLUIDS_MAX][NAME_SIZE];
     float fluid_color[FLUIDS_MAX][3];
+    /* Filled from the scene's solids by the loader. */
+    int solid_count;
+    SolidDef solids[SOLIDS_MAX];
 } ViewDef;
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "sim/box_filter.h"
 #include "sim/box_motion.h"
+#include "sim/solid.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -70,6 +71,8 @@ typedef struct WorldDef {
     FluidDef fluids[FLUIDS_MAX];
     int motion_count;
     Motion motions[MOTIONS_MAX];
+    int solid_count;
+    SolidDef solids[SOLIDS_MAX];
     BoxLimits limits;            /* of the box in the hand */
     const InitialState *initial; /* NULL: the fills; read by world_create only */
 } WorldDef;
