@@ -4,6 +4,7 @@
 #define SLOSH_BACKEND_H
 
 #include "sim/frame_step.h"
+#include "sim/solid_step.h"
 #include "sim/solver.h"
 #include "sim/step_control.h"
 #include "sim/world_state.h"
@@ -15,7 +16,9 @@ typedef struct Backend {
     void (*destroy)(void *state);
     /* After solver_change; false when there is no memory for what the solver's new terms need. */
     bool (*adapt)(void *state);
-    /* Free flight over `step`, then the walls' last guard. */
+    /* Puts the solids there: `pose` has one for each. For a world with solids, before all else. */
+    void (*pose)(void *state, const SolidPose *pose);
+    /* Free flight over `step`, then the last guard of walls and solids, which come to their end poses. */
     void (*drift)(void *state, const FrameStep *step);
     /* Sorts the particles by cell, in a cell by id. */
     void (*grid)(void *state);
@@ -24,7 +27,7 @@ typedef struct Backend {
     void (*density)(void *state);
     /* wcsph: density += dt times its rate by the equation of continuity; volume and pressure after it. */
     void (*continuity)(void *state, float dt);
-    /* Acceleration by pressure, viscosity and walls; eq. 10 and 14. */
+    /* Acceleration by pressure, viscosity, walls and solids; eq. 10 and 14. */
     void (*force)(void *state, const ApparentGravity *gravity);
     /* v += (acceleration + gravity) dt, and what it finds: sim/step_control.h. */
     StepWatch (*kick)(void *state, const float gravity[3], float dt);

@@ -12,13 +12,14 @@
    v1 = (I + D) (v0 + omega0 x x0) - velocity_change - omega1 x x1.
    D is kept apart from I, since near-identity rotations rounded to float would shrink or grow the fluid. */
 typedef struct FrameStep {
-    bool still;               /* the box does not move: x1 = x0 + v0 dt */
-    float dt;                 /* s */
-    float rotation[3][3];     /* D */
-    float omega0[3];          /* angular velocity at the begin, in the axes of the begin, rad/s */
-    float omega1[3];          /* at the end, in the axes of the end */
-    float shift[3];           /* P1 - P0 - V0 dt of the box's origin, in the axes of the begin, m */
-    float velocity_change[3]; /* V1 - V0 of the box's origin, in the axes of the end, m/s */
+    bool still;                     /* the box does not move: x1 = x0 + v0 dt */
+    float dt;                       /* s */
+    float rotation[3][3];           /* D */
+    float omega0[3];                /* angular velocity at the begin, in the axes of the begin, rad/s */
+    float omega1[3];                /* at the end, in the axes of the end */
+    float shift[3];                 /* P1 - P0 - V0 dt of the box's origin, in the axes of the begin, m */
+    float velocity_change[3];       /* V1 - V0 of the box's origin, in the axes of the end, m/s */
+    const struct SolidStep *solids; /* what the solids do meanwhile; NULL without solids */
 } FrameStep;
 
 void frame_step(const BoxState *begin, const BoxState *end, double dt, FrameStep *step);

@@ -3,6 +3,7 @@
 #define SLOSH_METHOD_H
 
 #include "sim/backend.h"
+#include "sim/solid_step.h"
 
 /* What a substep works on: the poses of the box at its begin, middle and end among it. */
 typedef struct Substep {
@@ -11,8 +12,9 @@ typedef struct Substep {
     StageClock *clock; /* may be NULL */
     double dt;         /* s */
     FrameStep first_half, second_half;
-    ApparentGravity apparent; /* in the middle */
-    float gravity[3];         /* in the box's axes in the middle, m/s2 */
+    SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */
+    ApparentGravity apparent;        /* in the middle */
+    float gravity[3];                /* in the box's axes in the middle, m/s2 */
 } Substep;
 
 typedef struct Method {

@@ -14,6 +14,27 @@ double fill_volume(const Fill *fill, int dimensions)
     return (fill->max[0] - fill->min[0]) * (fill->max[1] - fill->min[1]) * depth;
 }
 
+/* The solids of a def as they stand at the start. */
+typedef struct Stand {
+    const WorldDef *def;
+    BoxState pose[SOLIDS_MAX];
+} Stand;
+
+/* Whether x is clear of all solids, by half a spacing as of the walls. */
+static bool is_free(const Stand *stand, const double x[3])
+{
+    const WorldDef *def = stand->def;
+    for (int k = 0; k < def->solid_count; k++) {
+        double d[3];
+        for (int a = 0; a < 3; a++)
+            d[a] = x[a] - stand->pose[k].position[a];
+        quat_rotate_inverse(stand->pose[k].orientation, d, d);
+        if (solid_distance(&def->solids[k], def->dimensions, d) < (0.5 - slack) * def->spacing)
+            return false;
+    }
+    return true;
+}
+
 static bool fill_covers(const WorldDef *def, const Fill *fill, const double x[3])
 {
     const double tolerance = slack * def->spacing;
@@ -60,8 +81,9 @@ static Axis lattice_axis(const WorldDef *def, const Fill *fill, int k)
     return axis;
 }
 
-static size_t seed_fill(const WorldDef *def, int fluid, int index, float *position)
+static size_t seed_fill(const Stand *stand, int fluid, int index, float *position)
 {
+    const WorldDef *def = stand->def;
     const Fill *fill = &def->fluids[fluid].fills[index];
     const double s = def->spacing;
     const Axis ax = lattice_axis(def, fill, 0), ay = lattice_axis(def, fill, 1),
@@ -72,7 +94,7 @@ static size_t seed_fill(const WorldDef *def, int fluid, int index, float *positi
             for (long ix = ax.begin; ix < ax.end; ix++) {
                 const double x[3] = {ax.first + (double)ix * s, ay.first + (double)iy * s,
                                      az.first + (double)iz * s};
-                if (!fill_covers(def, fill, x) || taken_before(def, fluid, index, x))
+                if (!fill_covers(def, fill, x) || taken_before(def, fluid, index, x) || !is_free(stand, x))
                     continue;
                 for (size_t k = 0; position && k < 3; k++)
                     position[3 * count + k] = (float)x[k];
@@ -84,9 +106,12 @@ static size_t seed_fill(const WorldDef *def, int fluid, int index, float *positi
 size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
 {
     size_t count = 0;
+    Stand stand = {.def = def};
+    for (int k = 0; k < def->solid_count; k++)
+        solid_pose(&def->solids[k], 0, &stand.pose[k]);
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].fill_count; i++) {
-            const size_t added = seed_fill(def, f, i, position ? position + 3 * count : NULL);
+            const size_t added = seed_fill(&stand, f, i, position ? position + 3 * count : NULL);
             if (fluid)
                 memset(fluid + count, f, added);
             count += added;

@@ -2,7 +2,8 @@
 
    The lattice has a point half a spacing above the floor and is centred between the walls, half a spacing
    from them where the box's width is a whole number of spacings; fluids that touch therefore never overlap.
-   Where fills overlap, the first fill of the first fluid has the point. */
+   Where fills overlap, the first fill of the first fluid has the point; none is within half a spacing of a
+   solid. */
 #ifndef SLOSH_SEED_H
 #define SLOSH_SEED_H
 

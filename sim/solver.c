@@ -8,17 +8,53 @@ static bool positive(double value)
     return value > 0 && isfinite(value);
 }
 
-static bool motions_check(const WorldDef *def, Error *error)
+static double length2(const double v[3])
 {
-    if (def->motion_count < 0 || def->motion_count > MOTIONS_MAX)
-        return error_set(error, "a box may have up to %d motions, not %d", MOTIONS_MAX, def->motion_count);
-    for (int i = 0; i < def->motion_count; i++) {
-        const Motion *m = &def->motions[i];
-        const double axis2 = m->axis[0] * m->axis[0] + m->axis[1] * m->axis[1] + m->axis[2] * m->axis[2];
-        if (!positive(axis2) || (m->kind == MOTION_TURN && !positive(m->duration)))
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+}
+
+static bool motions_check(const Motion *motions, int count, int dimensions, Error *error)
+{
+    if (count < 0 || count > MOTIONS_MAX)
+        return error_set(error, "up to %d motions act together, not %d", MOTIONS_MAX, count);
+    for (int i = 0; i < count; i++) {
+        const Motion *m = &motions[i];
+        if (!positive(length2(m->axis)) || (m->kind == MOTION_TURN && !positive(m->duration)))
             return error_set(error, "motion %d: the axis must not be zero, nor the duration of a turn", i);
-        if (def->dimensions == 2 && !motion_in_plane(m))
+        if (dimensions == 2 && !motion_in_plane(m))
             return error_set(error, "motion %d: leaves the plane of a 2D scene", i);
+    }
+    return true;
+}
+
+static bool shape_check(const SolidDef *solid, int dimensions)
+{
+    switch (solid->kind) {
+    case SOLID_BOX:
+        return positive(solid->size[0]) && positive(solid->size[1]) &&
+               (dimensions == 2 || positive(solid->size[2])) &&
+               (solid->angle_deg == 0 || positive(length2(solid->axis)));
+    case SOLID_CYLINDER:
+        return dimensions == 3 && positive(solid->radius) && positive(solid->height) &&
+               positive(length2(solid->axis));
+    case SOLID_BOWL:
+        return positive(solid->radius) && positive(solid->thickness) && positive(length2(solid->axis));
+    default:
+        return positive(solid->radius);
+    }
+}
+
+static bool solids_check(const WorldDef *def, Error *error)
+{
+    if (def->solid_count < 0 || def->solid_count > SOLIDS_MAX)
+        return error_set(error, "a world has up to %d solids, not %d", SOLIDS_MAX, def->solid_count);
+    for (int i = 0; i < def->solid_count; i++) {
+        const SolidDef *solid = &def->solids[i];
+        if (!shape_check(solid, def->dimensions))
+            return error_set(error, "solid %d: lengths must be positive, an axis not zero, no cylinder in 2D",
+                             i);
+        if (!motions_check(solid->motions, solid->motion_count, def->dimensions, error))
+            return false;
     }
     return true;
 }
@@ -45,7 +81,7 @@ static bool def_check(const WorldDef *def, Error *error)
                 error, "fluid %d: density must be positive, viscosity and surface tension not negative", f);
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
-    return motions_check(def, error);
+    return motions_check(def->motions, def->motion_count, def->dimensions, error) && solids_check(def, error);
 }
 
 static bool cells_set(CellGrid *cells, const double box_size[3], int dimensions, double h, Error *error)
@@ -149,6 +185,11 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     fluids_set(solver, def);
     if (!walls_create(&solver->walls, def->box_size, def->spacing, h, kernel, &solver->lattice))
         return error_set(error, "no memory for the tables of the walls");
+    solver->dimensions = def->dimensions;
+    solver->solid_count = def->solid_count;
+    memcpy(solver->solids, def->solids, sizeof solver->solids);
+    if (!boundary_create(&solver->boundary, def))
+        return error_set(error, "no memory for the boundary particles of the solids");
     return true;
 }
 
@@ -163,4 +204,5 @@ bool solver_change(Solver *solver, const WorldDef *def, Error *error)
 void solver_destroy(Solver *solver)
 {
     walls_destroy(&solver->walls);
+    boundary_destroy(&solver->boundary);
 }

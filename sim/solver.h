@@ -2,6 +2,7 @@
 #ifndef SLOSH_SOLVER_H
 #define SLOSH_SOLVER_H
 
+#include "sim/boundary.h"
 #include "sim/error.h"
 #include "sim/lattice.h"
 #include "sim/tension.h"
@@ -46,6 +47,10 @@ typedef struct Solver {
     int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
     Lattice lattice;
     Walls walls;
+    int dimensions;
+    int solid_count;
+    SolidDef solids[SOLIDS_MAX];
+    Boundary boundary; /* of the solids */
 } Solver;
 
 /* False with the reason: a def out of range, too many cells, no memory. */

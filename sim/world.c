@@ -128,6 +128,17 @@ static bool world_start(World *world, Error *error)
     return ok;
 }
 
+void world_settle(World *world)
+{
+    SolidPose pose[SOLIDS_MAX];
+    for (int i = 0; i < world->def.solid_count; i++)
+        solid_pose_at(&world->def.solids[i], world_time_at(world, (double)world->step), &pose[i]);
+    if (world->def.solid_count > 0)
+        world->backend->pose(world->state, pose);
+    world->backend->grid(world->state);
+    world->backend->density(world->state);
+}
+
 World *world_create(const WorldDef *def, Error *error)
 {
     World *world = calloc(1, sizeof *world);
@@ -154,8 +165,7 @@ World *world_create(const WorldDef *def, Error *error)
     world->stepping = (StepState){.dt = def->dt / def->substeps, .refine = 1};
     world->trouble.retries = def->retries;
     box_at(world, &world->filter, 0, &world->box);
-    world->backend->grid(world->state);
-    world->backend->density(world->state);
+    world_settle(world);
     return world;
 }
 
@@ -187,9 +197,18 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     box_filter_step(&world->filter, &world->target, &world->def.limits, 0.5 * dt);
     box_at(world, &world->filter, world_time_at(world, at + 1), &world->box);
 
-    *step = (Substep){.backend = world->backend, .state = world->state, .clock = clock, .dt = dt};
+    step->backend = world->backend;
+    step->state = world->state;
+    step->clock = clock;
+    step->dt = dt;
     frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
     frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
+    for (int i = 0; i < world->def.solid_count; i++)
+        for (int half = 0; half < 2; half++)
+            solid_step_make(&world->def.solids[i], world_time_at(world, at + 0.5 * half),
+                            world_time_at(world, at + 0.5 * half + 0.5), &step->solids[half][i]);
+    step->first_half.solids = world->def.solid_count > 0 ? step->solids[0] : NULL;
+    step->second_half.solids = world->def.solid_count > 0 ? step->solids[1] : NULL;
     apparent_gravity(world->def.gravity, &begin, &middle, &world->box, dt, &step->apparent);
     double gravity[3];
     quat_rotate_inverse(middle.orientation, world->def.gravity, gravity);

@@ -131,8 +131,7 @@ static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
 void world_put_particles(World *world, const WorldState *state)
 {
     world->backend->load(world->state, &state->particles, (size_t)state->numbers.guarded);
-    world->backend->grid(world->state);
-    world->backend->density(world->state);
+    world_settle(world);
 }
 
 bool world_load(World *world, const WorldState *state, Error *error)

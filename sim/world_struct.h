@@ -24,7 +24,10 @@ struct World {
     BoxState box;                       /* at the present time, the hand's part included */
 };
 
-/* The particles of the state, with a grid and densities of their own. */
+/* What follows from the particles alone: the solids' places, grid, densities. */
+void world_settle(World *world);
+
+/* The particles of the state, with all that follows from them. */
 void world_put_particles(World *world, const WorldState *state);
 
 /* s, of a step by its number, as far as the present step size holds. */

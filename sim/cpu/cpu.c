@@ -19,11 +19,11 @@ static bool particles_create(Cpu *cpu, CpuParticles *p)
     float **const floats[] = {&p->x, &p->y, &p->z, &p->vx, &p->vy, &p->vz};
     bool ok = true;
     for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
-        ok &= (*floats[k] = array(cpu, cpu->count, sizeof(float))) != NULL;
-    p->id = array(cpu, cpu->count, sizeof *p->id);
-    p->fluid = array(cpu, cpu->count, sizeof *p->fluid);
+        ok &= (*floats[k] = array(cpu, cpu->capacity, sizeof(float))) != NULL;
+    p->id = array(cpu, cpu->capacity, sizeof *p->id);
+    p->fluid = array(cpu, cpu->capacity, sizeof *p->fluid);
     if (cpu->solver->continuity)
-        ok &= (p->compression = array(cpu, cpu->count, sizeof(float))) != NULL;
+        ok &= (p->compression = array(cpu, cpu->capacity, sizeof(float))) != NULL;
     return ok && p->id && p->fluid;
 }
 
@@ -45,6 +45,8 @@ static void cpu_destroy(void *state)
                          cpu->cell_start};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
+    free(cpu->owned_at);
+    free(cpu->boundary_at);
     free(cpu->partial);
     free(cpu);
 }
@@ -66,7 +68,7 @@ static bool cpu_adapt(void *state)
     bool ok = true;
     for (size_t k = 0; k < sizeof terms / sizeof *terms; k++) {
         if (terms[k].needed && !*terms[k].array)
-            *terms[k].array = array(cpu, cpu->count, sizeof(float));
+            *terms[k].array = array(cpu, cpu->capacity, sizeof(float));
         ok &= *terms[k].array || !terms[k].needed;
     }
     return ok;
@@ -81,10 +83,14 @@ static bool arrays_create(Cpu *cpu)
     bool ok = particles_create(cpu, &cpu->now);
     ok &= particles_create(cpu, &cpu->spare);
     for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
-        ok &= (*floats[k] = array(cpu, cpu->count, sizeof(float))) != NULL;
+        ok &= (*floats[k] = array(cpu, cpu->capacity, sizeof(float))) != NULL;
     for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
-        ok &= (*integers[k] = array(cpu, cpu->count, sizeof(uint32_t))) != NULL;
-    ok &= (cpu->partial = array(cpu, cpu->count / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
+        ok &= (*integers[k] = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
+    ok &= (cpu->partial = array(cpu, cpu->capacity / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
+    if (s->boundary.count > 0) {
+        ok &= (cpu->owned_at = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
+        ok &= (cpu->boundary_at = array(cpu, s->boundary.count, sizeof(uint32_t))) != NULL;
+    }
     ok &= (cpu->cell_start = array(cpu, s->cells.count + 1, sizeof(uint32_t))) != NULL;
     return cpu_adapt(cpu) && ok;
 }
@@ -117,7 +123,8 @@ static void *cpu_create(const Solver *solver, const InitialState *initial, int t
     cpu->solver = solver;
     cpu->pairs = pair_ops_choose();
     cpu->threads = threads > 0 ? threads : parallel_processors();
-    cpu->count = initial->count;
+    cpu->count = cpu->owned = initial->count;
+    cpu->capacity = cpu->owned + solver->boundary.count;
     if (!arrays_create(cpu)) {
         error_set(error, "no memory for %zu particles and %zu cells; use a larger spacing or a smaller box",
                   initial->count, solver->cells.count);
@@ -125,6 +132,8 @@ static void *cpu_create(const Solver *solver, const InitialState *initial, int t
         return NULL;
     }
     particles_set(solver, &cpu->now, initial);
+    if (solver->boundary.count > 0)
+        cpu_boundary_append(cpu);
     return cpu;
 }
 
@@ -167,11 +176,11 @@ static void cpu_info(const void *state, WorldInfo *info)
 
 typedef struct Copy {
     const CpuParticles *from, *to;
+    const uint32_t *place; /* in `from`; NULL: the same as in `to` */
 } Copy;
 
-static void copy_range(void *context, size_t begin, size_t end)
+static void copy_straight(const Copy *copy, size_t begin, size_t end)
 {
-    const Copy *copy = context;
     const CpuParticles *from = copy->from, *to = copy->to;
     const float *const columns[] = {from->x, from->y, from->z, from->vx, from->vy, from->vz};
     float *const others[] = {to->x, to->y, to->z, to->vx, to->vy, to->vz};
@@ -183,18 +192,39 @@ static void copy_range(void *context, size_t begin, size_t end)
     memcpy(to->fluid + begin, from->fluid + begin, (end - begin) * sizeof *to->fluid);
 }
 
+static void copy_gathered(const Copy *copy, size_t begin, size_t end)
+{
+    const CpuParticles *from = copy->from, *to = copy->to;
+    for (size_t k = begin; k < end; k++) {
+        const size_t i = copy->place[k];
+        to->x[k] = from->x[i], to->y[k] = from->y[i], to->z[k] = from->z[i];
+        to->vx[k] = from->vx[i], to->vy[k] = from->vy[i], to->vz[k] = from->vz[i];
+        to->id[k] = from->id[i], to->fluid[k] = from->fluid[i];
+        if (from->compression && to->compression)
+            to->compression[k] = from->compression[i];
+    }
+}
+
+static void copy_range(void *context, size_t begin, size_t end)
+{
+    const Copy *copy = context;
+    (copy->place ? copy_gathered : copy_straight)(copy, begin, end);
+}
+
 static void cpu_save(void *state, const ParticleColumns *to)
 {
     Cpu *cpu = state;
-    Copy copy = {&cpu->now, to};
-    parallel_ranges(cpu->threads, cpu->count, 8 * CPU_GRAIN, copy_range, &copy);
+    Copy copy = {&cpu->now, to, cpu->owned_at};
+    parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, copy_range, &copy);
 }
 
 static void cpu_load(void *state, const ParticleColumns *from, size_t guarded)
 {
     Cpu *cpu = state;
-    Copy copy = {from, &cpu->now};
-    parallel_ranges(cpu->threads, cpu->count, 8 * CPU_GRAIN, copy_range, &copy);
+    Copy copy = {from, &cpu->now, NULL};
+    parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, copy_range, &copy);
+    if (cpu->boundary_at)
+        cpu_boundary_append(cpu);
     cpu->guarded = guarded;
 }
 
@@ -204,6 +234,7 @@ const Backend backend_cpu = {
     .create = cpu_create,
     .destroy = cpu_destroy,
     .adapt = cpu_adapt,
+    .pose = cpu_pose,
     .drift = cpu_drift,
     .grid = cpu_grid,
     .density = cpu_density,

@@ -12,7 +12,8 @@ typedef struct Cpu {
     const Solver *solver;
     const PairOps *pairs;
     int threads;
-    size_t count;
+    size_t count, owned;         /* particles: boundary particles of solids included; of the fluids alone */
+    size_t capacity;             /* room for */
     CpuParticles now, spare;     /* `spare` is what `grid` sorts into; then they change places */
     float *volume, *pressure;    /* by `density`: 1 / n, m3; Pa */
     float *pressure_term;        /* by `density`: p V^2, J m3 */
@@ -26,15 +27,43 @@ typedef struct Cpu {
     uint32_t *rank;              /* by `grid`: place within the cell before its sort by id */
     uint32_t *order;             /* by `grid`: old place of each new one */
     uint32_t *cell_start;        /* by `grid`: cells + 1 */
+    uint32_t *owned_at;          /* by `grid`: where the fluids' particles stand; NULL without solids */
+    uint32_t *boundary_at;       /* and the solids' */
+    SolidStep solid[SOLIDS_MAX]; /* the last that they did: they are at its end */
     WorldSums *partial;          /* by `sums`: one a range */
     size_t bytes;                /* of all these */
     size_t guarded;              /* atomic */
     StepWatch watch;             /* by `kick`; atomic while it runs */
 } Cpu;
 
+/* Boundary particles stand among the others, with FLUIDS_MAX + their solid for a fluid and ids from here on.
+ */
+#define BOUNDARY_ID 0x80000000U
+
 enum { CPU_GRAIN = 512 }; /* particles in a range: some 0.2 ms of work, small against a step */
 
 PairArgs cpu_pair_args(const Cpu *cpu);
+
+/* The next run of fluid particles at or after *begin, as far as *stop; false when there is none before `end`.
+   Without solids it is all. */
+static inline bool cpu_run(const Cpu *cpu, size_t *begin, size_t end, size_t *stop)
+{
+    const uint8_t *fluid = cpu->now.fluid;
+    *stop = end;
+    if (!cpu->boundary_at)
+        return *begin < end;
+    while (*begin < end && fluid[*begin] >= FLUIDS_MAX)
+        ++*begin;
+    for (*stop = *begin; *stop < end && fluid[*stop] < FLUIDS_MAX;)
+        ++*stop;
+    return *begin < end;
+}
+
+/* Where the fluids' k-th particle stands. */
+static inline size_t cpu_owned(const Cpu *cpu, size_t k)
+{
+    return cpu->owned_at ? cpu->owned_at[k] : k;
+}
 
 /* What the pair sums need of particle i's fluid, of the terms that the scene names. */
 static inline void cpu_fill_terms(Cpu *cpu, size_t i)
@@ -59,6 +88,18 @@ void cpu_continuity(void *state, float dt);
 void cpu_equation_of_state(Cpu *cpu);
 void cpu_force(void *state, const ApparentGravity *gravity);
 void cpu_drift(void *state, const FrameStep *step);
+
+/* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; places them; finds them after a
+   sort; gives those at `i` no share in the fluids' terms; fills in what the forces need of them, which
+   cpu_boundary_place takes back where they stick. */
+void cpu_boundary_append(Cpu *cpu);
+void cpu_boundary_place(Cpu *cpu);
+void cpu_boundary_find(Cpu *cpu);
+void cpu_boundary_terms(Cpu *cpu, size_t i);
+void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity);
+bool cpu_boundary_sticks(const Cpu *cpu);
+bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3]);
+void cpu_pose(void *state, const SolidPose *pose);
 StepWatch cpu_kick(void *state, const float gravity[3], float dt);
 void cpu_sums(void *state, WorldSums *sums);
 void cpu_read(void *state, const ParticleArrays *out);

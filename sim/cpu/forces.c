@@ -23,9 +23,11 @@ static void density_range(void *state, size_t begin, size_t end)
 {
     Cpu *cpu = state;
     const PairArgs args = cpu_pair_args(cpu);
-    cpu->pairs->density(&args, begin, end);
-    for (size_t i = begin; i < end; i++)
-        finish_density(cpu, i);
+    for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);) {
+        cpu->pairs->density(&args, i, stop);
+        for (; i < stop; i++)
+            finish_density(cpu, i);
+    }
 }
 
 void cpu_density(void *state)
@@ -85,15 +87,17 @@ static void force_range(void *context, size_t begin, size_t end)
     Cpu *cpu = pass->cpu;
     const Solver *s = cpu->solver;
     const PairArgs args = cpu_pair_args(cpu);
-    (s->continuity ? cpu->pairs->wcsph_force : cpu->pairs->force)(&args, begin, end);
-    if (cpu->tension)
-        cpu->pairs->tension(&args, begin, end);
-    for (size_t i = begin; i < end; i++) {
-        add_walls(pass, i);
-        const float inverse_mass = 1 / s->mass[cpu->now.fluid[i]];
-        cpu->ax[i] *= inverse_mass;
-        cpu->ay[i] *= inverse_mass;
-        cpu->az[i] *= inverse_mass;
+    for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);) {
+        (s->continuity ? cpu->pairs->wcsph_force : cpu->pairs->force)(&args, i, stop);
+        if (cpu->tension)
+            cpu->pairs->tension(&args, i, stop);
+        for (; i < stop; i++) {
+            add_walls(pass, i);
+            const float inverse_mass = 1 / s->mass[cpu->now.fluid[i]];
+            cpu->ax[i] *= inverse_mass;
+            cpu->ay[i] *= inverse_mass;
+            cpu->az[i] *= inverse_mass;
+        }
     }
 }
 
@@ -101,5 +105,9 @@ void cpu_force(void *state, const ApparentGravity *gravity)
 {
     Cpu *cpu = state;
     ForcePass pass = {cpu, gravity};
+    if (cpu->boundary_at)
+        cpu_boundary_fill(cpu, gravity);
     parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, force_range, &pass);
+    if (cpu->boundary_at && cpu_boundary_sticks(cpu))
+        cpu_boundary_place(cpu);
 }

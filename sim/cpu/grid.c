@@ -107,4 +107,6 @@ void cpu_grid(void *state)
     const CpuParticles sorted = cpu->spare;
     cpu->spare = cpu->now;
     cpu->now = sorted;
+    if (cpu->boundary_at)
+        cpu_boundary_find(cpu);
 }

@@ -8,15 +8,20 @@ typedef struct Drift {
     const FrameStep *step;
 } Drift;
 
-static void drift_range(void *context, size_t begin, size_t end)
+/* How often the guards held a particle of the run [begin, end). */
+static size_t drift_run(const Drift *drift, size_t begin, size_t end)
 {
-    const Drift *drift = context;
-    const CpuParticles *p = &drift->cpu->now;
+    const Cpu *cpu = drift->cpu;
+    const CpuParticles *p = &cpu->now;
+    const SolidStep *solids = drift->step->solids;
     size_t held = 0;
     for (size_t i = begin; i < end; i++) {
         float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
+        const float before[3] = {x[0], x[1], x[2]};
         frame_advance(drift->step, x, v);
-        held += walls_guard(&drift->cpu->solver->walls, x, v);
+        if (solids)
+            held += cpu_guard_solids(cpu, solids, before, x, v);
+        held += walls_guard(&cpu->solver->walls, x, v);
         p->x[i] = x[0];
         p->y[i] = x[1];
         p->z[i] = x[2];
@@ -24,6 +29,15 @@ static void drift_range(void *context, size_t begin, size_t end)
         p->vy[i] = v[1];
         p->vz[i] = v[2];
     }
+    return held;
+}
+
+static void drift_range(void *context, size_t begin, size_t end)
+{
+    const Drift *drift = context;
+    size_t held = 0;
+    for (size_t i = begin, stop; cpu_run(drift->cpu, &i, end, &stop); i = stop)
+        held += drift_run(drift, i, stop);
     if (held)
         __atomic_fetch_add(&drift->cpu->guarded, held, __ATOMIC_RELAXED);
 }
@@ -33,6 +47,10 @@ void cpu_drift(void *state, const FrameStep *step)
     Cpu *cpu = state;
     Drift drift = {cpu, step};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, drift_range, &drift);
+    if (step->solids) {
+        memcpy(cpu->solid, step->solids, (size_t)cpu->solver->solid_count * sizeof *cpu->solid);
+        cpu_boundary_place(cpu);
+    }
 }
 
 typedef struct Kick {
@@ -52,9 +70,8 @@ static void atomic_greatest(float *greatest, float value)
         ;
 }
 
-static void kick_range(void *context, size_t begin, size_t end)
+static void kick_run(const Kick *kick, size_t begin, size_t end)
 {
-    const Kick *kick = context;
     Cpu *cpu = kick->cpu;
     const CpuParticles *p = &cpu->now;
     const float fastest = cpu->solver->support_radius / kick->dt;
@@ -80,6 +97,13 @@ static void kick_range(void *context, size_t begin, size_t end)
     atomic_greatest(&cpu->watch.max_compression, 1 / (volume * cpu->solver->rest_number_density));
     if (!bounded)
         __atomic_store_n(&cpu->watch.bounded, false, __ATOMIC_RELAXED);
+}
+
+static void kick_range(void *context, size_t begin, size_t end)
+{
+    const Kick *kick = context;
+    for (size_t i = begin, stop; cpu_run(kick->cpu, &i, end, &stop); i = stop)
+        kick_run(kick, i, stop);
 }
 
 StepWatch cpu_kick(void *state, const float gravity[3], float dt)

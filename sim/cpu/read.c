@@ -46,28 +46,31 @@ static void read_range(void *context, size_t begin, size_t end)
     const Cpu *cpu = read->cpu;
     const CpuParticles *p = &cpu->now;
     const ParticleArrays *out = read->out;
-    for (size_t i = begin; out->position && i < end; i++) {
-        float *x = out->position + 4 * i;
-        x[0] = p->x[i], x[1] = p->y[i], x[2] = p->z[i], x[3] = cpu->volume[i];
-    }
-    for (size_t i = begin; out->velocity && i < end; i++) {
-        float *v = out->velocity + 4 * i;
-        v[0] = p->vx[i], v[1] = p->vy[i], v[2] = p->vz[i], v[3] = 0;
+    for (size_t k = begin; k < end; k++) {
+        const size_t i = cpu_owned(cpu, k);
+        if (out->position) {
+            float *x = out->position + 4 * k;
+            x[0] = p->x[i], x[1] = p->y[i], x[2] = p->z[i], x[3] = cpu->volume[i];
+        }
+        if (out->velocity) {
+            float *v = out->velocity + 4 * k;
+            v[0] = p->vx[i], v[1] = p->vy[i], v[2] = p->vz[i], v[3] = 0;
+        }
+        if (out->fluid)
+            out->fluid[k] = p->fluid[i];
+        if (out->id)
+            out->id[k] = p->id[i];
     }
     for (int s = 0; s < SCALAR_COUNT; s++)
-        for (size_t i = begin; out->scalar[s] && i < end; i++)
-            out->scalar[s][i] = scalar_of(cpu, (Scalar)s, i);
-    for (size_t i = begin; out->fluid && i < end; i++)
-        out->fluid[i] = p->fluid[i];
-    for (size_t i = begin; out->id && i < end; i++)
-        out->id[i] = p->id[i];
+        for (size_t k = begin; out->scalar[s] && k < end; k++)
+            out->scalar[s][k] = scalar_of(cpu, (Scalar)s, cpu_owned(cpu, k));
 }
 
 void cpu_read(void *state, const ParticleArrays *out)
 {
     Cpu *cpu = state;
     Read read = {cpu, out};
-    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, read_range, &read);
+    parallel_ranges(cpu->threads, cpu->owned, 4 * CPU_GRAIN, read_range, &read);
 }
 
 static int neighbours_of(const PairArgs *args, size_t i)
@@ -119,8 +122,8 @@ static void sum_range(void *context, size_t begin, size_t end)
 {
     SumPass *pass = context;
     WorldSums *sums = &pass->partial[begin / CPU_GRAIN];
-    for (size_t i = begin; i < end; i++)
-        add_particle(pass->cpu, &pass->args, i, sums);
+    for (size_t k = begin; k < end; k++)
+        add_particle(pass->cpu, &pass->args, cpu_owned(pass->cpu, k), sums);
 }
 
 static void add_sums(const WorldSums *part, WorldSums *sums)
@@ -141,14 +144,14 @@ static void add_sums(const WorldSums *part, WorldSums *sums)
 void cpu_sums(void *state, WorldSums *sums)
 {
     Cpu *cpu = state;
-    const size_t ranges = (cpu->count + CPU_GRAIN - 1) / CPU_GRAIN;
+    const size_t ranges = (cpu->owned + CPU_GRAIN - 1) / CPU_GRAIN;
     SumPass pass = {cpu, cpu_pair_args(cpu), cpu->partial};
     *sums = (WorldSums){0};
     memset(cpu->partial, 0, ranges * sizeof *cpu->partial);
-    parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, sum_range, &pass);
+    parallel_ranges(cpu->threads, cpu->owned, CPU_GRAIN, sum_range, &pass);
     for (size_t r = 0; r < ranges; r++)
         add_sums(&pass.partial[r], sums);
     for (int k = 0; k < 3; k++)
         sums->centre[k] /= sums->mass;
-    sums->neighbours_mean /= (double)cpu->count;
+    sums->neighbours_mean /= (double)cpu->owned;
 }

@@ -15,6 +15,10 @@ static void state_range(void *context, size_t begin, size_t end)
     const CpuParticles *p = &cpu->now;
     for (size_t i = begin; i < end; i++) {
         const int fluid = p->fluid[i];
+        if (fluid >= FLUIDS_MAX) {
+            cpu_boundary_terms(cpu, i);
+            continue;
+        }
         const float e = p->compression[i], pressure = tait(s->tait[fluid], e);
         cpu->volume[i] = 1 / ((1 + e) * s->rest_number_density);
         cpu->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
@@ -53,10 +57,12 @@ static void continuity_range(void *context, size_t begin, size_t end)
     const Solver *s = cpu->solver;
     const CpuParticles *p = &cpu->now;
     const PairArgs args = cpu_pair_args(cpu);
-    cpu->pairs->wcsph_rate(&args, begin, end);
-    for (size_t i = begin; i < end; i++) {
-        const float rate = args.rate[i] + wall_rate(cpu, i);
-        p->compression[i] += rate / s->rest_number_density * pass->dt;
+    for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);) {
+        cpu->pairs->wcsph_rate(&args, i, stop);
+        for (; i < stop; i++) {
+            const float rate = args.rate[i] + wall_rate(cpu, i);
+            p->compression[i] += rate / s->rest_number_density * pass->dt;
+        }
     }
 }
 

@@ -1,0 +1,185 @@
+#include "sim/boundary.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where the particles of one solid go. */
+typedef struct Sink {
+    const SolidDef *solid;
+    int dimensions;
+    double spacing, depth;
+    float *position; /* NULL: only counts */
+    size_t count;
+} Sink;
+
+static void put(Sink *sink, double x, double y, double z)
+{
+    if (sink->position) {
+        float *to = sink->position + 3 * sink->count;
+        to[0] = (float)x, to[1] = (float)y, to[2] = (float)z;
+    }
+    sink->count++;
+}
+
+static long at_least_one(double count)
+{
+    return count > 1 ? lround(count) : 1;
+}
+
+/* `count` points, evenly over the part y >= `top` .. -1 of a sphere turned upside down: a Fibonacci lattice,
+   whose points all have the same area. */
+static void put_sphere(Sink *sink, double radius, double top, long count)
+{
+    const double golden = M_PI * (3 - sqrt(5));
+    for (long i = 0; i < count; i++) {
+        const double y = -1 + (1 + top) * ((double)i + 0.5) / (double)count, across = sqrt(1 - y * y);
+        const double angle = golden * (double)i;
+        put(sink, radius * across * cos(angle), radius * y, radius * across * sin(angle));
+    }
+}
+
+/* A ring about z (axis 2) or y (axis 1) at the height `along`. */
+static void put_ring(Sink *sink, int axis, double radius, double along, double begin, double sweep)
+{
+    const long count = at_least_one(radius * sweep / sink->spacing);
+    for (long i = 0; i < count; i++) {
+        const double angle = begin + sweep * ((double)i + 0.5) / (double)count;
+        const double a = radius * cos(angle), b = radius * sin(angle);
+        if (axis == 1)
+            put(sink, a, along, b);
+        else
+            put(sink, a, b, along);
+    }
+}
+
+static double cube(double x)
+{
+    return x * x * x;
+}
+
+/* Shells of a ball, or rings of a disc, from the surface inwards. */
+static void put_ball(Sink *sink)
+{
+    const double s = sink->spacing;
+    for (double outer = sink->solid->radius, behind = 0; outer > 0 && behind < sink->depth;
+         outer -= s, behind += s) {
+        const double inner = fmax(outer - s, 0), middle = inner > 0 ? 0.5 * (inner + outer) : 0.5 * outer;
+        if (sink->dimensions == 2)
+            put_ring(sink, 2, middle, 0, 0, 2 * M_PI);
+        else
+            put_sphere(sink, middle, 1, at_least_one(4 * M_PI / 3 * (cube(outer) - cube(inner)) / cube(s)));
+    }
+}
+
+/* Shells of the wall of a bowl, or half rings. */
+static void put_bowl(Sink *sink)
+{
+    const SolidDef *solid = sink->solid;
+    const double s = sink->spacing;
+    const long shells = at_least_one(solid->thickness / s);
+    const double step = solid->thickness / (double)shells;
+    for (long k = 0; k < shells; k++) {
+        const double inner = solid->radius + (double)k * step, outer = inner + step;
+        const double behind = fmin((double)k, (double)(shells - 1 - k)) * step;
+        if (behind >= sink->depth)
+            continue;
+        if (sink->dimensions == 2)
+            put_ring(sink, 2, 0.5 * (inner + outer), 0, M_PI, M_PI);
+        else
+            put_sphere(sink, 0.5 * (inner + outer), 0,
+                       at_least_one(2 * M_PI / 3 * (cube(outer) - cube(inner)) / cube(s)));
+    }
+}
+
+/* A lattice that fits the block, less what lies too deep. */
+static void put_block(Sink *sink)
+{
+    long points[3] = {1, 1, 1}, index[3];
+    double step[3] = {0};
+    for (int k = 0; k < sink->dimensions; k++) {
+        points[k] = at_least_one(sink->solid->size[k] / sink->spacing);
+        step[k] = sink->solid->size[k] / (double)points[k];
+    }
+    for (index[2] = 0; index[2] < points[2]; index[2]++)
+        for (index[1] = 0; index[1] < points[1]; index[1]++)
+            for (index[0] = 0; index[0] < points[0]; index[0]++) {
+                double x[3], behind = INFINITY;
+                for (int k = 0; k < 3; k++) {
+                    x[k] = ((double)index[k] - 0.5 * (double)(points[k] - 1)) * step[k];
+                    if (k < sink->dimensions)
+                        behind = fmin(
+                            behind, (double)(index[k] < points[k] / 2 ? index[k] : points[k] - 1 - index[k]) *
+                                        step[k]);
+                }
+                if (behind < sink->depth)
+                    put(sink, x[0], x[1], x[2]);
+            }
+}
+
+/* Discs of rings; of the middle ones only the outer rings. */
+static void put_cylinder(Sink *sink)
+{
+    const double s = sink->spacing, radius = sink->solid->radius, height = sink->solid->height;
+    const long discs = at_least_one(height / s);
+    for (long d = 0; d < discs; d++) {
+        const double step = height / (double)discs, along = ((double)d - 0.5 * (double)(discs - 1)) * step;
+        const double end = fmin((double)d, (double)(discs - 1 - d)) * step;
+        for (double outer = radius, behind = 0; outer > 0 && (behind < sink->depth || end < sink->depth);
+             outer -= s, behind += s)
+            if (outer > s)
+                put_ring(sink, 1, outer - 0.5 * s, along, 0.7 * (double)d, 2 * M_PI);
+            else if (outer > 0.25 * s)
+                put(sink, 0, along, 0);
+    }
+}
+
+size_t boundary_layers(const SolidDef *solid, int dimensions, double spacing, double depth, float *position)
+{
+    Sink sink = {solid, dimensions, spacing, depth, position, 0};
+    switch (solid->kind) {
+    case SOLID_BOX:
+        put_block(&sink);
+        break;
+    case SOLID_CYLINDER:
+        put_cylinder(&sink);
+        break;
+    case SOLID_BOWL:
+        put_bowl(&sink);
+        break;
+    default:
+        put_ball(&sink);
+    }
+    return sink.count;
+}
+
+bool boundary_create(Boundary *boundary, const WorldDef *def)
+{
+    const double depth = def->support * def->spacing;
+    memset(boundary, 0, sizeof *boundary);
+    for (int i = 0; i < def->solid_count; i++)
+        boundary->count += boundary_layers(&def->solids[i], def->dimensions, def->spacing, depth, NULL);
+    if (boundary->count == 0)
+        return true;
+    boundary->rest = malloc(3 * boundary->count * sizeof *boundary->rest);
+    boundary->solid = malloc(boundary->count);
+    if (!boundary->rest || !boundary->solid) {
+        boundary_destroy(boundary);
+        return false;
+    }
+    size_t at = 0;
+    for (int i = 0; i < def->solid_count; i++) {
+        const size_t more =
+            boundary_layers(&def->solids[i], def->dimensions, def->spacing, depth, boundary->rest + 3 * at);
+        memset(boundary->solid + at, i, more);
+        at += more;
+    }
+    return true;
+}
+
+void boundary_destroy(Boundary *boundary)
+{
+    free(boundary->rest);
+    free(boundary->solid);
+    memset(boundary, 0, sizeof *boundary);
+}

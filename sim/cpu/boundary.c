@@ -1,0 +1,187 @@
+/* Boundary particles among the others: they go where their solids are, and take what fluid there is next to
+   them for what they stand for. */
+#include "sim/cpu/cpu.h"
+
+#include <math.h>
+
+static size_t rest_of(const Cpu *cpu, size_t i)
+{
+    return cpu->now.id[i] - BOUNDARY_ID;
+}
+
+/* Beside the box, where no fluid sees it: behind the walls stand the walls' own particles. */
+static void put_aside(const Walls *walls, float h, float x[3])
+{
+    for (int a = 0; a < walls->dimensions; a++) {
+        const float low = a == 1 ? 0 : -walls->half_size[a], high = low + 2 * walls->half_size[a];
+        if (x[a] < low)
+            x[a] = fminf(x[a], low - 4 * h);
+        else if (x[a] > high)
+            x[a] = fmaxf(x[a], high + 4 * h);
+    }
+}
+
+static void place_one(Cpu *cpu, size_t i)
+{
+    const Solver *s = cpu->solver;
+    const CpuParticles *p = &cpu->now;
+    const size_t b = rest_of(cpu, i);
+    const SolidPose *pose = &cpu->solid[s->boundary.solid[b]].end;
+    float x[3], v[3];
+    solid_to_box(pose, s->boundary.rest + 3 * b, x);
+    solid_velocity_at(pose, x, v);
+    put_aside(&s->walls, s->support_radius, x);
+    p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
+    p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
+}
+
+static void place_range(void *state, size_t begin, size_t end)
+{
+    Cpu *cpu = state;
+    for (size_t k = begin; k < end; k++)
+        place_one(cpu, cpu->boundary_at[k]);
+}
+
+void cpu_boundary_place(Cpu *cpu)
+{
+    parallel_ranges(cpu->threads, cpu->solver->boundary.count, 4 * CPU_GRAIN, place_range, cpu);
+}
+
+void cpu_boundary_append(Cpu *cpu)
+{
+    const Boundary *boundary = &cpu->solver->boundary;
+    for (size_t b = 0; b < boundary->count; b++) {
+        const size_t i = cpu->owned + b;
+        cpu->now.id[i] = BOUNDARY_ID + (uint32_t)b;
+        cpu->now.fluid[i] = (uint8_t)(FLUIDS_MAX + boundary->solid[b]);
+        cpu->boundary_at[b] = (uint32_t)i;
+    }
+    cpu->count = cpu->owned + boundary->count;
+}
+
+void cpu_boundary_find(Cpu *cpu)
+{
+    size_t owned = 0, boundary = 0;
+    for (size_t i = 0; i < cpu->count; i++)
+        if (cpu->now.fluid[i] < FLUIDS_MAX)
+            cpu->owned_at[owned++] = (uint32_t)i;
+        else
+            cpu->boundary_at[boundary++] = (uint32_t)i;
+}
+
+void cpu_pose(void *state, const SolidPose *pose)
+{
+    Cpu *cpu = state;
+    for (int k = 0; k < cpu->solver->solid_count; k++)
+        cpu->solid[k] = (SolidStep){.begin = pose[k], .end = pose[k]};
+    cpu_boundary_place(cpu);
+}
+
+void cpu_boundary_terms(Cpu *cpu, size_t i)
+{
+    float *const none[] = {cpu->viscosity, cpu->artificial, cpu->relative, cpu->tension};
+    for (size_t k = 0; k < sizeof none / sizeof *none; k++)
+        if (none[k])
+            none[k][i] = 0;
+    if (cpu->kind)
+        cpu->kind[i] = cpu->now.fluid[i];
+}
+
+/* Weighted sums over the fluid that a boundary particle sees. */
+typedef struct Seen {
+    float weight, pressure, viscosity, density_x[3], v[3];
+} Seen;
+
+static void see(const Cpu *cpu, const PairArgs *args, const float x[3], uint32_t j, Seen *seen)
+{
+    const Solver *s = cpu->solver;
+    const float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
+    const float q2 = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / (s->support_radius * s->support_radius);
+    const int fluid = cpu->now.fluid[j];
+    if (q2 >= 1 || fluid >= FLUIDS_MAX)
+        return;
+    const float w = (1 - q2) * (1 - q2) * (1 - q2), v[3] = {args->vx[j], args->vy[j], args->vz[j]};
+    seen->weight += w;
+    seen->pressure += w * cpu->pressure[j];
+    seen->viscosity += w * s->viscosity[fluid];
+    for (int k = 0; k < 3; k++) {
+        seen->density_x[k] += w * s->density[fluid] * d[k];
+        seen->v[k] += w * v[k];
+    }
+}
+
+typedef struct BoundaryPass {
+    Cpu *cpu;
+    const ApparentGravity *gravity;
+} BoundaryPass;
+
+/* Adami, Hu, Adams, "A generalized wall boundary condition for smoothed particle hydrodynamics", 2012, eq. 27
+   and 23: the fluid's pressure goes on hydrostatically, its velocity, where it sticks, through that of the
+   wall. A volume of 0 where it slips: then no friction sees the particle. */
+static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
+{
+    Cpu *cpu = pass->cpu;
+    const Solver *s = cpu->solver;
+    const CpuParticles *p = &cpu->now;
+    const int solid = p->fluid[i] - FLUIDS_MAX;
+    const float x[3] = {p->x[i], p->y[i], p->z[i]}, volume = 1 / s->rest_number_density;
+    const bool sticks = s->viscous && s->solids[solid].slip == SLIP_NONE;
+    Seen seen = {0};
+    for (int row = s->first_row; row < s->last_row; row++) {
+        uint32_t begin, end;
+        pair_row(args, cpu->cell[i], row, &begin, &end);
+        for (uint32_t j = begin; j < end; j++)
+            see(cpu, args, x, j, &seen);
+    }
+    float pressure = 0, g[3], a[3];
+    if (seen.weight > 0) {
+        apparent_gravity_at(pass->gravity, x, g);
+        solid_acceleration_at(&cpu->solid[solid], x, a);
+        for (int k = 0; k < 3; k++)
+            pressure += (g[k] - a[k]) * seen.density_x[k];
+        pressure = (seen.pressure + pressure) / seen.weight;
+    }
+    cpu->pressure[i] = s->negative_pressure ? pressure : fmaxf(pressure, 0);
+    cpu->pressure_term[i] = cpu->pressure[i] * volume * volume;
+    cpu->volume[i] = sticks && seen.weight > 0 ? volume : 0;
+    cpu_boundary_terms(cpu, i);
+    if (cpu->viscosity && seen.weight > 0)
+        cpu->viscosity[i] = seen.viscosity / seen.weight;
+    if (sticks && seen.weight > 0) {
+        p->vx[i] = 2 * p->vx[i] - seen.v[0] / seen.weight;
+        p->vy[i] = 2 * p->vy[i] - seen.v[1] / seen.weight;
+        p->vz[i] = 2 * p->vz[i] - seen.v[2] / seen.weight;
+    }
+}
+
+static void fill_range(void *context, size_t begin, size_t end)
+{
+    const BoundaryPass *pass = context;
+    const PairArgs args = cpu_pair_args(pass->cpu);
+    for (size_t k = begin; k < end; k++)
+        fill_one(pass, &args, pass->cpu->boundary_at[k]);
+}
+
+bool cpu_boundary_sticks(const Cpu *cpu)
+{
+    const Solver *s = cpu->solver;
+    bool sticks = false;
+    for (int k = 0; k < s->solid_count; k++)
+        sticks |= s->solids[k].slip == SLIP_NONE;
+    return s->viscous && sticks;
+}
+
+void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity)
+{
+    BoundaryPass pass = {cpu, gravity};
+    parallel_ranges(cpu->threads, cpu->solver->boundary.count, CPU_GRAIN, fill_range, &pass);
+}
+
+bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3])
+{
+    const Solver *s = cpu->solver;
+    bool held = false;
+    for (int k = 0; k < s->solid_count; k++)
+        held |= solid_guard(&s->solids[k], &steps[k], s->dimensions, before, x, v);
+    return held;
+}
