@@ -59,6 +59,17 @@ static bool read_scene(Tree *tree, Scene *out, Error *error)
     return scene_check(tree, out, error);
 }
 
+/* A bowl's wall is thick enough to keep fluids apart, whatever the spacing became. */
+static void solids_default(Scene *scene)
+{
+    WorldDef *world = &scene->world;
+    for (int k = 0; k < world->solid_count; k++)
+        if (world->solids[k].thickness == 0)
+            world->solids[k].thickness = world->support * world->spacing;
+    scene->view.solid_count = world->solid_count;
+    memcpy(scene->view.solids, world->solids, sizeof scene->view.solids);
+}
+
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char note[256], Error *error)
 {
     if (!apply_settings(tree, settings, error) || !read_scene(tree, out, error))
@@ -67,6 +78,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char not
         return false;
     if (out->world.dimensions == 2)
         out->world.box_size[2] = out->world.spacing;
+    solids_default(out);
     if (!scene_check_count(tree, out, error))
         return false;
     snprintf(out->path, sizeof out->path, "%s", tree->path);

@@ -1,5 +1,6 @@
 #include "app/scene_check.h"
 
+#include "sim/boundary.h"
 #include "sim/seed.h"
 
 #include <math.h>
@@ -94,16 +95,54 @@ static bool check_fluid(const Check *check, int f)
     return true;
 }
 
-static bool check_motion(const Check *check, int m)
+static bool check_axis(const Check *check, const char *path, const double axis[3])
 {
-    const Motion *motion = &check->scene->world.motions[m];
-    char path[64];
-    snprintf(path, sizeof path, "motion[%d].%s.axis", m, motion_name(motion->kind));
-    if (hypot(hypot(motion->axis[0], motion->axis[1]), motion->axis[2]) < 1e-9)
-        return FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
+    return hypot(hypot(axis[0], axis[1]), axis[2]) >= 1e-9 ||
+           FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
+}
+
+static bool check_motion(const Check *check, const char *list, int m, const Motion *motion)
+{
+    char path[96];
+    snprintf(path, sizeof path, "%s[%d].%s.axis", list, m, motion_name(motion->kind));
+    if (!check_axis(check, path, motion->axis))
+        return false;
     if (check->scene->world.dimensions == 2 && !motion_in_plane(motion))
         return FAIL(check, path,
                     "the motion leaves the plane of a 2D scene; shake along x and y, turn about [0, 0, 1]");
+    return true;
+}
+
+/* In two dimensions solids stay in the plane. */
+static bool check_solid_plane(const Check *check, const SolidDef *solid, const char *path)
+{
+    char key[96];
+    if (check->scene->world.dimensions == 3)
+        return true;
+    if (solid->kind == SOLID_CYLINDER)
+        return FAIL(check, path, "a 2D scene has no cylinders; write a sphere, which is a disc there");
+    snprintf(key, sizeof key, "%s.%s.axis", path, solid_name(solid->kind));
+    if (solid->kind == SOLID_BOX && solid->angle_deg != 0 && (solid->axis[0] != 0 || solid->axis[1] != 0))
+        return FAIL(check, key, "a box in a 2D scene turns about [0, 0, 1]");
+    if (solid->kind == SOLID_BOWL && !check_plane(check, key, solid->axis))
+        return false;
+    snprintf(key, sizeof key, "%s.%s.centre", path, solid_name(solid->kind));
+    return check_plane(check, key, solid->centre);
+}
+
+static bool check_solid(const Check *check, int index)
+{
+    const SolidDef *solid = &check->scene->world.solids[index];
+    char path[64], key[96];
+    snprintf(path, sizeof path, "solids[%d]", index);
+    snprintf(key, sizeof key, "%s.%s.axis", path, solid_name(solid->kind));
+    if (!check_solid_plane(check, solid, path) ||
+        (solid->kind != SOLID_SPHERE && !check_axis(check, key, solid->axis)))
+        return false;
+    snprintf(key, sizeof key, "%s.motion", path);
+    for (int m = 0; m < solid->motion_count; m++)
+        if (!check_motion(check, key, m, &solid->motions[m]))
+            return false;
     return true;
 }
 
@@ -139,7 +178,10 @@ bool scene_check(const Tree *tree, const Scene *scene, Error *error)
         if (!check_fluid(&check, f))
             return false;
     for (int m = 0; m < scene->world.motion_count; m++)
-        if (!check_motion(&check, m))
+        if (!check_motion(&check, "motion", m, &scene->world.motions[m]))
+            return false;
+    for (int k = 0; k < scene->world.solid_count; k++)
+        if (!check_solid(&check, k))
             return false;
     return check_plane(&check, "gravity", scene->world.gravity) && check_spacing(&check) &&
            check_view(&check);
@@ -221,10 +263,60 @@ bool scene_check_bounds(const Tree *tree, const Scene *scene, double spacing, Er
     return true;
 }
 
+/* The least width of a solid's matter, m. */
+static double solid_width(const SolidDef *solid, int dimensions)
+{
+    switch (solid->kind) {
+    case SOLID_BOX:
+        return fmin(fmin(solid->size[0], solid->size[1]), dimensions == 3 ? solid->size[2] : INFINITY);
+    case SOLID_CYLINDER:
+        return fmin(2 * solid->radius, solid->height);
+    case SOLID_BOWL:
+        return solid->thickness;
+    default:
+        return 2 * solid->radius;
+    }
+}
+
+/* Fluid on both sides of what is thinner than a spacing would be one fluid. */
+static bool check_widths(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    for (int k = 0; k < world->solid_count; k++) {
+        const SolidDef *solid = &world->solids[k];
+        const double width = solid_width(solid, world->dimensions);
+        char path[64];
+        snprintf(path, sizeof path, "solids[%d].%s", k, solid_name(solid->kind));
+        if (!(width >= (1 - 1e-9) * world->spacing))
+            return FAIL(check, path,
+                        "the solid is %g m thin, less than the spacing of %g m; make it thicker (twice the "
+                        "spacing to keep fluids apart) or use a smaller spacing",
+                        width, world->spacing);
+    }
+    return true;
+}
+
+static bool check_boundary(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    double sum = 0;
+    for (int k = 0; k < world->solid_count; k++)
+        sum += boundary_estimate(&world->solids[k], world->dimensions, world->spacing,
+                                 world->support * world->spacing);
+    return scene_fits_memory(sum) ||
+           FAIL(
+               check, "solids",
+               "the solids' surfaces need about %.3g particles of their own, more than this machine can hold; "
+               "use a larger spacing or smaller solids",
+               sum);
+}
+
 bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
 {
     const Check check = {tree, scene, error};
     const double spacing = scene->world.spacing;
+    if (!check_widths(&check) || !check_boundary(&check))
+        return false;
     if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
         return false;
     WorldDef part = scene->world;

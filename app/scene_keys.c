@@ -11,6 +11,7 @@
 #define FLUID(field)   offsetof(FluidDef, field)
 #define FILL(field)    offsetof(Fill, field)
 #define MOTION(field)  offsetof(Motion, field)
+#define SOLID(field)   offsetof(SolidDef, field)
 #define PLACE(at)      .offset = (at), .aux = KEY_NOWHERE
 #define BOUNDS(lo, hi) .min = (lo), .max = (hi)
 #define NOT_STORED     .offset = KEY_NOWHERE, .aux = KEY_NOWHERE
@@ -67,23 +68,20 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
         .aux = COUNT, .size = sizeof(ELEMENT), .init = INIT, .help = HELP                                    \
     }
 
-/* What each kind of motion names in MOTION_LIST; M is its name. A kind without such a line doesn't compile.
+/* What each kind of motion names in MOTION_LIST; M is its path. A kind without such a line doesn't compile.
  */
-#define AXIS(M)                                                                                              \
-    VEC3("motion[]." M ".axis", R, "", -1000, 1000, MOTION(axis), "direction, of any length but zero"),
+#define AXIS(M) VEC3(M ".axis", R, "", -1000, 1000, MOTION(axis), "direction, of any length but zero"),
 #define AMPLITUDE(M)                                                                                         \
-    NUMBER("motion[]." M ".amplitude", R, "m", 0, 100, MOTION(amplitude), "greatest distance from the start"),
-#define ANGLE(M, MOST)                                                                                       \
-    NUMBER("motion[]." M ".angle", R, "degrees", -(MOST), MOST, MOTION(angle_deg), "greatest angle"),
+    NUMBER(M ".amplitude", R, "m", 0, 100, MOTION(amplitude), "greatest distance from the start"),
+#define ANGLE(M, MOST) NUMBER(M ".angle", R, "degrees", -(MOST), MOST, MOTION(angle_deg), "greatest angle"),
 #define FREQUENCY(M)                                                                                         \
-    NUMBER("motion[]." M ".frequency", R, "Hz", 0, 1000, MOTION(frequency),                                  \
-           "how often to and fro in a second"),
-#define RATE(M) NUMBER("motion[]." M ".rate", R, "rad/s", -1000, 1000, MOTION(rate), "angular velocity"),
+    NUMBER(M ".frequency", R, "Hz", 0, 1000, MOTION(frequency), "how often to and fro in a second"),
+#define RATE(M) NUMBER(M ".rate", R, "rad/s", -1000, 1000, MOTION(rate), "angular velocity"),
 #define ACCELERATION(M)                                                                                      \
-    NUMBER("motion[]." M ".acceleration", R, "m/s2", -1000, 1000, MOTION(acceleration), "along the axis"),
-#define START(M)    NUMBER("motion[]." M ".start", 0, "s", 0, 1e6, MOTION(start), "still before it"),
-#define DURATION(M) NUMBER("motion[]." M ".duration", 0, "s", 0, 1e6, MOTION(duration), "0: for ever"),
-#define WITHIN(M)   NUMBER("motion[]." M ".duration", R | O, "s", 0, 1e6, MOTION(duration), "of the turn"),
+    NUMBER(M ".acceleration", R, "m/s2", -1000, 1000, MOTION(acceleration), "along the axis"),
+#define START(M)    NUMBER(M ".start", 0, "s", 0, 1e6, MOTION(start), "still before it"),
+#define DURATION(M) NUMBER(M ".duration", 0, "s", 0, 1e6, MOTION(duration), "0: for ever"),
+#define WITHIN(M)   NUMBER(M ".duration", R | O, "s", 0, 1e6, MOTION(duration), "of the turn"),
 
 #define FIELDS_SHAKE(M)      AXIS(M) AMPLITUDE(M) FREQUENCY(M) START(M) DURATION(M)
 #define FIELDS_ROCK(M)       AXIS(M) ANGLE(M, 180) FREQUENCY(M) START(M) DURATION(M)
@@ -91,7 +89,33 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
 #define FIELDS_SPIN(M)       AXIS(M) RATE(M) START(M) DURATION(M)
 #define FIELDS_ACCELERATE(M) AXIS(M) ACCELERATION(M) START(M) DURATION(M)
 #define MOTION_ROWS(KIND, NAME, HELP)                                                                        \
-    VARIANT("motion[]." NAME, MOTION(kind), MOTION_##KIND, HELP), FIELDS_##KIND(NAME)
+    VARIANT("motion[]." NAME, MOTION(kind), MOTION_##KIND, HELP), FIELDS_##KIND("motion[]." NAME)
+#define SOLID_MOTION_ROWS(KIND, NAME, HELP)                                                                  \
+    VARIANT("solids[].motion[]." NAME, MOTION(kind), MOTION_##KIND, HELP),                                   \
+        FIELDS_##KIND("solids[].motion[]." NAME)
+
+/* What each kind of solid names. */
+#define CENTRE(S, HELP)    VEC3(S ".centre", R, "m", -1000, 1000, SOLID(centre), HELP),
+#define DIRECTION(S, HELP) VEC3(S ".axis", 0, "", -1000, 1000, SOLID(axis), HELP),
+#define RADIUS(S, HELP)    NUMBER(S ".radius", R | O, "m", 0, 1000, SOLID(radius), HELP),
+
+#define FIELDS_SPHERE(S) CENTRE(S, "its centre") RADIUS(S, "its radius")
+#define FIELDS_BOX(S)                                                                                        \
+    CENTRE(S, "its centre")                                                                                  \
+    VEC3(S ".size", R, "m", 0, 1000, SOLID(size), "lengths of its edges"),                                   \
+        DIRECTION(S, "what it is turned about; in two dimensions [0, 0, 1]")                                 \
+            NUMBER(S ".angle", 0, "degrees", -360, 360, SOLID(angle_deg), "how far it is turned"),
+#define FIELDS_CYLINDER(S)                                                                                   \
+    CENTRE(S, "its centre")                                                                                  \
+    RADIUS(S, "its radius")                                                                                  \
+    NUMBER(S ".height", R | O, "m", 0, 1000, SOLID(height), "its length"), DIRECTION(S, "its direction")
+#define FIELDS_BOWL(S)                                                                                       \
+    CENTRE(S, "of its sphere, in the middle of its opening")                                                 \
+    RADIUS(S, "inside")                                                                                      \
+    NUMBER(S ".thickness", 0, "m", 0, 1000, SOLID(thickness), "of its wall; 0: the support radius"),         \
+        DIRECTION(S, "where it opens to")
+#define SOLID_ROWS(KIND, NAME, HELP)                                                                         \
+    VARIANT("solids[]." NAME, SOLID(kind), SOLID_##KIND, HELP), FIELDS_##KIND("solids[]." NAME)
 
 /* Bounds are wide: they catch slips of the unit and of the sign, not taste. */
 /* clang-format off */
@@ -122,6 +146,16 @@ static const Key keys[] = {
     VARIANT("fluids[].fill[].ball", FILL(kind), FILL_BALL, "a ball"),
     VEC3("fluids[].fill[].ball.centre", R, "m", -1000, 1000, FILL(centre), "its centre"),
     NUMBER("fluids[].fill[].ball.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
+
+    LIST("solids", 0, 0, SOLIDS_MAX, WORLD(solids), WORLD(solid_count), SolidDef, solid_init,
+         "bodies in the box that the fluid flows around, in its frame; each has one shape"),
+    SOLID_LIST(SOLID_ROWS)
+    CHOICE("solids[].slip", KEY_INDEX, slip_choice, SOLID(slip),
+           "free: fluid glides along it; none: it sticks, by the fluid's viscosity"),
+    COLOR("solids[].color", KEY_SINGLE, SOLID(color), NULL, "sRGB: [red, green, blue], each 0 to 1"),
+    LIST("solids[].motion", 0, 0, MOTIONS_MAX, SOLID(motions), SOLID(motion_count), Motion, NULL,
+         "how it moves in the box; all together, turns about its centre"),
+    MOTION_LIST(SOLID_MOTION_ROWS)
 
     MAPPING("solver", "how the fluid is computed"),
     CHOICE("solver.method", 0, method_choice, WORLD(method), "the equations"),

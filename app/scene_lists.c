@@ -76,6 +76,12 @@ const char *step_mode_choice(int index)
     return index <= STEP_CFL ? modes[index] : NULL;
 }
 
+const char *slip_choice(int index)
+{
+    static const char *const slips[] = {[SLIP_FREE] = "free", [SLIP_NONE] = "none"};
+    return index <= SLIP_NONE ? slips[index] : NULL;
+}
+
 double srgb_to_linear(double value)
 {
     return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4); /* IEC 61966-2-1 */
@@ -97,6 +103,15 @@ void fluid_init(void *element, int index)
     fluid->density = 1000; /* water */
     for (int k = 0; k < 3; k++)
         fluid->color[k] = (float)srgb_to_linear(palette[index % 8][k]);
+}
+
+void solid_init(void *element, int index)
+{
+    (void)index;
+    SolidDef *solid = element;
+    solid->axis[1] = 1;
+    for (int k = 0; k < 3; k++)
+        solid->color[k] = (float)srgb_to_linear(0.62); /* a grey that no fluid has */
 }
 
 void scene_default(Scene *scene)

@@ -91,7 +91,8 @@ static bool is_container(KeyType type)
 /* What the default column is read from. */
 typedef struct Defaults {
     Scene scene;
-    FluidDef fluid; /* the only kind of element with defaults other than zero */
+    FluidDef fluid; /* these two have defaults other than zero */
+    SolidDef solid;
     Motion motion;
 } Defaults;
 
@@ -100,13 +101,16 @@ static void defaults_make(Defaults *defaults)
     *defaults = (Defaults){0};
     scene_default(&defaults->scene);
     scene_key_find("fluids")->init(&defaults->fluid, 0);
+    scene_key_find("solids")->init(&defaults->solid, 0);
 }
 
 static const void *default_base(const Defaults *defaults, const Key *key)
 {
     if (!strchr(key->path, '['))
         return &defaults->scene;
-    return strncmp(key->path, "fluids[]", 8) == 0 ? (const void *)&defaults->fluid : &defaults->motion;
+    if (strncmp(key->path, "fluids[]", 8) == 0)
+        return &defaults->fluid;
+    return strstr(key->path, "motion[]") ? (const void *)&defaults->motion : &defaults->solid;
 }
 
 static void print_default(const Key *key, const Defaults *defaults, FILE *file)

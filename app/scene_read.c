@@ -97,11 +97,24 @@ static void variant_names(const char *parent, char *names, size_t size)
     }
 }
 
+/* Variants that the mapping has. */
+static int variant_count(const Place *place)
+{
+    int variants = 0;
+    for (const Node *child = place->node->first; child; child = child->next) {
+        char path[PATH_SIZE];
+        path_join(path, place->parent, child->key);
+        const Key *key = scene_key_find(path);
+        variants += key && key->type == KEY_VARIANT;
+    }
+    return variants;
+}
+
 static bool check_one_variant(const Place *place)
 {
     char names[256];
     variant_names(place->parent, names, sizeof names);
-    if (!*names || node_count(place->node) == 1)
+    if (!*names || variant_count(place) == 1)
         return true;
     return tree_error(place->tree, place->node, place->error, "%s must have exactly one of: %s", place->shown,
                       names);

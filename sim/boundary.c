@@ -92,29 +92,45 @@ static void put_bowl(Sink *sink)
     }
 }
 
-/* A lattice that fits the block, less what lies too deep. */
+/* A lattice that fits the block. */
+typedef struct Block {
+    long points[3];
+    double step[3];
+    long layers[3]; /* as many from each side are not too deep */
+} Block;
+
+static bool near_side(const Block *block, int k, long index)
+{
+    return index < block->layers[k] || index >= block->points[k] - block->layers[k];
+}
+
+static double block_at(const Block *block, int k, long index)
+{
+    return ((double)index - 0.5 * (double)(block->points[k] - 1)) * block->step[k];
+}
+
+/* One line along x: all of it, or its two ends. */
+static void put_line(Sink *sink, const Block *block, long y, long z, bool whole)
+{
+    const long points = block->points[0], skip = whole ? points : block->layers[0];
+    for (long x = 0; x < points; x++) {
+        if (x == skip && points - skip > x)
+            x = points - skip;
+        put(sink, block_at(block, 0, x), block_at(block, 1, y), block_at(block, 2, z));
+    }
+}
+
 static void put_block(Sink *sink)
 {
-    long points[3] = {1, 1, 1}, index[3];
-    double step[3] = {0};
+    Block block = {.points = {1, 1, 1}};
     for (int k = 0; k < sink->dimensions; k++) {
-        points[k] = at_least_one(sink->solid->size[k] / sink->spacing);
-        step[k] = sink->solid->size[k] / (double)points[k];
+        block.points[k] = at_least_one(sink->solid->size[k] / sink->spacing);
+        block.step[k] = sink->solid->size[k] / (double)block.points[k];
+        block.layers[k] = (long)ceil(sink->depth / block.step[k]);
     }
-    for (index[2] = 0; index[2] < points[2]; index[2]++)
-        for (index[1] = 0; index[1] < points[1]; index[1]++)
-            for (index[0] = 0; index[0] < points[0]; index[0]++) {
-                double x[3], behind = INFINITY;
-                for (int k = 0; k < 3; k++) {
-                    x[k] = ((double)index[k] - 0.5 * (double)(points[k] - 1)) * step[k];
-                    if (k < sink->dimensions)
-                        behind = fmin(
-                            behind, (double)(index[k] < points[k] / 2 ? index[k] : points[k] - 1 - index[k]) *
-                                        step[k]);
-                }
-                if (behind < sink->depth)
-                    put(sink, x[0], x[1], x[2]);
-            }
+    for (long z = 0; z < block.points[2]; z++)
+        for (long y = 0; y < block.points[1]; y++)
+            put_line(sink, &block, y, z, near_side(&block, 1, y) || near_side(&block, 2, z));
 }
 
 /* Discs of rings; of the middle ones only the outer rings. */
@@ -151,6 +167,37 @@ size_t boundary_layers(const SolidDef *solid, int dimensions, double spacing, do
         put_ball(&sink);
     }
     return sink.count;
+}
+
+/* Volume and area of the shape, m3 and m2, or m2 and m. */
+static void measures(const SolidDef *solid, int dimensions, double *volume, double *area)
+{
+    const double r = solid->radius, outer = r + solid->thickness, *e = solid->size;
+    const bool flat = dimensions == 2;
+    switch (solid->kind) {
+    case SOLID_BOX:
+        *volume = e[0] * e[1] * (flat ? 1 : e[2]);
+        *area = flat ? 2 * (e[0] + e[1]) : 2 * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]);
+        break;
+    case SOLID_CYLINDER:
+        *volume = M_PI * r * r * solid->height;
+        *area = 2 * M_PI * r * (r + solid->height);
+        break;
+    case SOLID_BOWL:
+        *volume = flat ? M_PI / 2 * (outer * outer - r * r) : 2 * M_PI / 3 * (cube(outer) - cube(r));
+        *area = flat ? M_PI * (outer + r) : 2 * M_PI * (outer * outer + r * r);
+        break;
+    default:
+        *volume = flat ? M_PI * r * r : 4 * M_PI / 3 * cube(r);
+        *area = flat ? 2 * M_PI * r : 4 * M_PI * r * r;
+    }
+}
+
+double boundary_estimate(const SolidDef *solid, int dimensions, double spacing, double depth)
+{
+    double volume, area;
+    measures(solid, dimensions, &volume, &area);
+    return fmin(volume, area * (depth + spacing)) / pow(spacing, dimensions);
 }
 
 bool boundary_create(Boundary *boundary, const WorldDef *def)

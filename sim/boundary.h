@@ -21,4 +21,7 @@ void boundary_destroy(Boundary *boundary);
    frame, and returns how many there are; with NULL it only counts. In two dimensions all have z = 0. */
 size_t boundary_layers(const SolidDef *solid, int dimensions, double spacing, double depth, float *position);
 
+/* About as many, without making them. */
+double boundary_estimate(const SolidDef *solid, int dimensions, double spacing, double depth);
+
 #endif

@@ -111,6 +111,17 @@ static double meeting(const Way *way, double length, double slack)
     return t;
 }
 
+/* Where the surface bends towards the way its tangent plane is within it, a little. */
+static void leave(Way *way, double slack, double normal[3])
+{
+    const double depth = -solid_distance(way->solid, way->dimensions, way->to);
+    if (depth <= 0)
+        return;
+    solid_normal(way->solid, way->dimensions, way->to, normal);
+    for (int k = 0; k < 3; k++)
+        way->to[k] += (depth + slack) * normal[k];
+}
+
 /* Puts `to` on the outer side of the plane that touches the surface where the way meets it. False when the
    way keeps clear of the solid. */
 static bool hold(Way *way, double normal[3])
@@ -138,6 +149,7 @@ static bool hold(Way *way, double normal[3])
     }
     for (int k = 0; k < 3; k++)
         way->to[k] += (depth + slack) * normal[k];
+    leave(way, slack, normal);
     return true;
 }
 

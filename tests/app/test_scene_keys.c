@@ -21,6 +21,17 @@ static const char everything[] = "box: {size: [1, 1, 1]}\n"
                                  "  - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
                                  "  - spin: {axis: [1, 0, 0], rate: 1}\n"
                                  "  - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
+                                 "solids:\n"
+                                 "  - sphere: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
+                                 "    motion:\n"
+                                 "      - shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 1}\n"
+                                 "      - rock: {axis: [1, 0, 0], angle: 1, frequency: 1}\n"
+                                 "      - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
+                                 "      - spin: {axis: [1, 0, 0], rate: 1}\n"
+                                 "      - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
+                                 "  - box: {centre: [0.4, 0.9, 0.4], size: [0.2, 0.2, 0.2]}\n"
+                                 "  - cylinder: {centre: [0.4, 0.9, 0.4], radius: 0.1, height: 0.2}\n"
+                                 "  - bowl: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
                                  "view: {camera: {from: [3, 3, 3], to: [0, 0, 0]}}\n";
 
 static void replace(char *path, const char *pattern, const char *with)
@@ -40,6 +51,13 @@ static void path_in_scene(const char *row, char path[128])
     replace(path, "fluids[].fill[].ball", "fluids[1].fill[0].ball");
     replace(path, "fluids[].fill[]", "fluids[0].fill[0]");
     replace(path, "fluids[]", "fluids[0]");
+    for (int kind = 0; kind < SOLID_KIND_COUNT; kind++) {
+        char pattern[32], with[32];
+        snprintf(pattern, sizeof pattern, "solids[].%s.", solid_name((SolidKind)kind));
+        snprintf(with, sizeof with, "solids[%d].%s.", kind, solid_name((SolidKind)kind));
+        replace(path, pattern, with);
+    }
+    replace(path, "solids[].", "solids[0].");
     for (int kind = 0; kind < MOTION_KIND_COUNT; kind++) {
         char pattern[32], with[32];
         snprintf(pattern, sizeof pattern, "motion[].%s.", motion_name((MotionKind)kind));
@@ -134,11 +152,13 @@ static void every_name_of_a_choice_is_taken(void **state)
     Error error;
     for (int i = 0; i < count; i++)
         for (int c = 0; keys[i].type == KEY_CHOICE && keys[i].choice(c); c++) {
-            char setting[128], text[128];
-            snprintf(setting, sizeof setting, "%s=%s", keys[i].path, keys[i].choice(c));
-            if (!parse_set(LEAST, setting, &scene, &error))
+            char path[128], setting[256], text[128];
+            path_in_scene(keys[i].path, path);
+            snprintf(setting, sizeof setting, "%s=%s", path, keys[i].choice(c));
+            if (!parse_set(everything, setting, &scene, &error))
                 fail_msg("%s", error.message);
-            key_value_text(&keys[i], &scene, text, sizeof text);
+            const bool of_solid = strncmp(path, "solids", 6) == 0;
+            key_value_text(&keys[i], of_solid ? (void *)&scene.world.solids[0] : &scene, text, sizeof text);
             assert_string_equal(text, keys[i].choice(c));
             choices++;
         }
