@@ -111,6 +111,13 @@ static void make_bounds(Frame *frame, const double size[3])
     frame->all_in_view = before && low[0] > -1 && low[1] > -1 && high[0] < 1 && high[1] < 1;
 }
 
+/* A scene of two dimensions is as deep as its particles. */
+static double flat_depth(const ParticleBuffers *particles)
+{
+    const double depth = particles->box_size[2];
+    return fabs(depth - particles->spacing) < 1e-6 * depth ? depth : 0;
+}
+
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
                 double radius, double covered_left)
 {
@@ -123,6 +130,7 @@ void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particl
     matrix_transform(frame->box_to_world, middle, center);
     make_light(frame, particles->box_size, center);
     frame->particle_radius = (float)((def->radius > 0 ? def->radius : radius) * particles->spacing);
+    frame->slab = flat_depth(particles);
     make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box);
     make_range(frame, particles);

@@ -24,6 +24,7 @@ typedef struct Frame {
     float floor_map_corner[2]; /* x z of the floor's shadow map, which covers all that the box may shade, m */
     float floor_map_size[2];   /* m */
     float particle_radius;     /* m */
+    double slab;               /* depth of the box of a scene of two dimensions, m; 0 in three */
     float bounds[4];           /* x0 x1 y0 y1 in -1..1 that hold all particles; the whole picture when some
                                   may be beside or behind the eye */
     float nearest;             /* least distance of a particle along the eye's axis, m; may be negative */

@@ -4,6 +4,7 @@
 #include "render/edges.h"
 #include "render/legend.h"
 #include "render/shadow.h"
+#include "render/solids.h"
 #include "render/view.h"
 
 #include <epoxy/gl.h>
@@ -19,8 +20,9 @@ struct Renderer {
     Shadow shadow;
     Backdrop backdrop;
     Edges edges;
-    Text *text; /* NULL before the first legend */
-    View *view; /* NULL for "none" */
+    Text *text;     /* NULL before the first legend */
+    Solids *solids; /* NULL without */
+    View *view;     /* NULL for "none" */
 };
 
 ViewDef view_def_default(void)
@@ -51,6 +53,29 @@ static bool follow_legend(Renderer *renderer, const ViewDef *def, int height, Er
     return true;
 }
 
+/* Made with the first solid. On failure all stays as it was. */
+static bool follow_solids(Renderer *renderer, const ViewDef *def, Error *error)
+{
+    if (def->solid_count == 0 || renderer->solids)
+        return true;
+    renderer->solids = solids_create(error);
+    if (renderer->solids && shadow_follow_solids(&renderer->shadow, true, error))
+        return true;
+    solids_destroy(renderer->solids);
+    renderer->solids = NULL;
+    return false;
+}
+
+static void drop_unused_solids(Renderer *renderer)
+{
+    Error none;
+    if (renderer->def.solid_count > 0)
+        return;
+    solids_destroy(renderer->solids);
+    renderer->solids = NULL;
+    shadow_follow_solids(&renderer->shadow, false, &none);
+}
+
 static bool create_parts(Renderer *renderer, int width, int height, Error *error)
 {
     const ViewDef *def = &renderer->def;
@@ -58,7 +83,7 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
         !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
-    return follow_legend(renderer, def, height, error) &&
+    return follow_legend(renderer, def, height, error) && follow_solids(renderer, def, error) &&
            (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(def, error)) != NULL);
 }
 
@@ -83,6 +108,7 @@ void renderer_destroy(Renderer *renderer)
     view_destroy(renderer->view);
     text_destroy(renderer->text);
     edges_destroy(&renderer->edges);
+    solids_destroy(renderer->solids);
     backdrop_destroy(&renderer->backdrop);
     shadow_destroy(&renderer->shadow);
     glDeleteBuffers(1, &renderer->uniforms);
@@ -90,20 +116,28 @@ void renderer_destroy(Renderer *renderer)
     free(renderer);
 }
 
-bool renderer_set_def(Renderer *renderer, const ViewDef *def, Error *error)
+static bool follow_view(Renderer *renderer, const ViewDef *def, Error *error)
 {
     const ViewDef *old = &renderer->def;
-    if (!follow_legend(renderer, def, renderer->target.height, error))
+    if (strcmp(def->kind, old->kind) == 0 && strcmp(def->colormap, old->colormap) == 0 &&
+        (def->solid_count > 0) == (old->solid_count > 0))
+        return true;
+    View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
+    if (!view && strcmp(def->kind, "none") != 0)
         return false;
-    if (strcmp(def->kind, old->kind) != 0 || strcmp(def->colormap, old->colormap) != 0) {
-        View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
-        if (!view && strcmp(def->kind, "none") != 0)
-            return false;
-        view_destroy(renderer->view);
-        renderer->view = view;
-    }
-    renderer->def = *def;
+    view_destroy(renderer->view);
+    renderer->view = view;
     return true;
+}
+
+bool renderer_set_def(Renderer *renderer, const ViewDef *def, Error *error)
+{
+    const bool followed = follow_legend(renderer, def, renderer->target.height, error) &&
+                          follow_solids(renderer, def, error) && follow_view(renderer, def, error);
+    if (followed)
+        renderer->def = *def;
+    drop_unused_solids(renderer);
+    return followed;
 }
 
 bool renderer_resize(Renderer *renderer, int width, int height, Error *error)
@@ -124,6 +158,11 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error)
 
 static void draw_shadow(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
+    if (renderer->solids) {
+        solids_place(renderer->solids, particles, frame);
+        shadow_begin_solids(&renderer->shadow);
+        solids_cast(renderer->solids);
+    }
     shadow_begin(&renderer->shadow);
     if (renderer->view)
         view_cast(renderer->view, particles, frame);
@@ -156,6 +195,11 @@ void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer
         target_begin(&renderer->target);
         backdrop_draw(&renderer->backdrop, &frame, &renderer->shadow);
     }
+    if (renderer->solids)
+        GL_STAGE(timer, STAGE_SOLIDS)
+        {
+            solids_draw(renderer->solids, &frame);
+        }
     if (renderer->view)
         view_draw(renderer->view, particles, &frame);
     GL_STAGE(timer, STAGE_OVERLAY)

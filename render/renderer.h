@@ -1,4 +1,5 @@
-/* One picture, from particles to pixels: shadow, view, backdrop, edges, legend. The entry for all commands.
+/* One picture, from particles to pixels: shadow, backdrop, solids, view, edges, legend. The entry for all
+   commands.
 
    Needs a current OpenGL 4.5 core context, and belongs to its thread. */
 #ifndef SLOSH_RENDERER_H
@@ -19,7 +20,7 @@ typedef struct Renderer Renderer;
 ViewDef view_def_default(void);
 
 /* Copies the def. NULL on failure: an unknown view or colormap, a size that the driver does not take, no
-   font. A def of kind "none" draws backdrop, edges and legend only. */
+   font. A def of kind "none" draws backdrop, solids, edges and legend only. */
 Renderer *renderer_create(const ViewDef *def, int width, int height, Error *error);
 void renderer_destroy(Renderer *renderer); /* NULL is allowed */
 

@@ -13,6 +13,7 @@
 typedef struct Spheres {
     GLuint visibility, points, shading, casting; /* programs */
     float point_limit;                           /* largest point to be drawn, pixels; 0: quads only */
+    bool solids;                                 /* the target holds more than particles */
     GLuint colormap;
     GLuint framebuffer, seen; /* number of the nearest particle where the target's own depth has one, R32UI */
     unsigned target_number;   /* which the framebuffer was made for */
@@ -37,12 +38,13 @@ static void spheres_destroy(void *state)
 
 static bool create_programs(Spheres *spheres, Error *error)
 {
+    static const char *const shading[] = {"common/screen.vert", "render/spheres_shade.frag", NULL};
     spheres->visibility = program_create_pair("spheres", "render/spheres.vert", "render/spheres.frag", error);
     spheres->points = spheres->visibility ? program_create_pair("spheres point", "render/spheres_point.vert",
                                                                 "render/spheres_point.frag", error)
                                           : 0;
-    spheres->shading = spheres->points ? program_create_pair("spheres shade", "common/screen.vert",
-                                                             "render/spheres_shade.frag", error)
+    spheres->shading = spheres->points ? program_create("spheres shade", shading,
+                                                        spheres->solids ? "#define SOLIDS 1\n" : NULL, error)
                                        : 0;
     spheres->casting = spheres->shading ? program_create_pair("spheres shadow", "render/spheres_shadow.vert",
                                                               "render/depth_only.frag", error)
@@ -68,6 +70,7 @@ static void *spheres_create(const ViewDef *def, Error *error)
         error_set(error, "out of memory for the view");
         return NULL;
     }
+    spheres->solids = def->solid_count > 0;
     spheres->colormap = colormap_texture(def->colormap);
     if (!spheres->colormap)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
@@ -121,6 +124,9 @@ static bool points_will_do(const Spheres *spheres, const Frame *frame)
 
 static void find_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
 {
+    static const GLuint none = UINT32_MAX;
+    if (spheres->solids)
+        glClearNamedFramebufferuiv(spheres->framebuffer, GL_COLOR, 0, &none);
     glBindFramebuffer(GL_FRAMEBUFFER, spheres->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
     glEnable(GL_DEPTH_TEST);
@@ -151,7 +157,7 @@ static void cut_to_bounds(const Frame *frame)
     glScissor(x0, y0, x1 - x0, y1 - y0);
 }
 
-/* The triangle at depth 0 passes where something has been drawn. */
+/* The triangle at depth 0 passes where something has been drawn; the shader leaves out solids. */
 static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);

@@ -11,7 +11,8 @@ typedef struct View View;
 typedef struct ViewKind {
     const char *name, *help;
     double radius; /* of a particle, in spacings, where ViewDef.radius is 0 */
-    /* The state behind a View, or NULL with the reason. */
+    /* The state behind a View, or NULL with the reason. It stays while the def has solids or has none: a view
+       looks there for what it needs to stand with them. */
     void *(*create)(const ViewDef *def, Error *error);
     void (*destroy)(void *state);
     /* Draws what casts shadows, into the map of render/shadow.h. */

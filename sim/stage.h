@@ -15,6 +15,7 @@
     X(INTEGRATE, "integrate", PART_SIM)                                                                      \
     X(UPLOAD, "upload", PART_UPLOAD)                                                                         \
     X(SHADOW, "shadow", PART_RENDER)                                                                         \
+    X(SOLIDS, "solids", PART_RENDER)                                                                         \
     X(VISIBILITY, "visibility", PART_RENDER)                                                                 \
     X(SHADE, "shade", PART_RENDER)                                                                           \
     X(BACKDROP, "backdrop", PART_RENDER)                                                                     \

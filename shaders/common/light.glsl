@@ -3,11 +3,15 @@ layout(binding = 0) uniform sampler2D shadow_map; // reversed: 1 next to the lig
 
 // How much of the key light reaches a point inside the fluid. Not a yes or no: it fades with the depth below the first
 // lit surface, as in a cloudy liquid, which is soft, needs no bias and costs one texel.
+float fluid_light_at(vec3 at)
+{
+    float below = (textureLod(shadow_map, at.xy, 0.0).x - at.z) * lens.w;
+    return 0.12 + 0.88 * exp2(-0.55 * max(below - particle.x, 0.0) / max(particle.x, 1e-9));
+}
+
 float fluid_light(vec3 in_eye)
 {
-    vec3 at = (eye_to_light * vec4(in_eye, 1.0)).xyz;
-    float below = (textureLod(shadow_map, at.xy, 0.0).x - at.z) * lens.w;
-    return 0.12 + 0.88 * exp2(-0.55 * max(below - particle.x, 0.0) / particle.x);
+    return fluid_light_at((eye_to_light * vec4(in_eye, 1.0)).xyz);
 }
 
 vec3 ambient_light(vec3 normal)

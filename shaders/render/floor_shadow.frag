@@ -1,7 +1,11 @@
-// How much light the fluid lets through to each place of the floor: the covered share of a disc in the shadow map, whose
+// How much light fluid and solids let through to each place of the floor: the covered share of a disc in the shadow map, whose
 // size stands for that of the light.
 #include "common/frame.glsl"
 #include "common/light.glsl"
+
+#ifdef SOLIDS
+#include "common/solid_light.glsl"
+#endif
 
 layout(location = 0) uniform float texel; // as a share of the map's side
 layout(location = 0) out float light_left;
@@ -15,7 +19,12 @@ void main()
     float covered = 0.0;
     for (int i = 0; i < taps; i++) { // a sunflower's seeds: even over the disc
         float angle = 2.39996 * float(i), reach = sqrt((float(i) + 0.5) / float(taps)) * light_to.w;
-        covered += min(1.0, 1e6 * textureLod(shadow_map, at + reach * vec2(cos(angle), sin(angle)), 0.0).x);
+        vec2 tap = at + reach * vec2(cos(angle), sin(angle));
+        float share = min(1.0, 1e6 * textureLod(shadow_map, tap, 0.0).x);
+#ifdef SOLIDS
+        share = max(share, 1.0 - textureLod(solid_map, vec3(tap, 0.0), 0.0));
+#endif
+        covered += share;
     }
     light_left = 1.0 - covered / float(taps);
 }

@@ -1,8 +1,11 @@
 // Colours the particle that spheres.frag found in this pixel. Where it found none the map holds anything: the test of depth
-// leaves these out.
+// leaves these out. With SOLIDS depth may be that of a solid: there the map holds the number of no particle.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/particles.glsl"
+#ifdef SOLIDS
+#include "common/solid_light.glsl"
+#endif
 
 layout(early_fragment_tests) in;
 layout(binding = 1) uniform usampler2D seen_map;
@@ -17,14 +20,15 @@ vec3 particle_color(uint index)
     return texelFetch(colormap, ivec2(clamp(value, 0.0, 1.0) * 255.0 + 0.5, 0), 0).rgb;
 }
 
-vec3 shade(vec3 albedo, vec3 normal, vec3 to_eye, float lit)
+// `key`: what of the key light arrives; `lit`: the same with no solid in its way.
+vec3 shade(vec3 albedo, vec3 normal, vec3 to_eye, float lit, float key)
 {
     float to_light = dot(normal, light_in_eye.xyz);
     float crevice = 0.45 + 0.55 * max(dot(normal, to_eye), 0.0); // what neighbours take of the sky near the rim
     float glint = max(dot(2.0 * to_light * normal - light_in_eye.xyz, to_eye), 0.0);
     glint *= glint, glint *= glint, glint *= glint, glint *= glint;
     vec3 sky = ambient_light(normal) * (crevice * (0.35 + 0.65 * lit));
-    return albedo * sky + light_color.rgb * (lit * (albedo * max(to_light, 0.0) + 0.10 * glint));
+    return albedo * sky + light_color.rgb * (key * (albedo * max(to_light, 0.0) + 0.10 * glint));
 }
 
 // Where the ray meets the sphere, as its normal there: that is u + k ray with u = (w ray - c) / r, w = -c.z and |normal| = 1,
@@ -40,11 +44,19 @@ vec3 normal_at(vec3 centre, vec3 ray, float per_ray2)
 void main()
 {
     uint index = texelFetch(seen_map, ivec2(gl_FragCoord.xy), 0).x;
+#ifdef SOLIDS
+    if (index == 0xffffffffu)
+        discard;
+#endif
     vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
     vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
     float per_ray = inversesqrt(dot(ray, ray));
     vec3 normal = normal_at(centre, ray, per_ray * per_ray);
     vec3 albedo = particle_color(index);
-    vec3 lit = shade(albedo, normal, -per_ray * ray, fluid_light(centre + particle.x * normal));
-    color = vec4(mix(albedo, lit, light_in_eye.w), 1.0);
+    vec3 place = centre + particle.x * normal;
+    float lit = fluid_light(place), key = lit;
+#ifdef SOLIDS
+    key *= solid_light(place);
+#endif
+    color = vec4(mix(albedo, shade(albedo, normal, -per_ray * ray, lit, key), light_in_eye.w), 1.0);
 }

@@ -88,6 +88,28 @@ static inline Particles *particles_wave(double spacing)
     return particles;
 }
 
+/* Takes out those whose centres are in a solid, or nearer to one than half a spacing. */
+static inline void particles_spare(Particles *particles, const ViewDef *def, double spacing)
+{
+    size_t count = particles->count;
+    particles->count = 0;
+    for (size_t i = 0; i < count; i++) {
+        const float *at = &particles->position[4 * i];
+        bool outside = true;
+        for (int k = 0; outside && k < def->solid_count; k++) {
+            BoxState pose;
+            double x[3] = {at[0], at[1], at[2]};
+            solid_pose(&def->solids[k], 0, &pose);
+            for (int axis = 0; axis < 3; axis++)
+                x[axis] -= pose.position[axis];
+            quat_rotate_inverse(pose.orientation, x, x);
+            outside = solid_distance(&def->solids[k], 3, x) > spacing / 2;
+        }
+        if (outside)
+            particles_add(particles, at[0], at[1], at[2], particles->speed[i], particles->fluid[i]);
+    }
+}
+
 static inline void text_set(char name[NAME_SIZE], const char *text)
 {
     snprintf(name, NAME_SIZE, "%s", text);

@@ -21,6 +21,7 @@ static Image draw(const Golden *golden)
     Image image;
     ParticleBuffers buffers;
     Particles *particles = particles_wave(SPACING);
+    particles_spare(particles, &golden->def, SPACING);
     ParticleBuffers box = box_state(particles->count, SPACING);
     box.box = golden->box;
     Upload *upload = upload_particles(particles, &box, &buffers);
@@ -132,6 +133,26 @@ static void test_nothing(void **state)
     check(&golden);
 }
 
+/* A ball that swims, a pillar, a block that sinks, and the second fluid in a bowl. */
+static void test_solids(void **state)
+{
+    (void)state;
+    static const SolidDef solids[] = {
+        {SOLID_SPHERE, .centre = {-0.62, 0.47, 0.12}, .radius = 0.19, .color = {0.75F, 0.20F, 0.12F}},
+        {SOLID_CYLINDER, .centre = {-0.16, 0.35, 0.24}, .radius = 0.09, .height = 0.7, .axis = {0, 1, 0},
+         .color = {0.75F, 0.72F, 0.65F}},
+        {SOLID_BOX, .centre = {0.72, 0.34, 0.24}, .size = {0.34, 0.2, 0.26}, .axis = {0.3, 1, 0.7},
+         .angle_deg = 40, .color = {0.80F, 0.55F, 0.20F}},
+        {SOLID_BOWL, .centre = {0.35, 0.72, 0}, .radius = 0.28, .thickness = 0.03, .axis = {-0.2, 1, 0.25},
+         .color = {0.55F, 0.60F, 0.62F}},
+    };
+    Golden golden = golden_create("solids", 320, 240);
+    golden.def.solid_count = 4;
+    memcpy(golden.def.solids, solids, sizeof solids);
+    golden.box = (BoxState){.position = {0, 0.05, 0}, .orientation = {0, 0.1, 0.05, sqrt(0.9875)}};
+    check(&golden);
+}
+
 /* The measure itself: one shifted picture must not pass. */
 static void test_difference_is_seen(void **state)
 {
@@ -155,6 +176,7 @@ int main(void)
         cmocka_unit_test_teardown(test_legend, no_gl_errors),
         cmocka_unit_test_teardown(test_fluid_legend, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing, no_gl_errors),
+        cmocka_unit_test_teardown(test_solids, no_gl_errors),
         cmocka_unit_test_teardown(test_difference_is_seen, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

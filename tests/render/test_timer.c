@@ -135,6 +135,8 @@ static void test_picture_stages(void **state)
     Error error = {0};
     ParticleBuffers buffers;
     ViewDef def = view_def_default();
+    def.solid_count = 1; /* what only some scenes have */
+    def.solids[0] = (SolidDef){.radius = 0.2, .centre = {0, 0.7, 0}};
     Particles *particles = particles_wave(0.08);
     ParticleBuffers box = box_state(particles->count, 0.08);
     Upload *upload = upload_particles(particles, &box, &buffers);

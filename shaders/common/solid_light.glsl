@@ -1,0 +1,19 @@
+// What of the key light solids let pass: yes or no, with a rim of a texel or two. Wants common/frame.glsl.
+layout(binding = 4) uniform sampler2DShadow solid_map; // reversed, as shadow_map; holds the sides away from the light
+
+// In sides of the map.
+float shadow_texel()
+{
+    return 1.0 / float(textureSize(solid_map, 0).x);
+}
+
+float solid_light(vec3 in_eye)
+{
+    float texel = shadow_texel(), sum = 0.0;
+    vec3 at = (eye_to_light * vec4(in_eye, 1.0)).xyz + vec3(0.0, 0.0, 0.5 * texel);
+    for (int i = 0; i < 4; i++) {
+        vec2 step = vec2(i & 1, i >> 1) - 0.5;
+        sum += textureLod(solid_map, at + vec3(1.5 * texel * step, 0.0), 0.0);
+    }
+    return 0.25 * sum;
+}

@@ -1,0 +1,18 @@
+#include "common/frame.glsl"
+#include "common/solids.glsl"
+
+layout(location = 0) in vec3 position; // in the solid's own frame, m
+layout(location = 1) in vec3 normal;
+layout(location = 2) in uint solid;
+layout(location = 0) out vec3 in_eye;
+layout(location = 1) out vec3 normal_in_eye;
+layout(location = 2) flat out vec3 albedo;
+
+void main()
+{
+    mat4 to_eye = solids[solid].to_eye;
+    in_eye = (to_eye * vec4(position, 1.0)).xyz;
+    normal_in_eye = mat3(to_eye) * normal;
+    albedo = solids[solid].color.rgb;
+    gl_Position = vec4(in_eye.xy / lens.xy, lens.z, -in_eye.z);
+}

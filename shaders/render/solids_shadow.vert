@@ -1,0 +1,11 @@
+// Solids as the light sees them.
+#include "common/solids.glsl"
+
+layout(location = 0) in vec3 position; // in the solid's own frame, m
+layout(location = 2) in uint solid;
+
+void main()
+{
+    vec3 at = (solids[solid].to_light * vec4(position, 1.0)).xyz;
+    gl_Position = vec4(2.0 * at.xy - 1.0, at.z, 1.0);
+}
