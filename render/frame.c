@@ -50,20 +50,43 @@ static void make_light(Frame *frame, const double size[3], const float center[3]
     }
 }
 
+/* Widens low .. high to hold the shadow on the floor of a ball in the world. */
+static void add_shadow(const Frame *frame, const float at[3], float radius, float low[2], float high[2])
+{
+    const float drop = (at[1] - frame->floor_height) / frame->to_light[1], wide = radius / frame->to_light[1];
+    for (int k = 0; k < 2; k++) {
+        low[k] = fminf(low[k], at[2 * k] - drop * frame->to_light[2 * k] - wide);
+        high[k] = fmaxf(high[k], at[2 * k] - drop * frame->to_light[2 * k] + wide);
+    }
+}
+
+/* Solids may leave the box; those that leave the light's map too have no shadow. */
+static void add_solids(const Frame *frame, double time, float low[2], float high[2])
+{
+    for (int i = 0; i < frame->def->solid_count; i++) {
+        BoxState pose;
+        float at[3], in_light[3];
+        solid_pose(&frame->def->solids[i], time, &pose);
+        for (int k = 0; k < 3; k++)
+            at[k] = (float)pose.position[k];
+        matrix_transform(frame->box_to_world, at, at);
+        matrix_transform(frame->world_to_light, at, in_light);
+        if (fabsf(in_light[0] - 0.5F) < 0.5F && fabsf(in_light[1] - 0.5F) < 0.5F)
+            add_shadow(frame, at, (float)solid_reach(&frame->def->solids[i]), low, high);
+    }
+}
+
 /* Where the light's rays through the corners of the box meet the floor, and a margin for its soft rim. */
-static void make_floor_map(Frame *frame, const double size[3])
+static void make_floor_map(Frame *frame, const double size[3], double time)
 {
     float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int corner = 0; corner < 8; corner++) {
         float at[3] = {(float)size[0] * ((corner & 1) ? 0.5F : -0.5F), (corner & 2) ? (float)size[1] : 0,
                        (float)size[2] * ((corner & 4) ? 0.5F : -0.5F)};
         matrix_transform(frame->box_to_world, at, at);
-        float drop = (at[1] - frame->floor_height) / frame->to_light[1];
-        for (int k = 0; k < 2; k++) {
-            low[k] = fminf(low[k], at[2 * k] - drop * frame->to_light[2 * k]);
-            high[k] = fmaxf(high[k], at[2 * k] - drop * frame->to_light[2 * k]);
-        }
+        add_shadow(frame, at, 0, low, high);
     }
+    add_solids(frame, time, low, high);
     float margin = 1.5F * (LIGHT_RADIUS * frame->light_depth + frame->particle_radius);
     for (int k = 0; k < 2; k++) {
         frame->floor_map_corner[k] = low[k] - margin;
@@ -72,7 +95,7 @@ static void make_floor_map(Frame *frame, const double size[3])
 }
 
 /* The floor stands still while the box moves about, as the automatic camera does. */
-static void make_floor(Frame *frame, const double size[3], const BoxState *box)
+static void make_floor(Frame *frame, const double size[3], const BoxState *box, double time)
 {
     double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
     float anchor[3];
@@ -82,7 +105,7 @@ static void make_floor(Frame *frame, const double size[3], const BoxState *box)
     frame->floor_center[0] = anchor[0];
     frame->floor_center[1] = anchor[2];
     frame->floor_radius = frame->def->floor ? (float)(4.0 * diagonal) : 0;
-    make_floor_map(frame, size);
+    make_floor_map(frame, size, time);
 }
 
 /* Of the box and a radius around it: a cube around each sphere is inside. */
@@ -132,7 +155,7 @@ void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particl
     frame->particle_radius = (float)((def->radius > 0 ? def->radius : radius) * particles->spacing);
     frame->slab = flat_depth(particles);
     make_bounds(frame, particles->box_size);
-    make_floor(frame, particles->box_size, &particles->box);
+    make_floor(frame, particles->box_size, &particles->box, particles->time);
     make_range(frame, particles);
     frame->by_fluid = def->color_by == SCALAR_FLUID || !particles->scalar[def->color_by].buffer;
 }

@@ -21,7 +21,8 @@ typedef struct Frame {
     float floor_height;        /* m, world */
     float floor_center[2];     /* x z, m */
     float floor_radius;        /* at which it has faded, m; 0 without a floor */
-    float floor_map_corner[2]; /* x z of the floor's shadow map, which covers all that the box may shade, m */
+    float floor_map_corner[2]; /* x z of the floor's shadow map, which covers all that box and solids may
+                                  shade, m */
     float floor_map_size[2];   /* m */
     float particle_radius;     /* m */
     double slab;               /* depth of the box of a scene of two dimensions, m; 0 in three */

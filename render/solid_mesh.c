@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of a half circle: on one of 300 pixels radius chords leave the arc by 300 (1 - cos(pi / 96)) = 0.16.
- */
-enum { HALF_TURN = 48, TURN = 2 * HALF_TURN };
+/* Steps of a half circle: chords leave a circle of 300 pixels radius by 300 (1 - cos(pi / 64)) = 0.36. */
+enum { HALF_TURN = 32, TURN = 2 * HALF_TURN };
 
 typedef struct Pen {
     SolidMesh *mesh;

@@ -13,7 +13,7 @@ const float exposure = 0.8; // white that faces sky and key light just reaches t
 // Fluid's shadow has a rim of one texel, which shows on what is smooth: the mean over a few of them.
 float soft_fluid_light(vec3 in_eye)
 {
-    const int taps = 8;
+    const int taps = 4;
     vec3 at = (eye_to_light * vec4(in_eye, 1.0)).xyz;
     float sum = 0.0;
     for (int i = 0; i < taps; i++) { // a sunflower's seeds: even over the disc

@@ -104,7 +104,7 @@ static int compare(Scene *scene, double tolerance)
 
 static void test_every_kind_is_where_it_is(void **state)
 {
-    (void)state; /* chords leave their arcs by 1.4e-4 m, which slanting rays lengthen */
+    (void)state; /* chords leave their arcs by 3e-4 m, which slanting rays lengthen */
     for (int kind = 0; kind < SOLID_KIND_COUNT; kind++) {
         Scene scene = scene_create();
         SolidDef *solid = scene_add(&scene, (SolidKind)kind, 0.2, 0.6, -0.1);
@@ -112,11 +112,11 @@ static void test_every_kind_is_where_it_is(void **state)
         solid->angle_deg = 50;
         scene.state.box =
             (BoxState){.position = {-0.2, 0.1, 0.1}, .orientation = {0.2, 0.1, -0.1, sqrt(0.94)}};
-        assert_true(compare(&scene, kind == SOLID_BOX ? 2e-5 : 1.2e-3) > 600);
+        assert_true(compare(&scene, kind == SOLID_BOX ? 2e-5 : 2.5e-3) > 600);
     }
 }
 
-/* Against the formula: a ball's depth at every pixel that is not near its rim. Chords leave the arc by 1.4e-4
+/* Against the formula: a ball's depth at every pixel that is not near its rim. Chords leave the arc by 3e-4
    m along its circles and as much across. */
 static void test_sphere_by_formula(void **state)
 {
@@ -141,7 +141,7 @@ static void test_sphere_by_formula(void **state)
                      seen = depth[i] > 0 ? camera.near_plane / depth[i] : 0;
         hits += wanted > 0;
         const double facing = sqrt(fabs(root) / dd) / solid->radius; /* cosine between ray and normal */
-        if (fabs(wanted - seen) > 3e-4 / facing)
+        if (fabs(wanted - seen) > 7e-4 / facing)
             fail_msg("pixel %d %d: distance %.6f, formula %.6f", i % WIDTH, i / WIDTH, seen, wanted);
     }
     assert_true(hits > 500);
@@ -196,6 +196,25 @@ static void test_the_nearer_is_seen(void **state)
         shift(&scene, 0.02); /* that much out of the face */
         assert_false(solid_in_the_middle(&scene));
         shift(&scene, -0.02);
+        assert_true(solid_in_the_middle(&scene));
+        free(scene.particles);
+    }
+}
+
+/* Of two solids the nearer, whichever comes first in the list. */
+static void test_the_nearer_solid_is_seen(void **state)
+{
+    (void)state;
+    for (int first = 0; first < 2; first++) {
+        Scene scene = scene_create();
+        scene.def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 40};
+        scene_add(&scene, SOLID_BOX, 0, 0.5, 0.3);
+        scene_add(&scene, SOLID_SPHERE, 0, 0.5, -0.3);
+        memcpy(scene.def.solids[1].color, (float[]){0, 1, 0}, sizeof(float[3]));
+        if (first == 1) {
+            scene.def.solids[2] = scene.def.solids[0];
+            memmove(scene.def.solids, scene.def.solids + 1, 2 * sizeof(SolidDef));
+        }
         assert_true(solid_in_the_middle(&scene));
         free(scene.particles);
     }
@@ -327,6 +346,7 @@ int main(void)
         cmocka_unit_test_teardown(test_sphere_by_formula, no_gl_errors),
         cmocka_unit_test_teardown(test_moves_with_time, no_gl_errors),
         cmocka_unit_test_teardown(test_the_nearer_is_seen, no_gl_errors),
+        cmocka_unit_test_teardown(test_the_nearer_solid_is_seen, no_gl_errors),
         cmocka_unit_test_teardown(test_hidden_particles_leave_no_trace, no_gl_errors),
         cmocka_unit_test_teardown(test_bowl_from_inside, no_gl_errors),
         cmocka_unit_test_teardown(test_flat_box, no_gl_errors),

@@ -1,6 +1,8 @@
 /* Solids in a picture: whom they shade and who shades them, and what changes while a renderer lives. */
 #include "tests/render/solids_fixture.h"
 
+#include "render/camera.h"
+
 typedef struct Darker {
     double by;  /* mean over these pixels, levels of green */
     int pixels; /* that are darker by more than 4 levels */
@@ -47,6 +49,27 @@ static void test_shadow_on_the_floor(void **state)
     const Darker darker = compare(without, with, depth, false, 0);
     assert_true(darker.by > 15);
     assert_true(darker.pixels > 300 && darker.pixels < 4000);
+    free(scene.particles);
+}
+
+/* A ball before the box, beyond what the box itself shades: its shadow is not cut off. */
+static void test_shadow_before_the_box(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * PIXELS];
+    Scene scene = scene_create();
+    Camera camera;
+    double pixel[2], depth;
+    scene.def.floor = true;
+    scene.def.camera = (CameraDef){{1.5, 1.5, 3}, {0, 0, 0.9}, 40};
+    scene_add(&scene, SOLID_SPHERE, 0, 0.3, 1)->radius = 0.15;
+    draw_rgb(&scene, false, rgb);
+    camera_make(&scene.def, scene.state.box_size, &scene.state.box, (double)WIDTH / HEIGHT, (Covered){0},
+                &camera);
+    const double drop = (0.3 + 0.11) / 0.84, ground[3] = {0.40 * drop, -0.11, 1 - 0.3666 * drop};
+    assert_true(camera_project(&camera, ground, WIDTH, HEIGHT, pixel, &depth));
+    const uint8_t *at = rgb + 3 * ((int)pixel[1] * WIDTH + (int)pixel[0]);
+    assert_true(at[1] + 25 < rgb[1]); /* than the corner of the picture */
     free(scene.particles);
 }
 
@@ -208,6 +231,12 @@ static void test_stage_only_with_solids(void **state)
         renderer_draw(renderer, &buffers, timer);
         assert_true(gl_timer_frame(timer, &times));
         assert_int_equal(times.ran[STAGE_SOLIDS], solids);
+        scene.def.solid_count = 0;
+        assert_true(renderer_set_def(renderer, &scene.def, &error));
+        times = (StageTimes){0};
+        renderer_draw(renderer, &buffers, timer);
+        assert_true(gl_timer_frame(timer, &times));
+        assert_false(times.ran[STAGE_SOLIDS]);
         gl_timer_destroy(timer);
         renderer_destroy(renderer);
         upload_destroy(upload);
@@ -219,6 +248,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_shadow_on_the_floor, no_gl_errors),
+        cmocka_unit_test_teardown(test_shadow_before_the_box, no_gl_errors),
         cmocka_unit_test_teardown(test_shadow_on_fluid_and_on_solids, no_gl_errors),
         cmocka_unit_test_teardown(test_fluid_shades_solids, no_gl_errors),
         cmocka_unit_test_teardown(test_no_shadow_of_its_own, no_gl_errors),
