@@ -176,7 +176,7 @@ static const Key keys[] = {
     NUMBER("solver.step.dt", L, "s", 1e-7, 1, WORLD(dt), "fixed: simulated time of a frame"),
     INTEGER("solver.step.substeps", L, 1, 10000, WORLD(substeps), "fixed: steps in a frame"),
     NUMBER("solver.step.number", L, "", 0.001, 2, WORLD(cfl_number),
-           "cfl: of the limits h / (c + v), sqrt(h / a) and h^2 / 4 nu"),
+           "cfl: of the limits h / (c + v), sqrt(h / a) and h^2 / 4 nu (wcsph: h^2 / 8 nu)"),
     NUMBER("solver.step.max_dt", L, "s", 1e-7, 1, WORLD(max_dt), "cfl: greatest step"),
     INTEGER("solver.step.retries", 0, 0, 10, WORLD(retries),
             "after trouble go back and halve the step, up to so many times; 0: stop at once"),

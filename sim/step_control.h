@@ -11,7 +11,7 @@
     X(DT, "dt", "the scene's fixed step")                                                                    \
     X(COURANT, "courant", "number h / (c + greatest speed)")                                                 \
     X(FORCE, "force", "number sqrt(h / greatest acceleration)")                                              \
-    X(VISCOUS, "viscous", "number h^2 / 4 nu, nu the greatest kinematic viscosity")                          \
+    X(VISCOUS, "viscous", "number h^2 / 4 nu, with wcsph h^2 / 8 nu; nu the greatest kinematic viscosity")   \
     X(MAX_DT, "max_dt", "the scene's greatest step")                                                         \
     X(GROWTH, "growth", "a tenth more than the step before")
 

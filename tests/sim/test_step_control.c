@@ -23,6 +23,10 @@ static void each_limit_binds(void **state)
     def.fluids[0].viscosity = 4000; /* nu = 4 m2/s */
     assert_true(fabs(step_cfl(&def, 1, 1, 1, &limit) - 0.3 * 0.21 * 0.21 / 16) < 1e-12);
     assert_int_equal(limit, STEP_LIMIT_VISCOUS);
+    strcpy(def.method, "wcsph");
+    assert_true(fabs(step_cfl(&def, 1, 1, 1, &limit) - 0.3 * 0.21 * 0.21 / 32) < 1e-12);
+    assert_int_equal(limit, STEP_LIMIT_VISCOUS);
+    strcpy(def.method, "mueller");
     def.max_dt = 1e-4;
     assert_true(step_cfl(&def, 1, 1, 1, &limit) == 1e-4);
     assert_int_equal(limit, STEP_LIMIT_MAX_DT);
