@@ -124,6 +124,8 @@ static const Key keys[] = {
 
     MAPPING("box", "the box that holds the fluid; its origin is the centre of its floor, y is up"),
     VEC3("box.size", R, "m", 0.001, 1000, WORLD(box_size), "inner width (x), height (y), depth (z); [width, height] makes a scene of two dimensions, whose vectors may have two numbers"),
+    CHOICE("box.slip", KEY_INDEX, slip_choice, WORLD(wall_slip),
+           "how fluid passes the walls; none: they hold fluid that has a viscosity (no friction by solver.artificial_viscosity)"),
     VEC3("gravity", L, "m/s2", -1000, 1000, WORLD(gravity), "in the world's frame"),
 
     MAPPING("particles", "the resolution"),

@@ -79,6 +79,8 @@ static bool def_check(const WorldDef *def, Error *error)
             !(def->fluids[f].surface_tension >= 0))
             return error_set(
                 error, "fluid %d: density must be positive, viscosity and surface tension not negative", f);
+    if (def->wall_slip != SLIP_FREE && def->wall_slip != SLIP_NONE)
+        return error_set(error, "the walls' slip is free or none");
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
     return motions_check(def->motions, def->motion_count, def->dimensions, error) && solids_check(def, error);
@@ -127,6 +129,20 @@ static void fluids_set(Solver *solver, const WorldDef *def)
         solver->viscosity[f] = (float)fluid->viscosity;
         solver->viscous |= fluid->viscosity > 0;
     }
+    solver->no_slip = solver->viscous && def->wall_slip == SLIP_NONE;
+}
+
+/* The tables of what the walls do, as far as the def needs them and they are not there. */
+static bool drag_set(Solver *solver, const WorldDef *def, Error *error)
+{
+    bool needed = false;
+    for (int f = 0; f < def->fluid_count; f++)
+        needed |= def->wall_slip == SLIP_NONE && def->fluids[f].viscosity > 0;
+    if (!needed || solver->drag.table[0] ||
+        wall_drag_create(&solver->drag, def->box_size, def->spacing, def->support * def->spacing,
+                         &solver->lattice, solver->continuity))
+        return true;
+    return error_set(error, "no memory for the friction of the walls");
 }
 
 /* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
@@ -190,12 +206,12 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     memcpy(solver->solids, def->solids, sizeof solver->solids);
     if (!boundary_create(&solver->boundary, def))
         return error_set(error, "no memory for the boundary particles of the solids");
-    return true;
+    return drag_set(solver, def, error);
 }
 
 bool solver_change(Solver *solver, const WorldDef *def, Error *error)
 {
-    if (!def_check(def, error))
+    if (!def_check(def, error) || !drag_set(solver, def, error))
         return false;
     fluids_set(solver, def);
     return true;
@@ -205,4 +221,5 @@ void solver_destroy(Solver *solver)
 {
     walls_destroy(&solver->walls);
     boundary_destroy(&solver->boundary);
+    wall_drag_destroy(&solver->drag);
 }

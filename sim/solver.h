@@ -7,6 +7,7 @@
 #include "sim/lattice.h"
 #include "sim/tension.h"
 #include "sim/wall.h"
+#include "sim/wall_drag.h"
 #include "sim/world_def.h"
 
 /* The grid of cells of side h: cell (i, j, k) holds floor(x / h) = first + (i, j, k), of one global lattice
@@ -47,6 +48,8 @@ typedef struct Solver {
     int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
     Lattice lattice;
     Walls walls;
+    bool no_slip;  /* walls hold fluid: the def says so and some mu is not zero */
+    WallDrag drag; /* made once `no_slip` is first true */
     int dimensions;
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
@@ -56,7 +59,7 @@ typedef struct Solver {
 /* False with the reason: a def out of range, too many cells, no memory. */
 bool solver_create(Solver *solver, const WorldDef *def, Error *error);
 /* Takes what may change while a world lives: viscosities, sound speed, negative pressure. False with the
-   reason: nothing has changed. */
+   reason, no memory among them: nothing has changed. */
 bool solver_change(Solver *solver, const WorldDef *def, Error *error);
 
 void solver_destroy(Solver *solver);

@@ -61,6 +61,7 @@ typedef struct WorldDef {
     double artificial_viscosity;    /* alpha of wcsph, for fluids without a viscosity */
     double delta_sph;               /* delta of wcsph's density diffusion; 0: none */
     int tension_model;              /* a TensionModel of sim/tension.h */
+    int wall_slip;                  /* a Slip of sim/solid.h: how viscous fluid passes the walls of the box */
     StepMode step_mode;
     double dt;         /* simulated time of a frame, s; mode fixed */
     int substeps;      /* steps in a frame; mode fixed */

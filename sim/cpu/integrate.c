@@ -70,6 +70,26 @@ static void atomic_greatest(float *greatest, float value)
         ;
 }
 
+/* The drag of the walls, sim/wall_drag.h, by v' = v + (a + g - k v') dt: at the end of the step, so that it
+   can't overshoot however near the wall; what is left of a + g then is put in a's place. */
+static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
+{
+    Cpu *cpu = kick->cpu;
+    const Solver *s = cpu->solver;
+    const CpuParticles *p = &cpu->now;
+    const float *g = kick->gravity, dt = kick->dt;
+    for (size_t i = begin; i < end; i++) {
+        const float x[3] = {p->x[i], p->y[i], p->z[i]}, drag = wall_drag_at(&s->drag, x);
+        if (drag == 0)
+            continue;
+        const int fluid = p->fluid[i];
+        const float k = s->viscosity[fluid] / s->mass[fluid] * cpu->volume[i] / s->rest_number_density * drag;
+        cpu->ax[i] = (cpu->ax[i] + g[0] - k * p->vx[i]) / (1 + k * dt) - g[0];
+        cpu->ay[i] = (cpu->ay[i] + g[1] - k * p->vy[i]) / (1 + k * dt) - g[1];
+        cpu->az[i] = (cpu->az[i] + g[2] - k * p->vz[i]) / (1 + k * dt) - g[2];
+    }
+}
+
 static void kick_run(const Kick *kick, size_t begin, size_t end)
 {
     Cpu *cpu = kick->cpu;
@@ -77,6 +97,8 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
     const float fastest = cpu->solver->support_radius / kick->dt;
     float speed2 = 0, acceleration2 = 0, volume = INFINITY;
     bool bounded = true; /* false for NaN as well */
+    if (cpu->solver->no_slip)
+        hold_by_walls(kick, begin, end);
     for (size_t i = begin; i < end; i++) {
         const float ax = cpu->ax[i] + kick->gravity[0], ay = cpu->ay[i] + kick->gravity[1],
                     az = cpu->az[i] + kick->gravity[2];
