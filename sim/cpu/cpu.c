@@ -39,10 +39,10 @@ static void cpu_destroy(void *state)
     Cpu *cpu = state;
     particles_destroy(&cpu->now);
     particles_destroy(&cpu->spare);
-    void *const all[] = {cpu->volume,    cpu->pressure, cpu->pressure_term, cpu->viscosity, cpu->artificial,
-                         cpu->relative,  cpu->tension,  cpu->kind,          cpu->ax,        cpu->ay,
-                         cpu->az,        cpu->cell,     cpu->spare_cell,    cpu->rank,      cpu->order,
-                         cpu->cell_start};
+    void *const all[] = {cpu->volume,     cpu->pressure, cpu->pressure_term, cpu->viscosity, cpu->artificial,
+                         cpu->relative,   cpu->tension,  cpu->kind,          cpu->ax,        cpu->ay,
+                         cpu->az,         cpu->cell,     cpu->spare_cell,    cpu->rank,      cpu->order,
+                         cpu->cell_start, cpu->slope[0], cpu->slope[1],      cpu->slope[2]};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     free(cpu->owned_at);
@@ -62,6 +62,9 @@ static bool cpu_adapt(void *state)
         {&cpu->viscosity, s->viscous && (s->fluid_count > 1 || s->continuity)},
         {&cpu->artificial, s->continuity && s->artificial},
         {&cpu->relative, s->continuity && s->diffusion > 0},
+        {&cpu->slope[0], s->continuity && s->diffusion > 0},
+        {&cpu->slope[1], s->continuity && s->diffusion > 0},
+        {&cpu->slope[2], s->continuity && s->diffusion > 0},
         {&cpu->tension, s->tension_model != TENSION_NONE},
         {&cpu->kind, s->tension_model != TENSION_NONE || (s->continuity && s->diffusion > 0)},
     };
@@ -156,6 +159,7 @@ PairArgs cpu_pair_args(const Cpu *cpu)
         .viscosity = cpu->viscosity,
         .artificial = cpu->artificial,
         .relative = cpu->relative,
+        .slope = {cpu->slope[0], cpu->slope[1], cpu->slope[2]},
         .kind = cpu->kind,
         .tension = cpu->tension,
         .rate = cpu->ax,

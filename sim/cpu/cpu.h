@@ -20,6 +20,8 @@ typedef struct Cpu {
     float *viscosity;            /* by `density`: Pa s; NULL with one fluid or none viscous */
     float *artificial;           /* wcsph's, as PairArgs has it; NULL: none */
     float *relative;             /* wcsph's, for the diffusion of density; NULL: none */
+    float *slope[3];             /* and its gradient, by `continuity` */
+    bool slopes_due;             /* since `grid` */
     float *tension;              /* as PairArgs has it; NULL: none */
     float *kind;                 /* the fluid as a number, for these two; NULL: not needed */
     float *ax, *ay, *az;         /* by `force`, m/s2; `ax` also by `continuity` */

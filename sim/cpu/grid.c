@@ -107,6 +107,7 @@ void cpu_grid(void *state)
     const CpuParticles sorted = cpu->spare;
     cpu->spare = cpu->now;
     cpu->now = sorted;
+    cpu->slopes_due = true;
     if (cpu->boundary_at)
         cpu_boundary_find(cpu);
 }

@@ -15,6 +15,7 @@
 #define PAIR_SET               PAIR_LABEL(SIMD_SET)
 
 void PAIR_NAME(tension)(const PairArgs *args, size_t begin, size_t end);
+void PAIR_NAME(wcsph_slope)(const PairArgs *args, size_t begin, size_t end);
 void PAIR_NAME(wcsph_rate)(const PairArgs *args, size_t begin, size_t end);
 void PAIR_NAME(wcsph_force)(const PairArgs *args, size_t begin, size_t end);
 

@@ -109,4 +109,11 @@ static void force(const PairArgs *args, size_t begin, size_t end)
 
 extern const PairOps PAIR_NAME(pair_ops);
 const PairOps PAIR_NAME(pair_ops) = {
-    PAIR_SET, density, force, PAIR_NAME(tension), PAIR_NAME(wcsph_rate), PAIR_NAME(wcsph_force)};
+    PAIR_SET,
+    density,
+    force,
+    PAIR_NAME(tension),
+    PAIR_NAME(wcsph_slope),
+    PAIR_NAME(wcsph_rate),
+    PAIR_NAME(wcsph_force),
+};

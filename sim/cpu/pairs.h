@@ -21,6 +21,7 @@ typedef struct PairArgs {
     const float *relative;   /* rho / rho0 - 1 of each; NULL: no diffusion */
     const float *kind;       /* the fluid of each as a number; with `relative` */
     const float *tension;    /* sigma of each, N/m (cohesion: scaled); NULL: none; with `kind` */
+    float *slope[3];         /* out of `wcsph_slope`: gradient of `relative`, 1/m; NULL without it */
     float *rate;             /* out of `wcsph_rate`: of the number density, 1/(m3 s), no walls */
     float *number_density;   /* out of `density`, 1/m3: all pairs, self included, no walls */
     float *fx, *fy, *fz;     /* out of `force`, N */
@@ -31,6 +32,7 @@ typedef struct PairOps {
     void (*density)(const PairArgs *args, size_t begin, size_t end);
     void (*force)(const PairArgs *args, size_t begin, size_t end);
     void (*tension)(const PairArgs *args, size_t begin, size_t end); /* adds to fx, fy, fz */
+    void (*wcsph_slope)(const PairArgs *args, size_t begin, size_t end);
     void (*wcsph_rate)(const PairArgs *args, size_t begin, size_t end);
     void (*wcsph_force)(const PairArgs *args, size_t begin, size_t end);
 } PairOps;

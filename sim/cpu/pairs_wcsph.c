@@ -18,15 +18,73 @@ SIMD_INLINE f8 shape(f8 q, const WcsphKernel kernel)
     return (a2 * a2 - f8_splat(6) * (b2 * b2) + f8_splat(15) * (c2 * c2)) / q;
 }
 
-/* Sum of F v_ij . x_ij, the compression of the flow, less the diffusion of relative density (Molteni and
-   Colagrossi 2009), which acts within a fluid. */
+/* m^-1 b of the symmetric m = xx yy zz xy yz zx; 0 where det (3 m / trace) is below a quarter, since
+   neighbours hardly span the space then: all around it is 1, in the lattice's own corner 0.77. */
+static void renormalise(const float m[6], const float b[3], float out[3])
+{
+    const float cxx = m[1] * m[2] - m[4] * m[4], cyy = m[0] * m[2] - m[5] * m[5],
+                czz = m[0] * m[1] - m[3] * m[3];
+    const float cxy = m[4] * m[5] - m[3] * m[2], cyz = m[3] * m[5] - m[4] * m[0],
+                czx = m[3] * m[4] - m[5] * m[1];
+    const float det = m[0] * cxx + m[3] * cxy + m[5] * czx, mean = (m[0] + m[1] + m[2]) / 3;
+    const float scale = det > 0.25f * (mean * mean * mean) ? 1 / det : 0;
+    out[0] = scale * (cxx * b[0] + cxy * b[1] + czx * b[2]);
+    out[1] = scale * (cxy * b[0] + cyy * b[1] + cyz * b[2]);
+    out[2] = scale * (czx * b[0] + cyz * b[1] + czz * b[2]);
+}
+
+/* The gradient of relative density within a fluid, exact where that is linear: (sum F x x^T)^-1 sum F (e_i -
+   e_j) x with x = x_ij (Antuono 2010, with volumes that are all the same). */
+SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+{
+    const Solver *s = args->solver;
+    const float h = s->support_radius, least = 1e-6f * h;
+    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const float scale = s->gradient / s->rest_number_density; /* m is 1 in the lattice */
+    Rows rows = {.cell = UINT32_MAX};
+
+    for (size_t i = begin; i < end; i++) {
+        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const f8 ri = f8_splat(args->relative[i]), fi = f8_splat(args->kind[i]);
+        f8 xx = f8_splat(0), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx, bx = xx, by = xx, bz = xx;
+
+        rows_of(args, args->cell[i], &rows);
+        for (int row = rows.first; row < rows.last; row++)
+            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+                const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
+                         dz = zi - f8_load(args->z + j);
+                const f8 r2 = dx * dx + dy * dy + dz * dz;
+                const i8 near = (r2 < h2) & (r2 >= least2) & (f8_load(args->kind + j) == fi) &
+                                (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+                if (!i8_bits(near))
+                    continue;
+                const f8 f = f8_masked(near, shape(f8_sqrt(f8_select(near, r2, h2)) * inverse_h, kernel));
+                const f8 fx = f * dx, fy = f * dy, fz = f * dz, de = ri - f8_load(args->relative + j);
+                xx += fx * dx, yy += fy * dy, zz += fz * dz;
+                xy += fx * dy, yz += fy * dz, zx += fz * dx;
+                bx += fx * de, by += fy * de, bz += fz * de;
+            }
+        float m[6] = {f8_sum(xx), f8_sum(yy), f8_sum(zz), f8_sum(xy), f8_sum(yz), f8_sum(zx)}, slope[3];
+        const float b[3] = {scale * f8_sum(bx), scale * f8_sum(by), scale * f8_sum(bz)};
+        for (int k = 0; k < 6; k++)
+            m[k] *= scale;
+        if (s->dimensions == 2)
+            m[2] = 0.5f * (m[0] + m[1]);
+        renormalise(m, b, slope);
+        for (int k = 0; k < 3; k++)
+            args->slope[k][i] = slope[k];
+    }
+}
+
+/* Sum of F v_ij . x_ij, the compression of the flow, less the diffusion of relative density within a fluid:
+   what its differences have beyond its gradient (Molteni and Colagrossi 2009; Antuono 2010). */
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
                             const bool diffusive)
 {
     const Solver *s = args->solver;
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const f8 diffusion = f8_splat(s->diffusion);
+    const f8 diffusion = f8_splat(s->diffusion), half = f8_splat(0.5f);
     Rows rows = {.cell = UINT32_MAX};
 
     for (size_t i = begin; i < end; i++) {
@@ -34,6 +92,9 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
         const f8 ri = f8_splat(diffusive ? args->relative[i] : 0),
                  fi = f8_splat(diffusive ? args->kind[i] : 0);
+        const f8 gx = f8_splat(diffusive ? args->slope[0][i] : 0),
+                 gy = f8_splat(diffusive ? args->slope[1][i] : 0),
+                 gz = f8_splat(diffusive ? args->slope[2][i] : 0);
         f8 sum = f8_splat(0);
 
         rows_of(args, args->cell[i], &rows);
@@ -51,7 +112,10 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
                           (wi - f8_load(args->vz + j)) * dz;
                 if (diffusive) {
                     const i8 same = f8_load(args->kind + j) == fi;
-                    flow -= f8_masked(same, diffusion * (f8_load(args->relative + j) - ri));
+                    const f8 along = (gx + f8_load(args->slope[0] + j)) * dx +
+                                     (gy + f8_load(args->slope[1] + j)) * dy +
+                                     (gz + f8_load(args->slope[2] + j)) * dz;
+                    flow -= f8_masked(same, diffusion * (f8_load(args->relative + j) - ri + half * along));
                 }
                 sum += f8_masked(near, f * flow);
             }
@@ -138,6 +202,20 @@ SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const 
         wcsph_range(args, begin, end, kernel, false, true);
     else
         wcsph_range(args, begin, end, kernel, false, false);
+}
+
+void PAIR_NAME(wcsph_slope)(const PairArgs *args, size_t begin, size_t end)
+{
+    switch (args->solver->kernel) {
+    case KERNEL_WENDLAND_C2:
+        slope_range(args, begin, end, KERNEL_WENDLAND_C2);
+        break;
+    case KERNEL_QUINTIC:
+        slope_range(args, begin, end, KERNEL_QUINTIC);
+        break;
+    default:
+        slope_range(args, begin, end, KERNEL_CUBIC);
+    }
 }
 
 void PAIR_NAME(wcsph_rate)(const PairArgs *args, size_t begin, size_t end)

@@ -66,12 +66,30 @@ static void continuity_range(void *context, size_t begin, size_t end)
     }
 }
 
+static void slope_range(void *context, size_t begin, size_t end)
+{
+    Cpu *cpu = context;
+    const PairArgs args = cpu_pair_args(cpu);
+    for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop); i = stop)
+        cpu->pairs->wcsph_slope(&args, i, stop);
+}
+
+/* What diffusion needs: densities in the order of the last sort, and once a step, for both of its halves,
+   their gradients, which change little meanwhile. */
+static void prepare_diffusion(Cpu *cpu)
+{
+    cpu_equation_of_state(cpu);
+    if (cpu->slopes_due)
+        parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, slope_range, cpu);
+    cpu->slopes_due = false;
+}
+
 void cpu_continuity(void *state, float dt)
 {
     Cpu *cpu = state;
     Continuity pass = {cpu, dt};
-    if (cpu->relative) /* it stands in the order before the last sort */
-        cpu_equation_of_state(cpu);
+    if (cpu->relative)
+        prepare_diffusion(cpu);
     parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, continuity_range, &pass);
     cpu_equation_of_state(cpu);
 }

@@ -57,7 +57,7 @@ static WorldDef two_fluids(const char *kernel)
 
 /* The first step, particle by particle, in double. */
 typedef struct Reference {
-    double x[COUNT][3], v[COUNT][3], rate[COUNT], density[COUNT], scale[COUNT];
+    double x[COUNT][3], v[COUNT][3], rate[COUNT], density[COUNT], scale[COUNT], slope[COUNT][3];
     double h, n0, gradient;
     const Kernel *kernel;
     Walls walls;
@@ -66,6 +66,44 @@ typedef struct Reference {
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static double determinant(double m[3][3])
+{
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/* Gradients of rho / rho0 within the fluids, by Cramer's rule; none where neighbours hardly span the space.
+ */
+static void reference_slopes(const WorldDef *def, const Cloud *cloud, Reference *r)
+{
+    for (int i = 0; i < COUNT; i++) {
+        double m[3][3] = {{0}}, b[3] = {0};
+        for (int j = 0; j < COUNT; j++) {
+            double x[3];
+            for (int k = 0; k < 3; k++)
+                x[k] = r->x[j][k] - r->x[i][k];
+            const double d = sqrt(dot(x, x)), rho0 = def->fluids[cloud->fluid[i]].density;
+            if (i == j || d >= r->h || cloud->fluid[i] != cloud->fluid[j])
+                continue;
+            const double f = -r->gradient * r->kernel->derivative(d, r->h) / d / r->n0;
+            for (int k = 0; k < 3; k++) {
+                b[k] += f * x[k] * (r->density[j] - r->density[i]) / rho0;
+                for (int l = 0; l < 3; l++)
+                    m[k][l] += f * x[k] * x[l];
+            }
+        }
+        const double mean = (m[0][0] + m[1][1] + m[2][2]) / 3, det = determinant(m);
+        for (int k = 0; k < 3; k++) {
+            double with[3][3];
+            memcpy(with, m, sizeof with);
+            for (int l = 0; l < 3; l++)
+                with[l][k] = b[l];
+            r->slope[i][k] = det > 0.25 * mean * mean * mean ? determinant(with) / det : 0;
+        }
+    }
 }
 
 static void reference_rate(const WorldDef *def, const Cloud *cloud, Reference *r)
@@ -84,8 +122,11 @@ static void reference_rate(const WorldDef *def, const Cloud *cloud, Reference *r
             const double ri = r->density[i] / def->fluids[cloud->fluid[i]].density;
             const double rj = r->density[j] / def->fluids[cloud->fluid[j]].density;
             sum -= f * dot(v, x);
+            double along = 0;
+            for (int k = 0; k < 3; k++)
+                along -= 0.5 * (r->slope[i][k] + r->slope[j][k]) * x[k];
             if (cloud->fluid[i] == cloud->fluid[j])
-                sum += 2 * delta * def->sound_speed * reach * f * (rj - ri); /* n0 sum V0 ... */
+                sum += 2 * delta * def->sound_speed * reach * f * (rj - ri - along); /* n0 sum V0 ... */
         }
         const float at[3] = {(float)r->x[i][0], (float)r->x[i][1], (float)r->x[i][2]};
         WallSums walls;
@@ -175,6 +216,7 @@ static void step_equals_brute_force(const char *kernel, double width, double mid
     State s = fixture_read(world);
 
     reference_begin(&def, &cloud, &r);
+    reference_slopes(&def, &cloud, &r);
     reference_rate(&def, &cloud, &r);
     for (int i = 0; i < COUNT; i++)
         r.density[i] += 0.5 * dt * r.rate[i];
@@ -296,19 +338,19 @@ static void hydrostatic_column(const WorldDef *def, float x[3 * COLUMN], float d
     }
 }
 
-static void column_at_rest(void **state)
+static void column(double diffusion, int steps)
 {
-    (void)state;
     static float x[3 * COLUMN], density[COLUMN];
     WorldDef def = fixture_def(1, 6, 1);
     strcpy(def.method, "wcsph");
     def.sound_speed = 60; /* ten times sqrt(g H) */
     def.dt = 0.001;
+    def.delta_sph = diffusion;
     def.fluids[0].viscosity = 3000; /* settles within a few seconds */
     hydrostatic_column(&def, x, density);
     def.initial = &(InitialState){.count = COLUMN, .position = x, .density = density};
     World *world = fixture_world(&def);
-    fixture_step(world, 6000);
+    fixture_step(world, steps);
     WorldSums sums;
     world_sums(world, &sums);
     State s = fixture_read(world);
@@ -324,12 +366,19 @@ static void column_at_rest(void **state)
         error += (s.pressure[i] - p) * (s.pressure[i] - p) / (double)s.count;
     }
     error = sqrt(error) / (1000 * 9.81 * surface);
-    printf("column: surface at %.3f m, rms pressure error %.2f %% of rho0 g H, fastest %.4f m/s\n", surface,
-           100 * error, sums.max_speed);
+    printf("column, delta %g: surface at %.3f m, rms pressure error %.2f %% of rho0 g H, fastest %.4f m/s\n",
+           diffusion, surface, 100 * error, sums.max_speed);
     assert_true(sums.max_speed < 0.05);
     assert_true(error <= 0.02);
     fixture_free(&s);
     world_destroy(world);
+}
+
+static void column_at_rest(void **state)
+{
+    (void)state;
+    column(0, 6000);
+    column(delta, 3000);
 }
 
 /* Light over heavy, 1 : 10, and heavy over light for comparison: the first stays, the second does not. */
@@ -397,7 +446,7 @@ static void any_threads_give_the_same_bits(void **state)
     }
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
     /* On x86-64 with any instruction set; what this build gave when sums equalled brute force. */
-    if (hash[0] != 0xafe68e061c4b2988ULL)
+    if (hash[0] != 0x6526585fb79dcb19ULL)
         fail_msg("the bits have changed: hash %016llx", (unsigned long long)hash[0]);
 }
 
