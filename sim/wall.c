@@ -313,6 +313,14 @@ float walls_number_density(const Walls *walls, const float x[3])
     return sums.number_density;
 }
 
+float wall_face_density(const Walls *walls, float d)
+{
+    const Face face = face_at(walls, 0, 1, d);
+    WallSums sums = {0};
+    add_faces(walls, (const Face *[]){&face}, 1, true, &sums);
+    return sums.number_density;
+}
+
 bool walls_guard(const Walls *walls, float x[3], float v[3])
 {
     bool held = false;

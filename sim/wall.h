@@ -61,6 +61,9 @@ bool walls_at(const Walls *walls, const float x[3], WallSums *sums);
 /* Only the number density of it. */
 float walls_number_density(const Walls *walls, const float x[3]);
 
+/* That of one flat wall at the distance d, m. */
+float wall_face_density(const Walls *walls, float d);
+
 /* Holds x inside the box and takes the velocity into the wall away; true if it had to. */
 bool walls_guard(const Walls *walls, float x[3], float v[3]);
 

@@ -1,7 +1,6 @@
 #include "sim/world.h"
 
 #include "sim/cpu/parallel.h"
-#include "sim/seed.h"
 #include "sim/sentinel.h"
 #include "sim/world_struct.h"
 
@@ -50,82 +49,11 @@ int world_processors(void)
     return parallel_processors();
 }
 
-/* The arrays behind an InitialState made from fills. */
-typedef struct Seeds {
-    float *position, *velocity;
-    uint8_t *fluid;
-} Seeds;
-
-static void seeds_free(Seeds *seeds)
-{
-    free(seeds->position);
-    free(seeds->velocity);
-    free(seeds->fluid);
-}
-
-static bool seeds_make(const WorldDef *def, Seeds *seeds, InitialState *initial, Error *error)
-{
-    const size_t count = world_def_count(def, def->spacing);
-    if (count == 0 || count > INT32_MAX)
-        return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
-                                      : "the fluids' fills hold no particle; use a smaller spacing");
-    seeds->position = malloc(count * 3 * sizeof *seeds->position);
-    seeds->velocity = malloc(count * 3 * sizeof *seeds->velocity);
-    seeds->fluid = malloc(count);
-    if (!seeds->position || !seeds->velocity || !seeds->fluid)
-        return error_set(error, "no memory for %zu particles; use a larger spacing", count);
-
-    seed_lattice(def, seeds->position, seeds->fluid);
-    for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; k < 3; k++)
-            seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
-    *initial = (InitialState){count, seeds->position, seeds->velocity, seeds->fluid, NULL};
-    return true;
-}
-
 /* The pose at `time` with the hand's part as `filter` has it. */
 static void box_at(const World *world, const BoxFilter *filter, double time, BoxState *box)
 {
     box_state_at(world->def.motions, world->def.motion_count, world->def.box_size[1], time, box);
     box_filter_apply(filter, world->def.box_size[1], box);
-}
-
-static bool initial_check(const WorldDef *def, const InitialState *initial, Error *error)
-{
-    if (initial->count == 0 || initial->count > INT32_MAX)
-        return error_set(error, "an initial state needs 1 to 2^31 - 1 particles");
-    for (size_t i = 0; i < initial->count; i++) {
-        const float *x = initial->position + 3 * i;
-        if (def->dimensions == 2 && (x[2] != 0 || (initial->velocity && initial->velocity[3 * i + 2] != 0)))
-            return error_set(error, "particle %zu is not in the plane of a 2D scene", i);
-        if (!isfinite(x[0] + x[1] + x[2]))
-            return error_set(error, "the position of particle %zu is not finite", i);
-        if (initial->density && !(initial->density[i] > 0 && isfinite(initial->density[i])))
-            return error_set(error, "the density of particle %zu is not positive", i);
-        if (initial->fluid && initial->fluid[i] >= def->fluid_count)
-            return error_set(error, "particle %zu belongs to fluid %d, and there are %d", i,
-                             initial->fluid[i], def->fluid_count);
-    }
-    return true;
-}
-
-static bool world_start(World *world, Error *error)
-{
-    Seeds seeds = {0};
-    InitialState initial = {0};
-    const bool given = world->def.initial;
-    if (given)
-        initial = *world->def.initial;
-    bool ok = given ? initial_check(&world->def, &initial, error)
-                    : seeds_make(&world->def, &seeds, &initial, error);
-    if (ok) {
-        world->count = initial.count;
-        world->state = world->backend->create(&world->solver, &initial, world->def.threads, error);
-        ok = world->state;
-    }
-    seeds_free(&seeds);
-    world->def.initial = NULL;
-    return ok;
 }
 
 void world_settle(World *world)

@@ -24,6 +24,9 @@ struct World {
     BoxState box;                       /* at the present time, the hand's part included */
 };
 
+/* Makes the backend's state from the def's initial state or fills, with a solver that is there. */
+bool world_start(World *world, Error *error);
+
 /* What follows from the particles alone: the solids' places, grid, densities. */
 void world_settle(World *world);
 

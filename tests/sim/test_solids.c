@@ -115,8 +115,7 @@ static void a_tank_with_solids_comes_to_rest(void **state)
     static const char *const methods[] = {"mueller", "wcsph"};
     for (int m = 0; m < 2; m++) {
         WorldDef def = tank_with_solids(methods[m]);
-        def.delta_sph =
-            0.1; /* without it the gaps that a lattice leaves at round solids stay in the densities */
+        def.delta_sph = 0.1; /* disorder next to round solids would stay in the densities */
         const RestError error = rest_error(&def);
         printf(
             "%s: tank with three solids: pressure off by %.2f %% of rho0 g H (rms), by %.2f %% next to them "
