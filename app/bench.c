@@ -137,7 +137,7 @@ static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
         return true;
     WorldInfo info;
     world_info(stand->world, &info);
-    if (!studio_open(&stand->studio, &setup->scene->view, info.count, setup->width, setup->height, error))
+    if (!studio_open(&stand->studio, &setup->scene->view, info.capacity, setup->width, setup->height, error))
         return false;
     stand->timer = gl_timer_create(setup->clock);
     return stand->timer || error_set(error, "no memory for the clock of the stages");
@@ -214,7 +214,7 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
         .neighbours_mean = sums.neighbours_mean,
         .dt = def->step_mode == STEP_CFL ? info.dt : def->dt,
         .dt_substep = info.dt,
-        .bytes_per_particle = (double)info.state_bytes / (double)info.count,
+        .bytes_per_particle = (double)info.state_bytes / (double)info.capacity,
     };
     snprintf(result->scene, sizeof result->scene, "%s", setup->scene->path);
     snprintf(result->backend, sizeof result->backend, "%s", def->backend);

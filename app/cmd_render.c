@@ -29,7 +29,7 @@ static bool shoot_open(Shoot *shoot, const Session *session, const Args *args, E
     fprintf(stderr, "renderer: %s\n", headless_renderer(shoot->context));
     gl_debug_install();
     shader_source_set_directory(args->shaders);
-    if (!studio_open(&shoot->studio, &session->scene.view, session->info.count, args->width, args->height,
+    if (!studio_open(&shoot->studio, &session->scene.view, session->info.capacity, args->width, args->height,
                      error))
         return false;
     return image_create(&shoot->image, args->width, args->height) ||

@@ -1,6 +1,7 @@
 #include "app/play_scene.h"
 
 #include "app/scene_path.h"
+#include "sim/flow.h"
 #include "sim/scalar.h"
 
 #include <dirent.h>
@@ -30,8 +31,8 @@ bool play_scene_start(PlayScene *open, void (*wake)(void), bool paused, Error *e
     unsigned attributes = UPLOAD_FLUID;
     for (int s = 0; s < SCALAR_COUNT; s++)
         attributes |= upload_attributes_for((Scalar)s);
-    open->upload =
-        upload_create(world_def_count(&open->scene.world, open->scene.world.spacing), attributes, error);
+    const WorldDef *def = &open->scene.world;
+    open->upload = upload_create(flow_capacity(def, world_def_count(def, def->spacing)), attributes, error);
     if (!open->upload)
         return false;
     const SimulatorSetup setup = {.scene = &open->scene,

@@ -1,6 +1,7 @@
 #include "app/scene_check.h"
 
 #include "sim/boundary.h"
+#include "sim/flow.h"
 #include "sim/seed.h"
 
 #include <math.h>
@@ -35,6 +36,13 @@ static bool between_walls(const Check *check, const char *path, int k, double lo
                 low, high, axis_name[k], wall_low, wall_high);
 }
 
+static bool check_order(const Check *check, const char *path, const Fill *fill, int k)
+{
+    return fill->min[k] < fill->max[k] ||
+           FAIL(check, path, "the block's min is not below its max in %c (%g and %g m); swap or move them",
+                axis_name[k], fill->min[k], fill->max[k]);
+}
+
 static bool check_block(const Check *check, const Fill *fill, const char *path)
 {
     char corner[96];
@@ -42,10 +50,8 @@ static bool check_block(const Check *check, const Fill *fill, const char *path)
         const double size = check->scene->world.box_size[k];
         const bool low_out = fill->min[k] < (k == 1 ? 0 : -0.5 * size) - 1e-9 * size;
         snprintf(corner, sizeof corner, "%s.block.max[%d]", path, k);
-        if (!(fill->min[k] < fill->max[k]))
-            return FAIL(check, corner,
-                        "the block's min is not below its max in %c (%g and %g m); swap or move them",
-                        axis_name[k], fill->min[k], fill->max[k]);
+        if (!check_order(check, corner, fill, k))
+            return false;
         snprintf(corner, sizeof corner, "%s.block.%s[%d]", path, low_out ? "min" : "max", k);
         if (!between_walls(check, corner, k, fill->min[k], fill->max[k]))
             return false;
@@ -71,6 +77,23 @@ static bool check_plane(const Check *check, const char *path, const double v[3])
            FAIL(check, path, "the third number must be 0, or left out, in a 2D scene, not %g", v[2]);
 }
 
+static bool check_emit(const Check *check, int f, int index)
+{
+    const Emit *emit = &check->scene->world.fluids[f].emits[index];
+    const double *d = emit->direction;
+    char path[64], key[96];
+    snprintf(path, sizeof path, "fluids[%d].emit[%d].disk", f, index);
+    for (int k = 0; k < check->scene->world.dimensions; k++) {
+        snprintf(key, sizeof key, "%s.centre[%d]", path, k);
+        if (!between_walls(check, key, k, emit->centre[k], emit->centre[k]))
+            return false;
+    }
+    snprintf(key, sizeof key, "%s.direction", path);
+    if (hypot(hypot(d[0], d[1]), d[2]) < 1e-9)
+        return FAIL(check, key, "the direction has no length; write one such as [0, -1, 0]");
+    return check_plane(check, key, d) && check_plane(check, path, emit->centre);
+}
+
 static bool check_fluid(const Check *check, int f)
 {
     const FluidDef *fluid = &check->scene->world.fluids[f];
@@ -90,6 +113,23 @@ static bool check_fluid(const Check *check, int f)
             !check_plane(check, path, fill->centre))
             return false;
         if (!(fill->kind == FILL_BALL ? check_ball(check, fill, path) : check_block(check, fill, path)))
+            return false;
+    }
+    for (int i = 0; i < fluid->emit_count; i++)
+        if (!check_emit(check, f, i))
+            return false;
+    snprintf(path, sizeof path, "fluids[%d]", f);
+    return fluid->fill_count + fluid->emit_count > 0 ||
+           FAIL(check, path, "the fluid '%s' is nowhere; give it `fill` or `emit`", fluid->name);
+}
+
+static bool check_drain(const Check *check, int index)
+{
+    const Fill *drain = &check->scene->world.drains[index];
+    char path[96];
+    for (int k = 0; k < check->scene->world.dimensions && drain->kind == FILL_BLOCK; k++) {
+        snprintf(path, sizeof path, "drains[%d].block.max[%d]", index, k);
+        if (!check_order(check, path, drain, k))
             return false;
     }
     return true;
@@ -176,6 +216,9 @@ bool scene_check(const Tree *tree, const Scene *scene, Error *error)
     const Check check = {tree, scene, error};
     for (int f = 0; f < scene->world.fluid_count; f++)
         if (!check_fluid(&check, f))
+            return false;
+    for (int k = 0; k < scene->world.drain_count; k++)
+        if (!check_drain(&check, k))
             return false;
     for (int m = 0; m < scene->world.motion_count; m++)
         if (!check_motion(&check, "motion", m, &scene->world.motions[m]))
@@ -328,7 +371,7 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
         snprintf(path, sizeof path, "fluids[%d].fill", f);
         if (!scene_fits_memory((double)count))
             return too_many(&check, (double)count);
-        if (count == before)
+        if (count == before && scene->world.fluids[f].fill_count > 0)
             return FAIL(
                 &check, path,
                 "the fluid '%s' has no particles: its fills hold no point of the lattice of spacing %g m that "
@@ -336,5 +379,13 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
                 scene->world.fluids[f].name, spacing);
         before = count;
     }
-    return true;
+    if (!flow_emits(&scene->world))
+        return true;
+    if (!scene_fits_memory(scene->world.most))
+        return FAIL(&check, "particles.most", "%d particles are more than this machine can hold; use fewer",
+                    scene->world.most);
+    return before <= (size_t)scene->world.most ||
+           FAIL(&check, "particles.most",
+                "the fills alone hold %zu particles, more than the %d that emitters may fill up to; raise it",
+                before, scene->world.most);
 }

@@ -12,6 +12,7 @@
 #define FILL(field)    offsetof(Fill, field)
 #define MOTION(field)  offsetof(Motion, field)
 #define SOLID(field)   offsetof(SolidDef, field)
+#define EMIT(field)    offsetof(Emit, field)
 #define PLACE(at)      .offset = (at), .aux = KEY_NOWHERE
 #define BOUNDS(lo, hi) .min = (lo), .max = (hi)
 #define NOT_STORED     .offset = KEY_NOWHERE, .aux = KEY_NOWHERE
@@ -140,14 +141,33 @@ static const Key keys[] = {
     NUMBER("fluids[].surface_tension", 0, "N/m", 0, 1000, FLUID(surface_tension), "where solver.surface_tension names a model; water 0.072"),
     VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
     COLOR("fluids[].color", L | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
-    LIST("fluids[].fill", R, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, NULL,
-         "what the fluid fills at the start: blocks and balls"),
+    LIST("fluids[].fill", 0, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, NULL,
+         "what the fluid fills at the start: blocks and balls; a fluid needs this or emitters"),
     VARIANT("fluids[].fill[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
     VEC3("fluids[].fill[].block.min", R, "m", -1000, 1000, FILL(min), "its corner with the least x, y, z"),
     VEC3("fluids[].fill[].block.max", R, "m", -1000, 1000, FILL(max), "its corner with the greatest x, y, z"),
     VARIANT("fluids[].fill[].ball", FILL(kind), FILL_BALL, "a ball"),
     VEC3("fluids[].fill[].ball.centre", R, "m", -1000, 1000, FILL(centre), "its centre"),
     NUMBER("fluids[].fill[].ball.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
+
+    LIST("fluids[].emit", 0, 0, EMITS_MAX, FLUID(emits), FLUID(emit_count), Emit, NULL,
+         "what sends it out: a lattice at rest density, layer by layer, where there is room"),
+    VARIANT("fluids[].emit[].disk", EMIT(kind), 0, "a disk; in two dimensions a line"),
+    VEC3("fluids[].emit[].disk.centre", R, "m", -1000, 1000, EMIT(centre), "its centre"),
+    VEC3("fluids[].emit[].disk.direction", R, "", -1000, 1000, EMIT(direction), "where the fluid goes; of any length but zero"),
+    NUMBER("fluids[].emit[].disk.radius", R | O, "m", 0, 1000, EMIT(radius), "its radius"),
+    NUMBER("fluids[].emit[].speed", R | O, "m/s", 0, 1000, EMIT(speed), "of the fluid, in the box's frame"),
+    NUMBER("fluids[].emit[].start", 0, "s", 0, 1e6, EMIT(start), "nothing comes before it"),
+    NUMBER("fluids[].emit[].duration", 0, "s", 0, 1e6, EMIT(duration), "0: for ever"),
+    INTEGER("particles.most", 0, 1, 2000000000, WORLD(most), "with emitters: so many particles are the most at any time; then they wait"),
+    LIST("drains", 0, 0, DRAINS_MAX, WORLD(drains), WORLD(drain_count), Fill, NULL,
+         "where fluid leaves the scene"),
+    VARIANT("drains[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
+    VEC3("drains[].block.min", R, "m", -1000, 1000, FILL(min), "its corner with the least x, y, z"),
+    VEC3("drains[].block.max", R, "m", -1000, 1000, FILL(max), "its corner with the greatest x, y, z"),
+    VARIANT("drains[].ball", FILL(kind), FILL_BALL, "a ball"),
+    VEC3("drains[].ball.centre", R, "m", -1000, 1000, FILL(centre), "its centre"),
+    NUMBER("drains[].ball.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
 
     LIST("solids", 0, 0, SOLIDS_MAX, WORLD(solids), WORLD(solid_count), SolidDef, solid_init,
          "bodies in the box that the fluid flows around, in its frame; each has one shape"),

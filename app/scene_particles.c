@@ -78,6 +78,10 @@ bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *se
                          Error *error)
 {
     const size_t wanted = settings->particles;
+    if (scene_fluid_volume(scene) <= 0)
+        return error_set(
+            error, "--particles %zu: the scene fills nothing at the start; use --set particles.spacing=...",
+            wanted);
     const double guess =
         fmin(greatest_spacing(scene), root(scene, scene_fluid_volume(scene) / (double)wanted));
     if (!(guess > 1e-6) || !scene_fits_memory((double)wanted) ||

@@ -94,6 +94,7 @@ typedef struct Defaults {
     FluidDef fluid; /* these two have defaults other than zero */
     SolidDef solid;
     Motion motion;
+    Emit zero;
 } Defaults;
 
 static void defaults_make(Defaults *defaults)
@@ -108,6 +109,8 @@ static const void *default_base(const Defaults *defaults, const Key *key)
 {
     if (!strchr(key->path, '['))
         return &defaults->scene;
+    if (strstr(key->path, "emit[]") || strncmp(key->path, "drains", 6) == 0)
+        return &defaults->zero;
     if (strncmp(key->path, "fluids[]", 8) == 0)
         return &defaults->fluid;
     return strstr(key->path, "motion[]") ? (const void *)&defaults->motion : &defaults->solid;

@@ -3,6 +3,7 @@
 #ifndef SLOSH_BACKEND_H
 #define SLOSH_BACKEND_H
 
+#include "sim/flow.h"
 #include "sim/frame_step.h"
 #include "sim/solid_step.h"
 #include "sim/solver.h"
@@ -11,8 +12,10 @@
 
 typedef struct Backend {
     const char *name, *help;
-    /* The state of `initial->count` particles; NULL with the reason. `solver` outlives it. */
-    void *(*create)(const Solver *solver, const InitialState *initial, int threads, Error *error);
+    /* The state of `initial->count` particles, with room for `capacity`; NULL with the reason. `solver`
+       outlives it. */
+    void *(*create)(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
+                    Error *error);
     void (*destroy)(void *state);
     /* After solver_change; false when there is no memory for what the solver's new terms need. */
     bool (*adapt)(void *state);
@@ -31,12 +34,18 @@ typedef struct Backend {
     void (*force)(void *state, const ApparentGravity *gravity);
     /* v += (acceleration + gravity) dt, and what it finds: sim/step_control.h. */
     StepWatch (*kick)(void *state, const float gravity[3], float dt);
+    /* Gives what the guides hold their velocities. */
+    void (*guide)(void *state, const Guide *guides, int count);
     void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
     void (*read)(void *state, const ParticleArrays *out);
-    /* Copies the particles into columns of as many; takes them, in any order, whereupon `grid` and `density`
-       must follow. */
+    /* Between steps: adds those particles of a layer that are in the box and not next to
+       others, at most `most`, and returns how many; takes out what is in a region, and returns how many. */
+    size_t (*emit)(void *state, const EmitLayer *layer, size_t most);
+    size_t (*drain)(void *state, const Fill *regions, int count);
+    /* Copies the particles into columns of as many; takes `count` of them, no more than its capacity, in any
+       order, whereupon `pose`, `grid` and `density` must follow. */
     void (*save)(void *state, const ParticleColumns *to);
-    void (*load)(void *state, const ParticleColumns *from, size_t guarded);
+    void (*load)(void *state, const ParticleColumns *from, size_t count, size_t guarded);
     void (*info)(const void *state, WorldInfo *info); /* threads, state_bytes, guarded */
 } Backend;
 

@@ -12,6 +12,8 @@ typedef struct Substep {
     StageClock *clock; /* may be NULL */
     double dt;         /* s */
     FrameStep first_half, second_half;
+    int guide_count; /* of the emitters at work */
+    Guide guides[GUIDES_MAX];
     SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */
     ApparentGravity apparent;        /* in the middle */
     float gravity[3];                /* in the box's axes in the middle, m/s2 */
@@ -21,6 +23,15 @@ typedef struct Method {
     const char *name, *help;
     StepWatch (*substep)(const Substep *step);
 } Method;
+
+/* The kick of a step, and what emitters make of it. */
+static inline StepWatch substep_kick(const Substep *step)
+{
+    const StepWatch watch = step->backend->kick(step->state, step->gravity, (float)step->dt);
+    if (step->guide_count > 0)
+        step->backend->guide(step->state, step->guides, step->guide_count);
+    return watch;
+}
 
 extern const Method method_mueller, method_wcsph;
 

@@ -19,7 +19,7 @@ static StepWatch mueller_substep(const Substep *step)
     STAGE (step->clock, STAGE_FORCE)
         b->force(state, &step->apparent);
     STAGE (step->clock, STAGE_INTEGRATE) {
-        watch = b->kick(state, step->gravity, (float)step->dt);
+        watch = substep_kick(step);
         b->drift(state, &step->second_half);
     }
     return watch;

@@ -1,5 +1,7 @@
 #include "sim/solver.h"
 
+#include "sim/flow.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -83,7 +85,8 @@ static bool def_check(const WorldDef *def, Error *error)
         return error_set(error, "the walls' slip is free or none");
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
-    return motions_check(def->motions, def->motion_count, def->dimensions, error) && solids_check(def, error);
+    return motions_check(def->motions, def->motion_count, def->dimensions, error) &&
+           solids_check(def, error) && flow_check(def, error);
 }
 
 static bool cells_set(CellGrid *cells, const double box_size[3], int dimensions, double h, Error *error)

@@ -20,7 +20,7 @@ static StepWatch wcsph_substep(const Substep *step)
     STAGE (step->clock, STAGE_FORCE)
         b->force(state, &step->apparent);
     STAGE (step->clock, STAGE_INTEGRATE)
-        watch = b->kick(state, step->gravity, (float)step->dt);
+        watch = substep_kick(step);
     STAGE (step->clock, STAGE_DENSITY)
         b->continuity(state, half);
     STAGE (step->clock, STAGE_INTEGRATE)

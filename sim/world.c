@@ -105,6 +105,7 @@ void world_destroy(World *world)
         world->backend->destroy(world->state);
     solver_destroy(&world->solver);
     world_state_free(&world->good);
+    free(world->layer);
     free(world);
 }
 
@@ -131,6 +132,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->dt = dt;
     frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
     frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
+    step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
     for (int i = 0; i < world->def.solid_count; i++)
         for (int half = 0; half < 2; half++)
             solid_step_make(&world->def.solids[i], world_time_at(world, at + 0.5 * half),
@@ -182,6 +184,9 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     StepState *s = &world->stepping;
     if (!begin_step(world, error))
         return false;
+    if (world->layer || world->def.drain_count > 0)
+        STAGE (clock, STAGE_INTEGRATE)
+            world_flow(world);
     substep_prepare(world, clock, &step);
     const StepWatch watch = world->method->substep(&step);
     const StepTrouble trouble = step_trouble_of(&watch, world->def.retries > 0);
@@ -278,6 +283,9 @@ void world_info(const World *world, WorldInfo *info)
         .time = world_time_at(world, (double)world->step),
         .step = world->step,
         .count = world->count,
+        .capacity = world->capacity,
+        .emitted = world->emitted,
+        .drained = world->drained,
         .support_radius = world->def.support * world->def.spacing,
         .spacing = world->def.spacing,
         .box = world->box,
@@ -302,39 +310,4 @@ void world_sums(World *world, WorldSums *sums)
 void world_read(World *world, const ParticleArrays *out)
 {
     world->backend->read(world->state, out);
-}
-
-/* FNV-1a, 64 bits. */
-static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
-{
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ ((const unsigned char *)bytes)[i]) * 0x100000001b3u;
-    return hash;
-}
-
-uint64_t world_hash(World *world)
-{
-    const size_t n = world->count;
-    ParticleArrays out = {
-        .position = malloc(n * 4 * sizeof(float)),
-        .velocity = malloc(n * 4 * sizeof(float)),
-        .id = malloc(n * sizeof(uint32_t)),
-    };
-    uint32_t *place = malloc(n * sizeof *place);
-    uint64_t hash = 0;
-    if (out.position && out.velocity && out.id && place) {
-        world_read(world, &out);
-        for (size_t i = 0; i < n; i++)
-            place[out.id[i]] = (uint32_t)i;
-        hash = 0xcbf29ce484222325u;
-        for (size_t id = 0; id < n; id++) {
-            hash = hash_bytes(hash, &out.position[4 * (size_t)place[id]], 3 * sizeof(float));
-            hash = hash_bytes(hash, &out.velocity[4 * (size_t)place[id]], 3 * sizeof(float));
-        }
-    }
-    free(out.position);
-    free(out.velocity);
-    free(out.id);
-    free(place);
-    return hash;
 }

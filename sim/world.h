@@ -59,7 +59,8 @@ typedef struct WorldTrouble {
 typedef struct WorldInfo {
     double time;                        /* simulated, s */
     uint64_t step;                      /* substeps since the start */
-    size_t count;                       /* particles */
+    size_t count, capacity;             /* particles; as many as emitters may fill it up to */
+    uint64_t emitted, drained;          /* of them, since the start */
     int threads;                        /* that the backend uses */
     double support_radius;              /* h, m */
     double spacing;                     /* m */

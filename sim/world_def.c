@@ -22,7 +22,8 @@ WorldDef world_def_default(void)
         .substeps = 10,    /* paper 003's stable setting at 8,192 particles */
         .cfl_number = 0.3, /* three quarters of what mueller stands at support 2.1 */
         .max_dt = 0.01,
-        .retries = 3, /* to an eighth of the step: trouble that stays is no matter of the step */
+        .most = 100000, /* some 60 MB, and a frame in a tenth of a second */
+        .retries = 3,   /* to an eighth of the step: trouble that stays is no matter of the step */
     };
 }
 

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { FLUIDS_MAX = 8, FILLS_MAX = 16, NAME_SIZE = 32 };
+enum { FLUIDS_MAX = 8, FILLS_MAX = 16, EMITS_MAX = 4, DRAINS_MAX = 8, NAME_SIZE = 32 };
 
 typedef enum FillKind { FILL_BLOCK, FILL_BALL } FillKind;
 
@@ -22,6 +22,18 @@ typedef struct Fill {
     double centre[3], radius; /* ball, m */
 } Fill;
 
+/* A disk that sends out fluid at rest density, with a velocity along its normal, in the box's frame. A
+   particle comes out where there is room for it. */
+typedef struct Emit {
+    int kind;            /* 0: a disk */
+    double centre[3];    /* m */
+    double direction[3]; /* of any length but zero */
+    double radius;       /* m */
+    double speed;        /* m/s */
+    double start;        /* s */
+    double duration;     /* s; 0: for ever */
+} Emit;
+
 typedef struct FluidDef {
     char name[NAME_SIZE];
     double density;         /* rest density rho0, kg/m3 */
@@ -31,6 +43,8 @@ typedef struct FluidDef {
     float color[3];         /* linear RGB 0..1: for the views, no solver reads it */
     int fill_count;
     Fill fills[FILLS_MAX];
+    int emit_count;
+    Emit emits[EMITS_MAX];
 } FluidDef;
 
 /* A ready initial state in place of the fills: for tests, and for what is not a lattice. */
@@ -72,6 +86,9 @@ typedef struct WorldDef {
     FluidDef fluids[FLUIDS_MAX];
     int motion_count;
     Motion motions[MOTIONS_MAX];
+    int drain_count;
+    Fill drains[DRAINS_MAX]; /* fluid that comes into one of these is taken out */
+    int most;                /* particles that emitters may fill the world up to */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
     BoxLimits limits;            /* of the box in the hand */

@@ -51,13 +51,13 @@ static bool seeds_make(const Solver *solver, const WorldDef *def, Seeds *seeds, 
 {
     const bool thins = solver->continuity && def->solid_count > 0;
     const size_t count = world_def_count(def, def->spacing);
-    if (count == 0 || count > INT32_MAX)
+    if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)
         return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
                                       : "the fluids' fills hold no particle; use a smaller spacing");
-    seeds->position = malloc(count * 3 * sizeof *seeds->position);
-    seeds->velocity = malloc(count * 3 * sizeof *seeds->velocity);
-    seeds->fluid = malloc(count);
-    seeds->density = thins ? malloc(count * sizeof *seeds->density) : NULL;
+    seeds->position = malloc((count + 1) * 3 * sizeof *seeds->position);
+    seeds->velocity = malloc((count + 1) * 3 * sizeof *seeds->velocity);
+    seeds->fluid = malloc(count + 1);
+    seeds->density = thins ? malloc((count + 1) * sizeof *seeds->density) : NULL;
     if (!seeds->position || !seeds->velocity || !seeds->fluid || (thins && !seeds->density))
         return error_set(error, "no memory for %zu particles; use a larger spacing", count);
 
@@ -90,6 +90,21 @@ static bool initial_check(const WorldDef *def, const InitialState *initial, Erro
     return true;
 }
 
+/* Room for the largest layer of all emitters. */
+static bool layer_create(World *world, Error *error)
+{
+    const WorldDef *def = &world->def;
+    size_t most = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++) {
+            EmitLayer layer = {0};
+            emit_place(&def->fluids[f].emits[i], def->dimensions, def->spacing, 0, 0, &layer);
+            most = layer.count > most ? layer.count : most;
+        }
+    world->layer = most > 0 ? malloc(3 * most * sizeof *world->layer) : NULL;
+    return most == 0 || world->layer || error_set(error, "no memory for the emitters' layers");
+}
+
 bool world_start(World *world, Error *error)
 {
     Seeds seeds = {0};
@@ -100,9 +115,11 @@ bool world_start(World *world, Error *error)
     bool ok = given ? initial_check(&world->def, &initial, error)
                     : seeds_make(&world->solver, &world->def, &seeds, &initial, error);
     if (ok) {
-        world->count = initial.count;
-        world->state = world->backend->create(&world->solver, &initial, world->def.threads, error);
-        ok = world->state;
+        world->count = world->initial = initial.count;
+        world->capacity = flow_capacity(&world->def, initial.count);
+        world->state =
+            world->backend->create(&world->solver, &initial, world->capacity, world->def.threads, error);
+        ok = world->state && layer_create(world, error);
     }
     seeds_free(&seeds);
     world->def.initial = NULL;

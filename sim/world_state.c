@@ -46,6 +46,8 @@ void world_save_numbers(const World *world, WorldNumbers *numbers)
         .since_step = (double)world->since_step,
         .since_time = world->since_time,
         .guarded = (double)info.guarded,
+        .emitted = (double)world->emitted,
+        .drained = (double)world->drained,
         .stepping = world->stepping,
         .target = world->target,
         .filter = world->filter,
@@ -85,7 +87,8 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
     if (!(numbers->step >= numbers->since_step && numbers->since_step >= 0 && numbers->step < 0x1p53 &&
           numbers->stepping.dt > 0 && numbers->stepping.refine >= 1 && numbers->stepping.limit >= 0 &&
           numbers->stepping.limit < STEP_LIMIT_COUNT && numbers->substeps >= 1 &&
-          numbers->substeps < 0x1p31 && numbers->guarded >= 0))
+          numbers->substeps < 0x1p31 && numbers->guarded >= 0 && numbers->emitted >= 0 &&
+          numbers->emitted < 0x1p31 && numbers->drained >= 0))
         return error_set(error, "the saved state is damaged: its steps do not count");
     return true;
 }
@@ -93,18 +96,20 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
 /* Every id once, every number finite. */
 static bool particles_check(const World *world, const WorldState *state, Error *error)
 {
-    if (state->count != world->count)
+    const WorldNumbers *numbers = &state->numbers;
+    const double born = (double)world->initial + numbers->emitted;
+    if ((double)state->count != born - numbers->drained || state->count > world->capacity)
         return error_set(error, "the saved state has %zu particles, the scene %zu", state->count,
                          world->count);
     const ParticleColumns *p = &state->particles;
-    bool *seen = calloc(state->count, sizeof *seen), whole = true;
+    bool *seen = calloc((size_t)born + 1, sizeof *seen), whole = true;
     if (!seen)
         return error_set(error, "no memory");
     const bool carried = world->solver.continuity;
     for (size_t i = 0; i < state->count && whole; i++) {
         whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) &&
-                (!carried || (p->compression[i] > -1 && isfinite(p->compression[i]))) &&
-                p->id[i] < state->count && !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
+                (!carried || (p->compression[i] > -1 && isfinite(p->compression[i]))) && p->id[i] < born &&
+                !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
         if (whole)
             seen[p->id[i]] = true;
     }
@@ -130,7 +135,10 @@ static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
 
 void world_put_particles(World *world, const WorldState *state)
 {
-    world->backend->load(world->state, &state->particles, (size_t)state->numbers.guarded);
+    world->backend->load(world->state, &state->particles, state->count, (size_t)state->numbers.guarded);
+    world->count = state->count;
+    world->emitted = (uint64_t)state->numbers.emitted;
+    world->drained = (uint64_t)state->numbers.drained;
     world_settle(world);
 }
 

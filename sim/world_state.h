@@ -13,6 +13,7 @@ typedef struct WorldNumbers {
     double step, since_step;      /* substeps; where the present dt began */
     double since_time;            /* s, then */
     double guarded;               /* as WorldInfo has it */
+    double emitted, drained;      /* the same */
     StepState stepping;           /* how it steps */
     BoxTarget target;             /* of the hand */
     BoxFilter filter;             /* where its part of the pose is */
@@ -26,7 +27,7 @@ typedef struct WorldNumbers {
     double viscosity[FLUIDS_MAX]; /* Pa s */
 } WorldNumbers;
 
-enum { WORLD_STATE_VERSION = 1, WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double) };
+enum { WORLD_STATE_VERSION = 2, WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double) };
 
 /* What is of a particle, a column each. */
 typedef struct ParticleColumns {

@@ -10,8 +10,10 @@ struct World {
     Solver solver;
     const Backend *backend;
     const Method *method;
-    void *state; /* the backend's */
-    size_t count;
+    void *state;                     /* the backend's */
+    size_t count, initial, capacity; /* particles: now, at the start, at most */
+    uint64_t emitted, drained;       /* since the start */
+    float *layer;                    /* room for an emitter's layer; NULL without emitters */
     uint64_t step;
     uint64_t since_step; /* when the present step size began, */
     double since_time;   /* at this time, s */
@@ -26,6 +28,9 @@ struct World {
 
 /* Makes the backend's state from the def's initial state or fills, with a solver that is there. */
 bool world_start(World *world, Error *error);
+
+/* Lets fluid in that emitters send out in the step ahead, and out where it drains. */
+void world_flow(World *world);
 
 /* What follows from the particles alone: the solids' places, grid, densities. */
 void world_settle(World *world);

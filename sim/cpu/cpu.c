@@ -116,7 +116,8 @@ static void particles_set(const Solver *solver, CpuParticles *p, const InitialSt
     }
 }
 
-static void *cpu_create(const Solver *solver, const InitialState *initial, int threads, Error *error)
+static void *cpu_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
+                        Error *error)
 {
     Cpu *cpu = calloc(1, sizeof *cpu);
     if (!cpu) {
@@ -127,10 +128,10 @@ static void *cpu_create(const Solver *solver, const InitialState *initial, int t
     cpu->pairs = pair_ops_choose();
     cpu->threads = threads > 0 ? threads : parallel_processors();
     cpu->count = cpu->owned = initial->count;
-    cpu->capacity = cpu->owned + solver->boundary.count;
+    cpu->capacity = capacity + solver->boundary.count;
     if (!arrays_create(cpu)) {
         error_set(error, "no memory for %zu particles and %zu cells; use a larger spacing or a smaller box",
-                  initial->count, solver->cells.count);
+                  capacity, solver->cells.count);
         cpu_destroy(cpu);
         return NULL;
     }
@@ -222,9 +223,10 @@ static void cpu_save(void *state, const ParticleColumns *to)
     parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, copy_range, &copy);
 }
 
-static void cpu_load(void *state, const ParticleColumns *from, size_t guarded)
+static void cpu_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
 {
     Cpu *cpu = state;
+    cpu->count = cpu->owned = count;
     Copy copy = {from, &cpu->now, NULL};
     parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, copy_range, &copy);
     if (cpu->boundary_at)
@@ -247,6 +249,9 @@ const Backend backend_cpu = {
     .kick = cpu_kick,
     .sums = cpu_sums,
     .read = cpu_read,
+    .guide = cpu_guide,
+    .emit = cpu_emit,
+    .drain = cpu_drain,
     .save = cpu_save,
     .load = cpu_load,
     .info = cpu_info,

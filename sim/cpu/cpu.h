@@ -82,6 +82,9 @@ static inline void cpu_fill_terms(Cpu *cpu, size_t i)
         cpu->kind[i] = (float)fluid;
 }
 
+/* The grid's cell of x, m. */
+uint32_t cpu_cell_of(const Solver *solver, const float x[3]);
+
 void cpu_grid(void *state);
 void cpu_density(void *state);
 void cpu_continuity(void *state, float dt);
@@ -102,6 +105,10 @@ void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity);
 bool cpu_boundary_sticks(const Cpu *cpu);
 bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3]);
 void cpu_pose(void *state, const SolidPose *pose);
+size_t cpu_emit(void *state, const EmitLayer *layer, size_t most);
+void cpu_guide(void *state, const Guide *guides, int count);
+size_t cpu_drain(void *state, const Fill *regions, int count);
+
 StepWatch cpu_kick(void *state, const float gravity[3], float dt);
 void cpu_sums(void *state, WorldSums *sums);
 void cpu_read(void *state, const ParticleArrays *out);

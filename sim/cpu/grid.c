@@ -29,15 +29,25 @@ static uint32_t cell_along(const CellMap *map, int k, float x)
     return (uint32_t)(index - map->first[k]) + 1;
 }
 
+static uint32_t cell_at(const CellMap *map, float x, float y, float z)
+{
+    const uint32_t ix = cell_along(map, 0, x), iy = cell_along(map, 1, y), iz = cell_along(map, 2, z);
+    return (iz * (uint32_t)map->size[1] + iy) * (uint32_t)map->size[0] + ix;
+}
+
+uint32_t cpu_cell_of(const Solver *solver, const float x[3])
+{
+    const CellMap map = cell_map(solver);
+    return cell_at(&map, x[0], x[1], x[2]);
+}
+
 static void count_cells(void *state, size_t begin, size_t end)
 {
     Cpu *cpu = state;
     const CellMap map = cell_map(cpu->solver);
     const CpuParticles *p = &cpu->now;
     for (size_t i = begin; i < end; i++) {
-        const uint32_t ix = cell_along(&map, 0, p->x[i]), iy = cell_along(&map, 1, p->y[i]),
-                       iz = cell_along(&map, 2, p->z[i]);
-        const uint32_t cell = (iz * (uint32_t)map.size[1] + iy) * (uint32_t)map.size[0] + ix;
+        const uint32_t cell = cell_at(&map, p->x[i], p->y[i], p->z[i]);
         cpu->spare_cell[i] = cell;
         cpu->rank[i] = __atomic_fetch_add(&cpu->cell_start[cell + 1], 1, __ATOMIC_RELAXED);
     }

@@ -151,7 +151,7 @@ void cpu_sums(void *state, WorldSums *sums)
     parallel_ranges(cpu->threads, cpu->owned, CPU_GRAIN, sum_range, &pass);
     for (size_t r = 0; r < ranges; r++)
         add_sums(&pass.partial[r], sums);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3 && cpu->owned > 0; k++)
         sums->centre[k] /= sums->mass;
-    sums->neighbours_mean /= (double)cpu->owned;
+    sums->neighbours_mean /= cpu->owned > 0 ? (double)cpu->owned : 1;
 }

@@ -15,12 +15,18 @@ static const char everything[] = "box: {size: [1, 1, 1]}\n"
                                  "fluids:\n"
                                  "  - fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.5, 0.5]}}]\n"
                                  "  - fill: [{ball: {centre: [0, 0.8, 0], radius: 0.2}}]\n"
+                                 "  - emit:\n"
+                                 "      - disk: {centre: [0, 0.5, 0], direction: [0, 1, 0], radius: 0.1}\n"
+                                 "        speed: 1\n"
                                  "motion:\n"
                                  "  - shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 1}\n"
                                  "  - rock: {axis: [1, 0, 0], angle: 1, frequency: 1}\n"
                                  "  - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
                                  "  - spin: {axis: [1, 0, 0], rate: 1}\n"
                                  "  - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
+                                 "drains:\n"
+                                 "  - block: {min: [0, 0, 0], max: [0.1, 0.1, 0.1]}\n"
+                                 "  - ball: {centre: [0, 0, 0], radius: 0.1}\n"
                                  "solids:\n"
                                  "  - sphere: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
                                  "    motion:\n"
@@ -50,6 +56,9 @@ static void path_in_scene(const char *row, char path[128])
     snprintf(path, 128, "%s", row);
     replace(path, "fluids[].fill[].ball", "fluids[1].fill[0].ball");
     replace(path, "fluids[].fill[]", "fluids[0].fill[0]");
+    replace(path, "fluids[].emit[]", "fluids[2].emit[0]");
+    replace(path, "drains[].block", "drains[0].block");
+    replace(path, "drains[].ball", "drains[1].ball");
     replace(path, "fluids[]", "fluids[0]");
     for (int kind = 0; kind < SOLID_KIND_COUNT; kind++) {
         char pattern[32], with[32];

@@ -1,0 +1,128 @@
+/* Particles that come and go between steps. The grid is that of the last step's middle: since then nothing
+   has moved by more than half the support radius. */
+#include "sim/cpu/cpu.h"
+
+#include <math.h>
+
+static const float ROOM = 0.9f; /* least distance to others, in spacings */
+
+static bool in_box(const Walls *walls, const float x[3])
+{
+    for (int a = 0; a < walls->dimensions; a++) {
+        const float low = a == 1 ? 0 : -walls->half_size[a];
+        if (!(x[a] >= low && x[a] <= low + 2 * walls->half_size[a]))
+            return false;
+    }
+    return true;
+}
+
+/* Whether nobody whom the grid has is near. */
+static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
+{
+    const float least = ROOM * cpu->solver->spacing;
+    const uint32_t cell = cpu_cell_of(cpu->solver, x);
+    for (int row = cpu->solver->first_row; row < cpu->solver->last_row; row++) {
+        uint32_t begin, end;
+        pair_row(args, cell, row, &begin, &end);
+        for (uint32_t j = begin; j < end; j++) {
+            const float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
+            if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < least * least)
+                return false;
+        }
+    }
+    return true;
+}
+
+static void append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t number)
+{
+    const CpuParticles *p = &cpu->now;
+    const size_t i = cpu->count++;
+    p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
+    p->vx[i] = layer->velocity[0], p->vy[i] = layer->velocity[1], p->vz[i] = layer->velocity[2];
+    p->id[i] = layer->first_id + (uint32_t)number;
+    p->fluid[i] = (uint8_t)layer->fluid;
+    if (p->compression)
+        p->compression[i] = 0;
+    if (cpu->owned_at)
+        cpu->owned_at[cpu->owned] = (uint32_t)i;
+    cpu->owned++;
+}
+
+size_t cpu_emit(void *state, const EmitLayer *layer, size_t most)
+{
+    Cpu *cpu = state;
+    const PairArgs args = cpu_pair_args(cpu);
+    size_t number = 0;
+    for (size_t k = 0; k < layer->count && number < most; k++) {
+        const float *x = layer->position + 3 * k;
+        if (in_box(&cpu->solver->walls, x) && has_room(cpu, &args, x))
+            append(cpu, layer, x, number++);
+    }
+    return number;
+}
+
+typedef struct Guiding {
+    Cpu *cpu;
+    const Guide *guides;
+    int count;
+} Guiding;
+
+static void guide_range(void *context, size_t begin, size_t end)
+{
+    const Guiding *pass = context;
+    const CpuParticles *p = &pass->cpu->now;
+    for (size_t i = begin; i < end; i++) {
+        const float x[3] = {p->x[i], p->y[i], p->z[i]};
+        for (int k = 0; k < pass->count; k++)
+            if (guide_holds(&pass->guides[k], p->fluid[i], x)) {
+                const float *v = pass->guides[k].velocity;
+                p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
+            }
+    }
+}
+
+void cpu_guide(void *state, const Guide *guides, int count)
+{
+    Cpu *cpu = state;
+    Guiding pass = {cpu, guides, count};
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, guide_range, &pass);
+}
+
+static bool drains(const Fill *regions, int count, int dimensions, const double x[3])
+{
+    for (int k = 0; k < count; k++)
+        if (fill_holds(&regions[k], dimensions, x))
+            return true;
+    return false;
+}
+
+/* Particle `from` takes the place `to`. */
+static void move(const CpuParticles *p, size_t from, size_t to)
+{
+    p->x[to] = p->x[from], p->y[to] = p->y[from], p->z[to] = p->z[from];
+    p->vx[to] = p->vx[from], p->vy[to] = p->vy[from], p->vz[to] = p->vz[from];
+    p->id[to] = p->id[from];
+    p->fluid[to] = p->fluid[from];
+    if (p->compression)
+        p->compression[to] = p->compression[from];
+}
+
+size_t cpu_drain(void *state, const Fill *regions, int count)
+{
+    Cpu *cpu = state;
+    const CpuParticles *p = &cpu->now;
+    size_t gone = 0;
+    for (size_t i = 0; i < cpu->count;) {
+        const double x[3] = {p->x[i], p->y[i], p->z[i]};
+        if (p->fluid[i] >= FLUIDS_MAX || !drains(regions, count, cpu->solver->dimensions, x)) {
+            i++;
+            continue;
+        }
+        move(p, --cpu->count, i);
+        gone++;
+    }
+    cpu->owned -= gone;
+    if (gone > 0 && cpu->boundary_at)
+        cpu_boundary_find(cpu);
+    return gone;
+}

@@ -1,0 +1,255 @@
+/* Emitters and drains: how much comes, in which order, how many at most, what is saved of it. */
+#include "fixture.h"
+
+#include "sim/flow.h"
+#include "sim/world_state.h"
+
+static WorldDef jet_def(int dimensions)
+{
+    WorldDef def = fixture_def(4, 1, 1);
+    def.dimensions = dimensions;
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.spacing = 0.05;
+    def.sound_speed = 20;
+    def.most = 5000;
+    def.fluids[0].emits[def.fluids[0].emit_count++] =
+        (Emit){.centre = {-1.8, 0.5, 0}, .direction = {3, 0, 0}, .radius = 0.2, .speed = 2};
+    return def;
+}
+
+static WorldInfo info_of(const World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    return info;
+}
+
+/* Each id once, none that was never given. */
+static void check_ids(World *world, size_t initial)
+{
+    const WorldInfo info = info_of(world);
+    uint32_t *id = malloc((info.count + 1) * sizeof *id);
+    const size_t born = initial + info.emitted;
+    bool *seen = calloc(born + 1, sizeof *seen);
+    world_read(world, &(ParticleArrays){.id = id});
+    assert_int_equal(info.count, born - info.drained);
+    for (size_t i = 0; i < info.count; i++) {
+        assert_true(id[i] < born && !seen[id[i]]);
+        seen[id[i]] = true;
+    }
+    free(id);
+    free(seen);
+}
+
+/* A layer each time that the fluid has gone a spacing, from `start` on, for `duration`, whatever the steps.
+ */
+static void layers_come_in_time(void **state)
+{
+    (void)state;
+    const Emit emit = {.direction = {0, 1, 0}, .radius = 0.1, .speed = 2, .start = 1, .duration = 0.5};
+    const double steps[] = {0.001, 0.0137, 0.05, 0.4};
+    for (int s = 0; s < 4; s++) {
+        long first, sum = 0, next = 0;
+        for (long i = 0; (double)i * steps[s] < 3; i++) {
+            const long count =
+                emit_layers(&emit, 0.05, (double)i * steps[s], (double)(i + 1) * steps[s], &first);
+            if (count > 0)
+                assert_int_equal(first, next);
+            next = count > 0 ? first + count : next;
+            sum += count;
+        }
+        assert_int_equal(sum, 20); /* 0.5 s x 2 m/s / 0.05 m */
+    }
+}
+
+/* What comes out is a lattice at rest density, that moves as it should; as much as speed times area. */
+static void a_jet_is_a_lattice(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++)
+        for (int m = 0; m < 2; m++) {
+            WorldDef def = jet_def(dimensions);
+            snprintf(def.method, sizeof def.method, "%s", m ? "wcsph" : "mueller");
+            World *world = fixture_world(&def);
+            assert_int_equal(info_of(world).count, 0);
+            fixture_step(world, 500); /* 1 s */
+            check_ids(world, 0);
+            State s = fixture_read(world);
+            EmitLayer layer = {0};
+            emit_place(&def.fluids[0].emits[0], dimensions, def.spacing, 0, 0, &layer);
+            assert_int_equal(layer.count, dimensions == 3 ? 49 : 9);
+            assert_int_equal(s.count, layer.count * 40);
+            double front = -INFINITY;
+            int inside = 0;
+            for (size_t i = 0; i < s.count; i++) {
+                const float *x = s.position + 4 * i, *v = s.velocity + 4 * i;
+                const bool inner = hypot(x[1] - 0.5, x[2]) < 0.09 && x[0] > -1.6 && x[0] < 0;
+                front = fmax(front, x[0]);
+                inside += inner;
+                if (inner && fabs(s.density[i] / 1000 - 1) > 0.01)
+                    fail_msg("%dD: in the jet, at x = %g, the density is %g", dimensions, x[0], s.density[i]);
+                assert_true(fabs(v[0] - 2) < 0.1);
+            }
+            assert_true(inside > 60 && fabs(front - 0.2) < 0.06);
+            fixture_free(&s);
+            world_destroy(world);
+        }
+}
+
+/* Up to the bound and no further; where a drain takes some away, on again. */
+static void the_bound_holds(void **state)
+{
+    (void)state;
+    WorldDef def = jet_def(3);
+    def.most = 1000;
+    World *world = fixture_world(&def);
+    fixture_step(world, 500);
+    assert_int_equal(info_of(world).count, 1000);
+    assert_int_equal(info_of(world).emitted, 1000);
+    world_destroy(world);
+
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BALL, .centre = {-0.8, 0.5, 0}, .radius = 0.5};
+    world = fixture_world(&def);
+    for (int i = 0; i < 1000; i++) {
+        fixture_step(world, 1);
+        assert_true(info_of(world).count <= 1000);
+    }
+    const WorldInfo info = info_of(world);
+    assert_true(info.drained > 1500 && info.emitted > 2000);
+    check_ids(world, 0);
+    State s = {.count = info.count, .position = malloc(16 * info.count)};
+    world_read(world, &(ParticleArrays){.position = s.position});
+    for (size_t i = 0; i < s.count; i++) /* a step's way at most is between it and the last draining */
+        assert_true(hypot(hypot(s.position[4 * i] + 0.8, s.position[4 * i + 1] - 0.5),
+                          s.position[4 * i + 2]) > 0.5 - 0.02);
+    free(s.position);
+    world_destroy(world);
+}
+
+/* Into a box that is full nothing comes, and nothing is blown apart: the emitter is a pump. */
+static void a_full_box_takes_nothing(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1, 1);
+    def.most = 100000;
+    def.sound_speed = 30;
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
+    def.fluids[0].emits[def.fluids[0].emit_count++] =
+        (Emit){.centre = {0, 0.5, 0}, .direction = {0, 1, 0}, .radius = 0.2, .speed = 1};
+    World *world = fixture_world(&def);
+    fixture_step(world, 300);
+    WorldSums sums;
+    world_sums(world, &sums);
+    printf("full box: %lu came in, fastest %g\n", (unsigned long)info_of(world).emitted, sums.max_speed);
+    assert_true(info_of(world).emitted < 40 && sums.max_speed < 3);
+    world_destroy(world);
+}
+
+static WorldDef busy_def(const char *method)
+{
+    WorldDef def = fixture_def(1.2, 0.9, 0.8);
+    snprintf(def.method, sizeof def.method, "%s", method);
+    def.spacing = 0.06;
+    def.dt = 0.004;
+    def.substeps = 2;
+    def.retries = 3;
+    def.most = 3000;
+    def.fluid_count = 2;
+    def.fluids[0].viscosity = 1;
+    def.fluids[1] = (FluidDef){.name = "oil", .density = 800, .viscosity = 3};
+    fixture_block(&def, 0, -0.6, 0, -0.4, 0.2, 0.3, 0.4);
+    def.fluids[1].emits[def.fluids[1].emit_count++] = (Emit){
+        .centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.13, .speed = 2, .start = 0.05};
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
+    def.motions[def.motion_count++] =
+        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 2};
+    SolidDef *paddle = &def.solids[def.solid_count++];
+    *paddle = (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.3, 0}, .radius = 0.15, .slip = SLIP_NONE};
+    paddle->motions[paddle->motion_count++] =
+        (Motion){.kind = MOTION_SHAKE, .axis = {0, 0, 1}, .amplitude = 0.1, .frequency = 3};
+    return def;
+}
+
+/* With emitters, a drain, a moving solid and a moving box; also into a world that holds more, or fewer. */
+static void save_load_step_is_step(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"mueller", "wcsph"};
+    for (int m = 0; m < 2; m++) {
+        const WorldDef def = busy_def(methods[m]);
+        World *world = fixture_world(&def);
+        WorldState saved = {0}, late = {0};
+        Error error = {0};
+        fixture_step(world, 100);
+        assert_true(info_of(world).emitted > 100 && info_of(world).drained > 0);
+        assert_true(world_save(world, &saved, &error));
+        fixture_step(world, 60);
+        const uint64_t hash = world_hash(world);
+        const WorldInfo then = info_of(world);
+        assert_true(world_save(world, &late, &error));
+        for (int start = 0; start < 2; start++) {
+            World *other = fixture_world(&def);
+            if (start && !world_load(other, &late, &error))
+                fail_msg("%s", error.message);
+            if (!world_load(other, &saved, &error))
+                fail_msg("%s", error.message);
+            fixture_step(other, 60);
+            const WorldInfo now = info_of(other);
+            assert_true(now.count == then.count && now.emitted == then.emitted &&
+                        now.drained == then.drained);
+            assert_true(world_hash(other) == hash);
+            world_destroy(other);
+        }
+        saved.particles.id[0] = saved.particles.id[1];
+        assert_false(world_load(world, &saved, &error));
+        assert_true(world_hash(world) == hash);
+        world_state_free(&saved);
+        world_state_free(&late);
+        world_destroy(world);
+    }
+}
+
+static void threads_change_no_bit(void **state)
+{
+    (void)state;
+    uint64_t hash[3];
+    for (int t = 0; t < 3; t++) {
+        WorldDef def = busy_def("mueller");
+        def.threads = t + 1;
+        World *world = fixture_world(&def);
+        fixture_step(world, 100);
+        hash[t] = world_hash(world);
+        world_destroy(world);
+    }
+    assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
+}
+
+/* A step far too long: the sentinel takes back what had come in. */
+static void going_back_takes_back_what_came(void **state)
+{
+    (void)state;
+    WorldDef def = busy_def("mueller");
+    def.dt = 0.06;
+    def.substeps = 2;
+    World *world = fixture_world(&def);
+    Error error;
+    for (int i = 0; i < 20 && world_step(world, NULL, &error); i++)
+        check_ids(world, world_def_count(&def, def.spacing));
+    assert_true(info_of(world).trouble.count > 0);
+    check_ids(world, world_def_count(&def, def.spacing));
+    world_destroy(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(layers_come_in_time),
+        cmocka_unit_test(a_jet_is_a_lattice),
+        cmocka_unit_test(the_bound_holds),
+        cmocka_unit_test(a_full_box_takes_nothing),
+        cmocka_unit_test(save_load_step_is_step),
+        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(going_back_takes_back_what_came),
+    };
+    return cmocka_run_group_tests_name("sim.flow", tests, NULL, NULL);
+}
