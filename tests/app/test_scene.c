@@ -235,7 +235,7 @@ static void what_is_missing_is_named(void **state)
     assert_refused("box: {size: [1, 1, 1]}\nparticles: {spacing: 0.1}\nfluids: []\n",
                    "scene.yaml:3:9: fluids has 0 entries; it must have 1 to 8");
     assert_refused("box: {size: [1, 1, 1]}\nparticles: {spacing: 0.1}\nfluids:\n  - name: x\n",
-                   "scene.yaml:4:5: fluids[0].fill is missing");
+                   "scene.yaml:4:5: the fluid 'x' is nowhere; give it `fill` or `emit`");
     assert_refused(LEAST "      - block: {min: [0, 0, 0]}\n",
                    "scene.yaml:7:16: fluids[0].fill[1].block.max is missing");
     assert_refused(LEAST "      - {}\n",
@@ -284,6 +284,70 @@ static void values_must_fit_each_other(void **state)
                        "the spacing of 0.6 m is too large for the box; use at most 0.5 m");
 }
 
+static void solids_must_make_sense(void **state)
+{
+    (void)state;
+    assert_refused(LEAST "solids:\n  - slip: none\n",
+                   "scene.yaml:8:5: solids[0] must have exactly one of: sphere, box, cylinder, bowl");
+    assert_refused(LEAST "solids:\n  - sphere: {centre: [0, 0.5, 0], radius: 0.1}\n"
+                         "    bowl: {centre: [0, 0.5, 0], radius: 0.1}\n",
+                   "scene.yaml:8:5: solids[0] must have exactly one of: sphere, box, cylinder, bowl");
+    assert_refused(LEAST "solids:\n  - box: {centre: [0, 0.5, 0], size: [0.4, 0.05, 0.4]}\n",
+                   "scene.yaml:8:10: the solid is 0.05 m thin, less than the spacing of 0.1 m");
+    assert_refused(LEAST "solids:\n  - bowl: {centre: [0, 0.5, 0], radius: 0.3, thickness: 0.02}\n",
+                   "scene.yaml:8:11: the solid is 0.02 m thin");
+    assert_refused(LEAST
+                   "solids:\n  - cylinder: {centre: [0, 0.5, 0], radius: 0.3, height: 1, axis: [0, 0, 0]}\n",
+                   "scene.yaml:8:67: the axis has no direction");
+    assert_refused(LEAST "solids:\n  - sphere: {centre: [0, 0.5, 0], radius: 0.3}\n    motion:\n"
+                         "      - rock: {axis: [0, 0, 0], angle: 1, frequency: 1}\n",
+                   "scene.yaml:10:22: the axis has no direction");
+    static Scene scene;
+    Error error;
+    assert_false(parse_set(LEAST "solids:\n  - box: {centre: [0, 0.5, 0], size: [900, 900, 900]}\n",
+                           "fluids[0].density=1", &scene, &error));
+    assert_non_null(strstr(error.message, "the solids' surfaces need about"));
+    assert_set_refused("solids[0].slip=free", "solids[0] must have exactly one of: sphere, box");
+}
+
+static void emitters_and_drains_must_make_sense(void **state)
+{
+    (void)state;
+    static const char jet[] =
+        LEAST "    emit:\n      - disk: {centre: [0, %s, 0], direction: [0, %s, 0], radius: 0.2}\n"
+              "        speed: 1\n%s";
+    static const struct {
+        const char *height, *up, *more, *message;
+    } wrong[] = {
+        {"1.5", "1", "", "the fluid is outside the box: it reaches from 1.5 to 1.5 m in y"},
+        {"0.5", "0", "", "scene.yaml:8:48: the direction has no length"},
+        {"0.5", "1", "        loud: 1\n", "scene.yaml:10:9: unknown key 'loud'"},
+        {"0.5", "1", "drains:\n  - block: {min: [0, 0, 0], max: [0, 1, 1]}\n",
+         "the block's min is not below its max in x (0 and 0 m)"},
+        {"0.5", "1", "drains:\n  - tap: {}\n", "unknown key 'tap'"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, jet, wrong[i].height, wrong[i].up, wrong[i].more);
+        static Scene scene;
+        Error error = {0};
+        assert_false(parse_text(text, NULL, &scene, &error));
+        if (!strstr(error.message, wrong[i].message))
+            fail_msg("'%s' is not in '%s'", wrong[i].message, error.message);
+    }
+    char text[1024];
+    static Scene scene;
+    Error error = {0};
+    snprintf(text, sizeof text, jet, "0.5", "1", "");
+    assert_true(parse_text(text, NULL, &scene, &error));
+    assert_int_equal(scene.world.fluids[0].emit_count, 1);
+    assert_true(scene.world.fluids[0].emits[0].speed == 1 && scene.world.most == 100000);
+    assert_false(parse_set(text, "particles.most=10", &scene, &error));
+    assert_non_null(strstr(error.message, "more than the 10 that emitters may fill up to; raise it"));
+    assert_false(parse_set(text, "particles.most=2000000000", &scene, &error));
+    assert_non_null(strstr(error.message, "are more than this machine can hold"));
+}
+
 static void what_no_machine_can_hold_is_refused(void **state)
 {
     (void)state;
@@ -317,6 +381,8 @@ int main(void)
         cmocka_unit_test(what_is_missing_is_named),
         cmocka_unit_test(fluid_must_lie_in_the_box),
         cmocka_unit_test(values_must_fit_each_other),
+        cmocka_unit_test(solids_must_make_sense),
+        cmocka_unit_test(emitters_and_drains_must_make_sense),
         cmocka_unit_test(what_no_machine_can_hold_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -10,6 +10,24 @@ import h5py
 import command
 from command import CommandTest, SCENE, whole_steps
 
+FLOW = """\
+box: {size: [1, 1, 1]}
+particles: {spacing: 0.06, most: 300}
+fluids:
+  - viscosity: 1
+    emit:
+      - disk: {centre: [0, 0.7, 0], direction: [0.1, -1, 0], radius: 0.15}
+        speed: 3
+drains:
+  - block: {min: [-0.5, 0, -0.5], max: [0.5, 0.1, 0.5]}
+solids:
+  - sphere: {centre: [0, 0.3, 0], radius: 0.15}
+    slip: none
+    motion: [{shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 4}}]
+motion:
+  - rock: {axis: [0, 0, 1], angle: 10, frequency: 3}
+solver: {sound_speed: 20, step: {dt: 0.004, substeps: 4}}
+"""
 TIME, EVERY = '0.4', '0.004'
 
 
@@ -96,6 +114,21 @@ class Resume(CommandTest):
             values = [sorted(zip(f[last]['id'][:], f[last]['compression'][:])) for f in (one, other)]
             self.assertEqual(*values)
             self.assertGreater(len(set(c for _, c in values[0])), 10)
+
+    def test_what_comes_and_goes(self):
+        """Emitters, a drain, a moving solid and a moving box; the first state is empty."""
+        self.write('scene.yaml', FLOW)
+        whole = self.whole()
+        with h5py.File(self.path('whole.h5part')) as file:
+            counts = [len(file[f'Step#{i}']['id']) for i in range(whole)]
+        self.assertEqual(counts[0], 0)
+        self.assertGreater(max(counts), counts[-1])
+        for stop in ('0', '0.1', '0.304'):
+            code, said = self.slosh('run', 'scene.yaml', '-o', 'b.h5part', '--time', stop, '--every', EVERY, '--quiet')
+            self.assertEqual(code, 0, said)
+            self.go('--resume', name='b.h5part')
+            self.same('whole.h5part', 'b.h5part')
+            os.remove(self.path('b.h5part'))
 
     def test_another_scene_is_refused(self):
         self.go()
