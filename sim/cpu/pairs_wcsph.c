@@ -34,18 +34,21 @@ static void renormalise(const float m[6], const float b[3], float out[3])
 }
 
 /* The gradient of relative density within a fluid, exact where that is linear: (sum F x x^T)^-1 sum F (e_i -
-   e_j) x with x = x_ij (Antuono 2010, with volumes that are all the same). */
+   e_j) x with x = x_ij (Antuono 2010, with volumes that are all the same). 0 next to solids: diffusion has to
+   level the gaps that the fluid's order leaves there. */
 SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
 {
     const Solver *s = args->solver;
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const float scale = s->gradient / s->rest_number_density; /* m is 1 in the lattice */
+    const f8 first_solid = f8_splat(FLUIDS_MAX);
     Rows rows = {.cell = UINT32_MAX};
 
     for (size_t i = begin; i < end; i++) {
         const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
         const f8 ri = f8_splat(args->relative[i]), fi = f8_splat(args->kind[i]);
+        int solid = 0; /* it sees one */
         f8 xx = f8_splat(0), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx, bx = xx, by = xx, bz = xx;
 
         rows_of(args, args->cell[i], &rows);
@@ -54,8 +57,10 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
                 const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
                          dz = zi - f8_load(args->z + j);
                 const f8 r2 = dx * dx + dy * dy + dz * dz;
-                const i8 near = (r2 < h2) & (r2 >= least2) & (f8_load(args->kind + j) == fi) &
-                                (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+                const i8 seen = (r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+                const f8 kind = f8_load(args->kind + j);
+                solid |= i8_bits(seen & (kind >= first_solid));
+                const i8 near = seen & (r2 >= least2) & (kind == fi);
                 if (!i8_bits(near))
                     continue;
                 const f8 f = f8_masked(near, shape(f8_sqrt(f8_select(near, r2, h2)) * inverse_h, kernel));
@@ -72,7 +77,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
             m[2] = 0.5f * (m[0] + m[1]);
         renormalise(m, b, slope);
         for (int k = 0; k < 3; k++)
-            args->slope[k][i] = slope[k];
+            args->slope[k][i] = solid ? 0 : slope[k];
     }
 }
 
