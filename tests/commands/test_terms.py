@@ -34,6 +34,11 @@ fluids:
 solver: {step: {dt: 0.001, substeps: 1, retries: 0}}
 """
 
+NOTHING = SCENE + "solids: []\ndrains: []\nmotion: []\n"
+SOLID = SCENE + "solids: [{sphere: {centre: [0, 0.7], radius: 0.1}}]\n"
+DRAIN = SCENE + "drains: [{ball: {centre: [0, 0.9], radius: 0.05}}]\n"
+EMITTER = SCENE.replace("  - fill:", "  - emit: [{disk: {centre: [0, 0.9], direction: [0, -1], radius: 0.1}, speed: 1}]\n    fill:")
+
 VISCOUS = ["fluids[0].viscosity=2"]
 WCSPH = ["solver.method=wcsph", "solver.artificial_viscosity=0"]
 TENSE = ["fluids[0].surface_tension=0.1"]
@@ -43,6 +48,10 @@ SCENES = {
     "mueller": (SCENE, []),
     "mueller off": (SCENE, ["solver.surface_tension=cohesion", "fluids[0].surface_tension=0", "fluids[0].viscosity=0",
                             "box.slip=none", "solver.delta_sph=0"]),
+    "empty lists": (NOTHING, []),
+    "solid": (SOLID, []),
+    "drain": (DRAIN, []),
+    "emitter": (EMITTER, ["particles.most=600"]),
     "sentinel": (SCENE, ["solver.step.retries=3"]),
     "cohesion": (SCENE, TENSE + ["solver.surface_tension=cohesion"]),
     "colour field": (SCENE, TENSE + ["solver.surface_tension=colour_field"]),
@@ -58,13 +67,13 @@ SCENES = {
     "wcsph, viscous": (SCENE, WCSPH + VISCOUS),
 }
 # Terms are named, and off: whose cost that is.
-SAME = {"mueller off": "mueller", "viscous off": "viscous", "wcsph off": "wcsph"}
+SAME = {"mueller off": "mueller", "empty lists": "mueller", "viscous off": "viscous", "wcsph off": "wcsph"}
 # Terms are on: what costs less.
-MORE = {"sentinel": "mueller", "cohesion": "mueller", "colour field": "mueller", "viscous": "mueller",
+MORE = {"solid": "mueller", "drain": "mueller", "emitter": "mueller", "sentinel": "mueller", "cohesion": "mueller", "colour field": "mueller", "viscous": "mueller",
         "viscous, no slip": "viscous", "viscous, two fluids": "viscous",
         "wcsph, artificial": "wcsph", "wcsph, diffusion": "wcsph", "wcsph, viscous": "wcsph"}
 # Of these, those that need an array.
-LARGER = set(MORE) - {"sentinel", "viscous", "viscous, no slip"}
+LARGER = set(MORE) - {"drain", "emitter", "sentinel", "viscous", "viscous, no slip"}
 
 
 def settings_of(settings):
