@@ -75,8 +75,9 @@ static double block_distance(const double half[3], int dimensions, const double 
 
 static double cylinder_distance(const SolidDef *solid, const double x[3])
 {
-    const double side = hypot(x[0], x[2]) - solid->radius, end = fabs(x[1]) - 0.5 * solid->height;
-    return side > 0 && end > 0 ? hypot(side, end) : fmax(side, end);
+    const double side = sqrt(x[0] * x[0] + x[2] * x[2]) - solid->radius,
+                 end = fabs(x[1]) - 0.5 * solid->height;
+    return side > 0 && end > 0 ? sqrt(side * side + end * end) : fmax(side, end);
 }
 
 /* Below the rim the nearest point is on one of the two spheres, above it on the rim's ring. */
@@ -84,8 +85,8 @@ static double bowl_distance(const SolidDef *solid, const double x[3])
 {
     const double inner = solid->radius, outer = inner + solid->thickness;
     if (x[1] > 0) {
-        const double across = hypot(x[0], x[2]), ring = fmin(fmax(across, inner), outer);
-        return hypot(across - ring, x[1]);
+        const double across = sqrt(x[0] * x[0] + x[2] * x[2]), ring = fmin(fmax(across, inner), outer);
+        return sqrt((across - ring) * (across - ring) + x[1] * x[1]);
     }
     const double wall = fabs(length(x) - 0.5 * (inner + outer)) - 0.5 * solid->thickness;
     return wall > 0 ? wall : fmax(wall, x[1]);

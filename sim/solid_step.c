@@ -29,6 +29,9 @@ void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep 
 {
     solid_pose_at(solid, begin, &step->begin);
     solid_pose_at(solid, end, &step->end);
+    static const float rest[3];
+    step->still = memcmp(&step->begin, &step->end, sizeof step->end) == 0 &&
+                  memcmp(step->end.v, rest, sizeof rest) == 0 && memcmp(step->end.w, rest, sizeof rest) == 0;
     for (int k = 0; k < 3; k++) {
         const float dt = (float)(end - begin);
         step->change[k] = (step->end.v[k] - step->begin.v[k]) / dt;

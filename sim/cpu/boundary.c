@@ -35,16 +35,40 @@ static void place_one(Cpu *cpu, size_t i)
     p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
 }
 
-static void place_range(void *state, size_t begin, size_t end)
+typedef struct Place {
+    Cpu *cpu;
+    bool which[SOLIDS_MAX];
+} Place;
+
+static void place_range(void *context, size_t begin, size_t end)
 {
-    Cpu *cpu = state;
-    for (size_t k = begin; k < end; k++)
-        place_one(cpu, cpu->boundary_at[k]);
+    const Place *place = context;
+    Cpu *cpu = place->cpu;
+    for (size_t k = begin; k < end; k++) {
+        const size_t i = cpu->boundary_at[k];
+        if (place->which[cpu->now.fluid[i] - FLUIDS_MAX])
+            place_one(cpu, i);
+    }
 }
 
-void cpu_boundary_place(Cpu *cpu)
+static void place_solids(const Place *place)
 {
-    parallel_ranges(cpu->threads, cpu->solver->boundary.count, 4 * CPU_GRAIN, place_range, cpu);
+    Cpu *cpu = place->cpu;
+    bool any = false;
+    for (int k = 0; k < cpu->solver->solid_count; k++)
+        any |= place->which[k];
+    if (any)
+        parallel_ranges(cpu->threads, cpu->solver->boundary.count, 4 * CPU_GRAIN, place_range, (void *)place);
+}
+
+void cpu_boundary_move(Cpu *cpu, const SolidStep *steps)
+{
+    Place place = {.cpu = cpu};
+    for (int k = 0; k < cpu->solver->solid_count; k++) {
+        cpu->solid[k] = steps[k];
+        place.which[k] = !steps[k].still;
+    }
+    place_solids(&place);
 }
 
 void cpu_boundary_append(Cpu *cpu)
@@ -62,19 +86,25 @@ void cpu_boundary_append(Cpu *cpu)
 void cpu_boundary_find(Cpu *cpu)
 {
     size_t owned = 0, boundary = 0;
-    for (size_t i = 0; i < cpu->count; i++)
+    for (size_t i = 0; i < cpu->count; i++) {
+        cpu->owned_before[i] = (uint32_t)owned;
         if (cpu->now.fluid[i] < FLUIDS_MAX)
             cpu->owned_at[owned++] = (uint32_t)i;
         else
             cpu->boundary_at[boundary++] = (uint32_t)i;
+    }
+    cpu->owned_before[cpu->count] = (uint32_t)owned;
 }
 
 void cpu_pose(void *state, const SolidPose *pose)
 {
     Cpu *cpu = state;
-    for (int k = 0; k < cpu->solver->solid_count; k++)
+    Place place = {.cpu = cpu};
+    for (int k = 0; k < cpu->solver->solid_count; k++) {
         cpu->solid[k] = (SolidStep){.begin = pose[k], .end = pose[k]};
-    cpu_boundary_place(cpu);
+        place.which[k] = true;
+    }
+    place_solids(&place);
 }
 
 void cpu_boundary_terms(Cpu *cpu, size_t i)
@@ -98,7 +128,7 @@ static void see(const Cpu *cpu, const PairArgs *args, const float x[3], uint32_t
     const float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
     const float q2 = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / (s->support_radius * s->support_radius);
     const int fluid = cpu->now.fluid[j];
-    if (q2 >= 1 || fluid >= FLUIDS_MAX)
+    if (q2 >= 1)
         return;
     const float w = (1 - q2) * (1 - q2) * (1 - q2), v[3] = {args->vx[j], args->vy[j], args->vz[j]};
     seen->weight += w;
@@ -130,8 +160,8 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
     for (int row = s->first_row; row < s->last_row; row++) {
         uint32_t begin, end;
         pair_row(args, cpu->cell[i], row, &begin, &end);
-        for (uint32_t j = begin; j < end; j++)
-            see(cpu, args, x, j, &seen);
+        for (uint32_t k = cpu->owned_before[begin]; k < cpu->owned_before[end]; k++)
+            see(cpu, args, x, cpu->owned_at[k], &seen);
     }
     float pressure = 0, g[3], a[3];
     if (seen.weight > 0) {
@@ -162,19 +192,19 @@ static void fill_range(void *context, size_t begin, size_t end)
         fill_one(pass, &args, pass->cpu->boundary_at[k]);
 }
 
-bool cpu_boundary_sticks(const Cpu *cpu)
-{
-    const Solver *s = cpu->solver;
-    bool sticks = false;
-    for (int k = 0; k < s->solid_count; k++)
-        sticks |= s->solids[k].slip == SLIP_NONE;
-    return s->viscous && sticks;
-}
-
 void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity)
 {
     BoundaryPass pass = {cpu, gravity};
     parallel_ranges(cpu->threads, cpu->solver->boundary.count, CPU_GRAIN, fill_range, &pass);
+}
+
+void cpu_boundary_restore(Cpu *cpu)
+{
+    const Solver *s = cpu->solver;
+    Place place = {.cpu = cpu};
+    for (int k = 0; k < s->solid_count; k++)
+        place.which[k] = s->viscous && s->solids[k].slip == SLIP_NONE;
+    place_solids(&place);
 }
 
 bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3])

@@ -47,6 +47,7 @@ static void cpu_destroy(void *state)
         free(all[k]);
     free(cpu->owned_at);
     free(cpu->boundary_at);
+    free(cpu->owned_before);
     free(cpu->partial);
     free(cpu);
 }
@@ -92,6 +93,7 @@ static bool arrays_create(Cpu *cpu)
     ok &= (cpu->partial = array(cpu, cpu->capacity / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
     if (s->boundary.count > 0) {
         ok &= (cpu->owned_at = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
+        ok &= (cpu->owned_before = array(cpu, cpu->capacity + 1, sizeof(uint32_t))) != NULL;
         ok &= (cpu->boundary_at = array(cpu, s->boundary.count, sizeof(uint32_t))) != NULL;
     }
     ok &= (cpu->cell_start = array(cpu, s->cells.count + 1, sizeof(uint32_t))) != NULL;

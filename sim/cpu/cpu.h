@@ -31,6 +31,7 @@ typedef struct Cpu {
     uint32_t *cell_start;        /* by `grid`: cells + 1 */
     uint32_t *owned_at;          /* by `grid`: where the fluids' particles stand; NULL without solids */
     uint32_t *boundary_at;       /* and the solids' */
+    uint32_t *owned_before;      /* of each particle: how many of the fluids' stand before it; one more */
     SolidStep solid[SOLIDS_MAX]; /* the last that they did: they are at its end */
     WorldSums *partial;          /* by `sums`: one a range */
     size_t bytes;                /* of all these */
@@ -94,15 +95,15 @@ void cpu_equation_of_state(Cpu *cpu);
 void cpu_force(void *state, const ApparentGravity *gravity);
 void cpu_drift(void *state, const FrameStep *step);
 
-/* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; places them; finds them after a
-   sort; gives those at `i` no share in the fluids' terms; fills in what the forces need of them, which
-   cpu_boundary_place takes back where they stick. */
+/* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; moves them along; finds them
+   after a sort; gives those at `i` no share in the fluids' terms; fills in what the forces need of them, and
+   takes back the velocities that are mirrored for it. */
 void cpu_boundary_append(Cpu *cpu);
-void cpu_boundary_place(Cpu *cpu);
+void cpu_boundary_move(Cpu *cpu, const SolidStep *steps);
 void cpu_boundary_find(Cpu *cpu);
 void cpu_boundary_terms(Cpu *cpu, size_t i);
 void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity);
-bool cpu_boundary_sticks(const Cpu *cpu);
+void cpu_boundary_restore(Cpu *cpu);
 bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3]);
 void cpu_pose(void *state, const SolidPose *pose);
 size_t cpu_emit(void *state, const EmitLayer *layer, size_t most);

@@ -108,6 +108,6 @@ void cpu_force(void *state, const ApparentGravity *gravity)
     if (cpu->boundary_at)
         cpu_boundary_fill(cpu, gravity);
     parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, force_range, &pass);
-    if (cpu->boundary_at && cpu_boundary_sticks(cpu))
-        cpu_boundary_place(cpu);
+    if (cpu->boundary_at)
+        cpu_boundary_restore(cpu);
 }

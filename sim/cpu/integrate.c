@@ -47,10 +47,8 @@ void cpu_drift(void *state, const FrameStep *step)
     Cpu *cpu = state;
     Drift drift = {cpu, step};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, drift_range, &drift);
-    if (step->solids) {
-        memcpy(cpu->solid, step->solids, (size_t)cpu->solver->solid_count * sizeof *cpu->solid);
-        cpu_boundary_place(cpu);
-    }
+    if (step->solids)
+        cpu_boundary_move(cpu, step->solids);
 }
 
 typedef struct Kick {
