@@ -156,12 +156,20 @@ static bool hold(Way *way, double normal[3])
     return true;
 }
 
-static bool out_of_reach(const SolidPose *pose, const float x[3], float reach)
+/* Whether a ball about the solid keeps clear of all that lies as near to x as `before` does, the solid's own
+   way included. */
+static bool out_of_reach(const SolidStep *step, const float before[3], const float x[3], float reach)
 {
-    float r2 = 0;
-    for (int k = 0; k < 3; k++)
-        r2 += (x[k] - pose->x[k]) * (x[k] - pose->x[k]);
-    return r2 > reach * reach;
+    float r2 = 0, way2 = 0, own2 = 0;
+    for (int k = 0; k < 3; k++) {
+        const float r = x[k] - step->end.x[k], way = x[k] - before[k],
+                    own = step->end.x[k] - step->begin.x[k];
+        r2 += r * r;
+        way2 += way * way;
+        own2 += own * own;
+    }
+    const float most = reach + sqrtf(way2) + sqrtf(own2);
+    return r2 > most * most;
 }
 
 static void place(const SolidPose *pose, const Way *way, const double normal[3], float x[3], float v[3])
@@ -183,7 +191,7 @@ bool solid_guard(const SolidDef *solid, const SolidStep *step, int dimensions, c
                  float x[3], float v[3])
 {
     const float reach = (float)solid_reach(solid);
-    if (out_of_reach(&step->end, x, reach) && out_of_reach(&step->begin, before, 2 * reach))
+    if (out_of_reach(step, before, x, reach))
         return false;
     Way way = {.solid = solid, .dimensions = dimensions};
     float from[3], to[3];
