@@ -64,8 +64,9 @@ void solid_pose(const SolidDef *solid, double time, BoxState *pose)
 
 static double block_distance(const double half[3], int dimensions, const double x[3])
 {
+    const int axes = dimensions == 2 ? 2 : 3;
     double outside = 0, inside = -INFINITY;
-    for (int k = 0; k < dimensions; k++) {
+    for (int k = 0; k < axes; k++) {
         const double d = fabs(x[k]) - half[k];
         outside += d > 0 ? d * d : 0;
         inside = fmax(inside, d);
@@ -111,7 +112,7 @@ double solid_distance(const SolidDef *solid, int dimensions, const double x[3])
 void solid_normal(const SolidDef *solid, int dimensions, const double x[3], double normal[3])
 {
     const double step = 1e-6 * solid_reach(solid);
-    normal[2] = 0;
+    normal[0] = normal[1] = normal[2] = 0;
     for (int k = 0; k < dimensions; k++) {
         double low[3] = {x[0], x[1], x[2]}, high[3] = {x[0], x[1], x[2]};
         low[k] -= step;

@@ -1,7 +1,6 @@
 #include "sim/solid_step.h"
 
 #include <math.h>
-#include <string.h>
 
 static void store(const double v[3], float out[3])
 {
@@ -29,9 +28,7 @@ void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep 
 {
     solid_pose_at(solid, begin, &step->begin);
     solid_pose_at(solid, end, &step->end);
-    static const float rest[3];
-    step->still = memcmp(&step->begin, &step->end, sizeof step->end) == 0 &&
-                  memcmp(step->end.v, rest, sizeof rest) == 0 && memcmp(step->end.w, rest, sizeof rest) == 0;
+    step->still = solid->motion_count == 0;
     for (int k = 0; k < 3; k++) {
         const float dt = (float)(end - begin);
         step->change[k] = (step->end.v[k] - step->begin.v[k]) / dt;
@@ -197,8 +194,10 @@ bool solid_guard(const SolidDef *solid, const SolidStep *step, int dimensions, c
     float from[3], to[3];
     solid_from_box(&step->begin, before, from);
     solid_from_box(&step->end, x, to);
-    for (int k = 0; k < dimensions; k++)
-        way.from[k] = from[k], way.to[k] = to[k];
+    for (int k = 0; k < 3; k++) {
+        way.from[k] = k < dimensions ? from[k] : 0;
+        way.to[k] = k < dimensions ? to[k] : 0;
+    }
     double normal[3];
     bool held = false;
     for (int i = 0; i < 3 && hold(&way, normal); i++) { /* again: an inner edge has two sides */

@@ -16,7 +16,7 @@ typedef struct SolidPose {
 /* What one solid does from one pose to the next. */
 typedef struct SolidStep {
     SolidPose begin, end;
-    bool still;      /* it stays where it is, at rest */
+    bool still;      /* it has no motion */
     float change[3]; /* of v, over the step: m/s2 */
     float alpha[3];  /* of w, over the step: rad/s2 */
 } SolidStep;
