@@ -112,8 +112,9 @@ double solid_distance(const SolidDef *solid, int dimensions, const double x[3])
 void solid_normal(const SolidDef *solid, int dimensions, const double x[3], double normal[3])
 {
     const double step = 1e-6 * solid_reach(solid);
-    normal[0] = normal[1] = normal[2] = 0;
-    for (int k = 0; k < dimensions; k++) {
+    const int axes = dimensions == 2 ? 2 : 3;
+    normal[2] = 0;
+    for (int k = 0; k < axes; k++) {
         double low[3] = {x[0], x[1], x[2]}, high[3] = {x[0], x[1], x[2]};
         low[k] -= step;
         high[k] += step;
