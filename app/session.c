@@ -48,6 +48,18 @@ static void look(Session *session)
     world_info(session->world, &session->info);
     if (session->info.trouble.count != troubles)
         fprintf(stderr, "%s\n", session_trouble_text(&session->info.trouble, words));
+    if (session->info.full && !session->told_full)
+        fprintf(stderr, "%s\n", session_full_text(&session->info, words));
+    session->told_full |= session->info.full;
+}
+
+const char *session_full_text(const WorldInfo *info, char words[256])
+{
+    snprintf(
+        words, 256,
+        "t = %.4g s: there are %zu particles, as many as particles.most allows: emitters wait until some drain",
+        info->time, info->count);
+    return words;
 }
 
 const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
@@ -128,6 +140,8 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
     if (json) {
         json_object_set_new(json, "limits", limits_json(info));
         json_object_set_new(json, "troubles", json_integer(info->trouble.count));
+        json_object_set_new(json, "emitted", json_integer((json_int_t)info->emitted));
+        json_object_set_new(json, "drained", json_integer((json_int_t)info->drained));
     }
     if (json && summary->renderer)
         json_object_set_new(json, "renderer", json_string(summary->renderer));

@@ -15,6 +15,7 @@ typedef struct Session {
     World *world;
     WorldInfo info;  /* of the present state */
     double began_ms; /* wall time of the start */
+    bool told_full;  /* that emitters wait */
 } Session;
 
 /* Loads the only scene of the command line, says on standard error what --particles did to dt, makes the
@@ -35,6 +36,9 @@ bool session_substep(Session *session, Error *error); /* one step of a frame */
 
 /* What the sentinel did, in words. */
 const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);
+
+/* That emitters wait, in words. */
+const char *session_full_text(const WorldInfo *info, char words[256]);
 
 /* What a command says when it is done, on standard error and in --json FILE. */
 typedef struct Summary {

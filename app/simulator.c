@@ -46,6 +46,7 @@ struct Simulator {
     World *world;
     Recording recording;
     unsigned troubles;   /* of the world, that were told */
+    bool told_full;      /* that its emitters wait */
     bool recording_lost; /* no memory for all of its commands */
     Upload *upload;
     void (*wake)(void);
@@ -109,6 +110,7 @@ static void world_start(Simulator *simulator)
     simulator->scene = simulator->start;
     world_destroy(simulator->world);
     simulator->troubles = 0;
+    simulator->told_full = false;
     simulator->world = world_create(&simulator->start.world, &error);
     if (!simulator->world || !publish(simulator, &error))
         tell(simulator, true, error.message);
@@ -228,10 +230,13 @@ static bool obey_all(Simulator *simulator, Work *work)
     return go_on;
 }
 
-/* The sentinel went back: that is worth a word. */
-static void tell_trouble(Simulator *simulator, const WorldInfo *info)
+/* The sentinel went back, or emitters wait: that is worth a word. */
+static void tell_news(Simulator *simulator, const WorldInfo *info)
 {
     char words[256];
+    if (info->full && !simulator->told_full)
+        tell(simulator, false, session_full_text(info, words));
+    simulator->told_full |= info->full;
     if (info->trouble.count == simulator->troubles)
         return;
     simulator->troubles = info->trouble.count;
@@ -252,7 +257,7 @@ static void run_frame(Simulator *simulator, Work *work)
             break;
         ok = world_substep(simulator->world, &clock, &error);
         world_info(simulator->world, &info);
-        tell_trouble(simulator, &info);
+        tell_news(simulator, &info);
         if (ok)
             STAGE (&clock, STAGE_UPLOAD)
                 ok = publish(simulator, &error);

@@ -286,6 +286,7 @@ void world_info(const World *world, WorldInfo *info)
         .capacity = world->capacity,
         .emitted = world->emitted,
         .drained = world->drained,
+        .full = world->layer && world->count == world->capacity,
         .support_radius = world->def.support * world->def.spacing,
         .spacing = world->def.spacing,
         .box = world->box,

@@ -61,6 +61,7 @@ typedef struct WorldInfo {
     uint64_t step;                      /* substeps since the start */
     size_t count, capacity;             /* particles; as many as emitters may fill it up to */
     uint64_t emitted, drained;          /* of them, since the start */
+    bool full;                          /* emitters wait: there are as many as there may be */
     int threads;                        /* that the backend uses */
     double support_radius;              /* h, m */
     double spacing;                     /* m */

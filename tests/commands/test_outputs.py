@@ -27,6 +27,16 @@ class Whole(CommandTest):
         summary = json.loads(self.read('a.json'))
         self.assertEqual((summary['particles'], summary['snapshots'], summary['steps']), (500, 11, 50))
 
+    def test_emitters_that_wait_are_told_once(self):
+        jet = '    emit: [{disk: {centre: [0, 0.9, 0], direction: [0, -1, 0], radius: 0.2}, speed: 2}]\n'
+        self.write('jet.yaml', command.SCENE.replace('    fill:', jet + '    fill:', 1))
+        code, said = self.slosh('run', 'jet.yaml', '-o', 'a.h5part', '--time', '0.3', '--set', 'particles.most=520',
+                                '--json', 'a.json')
+        self.assertEqual(code, 0, said)
+        self.assertEqual(said.count('there are 520 particles, as many as particles.most allows: emitters wait'), 1, said)
+        summary = json.loads(self.read('a.json'))
+        self.assertEqual((summary['particles'], summary['emitted'], summary['drained']), (520, 20, 0))
+
     def test_run_replaces_an_old_file(self):
         self.write('a.h5part', 'old')
         code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet')
