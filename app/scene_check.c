@@ -3,6 +3,7 @@
 #include "sim/boundary.h"
 #include "sim/flow.h"
 #include "sim/seed.h"
+#include "sim/solid_step.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -77,21 +78,57 @@ static bool check_plane(const Check *check, const char *path, const double v[3])
            FAIL(check, path, "the third number must be 0, or left out, in a 2D scene, not %g", v[2]);
 }
 
+static double clamp_to_box(const Check *check, int k, double x)
+{
+    const double size = check->scene->world.box_size[k], low = k == 1 ? 0 : -0.5 * size;
+    return fmin(fmax(x, low), low + size);
+}
+
+/* How far the point is from the box, m. */
+static double outside_box(const Check *check, const double x[3])
+{
+    double d2 = 0;
+    for (int k = 0; k < check->scene->world.dimensions; k++)
+        d2 += pow(x[k] - clamp_to_box(check, k, x[k]), 2);
+    return sqrt(d2);
+}
+
+/* Of the solids that stand still. */
+static bool check_out_of_solids(const Check *check, const char *path, const double x[3])
+{
+    const WorldDef *world = &check->scene->world;
+    for (int k = 0; k < world->solid_count; k++) {
+        SolidPose pose;
+        const float at[3] = {(float)x[0], (float)x[1], (float)x[2]};
+        solid_pose_at(&world->solids[k], 0, &pose);
+        if (world->solids[k].motion_count == 0 &&
+            solid_clearance(&world->solids[k], &pose, world->dimensions, at, 0) < 0)
+            return FAIL(check, path, "the emitter is inside solids[%d]; move one of them", k);
+    }
+    return true;
+}
+
 static bool check_emit(const Check *check, int f, int index)
 {
     const Emit *emit = &check->scene->world.fluids[f].emits[index];
     const double *d = emit->direction;
     char path[64], key[96];
     snprintf(path, sizeof path, "fluids[%d].emit[%d].disk", f, index);
+    const double norm = hypot(hypot(d[0], d[1]), d[2]);
+    snprintf(key, sizeof key, "%s.direction", path);
+    if (norm < 1e-9)
+        return FAIL(check, key, "the direction has no length; write one such as [0, -1, 0]");
+    if (!check_plane(check, key, d) || !check_plane(check, path, emit->centre))
+        return false;
     for (int k = 0; k < check->scene->world.dimensions; k++) {
-        snprintf(key, sizeof key, "%s.centre[%d]", path, k);
-        if (!between_walls(check, key, k, emit->centre[k], emit->centre[k]))
+        const double half = emit->radius * sqrt(fmax(0, 1 - d[k] * d[k] / (norm * norm)));
+        const bool centre_out = emit->centre[k] != clamp_to_box(check, k, emit->centre[k]);
+        snprintf(key, sizeof key, centre_out ? "%s.centre[%d]" : "%s.radius", path, k);
+        if (!between_walls(check, key, k, emit->centre[k] - half, emit->centre[k] + half))
             return false;
     }
-    snprintf(key, sizeof key, "%s.direction", path);
-    if (hypot(hypot(d[0], d[1]), d[2]) < 1e-9)
-        return FAIL(check, key, "the direction has no length; write one such as [0, -1, 0]");
-    return check_plane(check, key, d) && check_plane(check, path, emit->centre);
+    snprintf(key, sizeof key, "%s.centre", path);
+    return check_out_of_solids(check, key, emit->centre);
 }
 
 static bool check_fluid(const Check *check, int f)
@@ -132,7 +169,14 @@ static bool check_drain(const Check *check, int index)
         if (!check_order(check, path, drain, k))
             return false;
     }
-    return true;
+    snprintf(path, sizeof path, "drains[%d]", index);
+    double nearest[3], reach = drain->kind == FILL_BALL ? drain->radius : 0;
+    for (int k = 0; k < 3; k++)
+        nearest[k] = drain->kind == FILL_BALL
+                         ? drain->centre[k]
+                         : fmin(fmax(clamp_to_box(check, k, drain->min[k]), drain->min[k]), drain->max[k]);
+    return outside_box(check, nearest) <= reach ||
+           FAIL(check, path, "the drain is outside the box; no fluid comes there");
 }
 
 static bool check_axis(const Check *check, const char *path, const double axis[3])
@@ -179,6 +223,8 @@ static bool check_solid(const Check *check, int index)
     if (!check_solid_plane(check, solid, path) ||
         (solid->kind != SOLID_SPHERE && !check_axis(check, key, solid->axis)))
         return false;
+    if (solid->motion_count == 0 && outside_box(check, solid->centre) > solid_reach(solid))
+        return FAIL(check, path, "the solid is outside the box, and does not move; no fluid comes there");
     snprintf(key, sizeof key, "%s.motion", path);
     for (int m = 0; m < solid->motion_count; m++)
         if (!check_motion(check, key, m, &solid->motions[m]))
@@ -339,14 +385,15 @@ static bool check_widths(const Check *check)
     return true;
 }
 
-static bool check_boundary(const Check *check)
+/* Boundary particles stand in memory as the `fluid` ones do. */
+static bool check_boundary(const Check *check, size_t fluid)
 {
     const WorldDef *world = &check->scene->world;
     double sum = 0;
     for (int k = 0; k < world->solid_count; k++)
         sum += boundary_estimate(&world->solids[k], world->dimensions, world->spacing,
                                  world->support * world->spacing);
-    return scene_fits_memory(sum) ||
+    return sum <= 0 || scene_fits_memory(sum + (double)flow_capacity(world, fluid)) ||
            FAIL(
                check, "solids",
                "the solids' surfaces need about %.3g particles of their own, more than this machine can hold; "
@@ -358,7 +405,7 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
 {
     const Check check = {tree, scene, error};
     const double spacing = scene->world.spacing;
-    if (!check_widths(&check) || !check_boundary(&check))
+    if (!check_widths(&check) || !check_boundary(&check, 0))
         return false;
     if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
         return false;
@@ -379,6 +426,8 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
                 scene->world.fluids[f].name, spacing);
         before = count;
     }
+    if (!check_boundary(&check, before))
+        return false;
     if (!flow_emits(&scene->world))
         return true;
     if (!scene_fits_memory(scene->world.most))

@@ -80,7 +80,7 @@ static bool state_of(const SnapshotStep *step, WorldState *state)
     float *const to[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->compression};
     const float *const from[] = {step->position[0], step->position[1], step->position[2], step->velocity[0],
                                  step->velocity[1], step->velocity[2], step->compression};
-    for (size_t k = 0; k < sizeof to / sizeof *to; k++)
+    for (size_t k = 0; step->count > 0 && k < sizeof to / sizeof *to; k++)
         memcpy(to[k], from[k], step->count * sizeof(float));
     for (size_t i = 0; i < step->count; i++) {
         p->fluid[i] = (uint8_t)step->fluid[i];

@@ -200,6 +200,29 @@ double boundary_estimate(const SolidDef *solid, int dimensions, double spacing, 
     return fmin(volume, area * (depth + spacing)) / pow(spacing, dimensions);
 }
 
+/* Of `count` particles those that are in the box, put together; of a solid that moves all: returns how many.
+ */
+static size_t keep_in_box(const SolidDef *solid, const WorldDef *def, float *x, size_t count)
+{
+    BoxState pose;
+    size_t kept = 0;
+    if (solid->motion_count > 0)
+        return count;
+    solid_pose(solid, 0, &pose);
+    for (size_t i = 0; i < count; i++) {
+        double at[3] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
+        bool in = true;
+        quat_rotate(pose.orientation, at, at);
+        for (int k = 0; k < def->dimensions; k++) {
+            const double low = k == 1 ? 0 : -0.5 * def->box_size[k], c = at[k] + pose.position[k];
+            in &= c >= low && c <= low + def->box_size[k];
+        }
+        if (in)
+            memmove(x + 3 * kept++, x + 3 * i, 3 * sizeof *x);
+    }
+    return kept;
+}
+
 bool boundary_create(Boundary *boundary, const WorldDef *def)
 {
     const double depth = def->support * def->spacing;
@@ -216,11 +239,13 @@ bool boundary_create(Boundary *boundary, const WorldDef *def)
     }
     size_t at = 0;
     for (int i = 0; i < def->solid_count; i++) {
-        const size_t more =
-            boundary_layers(&def->solids[i], def->dimensions, def->spacing, depth, boundary->rest + 3 * at);
+        float *rest = boundary->rest + 3 * at;
+        const size_t all = boundary_layers(&def->solids[i], def->dimensions, def->spacing, depth, rest);
+        const size_t more = keep_in_box(&def->solids[i], def, rest, all);
         memset(boundary->solid + at, i, more);
         at += more;
     }
+    boundary->count = at;
     return true;
 }
 

@@ -39,7 +39,8 @@ void emit_place(const Emit *emit, int dimensions, double spacing, long index, do
 {
     const double *d = emit->direction, norm = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double out = emit->start + (double)index * spacing / emit->speed, way = (time - out) * emit->speed;
-    const long reach = (long)(emit->radius / spacing), deep = dimensions == 3 ? reach : 0;
+    const double radius = (1 + 1e-9) * emit->radius;
+    const long reach = (long)(radius / spacing), deep = dimensions == 3 ? reach : 0;
     double a[3], b[3];
     across(emit, dimensions, a, b);
     layer->count = 0;
@@ -48,7 +49,7 @@ void emit_place(const Emit *emit, int dimensions, double spacing, long index, do
     for (long j = -deep; j <= deep; j++)
         for (long i = -reach; i <= reach; i++) {
             const double p = (double)i * spacing, q = (double)j * spacing;
-            if (p * p + q * q > emit->radius * emit->radius)
+            if (p * p + q * q > radius * radius)
                 continue;
             for (int k = 0; layer->position && k < 3; k++)
                 layer->position[3 * layer->count + (size_t)k] =
@@ -107,12 +108,12 @@ bool fill_holds(const Fill *fill, int dimensions, const double x[3])
     return fill->kind == FILL_BALL ? r2 <= fill->radius * fill->radius : inside;
 }
 
-static bool emit_check(const Emit *emit, int dimensions)
+static bool emit_check(const Emit *emit, int dimensions, double spacing)
 {
     const double *d = emit->direction, norm2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     return emit->speed > 0 && emit->speed < INFINITY && emit->radius > 0 && emit->radius < INFINITY &&
-           norm2 > 0 && norm2 < INFINITY && emit->duration >= 0 && emit->start >= 0 &&
-           (dimensions == 3 || (d[2] == 0 && emit->centre[2] == 0));
+           emit->radius < 1e4 * spacing && norm2 > 0 && norm2 < INFINITY && emit->duration >= 0 &&
+           emit->start >= 0 && (dimensions == 3 || (d[2] == 0 && emit->centre[2] == 0));
 }
 
 bool flow_check(const WorldDef *def, Error *error)
@@ -126,10 +127,10 @@ bool flow_check(const WorldDef *def, Error *error)
         if (fluid->emit_count < 0 || fluid->emit_count > EMITS_MAX)
             return error_set(error, "a fluid has up to %d emitters, not %d", EMITS_MAX, fluid->emit_count);
         for (int i = 0; i < fluid->emit_count; i++)
-            if (!emit_check(&fluid->emits[i], def->dimensions))
+            if (!emit_check(&fluid->emits[i], def->dimensions, def->spacing))
                 return error_set(
                     error,
-                    "fluid %d, emitter %d: speed, radius and direction must not be zero, nor leave the plane of a 2D scene",
+                    "fluid %d, emitter %d: speed, radius and direction must not be zero, nor the radius 10,000 spacings, nor may it leave the plane of a 2D scene",
                     f, i);
     }
     return true;

@@ -26,8 +26,11 @@ static bool is_free(const Stand *stand, const double x[3])
     const WorldDef *def = stand->def;
     for (int k = 0; k < def->solid_count; k++) {
         double d[3];
+        const double reach = solid_reach(&def->solids[k]) + def->spacing;
         for (int a = 0; a < 3; a++)
             d[a] = x[a] - stand->pose[k].position[a];
+        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > reach * reach)
+            continue;
         quat_rotate_inverse(stand->pose[k].orientation, d, d);
         if (solid_distance(&def->solids[k], def->dimensions, d) < (0.5 - slack) * def->spacing)
             return false;

@@ -43,6 +43,14 @@ static void cross(const float a[3], const float b[3], float out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+void solid_step_mean(SolidStep *first, SolidStep *second)
+{
+    for (int k = 0; k < 3; k++) {
+        first->change[k] = second->change[k] = 0.5f * (first->change[k] + second->change[k]);
+        first->alpha[k] = second->alpha[k] = 0.5f * (first->alpha[k] + second->alpha[k]);
+    }
+}
+
 void solid_to_box(const SolidPose *pose, const float in_solid[3], float x[3])
 {
     for (int k = 0; k < 3; k++)
@@ -55,6 +63,20 @@ void solid_from_box(const SolidPose *pose, const float x[3], float in_solid[3])
     const float d[3] = {x[0] - pose->x[0], x[1] - pose->x[1], x[2] - pose->x[2]};
     for (int k = 0; k < 3; k++)
         in_solid[k] = pose->r[0][k] * d[0] + pose->r[1][k] * d[1] + pose->r[2][k] * d[2];
+}
+
+float solid_clearance(const SolidDef *solid, const SolidPose *pose, int dimensions, const float x[3],
+                      float far)
+{
+    const float reach = (float)solid_reach(solid) + far;
+    float r2 = 0, in_solid[3];
+    for (int k = 0; k < 3; k++)
+        r2 += (x[k] - pose->x[k]) * (x[k] - pose->x[k]);
+    if (r2 > reach * reach)
+        return sqrtf(r2) - reach + far;
+    solid_from_box(pose, x, in_solid);
+    const double at[3] = {in_solid[0], in_solid[1], dimensions == 2 ? 0 : in_solid[2]};
+    return (float)solid_distance(solid, dimensions, at);
 }
 
 void solid_velocity_at(const SolidPose *pose, const float x[3], float v[3])

@@ -26,8 +26,15 @@ void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose);
 /* From `begin` to `end`, s. */
 void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep *step);
 
+/* Gives both halves of a step the rates of the whole. */
+void solid_step_mean(SolidStep *first, SolidStep *second);
+
 void solid_to_box(const SolidPose *pose, const float in_solid[3], float x[3]);
 void solid_from_box(const SolidPose *pose, const float x[3], float in_solid[3]);
+/* Signed distance of x from the surface, m, or `far` and more where it is further away than that. */
+float solid_clearance(const SolidDef *solid, const SolidPose *pose, int dimensions, const float x[3],
+                      float far);
+
 void solid_velocity_at(const SolidPose *pose, const float x[3], float v[3]);
 
 /* The acceleration of the solid's matter at x, by the rates of the step. */

@@ -137,6 +137,8 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
         for (int half = 0; half < 2; half++)
             solid_step_make(&world->def.solids[i], world_time_at(world, at + 0.5 * half),
                             world_time_at(world, at + 0.5 * half + 0.5), &step->solids[half][i]);
+    for (int i = 0; i < world->def.solid_count; i++)
+        solid_step_mean(&step->solids[0][i], &step->solids[1][i]);
     step->first_half.solids = world->def.solid_count > 0 ? step->solids[0] : NULL;
     step->second_half.solids = world->def.solid_count > 0 ? step->solids[1] : NULL;
     apparent_gravity(world->def.gravity, &begin, &middle, &world->box, dt, &step->apparent);

@@ -35,6 +35,9 @@ size_t world_def_count(const WorldDef *def, double spacing)
             return SIZE_MAX;
     WorldDef at = *def;
     at.spacing = spacing;
+    for (int k = 0; k < at.solid_count; k++)
+        if (at.solids[k].thickness == 0)
+            at.solids[k].thickness = at.support * spacing;
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].fill_count; i++)
             volume += fill_volume(&def->fluids[f].fills[i], def->dimensions);

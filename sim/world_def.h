@@ -100,7 +100,7 @@ typedef struct WorldDef {
 WorldDef world_def_default(void);
 
 /* How many particles the fills give at `spacing` (m); SIZE_MAX when more than 2^32. Walks the
-   lattice's points in each fill, allocates nothing. */
+   lattice's points in each fill, allocates nothing. A bowl's thickness of 0 stands for the support radius. */
 size_t world_def_count(const WorldDef *def, double spacing);
 
 #endif

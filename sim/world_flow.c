@@ -10,7 +10,9 @@ static void let_in(World *world, int fluid, const Emit *emit, double begin, doub
     for (long k = first; k < first + layers; k++) {
         const uint64_t born = world->initial + world->emitted;
         EmitLayer layer = {.position = world->layer, .fluid = fluid, .first_id = (uint32_t)born};
-        emit_place(emit, def->dimensions, def->spacing, k, begin, &layer);
+        if (k == first)
+            world->backend->grid(world->state); /* who is where now */
+        emit_place(emit, def->dimensions, def->spacing, k, end, &layer);
         size_t most = world->capacity - world->count;
         if (born + layer.count > IDS)
             most = 0;

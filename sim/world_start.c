@@ -34,6 +34,9 @@ static void thin_at_solids(const Solver *solver, const WorldDef *def, const Seed
             double d[3];
             for (int a = 0; a < 3; a++)
                 d[a] = seeds->position[3 * i + (size_t)a] - pose[k].position[a];
+            const double reach = solid_reach(&def->solids[k]) + def->support * def->spacing;
+            if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > reach * reach)
+                continue;
             quat_rotate_inverse(pose[k].orientation, d, d);
             const double layers = solid_distance(&def->solids[k], def->dimensions, d) / def->spacing;
             const float is = (float)(layers * def->spacing),

@@ -9,16 +9,24 @@ static size_t rest_of(const Cpu *cpu, size_t i)
     return cpu->now.id[i] - BOUNDARY_ID;
 }
 
-/* Beside the box, where no fluid sees it: behind the walls stand the walls' own particles. */
-static void put_aside(const Walls *walls, float h, float x[3])
+static bool in_box(const Walls *walls, const float x[3])
 {
     for (int a = 0; a < walls->dimensions; a++) {
-        const float low = a == 1 ? 0 : -walls->half_size[a], high = low + 2 * walls->half_size[a];
-        if (x[a] < low)
-            x[a] = fminf(x[a], low - 4 * h);
-        else if (x[a] > high)
-            x[a] = fmaxf(x[a], high + 4 * h);
+        const float low = a == 1 ? 0 : -walls->half_size[a];
+        if (x[a] < low || x[a] > low + 2 * walls->half_size[a])
+            return false;
     }
+    return true;
+}
+
+/* Matter that two solids share counts once, for the first of them. */
+static bool in_earlier_solid(const Cpu *cpu, int solid, const float x[3])
+{
+    const Solver *s = cpu->solver;
+    for (int k = 0; k < solid; k++)
+        if (solid_clearance(&s->solids[k], &cpu->solid[k].end, s->dimensions, x, 0) < 0)
+            return true;
+    return false;
 }
 
 static void place_one(Cpu *cpu, size_t i)
@@ -26,11 +34,13 @@ static void place_one(Cpu *cpu, size_t i)
     const Solver *s = cpu->solver;
     const CpuParticles *p = &cpu->now;
     const size_t b = rest_of(cpu, i);
-    const SolidPose *pose = &cpu->solid[s->boundary.solid[b]].end;
+    const int solid = s->boundary.solid[b];
+    const SolidPose *pose = &cpu->solid[solid].end;
     float x[3], v[3];
     solid_to_box(pose, s->boundary.rest + 3 * b, x);
     solid_velocity_at(pose, x, v);
-    put_aside(&s->walls, s->support_radius, x);
+    if (!in_box(&s->walls, x) || in_earlier_solid(cpu, solid, x))
+        x[0] = ASIDE; /* no fluid sees it; behind walls stand the walls' own */
     p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
     p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
 }
@@ -64,9 +74,11 @@ static void place_solids(const Place *place)
 void cpu_boundary_move(Cpu *cpu, const SolidStep *steps)
 {
     Place place = {.cpu = cpu};
+    bool moves = false; /* this one, or one before it, which may uncover it */
     for (int k = 0; k < cpu->solver->solid_count; k++) {
         cpu->solid[k] = steps[k];
-        place.which[k] = !steps[k].still;
+        moves |= !steps[k].still;
+        place.which[k] = moves;
     }
     place_solids(&place);
 }
@@ -154,6 +166,8 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
     const Solver *s = cpu->solver;
     const CpuParticles *p = &cpu->now;
     const int solid = p->fluid[i] - FLUIDS_MAX;
+    if (cpu->cell[i] == s->cells.count)
+        return;
     const float x[3] = {p->x[i], p->y[i], p->z[i]}, volume = 1 / s->rest_number_density;
     const bool sticks = s->viscous && s->solids[solid].slip == SLIP_NONE;
     Seen seen = {0};

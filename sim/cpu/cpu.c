@@ -96,7 +96,7 @@ static bool arrays_create(Cpu *cpu)
         ok &= (cpu->owned_before = array(cpu, cpu->capacity + 1, sizeof(uint32_t))) != NULL;
         ok &= (cpu->boundary_at = array(cpu, s->boundary.count, sizeof(uint32_t))) != NULL;
     }
-    ok &= (cpu->cell_start = array(cpu, s->cells.count + 1, sizeof(uint32_t))) != NULL;
+    ok &= (cpu->cell_start = array(cpu, s->cells.count + 2, sizeof(uint32_t))) != NULL;
     return cpu_adapt(cpu) && ok;
 }
 

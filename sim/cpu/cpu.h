@@ -28,7 +28,8 @@ typedef struct Cpu {
     uint32_t *cell, *spare_cell; /* by `grid`: of each particle, sorted; before the sort */
     uint32_t *rank;              /* by `grid`: place within the cell before its sort by id */
     uint32_t *order;             /* by `grid`: old place of each new one */
-    uint32_t *cell_start;        /* by `grid`: cells + 1 */
+    uint32_t *cell_start;        /* by `grid`: cells + 2; the last cell is for what is set aside */
+    size_t gridded;              /* by `grid`: how many it has seen */
     uint32_t *owned_at;          /* by `grid`: where the fluids' particles stand; NULL without solids */
     uint32_t *boundary_at;       /* and the solids' */
     uint32_t *owned_before;      /* of each particle: how many of the fluids' stand before it; one more */
@@ -42,6 +43,10 @@ typedef struct Cpu {
 /* Boundary particles stand among the others, with FLUIDS_MAX + their solid for a fluid and ids from here on.
  */
 #define BOUNDARY_ID 0x80000000U
+
+/* Of a boundary particle that is set aside: x, m. Its square is finite, since lanes past a row's end read it.
+ */
+#define ASIDE 1e9F
 
 enum { CPU_GRAIN = 512 }; /* particles in a range: some 0.2 ms of work, small against a step */
 

@@ -1,5 +1,4 @@
-/* Particles that come and go between steps. The grid is that of the last step's middle: since then nothing
-   has moved by more than half the support radius. */
+/* Particles that come and go between steps. */
 #include "sim/cpu/cpu.h"
 
 #include <math.h>
@@ -16,7 +15,7 @@ static bool in_box(const Walls *walls, const float x[3])
     return true;
 }
 
-/* Whether nobody whom the grid has is near. */
+/* Whether nobody is near: of those whom the grid has, and of those that came since. */
 static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
 {
     const float least = ROOM * cpu->solver->spacing;
@@ -29,6 +28,17 @@ static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
             if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < least * least)
                 return false;
         }
+    }
+    for (size_t j = cpu->gridded; j < cpu->count; j++) {
+        const float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
+        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < least * least)
+            return false;
+    }
+    for (int k = 0; k < cpu->solver->solid_count; k++) {
+        const float half = 0.5f * cpu->solver->spacing;
+        if (solid_clearance(&cpu->solver->solids[k], &cpu->solid[k].end, cpu->solver->dimensions, x, half) <
+            half * 0.999f)
+            return false;
     }
     return true;
 }

@@ -47,7 +47,10 @@ static void count_cells(void *state, size_t begin, size_t end)
     const CellMap map = cell_map(cpu->solver);
     const CpuParticles *p = &cpu->now;
     for (size_t i = begin; i < end; i++) {
-        const uint32_t cell = cell_at(&map, p->x[i], p->y[i], p->z[i]);
+        const bool aside =
+            cpu->boundary_at && p->x[i] == ASIDE; /* in a cell of their own that nobody reads */
+        const uint32_t cell =
+            aside ? (uint32_t)cpu->solver->cells.count : cell_at(&map, p->x[i], p->y[i], p->z[i]);
         cpu->spare_cell[i] = cell;
         cpu->rank[i] = __atomic_fetch_add(&cpu->cell_start[cell + 1], 1, __ATOMIC_RELAXED);
     }
@@ -106,9 +109,9 @@ void cpu_grid(void *state)
     Cpu *cpu = state;
     const size_t cells = cpu->solver->cells.count;
 
-    memset(cpu->cell_start, 0, (cells + 1) * sizeof *cpu->cell_start);
+    memset(cpu->cell_start, 0, (cells + 2) * sizeof *cpu->cell_start);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, count_cells, cpu);
-    for (size_t cell = 0; cell < cells; cell++)
+    for (size_t cell = 0; cell <= cells; cell++)
         cpu->cell_start[cell + 1] += cpu->cell_start[cell];
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, place_particles, cpu);
     parallel_ranges(cpu->threads, cells, 4 * CPU_GRAIN, sort_cells, cpu);
@@ -118,6 +121,7 @@ void cpu_grid(void *state)
     cpu->spare = cpu->now;
     cpu->now = sorted;
     cpu->slopes_due = true;
+    cpu->gridded = cpu->count;
     if (cpu->boundary_at)
         cpu_boundary_find(cpu);
 }

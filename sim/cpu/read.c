@@ -73,7 +73,8 @@ void cpu_read(void *state, const ParticleArrays *out)
     parallel_ranges(cpu->threads, cpu->owned, 4 * CPU_GRAIN, read_range, &read);
 }
 
-static int neighbours_of(const PairArgs *args, size_t i)
+/* Others with r < h, boundary particles of solids not among them. */
+static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
 {
     const float h2 = args->solver->support_radius * args->solver->support_radius;
     int count = -1; /* not itself */
@@ -83,7 +84,7 @@ static int neighbours_of(const PairArgs *args, size_t i)
         for (uint32_t j = begin; j < end; j++) {
             const float dx = args->x[i] - args->x[j], dy = args->y[i] - args->y[j],
                         dz = args->z[i] - args->z[j];
-            count += dx * dx + dy * dy + dz * dz < h2;
+            count += dx * dx + dy * dy + dz * dz < h2 && cpu->now.fluid[j] < FLUIDS_MAX;
         }
     }
     return count;
@@ -109,7 +110,7 @@ static void add_particle(const Cpu *cpu, const PairArgs *args, size_t i, WorldSu
     sums->angular_scale += sqrt(l2);
     sums->kinetic_energy += 0.5 * m * speed2;
     sums->max_speed = fmax(sums->max_speed, sqrt(speed2));
-    sums->neighbours_mean += neighbours_of(args, i);
+    sums->neighbours_mean += neighbours_of(cpu, args, i);
 }
 
 typedef struct SumPass {

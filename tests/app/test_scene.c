@@ -321,6 +321,12 @@ static void emitters_and_drains_must_make_sense(void **state)
     } wrong[] = {
         {"1.5", "1", "", "the fluid is outside the box: it reaches from 1.5 to 1.5 m in y"},
         {"0.5", "0", "", "scene.yaml:8:48: the direction has no length"},
+        {"0.5", "1", "solids:\n  - sphere: {centre: [0, 0.5, 0], radius: 0.3}\n",
+         "scene.yaml:8:24: the emitter is inside solids[0]; move one of them"},
+        {"0.5", "1", "solids:\n  - sphere: {centre: [5, 0.5, 0], radius: 0.3}\n",
+         "the solid is outside the box, and does not move"},
+        {"0.5", "1", "drains:\n  - ball: {centre: [5, 0.5, 0], radius: 0.3}\n",
+         "the drain is outside the box"},
         {"0.5", "1", "        loud: 1\n", "scene.yaml:10:9: unknown key 'loud'"},
         {"0.5", "1", "drains:\n  - block: {min: [0, 0, 0], max: [0, 1, 1]}\n",
          "the block's min is not below its max in x (0 and 0 m)"},
@@ -339,6 +345,8 @@ static void emitters_and_drains_must_make_sense(void **state)
     static Scene scene;
     Error error = {0};
     snprintf(text, sizeof text, jet, "0.5", "1", "");
+    assert_false(parse_set(text, "fluids[0].emit[0].disk.radius=0.6", &scene, &error));
+    assert_non_null(strstr(error.message, "it reaches from -0.6 to 0.6 m in x"));
     assert_true(parse_text(text, NULL, &scene, &error));
     assert_int_equal(scene.world.fluids[0].emit_count, 1);
     assert_true(scene.world.fluids[0].emits[0].speed == 1 && scene.world.most == 100000);

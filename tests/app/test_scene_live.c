@@ -113,7 +113,7 @@ static void the_table_says_which(void **state)
         } else if (!strchr(path, '[') || strncmp(path, "fluids", 6) == 0) {
             snprintf(setting, sizeof setting, "%s=1", path);
             snprintf(refusal, sizeof refusal, "%s cannot change while the simulation runs; ", path);
-            if (!strstr(path, "fill["))
+            if (!strstr(path, "fill[") && !strstr(path, "emit["))
                 refuse(setting, refusal);
         }
     }

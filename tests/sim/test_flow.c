@@ -145,6 +145,70 @@ static void a_full_box_takes_nothing(void **state)
     world_destroy(world);
 }
 
+/* Least distance of two particles. */
+static double least_distance(World *world)
+{
+    State s = fixture_read(world);
+    double least2 = INFINITY;
+    for (size_t i = 0; i < s.count; i++)
+        for (size_t j = 0; j < i; j++) {
+            double d2 = 0;
+            for (int k = 0; k < 3; k++)
+                d2 += pow(s.position[4 * i + k] - s.position[4 * j + k], 2);
+            least2 = fmin(least2, d2);
+        }
+    fixture_free(&s);
+    return sqrt(least2);
+}
+
+/* A disk that is a wall, or lies on one, gives what any does. */
+static void a_wall_may_hold_the_disk(void **state)
+{
+    (void)state;
+    const double centres[3][3] = {{-2, 0.5, 0}, {-1.8, 0, 0}, {-1.8, 1, 0}},
+                 directions[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+    for (int i = 0; i < 3; i++) {
+        WorldDef def = jet_def(3);
+        Emit *emit = &def.fluids[0].emits[0];
+        memcpy(emit->centre, centres[i], sizeof emit->centre);
+        memcpy(emit->direction, directions[i], sizeof emit->direction);
+        emit->radius = 0.15;
+        World *world = fixture_world(&def);
+        fixture_step(world, 100); /* 0.2 s: eight layers of 29 */
+        assert_int_equal(info_of(world).emitted, 8 * 29);
+        world_destroy(world);
+    }
+}
+
+/* Two disks on the same place, against each other: only one of two particles has room. Nor in a solid, though
+   it is hollow, nor where one comes by. */
+static void nothing_comes_where_something_is(void **state)
+{
+    (void)state;
+    WorldDef def = jet_def(3);
+    def.fluids[0].emits[1] = def.fluids[0].emits[0];
+    def.fluids[0].emits[1].direction[0] = -1;
+    def.fluids[0].emits[0].centre[0] = def.fluids[0].emits[1].centre[0] = 0;
+    def.fluids[0].emit_count = 2;
+    World *world = fixture_world(&def);
+    fixture_step(world, 1);
+    assert_true(info_of(world).emitted > 0 && least_distance(world) > 0.8 * def.spacing);
+    world_destroy(world);
+
+    for (int moves = 0; moves < 2; moves++) {
+        def = jet_def(3);
+        SolidDef *ball = &def.solids[def.solid_count++];
+        *ball = (SolidDef){.kind = SOLID_SPHERE, .centre = {-1.8, 0.5, 0}, .radius = 0.45, .axis = {0, 1, 0}};
+        if (moves)
+            ball->motions[ball->motion_count++] =
+                (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.01, .frequency = 2};
+        world = fixture_world(&def);
+        fixture_step(world, 100);
+        assert_int_equal(info_of(world).emitted, 0);
+        world_destroy(world);
+    }
+}
+
 static WorldDef busy_def(const char *method)
 {
     WorldDef def = fixture_def(1.2, 0.9, 0.8);
@@ -247,6 +311,8 @@ int main(void)
         cmocka_unit_test(a_jet_is_a_lattice),
         cmocka_unit_test(the_bound_holds),
         cmocka_unit_test(a_full_box_takes_nothing),
+        cmocka_unit_test(a_wall_may_hold_the_disk),
+        cmocka_unit_test(nothing_comes_where_something_is),
         cmocka_unit_test(save_load_step_is_step),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(going_back_takes_back_what_came),

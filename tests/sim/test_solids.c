@@ -1,6 +1,8 @@
 /* Solids in a fluid: density next to them, rest, tightness, friction, the same bits. */
 #include "fixture.h"
 
+#include "sim/boundary.h"
+#include "sim/stage.h"
 #include "sim/world_state.h"
 
 /* Distance of a particle from a solid's surface at the world's time. */
@@ -33,16 +35,21 @@ static double least_clearance(World *world, const WorldDef *def)
     return least;
 }
 
-/* A block in the lattice's own places: rest density within 0.5 % all around, as at the walls. */
+/* A block in the lattice's own places, once, and in two parts of which one is in the other: rest density
+   within 0.5 % all around, as at the walls. */
 static void a_block_in_the_lattice_leaves_rest_density(void **state)
 {
     (void)state;
-    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+    for (int run = 0; run < 4; run++) {
+        const int dimensions = 2 + run % 2;
         WorldDef def = fixture_def(1.2, 1.2, 1.2);
         def.dimensions = dimensions;
         fixture_block(&def, 0, -0.6, 0, -0.6, 0.6, 1.2, 0.6);
         def.solids[def.solid_count++] =
             (SolidDef){.kind = SOLID_BOX, .centre = {0, 0.6, 0}, .size = {0.4, 0.4, 0.4}, .axis = {0, 1, 0}};
+        def.solids[1] = def.solids[0];
+        def.solids[1].size[0] = 0.2;
+        def.solid_count += run / 2;
         World *world = fixture_world(&def);
         State s = fixture_read(world);
         assert_int_equal(s.count, dimensions == 3 ? 12 * 12 * 12 - 64 : 12 * 12 - 16);
@@ -51,6 +58,34 @@ static void a_block_in_the_lattice_leaves_rest_density(void **state)
                 fail_msg("in %dD the density at %g %g %g is %g", dimensions, s.position[4 * i],
                          s.position[4 * i + 1], s.position[4 * i + 2], s.density[i]);
         fixture_free(&s);
+        world_destroy(world);
+    }
+}
+
+/* A hill: of a ball most of which is below the floor only what is in the box counts; also where it moves. */
+static void what_is_outside_the_box_is_left_out(void **state)
+{
+    (void)state;
+    for (int moves = 0; moves < 2; moves++) {
+        WorldDef def = fixture_def(0.4, 0.4, 0.4);
+        def.spacing = 0.02;
+        def.sound_speed = 10;
+        fixture_block(&def, 0, -0.2, 0, -0.2, 0.2, 0.2, 0.2);
+        SolidDef *hill = &def.solids[def.solid_count++];
+        *hill = (SolidDef){.kind = SOLID_SPHERE, .centre = {0, -0.95, 0}, .radius = 1};
+        if (moves)
+            hill->motions[hill->motion_count++] =
+                (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.02, .frequency = 2};
+        Boundary boundary;
+        assert_true(boundary_create(&boundary, &def));
+        assert_true(moves ? boundary.count > 50000 : boundary.count > 500 && boundary.count < 2000);
+        boundary_destroy(&boundary);
+        World *world = fixture_world(&def);
+        const double began = wall_ms();
+        fixture_step(world, 20);
+        assert_true(wall_ms() - began <
+                    20000); /* it takes 0.1 s; with all in the cells of the rim, minutes */
+        assert_true(least_clearance(world, &def) > -1e-5);
         world_destroy(world);
     }
 }
@@ -414,6 +449,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_block_in_the_lattice_leaves_rest_density),
+        cmocka_unit_test(what_is_outside_the_box_is_left_out),
         cmocka_unit_test(a_tank_with_solids_comes_to_rest),
         cmocka_unit_test(ten_times_the_limits_lose_no_particle),
         cmocka_unit_test(a_cup_that_moves_a_radius_a_frame_does_not_leak),
