@@ -204,6 +204,7 @@ double boundary_estimate(const SolidDef *solid, int dimensions, double spacing, 
  */
 static size_t keep_in_box(const SolidDef *solid, const WorldDef *def, float *x, size_t count)
 {
+    const int axes = def->dimensions == 2 ? 2 : 3;
     BoxState pose;
     size_t kept = 0;
     if (solid->motion_count > 0)
@@ -213,7 +214,7 @@ static size_t keep_in_box(const SolidDef *solid, const WorldDef *def, float *x, 
         double at[3] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
         bool in = true;
         quat_rotate(pose.orientation, at, at);
-        for (int k = 0; k < def->dimensions; k++) {
+        for (int k = 0; k < axes; k++) {
             const double low = k == 1 ? 0 : -0.5 * def->box_size[k], c = at[k] + pose.position[k];
             in &= c >= low && c <= low + def->box_size[k];
         }
