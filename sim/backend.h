@@ -51,6 +51,10 @@ typedef struct Backend {
 
 extern const Backend backend_cpu;
 
+/* Adds one to the list, once: those that need more than sim has. It outlives all worlds. Not for several
+   threads at once. */
+void backend_add(const Backend *backend);
+
 /* NULL when there is none of that name. */
 const Backend *backend_find(const char *name);
 

@@ -8,13 +8,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const Backend *const backends[] = {&backend_cpu};
+enum { BACKENDS_MAX = 4 };
+static const Backend *backends[BACKENDS_MAX] = {&backend_cpu};
+static int backend_count = 1;
 static const Method *const methods[] = {&method_mueller, &method_wcsph};
-enum { BACKENDS = sizeof backends / sizeof backends[0], METHODS = sizeof methods / sizeof methods[0] };
+enum { METHODS = sizeof methods / sizeof methods[0] };
+
+void backend_add(const Backend *backend)
+{
+    if (!backend_find(backend->name) && backend_count < BACKENDS_MAX)
+        backends[backend_count++] = backend;
+}
 
 const Backend *backend_find(const char *name)
 {
-    for (int i = 0; i < BACKENDS; i++)
+    for (int i = 0; i < backend_count; i++)
         if (strcmp(backends[i]->name, name) == 0)
             return backends[i];
     return NULL;
@@ -30,8 +38,8 @@ const Method *method_find(const char *name)
 
 const Named *world_backends(void)
 {
-    static Named list[BACKENDS + 1];
-    for (int i = 0; i < BACKENDS; i++)
+    static Named list[BACKENDS_MAX + 1];
+    for (int i = 0; i < backend_count; i++)
         list[i] = (Named){backends[i]->name, backends[i]->help};
     return list;
 }
@@ -101,7 +109,7 @@ void world_destroy(World *world)
 {
     if (!world)
         return;
-    if (world->state)
+    if (world->backend && world->state)
         world->backend->destroy(world->state);
     solver_destroy(&world->solver);
     world_state_free(&world->good);

@@ -1,0 +1,35 @@
+// What is constant while a world lives, and what one step brings: mirrors sim/gl/compute/blocks.h.
+#define FLUIDS_MAX 8
+
+layout(std140, binding = 1) uniform Constants {
+    vec4 kernel;         // h, 1 / h, n0, spacing
+    vec4 scales;         // of density, pressure, viscosity; relative compression
+    ivec4 cell_first;    // of the grid; w: particles
+    ivec4 cell_size;     // w: cells
+    ivec4 rows;          // first, after the last
+    vec4 half_size;      // of the box; w: range of the walls
+    ivec4 wall_nodes;    // of the tables of one, two, three faces
+    vec4 wall_steps;     // their inverse steps
+    ivec4 wall_offset;   // where they begin, in entries
+    vec4 fluids[FLUIDS_MAX]; // mass, rest density, stiffness, viscosity
+};
+
+layout(std140, binding = 2) uniform Step {
+    vec4 rotation[3];     // rows of D; w of the first: dt; of the second: 1 where the box stands still
+    vec4 omega0;
+    vec4 omega1;
+    vec4 shift;
+    vec4 velocity_change;
+    vec4 gravity;         // w: dt of the kick
+    vec4 felt_origin;     // apparent gravity
+    vec4 felt_alpha;
+    vec4 felt_omega;
+};
+
+uint particle_count() { return uint(cell_first.w); }
+uint cell_count() { return uint(cell_size.w); }
+
+layout(local_size_x = 64) in;
+
+// Groups stand in rows, since a driver may allow 65,535 along an axis only.
+uint invocation() { return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u + gl_GlobalInvocationID.x; }

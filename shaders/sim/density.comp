@@ -1,0 +1,37 @@
+// Number density, volume, pressure: sim/cpu/pairs.c and finish_density in sim/cpu/forces.c.
+#include "sim/constants.glsl"
+#include "sim/walls.glsl"
+#include "sim/rows.glsl"
+layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 x = position[i].xyz;
+    ivec3 at = cell_of(x);
+    float sum = 0.0;
+    for (int row = rows.x; row < rows.y; row++) {
+        uvec2 range = row_of(at, row);
+        for (uint j = range.x; j < range.y; j++) {
+            vec3 d = x - position[j].xyz;
+            float q2 = dot(d, d) * kernel.y * kernel.y;
+#ifdef POLY6
+            float t = max(1.0 - q2, 0.0);
+#else
+            float t = max(1.0 - sqrt(q2), 0.0);
+#endif
+            sum += t * t * t;
+        }
+    }
+    float n = scales.x * sum + walls_at(x, true).density;
+    float p = fluids[name[i].y].z * (n / kernel.z - 1.0);
+#ifndef NEGATIVE_PRESSURE
+    p = max(p, 0.0);
+#endif
+    position[i].w = 1.0 / n;
+    pressure[i] = vec2(p, p / (n * n));
+}

@@ -1,0 +1,40 @@
+// Free flight from one pose of the box into the next (sim/frame_step.h), then the walls' last guard.
+#include "sim/constants.glsl"
+layout(std430, binding = 0) buffer Positions { vec4 position[]; };
+layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = 2) buffer Watch { uint watch[4]; }; // greatest speed, acceleration, compression; guarded
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 x = position[i].xyz, v = velocity[i].xyz;
+    float dt = rotation[0].w;
+    if (rotation[1].w > 0.5) {
+        x += v * dt;
+    } else {
+        vec3 w = v + cross(omega0.xyz, x), y = x + (w * dt - shift.xyz);
+        x = y + vec3(dot(rotation[0].xyz, y), dot(rotation[1].xyz, y), dot(rotation[2].xyz, y));
+        v = w + vec3(dot(rotation[0].xyz, w), dot(rotation[1].xyz, w), dot(rotation[2].xyz, w)) -
+            velocity_change.xyz - cross(omega1.xyz, x);
+    }
+    bool held = false;
+    int axes = rows.x == 3 ? 2 : 3;
+    for (int a = 0; a < axes; a++) {
+        float low = a == 1 ? 0.0 : -half_size[a], high = a == 1 ? 2.0 * half_size.y : half_size[a];
+        if (x[a] < low) {
+            x[a] = low;
+            v[a] = max(v[a], 0.0);
+            held = true;
+        } else if (x[a] > high) {
+            x[a] = high;
+            v[a] = min(v[a], 0.0);
+            held = true;
+        }
+    }
+    if (held)
+        atomicAdd(watch[3], 1u);
+    position[i].xyz = x;
+    velocity[i].xyz = v;
+}

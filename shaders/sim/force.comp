@@ -1,0 +1,76 @@
+// Accelerations by pressure, viscosity and walls: sim/cpu/pairs.c and sim/cpu/forces.c.
+#include "sim/constants.glsl"
+#include "sim/walls.glsl"
+#include "sim/rows.glsl"
+layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = 3) readonly buffer Pressures { vec2 pressure[]; };
+layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = 5) writeonly buffer Accelerations { vec4 acceleration[]; };
+
+// A direction that only the two ids decide, opposite for (a, b) and (b, a): sim/cpu/pair_loop.h.
+vec3 direction_of_ids(uint a, uint b)
+{
+    uint low = min(a, b), high = max(a, b);
+    uint hash = low * 0x9e3779b1u ^ (high * 0x85ebca77u + 0x165667b1u);
+    vec3 d;
+    for (int k = 0; k < 3; k++) {
+        hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
+        hash ^= hash >> 13;
+        d[k] = float(hash >> 8) * exp2(-23.0) - 1.0 + exp2(-24.0);
+    }
+    return normalize(d) * (a < b ? 1.0 : -1.0);
+}
+
+vec3 wall_force(uint i, vec3 x)
+{
+    WallSums sums = walls_at(x, false);
+    vec3 g = felt_origin.xyz - cross(felt_alpha.xyz, x) - cross(felt_omega.xyz, cross(felt_omega.xyz, x));
+    float density = fluids[name[i].y].y, layer = density * kernel.w * length(g);
+    float fade = layer > 0.0 ? clamp(pressure[i].x / layer, 0.0, 1.0) : 0.0;
+    float weight = fade * density * position[i].w / kernel.z;
+    vec3 d = sums.diagonal, m = sums.mixed;
+    vec3 moment_g = vec3(d.x * g.x + m.x * g.y + m.z * g.z, m.x * g.x + d.y * g.y + m.y * g.z,
+                         m.z * g.x + m.y * g.y + d.z * g.z);
+    vec3 force = vec3(0);
+    for (int k = 0; k < 3; k++) {
+        float push = pressure[i].y * sums.push[k], hydrostatic = -weight * moment_g[k];
+        bool pulls = pressure[i].x >= 0.0 && sums.push[k] * (push + hydrostatic) < 0.0;
+        force[k] = pulls ? 0.0 : push + hydrostatic;
+    }
+    return force;
+}
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 x = position[i].xyz, force = vec3(0);
+    ivec3 at = cell_of(x);
+    float h = kernel.x, least = 1e-6 * h, p = pressure[i].y;
+#ifdef VISCOUS
+    vec3 v = velocity[i].xyz;
+    float mu = fluids[name[i].y].w, drag_scale = 0.5 * scales.z * position[i].w;
+#endif
+    for (int row = rows.x; row < rows.y; row++) {
+        uvec2 range = row_of(at, row);
+        for (uint j = range.x; j < range.y; j++) {
+            vec4 other = position[j];
+            vec3 d = x - other.xyz;
+            float r2 = dot(d, d);
+            if (r2 >= h * h || j == i)
+                continue;
+            if (r2 < least * least) {
+                d = least * direction_of_ids(name[i].x, name[j].x);
+                r2 = least * least;
+            }
+            float r = sqrt(r2), t = 1.0 - r * kernel.y;
+            force += scales.y * (t * t) * (p + pressure[j].y) / r * d;
+#ifdef VISCOUS
+            force += drag_scale * t * other.w * (mu + fluids[name[j].y].w) * (velocity[j].xyz - v);
+#endif
+        }
+    }
+    acceleration[i] = vec4((force + wall_force(i, x)) / fluids[name[i].y].x, 0.0);
+}

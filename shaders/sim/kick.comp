@@ -1,0 +1,26 @@
+// v += (acceleration + gravity) dt, and the greatest of what the sentinel wants to know: bits of floats that are not
+// negative are in their order, and those of NaN are above all.
+#include "sim/constants.glsl"
+layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = 2) buffer Watch { uint watch[4]; };
+layout(std430, binding = 3) readonly buffer Accelerations { vec4 acceleration[]; };
+shared uint greatest[3];
+
+void main()
+{
+    uint i = invocation();
+    if (gl_LocalInvocationID.x < 3u)
+        greatest[gl_LocalInvocationID.x] = 0u;
+    barrier();
+    if (i < particle_count()) {
+        vec3 a = acceleration[i].xyz + gravity.xyz, v = velocity[i].xyz + a * gravity.w;
+        velocity[i].xyz = v;
+        atomicMax(greatest[0], floatBitsToUint(abs(dot(v, v))));
+        atomicMax(greatest[1], floatBitsToUint(abs(dot(a, a))));
+        atomicMax(greatest[2], floatBitsToUint(abs(1.0 / (position[i].w * kernel.z))));
+    }
+    barrier();
+    if (gl_LocalInvocationID.x < 3u)
+        atomicMax(watch[gl_LocalInvocationID.x], greatest[gl_LocalInvocationID.x]);
+}

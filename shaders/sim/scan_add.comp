@@ -1,0 +1,17 @@
+// Adds what stands before each block of 1024.
+layout(local_size_x = 256) in;
+layout(std430, binding = 0) buffer Values { uint value[]; };
+layout(std430, binding = 1) readonly buffer Before { uint before[]; };
+layout(location = 0) uniform uint size;
+
+void main()
+{
+    uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint base = block * 1024u + gl_LocalInvocationID.x * 4u;
+    if (base >= size)
+        return;
+    uint more = before[block];
+    for (uint k = 0u; k < 4u; k++)
+        if (base + k < size)
+            value[base + k] += more;
+}

@@ -1,0 +1,178 @@
+#include "sim/gl/compute/compute.h"
+
+#include "sim/gl/compute/backend_compute.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const pass_names[] = {
+#define X(NAME, name) name,
+    COMPUTE_PASSES(X)
+#undef X
+};
+
+static void compute_destroy(void *state)
+{
+    Compute *c = state;
+    const GLuint buffers[] = {c->now.position,   c->now.velocity, c->now.name,     c->spare.position,
+                              c->spare.velocity, c->spare.name,   c->cell,         c->rank,
+                              c->order,          c->start,        c->totals[0],    c->totals[1],
+                              c->totals[2],      c->pressure,     c->acceleration, c->walls,
+                              c->watch,          c->constants,    c->step};
+    glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
+    for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
+        glDeleteProgram(c->program[p]);
+    free(c);
+}
+
+/* A storage buffer of `bytes`, zeroed. */
+static unsigned buffer(Compute *c, const char *label, size_t bytes)
+{
+    GLuint name;
+    const size_t size = bytes > 0 ? bytes : 16;
+    glCreateBuffers(1, &name);
+    glObjectLabel(GL_BUFFER, name, -1, label);
+    glNamedBufferStorage(name, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
+    glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    c->bytes += size;
+    return name;
+}
+
+static void buffers_create(Compute *c)
+{
+    const size_t n = c->count, cells = c->solver->cells.count;
+    ComputeParticles *const both[] = {&c->now, &c->spare};
+    for (int k = 0; k < 2; k++) {
+        both[k]->position = buffer(c, "particle positions", 16 * n);
+        both[k]->velocity = buffer(c, "particle velocities", 16 * n);
+        both[k]->name = buffer(c, "particle ids and fluids", 8 * n);
+    }
+    c->cell = buffer(c, "particle cells", 4 * n);
+    c->rank = buffer(c, "particle ranks", 4 * n);
+    c->order = buffer(c, "particle order", 4 * n);
+    c->start = buffer(c, "cell starts", 4 * (cells + 1));
+    c->pressure = buffer(c, "particle pressures", 8 * n);
+    c->acceleration = buffer(c, "particle accelerations", 16 * n);
+    c->watch = buffer(c, "watch", 16);
+    size_t level = cells + 1;
+    for (int k = 0; k < COMPUTE_SCAN_LEVELS; k++) {
+        level = (level + COMPUTE_SCAN_BLOCK - 1) / COMPUTE_SCAN_BLOCK;
+        c->totals[k] = buffer(c, "scan totals", 4 * level);
+    }
+}
+
+static void walls_upload(Compute *c)
+{
+    const Walls *walls = &c->solver->walls;
+    size_t entries[3] = {0}, all = 0;
+    for (int t = 0; t < walls->dimensions; t++) {
+        entries[t] = (size_t)walls->table[t].nodes;
+        for (int k = 0; k < t; k++)
+            entries[t] *= (size_t)walls->table[t].nodes;
+        all += entries[t];
+    }
+    c->walls = buffer(c, "wall tables", all * sizeof(WallSums));
+    size_t at = 0;
+    for (int t = 0; t < walls->dimensions; t++) {
+        glNamedBufferSubData(c->walls, (GLintptr)at, (GLsizeiptr)(entries[t] * sizeof(WallSums)),
+                             walls->table[t].sums);
+        at += entries[t] * sizeof(WallSums);
+    }
+}
+
+/* Terms that the scene does not name are not compiled in. */
+static bool programs_create(Compute *c, Error *error)
+{
+    char defines[128];
+    snprintf(defines, sizeof defines, "%s%s%s", c->solver->poly6 ? "#define POLY6 1\n" : "",
+             c->solver->viscous ? "#define VISCOUS 1\n" : "",
+             c->solver->negative_pressure ? "#define NEGATIVE_PRESSURE 1\n" : "");
+    for (int p = 0; p < COMPUTE_PASS_COUNT; p++) {
+        char path[64];
+        snprintf(path, sizeof path, "sim/%s.comp", pass_names[p]);
+        unsigned program = program_create(pass_names[p], (const char *const[]){path, NULL}, defines, error);
+        if (!program)
+            return false;
+        glDeleteProgram(c->program[p]);
+        c->program[p] = program;
+    }
+    return true;
+}
+
+static bool can(const char *what, bool asked, Error *error)
+{
+    return !asked || error_set(error, "backend compute has no %s yet; use backend cpu", what);
+}
+
+static bool supported(const Solver *s, size_t count, size_t capacity, Error *error)
+{
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    if (16 * capacity > (size_t)most || 4 * (s->cells.count + 1) > (size_t)most)
+        return error_set(
+            error,
+            "%zu particles and %zu cells need buffers larger than the %lld bytes that this driver "
+            "allows; use a larger spacing",
+            capacity, s->cells.count, (long long)most);
+    return can("method wcsph", s->continuity, error) && can("solids", s->solid_count > 0, error) &&
+           can("emitters", capacity != count, error) && can("no-slip walls", s->no_slip, error) &&
+           can("surface tension", s->tension_model != TENSION_NONE, error);
+}
+
+static void *compute_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
+                            Error *error)
+{
+    (void)threads;
+    if (epoxy_gl_version() < 45) {
+        error_set(error, "backend compute needs OpenGL 4.5, and there is %d.%d", epoxy_gl_version() / 10,
+                  epoxy_gl_version() % 10);
+        return NULL;
+    }
+    if (!supported(solver, initial->count, capacity, error))
+        return NULL;
+    Compute *c = calloc(1, sizeof *c);
+    if (!c) {
+        error_set(error, "no memory");
+        return NULL;
+    }
+    c->solver = solver;
+    c->count = initial->count;
+    buffers_create(c);
+    walls_upload(c);
+    compute_constants(c);
+    if (!programs_create(c, error) ||
+        !(compute_set_particles(c, initial) || error_set(error, "no memory for %zu particles", c->count))) {
+        compute_destroy(c);
+        return NULL;
+    }
+    return c;
+}
+
+static bool compute_adapt(void *state)
+{
+    Compute *c = state;
+    Error error;
+    compute_constants(c);
+    return programs_create(c, &error);
+}
+
+const Backend backend_compute = {
+    .name = "compute",
+    .help = "compute shaders on the GPU (OpenGL 4.5)",
+    .create = compute_create,
+    .destroy = compute_destroy,
+    .adapt = compute_adapt,
+    .drift = compute_drift,
+    .grid = compute_grid,
+    .density = compute_density,
+    .force = compute_force,
+    .kick = compute_kick,
+    .sums = compute_sums,
+    .read = compute_read,
+    .save = compute_save,
+    .load = compute_load,
+    .info = compute_info,
+};

@@ -1,0 +1,86 @@
+/* The backend `compute`: OpenGL 4.5 compute shaders over storage buffers. Its state, for the files that make
+   it up.
+
+   Needs a current context, the same one throughout. The passes are those of sim/cpu, in shaders/sim. */
+#ifndef SLOSH_COMPUTE_H
+#define SLOSH_COMPUTE_H
+
+#include "sim/backend.h"
+
+enum { COMPUTE_SCAN_LEVELS = 3, COMPUTE_SCAN_BLOCK = 1024, COMPUTE_GROUP = 64 };
+
+/* What moves when particles are sorted. */
+typedef struct ComputeParticles {
+    unsigned position; /* vec4: x y z, volume */
+    unsigned velocity; /* vec4: x y z, 0 */
+    unsigned name;     /* uvec2: id, fluid */
+} ComputeParticles;
+
+/* The passes: shaders/sim/NAME.comp. */
+#define COMPUTE_PASSES(X)                                                                                    \
+    X(DRIFT, "drift")                                                                                        \
+    X(BIN, "bin")                                                                                            \
+    X(SCAN, "scan")                                                                                          \
+    X(SCAN_ADD, "scan_add")                                                                                  \
+    X(PLACE, "place")                                                                                        \
+    X(SORT, "sort")                                                                                          \
+    X(MOVE, "move")                                                                                          \
+    X(DENSITY, "density")                                                                                    \
+    X(FORCE, "force")                                                                                        \
+    X(KICK, "kick")
+
+typedef enum ComputePass {
+#define X(NAME, name) COMPUTE_##NAME,
+    COMPUTE_PASSES(X)
+#undef X
+        COMPUTE_PASS_COUNT
+} ComputePass;
+
+typedef struct Compute {
+    const Solver *solver;
+    size_t count;
+    ComputeParticles now, spare;
+    unsigned cell, rank, order, start;    /* start: cells + 1 */
+    unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
+    unsigned pressure;                    /* vec2: p, p V^2 */
+    unsigned acceleration;                /* vec4 */
+    unsigned walls;                       /* tables */
+    unsigned watch;                       /* 4 uint: see kick.comp */
+    unsigned constants, step;             /* uniform blocks */
+    unsigned program[COMPUTE_PASS_COUNT];
+    size_t bytes, guarded_before; /* of all these buffers; guarded before the last load */
+} Compute;
+
+/* One invocation a particle, or `count` of them, behind a barrier for storage. */
+void compute_run(const Compute *compute, ComputePass pass, size_t count);
+
+/* That many work groups, in rows: shaders/sim/constants.glsl. */
+void compute_dispatch(size_t groups);
+
+/* Binds buffers to the storage bindings 0, 1, ...; 0 leaves one alone. */
+void compute_bind(const unsigned *buffers, int count);
+
+/* Fills the uniform blocks. */
+void compute_constants(Compute *compute);
+void compute_set_drift(Compute *compute, const FrameStep *step);
+void compute_set_force(Compute *compute, const ApparentGravity *gravity);
+void compute_set_kick(Compute *compute, const float gravity[3], float dt);
+
+/* Exclusive prefix sums of the first `size` numbers of a buffer, in place. */
+void compute_scan(Compute *compute, unsigned buffer, size_t size);
+
+void compute_grid(void *state);
+void compute_density(void *state);
+void compute_force(void *state, const ApparentGravity *gravity);
+void compute_drift(void *state, const FrameStep *step);
+StepWatch compute_kick(void *state, const float gravity[3], float dt);
+void compute_sums(void *state, WorldSums *sums);
+void compute_read(void *state, const ParticleArrays *out);
+void compute_save(void *state, const ParticleColumns *to);
+void compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+void compute_info(const void *state, WorldInfo *info);
+
+/* Copies `initial` into the buffers. False when memory is short. */
+bool compute_set_particles(Compute *compute, const InitialState *initial);
+
+#endif

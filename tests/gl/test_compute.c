@@ -1,0 +1,203 @@
+/* The backend `compute` against `cpu`, from the same states. */
+#include "tests/render/fixture.h"
+#include "tests/sim/fixture.h"
+
+#include "sim/gl/compute/backend_compute.h"
+#include "sim/gl/compute/compute.h"
+#include "sim/world_struct.h"
+
+#include <epoxy/gl.h>
+
+static int setup(void **state)
+{
+    if (context_setup(state) != 0)
+        return 1;
+    backend_add(&backend_compute);
+    return 0;
+}
+
+/* Two viscous fluids over each other, stirred, in a box that moves in all ways. */
+static WorldDef stirred_def(int dimensions)
+{
+    WorldDef def = fixture_def(1.2, 1, 0.9);
+    def.dimensions = dimensions;
+    def.spacing = dimensions == 2 ? 0.02 : 0.06;
+    def.sound_speed = 15;
+    def.dt = 0.001;
+    def.fluid_count = 2;
+    def.fluids[0].viscosity = 1;
+    def.fluids[1] = (FluidDef){.name = "oil", .density = 700, .viscosity = 3};
+    fixture_block(&def, 0, -0.6, 0, -0.45, 0.1, 0.4, 0.45);
+    fixture_block(&def, 1, -0.6, 0.4, -0.45, 0.3, 0.6, 0.45);
+    def.motions[def.motion_count++] =
+        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0}, .amplitude = 0.05, .frequency = 2};
+    def.motions[def.motion_count++] =
+        (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 20, .frequency = 1.5};
+    return def;
+}
+
+static World *world_on(WorldDef def, const char *backend)
+{
+    snprintf(def.backend, sizeof def.backend, "%s", backend);
+    return fixture_world(&def);
+}
+
+/* The same state on both. */
+static void copy_state(World *from, World *to)
+{
+    WorldState saved = {0};
+    Error error;
+    if (!world_save(from, &saved, &error) || !world_load(to, &saved, &error))
+        fail_msg("%s", error.message);
+    world_state_free(&saved);
+}
+
+/* After one step from a stirred state: density within 1e-5 of rest, the change of velocity within 1e-4 of the
+   greatest one. */
+static void one_step_is_that_of_the_cpu(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        const WorldDef def = stirred_def(dimensions);
+        World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+        fixture_step(cpu, 150);
+        copy_state(cpu, gpu);
+        State before = fixture_read(cpu);
+        fixture_step(cpu, 1);
+        fixture_step(gpu, 1);
+        State a = fixture_read(cpu), b = fixture_read(gpu);
+        double density = 0, change = 0, off = 0;
+        for (size_t i = 0; i < a.count; i++) {
+            const double rest = def.fluids[a.fluid[i]].density;
+            density = fmax(density, fabsf(a.density[i] - b.density[i]) / rest);
+            for (size_t k = 4 * i; k < 4 * i + 3; k++) {
+                change = fmax(change, fabsf(a.velocity[k] - before.velocity[k]));
+                off = fmax(off, fabsf(a.velocity[k] - b.velocity[k]));
+            }
+        }
+        printf("%dD: density off by %.1e of rest, change of velocity by %.1e of the greatest\n", dimensions,
+               density, off / change);
+        assert_true(density < 1e-5 && off < 1e-4 * change && change > 1e-3);
+        fixture_free(&before);
+        fixture_free(&a);
+        fixture_free(&b);
+        world_destroy(cpu);
+        world_destroy(gpu);
+    }
+}
+
+static double front_of(World *world)
+{
+    State s = fixture_read(world);
+    double sum = 0;
+    for (size_t i = 0; i < s.count; i++)
+        sum += s.position[4 * i] > 0.2;
+    const double part = sum / (double)s.count;
+    fixture_free(&s);
+    return part;
+}
+
+/* 200 steps on: centre of mass and energy within 1 %. */
+static void a_run_stays_with_the_cpu(void **state)
+{
+    (void)state;
+    const WorldDef def = stirred_def(3);
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    fixture_step(cpu, 100);
+    copy_state(cpu, gpu);
+    fixture_step(cpu, 200);
+    fixture_step(gpu, 200);
+    WorldSums a, b;
+    world_sums(cpu, &a);
+    world_sums(gpu, &b);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(a.centre[k] - b.centre[k]) < 0.01 * def.box_size[k]);
+    assert_true(fabs(a.kinetic_energy / b.kinetic_energy - 1) < 0.01);
+    assert_true(fabs(front_of(cpu) - front_of(gpu)) < 0.01);
+    world_destroy(cpu);
+    world_destroy(gpu);
+}
+
+/* The same order of particles and sums each time. */
+static void a_run_is_the_same_each_time(void **state)
+{
+    (void)state;
+    uint64_t hash[2];
+    for (int run = 0; run < 2; run++) {
+        World *world = world_on(stirred_def(3), "compute");
+        fixture_step(world, 50);
+        hash[run] = world_hash(world);
+        world_destroy(world);
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
+static void save_load_step_is_step(void **state)
+{
+    (void)state;
+    const WorldDef def = stirred_def(2);
+    World *world = world_on(def, "compute"), *other = world_on(def, "compute");
+    fixture_step(world, 30);
+    copy_state(world, other);
+    fixture_step(world, 30);
+    fixture_step(other, 30);
+    assert_true(world_hash(world) == world_hash(other));
+    world_destroy(world);
+    world_destroy(other);
+}
+
+static void prefix_sums(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {0, 1, 63, 64, 65, 1023, 1024, 1025, 100000, 1100000};
+    WorldDef def = stirred_def(2);
+    def.box_size[0] = def.box_size[1] = 60; /* room for the largest in its block totals */
+    def.gravity[1] = 0;
+    World *world = world_on(def, "compute");
+    Compute *compute = world->state;
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        const size_t n = sizes[s];
+        uint32_t *values = calloc(n + 1, sizeof *values), *sums = calloc(n + 1, sizeof *sums), seed = 5;
+        unsigned buffer;
+        for (size_t i = 0; i < n; i++)
+            values[i] = (uint32_t)(8 * fixture_random(&seed));
+        glCreateBuffers(1, &buffer);
+        glNamedBufferStorage(buffer, (GLsizeiptr)(4 * n + 4), values, GL_DYNAMIC_STORAGE_BIT);
+        compute_scan(compute, buffer, n);
+        glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)(4 * n), sums);
+        uint32_t sum = 0;
+        for (size_t i = 0; i < n; i++) {
+            if (sums[i] != sum)
+                fail_msg("of %zu numbers, the sum before number %zu is %u, not %u", n, i, sums[i], sum);
+            sum += values[i];
+        }
+        glDeleteBuffers(1, &buffer);
+        free(values);
+        free(sums);
+    }
+    world_destroy(world);
+}
+
+static void what_it_cannot_do_is_said(void **state)
+{
+    (void)state;
+    WorldDef def = stirred_def(3);
+    Error error = {0};
+    snprintf(def.backend, sizeof def.backend, "compute");
+    snprintf(def.method, sizeof def.method, "wcsph");
+    assert_null(world_create(&def, &error));
+    assert_string_equal(error.message, "backend compute has no method wcsph yet; use backend cpu");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(prefix_sums, no_gl_errors),
+        cmocka_unit_test_teardown(one_step_is_that_of_the_cpu, no_gl_errors),
+        cmocka_unit_test_teardown(a_run_stays_with_the_cpu, no_gl_errors),
+        cmocka_unit_test_teardown(a_run_is_the_same_each_time, no_gl_errors),
+        cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
+        cmocka_unit_test_teardown(what_it_cannot_do_is_said, no_gl_errors),
+    };
+    return cmocka_run_group_tests_name("gl.compute", tests, setup, context_teardown);
+}
