@@ -97,17 +97,6 @@ size_t flow_capacity(const WorldDef *def, size_t initial)
     return flow_emits(def) && most > initial ? most : initial;
 }
 
-bool fill_holds(const Fill *fill, int dimensions, const double x[3])
-{
-    double r2 = 0;
-    bool inside = true;
-    for (int k = 0; k < dimensions; k++) {
-        inside &= x[k] >= fill->min[k] && x[k] < fill->max[k];
-        r2 += (x[k] - fill->centre[k]) * (x[k] - fill->centre[k]);
-    }
-    return fill->kind == FILL_BALL ? r2 <= fill->radius * fill->radius : inside;
-}
-
 static bool emit_check(const Emit *emit, int dimensions, double spacing)
 {
     const double *d = emit->direction, norm2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];

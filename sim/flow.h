@@ -54,9 +54,7 @@ bool flow_emits(const WorldDef *def);
 /* Most particles of fluid that the world may ever hold, if it begins with `initial`. */
 size_t flow_capacity(const WorldDef *def, size_t initial);
 
-/* Whether x (m) is in the region. */
-bool fill_holds(const Fill *fill, int dimensions, const double x[3]);
-
+/* False with the reason: emitters or drains out of range. */
 bool flow_check(const WorldDef *def, Error *error);
 
 #endif

@@ -38,10 +38,9 @@ static bool is_free(const Stand *stand, const double x[3])
     return true;
 }
 
-static bool fill_covers(const WorldDef *def, const Fill *fill, const double x[3])
+bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance)
 {
-    const double tolerance = slack * def->spacing;
-    const int axes = def->dimensions == 2 ? 2 : 3;
+    const int axes = dimensions == 2 ? 2 : 3;
     if (fill->kind == FILL_BLOCK) {
         for (int k = 0; k < axes; k++)
             if (x[k] < fill->min[k] - tolerance || x[k] >= fill->max[k] - tolerance)
@@ -52,6 +51,11 @@ static bool fill_covers(const WorldDef *def, const Fill *fill, const double x[3]
     for (int k = 0; k < axes; k++)
         r2 += (x[k] - fill->centre[k]) * (x[k] - fill->centre[k]);
     return r2 <= fill->radius * fill->radius;
+}
+
+static bool fill_covers(const WorldDef *def, const Fill *fill, const double x[3])
+{
+    return fill_holds(fill, def->dimensions, x, slack * def->spacing);
 }
 
 /* Whether a fill that stands before fill `index` of fluid `fluid` has the point. */

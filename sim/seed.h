@@ -13,6 +13,10 @@
    the order z, y, x (x fastest), and returns how many there are; with NULLs it only counts. */
 size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid);
 
+/* Whether x (m) is in the region; a point that is `tolerance` m outside a block's low side is, and one as
+   near inside its high side is not. */
+bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance);
+
 /* m3, or in two dimensions m2. */
 double fill_volume(const Fill *fill, int dimensions);
 

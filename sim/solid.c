@@ -12,16 +12,6 @@ const char *solid_name(SolidKind kind)
     return names[kind];
 }
 
-const char *solid_help(SolidKind kind)
-{
-    static const char *const helps[] = {
-#define X(NAME, name, help) help,
-        SOLID_LIST(X)
-#undef X
-    };
-    return helps[kind];
-}
-
 static double length(const double v[3])
 {
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);

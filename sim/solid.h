@@ -46,7 +46,6 @@ typedef struct SolidDef {
 } SolidDef;
 
 const char *solid_name(SolidKind kind);
-const char *solid_help(SolidKind kind);
 
 /* Where the solid's frame is at `time` (s), in the box's frame, and how it moves there. */
 void solid_pose(const SolidDef *solid, double time, BoxState *pose);

@@ -1,5 +1,7 @@
 #include "sim/solid_step.h"
 
+#include "sim/frame_step.h"
+
 #include <math.h>
 
 static void store(const double v[3], float out[3])
@@ -34,13 +36,6 @@ void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep 
         step->change[k] = (step->end.v[k] - step->begin.v[k]) / dt;
         step->alpha[k] = (step->end.w[k] - step->begin.w[k]) / dt;
     }
-}
-
-static void cross(const float a[3], const float b[3], float out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
 void solid_step_mean(SolidStep *first, SolidStep *second)
@@ -82,7 +77,7 @@ float solid_clearance(const SolidDef *solid, const SolidPose *pose, int dimensio
 void solid_velocity_at(const SolidPose *pose, const float x[3], float v[3])
 {
     const float arm[3] = {x[0] - pose->x[0], x[1] - pose->x[1], x[2] - pose->x[2]};
-    cross(pose->w, arm, v);
+    frame_cross(pose->w, arm, v);
     for (int k = 0; k < 3; k++)
         v[k] += pose->v[k];
 }
@@ -92,9 +87,9 @@ void solid_acceleration_at(const SolidStep *step, const float x[3], float a[3])
     const SolidPose *pose = &step->end;
     const float arm[3] = {x[0] - pose->x[0], x[1] - pose->x[1], x[2] - pose->x[2]};
     float swirl[3], euler[3], inward[3];
-    cross(pose->w, arm, swirl);
-    cross(pose->w, swirl, inward);
-    cross(step->alpha, arm, euler);
+    frame_cross(pose->w, arm, swirl);
+    frame_cross(pose->w, swirl, inward);
+    frame_cross(step->alpha, arm, euler);
     for (int k = 0; k < 3; k++)
         a[k] = step->change[k] + euler[k] + inward[k];
 }

@@ -321,6 +321,16 @@ float wall_face_density(const Walls *walls, float d)
     return sums.number_density;
 }
 
+bool walls_contain(const Walls *walls, const float x[3])
+{
+    for (int a = 0; a < walls->dimensions; a++) {
+        const float low = a == 1 ? 0 : -walls->half_size[a];
+        if (!(x[a] >= low && x[a] <= low + 2 * walls->half_size[a]))
+            return false;
+    }
+    return true;
+}
+
 bool walls_guard(const Walls *walls, float x[3], float v[3])
 {
     bool held = false;

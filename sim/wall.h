@@ -64,6 +64,9 @@ float walls_number_density(const Walls *walls, const float x[3]);
 /* That of one flat wall at the distance d, m. */
 float wall_face_density(const Walls *walls, float d);
 
+/* Whether x is in the box; false for what is not finite. */
+bool walls_contain(const Walls *walls, const float x[3]);
+
 /* Holds x inside the box and takes the velocity into the wall away; true if it had to. */
 bool walls_guard(const Walls *walls, float x[3], float v[3]);
 

@@ -9,16 +9,6 @@ static size_t rest_of(const Cpu *cpu, size_t i)
     return cpu->now.id[i] - BOUNDARY_ID;
 }
 
-static bool in_box(const Walls *walls, const float x[3])
-{
-    for (int a = 0; a < walls->dimensions; a++) {
-        const float low = a == 1 ? 0 : -walls->half_size[a];
-        if (x[a] < low || x[a] > low + 2 * walls->half_size[a])
-            return false;
-    }
-    return true;
-}
-
 /* Matter that two solids share counts once, for the first of them. */
 static bool in_earlier_solid(const Cpu *cpu, int solid, const float x[3])
 {
@@ -39,7 +29,7 @@ static void place_one(Cpu *cpu, size_t i)
     float x[3], v[3];
     solid_to_box(pose, s->boundary.rest + 3 * b, x);
     solid_velocity_at(pose, x, v);
-    if (!in_box(&s->walls, x) || in_earlier_solid(cpu, solid, x))
+    if (!walls_contain(&s->walls, x) || in_earlier_solid(cpu, solid, x))
         x[0] = ASIDE; /* no fluid sees it; behind walls stand the walls' own */
     p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
     p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];

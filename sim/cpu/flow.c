@@ -1,19 +1,10 @@
 /* Particles that come and go between steps. */
 #include "sim/cpu/cpu.h"
+#include "sim/seed.h"
 
 #include <math.h>
 
 static const float ROOM = 0.9f; /* least distance to others, in spacings */
-
-static bool in_box(const Walls *walls, const float x[3])
-{
-    for (int a = 0; a < walls->dimensions; a++) {
-        const float low = a == 1 ? 0 : -walls->half_size[a];
-        if (!(x[a] >= low && x[a] <= low + 2 * walls->half_size[a]))
-            return false;
-    }
-    return true;
-}
 
 /* Whether nobody is near: of those whom the grid has, and of those that came since. */
 static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
@@ -65,7 +56,7 @@ size_t cpu_emit(void *state, const EmitLayer *layer, size_t most)
     size_t number = 0;
     for (size_t k = 0; k < layer->count && number < most; k++) {
         const float *x = layer->position + 3 * k;
-        if (in_box(&cpu->solver->walls, x) && has_room(cpu, &args, x))
+        if (walls_contain(&cpu->solver->walls, x) && has_room(cpu, &args, x))
             append(cpu, layer, x, number++);
     }
     return number;
@@ -101,7 +92,7 @@ void cpu_guide(void *state, const Guide *guides, int count)
 static bool drains(const Fill *regions, int count, int dimensions, const double x[3])
 {
     for (int k = 0; k < count; k++)
-        if (fill_holds(&regions[k], dimensions, x))
+        if (fill_holds(&regions[k], dimensions, x, 0))
             return true;
     return false;
 }

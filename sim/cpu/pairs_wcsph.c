@@ -209,44 +209,28 @@ SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const 
         wcsph_range(args, begin, end, kernel, false, false);
 }
 
+/* `body(args, begin, end, kernel)` with the kernel as a constant, so that each has a loop of its own. */
+#define FOR_KERNEL(args, begin, end, body)                                                                   \
+    do {                                                                                                     \
+        if ((args)->solver->kernel == KERNEL_WENDLAND_C2)                                                    \
+            body(args, begin, end, KERNEL_WENDLAND_C2);                                                      \
+        else if ((args)->solver->kernel == KERNEL_QUINTIC)                                                   \
+            body(args, begin, end, KERNEL_QUINTIC);                                                          \
+        else                                                                                                 \
+            body(args, begin, end, KERNEL_CUBIC);                                                            \
+    } while (0)
+
 void PAIR_NAME(wcsph_slope)(const PairArgs *args, size_t begin, size_t end)
 {
-    switch (args->solver->kernel) {
-    case KERNEL_WENDLAND_C2:
-        slope_range(args, begin, end, KERNEL_WENDLAND_C2);
-        break;
-    case KERNEL_QUINTIC:
-        slope_range(args, begin, end, KERNEL_QUINTIC);
-        break;
-    default:
-        slope_range(args, begin, end, KERNEL_CUBIC);
-    }
+    FOR_KERNEL(args, begin, end, slope_range);
 }
 
 void PAIR_NAME(wcsph_rate)(const PairArgs *args, size_t begin, size_t end)
 {
-    switch (args->solver->kernel) {
-    case KERNEL_WENDLAND_C2:
-        rate_of(args, begin, end, KERNEL_WENDLAND_C2);
-        break;
-    case KERNEL_QUINTIC:
-        rate_of(args, begin, end, KERNEL_QUINTIC);
-        break;
-    default:
-        rate_of(args, begin, end, KERNEL_CUBIC);
-    }
+    FOR_KERNEL(args, begin, end, rate_of);
 }
 
 void PAIR_NAME(wcsph_force)(const PairArgs *args, size_t begin, size_t end)
 {
-    switch (args->solver->kernel) {
-    case KERNEL_WENDLAND_C2:
-        force_of(args, begin, end, KERNEL_WENDLAND_C2);
-        break;
-    case KERNEL_QUINTIC:
-        force_of(args, begin, end, KERNEL_QUINTIC);
-        break;
-    default:
-        force_of(args, begin, end, KERNEL_CUBIC);
-    }
+    FOR_KERNEL(args, begin, end, force_of);
 }

@@ -1,5 +1,6 @@
 /* What others see of the state: copies and sums. */
 #include "sim/cpu/cpu.h"
+#include "sim/sums.h"
 
 #include <math.h>
 #include <string.h>
@@ -93,23 +94,8 @@ static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
 static void add_particle(const Cpu *cpu, const PairArgs *args, size_t i, WorldSums *sums)
 {
     const CpuParticles *p = &cpu->now;
-    const double m = cpu->solver->mass[p->fluid[i]];
     const double x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-    double speed2 = 0, l2 = 0;
-    sums->mass += m;
-    for (int k = 0; k < 3; k++) {
-        const int a = (k + 1) % 3, b = (k + 2) % 3;
-        const double l = m * (x[a] * v[b] - x[b] * v[a]);
-        sums->momentum[k] += m * v[k];
-        sums->angular_momentum[k] += l;
-        sums->centre[k] += m * x[k];
-        speed2 += v[k] * v[k];
-        l2 += l * l;
-    }
-    sums->momentum_scale += m * sqrt(speed2);
-    sums->angular_scale += sqrt(l2);
-    sums->kinetic_energy += 0.5 * m * speed2;
-    sums->max_speed = fmax(sums->max_speed, sqrt(speed2));
+    sums_add(sums, cpu->solver->mass[p->fluid[i]], x, v);
     sums->neighbours_mean += neighbours_of(cpu, args, i);
 }
 

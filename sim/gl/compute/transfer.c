@@ -1,5 +1,6 @@
 /* Between the buffers and plain arrays: for initial states, snapshots and reports, never within a frame. */
 #include "sim/gl/compute/compute.h"
+#include "sim/sums.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -148,26 +149,6 @@ void compute_read(void *state, const ParticleArrays *out)
     copy_free(&copy);
 }
 
-static void add_particle(const Solver *s, const float *xf, const float *vf, uint32_t fluid, WorldSums *sums)
-{
-    const double m = s->mass[fluid], x[3] = {xf[0], xf[1], xf[2]}, v[3] = {vf[0], vf[1], vf[2]};
-    double speed2 = 0, l2 = 0;
-    sums->mass += m;
-    for (int k = 0; k < 3; k++) {
-        const int a = (k + 1) % 3, b = (k + 2) % 3;
-        const double l = m * (x[a] * v[b] - x[b] * v[a]);
-        sums->momentum[k] += m * v[k];
-        sums->angular_momentum[k] += l;
-        sums->centre[k] += m * x[k];
-        speed2 += v[k] * v[k];
-        l2 += l * l;
-    }
-    sums->momentum_scale += m * sqrt(speed2);
-    sums->angular_scale += sqrt(l2);
-    sums->kinetic_energy += 0.5 * m * speed2;
-    sums->max_speed = fmax(sums->max_speed, sqrt(speed2));
-}
-
 /* First of the three cells of each row next to x, from which pair_row of sim/cpu/pairs.h counts. */
 static long middle_cell(const Solver *s, const float *x)
 {
@@ -218,8 +199,11 @@ void compute_sums(void *state, WorldSums *sums)
     if (!copy_make(&copy, c->count))
         return;
     download(c, &copy);
-    for (size_t i = 0; i < c->count; i++)
-        add_particle(c->solver, copy.position + 4 * i, copy.velocity + 4 * i, copy.name[2 * i + 1], sums);
+    for (size_t i = 0; i < c->count; i++) {
+        const float *xf = copy.position + 4 * i, *vf = copy.velocity + 4 * i;
+        const double x[3] = {xf[0], xf[1], xf[2]}, v[3] = {vf[0], vf[1], vf[2]};
+        sums_add(sums, c->solver->mass[copy.name[2 * i + 1]], x, v);
+    }
     for (int k = 0; k < 3 && c->count > 0; k++)
         sums->centre[k] /= sums->mass;
     sums->neighbours_mean = neighbours_mean(c, &copy);
