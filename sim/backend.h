@@ -10,8 +10,13 @@
 #include "sim/step_control.h"
 #include "sim/world_state.h"
 
+struct ParticleBuffers; /* sim/gl/particle_buffers.h */
+
 typedef struct Backend {
     const char *name, *help;
+    /* Its steps run behind the caller's back in a GL context, current wherever a world of it is used, and
+       `watch` is asked once a frame. */
+    bool gpu;
     /* The state of `initial->count` particles, with room for `capacity`; NULL with the reason. `solver`
        outlives it. */
     void *(*create)(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
@@ -32,8 +37,10 @@ typedef struct Backend {
     void (*continuity)(void *state, float dt);
     /* Acceleration by pressure, viscosity, walls and solids; eq. 10 and 14. */
     void (*force)(void *state, const ApparentGravity *gravity);
-    /* v += (acceleration + gravity) dt, and what it finds: sim/step_control.h. */
-    StepWatch (*kick)(void *state, const float gravity[3], float dt);
+    /* v += (acceleration + gravity) dt. */
+    void (*kick)(void *state, const float gravity[3], float dt);
+    /* What the kicks since the last call or `load` found; waits for them. */
+    StepWatch (*watch)(void *state);
     /* Gives what the guides hold their velocities. */
     void (*guide)(void *state, const Guide *guides, int count);
     void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
@@ -46,6 +53,13 @@ typedef struct Backend {
        order, whereupon `pose`, `grid` and `density` must follow. */
     void (*save)(void *state, const ParticleColumns *to);
     void (*load)(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+    /* Keeps the particles where they are, on the device, and goes back to those, as `load` does; both NULL:
+       by `save` and `load`. */
+    bool (*mark)(void *state, Error *error);
+    void (*back)(void *state, size_t count, size_t guarded);
+    /* The particles in GL buffers of its own, PARTICLE_* of `attributes` among them; they stay until the next
+       step or call. NULL: the backend has none. */
+    void (*share)(void *state, unsigned attributes, struct ParticleBuffers *out);
     void (*info)(const void *state, WorldInfo *info); /* threads, state_bytes, guarded */
 } Backend;
 

@@ -21,16 +21,15 @@ typedef struct Substep {
 
 typedef struct Method {
     const char *name, *help;
-    StepWatch (*substep)(const Substep *step);
+    void (*substep)(const Substep *step);
 } Method;
 
 /* The kick of a step, and what emitters make of it. */
-static inline StepWatch substep_kick(const Substep *step)
+static inline void substep_kick(const Substep *step)
 {
-    const StepWatch watch = step->backend->kick(step->state, step->gravity, (float)step->dt);
+    step->backend->kick(step->state, step->gravity, (float)step->dt);
     if (step->guide_count > 0)
         step->backend->guide(step->state, step->guides, step->guide_count);
-    return watch;
 }
 
 extern const Method method_mueller, method_wcsph;

@@ -6,7 +6,28 @@ static const double CALM_STEPS = 200;
 
 bool sentinel_mark(World *world, Error *error)
 {
-    return world->def.retries == 0 || world_save(world, &world->good, error);
+    const Backend *backend = world->backend;
+    if (world->def.retries == 0)
+        return true;
+    if (!backend->mark)
+        return world_save(world, &world->good, error);
+    world_save_numbers(world, &world->good.numbers);
+    world->good.count = world->count;
+    return backend->mark(world->state, error);
+}
+
+bool world_sound(World *world)
+{
+    StepState *s = &world->stepping;
+    if (world->kicked) {
+        const StepWatch watch = world->backend->watch(world->state);
+        const StepTrouble trouble = step_trouble_of(&watch, world->def.retries > 0);
+        s->max_speed = watch.max_speed;
+        s->max_acceleration = watch.max_acceleration;
+        world->seen = world->seen ? world->seen : trouble;
+        world->kicked = false;
+    }
+    return world->seen == STEP_TROUBLE_NONE;
 }
 
 void sentinel_relieve(World *world)
@@ -30,7 +51,7 @@ static void restore(World *world)
     world->stepping.max_acceleration = numbers->stepping.max_acceleration;
     world->stepping.frame_left = -1;
     world->stepping.calm = 0;
-    world_put_particles(world, &world->good);
+    world_put_particles(world, &world->good, world->backend->back);
 }
 
 static bool give_up(World *world, StepTrouble trouble, double time, Error *error)
@@ -46,8 +67,9 @@ static bool give_up(World *world, StepTrouble trouble, double time, Error *error
         time, step_trouble_words(trouble), also);
 }
 
-bool sentinel_back(World *world, StepTrouble trouble, Error *error)
+bool sentinel_back(World *world, Error *error)
 {
+    const StepTrouble trouble = world->seen;
     StepState *s = &world->stepping;
     WorldTrouble *told = &world->trouble;
     const double time = world_time_at(world, (double)world->step);

@@ -4,12 +4,11 @@
 /* Leapfrog as the symmetric composition drift, continuity, kick, continuity, drift (halves but for the kick):
    each part is exact by itself where the others hold still, so that the whole is of second order, runs
    backwards as forwards but for viscosity, and needs one grid a step. */
-static StepWatch wcsph_substep(const Substep *step)
+static void wcsph_substep(const Substep *step)
 {
     const Backend *b = step->backend;
     void *state = step->state;
     const float half = 0.5F * (float)step->dt;
-    StepWatch watch = {.bounded = true};
 
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->first_half);
@@ -20,12 +19,11 @@ static StepWatch wcsph_substep(const Substep *step)
     STAGE (step->clock, STAGE_FORCE)
         b->force(state, &step->apparent);
     STAGE (step->clock, STAGE_INTEGRATE)
-        watch = substep_kick(step);
+        substep_kick(step);
     STAGE (step->clock, STAGE_DENSITY)
         b->continuity(state, half);
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->second_half);
-    return watch;
 }
 
 const Method method_wcsph = {

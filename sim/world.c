@@ -188,24 +188,31 @@ static bool begin_step(World *world, Error *error)
     return true;
 }
 
+static void count_step(World *world)
+{
+    world->step++;
+    world->limited[(int)world->stepping.limit]++;
+}
+
 bool world_substep(World *world, StageClock *clock, Error *error)
 {
     Substep step;
     StepState *s = &world->stepping;
+    if (s->frame_left < 1 && !world_sound(world)) {
+        count_step(world); /* so that no two states have one number */
+        return sentinel_back(world, error);
+    }
     if (!begin_step(world, error))
         return false;
     if (world->layer || world->def.drain_count > 0)
         STAGE (clock, STAGE_INTEGRATE)
             world_flow(world);
     substep_prepare(world, clock, &step);
-    const StepWatch watch = world->method->substep(&step);
-    const StepTrouble trouble = step_trouble_of(&watch, world->def.retries > 0);
-    world->step++;
-    world->limited[(int)s->limit]++;
-    if (trouble)
-        return sentinel_back(world, trouble, error);
-    s->max_speed = watch.max_speed;
-    s->max_acceleration = watch.max_acceleration;
+    world->method->substep(&step);
+    world->kicked = true;
+    count_step(world);
+    if (!world->backend->gpu && !world_sound(world))
+        return sentinel_back(world, error);
     s->frame_left--;
     s->calm++;
     return true;

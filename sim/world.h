@@ -31,6 +31,10 @@ bool world_step(World *world, StageClock *clock, Error *error);
 /* The same for one step of the frame's `substeps`: for who wants a say in between. */
 bool world_substep(World *world, StageClock *clock, Error *error);
 
+/* Whether no trouble is known of the present state. A backend on a GPU is else asked at the begin of the next
+   frame only, which then goes back: who keeps a state asks before. Waits for its steps. */
+bool world_sound(World *world);
+
 /* Where the hand wants the box from the next step on: the box follows through the filter, on top of the
    prescribed motion (sim/box_filter.h). The orientation is normalised; one that is not finite is not taken.
  */

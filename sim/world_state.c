@@ -1,5 +1,6 @@
 #include "sim/world_state.h"
 
+#include "sim/sentinel.h"
 #include "sim/world_struct.h"
 
 #include <math.h>
@@ -35,10 +36,11 @@ bool world_state_reserve(WorldState *state, size_t count)
     return all;
 }
 
-void world_save_numbers(const World *world, WorldNumbers *numbers)
+void world_save_numbers(World *world, WorldNumbers *numbers)
 {
     const WorldDef *def = &world->def;
     WorldInfo info;
+    world_sound(world);
     world_info(world, &info);
     *numbers = (WorldNumbers){
         .version = WORLD_STATE_VERSION,
@@ -133,9 +135,15 @@ static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
     return def;
 }
 
-void world_put_particles(World *world, const WorldState *state)
+void world_put_particles(World *world, const WorldState *state, bool marked)
 {
-    world->backend->load(world->state, &state->particles, state->count, (size_t)state->numbers.guarded);
+    const size_t guarded = (size_t)state->numbers.guarded;
+    if (marked)
+        world->backend->back(world->state, state->count, guarded);
+    else
+        world->backend->load(world->state, &state->particles, state->count, guarded);
+    world->kicked = false;
+    world->seen = STEP_TROUBLE_NONE;
     world->count = state->count;
     world->emitted = (uint64_t)state->numbers.emitted;
     world->drained = (uint64_t)state->numbers.drained;
@@ -157,6 +165,6 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->target = numbers->target;
     world->filter = numbers->filter;
     world->box = numbers->box;
-    world_put_particles(world, state);
-    return world->def.retries == 0 || world_save(world, &world->good, error);
+    world_put_particles(world, state, false);
+    return sentinel_mark(world, error);
 }

@@ -52,7 +52,7 @@ bool world_state_reserve(WorldState *state, size_t count);
 void world_state_free(WorldState *state); /* a zeroed one is allowed */
 
 /* The numbers alone, for who has the particles from world_read. */
-void world_save_numbers(const World *world, WorldNumbers *numbers);
+void world_save_numbers(World *world, WorldNumbers *numbers);
 
 /* Copies the world's state. False, and nothing in it, when memory is short. */
 bool world_save(World *world, WorldState *state, Error *error);

@@ -18,7 +18,9 @@ struct World {
     uint64_t since_step; /* when the present step size began, */
     double since_time;   /* at this time, s */
     StepState stepping;
-    WorldState good; /* what the sentinel goes back to */
+    bool kicked;      /* since the watch was last asked */
+    StepTrouble seen; /* then, since the last good state */
+    WorldState good;  /* what the sentinel goes back to */
     WorldTrouble trouble;
     uint64_t limited[STEP_LIMIT_COUNT]; /* steps since the start, by what bounded them */
     BoxTarget target;                   /* of the hand */
@@ -35,8 +37,8 @@ void world_flow(World *world);
 /* What follows from the particles alone: the solids' places, grid, densities. */
 void world_settle(World *world);
 
-/* The particles of the state, with all that follows from them. */
-void world_put_particles(World *world, const WorldState *state);
+/* The particles of the state, or those that the backend marked with it, with all that follows from them. */
+void world_put_particles(World *world, const WorldState *state, bool marked);
 
 /* s, of a step by its number, as far as the present step size holds. */
 double world_time_at(const World *world, double step);

@@ -127,6 +127,7 @@ static void *cpu_create(const Solver *solver, const InitialState *initial, size_
         return NULL;
     }
     cpu->solver = solver;
+    cpu->watch.bounded = true;
     cpu->pairs = pair_ops_choose();
     cpu->threads = threads > 0 ? threads : parallel_processors();
     cpu->count = cpu->owned = initial->count;
@@ -249,6 +250,7 @@ const Backend backend_cpu = {
     .continuity = cpu_continuity,
     .force = cpu_force,
     .kick = cpu_kick,
+    .watch = cpu_watch,
     .sums = cpu_sums,
     .read = cpu_read,
     .guide = cpu_guide,

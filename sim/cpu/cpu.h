@@ -37,7 +37,7 @@ typedef struct Cpu {
     WorldSums *partial;          /* by `sums`: one a range */
     size_t bytes;                /* of all these */
     size_t guarded;              /* atomic */
-    StepWatch watch;             /* by `kick`; atomic while it runs */
+    StepWatch watch;             /* by `kick`, atomic while it runs; until `watch` */
 } Cpu;
 
 /* Boundary particles stand among the others, with FLUIDS_MAX + their solid for a fluid and ids from here on.
@@ -115,7 +115,8 @@ size_t cpu_emit(void *state, const EmitLayer *layer, size_t most);
 void cpu_guide(void *state, const Guide *guides, int count);
 size_t cpu_drain(void *state, const Fill *regions, int count);
 
-StepWatch cpu_kick(void *state, const float gravity[3], float dt);
+void cpu_kick(void *state, const float gravity[3], float dt);
+StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);
 void cpu_read(void *state, const ParticleArrays *out);
 

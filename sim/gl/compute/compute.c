@@ -14,54 +14,75 @@ static const char *const pass_names[] = {
 #undef X
 };
 
+static bool no_memory(const Compute *c, Error *error)
+{
+    return error_set(error, "the GPU has no memory for %zu particles and %zu cells; use a larger spacing",
+                     c->count, c->solver->cells.count);
+}
+
+static void particles_destroy(ComputeParticles *particles)
+{
+    glDeleteBuffers(1, &particles->position);
+    glDeleteBuffers(1, &particles->velocity);
+    glDeleteBuffers(1, &particles->name);
+}
+
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->now.position,   c->now.velocity, c->now.name,     c->spare.position,
-                              c->spare.velocity, c->spare.name,   c->cell,         c->rank,
-                              c->order,          c->start,        c->totals[0],    c->totals[1],
-                              c->totals[2],      c->pressure,     c->acceleration, c->walls,
-                              c->watch,          c->constants,    c->step};
+    const GLuint buffers[] = {c->cell,      c->rank,       c->order,     c->start,        c->totals[0],
+                              c->totals[1], c->totals[2],  c->pressure,  c->acceleration, c->walls,
+                              c->watch,     c->watch_copy, c->constants, c->step};
+    particles_destroy(&c->now);
+    particles_destroy(&c->spare);
+    particles_destroy(&c->marked);
     glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
+    glDeleteSync(c->watch_fence);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
         glDeleteProgram(c->program[p]);
     free(c);
 }
 
-/* A storage buffer of `bytes`, zeroed. */
-static unsigned buffer(Compute *c, const char *label, size_t bytes)
+unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
 {
     GLuint name;
     const size_t size = bytes > 0 ? bytes : 16;
     glCreateBuffers(1, &name);
     glObjectLabel(GL_BUFFER, name, -1, label);
     glNamedBufferStorage(name, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
-    glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    c->full |= glGetError() == GL_OUT_OF_MEMORY;
+    if (!c->full)
+        glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     c->bytes += size;
     return name;
 }
 
-static void buffers_create(Compute *c)
+bool compute_particles_create(Compute *c, ComputeParticles *particles, Error *error)
+{
+    particles->position = compute_buffer(c, "particle positions", 16 * c->count);
+    particles->velocity = compute_buffer(c, "particle velocities", 16 * c->count);
+    particles->name = compute_buffer(c, "particle ids and fluids", 8 * c->count);
+    return !c->full || no_memory(c, error);
+}
+
+static bool buffers_create(Compute *c, Error *error)
 {
     const size_t n = c->count, cells = c->solver->cells.count;
-    ComputeParticles *const both[] = {&c->now, &c->spare};
-    for (int k = 0; k < 2; k++) {
-        both[k]->position = buffer(c, "particle positions", 16 * n);
-        both[k]->velocity = buffer(c, "particle velocities", 16 * n);
-        both[k]->name = buffer(c, "particle ids and fluids", 8 * n);
-    }
-    c->cell = buffer(c, "particle cells", 4 * n);
-    c->rank = buffer(c, "particle ranks", 4 * n);
-    c->order = buffer(c, "particle order", 4 * n);
-    c->start = buffer(c, "cell starts", 4 * (cells + 1));
-    c->pressure = buffer(c, "particle pressures", 8 * n);
-    c->acceleration = buffer(c, "particle accelerations", 16 * n);
-    c->watch = buffer(c, "watch", 16);
+    if (!compute_particles_create(c, &c->now, error) || !compute_particles_create(c, &c->spare, error))
+        return false;
+    c->cell = compute_buffer(c, "particle cells", 4 * n);
+    c->rank = compute_buffer(c, "particle ranks", 4 * n);
+    c->order = compute_buffer(c, "particle order", 4 * n);
+    c->start = compute_buffer(c, "cell starts", 4 * (cells + 1));
+    c->pressure = compute_buffer(c, "particle pressures", 8 * n);
+    c->acceleration = compute_buffer(c, "particle accelerations", 16 * n);
+    compute_watch_create(c);
     size_t level = cells + 1;
     for (int k = 0; k < COMPUTE_SCAN_LEVELS; k++) {
         level = (level + COMPUTE_SCAN_BLOCK - 1) / COMPUTE_SCAN_BLOCK;
-        c->totals[k] = buffer(c, "scan totals", 4 * level);
+        c->totals[k] = compute_buffer(c, "scan totals", 4 * level);
     }
+    return (!c->full && c->watched) || no_memory(c, error);
 }
 
 static void walls_upload(Compute *c)
@@ -74,7 +95,7 @@ static void walls_upload(Compute *c)
             entries[t] *= (size_t)walls->table[t].nodes;
         all += entries[t];
     }
-    c->walls = buffer(c, "wall tables", all * sizeof(WallSums));
+    c->walls = compute_buffer(c, "wall tables", all * sizeof(WallSums));
     size_t at = 0;
     for (int t = 0; t < walls->dimensions; t++) {
         glNamedBufferSubData(c->walls, (GLintptr)at, (GLsizeiptr)(entries[t] * sizeof(WallSums)),
@@ -140,7 +161,10 @@ static void *compute_create(const Solver *solver, const InitialState *initial, s
     }
     c->solver = solver;
     c->count = initial->count;
-    buffers_create(c);
+    if (!buffers_create(c, error)) {
+        compute_destroy(c);
+        return NULL;
+    }
     walls_upload(c);
     compute_constants(c);
     if (!programs_create(c, error) ||
@@ -161,6 +185,7 @@ static bool compute_adapt(void *state)
 
 const Backend backend_compute = {
     .name = "compute",
+    .gpu = true,
     .help = "compute shaders on the GPU (OpenGL 4.5)",
     .create = compute_create,
     .destroy = compute_destroy,
@@ -170,6 +195,9 @@ const Backend backend_compute = {
     .density = compute_density,
     .force = compute_force,
     .kick = compute_kick,
+    .watch = compute_watch,
+    .mark = compute_mark,
+    .back = compute_back,
     .sums = compute_sums,
     .read = compute_read,
     .save = compute_save,

@@ -39,17 +39,33 @@ typedef enum ComputePass {
 typedef struct Compute {
     const Solver *solver;
     size_t count;
-    ComputeParticles now, spare;
+    ComputeParticles now, spare, marked;  /* marked: none before the first `mark` */
     unsigned cell, rank, order, start;    /* start: cells + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
     unsigned pressure;                    /* vec2: p, p V^2 */
     unsigned acceleration;                /* vec4 */
     unsigned walls;                       /* tables */
     unsigned watch;                       /* 4 uint: see kick.comp */
+    unsigned watch_copy;                  /* of it after the last kick, */
+    const uint32_t *watched;              /* mapped */
+    void *watch_fence;                    /* behind that copy; NULL: there was none */
+    float longest;                        /* dt of the kicks since the watch was read, s */
     unsigned constants, step;             /* uniform blocks */
     unsigned program[COMPUTE_PASS_COUNT];
-    size_t bytes, guarded_before; /* of all these buffers; guarded before the last load */
+    bool full;                             /* the GPU's memory */
+    size_t bytes, guarded_before, guarded; /* of all these buffers; before the last load, and since */
 } Compute;
+
+/* A storage buffer of `bytes`, zeroed. */
+unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
+bool compute_particles_create(Compute *compute, ComputeParticles *particles, Error *error);
+
+/* The watch: its buffers; after each kick. */
+void compute_watch_create(Compute *compute);
+void compute_watch_keep(Compute *compute, float dt);
+
+/* The watch begins anew, with so many guarded before. */
+void compute_watch_reset(Compute *compute, size_t guarded);
 
 /* One invocation a particle, or `count` of them, behind a barrier for storage. */
 void compute_run(const Compute *compute, ComputePass pass, size_t count);
@@ -73,7 +89,10 @@ void compute_grid(void *state);
 void compute_density(void *state);
 void compute_force(void *state, const ApparentGravity *gravity);
 void compute_drift(void *state, const FrameStep *step);
-StepWatch compute_kick(void *state, const float gravity[3], float dt);
+void compute_kick(void *state, const float gravity[3], float dt);
+StepWatch compute_watch(void *state);
+bool compute_mark(void *state, Error *error);
+void compute_back(void *state, size_t count, size_t guarded);
 void compute_sums(void *state, WorldSums *sums);
 void compute_read(void *state, const ParticleArrays *out);
 void compute_save(void *state, const ParticleColumns *to);

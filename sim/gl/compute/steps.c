@@ -2,8 +2,6 @@
 #include "sim/gl/compute/compute.h"
 
 #include <epoxy/gl.h>
-#include <math.h>
-#include <string.h>
 
 void compute_bind(const unsigned *buffers, int count)
 {
@@ -54,26 +52,11 @@ void compute_force(void *state, const ApparentGravity *gravity)
     compute_run(c, COMPUTE_FORCE, c->count);
 }
 
-static float float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-StepWatch compute_kick(void *state, const float gravity[3], float dt)
+void compute_kick(void *state, const float gravity[3], float dt)
 {
     Compute *c = state;
-    static const uint32_t zero[3];
-    uint32_t watch[4];
     compute_set_kick(c, gravity, dt);
-    glNamedBufferSubData(c->watch, 0, sizeof zero, zero);
     compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch, c->acceleration}, 4);
     compute_run(c, COMPUTE_KICK, c->count);
-    glGetNamedBufferSubData(c->watch, 0, sizeof watch, watch);
-    const float fastest = c->solver->support_radius / dt, speed2 = float_of(watch[0]);
-    return (StepWatch){.bounded = speed2 <= fastest * fastest,
-                       .max_speed = sqrtf(speed2),
-                       .max_acceleration = sqrtf(float_of(watch[1])),
-                       .max_compression = float_of(watch[2])};
+    compute_watch_keep(c, dt);
 }

@@ -87,7 +87,6 @@ void compute_load(void *state, const ParticleColumns *from, size_t count, size_t
 {
     Compute *c = state;
     Copy copy;
-    static const uint32_t zero[4];
     if (count != c->count || !copy_make(&copy, count))
         return;
     for (size_t i = 0; i < count; i++) {
@@ -99,8 +98,7 @@ void compute_load(void *state, const ParticleColumns *from, size_t count, size_t
     }
     upload(c, &copy);
     copy_free(&copy);
-    glNamedBufferSubData(c->watch, 0, sizeof zero, zero);
-    c->guarded_before = guarded;
+    compute_watch_reset(c, guarded);
 }
 
 static float scalar_of(const Compute *c, const Copy *copy, Scalar scalar, size_t i)
@@ -213,9 +211,7 @@ void compute_sums(void *state, WorldSums *sums)
 void compute_info(const void *state, WorldInfo *info)
 {
     const Compute *c = state;
-    uint32_t guarded = 0;
-    glGetNamedBufferSubData(c->watch, 3 * sizeof guarded, sizeof guarded, &guarded);
     info->threads = 0;
     info->state_bytes = c->bytes;
-    info->guarded = c->guarded_before + guarded;
+    info->guarded = c->guarded_before + c->guarded;
 }
