@@ -15,18 +15,14 @@ typedef struct Samples {
     int frames, gl_frames;
     uint64_t steps;
     double simulated; /* s */
+    bool sim_on_gpu;
 } Samples;
 
-static bool samples_create(Samples *samples, int frames, Error *error)
+static bool samples_create(Samples *samples, int frames, bool sim_on_gpu, Error *error)
 {
     const size_t count = frames > 0 ? (size_t)frames : 1;
-    *samples = (Samples){calloc(count, sizeof(StageTimes)),
-                         calloc(count, sizeof(StageTimes)),
-                         calloc(count, sizeof(double)),
-                         0,
-                         0,
-                         0,
-                         0};
+    *samples = (Samples){calloc(count, sizeof(StageTimes)), calloc(count, sizeof(StageTimes)),
+                         calloc(count, sizeof(double)), .sim_on_gpu = sim_on_gpu};
     return (samples->cpu && samples->gl && samples->frame_ms) ||
            error_set(error, "no memory for the times of %d frames", frames);
 }
@@ -56,9 +52,15 @@ static double quantile(double *values, int count, double fraction)
     return values[low] + (values[high] - values[low]) * (at - low);
 }
 
+/* Whether the stage runs on the GPU. */
+static bool on_gpu(const Samples *samples, Stage stage)
+{
+    return stage_part(stage) == PART_RENDER || (stage_part(stage) == PART_SIM && samples->sim_on_gpu);
+}
+
 static const StageTimes *rows_of(const Samples *samples, Stage stage, int *count)
 {
-    const bool gl = stage_part(stage) == PART_RENDER;
+    const bool gl = on_gpu(samples, stage);
     *count = gl ? samples->gl_frames : samples->frames;
     return gl ? samples->gl : samples->cpu;
 }
@@ -69,7 +71,7 @@ static double stage_figure(const Samples *samples, Stage stage, const char *gl_c
     int count;
     double sum = 0;
     const StageTimes *rows = rows_of(samples, stage, &count);
-    figure->clock = stage_part(stage) == PART_RENDER ? gl_clock : "cpu";
+    figure->clock = on_gpu(samples, stage) ? gl_clock : "cpu";
     for (int f = 0; f < count; f++) {
         work[f] = rows[f].ms[stage];
         sum += work[f];
@@ -125,19 +127,20 @@ typedef struct Stand {
     World *world;
     Studio studio;
     GlTimer *timer;
-    bool draws;
+    bool draws, sim_on_gpu;
 } Stand;
 
 static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
 {
-    *stand = (Stand){.world = world_create(&setup->scene->world, error), .draws = setup->context};
+    *stand = (Stand){.world = world_create(&setup->scene->world, error),
+                     .draws = setup->draws,
+                     .sim_on_gpu = world_on_gpu(&setup->scene->world)};
     if (!stand->world)
         return false;
-    if (!stand->draws)
+    if (!stand->draws && !stand->sim_on_gpu)
         return true;
-    WorldInfo info;
-    world_info(stand->world, &info);
-    if (!studio_open(&stand->studio, &setup->scene->view, info.capacity, setup->width, setup->height, error))
+    if (stand->draws &&
+        !studio_open(&stand->studio, &setup->scene->view, stand->world, setup->width, setup->height, error))
         return false;
     stand->timer = gl_timer_create(setup->clock);
     return stand->timer || error_set(error, "no memory for the clock of the stages");
@@ -153,7 +156,7 @@ static void stand_close(Stand *stand)
 /* One frame: the stages that ran on the CPU go into `clock`. */
 static bool frame(Stand *stand, StageClock *clock, Error *error)
 {
-    *clock = (StageClock){0};
+    *clock = stand->sim_on_gpu ? gl_timer_stage_clock(stand->timer) : (StageClock){0};
     if (!world_step(stand->world, clock, error))
         return false;
     return !stand->draws || studio_draw(&stand->studio, stand->world, clock, stand->timer, error);
@@ -219,7 +222,7 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
     snprintf(result->scene, sizeof result->scene, "%s", setup->scene->path);
     snprintf(result->backend, sizeof result->backend, "%s", def->backend);
     snprintf(result->method, sizeof result->method, "%s", def->method);
-    snprintf(result->view, sizeof result->view, "%s", setup->context ? setup->scene->view.kind : "none");
+    snprintf(result->view, sizeof result->view, "%s", setup->draws ? setup->scene->view.kind : "none");
     if (setup->context)
         snprintf(result->renderer, sizeof result->renderer, "%s", headless_renderer(setup->context));
 }
@@ -229,11 +232,12 @@ bool bench_measure(const BenchSetup *setup, Progress *progress, double done, dou
 {
     Stand stand;
     Samples samples = {0};
-    bool ok = stand_open(&stand, setup, error) && samples_create(&samples, setup->frames, error) &&
-              warm_up(&stand, error) && measure(&stand, setup->frames, progress, done, part, &samples, error);
+    bool ok = stand_open(&stand, setup, error) &&
+              samples_create(&samples, setup->frames, stand.sim_on_gpu, error) && warm_up(&stand, error) &&
+              measure(&stand, setup->frames, progress, done, part, &samples, error);
     if (ok) {
         describe(setup, stand.world, result);
-        ok = figures(&samples, stand.draws ? gl_timer_clock_name(stand.timer) : "off", result, error);
+        ok = figures(&samples, gl_timer_clock_name(stand.timer), result, error);
     }
     samples_destroy(&samples);
     stand_close(&stand);

@@ -21,7 +21,7 @@ typedef struct StageFigure {
 typedef struct BenchResult {
     char scene[1024];
     char backend[NAME_SIZE], method[NAME_SIZE], view[NAME_SIZE];
-    char renderer[256]; /* "" when nothing is drawn */
+    char renderer[256]; /* "" when no context was needed */
     int threads, width, height, substeps, frames;
     size_t particles;
     double neighbours_mean;
@@ -36,7 +36,8 @@ typedef struct BenchResult {
 
 typedef struct BenchSetup {
     const Scene *scene;
-    Headless *context; /* NULL: nothing is drawn */
+    Headless *context; /* current; NULL: neither solver nor pictures need one */
+    bool draws;
     int width, height, frames;
     GlClock clock;
 } BenchSetup;

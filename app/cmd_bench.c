@@ -4,7 +4,6 @@
 #include "app/output.h"
 #include "app/play.h"
 #include "app/play_report.h"
-#include "sim/gl/shader_source.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -78,14 +77,14 @@ static GlClock clock_of(ClockChoice choice)
 }
 
 /* All cases are read before the first runs: a mistake in the last one shows at once. */
-static bool cases_check(const Plan *plan, bool *draws, Error *error)
+static bool cases_check(const Plan *plan, bool *context, Error *error)
 {
-    *draws = false;
+    *context = false;
     for (size_t i = 0; i < plan->scene_count * plan->combinations; i++) {
         Scene scene;
         if (!case_load(plan, i, false, &scene, error))
             return false;
-        *draws |= strcmp(scene.view.kind, "none") != 0;
+        *context |= world_on_gpu(&scene.world) || strcmp(scene.view.kind, "none") != 0;
     }
     return true;
 }
@@ -101,7 +100,8 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
             return false;
         const BenchSetup setup = {
             .scene = &scene,
-            .context = strcmp(scene.view.kind, "none") != 0 ? context : NULL,
+            .context = context,
+            .draws = strcmp(scene.view.kind, "none") != 0,
             .width = args->width,
             .height = args->height,
             .frames = args->frames ? args->frames : DEFAULT_FRAMES,
@@ -125,7 +125,7 @@ static int fail(const Error *error, int code)
     return code;
 }
 
-static int bench(const Plan *plan, bool draws, Error *error)
+static int bench(const Plan *plan, bool wants_context, Error *error)
 {
     const Args *args = plan->args;
     size_t done = 0;
@@ -133,8 +133,7 @@ static int bench(const Plan *plan, bool draws, Error *error)
     BenchResult *results = calloc(plan->scene_count * plan->combinations + 1, sizeof *results);
     bool ok = results || error_set(error, "no memory for the results");
     ok = ok && (!args->json || output_check(args->json, error));
-    shader_source_set_directory(args->shaders);
-    if (ok && draws)
+    if (ok && wants_context)
         ok = (context = headless_create(args->gpu, error)) != NULL;
     if (context)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
@@ -164,7 +163,6 @@ static int bench_play(const Args *args, Error *error)
         return fail(error, EXIT_FAILED);
     }
     int code = 0;
-    shader_source_set_directory(args->shaders);
     for (size_t i = 0; i < count && code == 0 && !interrupted(); i++) {
         const PlaySetup setup = {.scene = args->scene_count ? args->scenes[i] : scene,
                                  .settings = &args->settings,
@@ -185,12 +183,12 @@ static int bench_play(const Args *args, Error *error)
 int cmd_bench(const Args *args)
 {
     Error error = {{0}};
-    bool draws;
+    bool wants_context;
     const Plan plan = plan_make(args);
     interrupt_install();
-    if (!cases_check(&plan, &draws, &error))
+    if (!cases_check(&plan, &wants_context, &error))
         return fail(&error, EXIT_USAGE);
     if (args->play)
         return bench_play(args, &error);
-    return bench(&plan, draws, &error);
+    return bench(&plan, wants_context, &error);
 }

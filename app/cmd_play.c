@@ -2,7 +2,6 @@
 #include "app/output.h"
 #include "app/play.h"
 #include "app/play_report.h"
-#include "sim/gl/shader_source.h"
 
 #include <stdio.h>
 
@@ -32,7 +31,6 @@ int cmd_play(const Args *args)
     if ((args->record && !output_check(args->record, &error)) ||
         (args->json && !output_check(args->json, &error)))
         return fail(&error, EXIT_FAILED);
-    shader_source_set_directory(args->shaders);
     const int code = play(&setup, &figures);
     if (code == 0 && args->json && !play_write_json(&figures, args->json, &error))
         return fail(&error, EXIT_FAILED);

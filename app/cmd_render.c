@@ -6,15 +6,13 @@
 #include "app/session.h"
 #include "app/studio.h"
 #include "sim/gl/debug.h"
-#include "sim/gl/shader_source.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 
-/* A studio in a context of its own, and the last picture. */
+/* A studio and the last picture. */
 typedef struct Shoot {
-    Headless *context;
     Studio studio;
     Image image;
     uint64_t drawn_step; /* of the state in `image` */
@@ -23,14 +21,7 @@ typedef struct Shoot {
 
 static bool shoot_open(Shoot *shoot, const Session *session, const Args *args, Error *error)
 {
-    *shoot = (Shoot){.context = headless_create(args->gpu, error)};
-    if (!shoot->context)
-        return false;
-    fprintf(stderr, "renderer: %s\n", headless_renderer(shoot->context));
-    gl_debug_install();
-    shader_source_set_directory(args->shaders);
-    if (!studio_open(&shoot->studio, &session->scene.view, session->info.capacity, args->width, args->height,
-                     error))
+    if (!studio_open(&shoot->studio, &session->scene.view, session->world, args->width, args->height, error))
         return false;
     return image_create(&shoot->image, args->width, args->height) ||
            error_set(error, "out of memory for a picture of %d x %d", args->width, args->height);
@@ -40,7 +31,6 @@ static void shoot_close(Shoot *shoot)
 {
     image_destroy(&shoot->image);
     studio_close(&shoot->studio);
-    headless_destroy(shoot->context);
 }
 
 /* A state that serves two pictures is drawn once. */
@@ -108,14 +98,14 @@ static size_t take_pictures(Session *session, Shoot *shoot, Pictures *pictures, 
     return taken;
 }
 
-static int report(const Session *session, const Args *args, const Shoot *shoot, const Schedule *schedule,
-                  size_t taken, Error *error)
+static int report(const Session *session, const Args *args, const Schedule *schedule, size_t taken,
+                  Error *error)
 {
     bool late = schedule->count == 1 && !session_reached(session, schedule->first);
     Summary summary = {.command = "render",
                        .product = "pictures",
                        .products = taken,
-                       .renderer = headless_renderer(shoot->context),
+                       .renderer = headless_renderer(session->context),
                        .stopped = taken < schedule->count || late};
     session_report(session, args, &summary);
     if (session_write_json(session, args, &summary, error))
@@ -134,7 +124,7 @@ static void warn_of_older(const Pictures *pictures, size_t taken)
 
 static int render(Session *session, const Args *args, PicturesKind kind, Pictures *pictures, Error *error)
 {
-    Shoot shoot;
+    Shoot shoot = {.drawn = false};
     Progress progress;
     Schedule schedule = make_schedule(args, kind);
     size_t taken = 0;
@@ -150,7 +140,7 @@ static int render(Session *session, const Args *args, PicturesKind kind, Picture
     else if (!pictures_finish(pictures, error))
         taken = 0;
     if (taken > 0)
-        code = report(session, args, &shoot, &schedule, taken, error);
+        code = report(session, args, &schedule, taken, error);
     else
         fprintf(stderr, "%s\n", error->message);
     shoot_close(&shoot);
@@ -174,9 +164,9 @@ int cmd_render(const Args *args)
     Error error = {{0}};
     PicturesKind kind;
     Pictures *pictures = NULL;
-    int code = EXIT_USAGE;
     interrupt_install();
-    if (!understand(args, &kind, &error) || !session_open(&session, args, &error)) {
+    int code = understand(args, &kind, &error) ? session_open(&session, args, true, &error) : EXIT_USAGE;
+    if (code != 0) {
         fprintf(stderr, "%s\n", error.message);
     } else if ((args->json && !output_check(args->json, &error)) ||
                !(pictures = pictures_create(args->output, args->width, args->height, args->fps, &error))) {

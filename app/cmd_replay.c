@@ -147,17 +147,17 @@ static int run(Replay *replay, Error *error)
     return code;
 }
 
-static bool open_recording(Replay *replay, Error *error)
+static int open_recording(Replay *replay, Error *error)
 {
     const Args *args = replay->args;
     if ((args->output && !snapshot_series_name(args->output, error)) ||
         !recording_read(replay->path, &replay->recording, error))
-        return false;
+        return EXIT_USAGE;
     if (strcmp(replay->recording.program, SLOSH_VERSION) != 0)
         fprintf(stderr, "%s: recorded by slosh %s; this is %s, whose bits may differ\n", replay->path,
                 replay->recording.program, SLOSH_VERSION);
     replay->play = (RecordingPlay){.path = replay->path, .recording = &replay->recording};
-    return recording_play_open(&replay->play, &args->settings, &replay->session, error);
+    return recording_play_open(&replay->play, &args->settings, args->gpu, &replay->session, error);
 }
 
 int cmd_replay(const Args *args)
@@ -165,7 +165,8 @@ int cmd_replay(const Args *args)
     Replay replay = {.args = args, .path = args->scenes[0]};
     Error error = {{0}};
     interrupt_install();
-    const int code = open_recording(&replay, &error) ? run(&replay, &error) : fail(EXIT_USAGE, &error);
+    int code = open_recording(&replay, &error);
+    code = code == 0 ? run(&replay, &error) : fail(code, &error);
     snapshot_close(replay.series.file);
     session_close(&replay.session);
     recording_destroy(&replay.recording);

@@ -102,9 +102,10 @@ int cmd_run(const Args *args)
 {
     Session session = {.world = NULL};
     Error error = {{0}};
-    int code = EXIT_USAGE;
     interrupt_install();
-    if (snapshot_series_name(args->output, &error) && session_open(&session, args, &error))
+    int code =
+        snapshot_series_name(args->output, &error) ? session_open(&session, args, false, &error) : EXIT_USAGE;
+    if (code == 0)
         code = run(&session, args, &error);
     else
         fprintf(stderr, "%s\n", error.message);

@@ -1,4 +1,6 @@
 #include "app/cmd.h"
+#include "sim/gl/backends.h"
+#include "sim/gl/shader_source.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,10 +50,12 @@ int main(int argc, char *argv[])
     static Args args;
     Error error = {{0}};
     bound_spinning(argv);
+    backends_add();
     if (!args_parse(argc, argv, &args, &error)) {
         fprintf(stderr, "%s\n", error.message);
         return EXIT_USAGE;
     }
+    shader_source_set_directory(args.shaders);
     const int code = run_command(&args);
     if (fflush(stdout) != 0 && code == 0) {
         perror("slosh: standard output");

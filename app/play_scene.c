@@ -28,9 +28,9 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
 
 bool play_scene_start(PlayScene *open, void (*wake)(void), bool paused, Error *error)
 {
-    unsigned attributes = UPLOAD_FLUID;
+    unsigned attributes = PARTICLE_FLUID;
     for (int s = 0; s < SCALAR_COUNT; s++)
-        attributes |= upload_attributes_for((Scalar)s);
+        attributes |= particle_attributes_for((Scalar)s);
     const WorldDef *def = &open->scene.world;
     open->upload = upload_create(flow_capacity(def, world_def_count(def, def->spacing)), attributes, error);
     if (!open->upload)

@@ -1,5 +1,7 @@
 #include "app/recording_play.h"
 
+#include "app/cmd.h"
+
 static bool load_scene(const RecordingPlay *play, const SceneSettings *more, Scene *scene, Error *error)
 {
     const Recording *recording = play->recording;
@@ -12,12 +14,16 @@ static bool load_scene(const RecordingPlay *play, const SceneSettings *more, Sce
     return scene_parse(recording->path, recording->text, recording->size, &settings, scene, NULL, error);
 }
 
-bool recording_play_open(const RecordingPlay *play, const SceneSettings *more, Session *session, Error *error)
+int recording_play_open(const RecordingPlay *play, const SceneSettings *more, int gpu, Session *session,
+                        Error *error)
 {
     Error why = {""};
     *session = (Session){.began_ms = wall_ms()};
-    return (load_scene(play, more, &session->scene, &why) && session_start(session, &why)) ||
-           error_set(error, "%.300s: its scene: %.600s", play->path, why.message);
+    const bool loaded = load_scene(play, more, &session->scene, &why);
+    const int code = loaded ? session_start(session, gpu, false, &why) : EXIT_USAGE;
+    if (code != 0)
+        error_set(error, "%.300s: its scene: %.600s", play->path, why.message);
+    return code;
 }
 
 bool recording_play_apply(RecordingPlay *play, Session *session, Error *error)

@@ -12,9 +12,10 @@ typedef struct RecordingPlay {
 } RecordingPlay;
 
 /* Loads the recording's scene with its settings, and after them those of `more` (--threads; NULL: none), and
-   makes the world. False: "path: its scene ...", and nothing to close. */
-bool recording_play_open(const RecordingPlay *play, const SceneSettings *more, Session *session,
-                         Error *error);
+   makes the world, `gpu` as of session_start. 0, or the exit code with "path: its scene ..."; session_close
+   in any case. */
+int recording_play_open(const RecordingPlay *play, const SceneSettings *more, int gpu, Session *session,
+                        Error *error);
 
 /* Applies the commands that are due at the present step. False with "path:line: ...": a setting is wrong. */
 bool recording_play_apply(RecordingPlay *play, Session *session, Error *error);

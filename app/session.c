@@ -1,6 +1,8 @@
 #include "app/session.h"
 
+#include "app/cmd.h"
 #include "app/json_file.h"
+#include "sim/gl/debug.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,35 +11,46 @@
 /* Times are sums and products of decimal fractions: a state this small part of a frame early is on time. */
 static const double ROUNDING = 1e-6;
 
-bool session_open(Session *session, const Args *args, Error *error)
+int session_open(Session *session, const Args *args, bool draws, Error *error)
 {
     char note[256] = "";
     SceneSettings settings = args->settings;
     *session = (Session){.began_ms = wall_ms()};
     if (!scene_load(args->scenes[0], &settings, &session->scene, note, error))
-        return false;
+        return EXIT_USAGE;
     if (note[0] && !args->quiet)
         fprintf(stderr, "%s\n", note);
-    return session_start(session, error);
+    return session_start(session, args->gpu, draws, error);
 }
 
-bool session_start(Session *session, Error *error)
+int session_start(Session *session, int gpu, bool draws, Error *error)
 {
+    const bool on_gpu = world_on_gpu(&session->scene.world);
+    if (on_gpu || draws) {
+        session->context = headless_create(gpu, error);
+        if (!session->context)
+            return EXIT_FAILED;
+        fprintf(stderr, "renderer: %s\n", headless_renderer(session->context));
+        gl_debug_install();
+    }
     session->world = world_create(&session->scene.world, error);
-    if (session->world)
-        world_info(session->world, &session->info);
-    return session->world != NULL;
+    if (!session->world)
+        return on_gpu ? EXIT_FAILED : EXIT_USAGE;
+    world_info(session->world, &session->info);
+    return 0;
 }
 
 void session_close(Session *session)
 {
     world_destroy(session->world);
+    headless_destroy(session->context);
     session->world = NULL;
+    session->context = NULL;
 }
 
 bool session_reached(const Session *session, double time)
 {
-    return session->info.time >= time - ROUNDING * session->scene.world.dt;
+    return session->info.time >= time - ROUNDING * session->scene.world.dt && world_sound(session->world);
 }
 
 /* After a step: what is there now, and what the sentinel did. */

@@ -3,6 +3,7 @@
 #define SLOSH_SESSION_H
 
 #include "app/args.h"
+#include "app/headless.h"
 #include "app/scene.h"
 #include "sim/error.h"
 #include "sim/world.h"
@@ -12,6 +13,7 @@
 
 typedef struct Session {
     Scene scene;
+    Headless *context; /* current; NULL where neither solver nor pictures need one */
     World *world;
     WorldInfo info;  /* of the present state */
     double began_ms; /* wall time of the start */
@@ -19,15 +21,16 @@ typedef struct Session {
 } Session;
 
 /* Loads the only scene of the command line, says on standard error what --particles did to dt, makes the
-   world. Creates no file. False: the command line or the scene is wrong. */
-bool session_open(Session *session, const Args *args, Error *error);
+   world, and a context where its backend needs one or the command `draws`. Creates no file. 0 or the exit
+   code: EXIT_USAGE where the command line or the scene is wrong, EXIT_FAILED where the GPU can't. */
+int session_open(Session *session, const Args *args, bool draws, Error *error);
 
-/* Makes the world of session->scene: the second half of session_open. */
-bool session_start(Session *session, Error *error);
+/* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create. */
+int session_start(Session *session, int gpu, bool draws, Error *error);
 
 void session_close(Session *session);
 
-/* Whether the present state is the first one at or after `time` (s) or a later one. */
+/* Whether the present state is the first sound one at or after `time` (s) or a later one. */
 bool session_reached(const Session *session, double time);
 
 /* One frame on, what the sentinel did said on standard error; false when the simulation broke. */

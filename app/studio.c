@@ -1,10 +1,15 @@
 #include "app/studio.h"
 
-bool studio_open(Studio *studio, const ViewDef *view, size_t count, int width, int height, Error *error)
+bool studio_open(Studio *studio, const ViewDef *view, const World *world, int width, int height, Error *error)
 {
-    *studio = (Studio){.renderer = renderer_create(view, width, height, error)};
-    if (studio->renderer)
-        studio->upload = upload_create(count, upload_attributes_for(view->color_by), error);
+    WorldInfo info;
+    *studio = (Studio){.renderer = renderer_create(view, width, height, error),
+                       .attributes = particle_attributes_for(view->color_by) |
+                                     (view->range_auto ? PARTICLE_RANGES : 0)};
+    if (!studio->renderer || world_shares(world))
+        return studio->renderer;
+    world_info(world, &info);
+    studio->upload = upload_create(info.capacity, studio->attributes, error);
     return studio->upload;
 }
 
@@ -18,6 +23,12 @@ bool studio_draw(Studio *studio, World *world, StageClock *clock, GlTimer *timer
 {
     ParticleBuffers particles;
     bool ok = false;
+    if (world_shares(world)) {
+        GL_STAGE(timer, STAGE_SCALARS)
+        world_share(world, studio->attributes, &particles);
+        renderer_draw(studio->renderer, &particles, timer);
+        return true;
+    }
     STAGE (clock, STAGE_UPLOAD)
         ok = upload_write(studio->upload, world, error) && upload_take(studio->upload, &particles);
     if (ok)

@@ -9,15 +9,18 @@
 #include "sim/world.h"
 
 typedef struct Studio {
-    Renderer *renderer; /* NULL until it is there */
-    Upload *upload;
+    Renderer *renderer;  /* NULL until it is there */
+    Upload *upload;      /* NULL: the world has its particles on the GPU */
+    unsigned attributes; /* that the view reads */
 } Studio;
 
-/* For worlds of up to `count` particles; needs a current context. On failure call studio_close as well. */
-bool studio_open(Studio *studio, const ViewDef *view, size_t count, int width, int height, Error *error);
+/* For worlds like that one; needs a current context. On failure call studio_close as well. */
+bool studio_open(Studio *studio, const ViewDef *view, const World *world, int width, int height,
+                 Error *error);
 void studio_close(Studio *studio); /* a zeroed one is allowed */
 
-/* Uploads the world's state and draws it; `clock` gets the upload, `timer` the GL stages; both may be NULL.
+/* Uploads the world's state, unless it is on the GPU, and draws it; `clock` gets the upload, `timer` the GL
+   stages; both may be NULL.
  */
 bool studio_draw(Studio *studio, World *world, StageClock *clock, GlTimer *timer, Error *error);
 

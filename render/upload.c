@@ -42,11 +42,11 @@ static Layout make_layout(size_t capacity, unsigned attributes)
 {
     Layout layout = {0};
     layout.position = place(&layout, capacity, 4 * sizeof(float), true);
-    layout.velocity = place(&layout, capacity, 4 * sizeof(float), attributes & UPLOAD_VELOCITY);
-    layout.fluid = place(&layout, capacity, sizeof(uint32_t), attributes & UPLOAD_FLUID);
-    layout.id = place(&layout, capacity, sizeof(uint32_t), attributes & UPLOAD_ID);
+    layout.velocity = place(&layout, capacity, 4 * sizeof(float), attributes & PARTICLE_VELOCITY);
+    layout.fluid = place(&layout, capacity, sizeof(uint32_t), attributes & PARTICLE_FLUID);
+    layout.id = place(&layout, capacity, sizeof(uint32_t), attributes & PARTICLE_ID);
     for (int s = 0; s < SCALAR_COUNT; s++)
-        layout.scalar[s] = place(&layout, capacity, sizeof(float), attributes & UPLOAD_SCALAR(s));
+        layout.scalar[s] = place(&layout, capacity, sizeof(float), attributes & PARTICLE_SCALAR(s));
     return layout;
 }
 
@@ -93,11 +93,6 @@ void upload_destroy(Upload *upload)
         glDeleteBuffers(1, &upload->slots[i].buffer);
     slots_destroy(&upload->turn);
     free(upload);
-}
-
-unsigned upload_attributes_for(Scalar color_by)
-{
-    return color_by == SCALAR_FLUID ? UPLOAD_FLUID : UPLOAD_SCALAR(color_by);
 }
 
 static void *in_slot(const Slot *slot, size_t offset)
@@ -167,14 +162,7 @@ bool upload_write(Upload *upload, World *world, Error *error)
     ParticleArrays arrays = slot_arrays(upload, slot);
     world_read(world, &arrays);
     ParticleBuffers *out = &slot->state;
-    *out = (ParticleBuffers){.count = info.count,
-                             .spacing = info.spacing,
-                             .support_radius = info.support_radius,
-                             .box = info.box,
-                             .time = info.time,
-                             .step = info.step};
-    memcpy(out->box_size, info.box_size, sizeof out->box_size);
-    memcpy(out->gravity, info.gravity, sizeof out->gravity);
+    particle_buffers_describe(&info, out);
     describe(upload, slot);
     slots_write_end(&upload->turn);
     return true;

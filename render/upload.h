@@ -13,22 +13,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Which attributes are carried; positions always are. */
-enum {
-    UPLOAD_VELOCITY = 1U << SCALAR_COUNT,
-    UPLOAD_FLUID = 1U << (SCALAR_COUNT + 1),
-    UPLOAD_ID = 1U << (SCALAR_COUNT + 2)
-};
-#define UPLOAD_SCALAR(scalar) (1U << (scalar))
-
 typedef struct Upload Upload;
 
-/* For at most `capacity` particles; `attributes` is a sum of the bits above. NULL when memory is short. */
+/* For at most `capacity` particles; `attributes` is a sum of PARTICLE_* (sim/gl/particle_buffers.h). NULL
+ * when memory is short. */
 Upload *upload_create(size_t capacity, unsigned attributes, Error *error);
 void upload_destroy(Upload *upload); /* NULL is allowed */
-
-/* What a picture coloured by that scalar needs. */
-unsigned upload_attributes_for(Scalar color_by);
 
 /* Writes the world's state. False when the world has more particles than the capacity. */
 bool upload_write(Upload *upload, World *world, Error *error);

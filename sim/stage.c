@@ -37,7 +37,9 @@ double wall_ms(void)
 
 void stage_begin(StageClock *clock)
 {
-    if (clock)
+    if (clock && clock->gpu)
+        clock->gpu_begin(clock->gpu);
+    else if (clock)
         clock->began_ms = wall_ms();
 }
 
@@ -45,6 +47,10 @@ void stage_end(StageClock *clock, Stage stage)
 {
     if (!clock)
         return;
+    if (clock->gpu) {
+        clock->gpu_end(clock->gpu, stage);
+        return;
+    }
     clock->frame.ms[stage] += wall_ms() - clock->began_ms;
     clock->frame.ran[stage] = true;
 }

@@ -14,6 +14,7 @@
     X(FORCE, "force", PART_SIM)                                                                              \
     X(INTEGRATE, "integrate", PART_SIM)                                                                      \
     X(UPLOAD, "upload", PART_UPLOAD)                                                                         \
+    X(SCALARS, "scalars", PART_RENDER)                                                                       \
     X(SHADOW, "shadow", PART_RENDER)                                                                         \
     X(SOLIDS, "solids", PART_RENDER)                                                                         \
     X(VISIBILITY, "visibility", PART_RENDER)                                                                 \
@@ -45,6 +46,9 @@ typedef struct StageTimes {
 typedef struct StageClock {
     StageTimes frame; /* of the frame in progress; the owner clears it between frames */
     double began_ms;  /* of the running stage: stages do not nest */
+    void *gpu;        /* the clock of a GPU, told instead by these two where it is not NULL: sim/gl/timer.h */
+    void (*gpu_begin)(void *gpu);
+    void (*gpu_end)(void *gpu, Stage stage);
 } StageClock;
 
 void stage_begin(StageClock *clock);

@@ -188,6 +188,12 @@ static bool begin_step(World *world, Error *error)
     return true;
 }
 
+bool world_on_gpu(const WorldDef *def)
+{
+    const Backend *backend = backend_find(def->backend);
+    return backend && backend->gpu;
+}
+
 static void count_step(World *world)
 {
     world->step++;

@@ -22,6 +22,10 @@ typedef struct World World;
 World *world_create(const WorldDef *def, Error *error);
 void world_destroy(World *world); /* NULL is allowed */
 
+/* Whether the def's backend works on a GPU: a GL context must then be current wherever a world of it is used,
+   the same one, from before world_create until after world_destroy. */
+bool world_on_gpu(const WorldDef *def);
+
 /* Carries the world one frame on (mode fixed: dt, in `substeps` steps; cfl: one step), or what is left of it;
    stage times go into `clock` (NULL: not measured). On trouble the sentinel goes back and halves the step:
    WorldInfo.trouble. False with a message when that did not help, `retries` times: the world then holds the

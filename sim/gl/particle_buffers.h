@@ -6,9 +6,23 @@
 
 #include "sim/box_motion.h"
 #include "sim/scalar.h"
+#include "sim/world.h"
 
 #include <stddef.h>
 #include <stdint.h>
+
+/* Which attributes are wanted; positions always are. RANGES: of the scalars wanted, which waits for the GPU.
+ */
+enum {
+    PARTICLE_VELOCITY = 1U << SCALAR_COUNT,
+    PARTICLE_FLUID = 1U << (SCALAR_COUNT + 1),
+    PARTICLE_ID = 1U << (SCALAR_COUNT + 2),
+    PARTICLE_RANGES = 1U << (SCALAR_COUNT + 3)
+};
+#define PARTICLE_SCALAR(scalar) (1U << (scalar))
+
+/* What a picture coloured by that scalar needs. */
+unsigned particle_attributes_for(Scalar color_by);
 
 /* Where an attribute lies: buffer 0 means that it is not there. */
 typedef struct ParticleAttribute {
@@ -34,5 +48,13 @@ typedef struct ParticleBuffers {
     double time;           /* s */
     uint64_t step;
 } ParticleBuffers;
+
+/* What it has of a world's state but for the attributes; these are zero. */
+void particle_buffers_describe(const WorldInfo *info, ParticleBuffers *out);
+
+/* The world's particles in the buffers of its backend, where it has them on the GPU: what is there stays
+   until its next step. world_shares tells whether it has. */
+bool world_shares(const World *world);
+void world_share(World *world, unsigned attributes, ParticleBuffers *out);
 
 #endif

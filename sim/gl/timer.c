@@ -171,3 +171,18 @@ bool gl_timer_drain(GlTimer *timer, StageTimes *times)
     read_oldest(timer, times);
     return true;
 }
+
+static void stage_began(void *timer)
+{
+    gl_timer_begin(timer);
+}
+
+static void stage_ended(void *timer, Stage stage)
+{
+    gl_timer_end(timer, stage);
+}
+
+StageClock gl_timer_stage_clock(GlTimer *timer)
+{
+    return (StageClock){.gpu = timer, .gpu_begin = stage_began, .gpu_end = stage_ended};
+}

@@ -37,6 +37,9 @@ bool gl_timer_frame(GlTimer *timer, StageTimes *times);
 /* Waits for the frames that gl_timer_frame still owes, one a call; false when there are none. */
 bool gl_timer_drain(GlTimer *timer, StageTimes *times);
 
+/* A clock for the stages of a solver on the GPU, which go into the timer. */
+StageClock gl_timer_stage_clock(GlTimer *timer);
+
 /* llvmpipe, softpipe, swrast by the renderer's name. */
 bool gl_renderer_is_software(void);
 

@@ -40,7 +40,7 @@ static void rig_open(Rig *rig, const char *setting, bool paused)
     must(scene_parse("a.yaml", still, strlen(still), &settings, &rig->scene, NULL, &error));
     must(recording_create(&rig->recording, "a.yaml", still, strlen(still), &settings, &error));
     rig->upload = upload_create(world_def_count(&rig->scene.world, rig->scene.world.spacing),
-                                upload_attributes_for(SCALAR_SPEED), &error);
+                                particle_attributes_for(SCALAR_SPEED), &error);
     const SimulatorSetup setup = {
         .scene = &rig->scene, .recording = &rig->recording, .upload = rig->upload, .paused = paused};
     rig->simulator = simulator_create(&setup, &error);
@@ -301,7 +301,7 @@ static void a_saved_session_gives_the_same_bits(void **state)
     assert_true(recording.count > 10 && recording.steps > 3000 && !recording.cut);
     assert_int_equal(recording.commands[0].kind, SIM_SET);
     RecordingPlay play = {.path = "a.rec", .recording = &recording};
-    must(recording_play_open(&play, NULL, &session, &error));
+    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, &session, &error) == 0);
     bool within_a_frame = false;
     while (recording_play_apply(&play, &session, &error) && !recording_play_ended(&play, &session)) {
         within_a_frame |= play.next > 0 && recording.commands[play.next - 1].step % 5 != 0;

@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 #include "tests/sim/fixture.h"
 
-#include "sim/gl/compute/backend_compute.h"
+#include "sim/gl/backends.h"
 #include "sim/gl/compute/compute.h"
 #include "sim/world_struct.h"
 
@@ -12,7 +12,7 @@ static int setup(void **state)
 {
     if (context_setup(state) != 0)
         return 1;
-    backend_add(&backend_compute);
+    backends_add();
     return 0;
 }
 

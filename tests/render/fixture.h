@@ -142,7 +142,7 @@ static inline Upload *upload_particles(const Particles *particles, const Particl
                                        ParticleBuffers *out)
 {
     Error error = {0};
-    Upload *upload = upload_create(particles->count, UPLOAD_SCALAR(SCALAR_SPEED) | UPLOAD_FLUID, &error);
+    Upload *upload = upload_create(particles->count, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID, &error);
     ParticleArrays arrays = {.position = (float *)particles->position, .fluid = (uint32_t *)particles->fluid};
     arrays.scalar[SCALAR_SPEED] = (float *)particles->speed;
     assert_non_null(upload);

@@ -38,7 +38,7 @@ static void test_more_states_than_slots(void **state)
     enum { STATES = 3 * SLOTS + 1 };
     Error error = {0};
     Particles *particles = calloc(1, sizeof *particles);
-    Upload *upload = upload_create(COUNT, UPLOAD_SCALAR(SCALAR_SPEED) | UPLOAD_FLUID, &error);
+    Upload *upload = upload_create(COUNT, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID, &error);
     for (int number = 0; number < STATES; number++) {
         ParticleBuffers box = box_state(COUNT, 0.1), buffers;
         fill(particles, number);
@@ -63,7 +63,7 @@ static void test_drawn_state_stays(void **state)
     (void)state;
     Error error = {0};
     Particles *particles = calloc(1, sizeof *particles);
-    Upload *upload = upload_create(COUNT, UPLOAD_SCALAR(SCALAR_SPEED), &error);
+    Upload *upload = upload_create(COUNT, PARTICLE_SCALAR(SCALAR_SPEED), &error);
     ParticleBuffers box = box_state(COUNT, 0.1), drawn, before, again;
     assert_false(upload_take(upload, &drawn));
     for (int number = 0; number < 40; number++) {
@@ -124,7 +124,7 @@ static void test_world(void **state)
     World *world = world_create(&def, &error);
     if (!world)
         fail_msg("%s", error.message);
-    Upload *upload = upload_create(2, UPLOAD_SCALAR(SCALAR_SPEED) | UPLOAD_ID, &error);
+    Upload *upload = upload_create(2, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_ID, &error);
     ParticleBuffers buffers;
     assert_true(world_step(world, NULL, &error));
     assert_true(upload_write(upload, world, &error));

@@ -13,6 +13,7 @@ MAY = {
     "sim": ["sim", "sim/cpu/parallel.h"],
     "sim/cpu": ["sim", "sim/cpu"],
     "sim/gl": ["sim", "sim/gl"],
+    "sim/gl/compute": ["sim", "sim/gl", "sim/gl/compute"],
     "render": ["sim", "sim/gl", "render"],
     "app": ["sim", "sim/gl", "render", "app"],
 }

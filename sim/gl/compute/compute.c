@@ -1,6 +1,6 @@
 #include "sim/gl/compute/compute.h"
 
-#include "sim/gl/compute/backend_compute.h"
+#include "sim/gl/backends.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -30,14 +30,16 @@ static void particles_destroy(ComputeParticles *particles)
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,      c->rank,       c->order,     c->start,        c->totals[0],
-                              c->totals[1], c->totals[2],  c->pressure,  c->acceleration, c->walls,
-                              c->watch,     c->watch_copy, c->constants, c->step};
+    const GLuint buffers[] = {c->cell,         c->rank,      c->order,     c->start,
+                              c->totals[0],    c->totals[1], c->totals[2], c->pressure,
+                              c->acceleration, c->walls,     c->constants, c->step};
     particles_destroy(&c->now);
     particles_destroy(&c->spare);
     particles_destroy(&c->marked);
     glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
-    glDeleteSync(c->watch_fence);
+    glDeleteBuffers(COMPUTE_SHOWN, c->shown);
+    mailbox_destroy(&c->watch);
+    mailbox_destroy(&c->ranges);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
         glDeleteProgram(c->program[p]);
     free(c);
@@ -76,13 +78,14 @@ static bool buffers_create(Compute *c, Error *error)
     c->start = compute_buffer(c, "cell starts", 4 * (cells + 1));
     c->pressure = compute_buffer(c, "particle pressures", 8 * n);
     c->acceleration = compute_buffer(c, "particle accelerations", 16 * n);
-    compute_watch_create(c);
     size_t level = cells + 1;
     for (int k = 0; k < COMPUTE_SCAN_LEVELS; k++) {
         level = (level + COMPUTE_SCAN_BLOCK - 1) / COMPUTE_SCAN_BLOCK;
         c->totals[k] = compute_buffer(c, "scan totals", 4 * level);
     }
-    return (!c->full && c->watched) || no_memory(c, error);
+    return (!c->full && mailbox_create(&c->watch, "watch", 4 * sizeof(uint32_t)) &&
+            mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
+           no_memory(c, error);
 }
 
 static void walls_upload(Compute *c)
@@ -104,12 +107,19 @@ static void walls_upload(Compute *c)
     }
 }
 
-/* Terms that the scene does not name are not compiled in. */
+/* The numbers of the scalars, and the terms that the scene names: others are not compiled in. */
 static bool programs_create(Compute *c, Error *error)
 {
-    char defines[128];
-    snprintf(defines, sizeof defines, "%s%s%s", c->solver->poly6 ? "#define POLY6 1\n" : "",
-             c->solver->viscous ? "#define VISCOUS 1\n" : "",
+    char defines[1024];
+    int used = 0;
+#define X(NAME, name, unit)                                                                                  \
+    used += snprintf(defines + used, sizeof defines - (size_t)used, "#define SCALAR_" #NAME " %d\n",         \
+                     SCALAR_##NAME);
+    SCALAR_LIST(X)
+    X(COUNT, , )
+#undef X
+    snprintf(defines + used, sizeof defines - (size_t)used, "%s%s%s",
+             c->solver->poly6 ? "#define POLY6 1\n" : "", c->solver->viscous ? "#define VISCOUS 1\n" : "",
              c->solver->negative_pressure ? "#define NEGATIVE_PRESSURE 1\n" : "");
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++) {
         char path[64];
@@ -198,6 +208,7 @@ const Backend backend_compute = {
     .watch = compute_watch,
     .mark = compute_mark,
     .back = compute_back,
+    .share = compute_share,
     .sums = compute_sums,
     .read = compute_read,
     .save = compute_save,

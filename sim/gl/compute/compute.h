@@ -6,8 +6,12 @@
 #define SLOSH_COMPUTE_H
 
 #include "sim/backend.h"
+#include "sim/gl/mailbox.h"
 
 enum { COMPUTE_SCAN_LEVELS = 3, COMPUTE_SCAN_BLOCK = 1024, COMPUTE_GROUP = 64 };
+
+/* What show.comp writes: a scalar by its number, the fluid, the id. */
+enum { COMPUTE_SHOW_FLUID = SCALAR_COUNT, COMPUTE_SHOW_ID, COMPUTE_SHOWN };
 
 /* What moves when particles are sorted. */
 typedef struct ComputeParticles {
@@ -27,7 +31,8 @@ typedef struct ComputeParticles {
     X(MOVE, "move")                                                                                          \
     X(DENSITY, "density")                                                                                    \
     X(FORCE, "force")                                                                                        \
-    X(KICK, "kick")
+    X(KICK, "kick")                                                                                          \
+    X(SHOW, "show")
 
 typedef enum ComputePass {
 #define X(NAME, name) COMPUTE_##NAME,
@@ -45,11 +50,10 @@ typedef struct Compute {
     unsigned pressure;                    /* vec2: p, p V^2 */
     unsigned acceleration;                /* vec4 */
     unsigned walls;                       /* tables */
-    unsigned watch;                       /* 4 uint: see kick.comp */
-    unsigned watch_copy;                  /* of it after the last kick, */
-    const uint32_t *watched;              /* mapped */
-    void *watch_fence;                    /* behind that copy; NULL: there was none */
+    Mailbox watch;                        /* 4 uint: see kick.comp; sent by each kick */
     float longest;                        /* dt of the kicks since the watch was read, s */
+    Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
+    unsigned shown[COMPUTE_SHOWN];        /* for the views: uint or float; 0 until it is asked for */
     unsigned constants, step;             /* uniform blocks */
     unsigned program[COMPUTE_PASS_COUNT];
     bool full;                             /* the GPU's memory */
@@ -60,9 +64,8 @@ typedef struct Compute {
 unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
 bool compute_particles_create(Compute *compute, ComputeParticles *particles, Error *error);
 
-/* The watch: its buffers; after each kick. */
-void compute_watch_create(Compute *compute);
-void compute_watch_keep(Compute *compute, float dt);
+/* After a kick of dt, s. */
+void compute_watch_send(Compute *compute, float dt);
 
 /* The watch begins anew, with so many guarded before. */
 void compute_watch_reset(Compute *compute, size_t guarded);
@@ -93,6 +96,7 @@ void compute_kick(void *state, const float gravity[3], float dt);
 StepWatch compute_watch(void *state);
 bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);
+void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);
 void compute_read(void *state, const ParticleArrays *out);
 void compute_save(void *state, const ParticleColumns *to);

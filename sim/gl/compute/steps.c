@@ -30,7 +30,7 @@ void compute_drift(void *state, const FrameStep *step)
 {
     Compute *c = state;
     compute_set_drift(c, step);
-    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch}, 3);
+    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch.buffer}, 3);
     compute_run(c, COMPUTE_DRIFT, c->count);
 }
 
@@ -56,7 +56,7 @@ void compute_kick(void *state, const float gravity[3], float dt)
 {
     Compute *c = state;
     compute_set_kick(c, gravity, dt);
-    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch, c->acceleration}, 4);
+    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch.buffer, c->acceleration}, 4);
     compute_run(c, COMPUTE_KICK, c->count);
-    compute_watch_keep(c, dt);
+    compute_watch_send(c, dt);
 }

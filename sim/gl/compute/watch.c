@@ -1,36 +1,22 @@
-/* What the kicks of a frame found, read when the next one begins: a copy in mapped memory, behind a fence, so
-   that nothing waits for what was asked of the GPU since. And the state that the sentinel goes back to. */
+/* What the kicks of a frame found, read when the next one begins, and the state that the sentinel goes back
+ * to. */
 #include "sim/gl/compute/compute.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <string.h>
 
-enum { WATCH_BYTES = 4 * sizeof(uint32_t), GREATEST_BYTES = 3 * sizeof(uint32_t) };
-
-void compute_watch_create(Compute *c)
-{
-    const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    c->watch = compute_buffer(c, "watch", WATCH_BYTES);
-    glCreateBuffers(1, &c->watch_copy);
-    glObjectLabel(GL_BUFFER, c->watch_copy, -1, "watch, read");
-    glNamedBufferStorage(c->watch_copy, WATCH_BYTES, NULL, access | GL_CLIENT_STORAGE_BIT);
-    c->watched = glMapNamedBufferRange(c->watch_copy, 0, WATCH_BYTES, access);
-}
-
-void compute_watch_keep(Compute *c, float dt)
+/* How far a particle may go in a step is asked with the longest of them. */
+void compute_watch_send(Compute *c, float dt)
 {
     c->longest = fmaxf(c->longest, dt);
-    glCopyNamedBufferSubData(c->watch, c->watch_copy, 0, 0, WATCH_BYTES);
-    glDeleteSync(c->watch_fence);
-    c->watch_fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    mailbox_send(&c->watch);
 }
 
 void compute_watch_reset(Compute *c, size_t guarded)
 {
-    glClearNamedBufferData(c->watch, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    glDeleteSync(c->watch_fence);
-    c->watch_fence = NULL;
+    glClearNamedBufferData(c->watch.buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    mailbox_forget(&c->watch);
     c->longest = 0;
     c->guarded_before = guarded;
     c->guarded = 0;
@@ -46,20 +32,18 @@ static float float_of(uint32_t bits)
 StepWatch compute_watch(void *state)
 {
     Compute *c = state;
-    if (!c->watch_fence)
+    const uint32_t *watched = mailbox_wait(&c->watch);
+    if (!watched)
         return (StepWatch){.bounded = true};
-    while (glClientWaitSync(c->watch_fence, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000) == GL_TIMEOUT_EXPIRED)
-        continue;
-    glDeleteSync(c->watch_fence);
-    c->watch_fence = NULL;
-    const float fastest = c->solver->support_radius / c->longest, speed2 = float_of(c->watched[0]);
+    const float fastest = c->solver->support_radius / c->longest, speed2 = float_of(watched[0]);
     const StepWatch seen = {.bounded = speed2 <= fastest * fastest,
                             .max_speed = sqrtf(speed2),
-                            .max_acceleration = sqrtf(float_of(c->watched[1])),
-                            .max_compression = float_of(c->watched[2])};
-    c->guarded = c->watched[3];
+                            .max_acceleration = sqrtf(float_of(watched[1])),
+                            .max_compression = float_of(watched[2])};
+    c->guarded = watched[3];
     c->longest = 0;
-    glClearNamedBufferSubData(c->watch, GL_R32UI, 0, GREATEST_BYTES, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    glClearNamedBufferSubData(c->watch.buffer, GL_R32UI, 0, 3 * sizeof *watched, GL_RED_INTEGER,
+                              GL_UNSIGNED_INT, NULL);
     return seen;
 }
 

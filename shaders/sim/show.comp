@@ -1,0 +1,57 @@
+// What the views want to know of each particle besides place and velocity, and the range of it.
+#include "sim/constants.glsl"
+layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = 2) readonly buffer Names { uvec2 name[]; }; // id, fluid
+layout(std430, binding = 3) readonly buffer Pressures { vec2 pressure[]; };
+layout(std430, binding = 4) writeonly buffer Values { uint word[]; };
+layout(std430, binding = 5) buffer Ranges { uint range[]; }; // least and greatest of each scalar, in the order of bits
+layout(location = 0) uniform int scalar; // sim/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
+shared uint least, greatest;
+
+float compression_of(uint i) { return scales.w * (1.0 / (position[i].w * kernel.z) - 1.0); }
+
+float value_of(uint i)
+{
+    switch (scalar) {
+    case SCALAR_SPEED:
+        return length(velocity[i].xyz);
+    case SCALAR_DENSITY:
+        return fluids[name[i].y].y * (1.0 + compression_of(i));
+    case SCALAR_PRESSURE:
+        return pressure[i].x;
+    case SCALAR_COMPRESSION:
+        return compression_of(i);
+    case SCALAR_FLUID:
+        return float(name[i].y);
+    }
+    return float(name[i].x);
+}
+
+// Bits whose order is that of the numbers.
+uint in_order(float value)
+{
+    uint bits = floatBitsToUint(value);
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+void main()
+{
+    uint i = invocation();
+    if (gl_LocalInvocationID.x == 0u) {
+        least = 0xffffffffu;
+        greatest = 0u;
+    }
+    barrier();
+    if (i < particle_count()) {
+        float value = value_of(i);
+        word[i] = scalar == SCALAR_COUNT ? name[i].y : scalar > SCALAR_COUNT ? name[i].x : floatBitsToUint(value);
+        atomicMin(least, in_order(value));
+        atomicMax(greatest, in_order(value));
+    }
+    barrier();
+    if (gl_LocalInvocationID.x == 0u && scalar < SCALAR_COUNT) {
+        atomicMin(range[2 * scalar], least);
+        atomicMax(range[2 * scalar + 1], greatest);
+    }
+}

@@ -1,0 +1,6 @@
+#include "sim/gl/backends.h"
+
+void backends_add(void)
+{
+    backend_add(&backend_compute);
+}

@@ -1,0 +1,71 @@
+/* The particles for the views, in the buffers that the steps work on; what these do not hold as such is
+   written by a pass of its own, for what is wanted only. */
+#include "sim/gl/compute/compute.h"
+#include "sim/gl/particle_buffers.h"
+
+#include <epoxy/gl.h>
+#include <string.h>
+
+enum { RANGE_BYTES = 2 * SCALAR_COUNT * sizeof(uint32_t) };
+
+/* One of the scalars, or the fluid or the id: 4 bytes a particle. */
+static ParticleAttribute show(Compute *c, int what)
+{
+    if (!c->shown[what])
+        c->shown[what] = compute_buffer(c, "shown", 4 * c->count);
+    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->now.name, c->pressure,
+                                    c->shown[what], c->ranges.buffer},
+                 6);
+    glProgramUniform1i(c->program[COMPUTE_SHOW], 0, what);
+    compute_run(c, COMPUTE_SHOW, c->count);
+    return (ParticleAttribute){c->shown[what], 0, 4};
+}
+
+static void clear_ranges(const Compute *c)
+{
+    uint32_t none[2 * SCALAR_COUNT];
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        none[2 * s] = UINT32_MAX;
+        none[2 * s + 1] = 0;
+    }
+    glNamedBufferSubData(c->ranges.buffer, 0, RANGE_BYTES, none);
+}
+
+/* From bits in the order of the numbers: shaders/sim/show.comp. */
+static double number_of(uint32_t ordered)
+{
+    const uint32_t bits = ordered & 0x80000000U ? ordered & 0x7fffffffU : ~ordered;
+    float number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+static void read_ranges(Compute *c, unsigned attributes, ParticleBuffers *out)
+{
+    mailbox_send(&c->ranges);
+    const uint32_t *range = mailbox_wait(&c->ranges);
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        if (!(attributes & PARTICLE_SCALAR(s)) || c->count == 0)
+            continue;
+        out->scalar_min[s] = number_of(range[2 * s]);
+        out->scalar_max[s] = number_of(range[2 * s + 1]);
+    }
+}
+
+void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
+{
+    Compute *c = state;
+    out->position = (ParticleAttribute){c->now.position, 0, 16};
+    if (attributes & PARTICLE_VELOCITY)
+        out->velocity = (ParticleAttribute){c->now.velocity, 0, 16};
+    clear_ranges(c);
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if (attributes & PARTICLE_SCALAR(s))
+            out->scalar[s] = show(c, s);
+    if (attributes & PARTICLE_FLUID)
+        out->fluid = show(c, COMPUTE_SHOW_FLUID);
+    if (attributes & PARTICLE_ID)
+        out->id = show(c, COMPUTE_SHOW_ID);
+    if (attributes & PARTICLE_RANGES)
+        read_ranges(c, attributes, out);
+}

@@ -1,0 +1,263 @@
+/* What stays on the GPU: the state that the sentinel goes back to, and the particles during a frame. */
+#include "tests/render/fixture.h"
+#include "tests/sim/fixture.h"
+
+#include "app/studio.h"
+#include "sim/gl/backends.h"
+#include "sim/world_struct.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+static int setup(void **state)
+{
+    if (context_setup(state) != 0)
+        return 1;
+    backends_add();
+    return 0;
+}
+
+static WorldDef column_def(void)
+{
+    WorldDef def = fixture_def(0.4, 0.6, 0.4);
+    def.retries = 3;
+    def.spacing = 0.04;
+    def.sound_speed = 20;
+    def.dt = 0.002;
+    def.substeps = 2;
+    def.threads = 1;
+    snprintf(def.backend, sizeof def.backend, "compute");
+    fixture_block(&def, 0, -0.2, 0, -0.2, 0.2, 0.4, 0.2);
+    return def;
+}
+
+/* Calls that carry data from the GPU to this side; what the program calls goes through these pointers. */
+static int crossings;
+static PFNGLGETNAMEDBUFFERSUBDATAPROC get_named;
+static PFNGLGETBUFFERSUBDATAPROC get;
+static PFNGLREADPIXELSPROC read_pixels;
+static PFNGLGETTEXTUREIMAGEPROC get_texture;
+static PFNGLMAPNAMEDBUFFERRANGEPROC map_named;
+static PFNGLMAPBUFFERRANGEPROC map;
+
+static void APIENTRY count_get_named(GLuint buffer, GLintptr offset, GLsizeiptr size, void *data)
+{
+    crossings++;
+    get_named(buffer, offset, size, data);
+}
+
+static void APIENTRY count_get(GLenum target, GLintptr offset, GLsizeiptr size, void *data)
+{
+    crossings++;
+    get(target, offset, size, data);
+}
+
+/* Into a buffer on the GPU nothing crosses. */
+static bool into_memory(void)
+{
+    GLint buffer = 0;
+    glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer);
+    return buffer == 0;
+}
+
+static void APIENTRY count_read_pixels(GLint x, GLint y, GLsizei width, GLsizei height, GLenum format,
+                                       GLenum type, void *data)
+{
+    crossings += into_memory();
+    read_pixels(x, y, width, height, format, type, data);
+}
+
+static void APIENTRY count_get_texture(GLuint texture, GLint level, GLenum format, GLenum type, GLsizei size,
+                                       void *data)
+{
+    crossings += into_memory();
+    get_texture(texture, level, format, type, size, data);
+}
+
+static void *APIENTRY count_map_named(GLuint buffer, GLintptr offset, GLsizeiptr size, GLbitfield access)
+{
+    crossings++;
+    return map_named(buffer, offset, size, access);
+}
+
+static void *APIENTRY count_map(GLenum target, GLintptr offset, GLsizeiptr size, GLbitfield access)
+{
+    crossings++;
+    return map(target, offset, size, access);
+}
+
+/* The driver's own entries: libepoxy's pointers are no such before their first call. */
+static void counting(bool on)
+{
+#define COUNT(name, saved, counter)                                                                          \
+    saved = (__typeof__(saved))eglGetProcAddress(#name);                                                     \
+    epoxy_##name = on ? (counter) : saved
+    COUNT(glGetNamedBufferSubData, get_named, count_get_named);
+    COUNT(glGetBufferSubData, get, count_get);
+    COUNT(glReadPixels, read_pixels, count_read_pixels);
+    COUNT(glGetTextureImage, get_texture, count_get_texture);
+    COUNT(glMapNamedBufferRange, map_named, count_map_named);
+    COUNT(glMapBufferRange, map, count_map);
+#undef COUNT
+}
+
+/* Steps with the sentinel on, and pictures, coloured with a range that follows the state. */
+static void no_particle_crosses_in_a_frame(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Studio studio;
+    const WorldDef def = column_def();
+    const ViewDef view = view_def_default();
+    World *world = fixture_world(&def);
+    assert_true(def.retries > 0 && view.range_auto);
+    assert_true(studio_open(&studio, &view, world, 64, 64, &error));
+    for (int frame = 0; frame < 6; frame++) {
+        if (frame == 2) /* the first pictures make what they need */
+            counting(true);
+        assert_true(world_step(world, NULL, &error));
+        assert_true(studio_draw(&studio, world, NULL, NULL, &error));
+    }
+    const int during = crossings;
+    State read = fixture_read(world); /* that the counters count */
+    counting(false);
+    assert_int_equal(during, 0);
+    assert_true(crossings > 0);
+    fixture_free(&read);
+    studio_close(&studio);
+    world_destroy(world);
+}
+
+/* What the views are given is what world_read reads. */
+static void shared_is_what_is_read(void **state)
+{
+    (void)state;
+    const WorldDef def = column_def();
+    World *world = fixture_world(&def);
+    ParticleBuffers shared;
+    fixture_step(world, 20);
+    State read = fixture_read(world);
+    assert_true(world_shares(world));
+    world_share(world,
+                PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_SCALAR(SCALAR_DENSITY) | PARTICLE_ID |
+                    PARTICLE_FLUID | PARTICLE_VELOCITY | PARTICLE_RANGES,
+                &shared);
+    assert_int_equal(shared.count, read.count);
+    float *x = calloc(4 * read.count, sizeof *x), *density = calloc(read.count, sizeof *density);
+    float *speed = calloc(read.count, sizeof *speed);
+    uint32_t *id = calloc(read.count, sizeof *id);
+    const GLsizeiptr words = (GLsizeiptr)(4 * read.count);
+    glGetNamedBufferSubData(shared.position.buffer, 0, 4 * words, x);
+    glGetNamedBufferSubData(shared.scalar[SCALAR_DENSITY].buffer, 0, words, density);
+    glGetNamedBufferSubData(shared.scalar[SCALAR_SPEED].buffer, 0, words, speed);
+    glGetNamedBufferSubData(shared.id.buffer, 0, words, id);
+    float least = INFINITY, greatest = 0;
+    for (size_t i = 0; i < read.count; i++) {
+        const float *v = &read.velocity[(size_t)4 * id[i]];
+        assert_memory_equal(&x[4 * i], &read.position[(size_t)4 * id[i]], 3 * sizeof *x);
+        assert_true(fabsf(density[i] - read.density[id[i]]) < 1e-3F);
+        assert_true(fabsf(speed[i] - sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])) < 1e-6F);
+        least = fminf(least, speed[i]);
+        greatest = fmaxf(greatest, speed[i]);
+    }
+    assert_true((float)shared.scalar_min[SCALAR_SPEED] == least);
+    assert_true((float)shared.scalar_max[SCALAR_SPEED] == greatest && greatest > 0);
+    free(x);
+    free(density);
+    free(speed);
+    free(id);
+    fixture_free(&read);
+    world_destroy(world);
+}
+
+/* A speed of sound that no step here stands. */
+static void blow_up(World *world, WorldDef def)
+{
+    Error error;
+    def.sound_speed = 1e6;
+    assert_true(world_change(world, &def, &error));
+}
+
+/* Trouble is found when the next frame begins, which then goes back to the begin of the frame before, to the
+   bit; world_sound knows sooner. */
+static void the_sentinel_goes_back_a_frame_later(void **state)
+{
+    (void)state;
+    const WorldDef def = column_def();
+    Error error = {0};
+    WorldInfo info;
+    World *world = fixture_world(&def);
+    for (int frame = 0; frame < 5; frame++)
+        assert_true(world_step(world, NULL, &error) && world_sound(world));
+    blow_up(world, def);
+    const uint64_t before = world_hash(world);
+    world_info(world, &info);
+    const double time = info.time;
+    assert_true(world_step(world, NULL, &error)); /* not known yet */
+    world_info(world, &info);
+    assert_int_equal(info.trouble.count, 0);
+    assert_false(world_sound(world));
+    const uint64_t step = info.step;
+    assert_true(world_substep(world, NULL, &error));
+    world_info(world, &info);
+    assert_int_equal(info.trouble.count, 1);
+    assert_true(info.trouble.what == STEP_TROUBLE_SPEED);
+    assert_true(fabs(info.time - time) < 1e-12 && info.step == step + 1);
+    assert_true(world_hash(world) == before && world_sound(world));
+    bool going = true;
+    for (int frame = 0; frame < 40 && going; frame++)
+        going = world_step(world, NULL, &error);
+    assert_false(going);
+    assert_non_null(strstr(error.message, "further than the support radius"));
+    assert_true(world_hash(world) == before);
+    world_destroy(world);
+}
+
+/* Without retries the end comes a frame later. */
+static void without_retries_it_ends(void **state)
+{
+    (void)state;
+    WorldDef def = column_def();
+    def.retries = 0;
+    Error error = {0};
+    World *world = fixture_world(&def);
+    blow_up(world, def);
+    assert_true(world_step(world, NULL, &error));
+    assert_false(world_step(world, NULL, &error));
+    assert_non_null(strstr(error.message, "blew up"));
+    world_destroy(world);
+}
+
+/* A saved state knows what the frame before found: mode cfl steps by it. */
+static void adaptive_steps_go_on_from_a_saved_state(void **state)
+{
+    (void)state;
+    WorldDef def = column_def();
+    def.step_mode = STEP_CFL;
+    def.cfl_number = 0.4;
+    def.max_dt = 0.01;
+    Error error = {0};
+    WorldState saved = {0};
+    World *one = fixture_world(&def), *other = fixture_world(&def);
+    for (int step = 0; step < 20; step++)
+        assert_true(world_step(one, NULL, &error));
+    assert_true(world_save(one, &saved, &error) && world_load(other, &saved, &error));
+    for (int step = 0; step < 20; step++)
+        assert_true(world_step(one, NULL, &error) && world_step(other, NULL, &error));
+    assert_true(world_hash(one) == world_hash(other));
+    world_state_free(&saved);
+    world_destroy(one);
+    world_destroy(other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(no_particle_crosses_in_a_frame, no_gl_errors),
+        cmocka_unit_test_teardown(shared_is_what_is_read, no_gl_errors),
+        cmocka_unit_test_teardown(the_sentinel_goes_back_a_frame_later, no_gl_errors),
+        cmocka_unit_test_teardown(without_retries_it_ends, no_gl_errors),
+        cmocka_unit_test_teardown(adaptive_steps_go_on_from_a_saved_state, no_gl_errors),
+    };
+    return cmocka_run_group_tests_name("gl.device", tests, setup, context_teardown);
+}
