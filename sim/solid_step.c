@@ -139,8 +139,8 @@ static void leave(Way *way, double slack, double normal[3])
         way->to[k] += (depth + slack) * normal[k];
 }
 
-/* Puts `to` on the outer side of the plane that touches the surface where the way meets it. False when the
-   way keeps clear of the solid. */
+/* Puts `to` a little above the plane that touches the surface where the way meets it, unless it is there.
+   False when the way keeps clear of the solid. */
 static bool hold(Way *way, double normal[3])
 {
     const double reach = solid_reach(way->solid), slack = 1e-6 * reach;
@@ -157,15 +157,15 @@ static bool hold(Way *way, double normal[3])
     solid_normal(way->solid, way->dimensions, entry, normal);
     for (int k = 0; k < 3; k++)
         depth += (entry[k] - way->to[k]) * normal[k];
-    depth -= fmin(solid_distance(way->solid, way->dimensions, entry), 0);
+    depth += slack - solid_distance(way->solid, way->dimensions, entry);
     if (depth <= 0 && at_end >= 0) /* it was at the surface and leaves it */
         return false;
     if (depth <= 0) {
         solid_normal(way->solid, way->dimensions, way->to, normal);
-        depth = -at_end;
+        depth = slack - at_end;
     }
     for (int k = 0; k < 3; k++)
-        way->to[k] += (depth + slack) * normal[k];
+        way->to[k] += depth * normal[k];
     leave(way, slack, normal);
     return true;
 }
