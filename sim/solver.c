@@ -205,6 +205,8 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     if (!walls_create(&solver->walls, def->box_size, def->spacing, h, kernel, &solver->lattice))
         return error_set(error, "no memory for the tables of the walls");
     solver->dimensions = def->dimensions;
+    solver->emits = flow_emits(def);
+    solver->drains = def->drain_count > 0;
     solver->solid_count = def->solid_count;
     memcpy(solver->solids, def->solids, sizeof solver->solids);
     if (!boundary_create(&solver->boundary, def))

@@ -51,6 +51,7 @@ typedef struct Solver {
     bool no_slip;  /* walls hold fluid: the def says so and some mu is not zero */
     WallDrag drag; /* made once `no_slip` is first true */
     int dimensions;
+    bool emits, drains; /* fluid may come; go */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
     Boundary boundary; /* of the solids */

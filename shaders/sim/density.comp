@@ -2,6 +2,10 @@
 #include "sim/constants.glsl"
 #include "sim/walls.glsl"
 #include "sim/rows.glsl"
+#ifdef SOLIDS
+#define BOUNDARY_ACCESS readonly
+#include "sim/boundary.glsl"
+#endif
 layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
@@ -26,6 +30,19 @@ void main()
 #endif
             sum += t * t * t;
         }
+#ifdef SOLIDS
+        range = boundary_row_of(at, row);
+        for (uint j = range.x; j < range.y; j++) {
+            vec3 d = x - boundary_position[j].xyz;
+            float q2 = dot(d, d) * kernel.y * kernel.y;
+#ifdef POLY6
+            float t = max(1.0 - q2, 0.0);
+#else
+            float t = max(1.0 - sqrt(q2), 0.0);
+#endif
+            sum += t * t * t;
+        }
+#endif
     }
     float n = scales.x * sum + walls_at(x, true).density;
     float p = fluids[name[i].y].z * (n / kernel.z - 1.0);

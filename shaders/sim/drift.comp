@@ -1,5 +1,8 @@
-// Free flight from one pose of the box into the next (sim/frame_step.h), then the walls' last guard.
+// Free flight from one pose of the box into the next (sim/frame_step.h), then the last guard of solids and walls.
 #include "sim/constants.glsl"
+#ifdef SOLIDS
+#include "sim/solid_guard.glsl"
+#endif
 layout(std430, binding = 0) buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = 2) buffer Watch { uint watch[4]; }; // greatest speed, acceleration, compression; guarded
@@ -10,6 +13,9 @@ void main()
     if (i >= particle_count())
         return;
     vec3 x = position[i].xyz, v = velocity[i].xyz;
+#ifdef SOLIDS
+    vec3 before = x;
+#endif
     float dt = rotation[0].w;
     if (rotation[1].w > 0.5) {
         x += v * dt;
@@ -19,6 +25,10 @@ void main()
         v = w + vec3(dot(rotation[0].xyz, w), dot(rotation[1].xyz, w), dot(rotation[2].xyz, w)) -
             velocity_change.xyz - cross(omega1.xyz, x);
     }
+#ifdef SOLIDS
+    if (solids_guard(before, x, v))
+        atomicAdd(watch[3], 1u);
+#endif
     bool held = false;
     int axes = rows.x == 3 ? 2 : 3;
     for (int a = 0; a < axes; a++) {

@@ -2,6 +2,11 @@
 #include "sim/constants.glsl"
 #include "sim/walls.glsl"
 #include "sim/rows.glsl"
+#ifdef SOLIDS
+#define BOUNDARY_ACCESS readonly
+#include "sim/boundary.glsl"
+#define BOUNDARY_ID 0x80000000u
+#endif
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) readonly buffer Pressures { vec2 pressure[]; };
@@ -71,6 +76,27 @@ void main()
             force += drag_scale * t * other.w * (mu + fluids[name[j].y].w) * (velocity[j].xyz - v);
 #endif
         }
+#ifdef SOLIDS
+        range = boundary_row_of(at, row);
+        for (uint j = range.x; j < range.y; j++) {
+            vec4 other = boundary_position[j];
+            vec3 d = x - other.xyz;
+            float r2 = dot(d, d);
+            if (r2 >= h * h)
+                continue;
+            uvec2 state = boundary_state[j];
+            if (r2 < least * least) {
+                d = least * direction_of_ids(name[i].x, BOUNDARY_ID + state.y);
+                r2 = least * least;
+            }
+            float r = sqrt(r2), t = 1.0 - r * kernel.y;
+            force += scales.y * (t * t) * (p + uintBitsToFloat(state.x)) / r * d;
+#ifdef VISCOUS
+            vec4 wall = boundary_velocity[j];
+            force += drag_scale * t * other.w * (mu + wall.w) * (wall.xyz - v);
+#endif
+        }
+#endif
     }
     acceleration[i] = vec4((force + wall_force(i, x)) / fluids[name[i].y].x, 0.0);
 }

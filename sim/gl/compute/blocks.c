@@ -68,6 +68,14 @@ void compute_constants(Compute *compute)
     glNamedBufferSubData(compute->constants, 0, sizeof c, &c);
 }
 
+void compute_set_count(Compute *compute, size_t count)
+{
+    const int32_t number = (int32_t)count;
+    compute->count = count;
+    glNamedBufferSubData(compute->constants, offsetof(Constants, cell_first) + 3 * sizeof number,
+                         sizeof number, &number);
+}
+
 static void set3(float out[4], const float v[3], float w)
 {
     set4(out, v[0], v[1], v[2], w);

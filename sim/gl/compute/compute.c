@@ -40,6 +40,8 @@ static void compute_destroy(void *state)
     glDeleteBuffers(COMPUTE_SHOWN, c->shown);
     mailbox_destroy(&c->watch);
     mailbox_destroy(&c->ranges);
+    compute_boundary_destroy(c);
+    compute_flow_destroy(c);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
         glDeleteProgram(c->program[p]);
     free(c);
@@ -61,29 +63,31 @@ unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
 
 bool compute_particles_create(Compute *c, ComputeParticles *particles, Error *error)
 {
-    particles->position = compute_buffer(c, "particle positions", 16 * c->count);
-    particles->velocity = compute_buffer(c, "particle velocities", 16 * c->count);
-    particles->name = compute_buffer(c, "particle ids and fluids", 8 * c->count);
+    particles->position = compute_buffer(c, "particle positions", 16 * c->capacity);
+    particles->velocity = compute_buffer(c, "particle velocities", 16 * c->capacity);
+    particles->name = compute_buffer(c, "particle ids and fluids", 8 * c->capacity);
     return !c->full || no_memory(c, error);
 }
 
 static bool buffers_create(Compute *c, Error *error)
 {
-    const size_t n = c->count, cells = c->solver->cells.count;
+    const size_t n = c->capacity, cells = c->solver->cells.count;
     if (!compute_particles_create(c, &c->now, error) || !compute_particles_create(c, &c->spare, error))
         return false;
     c->cell = compute_buffer(c, "particle cells", 4 * n);
     c->rank = compute_buffer(c, "particle ranks", 4 * n);
-    c->order = compute_buffer(c, "particle order", 4 * n);
+    c->order = compute_buffer(c, "particle order", 4 * (n + 1));
     c->start = compute_buffer(c, "cell starts", 4 * (cells + 1));
     c->pressure = compute_buffer(c, "particle pressures", 8 * n);
     c->acceleration = compute_buffer(c, "particle accelerations", 16 * n);
-    size_t level = cells + 1;
+    size_t level = (n > cells ? n : cells) + COMPUTE_LAYER; /* of what is scanned: sim/gl/compute/flow.c */
     for (int k = 0; k < COMPUTE_SCAN_LEVELS; k++) {
         level = (level + COMPUTE_SCAN_BLOCK - 1) / COMPUTE_SCAN_BLOCK;
         c->totals[k] = compute_buffer(c, "scan totals", 4 * level);
     }
-    return (!c->full && mailbox_create(&c->watch, "watch", 4 * sizeof(uint32_t)) &&
+    compute_flow_create(c);
+    const bool bounded = compute_boundary_create(c);
+    return (bounded && !c->full && mailbox_create(&c->watch, "watch", 4 * sizeof(uint32_t)) &&
             mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
            no_memory(c, error);
 }
@@ -107,6 +111,27 @@ static void walls_upload(Compute *c)
     }
 }
 
+/* Whether the scene names what the pass is for. */
+static bool pass_named(const Solver *s, ComputePass pass)
+{
+    switch (pass) {
+    case COMPUTE_BOUNDARY_BIN:
+    case COMPUTE_BOUNDARY_PLACE:
+    case COMPUTE_BOUNDARY_SORT:
+    case COMPUTE_BOUNDARY_FILL:
+        return s->solid_count > 0;
+    case COMPUTE_GUIDE:
+    case COMPUTE_EMIT_MARK:
+    case COMPUTE_EMIT_ADD:
+        return s->emits;
+    case COMPUTE_DRAIN_MARK:
+    case COMPUTE_DRAIN_GATHER:
+        return s->drains;
+    default:
+        return true;
+    }
+}
+
 /* The numbers of the scalars, and the terms that the scene names: others are not compiled in. */
 static bool programs_create(Compute *c, Error *error)
 {
@@ -118,11 +143,14 @@ static bool programs_create(Compute *c, Error *error)
     SCALAR_LIST(X)
     X(COUNT, , )
 #undef X
-    snprintf(defines + used, sizeof defines - (size_t)used, "%s%s%s",
+    snprintf(defines + used, sizeof defines - (size_t)used, "%s%s%s%s",
+             c->solver->solid_count > 0 ? "#define SOLIDS 1\n" : "",
              c->solver->poly6 ? "#define POLY6 1\n" : "", c->solver->viscous ? "#define VISCOUS 1\n" : "",
              c->solver->negative_pressure ? "#define NEGATIVE_PRESSURE 1\n" : "");
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++) {
         char path[64];
+        if (!pass_named(c->solver, (ComputePass)p))
+            continue;
         snprintf(path, sizeof path, "sim/%s.comp", pass_names[p]);
         unsigned program = program_create(pass_names[p], (const char *const[]){path, NULL}, defines, error);
         if (!program)
@@ -138,18 +166,18 @@ static bool can(const char *what, bool asked, Error *error)
     return !asked || error_set(error, "backend compute has no %s yet; use backend cpu", what);
 }
 
-static bool supported(const Solver *s, size_t count, size_t capacity, Error *error)
+static bool supported(const Solver *s, size_t capacity, Error *error)
 {
     GLint64 most = 0;
+    const size_t larger = capacity > s->boundary.count ? capacity : s->boundary.count;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    if (16 * capacity > (size_t)most || 4 * (s->cells.count + 1) > (size_t)most)
+    if (16 * larger > (size_t)most || 4 * (s->cells.count + 2) > (size_t)most)
         return error_set(
             error,
             "%zu particles and %zu cells need buffers larger than the %lld bytes that this driver "
             "allows; use a larger spacing",
-            capacity, s->cells.count, (long long)most);
-    return can("method wcsph", s->continuity, error) && can("solids", s->solid_count > 0, error) &&
-           can("emitters", capacity != count, error) && can("no-slip walls", s->no_slip, error) &&
+            larger, s->cells.count, (long long)most);
+    return can("method wcsph", s->continuity, error) && can("no-slip walls", s->no_slip, error) &&
            can("surface tension", s->tension_model != TENSION_NONE, error);
 }
 
@@ -162,7 +190,7 @@ static void *compute_create(const Solver *solver, const InitialState *initial, s
                   epoxy_gl_version() % 10);
         return NULL;
     }
-    if (!supported(solver, initial->count, capacity, error))
+    if (!supported(solver, capacity, error))
         return NULL;
     Compute *c = calloc(1, sizeof *c);
     if (!c) {
@@ -171,6 +199,7 @@ static void *compute_create(const Solver *solver, const InitialState *initial, s
     }
     c->solver = solver;
     c->count = initial->count;
+    c->capacity = capacity;
     if (!buffers_create(c, error)) {
         compute_destroy(c);
         return NULL;
@@ -200,11 +229,15 @@ const Backend backend_compute = {
     .create = compute_create,
     .destroy = compute_destroy,
     .adapt = compute_adapt,
+    .pose = compute_pose,
     .drift = compute_drift,
     .grid = compute_grid,
     .density = compute_density,
     .force = compute_force,
     .kick = compute_kick,
+    .guide = compute_guide,
+    .emit = compute_emit,
+    .drain = compute_drain,
     .watch = compute_watch,
     .mark = compute_mark,
     .back = compute_back,

@@ -8,7 +8,7 @@
 #include "sim/backend.h"
 #include "sim/gl/mailbox.h"
 
-enum { COMPUTE_SCAN_LEVELS = 3, COMPUTE_SCAN_BLOCK = 1024, COMPUTE_GROUP = 64 };
+enum { COMPUTE_SCAN_LEVELS = 3, COMPUTE_SCAN_BLOCK = 1024, COMPUTE_GROUP = 64, COMPUTE_LAYER = 4096 };
 
 /* What show.comp writes: a scalar by its number, the fluid, the id. */
 enum { COMPUTE_SHOW_FLUID = SCALAR_COUNT, COMPUTE_SHOW_ID, COMPUTE_SHOWN };
@@ -32,7 +32,16 @@ typedef struct ComputeParticles {
     X(DENSITY, "density")                                                                                    \
     X(FORCE, "force")                                                                                        \
     X(KICK, "kick")                                                                                          \
-    X(SHOW, "show")
+    X(SHOW, "show")                                                                                          \
+    X(BOUNDARY_BIN, "boundary_bin")                                                                          \
+    X(BOUNDARY_PLACE, "boundary_place")                                                                      \
+    X(BOUNDARY_SORT, "boundary_sort")                                                                        \
+    X(BOUNDARY_FILL, "boundary_fill")                                                                        \
+    X(GUIDE, "guide")                                                                                        \
+    X(EMIT_MARK, "emit_mark")                                                                                \
+    X(EMIT_ADD, "emit_add")                                                                                  \
+    X(DRAIN_MARK, "drain_mark")                                                                              \
+    X(DRAIN_GATHER, "drain_gather")
 
 typedef enum ComputePass {
 #define X(NAME, name) COMPUTE_##NAME,
@@ -41,9 +50,27 @@ typedef enum ComputePass {
         COMPUTE_PASS_COUNT
 } ComputePass;
 
+/* Boundary particles of solids; all 0 without solids. */
+typedef struct ComputeBoundary {
+    unsigned rest;                      /* vec4: x y z in the solid's frame, solid */
+    unsigned cell, rank, order, start;  /* start: cells + 2; the last cell is for what is set aside */
+    unsigned position, velocity, state; /* vec4, vec4, uvec2: see boundary.glsl; sorted by cell */
+    unsigned block;                     /* uniforms */
+    bool due;                           /* solids have moved since they were sorted */
+} ComputeBoundary;
+
+/* Emitters and drains; all 0 without them. */
+typedef struct ComputeFlow {
+    unsigned block;        /* uniforms */
+    unsigned layer, marks; /* x y z of up to COMPUTE_LAYER candidates at once; uint each, and one more */
+} ComputeFlow;
+
 typedef struct Compute {
     const Solver *solver;
-    size_t count;
+    size_t count, capacity; /* particles; room for them */
+    size_t gridded;         /* by `grid`: how many it has seen */
+    ComputeBoundary boundary;
+    ComputeFlow flow;
     ComputeParticles now, spare, marked;  /* marked: none before the first `mark` */
     unsigned cell, rank, order, start;    /* start: cells + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
@@ -79,6 +106,15 @@ void compute_dispatch(size_t groups);
 /* Binds buffers to the storage bindings 0, 1, ...; 0 leaves one alone. */
 void compute_bind(const unsigned *buffers, int count);
 
+/* A storage buffer of `bytes`, zeroed. */
+unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
+
+/* There are as many particles from now on. */
+void compute_set_count(Compute *compute, size_t count);
+
+/* `now` and `spare` change places. */
+void compute_swap(Compute *compute);
+
 /* Fills the uniform blocks. */
 void compute_constants(Compute *compute);
 void compute_set_drift(Compute *compute, const FrameStep *step);
@@ -88,6 +124,21 @@ void compute_set_kick(Compute *compute, const float gravity[3], float dt);
 /* Exclusive prefix sums of the first `size` numbers of a buffer, in place. */
 void compute_scan(Compute *compute, unsigned buffer, size_t size);
 
+/* boundary.c: without solids these do nothing. False when memory is short. */
+bool compute_boundary_create(Compute *compute);
+void compute_boundary_destroy(Compute *compute);
+void compute_boundary_bind(const Compute *compute);
+void compute_boundary_move(Compute *compute, const SolidStep *steps);
+void compute_boundary_grid(Compute *compute); /* sorts them where they have moved */
+void compute_boundary_fill(const Compute *compute);
+
+void compute_flow_create(Compute *compute);
+void compute_flow_destroy(Compute *compute);
+
+void compute_pose(void *state, const SolidPose *pose);
+size_t compute_emit(void *state, const EmitLayer *layer, size_t most);
+void compute_guide(void *state, const Guide *guides, int count);
+size_t compute_drain(void *state, const Fill *regions, int count);
 void compute_grid(void *state);
 void compute_density(void *state);
 void compute_force(void *state, const ApparentGravity *gravity);

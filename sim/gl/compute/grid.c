@@ -35,6 +35,13 @@ void compute_scan(Compute *compute, unsigned buffer, size_t size)
         run_blocks(compute, COMPUTE_SCAN_ADD, values[level], values[level + 1], sizes[level]);
 }
 
+void compute_swap(Compute *c)
+{
+    const ComputeParticles other = c->spare;
+    c->spare = c->now;
+    c->now = other;
+}
+
 void compute_grid(void *state)
 {
     Compute *c = state;
@@ -52,7 +59,7 @@ void compute_grid(void *state)
                                     c->spare.position, c->spare.velocity, c->spare.name},
                  7);
     compute_run(c, COMPUTE_MOVE, c->count);
-    const ComputeParticles sorted = c->spare;
-    c->spare = c->now;
-    c->now = sorted;
+    compute_swap(c);
+    c->gridded = c->count;
+    compute_boundary_grid(c);
 }

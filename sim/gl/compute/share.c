@@ -12,7 +12,7 @@ enum { RANGE_BYTES = 2 * SCALAR_COUNT * sizeof(uint32_t) };
 static ParticleAttribute show(Compute *c, int what)
 {
     if (!c->shown[what])
-        c->shown[what] = compute_buffer(c, "shown", 4 * c->count);
+        c->shown[what] = compute_buffer(c, "shown", 4 * c->capacity);
     compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->now.name, c->pressure,
                                     c->shown[what], c->ranges.buffer},
                  6);

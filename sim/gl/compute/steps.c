@@ -30,6 +30,9 @@ void compute_drift(void *state, const FrameStep *step)
 {
     Compute *c = state;
     compute_set_drift(c, step);
+    if (step->solids)
+        compute_boundary_move(c, step->solids);
+    compute_boundary_bind(c);
     compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch.buffer}, 3);
     compute_run(c, COMPUTE_DRIFT, c->count);
 }
@@ -37,6 +40,7 @@ void compute_drift(void *state, const FrameStep *step)
 void compute_density(void *state)
 {
     Compute *c = state;
+    compute_boundary_bind(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, 0, 0, 0, c->walls},
                  8);
     compute_run(c, COMPUTE_DENSITY, c->count);
@@ -46,6 +50,8 @@ void compute_force(void *state, const ApparentGravity *gravity)
 {
     Compute *c = state;
     compute_set_force(c, gravity);
+    if (c->solver->solid_count > 0)
+        compute_boundary_fill(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
                                     c->acceleration, 0, c->walls},
                  8);

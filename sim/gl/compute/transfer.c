@@ -87,8 +87,9 @@ void compute_load(void *state, const ParticleColumns *from, size_t count, size_t
 {
     Compute *c = state;
     Copy copy;
-    if (count != c->count || !copy_make(&copy, count))
+    if (count > c->capacity || !copy_make(&copy, count))
         return;
+    compute_set_count(c, count);
     for (size_t i = 0; i < count; i++) {
         float *x = copy.position + 4 * i, *v = copy.velocity + 4 * i;
         x[0] = from->x[i], x[1] = from->y[i], x[2] = from->z[i], x[3] = 0;

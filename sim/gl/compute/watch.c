@@ -67,7 +67,7 @@ bool compute_mark(void *state, Error *error)
 void compute_back(void *state, size_t count, size_t guarded)
 {
     Compute *c = state;
-    c->count = count;
+    compute_set_count(c, count);
     copy_particles(c, &c->marked, &c->now);
     compute_watch_reset(c, guarded);
 }

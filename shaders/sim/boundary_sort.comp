@@ -1,0 +1,27 @@
+// By number within each cell, so that sums have one order: sort.comp. Then to their places, at rest in sums of friction.
+#include "sim/constants.glsl"
+#include "sim/solids.glsl"
+#define BOUNDARY_ACCESS writeonly
+#include "sim/boundary.glsl"
+layout(std430, binding = 0) readonly buffer Rests { vec4 rest[]; };
+layout(std430, binding = 3) buffer Orders { uint order[]; };
+
+void main()
+{
+    uint c = invocation();
+    if (c >= cell_count())
+        return;
+    uint first = boundary_start[c], end = boundary_start[c + 1u];
+    for (uint i = first + 1u; i < end; i++) {
+        uint moved = order[i], j = i;
+        for (; j > first && order[j - 1u] > moved; j--)
+            order[j] = order[j - 1u];
+        order[j] = moved;
+    }
+    for (uint i = first; i < end; i++) {
+        vec4 at = rest[order[i]];
+        boundary_position[i] = vec4(solid_to_box(solids[int(at.w)].end, at.xyz), 0.0);
+        boundary_velocity[i] = vec4(0);
+        boundary_state[i] = uvec2(0u, order[i]);
+    }
+}

@@ -1,0 +1,24 @@
+// Who stays: fill_holds of sim/seed.c, of none of the drains.
+#include "sim/constants.glsl"
+#include "sim/flow.glsl"
+layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = 1) writeonly buffer Marks { uint mark[]; }; // one more, 0, for the sum of all
+
+bool drains_away(vec3 x)
+{
+    for (int k = 0; k < flow_counts.x; k++) {
+        Region region = drains[k];
+        vec3 d = x - region.low.xyz;
+        if (region.low.w > 0.5 ? dot(d, d) <= region.high.w
+                               : all(greaterThanEqual(x, region.low.xyz)) && all(lessThan(x, region.high.xyz)))
+            return true;
+    }
+    return false;
+}
+
+void main()
+{
+    uint i = invocation();
+    if (i <= particle_count())
+        mark[i] = i < particle_count() && !drains_away(position[i].xyz) ? 1u : 0u;
+}

@@ -1,0 +1,162 @@
+/* Particles that come and go between steps: sim/cpu/flow.c. Of each layer and each draining one number comes
+   back, how many they were. */
+#include "sim/gl/compute/compute.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <string.h>
+
+/* The uniform block of shaders/sim/flow.glsl; std140: all members are multiples of 16 bytes. */
+typedef struct FlowBlock {
+    int32_t counts[4]; /* drains, guides, candidates of a layer, particles that the grid has */
+    int32_t layer[4];  /* fluid, first id, most */
+    float velocity[4];
+    float drains[DRAINS_MAX][2][4];
+    float guides[GUIDES_MAX][3][4];
+} FlowBlock;
+
+static void put(const Compute *c, size_t offset, size_t bytes, const void *data)
+{
+    glNamedBufferSubData(c->flow.block, (GLintptr)offset, (GLsizeiptr)bytes, data);
+}
+
+void compute_flow_create(Compute *c)
+{
+    if (c->solver->emits || c->solver->drains)
+        c->flow.block = compute_buffer(c, "flow", sizeof(FlowBlock));
+    if (c->solver->emits) {
+        c->flow.layer = compute_buffer(c, "emitted layer", (size_t)12 * COMPUTE_LAYER);
+        c->flow.marks = compute_buffer(c, "emitted layer's marks", (size_t)4 * (COMPUTE_LAYER + 1));
+    }
+}
+
+void compute_flow_destroy(Compute *c)
+{
+    const GLuint buffers[] = {c->flow.block, c->flow.layer, c->flow.marks};
+    glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
+}
+
+static void bind_block(const Compute *c)
+{
+    enum { BLOCK = 7 };
+    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK, c->flow.block);
+}
+
+/* What stands at the end of the prefix sums: the sum of all. */
+static size_t sum_of(unsigned buffer, size_t at)
+{
+    uint32_t sum = 0;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(buffer, (GLintptr)(at * sizeof sum), sizeof sum, &sum);
+    return sum;
+}
+
+static void layer_set(const Compute *c, const EmitLayer *layer, size_t most)
+{
+    const FlowBlock block = {
+        .counts = {0, 0, (int32_t)layer->count, (int32_t)c->gridded},
+        .layer = {layer->fluid, (int32_t)layer->first_id, (int32_t)most},
+        .velocity = {layer->velocity[0], layer->velocity[1], layer->velocity[2], 0},
+    };
+    put(c, 0, offsetof(FlowBlock, drains), &block);
+    glNamedBufferSubData(c->flow.layer, 0, (GLsizeiptr)(12 * layer->count), layer->position);
+}
+
+static size_t emit_part(Compute *c, const EmitLayer *layer, size_t most)
+{
+    layer_set(c, layer, most);
+    bind_block(c);
+    compute_boundary_bind(c);
+    compute_bind((const unsigned[]){c->now.position, c->flow.layer, c->start, c->flow.marks}, 4);
+    compute_run(c, COMPUTE_EMIT_MARK, layer->count + 1);
+    compute_scan(c, c->flow.marks, layer->count + 1);
+    compute_bind(
+        (const unsigned[]){c->now.position, c->flow.layer, c->now.velocity, c->flow.marks, c->now.name}, 5);
+    compute_run(c, COMPUTE_EMIT_ADD, layer->count);
+    const size_t fit = sum_of(c->flow.marks, layer->count), number = fit < most ? fit : most;
+    compute_set_count(c, c->count + number);
+    return number;
+}
+
+size_t compute_emit(void *state, const EmitLayer *layer, size_t most)
+{
+    Compute *c = state;
+    size_t number = 0;
+    for (size_t done = 0; done < layer->count && number < most; done += COMPUTE_LAYER) {
+        EmitLayer part = *layer;
+        part.count = layer->count - done < COMPUTE_LAYER ? layer->count - done : COMPUTE_LAYER;
+        part.position += 3 * done;
+        part.first_id += (uint32_t)number;
+        number += emit_part(c, &part, most - number);
+    }
+    return number;
+}
+
+void compute_guide(void *state, const Guide *guides, int count)
+{
+    const Compute *c = state;
+    FlowBlock block = {.counts = {0, count}};
+    for (int k = 0; k < count; k++) {
+        float(*guide)[4] = block.guides[k];
+        memcpy(guide[0], guides[k].centre, sizeof guides[k].centre);
+        memcpy(guide[1], guides[k].direction, sizeof guides[k].direction);
+        memcpy(guide[2], guides[k].velocity, sizeof guides[k].velocity);
+        guide[0][3] = guides[k].radius;
+        guide[1][3] = guides[k].depth;
+        guide[2][3] = (float)guides[k].fluid;
+    }
+    put(c, 0, sizeof block.counts, block.counts);
+    put(c, offsetof(FlowBlock, guides), (size_t)count * sizeof block.guides[0], block.guides);
+    bind_block(c);
+    compute_bind((const unsigned[]){c->now.position, c->now.name, c->now.velocity}, 3);
+    compute_run(c, COMPUTE_GUIDE, c->count);
+}
+
+/* The least float that is not below: a float is below the one where it is below the other. */
+static float not_below(double bound)
+{
+    const float near = (float)fmax(-3e38, fmin(bound, 3e38));
+    return (double)near < bound ? nextafterf(near, INFINITY) : near;
+}
+
+static void drains_set(const Compute *c, const Fill *regions, int count)
+{
+    FlowBlock block = {.counts = {count}};
+    const bool plane = c->solver->dimensions == 2;
+    for (int k = 0; k < count; k++) {
+        float *low = block.drains[k][0], *high = block.drains[k][1];
+        const bool ball = regions[k].kind == FILL_BALL;
+        for (int a = 0; a < 3; a++) {
+            const bool out = a == 2 && plane;
+            low[a] =
+                ball ? (out ? 0 : (float)regions[k].centre[a]) : not_below(out ? -3e38 : regions[k].min[a]);
+            high[a] = not_below(out ? 3e38 : regions[k].max[a]);
+        }
+        low[3] = ball;
+        high[3] = (float)(regions[k].radius * regions[k].radius);
+    }
+    put(c, 0, sizeof block.counts, block.counts);
+    put(c, offsetof(FlowBlock, drains), (size_t)count * sizeof block.drains[0], block.drains);
+}
+
+size_t compute_drain(void *state, const Fill *regions, int count)
+{
+    Compute *c = state;
+    if (c->count == 0)
+        return 0;
+    drains_set(c, regions, count);
+    bind_block(c);
+    compute_bind((const unsigned[]){c->now.position, c->order}, 2); /* `order` is free until the next grid */
+    compute_run(c, COMPUTE_DRAIN_MARK, c->count + 1);
+    compute_scan(c, c->order, c->count + 1);
+    const size_t stay = sum_of(c->order, c->count), gone = c->count - stay;
+    if (gone == 0)
+        return 0;
+    compute_bind((const unsigned[]){c->now.position, c->order, c->now.velocity, c->now.name,
+                                    c->spare.position, c->spare.velocity, c->spare.name},
+                 7);
+    compute_run(c, COMPUTE_DRAIN_GATHER, c->count);
+    compute_swap(c);
+    compute_set_count(c, stay);
+    return gone;
+}

@@ -1,0 +1,251 @@
+/* Worlds on two backends, from the same states. */
+#ifndef SLOSH_TEST_COMPARE_H
+#define SLOSH_TEST_COMPARE_H
+
+#include "tests/render/fixture.h"
+#include "tests/sim/fixture.h"
+
+#include "app/scene.h"
+#include "sim/gl/backends.h"
+#include "sim/world_state.h"
+
+static inline int compare_setup(void **state)
+{
+    if (context_setup(state) != 0)
+        return 1;
+    backends_add();
+    return 0;
+}
+
+static inline World *world_on(WorldDef def, const char *backend)
+{
+    snprintf(def.backend, sizeof def.backend, "%s", backend);
+    return fixture_world(&def);
+}
+
+/* The same state on both. */
+static inline void copy_state(World *from, World *to)
+{
+    WorldState saved = {0};
+    Error error;
+    if (!world_save(from, &saved, &error) || !world_load(to, &saved, &error))
+        fail_msg("%s", error.message);
+    world_state_free(&saved);
+}
+
+static inline WorldInfo info_of(World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    return info;
+}
+
+/* What a shipped scene says, coarser but for its steps. */
+static inline WorldDef scene_def(const char *name, double spacing)
+{
+    SceneSettings settings = {0};
+    static Scene scene;
+    Error error = {0};
+    if (!scene_load(name, &settings, &scene, NULL, &error))
+        fail_msg("%s", error.message);
+    scene.world.spacing = spacing;
+    scene.world.threads = 1;
+    return scene.world;
+}
+
+static inline void substeps(World *world, int count)
+{
+    Error error = {0};
+    for (int i = 0; i < count; i++)
+        if (!world_substep(world, NULL, &error))
+            fail_msg("%s", error.message);
+}
+
+typedef struct Who {
+    uint32_t id;
+    size_t at;
+} Who;
+
+static inline int who_before(const void *a, const void *b)
+{
+    const uint32_t x = ((const Who *)a)->id, y = ((const Who *)b)->id;
+    return x < y ? -1 : x > y;
+}
+
+/* What world_read gives of ids that may have gaps. */
+typedef struct Snapshot {
+    size_t count;
+    Who *who;                             /* in the order of their ids */
+    float *position, *velocity, *density; /* 4, 4, 1 a particle, in the world's order */
+    uint32_t *fluid;
+} Snapshot;
+
+static inline Snapshot snapshot_read(World *world)
+{
+    const size_t n = info_of(world).count;
+    Snapshot s = {n,
+                  malloc((n + 1) * sizeof *s.who),
+                  malloc(16 * n + 1),
+                  malloc(16 * n + 1),
+                  malloc(4 * n + 1),
+                  malloc(4 * n + 1)};
+    uint32_t *id = malloc(4 * n + 1);
+    ParticleArrays out = {.position = s.position, .velocity = s.velocity, .fluid = s.fluid, .id = id};
+    out.scalar[SCALAR_DENSITY] = s.density;
+    world_read(world, &out);
+    for (size_t i = 0; i < n; i++)
+        s.who[i] = (Who){id[i], i};
+    qsort(s.who, n, sizeof *s.who, who_before);
+    free(id);
+    return s;
+}
+
+static inline void snapshot_free(Snapshot *s)
+{
+    free(s->who);
+    free(s->position);
+    free(s->velocity);
+    free(s->density);
+    free(s->fluid);
+}
+
+/* Who is furthest off, and by how much. */
+typedef struct Worst {
+    double off;
+    uint32_t id;
+    float x[3];
+} Worst;
+
+static inline void worst_take(Worst *worst, double off, uint32_t id, const float *x)
+{
+    if (!(off <= worst->off))
+        *worst = (Worst){off, id, {x[0], x[1], x[2]}};
+}
+
+static inline double apart(const float *a, const float *b)
+{
+    return sqrt(pow((double)a[0] - (double)b[0], 2) + pow((double)a[1] - (double)b[1], 2) +
+                pow((double)a[2] - (double)b[2], 2));
+}
+
+/* Kinetic energy and that of height, which the floor of the box has none of. */
+static inline double energy_of(const WorldDef *def, const WorldSums *sums)
+{
+    return sums->kinetic_energy - sums->mass * def->gravity[1] * sums->centre[1];
+}
+
+typedef struct Drifted {
+    double centre, energy, kinetic; /* of the box, of itself, of itself */
+} Drifted;
+
+static inline Drifted drifted(const WorldDef *def, World *from, World *to)
+{
+    WorldSums a, b;
+    Drifted off = {0};
+    world_sums(from, &a);
+    world_sums(to, &b);
+    for (int k = 0; k < def->dimensions; k++)
+        off.centre = fmax(off.centre, fabs(a.centre[k] - b.centre[k]) / def->box_size[k]);
+    off.energy = energy_of(def, &b) / energy_of(def, &a) - 1;
+    off.kinetic = b.kinetic_energy / a.kinetic_energy - 1;
+    return off;
+}
+
+/* The state of `from`, every velocity one bit further along x. */
+static inline void copy_nearly(World *from, World *to)
+{
+    WorldState saved = {0};
+    Error error;
+    if (!world_save(from, &saved, &error))
+        fail_msg("%s", error.message);
+    for (size_t i = 0; i < saved.count; i++)
+        saved.particles.vx[i] = nextafterf(saved.particles.vx[i], 1);
+    if (!world_load(to, &saved, &error))
+        fail_msg("%s", error.message);
+    world_state_free(&saved);
+}
+
+/* Both go on for so many steps from the same state: centre of mass within 1 % of the box, energy within 1 %.
+   What one bit more makes of the CPU's own run is printed beside it: less than that nobody can ask for. */
+static inline void compare_run(const WorldDef *def, const char *what, World *cpu, World *gpu, int steps)
+{
+    World *near = world_on(*def, "cpu");
+    copy_nearly(cpu, near);
+    substeps(cpu, steps);
+    substeps(gpu, steps);
+    substeps(near, steps);
+    const Drifted off = drifted(def, cpu, gpu), floor = drifted(def, cpu, near);
+    printf(
+        "%s, %d steps on: centre of mass off by %.1e of the box, energy by %.1e, kinetic energy by %.1e; cpu "
+        "after one bit more: %.1e, %.1e, %.1e\n",
+        what, steps, off.centre, off.energy, off.kinetic, floor.centre, floor.energy, floor.kinetic);
+    assert_true(off.centre < 0.01 && fabs(off.energy) < 0.01);
+    world_destroy(near);
+}
+
+/* Least distance of any particle from any solid at the world's time; fails the test when one has left the
+ * box. */
+static inline double least_clearance(World *world, const WorldDef *def)
+{
+    const double time = info_of(world).time;
+    Snapshot s = snapshot_read(world);
+    BoxState pose[SOLIDS_MAX];
+    double least = INFINITY;
+    for (int k = 0; k < def->solid_count; k++)
+        solid_pose(&def->solids[k], time, &pose[k]);
+    for (size_t i = 0; i < s.count; i++) {
+        const float *x = s.position + 4 * i;
+        assert_true(fabsf(x[0]) <= 0.5 * def->box_size[0] + 1e-6 && x[1] >= 0 &&
+                    x[1] <= def->box_size[1] + 1e-6);
+        assert_true(def->dimensions == 2 ? x[2] == 0 : fabsf(x[2]) <= 0.5 * def->box_size[2] + 1e-6);
+        for (int k = 0; k < def->solid_count; k++) {
+            double d[3];
+            for (int a = 0; a < 3; a++)
+                d[a] = x[a] - pose[k].position[a];
+            quat_rotate_inverse(pose[k].orientation, d, d);
+            least = fmin(least, solid_distance(&def->solids[k], def->dimensions, d));
+        }
+    }
+    snapshot_free(&s);
+    return least;
+}
+
+/* One step of both, which are in the same state: density within 1e-5 of rest density, the change of velocity
+   within 1e-4 of the greatest. */
+static inline void compare_one_step(const WorldDef *def, const char *what, World *cpu, World *gpu)
+{
+    Snapshot before = snapshot_read(cpu);
+    substeps(cpu, 1);
+    substeps(gpu, 1);
+    Snapshot a = snapshot_read(cpu), b = snapshot_read(gpu);
+    assert_int_equal(a.count, b.count);
+    Worst density = {0}, velocity = {0};
+    double change = 0;
+    for (size_t k = 0, old = 0; k < a.count; k++) {
+        const size_t i = a.who[k].at, j = b.who[k].at;
+        const uint32_t id = a.who[k].id;
+        assert_int_equal(id, b.who[k].id);
+        worst_take(&density,
+                   fabs((double)a.density[i] - (double)b.density[j]) / def->fluids[a.fluid[i]].density, id,
+                   a.position + 4 * i);
+        worst_take(&velocity, apart(a.velocity + 4 * i, b.velocity + 4 * j), id, a.position + 4 * i);
+        while (old < before.count && before.who[old].id < id)
+            old++;
+        if (old < before.count && before.who[old].id == id)
+            change = fmax(change, apart(a.velocity + 4 * i, before.velocity + 4 * before.who[old].at));
+    }
+    printf(
+        "%s: density off by %.1e of rest (particle %u), change of velocity by %.1e of the greatest (particle %u)\n",
+        what, density.off, density.id, velocity.off / change, velocity.id);
+    if (!(density.off < 1e-5))
+        fail_msg("%s: density of particle %u at %g %g %g off by %g of rest", what, density.id, density.x[0],
+                 density.x[1], density.x[2], density.off);
+    if (!(velocity.off < 1e-4 * change && change > 1e-3))
+        fail_msg("%s: velocity of particle %u at %g %g %g off by %g of the greatest change", what,
+                 velocity.id, velocity.x[0], velocity.x[1], velocity.x[2], velocity.off / change);
+    snapshot_free(&before);
+    snapshot_free(&a);
+    snapshot_free(&b);
+}
+
+#endif

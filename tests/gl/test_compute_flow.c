@@ -1,0 +1,322 @@
+/* Emitters and drains on the backend `compute` against `cpu`. */
+#include "tests/gl/compare.h"
+
+#include "sim/flow.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+/* A jet that falls into a tray with a drain beside it; two fluids, a solid that moves, a box that moves. */
+static WorldDef jet_def(int dimensions)
+{
+    WorldDef def = fixture_def(1.2, 0.9, 0.8);
+    def.dimensions = dimensions;
+    def.spacing = dimensions == 2 ? 0.03 : 0.06;
+    def.sound_speed = 20;
+    def.dt = 0.002;
+    def.threads = 1;
+    def.most = 3000;
+    def.fluid_count = 2;
+    def.fluids[0].viscosity = 1;
+    def.fluids[1] = (FluidDef){.name = "oil", .density = 800, .viscosity = 3};
+    fixture_block(&def, 0, -0.6, 0, -0.4, 0.6, 0.2, 0.4);
+    def.fluids[1].emits[def.fluids[1].emit_count++] = (Emit){
+        .centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.13, .speed = 2, .start = 0.05};
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BALL, .centre = {-0.5, 0.1, 0}, .radius = 0.08};
+    def.motions[def.motion_count++] =
+        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.05, .frequency = 2};
+    SolidDef *ball = &def.solids[def.solid_count++];
+    *ball = (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.3, 0}, .radius = 0.15, .slip = SLIP_NONE};
+    ball->motions[ball->motion_count++] =
+        (Motion){.kind = MOTION_SHAKE, .axis = {0, 1, 0}, .amplitude = 0.1, .frequency = 3};
+    return def;
+}
+
+/* The same particles in both, by their ids. */
+static void same_ids(World *a, World *b)
+{
+    Snapshot x = snapshot_read(a), y = snapshot_read(b);
+    assert_int_equal(x.count, y.count);
+    for (size_t k = 0; k < x.count; k++)
+        if (x.who[k].id != y.who[k].id)
+            fail_msg("one has particle %u, the other %u", x.who[k].id, y.who[k].id);
+    snapshot_free(&x);
+    snapshot_free(&y);
+}
+
+/* A jet that falls into drains, without a splash: nothing in it makes more of the last bit. */
+static WorldDef fountain_def(int dimensions)
+{
+    WorldDef def = fixture_def(1.2, 0.8, 0.8);
+    def.dimensions = dimensions;
+    def.spacing = 0.05;
+    def.sound_speed = 20;
+    def.dt = 0.004;
+    def.threads = 1;
+    def.most = 2000;
+    def.gravity[1] = -6;
+    def.fluids[0].viscosity = 10;
+    def.fluids[0].emits[def.fluids[0].emit_count++] =
+        (Emit){.centre = {-0.4, 0.4, 0}, .direction = {1, 0.3, 0}, .radius = 0.11, .speed = 2};
+    def.drains[def.drain_count++] =
+        (Fill){.kind = FILL_BLOCK, .min = {-0.6, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.3, 0, -0.4}, .max = {0.6, 0.8, 0.4}};
+    return def;
+}
+
+static void a_fountain_gives_and_takes_as_many(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        const WorldDef def = fountain_def(dimensions);
+        World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+        substeps(cpu, 300);
+        substeps(gpu, 300);
+        const WorldInfo a = info_of(cpu), b = info_of(gpu);
+        printf("%dD: in 300 steps %lu came and %lu went, on the CPU %lu and %lu\n", dimensions,
+               (unsigned long)b.emitted, (unsigned long)b.drained, (unsigned long)a.emitted,
+               (unsigned long)a.drained);
+        assert_true(a.emitted > 200 && a.drained > 100);
+        assert_true(a.emitted == b.emitted && a.drained == b.drained);
+        same_ids(cpu, gpu);
+        world_destroy(cpu);
+        world_destroy(gpu);
+    }
+}
+
+/* Where it splashes the last bit grows: from the same state each time. */
+static void as_many_come_and_go(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        const WorldDef def = jet_def(dimensions);
+        World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+        for (int i = 0; i < 8; i++) {
+            substeps(cpu, 20);
+            substeps(gpu, 20);
+            const WorldInfo a = info_of(cpu), b = info_of(gpu);
+            assert_true(a.emitted == b.emitted && a.drained == b.drained && a.count == b.count);
+            same_ids(cpu, gpu);
+            copy_state(cpu, gpu);
+        }
+        assert_true(info_of(cpu).emitted > 60 && info_of(cpu).drained > 20);
+        compare_one_step(&def, dimensions == 2 ? "2D, jet" : "3D, jet", cpu, gpu);
+        world_destroy(cpu);
+        world_destroy(gpu);
+    }
+}
+
+/* What a user runs, coarser. */
+static void scenes_stay_with_the_cpu(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        double spacing;
+        int before;
+    } scenes[] = {{"bowl", 0.016, 1000}, {"fountain", 0.02, 600}};
+    for (int n = 0; n < 2; n++) {
+        const WorldDef def = scene_def(scenes[n].name, scenes[n].spacing);
+        World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+        substeps(cpu, scenes[n].before);
+        copy_state(cpu, gpu);
+        compare_one_step(&def, scenes[n].name, cpu, gpu);
+        compare_run(&def, scenes[n].name, cpu, gpu, 200);
+        const WorldInfo a = info_of(cpu), b = info_of(gpu);
+        printf("%s: %lu came and %lu went, on the CPU %lu and %lu\n", scenes[n].name,
+               (unsigned long)b.emitted, (unsigned long)b.drained, (unsigned long)a.emitted,
+               (unsigned long)a.drained);
+        assert_true(a.count > 150 && fabs((double)b.emitted / (double)a.emitted - 1) < 0.01);
+        assert_true(fabs((double)b.drained - (double)a.drained) < 0.01 * (double)a.emitted);
+        assert_true(least_clearance(gpu, &def) > -1e-5);
+        world_destroy(cpu);
+        world_destroy(gpu);
+    }
+}
+
+/* An empty box, and a disk at its left side. */
+static WorldDef free_jet_def(void)
+{
+    WorldDef def = fixture_def(4, 1, 1);
+    def.spacing = 0.05;
+    def.gravity[1] = 0;
+    def.sound_speed = 20;
+    def.most = 4000;
+    def.fluids[0].emits[def.fluids[0].emit_count++] =
+        (Emit){.centre = {-1.8, 0.5, 0}, .direction = {1, 0, 0}, .radius = 0.2, .speed = 2};
+    return def;
+}
+
+/* Up to the bound and no further; where a drain takes some away, on again. */
+static void the_bound_holds(void **state)
+{
+    (void)state;
+    WorldDef def = free_jet_def();
+    def.most = 300;
+    World *world = world_on(def, "compute");
+    substeps(world, 200);
+    assert_true(info_of(world).count == 300 && info_of(world).emitted == 300 && info_of(world).full);
+    world_destroy(world);
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BALL, .centre = {-1.3, 0.5, 0}, .radius = 0.4};
+    world = world_on(def, "compute");
+    for (int i = 0; i < 300; i++) {
+        substeps(world, 1);
+        assert_true(info_of(world).count <= 300);
+    }
+    Snapshot s = snapshot_read(world);
+    for (size_t i = 0; i < s.count; i++) /* a step's way at most is between it and the last draining */
+        assert_true(hypot(hypot(s.position[4 * i] + 1.3, s.position[4 * i + 1] - 0.5),
+                          s.position[4 * i + 2]) > 0.4 - 0.02);
+    for (size_t k = 1; k < s.count; k++)
+        assert_true(s.who[k].id > s.who[k - 1].id);
+    assert_true(info_of(world).drained > 200 && info_of(world).emitted == s.count + info_of(world).drained);
+    snapshot_free(&s);
+    world_destroy(world);
+}
+
+/* Two disks in one place give one particle where two have no room; nor does one come where a solid is. */
+static void nothing_comes_where_something_is(void **state)
+{
+    (void)state;
+    WorldDef def = free_jet_def();
+    def.fluids[0].emits[1] = def.fluids[0].emits[0];
+    def.fluids[0].emits[1].direction[0] = -1;
+    def.fluids[0].emits[0].centre[0] = def.fluids[0].emits[1].centre[0] = 0;
+    def.fluids[0].emit_count = 2;
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    substeps(cpu, 3);
+    substeps(gpu, 3);
+    assert_true(info_of(gpu).emitted > 0);
+    same_ids(cpu, gpu);
+    world_destroy(cpu);
+    world_destroy(gpu);
+
+    def = free_jet_def();
+    def.solids[def.solid_count++] =
+        (SolidDef){.kind = SOLID_SPHERE, .centre = {-1.8, 0.5, 0}, .radius = 0.45, .axis = {0, 1, 0}};
+    gpu = world_on(def, "compute");
+    substeps(gpu, 50);
+    assert_int_equal(info_of(gpu).emitted, 0);
+    world_destroy(gpu);
+}
+
+/* A disk of more candidates than fit into the buffer at once. */
+static void a_wide_layer_comes_in_parts(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(4, 0.5, 4);
+    def.spacing = 0.05;
+    def.gravity[1] = 0;
+    def.most = 6000;
+    def.fluids[0].emits[def.fluids[0].emit_count++] =
+        (Emit){.centre = {0, 0.25, 0}, .direction = {0, 1, 0}, .radius = 1.95, .speed = 1};
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    substeps(cpu, 1);
+    substeps(gpu, 1);
+    assert_true(info_of(gpu).count > 4200);
+    same_ids(cpu, gpu);
+    world_destroy(cpu);
+    world_destroy(gpu);
+}
+
+/* From cpu to compute, further, back, further: as on one; into a world that holds more, or fewer. */
+static void the_state_goes_to_and_fro(void **state)
+{
+    (void)state;
+    const WorldDef def = jet_def(3);
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute"), *other = world_on(def, "compute");
+    substeps(cpu, 90);
+    copy_state(cpu, gpu);
+    substeps(gpu, 20);
+    copy_state(gpu, cpu);
+    same_ids(cpu, gpu);
+    copy_state(gpu, other);
+    assert_true(info_of(cpu).count != world_def_count(&def, def.spacing));
+    assert_true(world_hash(gpu) == world_hash(other));
+    substeps(other, 40);
+    copy_state(gpu, other); /* which has more by now */
+    substeps(gpu, 10);
+    substeps(other, 10);
+    substeps(cpu, 10);
+    assert_true(world_hash(gpu) == world_hash(other));
+    same_ids(cpu, gpu);
+    world_destroy(cpu);
+    world_destroy(gpu);
+    world_destroy(other);
+}
+
+/* A step far too long: what had come in since the mark goes back. */
+static void going_back_takes_back_what_came(void **state)
+{
+    (void)state;
+    WorldDef def = jet_def(3);
+    def.retries = 3;
+    def.dt = 0.06;
+    def.substeps = 2;
+    World *world = world_on(def, "compute");
+    Error error;
+    for (int i = 0; i < 20 && world_step(world, NULL, &error); i++)
+        continue;
+    const WorldInfo info = info_of(world);
+    assert_true(info.trouble.count > 0);
+    assert_int_equal(info.count, world_def_count(&def, def.spacing) + info.emitted - info.drained);
+    Snapshot s = snapshot_read(world);
+    for (size_t k = 1; k < s.count; k++)
+        assert_true(s.who[k].id > s.who[k - 1].id);
+    snapshot_free(&s);
+    world_destroy(world);
+}
+
+static size_t bytes_read;
+static PFNGLGETNAMEDBUFFERSUBDATAPROC read_buffer;
+
+static void APIENTRY counted_read(GLuint buffer, GLintptr offset, GLsizeiptr size, void *data)
+{
+    bytes_read += (size_t)size;
+    read_buffer(buffer, offset, size, data);
+}
+
+/* Of the steps of this world. */
+static size_t read_by_steps(const WorldDef *def, int steps)
+{
+    World *world = world_on(*def, "compute");
+    read_buffer = (PFNGLGETNAMEDBUFFERSUBDATAPROC)eglGetProcAddress("glGetNamedBufferSubData");
+    epoxy_glGetNamedBufferSubData = counted_read;
+    bytes_read = 0;
+    substeps(world, steps);
+    epoxy_glGetNamedBufferSubData = read_buffer;
+    world_destroy(world);
+    return bytes_read;
+}
+
+/* Four bytes a layer and four a draining; nothing without these. */
+static void only_counts_are_read_back(void **state)
+{
+    (void)state;
+    WorldDef def = jet_def(3);
+    long first;
+    const long layers = emit_layers(&def.fluids[1].emits[0], def.spacing, 0, 60 * def.dt, &first);
+    assert_true(layers > 1);
+    assert_int_equal(read_by_steps(&def, 60), 4 * 60 + 4 * (size_t)layers);
+    def.drain_count = 0;
+    assert_int_equal(read_by_steps(&def, 60), 4 * (size_t)layers);
+    def.fluids[1].emit_count = 0;
+    assert_int_equal(read_by_steps(&def, 60), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(a_fountain_gives_and_takes_as_many, no_gl_errors),
+        cmocka_unit_test_teardown(as_many_come_and_go, no_gl_errors),
+        cmocka_unit_test_teardown(scenes_stay_with_the_cpu, no_gl_errors),
+        cmocka_unit_test_teardown(the_bound_holds, no_gl_errors),
+        cmocka_unit_test_teardown(nothing_comes_where_something_is, no_gl_errors),
+        cmocka_unit_test_teardown(a_wide_layer_comes_in_parts, no_gl_errors),
+        cmocka_unit_test_teardown(the_state_goes_to_and_fro, no_gl_errors),
+        cmocka_unit_test_teardown(going_back_takes_back_what_came, no_gl_errors),
+        cmocka_unit_test_teardown(only_counts_are_read_back, no_gl_errors),
+    };
+    return cmocka_run_group_tests_name("gl.compute_flow", tests, compare_setup, context_teardown);
+}
