@@ -1,7 +1,14 @@
 // Accelerations by pressure, viscosity and walls: sim/cpu/pairs.c and sim/cpu/forces.c.
 #include "sim/constants.glsl"
+#include "sim/terms.glsl"
 #include "sim/walls.glsl"
 #include "sim/rows.glsl"
+#ifdef CONTINUITY
+#include "sim/wcsph.glsl"
+#endif
+#ifdef TENSION
+#include "sim/tension.glsl"
+#endif
 #ifdef SOLIDS
 #define BOUNDARY_ACCESS readonly
 #include "sim/boundary.glsl"
@@ -46,6 +53,28 @@ vec3 wall_force(uint i, vec3 x)
     return force;
 }
 
+#ifdef CONTINUITY
+// Pressure and laminar or artificial viscosity of one pair, over term_scales.x: wcsph_range in
+// sim/cpu/pairs_wcsph.c.
+vec3 wcsph_force(uint i, uint j, vec3 d, float r2)
+{
+    float f = shape(sqrt(r2) * kernel.y), push = pressure[i].y + pressure[j].y;
+    vec3 force = vec3(0);
+#if defined VISCOUS || defined ARTIFICIAL
+    vec3 u = velocity[j].xyz - velocity[i].xyz;
+    float both = position[i].w * position[j].w;
+#endif
+#ifdef VISCOUS
+    force += f * both * (fluids[name[i].y].w + fluids[name[j].y].w) * u;
+#endif
+#ifdef ARTIFICIAL
+    float soft = kernel.x * kernel.x / 400.0;
+    push += both * (fluid_terms[name[i].y].y + fluid_terms[name[j].y].y) * dot(u, d) / (r2 + soft);
+#endif
+    return force + f * push * d;
+}
+#endif
+
 void main()
 {
     uint i = invocation();
@@ -58,6 +87,9 @@ void main()
     vec3 v = velocity[i].xyz;
     float mu = fluids[name[i].y].w, drag_scale = 0.5 * scales.z * position[i].w;
 #endif
+#ifdef TENSION
+    vec4 tension_sum = vec4(0);
+#endif
     for (int row = rows.x; row < rows.y; row++) {
         uvec2 range = row_of(at, row);
         for (uint j = range.x; j < range.y; j++) {
@@ -66,14 +98,22 @@ void main()
             float r2 = dot(d, d);
             if (r2 >= h * h || j == i)
                 continue;
+#ifdef TENSION
+            if (name[j].y == name[i].y)
+                tension_add(d, r2, other.w, tension_sum);
+#endif
             if (r2 < least * least) {
                 d = least * direction_of_ids(name[i].x, name[j].x);
                 r2 = least * least;
             }
             float r = sqrt(r2), t = 1.0 - r * kernel.y;
+#ifdef CONTINUITY
+            force += wcsph_force(i, j, d, r2);
+#else
             force += scales.y * (t * t) * (p + pressure[j].y) / r * d;
 #ifdef VISCOUS
             force += drag_scale * t * other.w * (mu + fluids[name[j].y].w) * (velocity[j].xyz - v);
+#endif
 #endif
         }
 #ifdef SOLIDS
@@ -98,5 +138,11 @@ void main()
         }
 #endif
     }
+#ifdef CONTINUITY
+    force *= term_scales.x;
+#endif
+#ifdef TENSION
+    force += tension_force(tension_sum, position[i].w, fluid_terms[name[i].y].z);
+#endif
     acceleration[i] = vec4((force + wall_force(i, x)) / fluids[name[i].y].x, 0.0);
 }

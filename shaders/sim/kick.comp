@@ -1,6 +1,11 @@
 // v += (acceleration + gravity) dt, and the greatest of what the sentinel wants to know: bits of floats that are not
 // negative are in their order, and those of NaN are above all.
 #include "sim/constants.glsl"
+#include "sim/terms.glsl"
+#ifdef NO_SLIP
+#include "sim/wall_drag.glsl"
+layout(std430, binding = 4) readonly buffer Names { uvec2 name[]; };
+#endif
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = 2) buffer Watch { uint watch[4]; };
@@ -14,7 +19,14 @@ void main()
         greatest[gl_LocalInvocationID.x] = 0u;
     barrier();
     if (i < particle_count()) {
-        vec3 a = acceleration[i].xyz + gravity.xyz, v = velocity[i].xyz + a * gravity.w;
+        vec3 a = acceleration[i].xyz + gravity.xyz;
+#ifdef NO_SLIP
+        // Drag with the velocity at the end of the step: hold_by_walls in sim/cpu/integrate.c.
+        uint fluid = name[i].y;
+        float k = fluids[fluid].w / fluids[fluid].x * position[i].w / kernel.z * wall_drag_at(position[i].xyz);
+        a = (a - k * velocity[i].xyz) / (1.0 + k * gravity.w);
+#endif
+        vec3 v = velocity[i].xyz + a * gravity.w;
         velocity[i].xyz = v;
         atomicMax(greatest[0], floatBitsToUint(abs(dot(v, v))));
         atomicMax(greatest[1], floatBitsToUint(abs(dot(a, a))));

@@ -9,7 +9,11 @@ layout(std430, binding = 5) buffer Ranges { uint range[]; }; // least and greate
 layout(location = 0) uniform int scalar; // sim/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
 shared uint least, greatest;
 
+#ifdef CONTINUITY
+float compression_of(uint i) { return velocity[i].w; }
+#else
 float compression_of(uint i) { return scales.w * (1.0 / (position[i].w * kernel.z) - 1.0); }
+#endif
 
 float value_of(uint i)
 {

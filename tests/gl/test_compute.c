@@ -1,56 +1,7 @@
 /* The backend `compute` against `cpu`, from the same states. */
-#include "tests/render/fixture.h"
-#include "tests/sim/fixture.h"
-
-#include "sim/gl/backends.h"
-#include "sim/gl/compute/compute.h"
-#include "sim/world_struct.h"
+#include "tests/gl/compute_fixture.h"
 
 #include <epoxy/gl.h>
-
-static int setup(void **state)
-{
-    if (context_setup(state) != 0)
-        return 1;
-    backends_add();
-    return 0;
-}
-
-/* Two viscous fluids over each other, stirred, in a box that moves in all ways. */
-static WorldDef stirred_def(int dimensions)
-{
-    WorldDef def = fixture_def(1.2, 1, 0.9);
-    def.dimensions = dimensions;
-    def.spacing = dimensions == 2 ? 0.02 : 0.06;
-    def.sound_speed = 15;
-    def.dt = 0.001;
-    def.fluid_count = 2;
-    def.fluids[0].viscosity = 1;
-    def.fluids[1] = (FluidDef){.name = "oil", .density = 700, .viscosity = 3};
-    fixture_block(&def, 0, -0.6, 0, -0.45, 0.1, 0.4, 0.45);
-    fixture_block(&def, 1, -0.6, 0.4, -0.45, 0.3, 0.6, 0.45);
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.3, 0}, .amplitude = 0.05, .frequency = 2};
-    def.motions[def.motion_count++] =
-        (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 20, .frequency = 1.5};
-    return def;
-}
-
-static World *world_on(WorldDef def, const char *backend)
-{
-    snprintf(def.backend, sizeof def.backend, "%s", backend);
-    return fixture_world(&def);
-}
-
-/* The same state on both. */
-static void copy_state(World *from, World *to)
-{
-    WorldState saved = {0};
-    Error error;
-    if (!world_save(from, &saved, &error) || !world_load(to, &saved, &error))
-        fail_msg("%s", error.message);
-    world_state_free(&saved);
-}
 
 /* After one step from a stirred state: density within 1e-5 of rest, the change of velocity within 1e-4 of the
    greatest one. */
@@ -184,9 +135,10 @@ static void what_it_cannot_do_is_said(void **state)
     WorldDef def = stirred_def(3);
     Error error = {0};
     snprintf(def.backend, sizeof def.backend, "compute");
-    snprintf(def.method, sizeof def.method, "wcsph");
+    def.solid_count = 1;
+    def.solids[0] = (SolidDef){.kind = SOLID_SPHERE, .centre = {0.3, 0.8, 0}, .radius = 0.1};
     assert_null(world_create(&def, &error));
-    assert_string_equal(error.message, "backend compute has no method wcsph yet; use backend cpu");
+    assert_string_equal(error.message, "backend compute has no solids yet; use backend cpu");
 }
 
 int main(void)
@@ -199,5 +151,5 @@ int main(void)
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(what_it_cannot_do_is_said, no_gl_errors),
     };
-    return cmocka_run_group_tests_name("gl.compute", tests, setup, context_teardown);
+    return cmocka_run_group_tests_name("gl.compute", tests, compute_setup, context_teardown);
 }

@@ -66,6 +66,7 @@ void compute_constants(Compute *compute)
         glNamedBufferStorage(compute->step, sizeof(Step), NULL, GL_DYNAMIC_STORAGE_BIT);
     }
     glNamedBufferSubData(compute->constants, 0, sizeof c, &c);
+    compute_term_constants(compute);
 }
 
 void compute_set_count(Compute *compute, size_t count)

@@ -30,9 +30,9 @@ static void particles_destroy(ComputeParticles *particles)
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,         c->rank,      c->order,     c->start,
-                              c->totals[0],    c->totals[1], c->totals[2], c->pressure,
-                              c->acceleration, c->walls,     c->constants, c->step};
+    const GLuint buffers[] = {c->cell,      c->rank,      c->order,    c->start,        c->totals[0],
+                              c->totals[1], c->totals[2], c->pressure, c->acceleration, c->walls,
+                              c->constants, c->step,      c->terms,    c->slope,        c->drag};
     particles_destroy(&c->now);
     particles_destroy(&c->spare);
     particles_destroy(&c->marked);
@@ -111,54 +111,30 @@ static void walls_upload(Compute *c)
     }
 }
 
-/* Whether the scene names what the pass is for. */
-static bool pass_named(const Solver *s, ComputePass pass)
-{
-    switch (pass) {
-    case COMPUTE_BOUNDARY_BIN:
-    case COMPUTE_BOUNDARY_PLACE:
-    case COMPUTE_BOUNDARY_SORT:
-    case COMPUTE_BOUNDARY_FILL:
-        return s->solid_count > 0;
-    case COMPUTE_GUIDE:
-    case COMPUTE_EMIT_MARK:
-    case COMPUTE_EMIT_ADD:
-        return s->emits;
-    case COMPUTE_DRAIN_MARK:
-    case COMPUTE_DRAIN_GATHER:
-        return s->drains;
-    default:
-        return true;
-    }
-}
-
-/* The numbers of the scalars, and the terms that the scene names: others are not compiled in. */
+/* Terms that the scene does not name are not compiled in. What was compiled stays where the new does not
+ * compile. */
 static bool programs_create(Compute *c, Error *error)
 {
-    char defines[1024];
-    int used = 0;
-#define X(NAME, name, unit)                                                                                  \
-    used += snprintf(defines + used, sizeof defines - (size_t)used, "#define SCALAR_" #NAME " %d\n",         \
-                     SCALAR_##NAME);
-    SCALAR_LIST(X)
-    X(COUNT, , )
-#undef X
-    snprintf(defines + used, sizeof defines - (size_t)used, "%s%s%s%s",
-             c->solver->solid_count > 0 ? "#define SOLIDS 1\n" : "",
-             c->solver->poly6 ? "#define POLY6 1\n" : "", c->solver->viscous ? "#define VISCOUS 1\n" : "",
-             c->solver->negative_pressure ? "#define NEGATIVE_PRESSURE 1\n" : "");
-    for (int p = 0; p < COMPUTE_PASS_COUNT; p++) {
+    char defines[COMPUTE_DEFINES_MAX];
+    unsigned program[COMPUTE_PASS_COUNT] = {0};
+    bool ok = true;
+    compute_defines(c->solver, defines);
+    if (c->program[COMPUTE_DRIFT] && strcmp(defines, c->defines) == 0)
+        return true;
+    for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++) {
         char path[64];
-        if (!pass_named(c->solver, (ComputePass)p))
-            continue;
         snprintf(path, sizeof path, "sim/%s.comp", pass_names[p]);
-        unsigned program = program_create(pass_names[p], (const char *const[]){path, NULL}, defines, error);
-        if (!program)
-            return false;
-        glDeleteProgram(c->program[p]);
-        c->program[p] = program;
+        if (compute_pass_named(c->solver, (ComputePass)p))
+            ok = (program[p] =
+                      program_create(pass_names[p], (const char *const[]){path, NULL}, defines, error)) != 0;
     }
-    return true;
+    for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
+        glDeleteProgram(ok ? c->program[p] : program[p]);
+    if (ok) {
+        memcpy(c->program, program, sizeof program);
+        memcpy(c->defines, defines, sizeof defines);
+    }
+    return ok;
 }
 
 static bool can(const char *what, bool asked, Error *error)
@@ -177,8 +153,7 @@ static bool supported(const Solver *s, size_t capacity, Error *error)
             "%zu particles and %zu cells need buffers larger than the %lld bytes that this driver "
             "allows; use a larger spacing",
             larger, s->cells.count, (long long)most);
-    return can("method wcsph", s->continuity, error) && can("no-slip walls", s->no_slip, error) &&
-           can("surface tension", s->tension_model != TENSION_NONE, error);
+    return can("method wcsph with solids", s->continuity && s->solid_count > 0, error);
 }
 
 static void *compute_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
@@ -200,7 +175,7 @@ static void *compute_create(const Solver *solver, const InitialState *initial, s
     c->solver = solver;
     c->count = initial->count;
     c->capacity = capacity;
-    if (!buffers_create(c, error)) {
+    if (!buffers_create(c, error) || !(compute_term_buffers(c) || no_memory(c, error))) {
         compute_destroy(c);
         return NULL;
     }
@@ -218,8 +193,10 @@ static bool compute_adapt(void *state)
 {
     Compute *c = state;
     Error error;
+    if (!compute_term_buffers(c) || !programs_create(c, &error))
+        return false;
     compute_constants(c);
-    return programs_create(c, &error);
+    return true;
 }
 
 const Backend backend_compute = {
@@ -233,6 +210,7 @@ const Backend backend_compute = {
     .drift = compute_drift,
     .grid = compute_grid,
     .density = compute_density,
+    .continuity = compute_continuity,
     .force = compute_force,
     .kick = compute_kick,
     .guide = compute_guide,

@@ -8,7 +8,13 @@
 #include "sim/backend.h"
 #include "sim/gl/mailbox.h"
 
-enum { COMPUTE_SCAN_LEVELS = 3, COMPUTE_SCAN_BLOCK = 1024, COMPUTE_GROUP = 64, COMPUTE_LAYER = 4096 };
+enum {
+    COMPUTE_SCAN_LEVELS = 3,
+    COMPUTE_SCAN_BLOCK = 1024,
+    COMPUTE_GROUP = 64,
+    COMPUTE_LAYER = 4096,
+    COMPUTE_DEFINES_MAX = 1024
+};
 
 /* What show.comp writes: a scalar by its number, the fluid, the id. */
 enum { COMPUTE_SHOW_FLUID = SCALAR_COUNT, COMPUTE_SHOW_ID, COMPUTE_SHOWN };
@@ -16,7 +22,7 @@ enum { COMPUTE_SHOW_FLUID = SCALAR_COUNT, COMPUTE_SHOW_ID, COMPUTE_SHOWN };
 /* What moves when particles are sorted. */
 typedef struct ComputeParticles {
     unsigned position; /* vec4: x y z, volume */
-    unsigned velocity; /* vec4: x y z, 0 */
+    unsigned velocity; /* vec4: x y z; rho / rho0 - 1 where particles carry their density, else 0 */
     unsigned name;     /* uvec2: id, fluid */
 } ComputeParticles;
 
@@ -30,6 +36,9 @@ typedef struct ComputeParticles {
     X(SORT, "sort")                                                                                          \
     X(MOVE, "move")                                                                                          \
     X(DENSITY, "density")                                                                                    \
+    X(STATE, "state")                                                                                        \
+    X(SLOPE, "slope")                                                                                        \
+    X(CONTINUITY, "continuity")                                                                              \
     X(FORCE, "force")                                                                                        \
     X(KICK, "kick")                                                                                          \
     X(SHOW, "show")                                                                                          \
@@ -85,6 +94,13 @@ typedef struct Compute {
     unsigned program[COMPUTE_PASS_COUNT];
     bool full;                             /* the GPU's memory */
     size_t bytes, guarded_before, guarded; /* of all these buffers; before the last load, and since */
+
+    unsigned slope;                    /* vec4: see slope.comp; 0: no diffusion of density */
+    unsigned drag;                     /* tables; 0: walls let fluid slip */
+    unsigned terms;                    /* uniform block */
+    bool slopes_due;                   /* since `grid` */
+    char defines[COMPUTE_DEFINES_MAX]; /* that the programs were made with; 0 is one that the scene does not
+                                          need */
 } Compute;
 
 /* A storage buffer of `bytes`, zeroed. */
@@ -106,14 +122,19 @@ void compute_dispatch(size_t groups);
 /* Binds buffers to the storage bindings 0, 1, ...; 0 leaves one alone. */
 void compute_bind(const unsigned *buffers, int count);
 
-/* A storage buffer of `bytes`, zeroed. */
-unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
-
 /* There are as many particles from now on. */
 void compute_set_count(Compute *compute, size_t count);
 
 /* `now` and `spare` change places. */
 void compute_swap(Compute *compute);
+
+/* terms.c: the lines that stand before the shaders (the numbers of the scalars, the terms that the scene
+   names); whether the scene needs a pass; buffers that a term needs and that are not there; the uniform block
+   of terms. */
+void compute_defines(const Solver *solver, char out[COMPUTE_DEFINES_MAX]);
+bool compute_pass_named(const Solver *solver, ComputePass pass);
+bool compute_term_buffers(Compute *compute);
+void compute_term_constants(Compute *compute);
 
 /* Fills the uniform blocks. */
 void compute_constants(Compute *compute);
@@ -141,6 +162,7 @@ void compute_guide(void *state, const Guide *guides, int count);
 size_t compute_drain(void *state, const Fill *regions, int count);
 void compute_grid(void *state);
 void compute_density(void *state);
+void compute_continuity(void *state, float dt);
 void compute_force(void *state, const ApparentGravity *gravity);
 void compute_drift(void *state, const FrameStep *step);
 void compute_kick(void *state, const float gravity[3], float dt);

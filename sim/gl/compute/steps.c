@@ -21,6 +21,7 @@ void compute_run(const Compute *compute, ComputePass pass, size_t count)
 {
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, compute->constants);
     glBindBufferBase(GL_UNIFORM_BUFFER, 2, compute->step);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 3, compute->terms);
     glUseProgram(compute->program[pass]);
     compute_dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -37,9 +38,34 @@ void compute_drift(void *state, const FrameStep *step)
     compute_run(c, COMPUTE_DRIFT, c->count);
 }
 
+/* Binds what the passes of wcsph read and write, and runs one. */
+static void run_wcsph(const Compute *c, ComputePass pass)
+{
+    compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
+                                    c->slope, 0, c->walls},
+                 8);
+    compute_run(c, pass, c->count);
+}
+
+/* As in sim/cpu/wcsph.c: diffusion reads the densities from before the pass, and their gradients, which are
+   made once a step for both of its halves. */
+void compute_continuity(void *state, float dt)
+{
+    Compute *c = state;
+    if (c->slope)
+        run_wcsph(c, c->slopes_due ? COMPUTE_SLOPE : COMPUTE_STATE);
+    c->slopes_due = false;
+    glProgramUniform1f(c->program[COMPUTE_CONTINUITY], 0, dt);
+    run_wcsph(c, COMPUTE_CONTINUITY);
+}
+
 void compute_density(void *state)
 {
     Compute *c = state;
+    if (c->solver->continuity) {
+        run_wcsph(c, COMPUTE_STATE);
+        return;
+    }
     compute_boundary_bind(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, 0, 0, 0, c->walls},
                  8);
@@ -62,7 +88,9 @@ void compute_kick(void *state, const float gravity[3], float dt)
 {
     Compute *c = state;
     compute_set_kick(c, gravity, dt);
-    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch.buffer, c->acceleration}, 4);
+    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch.buffer, c->acceleration,
+                                    c->now.name, c->drag},
+                 6);
     compute_run(c, COMPUTE_KICK, c->count);
     compute_watch_send(c, dt);
 }

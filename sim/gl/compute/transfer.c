@@ -57,9 +57,12 @@ bool compute_set_particles(Compute *c, const InitialState *initial)
             copy.position[4 * i + k] = initial->position[3 * i + k];
             copy.velocity[4 * i + k] = initial->velocity ? initial->velocity[3 * i + k] : 0;
         }
+        const uint8_t fluid = initial->fluid ? initial->fluid[i] : 0;
         copy.position[4 * i + 3] = copy.velocity[4 * i + 3] = 0;
+        if (c->solver->continuity && initial->density)
+            copy.velocity[4 * i + 3] = (float)(initial->density[i] / (double)c->solver->density[fluid] - 1);
         copy.name[2 * i] = (uint32_t)i;
-        copy.name[2 * i + 1] = initial->fluid ? initial->fluid[i] : 0;
+        copy.name[2 * i + 1] = fluid;
     }
     upload(c, &copy);
     copy_free(&copy);
@@ -77,6 +80,8 @@ void compute_save(void *state, const ParticleColumns *to)
         const float *x = copy.position + 4 * i, *v = copy.velocity + 4 * i;
         to->x[i] = x[0], to->y[i] = x[1], to->z[i] = x[2];
         to->vx[i] = v[0], to->vy[i] = v[1], to->vz[i] = v[2];
+        if (c->solver->continuity && to->compression)
+            to->compression[i] = v[3];
         to->id[i] = copy.name[2 * i];
         to->fluid[i] = (uint8_t)copy.name[2 * i + 1];
     }
@@ -93,7 +98,8 @@ void compute_load(void *state, const ParticleColumns *from, size_t count, size_t
     for (size_t i = 0; i < count; i++) {
         float *x = copy.position + 4 * i, *v = copy.velocity + 4 * i;
         x[0] = from->x[i], x[1] = from->y[i], x[2] = from->z[i], x[3] = 0;
-        v[0] = from->vx[i], v[1] = from->vy[i], v[2] = from->vz[i], v[3] = 0;
+        v[0] = from->vx[i], v[1] = from->vy[i], v[2] = from->vz[i];
+        v[3] = c->solver->continuity && from->compression ? from->compression[i] : 0;
         copy.name[2 * i] = from->id[i];
         copy.name[2 * i + 1] = from->fluid[i];
     }
@@ -102,12 +108,21 @@ void compute_load(void *state, const ParticleColumns *from, size_t count, size_t
     compute_watch_reset(c, guarded);
 }
 
+/* rho / rho0 - 1: carried, or calibrated so that p = c^2 (rho - rho0) holds. */
+static float compression_of(const Compute *c, const Copy *copy, size_t i)
+{
+    const Solver *s = c->solver;
+    if (s->continuity)
+        return copy->velocity[4 * i + 3];
+    return s->compression * (1 / (copy->position[4 * i + 3] * s->rest_number_density) - 1);
+}
+
 static float scalar_of(const Compute *c, const Copy *copy, Scalar scalar, size_t i)
 {
     const Solver *s = c->solver;
     const float *v = copy->velocity + 4 * i;
     const uint32_t fluid = copy->name[2 * i + 1];
-    const float compression = s->compression * (1 / (copy->position[4 * i + 3] * s->rest_number_density) - 1);
+    const float compression = compression_of(c, copy, i);
     switch (scalar) {
     case SCALAR_SPEED:
         return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -138,6 +153,8 @@ void compute_read(void *state, const ParticleArrays *out)
         memcpy(out->position, copy.position, 16 * c->count);
     if (out->velocity)
         memcpy(out->velocity, copy.velocity, 16 * c->count);
+    for (size_t i = 0; out->velocity && c->solver->continuity && i < c->count; i++)
+        out->velocity[4 * i + 3] = 0;
     for (size_t i = 0; out->id && i < c->count; i++)
         out->id[i] = copy.name[2 * i];
     for (size_t i = 0; out->fluid && i < c->count; i++)
@@ -148,27 +165,15 @@ void compute_read(void *state, const ParticleArrays *out)
     copy_free(&copy);
 }
 
-/* First of the three cells of each row next to x, from which pair_row of sim/cpu/pairs.h counts. */
-static long middle_cell(const Solver *s, const float *x)
-{
-    long at[3];
-    for (int k = 0; k < 3; k++) {
-        const float first = (float)(s->cells.first[k] + 1),
-                    last = (float)(s->cells.first[k] + s->cells.size[k] - 2);
-        at[k] = (long)(fminf(fmaxf(floorf(x[k] / s->support_radius), first), last) - first) + 1;
-    }
-    return (at[2] * s->cells.size[1] + at[1]) * s->cells.size[0] + at[0];
-}
-
-static size_t neighbours_of(const Solver *s, const Copy *copy, const uint32_t *start, size_t i)
+/* Others with r < h, of those that the last grid shows next to `cell`, where it had particle i. */
+static size_t neighbours_of(const Solver *s, const Copy *copy, const uint32_t *start, size_t cell, size_t i)
 {
     const float *x = copy->position + 4 * i, h2 = s->support_radius * s->support_radius;
-    const long middle = middle_cell(s, x);
     size_t count = 0;
     for (int row = s->first_row; row < s->last_row; row++) {
-        const long cell =
-            middle + ((long)(row / 3 - 1) * s->cells.size[1] + (row % 3 - 1)) * s->cells.size[0];
-        for (size_t j = start[cell - 1]; j < start[cell + 2]; j++) {
+        const long middle =
+            (long)cell + ((long)(row / 3 - 1) * s->cells.size[1] + (row % 3 - 1)) * s->cells.size[0];
+        for (size_t j = start[middle - 1]; j < start[middle + 2]; j++) {
             const float *y = copy->position + 4 * j, dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
             count += j != i && dx * dx + dy * dy + dz * dz < h2;
         }
@@ -176,16 +181,19 @@ static size_t neighbours_of(const Solver *s, const Copy *copy, const uint32_t *s
     return count;
 }
 
+/* Particles are in the order of their cells at the last `grid`: its starts tell these, wherever they are by
+ * now. */
 static double neighbours_mean(const Compute *c, const Copy *copy)
 {
-    const size_t starts = c->solver->cells.count + 1;
-    uint32_t *start = malloc(starts * sizeof *start);
+    const size_t cells = c->solver->cells.count;
+    uint32_t *start = malloc((cells + 1) * sizeof *start);
     size_t sum = 0;
     if (!start)
         return 0;
-    glGetNamedBufferSubData(c->start, 0, (GLsizeiptr)(starts * sizeof *start), start);
-    for (size_t i = 0; i < c->count; i++)
-        sum += neighbours_of(c->solver, copy, start, i);
+    glGetNamedBufferSubData(c->start, 0, (GLsizeiptr)((cells + 1) * sizeof *start), start);
+    for (size_t cell = 0; cell < cells; cell++)
+        for (size_t i = start[cell]; i < start[cell + 1]; i++)
+            sum += neighbours_of(c->solver, copy, start, cell, i);
     free(start);
     return c->count > 0 ? (double)sum / (double)c->count : 0;
 }

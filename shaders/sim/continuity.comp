@@ -1,0 +1,45 @@
+// wcsph: the density that particles carry, by the equation of continuity with diffusion and walls, then volume and
+// pressure after it: rate_range in sim/cpu/pairs_wcsph.c, continuity_range in sim/cpu/wcsph.c.
+#include "sim/constants.glsl"
+#include "sim/wcsph.glsl"
+#include "sim/walls.glsl"
+#include "sim/rows.glsl"
+layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
+layout(std430, binding = 4) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone
+layout(std430, binding = 5) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1 before this pass
+layout(location = 0) uniform float dt;
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 x = position[i].xyz, v = velocity[i].xyz;
+    float h = kernel.x, least = 1e-6 * h, sum = 0.0;
+    uint fluid = name[i].y;
+    ivec3 at = cell_of(x);
+    for (int row = rows.x; row < rows.y; row++) {
+        uvec2 range = row_of(at, row);
+        for (uint j = range.x; j < range.y; j++) {
+            vec3 d = x - position[j].xyz;
+            float r2 = dot(d, d);
+            if (r2 >= h * h || r2 < least * least)
+                continue;
+            float flow = dot(v - velocity[j].xyz, d);
+#ifdef DIFFUSION
+            if (name[j].y == fluid)
+                flow -= term_scales.y *
+                        (slope[j].w - slope[i].w + 0.5 * dot(slope[i].xyz + slope[j].xyz, d));
+#endif
+            sum += shape(sqrt(r2) * kernel.y) * flow;
+        }
+    }
+    float rate = -term_scales.x * sum - dot(walls_at(x, false).push, v);
+    float e = velocity[i].w + rate / kernel.z * dt;
+    State state = state_of(e, fluid);
+    velocity[i].w = e;
+    position[i].w = state.volume;
+    pressure[i] = state.pressure;
+}

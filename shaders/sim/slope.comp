@@ -1,0 +1,51 @@
+// wcsph: the gradient of relative density within a fluid, exact where that is linear (Antuono 2010), and that density
+// itself, which neighbours read while `continuity` changes theirs: slope_range in sim/cpu/pairs_wcsph.c.
+#include "sim/constants.glsl"
+#include "sim/wcsph.glsl"
+#include "sim/rows.glsl"
+layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; }; // w: rho / rho0 - 1
+layout(std430, binding = 5) writeonly buffer Slopes { vec4 slope[]; };
+
+// m^-1 b of the symmetric m; 0 where neighbours hardly span the space.
+vec3 renormalise(vec3 diagonal, vec3 mixed, vec3 b)
+{
+    float xx = diagonal.x, yy = diagonal.y, zz = diagonal.z, xy = mixed.x, yz = mixed.y, zx = mixed.z;
+    vec3 c = vec3(yy * zz - yz * yz, xx * zz - zx * zx, xx * yy - xy * xy);
+    float cxy = yz * zx - xy * zz, cyz = xy * zx - yz * xx, czx = xy * yz - zx * yy;
+    float det = xx * c.x + xy * cxy + zx * czx, mean = (xx + yy + zz) / 3.0;
+    if (!(det > 0.25 * (mean * mean * mean)))
+        return vec3(0);
+    return vec3(c.x * b.x + cxy * b.y + czx * b.z, cxy * b.x + c.y * b.y + cyz * b.z,
+                czx * b.x + cyz * b.y + c.z * b.z) / det;
+}
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 x = position[i].xyz, diagonal = vec3(0), mixed = vec3(0), b = vec3(0);
+    float h = kernel.x, least = 1e-6 * h, e = velocity[i].w;
+    uint fluid = name[i].y;
+    ivec3 at = cell_of(x);
+    for (int row = rows.x; row < rows.y; row++) {
+        uvec2 range = row_of(at, row);
+        for (uint j = range.x; j < range.y; j++) {
+            vec3 d = x - position[j].xyz;
+            float r2 = dot(d, d);
+            if (r2 >= h * h || r2 < least * least || name[j].y != fluid)
+                continue;
+            vec3 fd = shape(sqrt(r2) * kernel.y) * d;
+            diagonal += fd * d;
+            mixed += fd * d.yzx;
+            b += fd * (e - velocity[j].w);
+        }
+    }
+    float scale = term_scales.x / kernel.z;
+    diagonal *= scale;
+    if (rows.x == 3)
+        diagonal.z = 0.5 * (diagonal.x + diagonal.y);
+    slope[i] = vec4(renormalise(diagonal, mixed * scale, b * scale), e);
+}

@@ -1,0 +1,22 @@
+// wcsph: volume and pressure by the density that particles carry, which stands ready for diffusion:
+// cpu_equation_of_state in sim/cpu/wcsph.c.
+#include "sim/constants.glsl"
+#include "sim/wcsph.glsl"
+layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; };     // p, p V^2
+layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; };     // w: rho / rho0 - 1
+layout(std430, binding = 5) buffer Slopes { vec4 slope[]; };
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    State state = state_of(velocity[i].w, name[i].y);
+    position[i].w = state.volume;
+    pressure[i] = state.pressure;
+#ifdef DIFFUSION
+    slope[i].w = velocity[i].w;
+#endif
+}

@@ -1,0 +1,53 @@
+// The friction of no-slip walls, as sim/wall_drag.c has it: tables over the distances to one, two, three faces.
+layout(std430, binding = 5) readonly buffer DragTables { float drag_tables[]; };
+
+float drag_of_faces(vec3 distances, int count)
+{
+    int nodes = drag_nodes[count - 1], node[3];
+    float fraction[3], sum = 0.0;
+    for (int f = 0; f < count; f++) {
+        float place = distances[f] * drag_steps[count - 1];
+        node[f] = int(place);
+        fraction[f] = place - float(node[f]);
+    }
+    for (int bits = 0; bits < 1 << count; bits++) {
+        float weight = 1.0;
+        int index = 0;
+        for (int f = 0; f < count; f++) {
+            int up = bits >> f & 1;
+            weight *= up == 1 ? fraction[f] : 1.0 - fraction[f];
+            index = index * nodes + node[f] + up;
+        }
+        sum += weight * drag_tables[drag_offset[count - 1] + index];
+    }
+    return sum;
+}
+
+// D at x, 1/m5.
+float wall_drag_at(vec3 x)
+{
+    int axis[6], count = 0, axes = rows.x == 3 ? 2 : 3;
+    float near[6], sum = 0.0;
+    for (int a = 0; a < axes; a++) {
+        float centred = a == 1 ? x.y - half_size.y : x[a];
+        for (int side = 0; side < 2; side++) {
+            float d = side == 0 ? half_size[a] + centred : half_size[a] - centred;
+            if (d < drag_steps.w) {
+                axis[count] = a;
+                near[count++] = max(d, 0.0);
+            }
+        }
+    }
+    for (int a = 0; a < count; a++) {
+        sum += drag_of_faces(vec3(near[a]), 1);
+        for (int b = a + 1; b < count; b++) {
+            if (axis[b] == axis[a])
+                continue;
+            sum -= drag_of_faces(vec3(near[a], near[b], 0.0), 2);
+            for (int c = b + 1; c < count; c++)
+                if (axis[c] != axis[b])
+                    sum += drag_of_faces(vec3(near[a], near[b], near[c]), 3);
+        }
+    }
+    return sum;
+}

@@ -1,0 +1,35 @@
+// What the passes of wcsph share: sim/cpu/pairs_wcsph.c, sim/cpu/wcsph.c.
+#include "sim/terms.glsl"
+
+// f(q) = -w'(q) / q of the kernel, up to a factor that term_scales.x takes care of.
+float shape(float q)
+{
+    float t = 1.0 - q;
+#if defined KERNEL_WENDLAND_C2
+    return 20.0 * (t * t * t);
+#elif defined KERNEL_QUINTIC
+    vec3 powers = max(vec3(3.0 * t, 3.0 * t - 1.0, 3.0 * t - 2.0), 0.0);
+    powers *= powers;
+    powers *= powers;
+    return (powers.x - 6.0 * powers.y + 15.0 * powers.z) / q;
+#else
+    return q < 0.5 ? 12.0 - 18.0 * q : 6.0 * (t * t) / q;
+#endif
+}
+
+struct State {
+    float volume;
+    vec2 pressure; // p, p V^2
+};
+
+// Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1, by its powers; V = V0 rho0 / rho.
+State state_of(float e, uint fluid)
+{
+    float b = fluid_terms[fluid].x;
+    float p = b * e * (7.0 + e * (21.0 + e * (35.0 + e * (35.0 + e * (21.0 + e * (7.0 + e))))));
+#ifndef NEGATIVE_PRESSURE
+    p = p > 0.0 ? p : 0.0;
+#endif
+    float volume = 1.0 / ((1.0 + e) * kernel.z);
+    return State(volume, vec2(p, p * volume * volume));
+}

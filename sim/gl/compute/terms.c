@@ -1,0 +1,144 @@
+/* What only some scenes name: which lines stand before the shaders for it, and its uniforms and buffers. */
+#include "sim/gl/compute/compute.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+
+/* The uniform block of shaders/sim/terms.glsl; std140: all members are multiples of 16 bytes. */
+typedef struct Terms {
+    float scales[4];
+    float fluids[FLUIDS_MAX][4];
+    int32_t drag_nodes[4];
+    float drag_steps[4];
+    int32_t drag_offset[4];
+} Terms;
+
+static bool diffusive(const Solver *s)
+{
+    return s->continuity && s->diffusion > 0;
+}
+
+void compute_defines(const Solver *s, char out[COMPUTE_DEFINES_MAX])
+{
+    const struct {
+        bool named;
+        const char *name;
+    } terms[] = {
+        {s->solid_count > 0, "SOLIDS"},
+        {s->poly6, "POLY6"},
+        {s->viscous, "VISCOUS"},
+        {s->negative_pressure, "NEGATIVE_PRESSURE"},
+        {s->continuity, "CONTINUITY"},
+        {s->continuity && s->kernel == KERNEL_WENDLAND_C2, "KERNEL_WENDLAND_C2"},
+        {s->continuity && s->kernel == KERNEL_QUINTIC, "KERNEL_QUINTIC"},
+        {s->continuity && s->artificial, "ARTIFICIAL"},
+        {diffusive(s), "DIFFUSION"},
+        {s->tension_model != TENSION_NONE, "TENSION"},
+        {s->tension_model == TENSION_COHESION, "COHESION"},
+        {s->no_slip, "NO_SLIP"},
+    };
+    size_t used = 0;
+#define X(NAME, name, unit)                                                                                  \
+    used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define SCALAR_" #NAME " %d\n",        \
+                             SCALAR_##NAME);
+    SCALAR_LIST(X)
+    X(COUNT, , )
+#undef X
+    for (size_t k = 0; k < sizeof terms / sizeof *terms; k++)
+        if (terms[k].named)
+            used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s 1\n", terms[k].name);
+}
+
+bool compute_pass_named(const Solver *s, ComputePass pass)
+{
+    switch (pass) {
+    case COMPUTE_DENSITY:
+        return !s->continuity;
+    case COMPUTE_STATE:
+    case COMPUTE_CONTINUITY:
+        return s->continuity;
+    case COMPUTE_SLOPE:
+        return diffusive(s);
+    case COMPUTE_BOUNDARY_BIN:
+    case COMPUTE_BOUNDARY_PLACE:
+    case COMPUTE_BOUNDARY_SORT:
+    case COMPUTE_BOUNDARY_FILL:
+        return s->solid_count > 0;
+    case COMPUTE_GUIDE:
+    case COMPUTE_EMIT_MARK:
+    case COMPUTE_EMIT_ADD:
+        return s->emits;
+    case COMPUTE_DRAIN_MARK:
+    case COMPUTE_DRAIN_GATHER:
+        return s->drains;
+    default:
+        return true;
+    }
+}
+
+/* Entries of the tables of t + 1 faces. */
+static size_t drag_entries(const WallDrag *drag, int t)
+{
+    size_t entries = 1;
+    for (int k = 0; k <= t; k++)
+        entries *= (size_t)drag->nodes[t];
+    return entries;
+}
+
+static void drag_upload(Compute *c)
+{
+    const WallDrag *drag = &c->solver->drag;
+    size_t all = 0, at = 0;
+    for (int t = 0; t < drag->dimensions; t++)
+        all += drag_entries(drag, t);
+    c->drag = compute_buffer(c, "tables of the walls' friction", all * sizeof(float));
+    for (int t = 0; t < drag->dimensions && !c->full; t++) {
+        const size_t bytes = drag_entries(drag, t) * sizeof(float);
+        glNamedBufferSubData(c->drag, (GLintptr)at, (GLsizeiptr)bytes, drag->table[t]);
+        at += bytes;
+    }
+}
+
+bool compute_term_buffers(Compute *c)
+{
+    const Solver *s = c->solver;
+    if (diffusive(s) && !c->slope)
+        c->slope = compute_buffer(c, "slopes of density", 16 * c->capacity);
+    if (s->no_slip && !c->drag)
+        drag_upload(c);
+    if (!c->full)
+        return true;
+    glDeleteBuffers(1, &c->drag); /* so that the world can go on without */
+    c->drag = 0;
+    return c->full = false;
+}
+
+static void drag_constants(const WallDrag *drag, Terms *terms)
+{
+    size_t offset = 0;
+    for (int t = 0; t < drag->dimensions; t++) {
+        terms->drag_nodes[t] = drag->nodes[t];
+        terms->drag_steps[t] = drag->inverse_step[t];
+        terms->drag_offset[t] = (int32_t)offset;
+        offset += drag_entries(drag, t);
+    }
+    terms->drag_steps[3] = drag->range;
+}
+
+void compute_term_constants(Compute *c)
+{
+    const Solver *s = c->solver;
+    Terms terms = {.scales = {s->gradient, s->diffusion, s->colour}};
+    for (int f = 0; f < s->fluid_count; f++) {
+        terms.fluids[f][0] = s->tait[f];
+        terms.fluids[f][1] = s->artificial_viscosity[f];
+        terms.fluids[f][2] = s->tension[f];
+    }
+    if (s->no_slip)
+        drag_constants(&s->drag, &terms);
+    if (!c->terms) {
+        glCreateBuffers(1, &c->terms);
+        glNamedBufferStorage(c->terms, sizeof terms, NULL, GL_DYNAMIC_STORAGE_BIT);
+    }
+    glNamedBufferSubData(c->terms, 0, sizeof terms, &terms);
+}
