@@ -26,51 +26,47 @@ Face face_at(int axis, float side, float d)
 // Where the product of two different axes stands in `mixed`.
 int mixed_index(int a, int b) { return a + b == 1 ? 0 : a + b == 3 ? 1 : 2; }
 
-void add_faces(Face faces[3], int count, bool density_only, inout WallSums sums)
+// Adds what stands behind the first `count` of the faces; their tables have the faces' normals for first axes.
+void add_faces(Face a, Face b, Face c, int count, bool density_only, inout WallSums sums)
 {
-    int nodes = wall_nodes[count - 1], node[3], axis[3] = int[3](0, 0, 0);
-    float fraction[3];
-    for (int f = 0; f < count; f++) {
-        float u = (faces[f].distance + 0.25 * kernel.w) * wall_steps[count - 1];
-        node[f] = int(u);
-        if (node[f] >= nodes - 1)
-            return;
-        fraction[f] = u - float(node[f]);
-        axis[f] = faces[f].axis;
-    }
-    if (count == 1 && rows.x == 3) {
-        axis[1] = 1 - axis[0];
-        axis[2] = 2;
-    } else if (count == 1) {
-        axis[1] = (axis[0] + 1) % 3;
-        axis[2] = (axis[0] + 2) % 3;
-    } else if (count == 2) {
-        axis[2] = 3 - axis[0] - axis[1];
-    }
+    int nodes = wall_nodes[count - 1];
+    vec3 place = (vec3(a.distance, b.distance, c.distance) + 0.25 * kernel.w) * wall_steps[count - 1];
+    ivec3 node = ivec3(place), stride = count == 1   ? ivec3(1, 0, 0)
+                                        : count == 2 ? ivec3(nodes, 1, 0)
+                                                     : ivec3(nodes * nodes, nodes, 1);
+    if (max(node.x, max(node.y, node.z)) >= nodes - 1)
+        return;
+    vec3 fraction = place - vec3(node), push = vec3(0), diagonal = vec3(0), mixed = vec3(0);
+    bvec3 used = bvec3(true, count > 1, count > 2);
     float include = count == 2 ? -1.0 : 1.0;
     for (int bits = 0; bits < 1 << count; bits++) {
-        float weight = include;
-        int index = 0;
-        for (int f = 0; f < count; f++) {
-            int up = bits >> f & 1;
-            weight *= up == 1 ? fraction[f] : 1.0 - fraction[f];
-            index = index * nodes + node[f] + up;
-        }
-        int at = 10 * (wall_offset[count - 1] + index);
-        sums.density += weight * wall_tables[at];
+        ivec3 up = ivec3(bits, bits >> 1, bits >> 2) & 1;
+        vec3 part = mix(vec3(1), mix(1.0 - fraction, fraction, bvec3(up)), used);
+        float weight = include * part.x * part.y * part.z;
+        ivec3 at = (node + up) * stride;
+        int entry = 10 * (wall_offset[count - 1] + at.x + at.y + at.z);
+        sums.density += weight * wall_tables[entry];
         if (density_only)
             continue;
-        for (int a = 0; a < 3; a++) {
-            float side = a < count ? faces[a].side : 1.0, slope = a < count ? faces[a].slope : 0.0;
-            int b = (a + 1) % 3;
-            float other = b < count ? faces[b].side : 1.0;
-            sums.push[axis[a]] += weight * side * slope * wall_tables[at + 1 + a];
-            sums.diagonal[axis[a]] += weight * wall_tables[at + 4 + a];
-            sums.mixed[mixed_index(axis[a], axis[b])] += weight * side * other * wall_tables[at + 7 + a];
-        }
+        push += weight * vec3(wall_tables[entry + 1], wall_tables[entry + 2], wall_tables[entry + 3]);
+        diagonal += weight * vec3(wall_tables[entry + 4], wall_tables[entry + 5], wall_tables[entry + 6]);
+        mixed += weight * vec3(wall_tables[entry + 7], wall_tables[entry + 8], wall_tables[entry + 9]);
+    }
+    if (density_only)
+        return;
+    int second = count > 1 ? b.axis : rows.x == 3 ? 1 - a.axis : (a.axis + 1) % 3;
+    ivec3 axis = ivec3(a.axis, second, 3 - a.axis - second);
+    vec3 side = mix(vec3(1), vec3(a.side, b.side, c.side), used);
+    push *= side * mix(vec3(0), vec3(a.slope, b.slope, c.slope), used);
+    mixed *= side * side.yzx;
+    for (int k = 0; k < 3; k++) {
+        sums.push[axis[k]] += push[k];
+        sums.diagonal[axis[k]] += diagonal[k];
+        sums.mixed[mixed_index(axis[k], axis[(k + 1) % 3])] += mixed[k];
     }
 }
 
+// Faces less edges plus corners. One call of add_faces for all three, since it is inlined wherever it is called.
 WallSums walls_at(vec3 x, bool density_only)
 {
     Face face[6];
@@ -84,16 +80,13 @@ WallSums walls_at(vec3 x, bool density_only)
         if (high < half_size.w)
             face[count++] = face_at(a, -1.0, max(high, 0.0));
     }
-    for (int a = 0; a < count; a++) {
-        add_faces(Face[3](face[a], face[a], face[a]), 1, density_only, sums);
-        for (int b = a + 1; b < count; b++) {
-            if (face[b].axis == face[a].axis)
-                continue;
-            add_faces(Face[3](face[a], face[b], face[b]), 2, density_only, sums);
-            for (int c = b + 1; c < count; c++)
-                if (face[c].axis != face[b].axis)
-                    add_faces(Face[3](face[a], face[b], face[c]), 3, density_only, sums);
-        }
-    }
+    for (int a = 0; a < count; a++)
+        for (int b = a; b < count; b++)
+            for (int c = b; c < count; c++) {
+                bool one = c == a, two = b > a && c == b && face[b].axis != face[a].axis;
+                bool three = c > b && face[c].axis != face[b].axis && face[b].axis != face[a].axis;
+                if (one || two || three)
+                    add_faces(face[a], face[b], face[c], one ? 1 : two ? 2 : 3, density_only, sums);
+            }
     return sums;
 }
