@@ -24,7 +24,7 @@ static inline WorldDef stirred_def(int dimensions)
     def.dimensions = dimensions;
     def.spacing = dimensions == 2 ? 0.02 : 0.06;
     def.sound_speed = 15;
-    def.dt = 0.001;
+    def.dt = 0.0005;
     def.threads = 1;
     def.fluid_count = 2;
     def.fluids[0].viscosity = 1;

@@ -1,11 +1,9 @@
 /* The backend `compute` against `cpu`, from the same states. */
-#include "tests/gl/compute_fixture.h"
+#include "tests/gl/parity.h"
 
 #include <epoxy/gl.h>
 
-/* After one step from a stirred state: density within 1e-5 of rest, the change of velocity within 1e-4 of the
-   greatest one. */
-static void one_step_is_that_of_the_cpu(void **state)
+static void steps_are_those_of_the_cpu(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
@@ -13,60 +11,11 @@ static void one_step_is_that_of_the_cpu(void **state)
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
         fixture_step(cpu, 150);
         copy_state(cpu, gpu);
-        State before = fixture_read(cpu);
-        fixture_step(cpu, 1);
-        fixture_step(gpu, 1);
-        State a = fixture_read(cpu), b = fixture_read(gpu);
-        double density = 0, change = 0, off = 0;
-        for (size_t i = 0; i < a.count; i++) {
-            const double rest = def.fluids[a.fluid[i]].density;
-            density = fmax(density, fabsf(a.density[i] - b.density[i]) / rest);
-            for (size_t k = 4 * i; k < 4 * i + 3; k++) {
-                change = fmax(change, fabsf(a.velocity[k] - before.velocity[k]));
-                off = fmax(off, fabsf(a.velocity[k] - b.velocity[k]));
-            }
-        }
-        printf("%dD: density off by %.1e of rest, change of velocity by %.1e of the greatest\n", dimensions,
-               density, off / change);
-        assert_true(density < 1e-5 && off < 1e-4 * change && change > 1e-3);
-        fixture_free(&before);
-        fixture_free(&a);
-        fixture_free(&b);
+        compare_step("mueller, two viscous fluids", cpu, gpu);
+        compare_run(cpu, gpu);
         world_destroy(cpu);
         world_destroy(gpu);
     }
-}
-
-static double front_of(World *world)
-{
-    State s = fixture_read(world);
-    double sum = 0;
-    for (size_t i = 0; i < s.count; i++)
-        sum += s.position[4 * i] > 0.2;
-    const double part = sum / (double)s.count;
-    fixture_free(&s);
-    return part;
-}
-
-/* 200 steps on: centre of mass and energy within 1 %. */
-static void a_run_stays_with_the_cpu(void **state)
-{
-    (void)state;
-    const WorldDef def = stirred_def(3);
-    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
-    fixture_step(cpu, 100);
-    copy_state(cpu, gpu);
-    fixture_step(cpu, 200);
-    fixture_step(gpu, 200);
-    WorldSums a, b;
-    world_sums(cpu, &a);
-    world_sums(gpu, &b);
-    for (int k = 0; k < 3; k++)
-        assert_true(fabs(a.centre[k] - b.centre[k]) < 0.01 * def.box_size[k]);
-    assert_true(fabs(a.kinetic_energy / b.kinetic_energy - 1) < 0.01);
-    assert_true(fabs(front_of(cpu) - front_of(gpu)) < 0.01);
-    world_destroy(cpu);
-    world_destroy(gpu);
 }
 
 /* The same order of particles and sums each time. */
@@ -145,8 +94,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(prefix_sums, no_gl_errors),
-        cmocka_unit_test_teardown(one_step_is_that_of_the_cpu, no_gl_errors),
-        cmocka_unit_test_teardown(a_run_stays_with_the_cpu, no_gl_errors),
+        cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(a_run_is_the_same_each_time, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(what_it_cannot_do_is_said, no_gl_errors),
