@@ -20,6 +20,9 @@ void main()
     float h = kernel.x, least = 1e-6 * h, sum = 0.0;
     uint fluid = name[i].y;
     ivec3 at = cell_of(x);
+#ifdef DIFFUSION
+    vec4 own = slope[i];
+#endif
     for (int row = rows.x; row < rows.y; row++) {
         uvec2 range = row_of(at, row);
         for (uint j = range.x; j < range.y; j++) {
@@ -29,9 +32,10 @@ void main()
                 continue;
             float flow = dot(v - velocity[j].xyz, d);
 #ifdef DIFFUSION
-            if (name[j].y == fluid)
-                flow -= term_scales.y *
-                        (slope[j].w - slope[i].w + 0.5 * dot(slope[i].xyz + slope[j].xyz, d));
+            if (name[j].y == fluid) {
+                vec4 other = slope[j];
+                flow -= term_scales.y * (other.w - own.w + 0.5 * dot(own.xyz + other.xyz, d));
+            }
 #endif
             sum += shape(sqrt(r2) * kernel.y) * flow;
         }

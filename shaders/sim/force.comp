@@ -54,22 +54,33 @@ vec3 wall_force(uint i, vec3 x)
 }
 
 #ifdef CONTINUITY
+struct Own {
+    float pressure, volume, viscosity, artificial;
+    vec3 v;
+};
+
+Own own_of(uint i)
+{
+    uint fluid = name[i].y;
+    return Own(pressure[i].y, position[i].w, fluids[fluid].w, fluid_terms[fluid].y, velocity[i].xyz);
+}
+
 // Pressure and laminar or artificial viscosity of one pair, over term_scales.x: wcsph_range in
 // sim/cpu/pairs_wcsph.c.
-vec3 wcsph_force(uint i, uint j, vec3 d, float r2)
+vec3 wcsph_force(Own own, uint j, vec3 d, float r2, float volume)
 {
-    float f = shape(sqrt(r2) * kernel.y), push = pressure[i].y + pressure[j].y;
+    float f = shape(sqrt(r2) * kernel.y), push = own.pressure + pressure[j].y;
     vec3 force = vec3(0);
 #if defined VISCOUS || defined ARTIFICIAL
-    vec3 u = velocity[j].xyz - velocity[i].xyz;
-    float both = position[i].w * position[j].w;
+    vec3 u = velocity[j].xyz - own.v;
+    float both = own.volume * volume;
+    uint fluid = name[j].y;
 #endif
 #ifdef VISCOUS
-    force += f * both * (fluids[name[i].y].w + fluids[name[j].y].w) * u;
+    force += f * both * (own.viscosity + fluids[fluid].w) * u;
 #endif
 #ifdef ARTIFICIAL
-    float soft = kernel.x * kernel.x / 400.0;
-    push += both * (fluid_terms[name[i].y].y + fluid_terms[name[j].y].y) * dot(u, d) / (r2 + soft);
+    push += both * (own.artificial + fluid_terms[fluid].y) * dot(u, d) / (r2 + kernel.x * kernel.x / 400.0);
 #endif
     return force + f * push * d;
 }
@@ -89,6 +100,10 @@ void main()
 #endif
 #ifdef TENSION
     vec4 tension_sum = vec4(0);
+    uint fluid = name[i].y;
+#endif
+#ifdef CONTINUITY
+    Own own = own_of(i);
 #endif
     for (int row = rows.x; row < rows.y; row++) {
         uvec2 range = row_of(at, row);
@@ -99,7 +114,7 @@ void main()
             if (r2 >= h * h || j == i)
                 continue;
 #ifdef TENSION
-            if (name[j].y == name[i].y)
+            if (name[j].y == fluid)
                 tension_add(d, r2, other.w, tension_sum);
 #endif
             if (r2 < least * least) {
@@ -108,7 +123,7 @@ void main()
             }
             float r = sqrt(r2), t = 1.0 - r * kernel.y;
 #ifdef CONTINUITY
-            force += wcsph_force(i, j, d, r2);
+            force += wcsph_force(own, j, d, r2, other.w);
 #else
             force += scales.y * (t * t) * (p + pressure[j].y) / r * d;
 #ifdef VISCOUS
