@@ -34,7 +34,7 @@ typedef struct ParticleAttribute {
 typedef struct ParticleBuffers {
     size_t count;
     ParticleAttribute position;             /* vec4: x y z in the box's frame (m), volume (m3) */
-    ParticleAttribute velocity;             /* vec4: x y z in the box's frame (m/s), 0 */
+    ParticleAttribute velocity;             /* vec4: x y z in the box's frame (m/s); w is the owner's */
     ParticleAttribute fluid;                /* uint */
     ParticleAttribute id;                   /* uint */
     ParticleAttribute scalar[SCALAR_COUNT]; /* float */

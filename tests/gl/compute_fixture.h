@@ -5,7 +5,7 @@
 #include "tests/render/fixture.h"
 #include "tests/sim/fixture.h"
 
-#include "sim/gl/compute/backend_compute.h"
+#include "sim/gl/backends.h"
 #include "sim/gl/compute/compute.h"
 #include "sim/world_struct.h"
 
@@ -13,7 +13,7 @@ static inline int compute_setup(void **state)
 {
     if (context_setup(state) != 0)
         return 1;
-    backend_add(&backend_compute);
+    backends_add();
     return 0;
 }
 

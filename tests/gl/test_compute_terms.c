@@ -1,6 +1,7 @@
 /* The backend `compute` against `cpu`: wcsph, surface tension, no-slip walls, changes while a world lives. */
 #include "tests/gl/parity.h"
 
+#include "sim/gl/particle_buffers.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -142,6 +143,31 @@ static void initial_densities_are_taken(void **state)
     world_destroy(gpu);
 }
 
+/* Views get the density that is carried. */
+static void views_see_the_densities(void **state)
+{
+    (void)state;
+    World *world = world_on(def_of(&cases[SQUARE_WCSPH]), "compute");
+    fixture_step(world, 20);
+    const size_t count = world->count;
+    float *read = malloc(count * sizeof *read), *shared = malloc(count * sizeof *shared), greatest = 0;
+    ParticleArrays arrays = {0};
+    ParticleBuffers buffers = {0};
+    arrays.scalar[SCALAR_DENSITY] = read;
+    world_read(world, &arrays);
+    compute_share(world->state, PARTICLE_SCALAR(SCALAR_DENSITY), &buffers);
+    glGetNamedBufferSubData(buffers.scalar[SCALAR_DENSITY].buffer, 0, (GLsizeiptr)(count * sizeof *shared),
+                            shared);
+    for (size_t i = 0; i < count; i++) {
+        assert_true(fabsf(read[i] - shared[i]) < 2e-4F);
+        greatest = fmaxf(greatest, read[i]);
+    }
+    assert_true(greatest > 1001);
+    free(read);
+    free(shared);
+    world_destroy(world);
+}
+
 /* A block in flight, by a third of a support radius since the grid of its last step. */
 static void neighbours_are_those_of_the_last_grid(void **state)
 {
@@ -241,6 +267,7 @@ int main(void)
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(initial_densities_are_taken, no_gl_errors),
+        cmocka_unit_test_teardown(views_see_the_densities, no_gl_errors),
         cmocka_unit_test_teardown(neighbours_are_those_of_the_last_grid, no_gl_errors),
         cmocka_unit_test_teardown(changes_reach_the_programs, no_gl_errors),
         cmocka_unit_test_teardown(a_broken_shader_changes_nothing, no_gl_errors),
