@@ -4,6 +4,12 @@
 #include "sim/wcsph.glsl"
 #include "sim/walls.glsl"
 #include "sim/rows.glsl"
+#ifdef SOLIDS
+#define BOUNDARY_ACCESS readonly
+#include "sim/boundary.glsl"
+#include "sim/solids.glsl"
+layout(std430, binding = 6) readonly buffer Rests { vec4 rest[]; }; // w: which solid
+#endif
 layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
@@ -39,6 +45,17 @@ void main()
 #endif
             sum += shape(sqrt(r2) * kernel.y) * flow;
         }
+#ifdef SOLIDS
+        range = boundary_row_of(at, row);
+        for (uint j = range.x; j < range.y; j++) {
+            vec3 other = boundary_position[j].xyz, d = x - other;
+            float r2 = dot(d, d);
+            if (r2 >= h * h || r2 < least * least)
+                continue;
+            int solid = int(rest[boundary_state[j].y].w); // whose own velocity it is, not the mirrored one
+            sum += shape(sqrt(r2) * kernel.y) * dot(v - solid_velocity_at(solid, other), d);
+        }
+#endif
     }
     float rate = -term_scales.x * sum - dot(walls_at(x, false).push, v);
     float e = velocity[i].w + rate / kernel.z * dt;

@@ -54,33 +54,29 @@ vec3 wall_force(uint i, vec3 x)
 }
 
 #ifdef CONTINUITY
-struct Own {
-    float pressure, volume, viscosity, artificial;
+struct Side {
+    float pressure, volume, viscosity, artificial; // pressure: p V^2
     vec3 v;
 };
 
-Own own_of(uint i)
+Side side_of(uint i, float volume)
 {
     uint fluid = name[i].y;
-    return Own(pressure[i].y, position[i].w, fluids[fluid].w, fluid_terms[fluid].y, velocity[i].xyz);
+    return Side(pressure[i].y, volume, fluids[fluid].w, fluid_terms[fluid].y, velocity[i].xyz);
 }
 
 // Pressure and laminar or artificial viscosity of one pair, over term_scales.x: wcsph_range in
 // sim/cpu/pairs_wcsph.c.
-vec3 wcsph_force(Own own, uint j, vec3 d, float r2, float volume)
+vec3 wcsph_force(Side own, Side other, vec3 d, float r2)
 {
-    float f = shape(sqrt(r2) * kernel.y), push = own.pressure + pressure[j].y;
-    vec3 force = vec3(0);
-#if defined VISCOUS || defined ARTIFICIAL
-    vec3 u = velocity[j].xyz - own.v;
-    float both = own.volume * volume;
-    uint fluid = name[j].y;
-#endif
+    float f = shape(sqrt(r2) * kernel.y), push = own.pressure + other.pressure;
+    float both = own.volume * other.volume;
+    vec3 force = vec3(0), u = other.v - own.v;
 #ifdef VISCOUS
-    force += f * both * (own.viscosity + fluids[fluid].w) * u;
+    force += f * both * (own.viscosity + other.viscosity) * u;
 #endif
 #ifdef ARTIFICIAL
-    push += both * (own.artificial + fluid_terms[fluid].y) * dot(u, d) / (r2 + kernel.x * kernel.x / 400.0);
+    push += both * (own.artificial + other.artificial) * dot(u, d) / (r2 + kernel.x * kernel.x / 400.0);
 #endif
     return force + f * push * d;
 }
@@ -103,7 +99,7 @@ void main()
     uint fluid = name[i].y;
 #endif
 #ifdef CONTINUITY
-    Own own = own_of(i);
+    Side own = side_of(i, position[i].w);
 #endif
     for (int row = rows.x; row < rows.y; row++) {
         uvec2 range = row_of(at, row);
@@ -123,7 +119,7 @@ void main()
             }
             float r = sqrt(r2), t = 1.0 - r * kernel.y;
 #ifdef CONTINUITY
-            force += wcsph_force(own, j, d, r2, other.w);
+            force += wcsph_force(own, side_of(j, other.w), d, r2);
 #else
             force += scales.y * (t * t) * (p + pressure[j].y) / r * d;
 #ifdef VISCOUS
@@ -145,10 +141,15 @@ void main()
                 r2 = least * least;
             }
             float r = sqrt(r2), t = 1.0 - r * kernel.y;
+#ifdef CONTINUITY
+            vec4 wall = boundary_velocity[j];
+            force += wcsph_force(own, Side(uintBitsToFloat(state.x), other.w, wall.w, 0.0, wall.xyz), d, r2);
+#else
             force += scales.y * (t * t) * (p + uintBitsToFloat(state.x)) / r * d;
 #ifdef VISCOUS
             vec4 wall = boundary_velocity[j];
             force += drag_scale * t * other.w * (mu + wall.w) * (wall.xyz - v);
+#endif
 #endif
         }
 #endif

@@ -3,6 +3,10 @@
 #include "sim/constants.glsl"
 #include "sim/wcsph.glsl"
 #include "sim/rows.glsl"
+#ifdef SOLIDS
+#define BOUNDARY_ACCESS readonly
+#include "sim/boundary.glsl"
+#endif
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; }; // w: rho / rho0 - 1
@@ -30,6 +34,7 @@ void main()
     float h = kernel.x, least = 1e-6 * h, e = velocity[i].w;
     uint fluid = name[i].y;
     ivec3 at = cell_of(x);
+    bool next_to_solid = false; // there diffusion has to level the gaps that the fluid's order leaves
     for (int row = rows.x; row < rows.y; row++) {
         uvec2 range = row_of(at, row);
         for (uint j = range.x; j < range.y; j++) {
@@ -42,10 +47,17 @@ void main()
             mixed += fd * d.yzx;
             b += fd * (e - velocity[j].w);
         }
+#ifdef SOLIDS
+        range = boundary_row_of(at, row);
+        for (uint j = range.x; j < range.y; j++) {
+            vec3 d = x - boundary_position[j].xyz;
+            next_to_solid = next_to_solid || dot(d, d) < h * h;
+        }
+#endif
     }
     float scale = term_scales.x / kernel.z;
     diagonal *= scale;
     if (rows.x == 3)
         diagonal.z = 0.5 * (diagonal.x + diagonal.y);
-    slope[i] = vec4(renormalise(diagonal, mixed * scale, b * scale), e);
+    slope[i] = vec4(next_to_solid ? vec3(0) : renormalise(diagonal, mixed * scale, b * scale), e);
 }

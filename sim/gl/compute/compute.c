@@ -137,11 +137,6 @@ static bool programs_create(Compute *c, Error *error)
     return ok;
 }
 
-static bool can(const char *what, bool asked, Error *error)
-{
-    return !asked || error_set(error, "backend compute has no %s yet; use backend cpu", what);
-}
-
 static bool supported(const Solver *s, size_t capacity, Error *error)
 {
     GLint64 most = 0;
@@ -153,7 +148,7 @@ static bool supported(const Solver *s, size_t capacity, Error *error)
             "%zu particles and %zu cells need buffers larger than the %lld bytes that this driver "
             "allows; use a larger spacing",
             larger, s->cells.count, (long long)most);
-    return can("method wcsph with solids", s->continuity && s->solid_count > 0, error);
+    return true;
 }
 
 static void *compute_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,

@@ -41,8 +41,9 @@ void compute_drift(void *state, const FrameStep *step)
 /* Binds what the passes of wcsph read and write, and runs one. */
 static void run_wcsph(const Compute *c, ComputePass pass)
 {
+    compute_boundary_bind(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
-                                    c->slope, 0, c->walls},
+                                    c->slope, c->boundary.rest, c->walls},
                  8);
     compute_run(c, pass, c->count);
 }
