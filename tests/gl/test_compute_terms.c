@@ -1,6 +1,7 @@
 /* The backend `compute` against `cpu`: wcsph, surface tension, no-slip walls, changes while a world lives. */
 #include "tests/gl/parity.h"
 
+#include "sim/gl/compute/compute.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/program.h"
 
@@ -14,6 +15,7 @@ typedef struct Case {
     double support, viscosity[2], delta, artificial;
     TensionModel tension;
     bool negative, no_slip;
+    bool solids;
     bool runs; /* for 200 steps too */
 } Case;
 
@@ -27,6 +29,7 @@ static const Case cases[] = {
      .delta = 0.1,
      .artificial = 0.2,
      .tension = TENSION_COHESION,
+     .solids = true,
      .runs = true},
     {.label = "wcsph, Wendland, diffusion, tension of pressure",
      .method = "wcsph",
@@ -42,7 +45,8 @@ static const Case cases[] = {
      .dimensions = 2,
      .support = 3,
      .viscosity = {1, 3},
-     .no_slip = true},
+     .no_slip = true,
+     .solids = true},
     {.label = "mueller, colour field, no slip",
      .method = "mueller",
      .dimensions = 3,
@@ -67,6 +71,21 @@ static const Case cases[] = {
 };
 enum { CASES = sizeof cases / sizeof *cases, SQUARE_WCSPH = 1, SQUARE_NO_SLIP = 2 };
 
+/* One that holds what passes and moves, one that lets it slip. */
+static void add_solids(WorldDef *def)
+{
+    def->solids[def->solid_count++] = (SolidDef){
+        .kind = SOLID_BOX,
+        .centre = {0.15, 0.25, 0},
+        .size = {0.1, 0.4, 0.5},
+        .slip = SLIP_NONE,
+        .motion_count = 1,
+        .motions = {{.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.03, .frequency = 3}},
+    };
+    def->solids[def->solid_count++] =
+        (SolidDef){.kind = SOLID_SPHERE, .centre = {-0.3, 0.2, 0}, .radius = 0.15};
+}
+
 static WorldDef def_of(const Case *c)
 {
     WorldDef def = stirred_def(c->dimensions);
@@ -79,6 +98,8 @@ static WorldDef def_of(const Case *c)
     def.artificial_viscosity = c->artificial;
     def.tension_model = (int)c->tension;
     def.negative_pressure = c->negative;
+    if (c->solids)
+        add_solids(&def);
     def.wall_slip = c->no_slip ? SLIP_NONE : SLIP_FREE;
     for (int f = 0; f < 2; f++) {
         def.fluids[f].viscosity = c->viscosity[f];
@@ -96,8 +117,10 @@ static void steps_are_those_of_the_cpu(void **state)
         fixture_step(cpu, 200);
         copy_state(cpu, gpu);
         compare_step(cases[k].label, cpu, gpu);
-        if (cases[k].runs)
-            compare_run(cpu, gpu);
+        if (cases[k].runs) {
+            copy_state(cpu, gpu);
+            compare_run(&def, "  and", cpu, gpu, 200);
+        }
         world_destroy(cpu);
         world_destroy(gpu);
     }
@@ -272,5 +295,5 @@ int main(void)
         cmocka_unit_test_teardown(changes_reach_the_programs, no_gl_errors),
         cmocka_unit_test_teardown(a_broken_shader_changes_nothing, no_gl_errors),
     };
-    return cmocka_run_group_tests_name("gl.compute_terms", tests, compute_setup, context_teardown);
+    return cmocka_run_group_tests_name("gl.compute_terms", tests, compare_setup, context_teardown);
 }
