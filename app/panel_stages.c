@@ -28,7 +28,7 @@ typedef struct Line {
     Part part;
 } Line;
 
-/* The stages that ran; rendering as one line where its stages are not known. */
+/* The stages that ran; simulation and rendering as one line each where their stages are not known. */
 static int gather(const PanelData *data, Line lines[STAGE_COUNT + 1], double *all)
 {
     int count = 0;
@@ -38,6 +38,8 @@ static int gather(const PanelData *data, Line lines[STAGE_COUNT + 1], double *al
         if (data->stage_ran[i] && (part != PART_RENDER || data->render_stages_known))
             lines[count++] = (Line){.name = stage_name(i), .ms = data->stage_ms[i], .part = part};
     }
+    if (count == 0 && data->sim_ms > 0)
+        lines[count++] = (Line){.name = "all simulation", .ms = data->sim_ms, .part = PART_SIM};
     if (!data->render_stages_known)
         lines[count++] = (Line){.name = "all rendering", .ms = data->render_ms, .part = PART_RENDER};
     for (int i = 0; i < count; i++)

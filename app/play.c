@@ -18,7 +18,8 @@
 #include <time.h>
 
 static const double LETTERS = 14; /* pixels high at scale 1 */
-static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, SHADERS_MS = 300;
+static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, SHADERS_MS = 300,
+                    WORK_MS = 4;
 
 static void show_notice(Play *play, const char *words)
 {
@@ -67,6 +68,11 @@ void play_set(Play *play, const char *setting)
     simulator_set_realtime(play->open.simulator, play->open.scene.realtime);
     play_view_changed(play);
     snprintf(command.setting, sizeof command.setting, "%s", setting);
+    if (sim_command_moves(&command)) {
+        if (!play_scene_move(&play->open, &command, &error))
+            play_error(play, error.message);
+        return;
+    }
     if (concerns_world && !simulator_send(play->open.simulator, &command))
         play_error(play, "too many changes wait for the next step; let the time run");
 }
@@ -125,6 +131,7 @@ static void follow_shaders(Play *play)
     }
     renderer_destroy(play->renderer);
     play->renderer = renderer;
+    simulator_reload(play->open.simulator);
     play_tell(play, "the shaders were read again");
 }
 
@@ -138,6 +145,8 @@ static bool start(Play *play, Error *error)
     gl_debug_install();
     play->refresh = window_refresh(play->window);
     window_size(play->window, &play->width, &play->height);
+    if (!gl_renderer_is_software())
+        play->timer = gl_timer_create(GL_CLOCK_QUERY);
     if (!play_open(play, setup->scene, setup->settings, error))
         return false;
     play->renderer =
@@ -150,8 +159,6 @@ static bool start(Play *play, Error *error)
     play->panel = play->width > 60 * letters; /* beside the fluid, not over it */
     play->ui.ui = play->text ? ui_create((float)letters, error) : NULL;
     play->ui.panel = panel_create();
-    if (!gl_renderer_is_software())
-        play->timer = gl_timer_create(GL_CLOCK_QUERY);
     return play->ui.ui && (play->ui.panel || error_set(error, "no memory for the panel"));
 }
 
@@ -181,18 +188,20 @@ static bool hand_busy(const Play *play)
     return busy || window_gamepad(play->window, &pad);
 }
 
-/* A picture when there is something new to see, and no more than the display shows. */
+/* A picture when there is something new to see, and no more than the display shows. A solver on the GPU has
+   its turns in between. */
 static void pause_or_draw(Play *play)
 {
+    const double work = simulator_work(play->open.simulator, WORK_MS);
     const double now = wall_ms(), due = play->drew_ms + 900 / play->refresh;
     const bool visible = play->width > 0 && play->height > 0;
-    const bool wanted = visible && (play->dirty || upload_fresh(play->open.upload) || play_movie_due(play));
+    const bool wanted = visible && (play->dirty || play_scene_fresh(&play->open) || play_movie_due(play));
     if (wanted && now >= due)
         play_draw(play);
     else if (wanted)
-        window_wait(play->window, 1e-3 * fmax(due - now, 0.1));
+        window_wait(play->window, 1e-3 * fmin(fmax(due - now, 0.1), work));
     else
-        window_wait(play->window, 1e-3 * (hand_busy(play) ? HELD_MS : IDLE_MS));
+        window_wait(play->window, 1e-3 * fmin(hand_busy(play) ? HELD_MS : IDLE_MS, work));
 }
 
 static bool run(Play *play, Error *error)

@@ -63,7 +63,7 @@ void play_draw(Play *play)
     const double began = wall_ms();
     if (play->width < 1 || play->height < 1)
         return;
-    play->has_particles |= upload_take(play->open.upload, &play->particles);
+    play->has_particles = play_scene_take(&play->open, &play->particles);
     play->dirty = false;
     play->drew_ms = began;
     if (play->has_particles) {

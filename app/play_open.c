@@ -44,6 +44,7 @@ bool play_save_now(Play *play, const char *path, Error *error)
         if (play->status.ended || wall_ms() > until)
             return error_set(error, "%s: the session cannot be saved, its simulation does not answer", path);
         asked = asked || simulator_save(play->open.simulator, path);
+        simulator_work(play->open.simulator, 0);
     }
 }
 
@@ -71,6 +72,7 @@ static void leave(Play *play)
     keep_session(play);
     while (play->status.saving && !play->status.ended && wall_ms() < until) {
         window_wait(play->window, 0.01);
+        simulator_work(play->open.simulator, 0);
         play_listen(play);
     }
     play->simulated_s += play->status.simulated_s;
@@ -90,7 +92,7 @@ bool play_open(Play *play, const char *scene, const SceneSettings *settings, Err
         return error_set(error, "the scene before the present one is still ending; try again in a moment");
     const bool read = play_scene_read(&opened, scene, settings, note, error);
     share_processors(&opened.scene.world);
-    if (!read || !play_scene_start(&opened, window_wake, play->paused, error)) {
+    if (!read || !play_scene_start(&opened, window_wake, play->timer, play->paused, error)) {
         play_scene_close(&opened, SAVE_MS);
         return false;
     }

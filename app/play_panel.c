@@ -150,11 +150,14 @@ static void collect(Play *play, float pictures[METER_HISTORY], PanelData *data)
                         .panel_ms = play->panels ? play->panel_ms / (double)play->panels : 0};
     for (int s = 0; s < STAGE_COUNT; s++) {
         const bool render = stage_part((Stage)s) == PART_RENDER;
-        const StageTimes *times = render ? &play->gl_times : &status->stages;
+        const bool on_gpu = render || simulator_here(play->open.simulator);
+        const StageTimes *times = on_gpu ? &play->gl_times : &status->stages;
         data->stage_ms[s] = times->ms[s];
         data->stage_ran[s] = times->ran[s];
         data->sim_ms += stage_part((Stage)s) == PART_SIM ? times->ms[s] : 0;
     }
+    if (!play->timer && simulator_here(play->open.simulator) && status->history_count > 0)
+        data->sim_ms = status->history[status->history_count - 1];
     data->scalar_range[0] = view->range_auto ? play->particles.scalar_min[view->color_by] : view->range[0];
     data->scalar_range[1] = view->range_auto ? play->particles.scalar_max[view->color_by] : view->range[1];
 }

@@ -26,22 +26,54 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
     return ok;
 }
 
-bool play_scene_start(PlayScene *open, void (*wake)(void), bool paused, Error *error)
+static bool make_upload(PlayScene *open, Error *error)
 {
     unsigned attributes = PARTICLE_FLUID;
     for (int s = 0; s < SCALAR_COUNT; s++)
         attributes |= particle_attributes_for((Scalar)s);
     const WorldDef *def = &open->scene.world;
-    open->upload = upload_create(flow_capacity(def, world_def_count(def, def->spacing)), attributes, error);
-    if (!open->upload)
+    if (!open->upload && !world_on_gpu(def))
+        open->upload =
+            upload_create(flow_capacity(def, world_def_count(def, def->spacing)), attributes, error);
+    return open->upload || world_on_gpu(def);
+}
+
+bool play_scene_start(PlayScene *open, void (*wake)(void), GlTimer *timer, bool paused, Error *error)
+{
+    if (!make_upload(open, error))
         return false;
     const SimulatorSetup setup = {.scene = &open->scene,
                                   .recording = &open->recording,
                                   .upload = open->upload,
+                                  .timer = timer,
                                   .wake = wake,
                                   .paused = paused};
     open->simulator = simulator_create(&setup, error);
     return open->simulator != NULL;
+}
+
+bool play_scene_fresh(PlayScene *open)
+{
+    return simulator_here(open->simulator) ? simulator_fresh(open->simulator) : upload_fresh(open->upload);
+}
+
+bool play_scene_take(PlayScene *open, ParticleBuffers *out)
+{
+    const ViewDef *view = &open->scene.view;
+    if (!simulator_here(open->simulator))
+        return upload_take(open->upload, out);
+    return simulator_share(open->simulator,
+                           particle_attributes_for(view->color_by) | (view->range_auto ? PARTICLE_RANGES : 0),
+                           out);
+}
+
+bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error)
+{
+    const bool going =
+        make_upload(open, error) && simulator_move(open->simulator, command, open->upload, error);
+    snprintf(open->scene.world.backend, sizeof open->scene.world.backend, "%s",
+             simulator_backend(open->simulator));
+    return going;
 }
 
 bool play_scene_close(PlayScene *open, double patience_ms)

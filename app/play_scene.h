@@ -11,7 +11,7 @@
 typedef struct PlayScene {
     Scene scene;         /* as it stands now: the file's values, and what was changed since */
     Recording recording; /* the file's text and the settings: where the session begins */
-    Upload *upload;      /* carries every scalar, so that colours may change at once */
+    Upload *upload;      /* carries every scalar, so that colours may change at once; NULL on a GPU */
     Simulator *simulator;
 } PlayScene;
 
@@ -20,8 +20,15 @@ typedef struct PlayScene {
 bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, char note[256],
                      Error *error);
 
-/* Begins to simulate it; needs the context. */
-bool play_scene_start(PlayScene *open, void (*wake)(void), bool paused, Error *error);
+/* Begins to simulate it; needs the context. `timer` as of SimulatorSetup. */
+bool play_scene_start(PlayScene *open, void (*wake)(void), GlTimer *timer, bool paused, Error *error);
+
+/* Whether there is a state that was not taken yet; the newest one, with what its view reads of it. */
+bool play_scene_fresh(PlayScene *open);
+bool play_scene_take(PlayScene *open, ParticleBuffers *out);
+
+/* Goes on with the backend that `scene` names now and the command sets. False as simulator_move. */
+bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error);
 
 /* False when the solver still runs after `patience_ms`: then nothing is freed. A zeroed one is allowed. */
 bool play_scene_close(PlayScene *open, double patience_ms);

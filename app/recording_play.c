@@ -14,13 +14,22 @@ static bool load_scene(const RecordingPlay *play, const SceneSettings *more, Sce
     return scene_parse(recording->path, recording->text, recording->size, &settings, scene, NULL, error);
 }
 
+/* Whether the session came to a backend on a GPU while it ran. */
+static bool moves_to_gpu(const Recording *recording)
+{
+    bool moves = false;
+    for (size_t i = 0; i < recording->count; i++)
+        moves |= sim_command_needs_gpu(&recording->commands[i]);
+    return moves;
+}
+
 int recording_play_open(const RecordingPlay *play, const SceneSettings *more, int gpu, Session *session,
                         Error *error)
 {
     Error why = {""};
     *session = (Session){.began_ms = wall_ms()};
     const bool loaded = load_scene(play, more, &session->scene, &why);
-    const int code = loaded ? session_start(session, gpu, false, &why) : EXIT_USAGE;
+    const int code = loaded ? session_start(session, gpu, moves_to_gpu(play->recording), &why) : EXIT_USAGE;
     if (code != 0)
         error_set(error, "%.300s: its scene: %.600s", play->path, why.message);
     return code;
@@ -34,7 +43,7 @@ bool recording_play_apply(RecordingPlay *play, Session *session, Error *error)
         const SimCommand *command = &recording->commands[play->next];
         if (command->step != session->info.step)
             break;
-        if (!sim_command_apply(command, session->world, &session->scene, &why))
+        if (!sim_command_apply(command, &session->world, &session->scene, &why))
             return error_set(error, "%.300s:%zu: %.600s", play->path, recording_line(recording, play->next),
                              why.message);
     }

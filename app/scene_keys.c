@@ -186,7 +186,7 @@ static const Key keys[] = {
     NUMBER("solver.artificial_viscosity", 0, "", 0, 1, WORLD(artificial_viscosity),
            "wcsph: alpha, for fluids without a viscosity; 0: none"),
     NUMBER("solver.delta_sph", 0, "", 0, 0.5, WORLD(delta_sph), "wcsph: diffusion of density, 0.1 as a rule; 0: none"),
-    CHOICE("solver.backend", 0, backend_choice, WORLD(backend), "what computes them"),
+    CHOICE("solver.backend", L, backend_choice, WORLD(backend), "what computes them"),
     INTEGER("solver.threads", 0, 0, 1024, WORLD(threads), "of the CPU; 0: one a processor"),
     NUMBER("solver.sound_speed", L, "m/s", 0.001, 1e4, WORLD(sound_speed),
            "stiffness: 3 to 10 times the greatest speed of the flow; more is stiffer and needs smaller steps"),

@@ -25,7 +25,8 @@ typedef struct Session {
    code: EXIT_USAGE where the command line or the scene is wrong, EXIT_FAILED where the GPU can't. */
 int session_open(Session *session, const Args *args, bool draws, Error *error);
 
-/* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create. */
+/* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create;
+   `draws`: a context is needed whatever the backend. */
 int session_start(Session *session, int gpu, bool draws, Error *error);
 
 void session_close(Session *session);

@@ -14,7 +14,7 @@
 typedef enum SimCommandKind {
     SIM_TARGET, /* world_set_target */
     SIM_CARRY,  /* world_carry */
-    SIM_SET     /* scene_set_live, then world_change */
+    SIM_SET     /* scene_set_live, then world_change, or world_move for another backend */
 } SimCommandKind;
 
 enum { SIM_SETTING_SIZE = 96 };
@@ -29,7 +29,12 @@ typedef struct SimCommand {
 } SimCommand;
 
 /* Applies the command now, whatever its step. `scene` is the one that the world was made from, with all that
-   was set since. False with the reason: the setting is wrong, or the memory short; nothing has changed. */
-bool sim_command_apply(const SimCommand *command, World *world, Scene *scene, Error *error);
+   was set since; *world becomes another one where the backend changes. False with the reason: the setting is
+   wrong, or the memory short; nothing has changed. */
+bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, Error *error);
+
+/* Whether the command sets the backend, and to one on a GPU: then a context must be current. */
+bool sim_command_moves(const SimCommand *command);
+bool sim_command_needs_gpu(const SimCommand *command);
 
 #endif

@@ -1,6 +1,7 @@
 #include "app/simulator.h"
 
 #include "app/command_queue.h"
+#include "app/scene_live.h"
 #include "app/session.h"
 #include "sim/world.h"
 
@@ -15,18 +16,33 @@
 enum { OBEYED_MAX = 512 };
 
 static const double BEHIND_MS = 100; /* less is caught up with; more is left out */
+static const double MOVE_MS = 2000;  /* a step lasts less, or the simulation is stuck */
 static const double PACE_MS = 1000;  /* the real-time factor is of this long */
+
+/* A frame of which steps may be left. */
+typedef struct FrameInHand {
+    bool begun;
+    StageClock clock;
+    double began_ms, from_s; /* wall time; simulated */
+} FrameInHand;
 
 /* How many commands the state of a step had obeyed. */
 typedef struct Obeyed {
     uint64_t step, commands;
 } Obeyed;
 
+/* What the solver's thread is to do next. */
+typedef struct Work {
+    bool reset, save, frame;
+    char save_path[1024];
+    CommandQueue commands;
+} Work;
+
 struct Simulator {
     pthread_t thread;
     pthread_mutex_t lock; /* of all down to `obeyed` */
     pthread_cond_t changed;
-    bool quit, ended;
+    bool quit, ended, idle; /* idle: no frame was due for as long as something forbade it */
     bool paused, realtime, reset;
     bool single; /* one frame although paused */
     double speed;
@@ -41,9 +57,14 @@ struct Simulator {
     int history_next, obeyed_next;
     Obeyed obeyed[OBEYED_MAX];
 
-    /* of the solver's thread alone */
+    /* of the thread that steps alone */
+    bool here;          /* that is the caller's: the backend is on a GPU */
+    GlTimer *timer;     /* for the stages there; may be NULL */
     Scene start, scene; /* as given; as the commands have changed it */
     World *world;
+    Work *work;
+    FrameInHand frame;
+    uint64_t published, shown; /* states; with `here` */
     Recording recording;
     unsigned troubles;   /* of the world, that were told */
     bool told_full;      /* that its emitters wait */
@@ -53,13 +74,6 @@ struct Simulator {
     uint64_t taken; /* commands */
     double pace_began_ms, pace_began_s;
 };
-
-/* What the solver's thread is to do next. */
-typedef struct Work {
-    bool reset, save, frame;
-    char save_path[1024];
-    CommandQueue commands;
-} Work;
 
 static void tell(Simulator *simulator, bool failed, const char *message)
 {
@@ -94,7 +108,8 @@ static bool publish(Simulator *simulator, Error *error)
     pthread_mutex_lock(&simulator->lock);
     describe(simulator, &info);
     pthread_mutex_unlock(&simulator->lock);
-    return upload_write(simulator->upload, simulator->world, error);
+    simulator->published++;
+    return simulator->here || upload_write(simulator->upload, simulator->world, error);
 }
 
 static void awaken(const Simulator *simulator)
@@ -107,6 +122,8 @@ static void awaken(const Simulator *simulator)
 static void world_start(Simulator *simulator)
 {
     Error error = {{0}};
+    snprintf(simulator->start.world.backend, sizeof simulator->start.world.backend, "%s",
+             simulator->scene.world.backend); /* the one at hand, which this thread can do */
     simulator->scene = simulator->start;
     world_destroy(simulator->world);
     simulator->troubles = 0;
@@ -120,7 +137,7 @@ static void world_start(Simulator *simulator)
 static void obey(Simulator *simulator, const SimCommand *command)
 {
     Error error = {{0}};
-    if (!sim_command_apply(command, simulator->world, &simulator->scene, &error)) {
+    if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error)) {
         tell(simulator, false, error.message);
     } else if (!simulator->recording_lost && !recording_add(&simulator->recording, command)) {
         simulator->recording_lost = true;
@@ -243,30 +260,49 @@ static void tell_news(Simulator *simulator, const WorldInfo *info)
     tell(simulator, false, session_trouble_text(&info->trouble, words));
 }
 
-static void run_frame(Simulator *simulator, Work *work)
+static void frame_begin(Simulator *simulator)
 {
-    StageClock clock = {0};
-    Error error = {{0}};
-    const double began = wall_ms();
     WorldInfo info;
-    bool ok = true;
     world_info(simulator->world, &info);
-    const double from = info.time;
-    do {
-        if (!obey_all(simulator, work))
-            break;
-        ok = world_substep(simulator->world, &clock, &error);
-        world_info(simulator->world, &info);
-        tell_news(simulator, &info);
-        if (ok)
-            STAGE (&clock, STAGE_UPLOAD)
-                ok = publish(simulator, &error);
-        awaken(simulator);
-    } while (ok && info.within_frame);
-    count_frame(simulator, began, info.time - from, &clock);
+    simulator->frame = (FrameInHand){.begun = true, .began_ms = wall_ms(), .from_s = info.time};
+    if (simulator->here && simulator->timer)
+        simulator->frame.clock = gl_timer_stage_clock(simulator->timer);
+}
+
+static void frame_end(Simulator *simulator)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    const FrameInHand *frame = &simulator->frame;
+    count_frame(simulator, frame->began_ms, info.time - frame->from_s, &frame->clock);
+    simulator->frame.begun = false;
+    awaken(simulator);
+}
+
+/* One step of the frame in hand. On a GPU without a clock of its own nothing is measured: what the CPU sees
+   of such a step says nothing of it. */
+static void frame_step(Simulator *simulator)
+{
+    StageClock *clock = simulator->here && !simulator->timer ? NULL : &simulator->frame.clock;
+    Error error = {{0}};
+    WorldInfo info;
+    if (!obey_all(simulator, simulator->work)) {
+        frame_end(simulator);
+        return;
+    }
+    bool ok = world_substep(simulator->world, clock, &error);
+    world_info(simulator->world, &info);
+    tell_news(simulator, &info);
+    if (ok && simulator->here)
+        ok = publish(simulator, &error);
+    else if (ok)
+        STAGE (clock, STAGE_UPLOAD)
+            ok = publish(simulator, &error);
+    awaken(simulator);
+    if (!ok || !info.within_frame)
+        frame_end(simulator);
     if (!ok)
         tell(simulator, true, error.message);
-    awaken(simulator);
 }
 
 static void wait_until(Simulator *simulator, double ms)
@@ -277,25 +313,29 @@ static void wait_until(Simulator *simulator, double ms)
     pthread_cond_timedwait(&simulator->changed, &simulator->lock, &until);
 }
 
-/* With the lock held: whether a frame is due now; else waits a while for that or for other work. */
-static bool frame_due(Simulator *simulator)
+/* With the lock held: whether a frame is due now; else until when there is nothing to do, wall time, ms. */
+static bool frame_due(Simulator *simulator, double *until)
 {
-    const double now = wall_ms(), due = simulator->last_due + 1000 * simulator->frame_time / simulator->speed;
+    const double now = wall_ms();
+    *until = INFINITY;
     if (simulator->status.failed || (simulator->paused && !simulator->single)) {
         simulator->status.real_time_factor = 0;
-        pthread_cond_wait(&simulator->changed, &simulator->lock);
-        simulator->last_due = simulator->pace_began_ms = wall_ms();
-        simulator->pace_began_s = simulator->status.time;
+        simulator->idle = true;
         return false;
     }
-    if (simulator->single || !simulator->realtime || now >= due) {
-        const double late = simulator->realtime ? now - due : 0;
-        simulator->status.behind_s += late > BEHIND_MS ? 1e-3 * late : 0;
-        simulator->last_due = simulator->realtime && late <= BEHIND_MS && !simulator->single ? due : now;
-        return true;
+    if (simulator->idle) {
+        simulator->idle = false;
+        simulator->last_due = simulator->pace_began_ms = now;
+        simulator->pace_began_s = simulator->status.time;
     }
-    wait_until(simulator, due);
-    return false;
+    const double due = simulator->last_due + 1000 * simulator->frame_time / simulator->speed;
+    *until = due;
+    if (!simulator->single && simulator->realtime && now < due)
+        return false;
+    const double late = simulator->realtime ? now - due : 0;
+    simulator->status.behind_s += late > BEHIND_MS ? 1e-3 * late : 0;
+    simulator->last_due = simulator->realtime && late <= BEHIND_MS && !simulator->single ? due : now;
+    return true;
 }
 
 static void take_save(Simulator *simulator, Work *work)
@@ -305,47 +345,69 @@ static void take_save(Simulator *simulator, Work *work)
     memcpy(work->save_path, simulator->save_path, sizeof work->save_path);
 }
 
-/* One thing to do, in the order in which it was asked for; a save is done even at the end. False then. */
-static bool take_work(Simulator *simulator, Work *work)
+/* With the lock held: one thing to do, in the order in which it was asked for; a save is done even at the
+   end. False when there is nothing: until then, wall time, ms. */
+static bool find_work(Simulator *simulator, Work *work, double *until)
 {
     work->reset = work->save = work->frame = false;
-    pthread_mutex_lock(&simulator->lock);
-    while (!work->save && !work->reset && !work->frame && !(simulator->quit && !simulator->save)) {
-        if (simulator->save && !(simulator->save_later && simulator->reset)) {
-            take_save(simulator, work);
-        } else if (simulator->reset) {
-            work->reset = true;
-            simulator->reset = false;
-        } else if (frame_due(simulator)) {
-            work->frame = true;
-            simulator->single = false;
-        }
+    *until = 0;
+    if (simulator->save && !(simulator->save_later && simulator->reset)) {
+        take_save(simulator, work);
+    } else if (simulator->quit && !simulator->save) {
+        return false;
+    } else if (simulator->reset) {
+        work->reset = true;
+        simulator->reset = false;
+    } else if (frame_due(simulator, until)) {
+        work->frame = true;
+        simulator->single = false;
     }
-    pthread_mutex_unlock(&simulator->lock);
     return work->save || work->reset || work->frame;
+}
+
+/* Waits for it; false at the end. */
+static bool take_work(Simulator *simulator, Work *work)
+{
+    double until;
+    pthread_mutex_lock(&simulator->lock);
+    bool found;
+    while (!(found = find_work(simulator, work, &until)) && !simulator->quit)
+        if (isinf(until))
+            pthread_cond_wait(&simulator->changed, &simulator->lock);
+        else
+            wait_until(simulator, until);
+    pthread_mutex_unlock(&simulator->lock);
+    return found;
+}
+
+static void do_work(Simulator *simulator, Work *work)
+{
+    if (work->reset)
+        restart(simulator, work);
+    if (work->save)
+        save(simulator, work->save_path);
+    if (work->frame)
+        frame_begin(simulator);
+}
+
+static void begin(Simulator *simulator)
+{
+    if (!simulator->world && !simulator->status.failed)
+        world_start(simulator);
+    pthread_mutex_lock(&simulator->lock);
+    simulator->idle = true; /* what has passed until now is not caught up with */
+    pthread_mutex_unlock(&simulator->lock);
 }
 
 static void *simulate(void *argument)
 {
     Simulator *simulator = argument;
-    Work *work = calloc(1, sizeof *work);
-    if (work)
-        world_start(simulator);
-    else
-        tell(simulator, true, "no memory for the commands");
-    pthread_mutex_lock(&simulator->lock);
-    simulator->last_due = simulator->pace_began_ms = wall_ms();
-    pthread_mutex_unlock(&simulator->lock);
-    while (work && take_work(simulator, work)) {
-        if (work->reset)
-            restart(simulator, work);
-        if (work->save)
-            save(simulator, work->save_path);
-        if (work->frame)
-            run_frame(simulator, work);
+    begin(simulator);
+    while (take_work(simulator, simulator->work)) {
+        do_work(simulator, simulator->work);
+        while (simulator->frame.begun)
+            frame_step(simulator);
     }
-    world_destroy(simulator->world);
-    free(work);
     pthread_mutex_lock(&simulator->lock);
     simulator->ended = true;
     pthread_cond_broadcast(&simulator->changed);
@@ -364,8 +426,21 @@ static bool start_thread(Simulator *simulator)
     return started;
 }
 
+/* The thread, or the world here. */
+static bool start(Simulator *simulator, Error *error)
+{
+    simulator->here = world_on_gpu(&simulator->scene.world);
+    simulator->ended = simulator->quit = false;
+    if (!simulator->here)
+        return start_thread(simulator) || error_set(error, "no thread for the simulation");
+    begin(simulator);
+    return true;
+}
+
 static void release(Simulator *simulator)
 {
+    world_destroy(simulator->world);
+    free(simulator->work);
     recording_destroy(&simulator->recording);
     pthread_cond_destroy(&simulator->changed);
     pthread_mutex_destroy(&simulator->lock);
@@ -393,18 +468,36 @@ Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
     pthread_cond_init(&simulator->changed, &clock);
     pthread_condattr_destroy(&clock);
     pthread_mutex_init(&simulator->lock, NULL);
-    if (recording_create(&simulator->recording, from->path, from->text, from->size, &from->settings, error) &&
-        (start_thread(simulator) || error_set(error, "no thread for the simulation")))
+    simulator->timer = setup->timer;
+    simulator->work = calloc(1, sizeof *simulator->work);
+    if ((simulator->work || error_set(error, "no memory for the commands")) &&
+        recording_create(&simulator->recording, from->path, from->text, from->size, &from->settings, error) &&
+        start(simulator, error))
         return simulator;
     release(simulator);
     return NULL;
 }
 
-bool simulator_destroy(Simulator *simulator, double patience_ms)
+/* What was asked for before is done. */
+static void end_here(Simulator *simulator)
 {
-    if (!simulator)
-        return true;
+    double until;
+    simulator->quit = true;
+    if (simulator->frame.begun)
+        frame_end(simulator);
+    while (find_work(simulator, simulator->work, &until))
+        do_work(simulator, simulator->work);
+    simulator->ended = true;
+}
+
+/* Asks the thread to end and waits for it, that long. */
+static bool end(Simulator *simulator, double patience_ms)
+{
     const double until = wall_ms() + patience_ms;
+    if (simulator->here) {
+        end_here(simulator);
+        return true;
+    }
     pthread_mutex_lock(&simulator->lock);
     simulator->quit = true;
     pthread_cond_broadcast(&simulator->changed);
@@ -412,11 +505,90 @@ bool simulator_destroy(Simulator *simulator, double patience_ms)
         wait_until(simulator, until);
     const bool ended = simulator->ended;
     pthread_mutex_unlock(&simulator->lock);
-    if (!ended)
+    if (ended)
+        pthread_join(simulator->thread, NULL);
+    return ended;
+}
+
+bool simulator_destroy(Simulator *simulator, double patience_ms)
+{
+    if (!simulator)
+        return true;
+    if (!end(simulator, patience_ms))
         return false;
-    pthread_join(simulator->thread, NULL);
     release(simulator);
     return true;
+}
+
+double simulator_work(Simulator *simulator, double budget_ms)
+{
+    const double enough = wall_ms() + budget_ms;
+    double until = INFINITY;
+    if (!simulator->here)
+        return INFINITY;
+    do {
+        if (simulator->frame.begun) {
+            frame_step(simulator);
+            continue;
+        }
+        pthread_mutex_lock(&simulator->lock);
+        const bool found = find_work(simulator, simulator->work, &until);
+        pthread_mutex_unlock(&simulator->lock);
+        if (!found)
+            return fmax(until - wall_ms(), 0);
+        do_work(simulator, simulator->work);
+    } while (wall_ms() < enough);
+    return 0;
+}
+
+bool simulator_here(const Simulator *simulator)
+{
+    return simulator->here;
+}
+
+bool simulator_fresh(const Simulator *simulator)
+{
+    return simulator->here && simulator->published != simulator->shown;
+}
+
+bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers *out)
+{
+    simulator->shown = simulator->published;
+    if (!simulator->world)
+        return false;
+    world_share(simulator->world, attributes, out);
+    return true;
+}
+
+bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, Error *error)
+{
+    WorldInfo info;
+    SimCommand now = *command;
+    if (!end(simulator, MOVE_MS))
+        return error_set(error, "the simulation does not answer; try again in a moment");
+    simulator->upload = upload;
+    if (!simulator->world) {
+        simulator->status.failed = false;
+        scene_set_live(&simulator->scene, command->setting, NULL, error);
+    } else {
+        world_info(simulator->world, &info);
+        now.step = info.step;
+        obey(simulator, &now);
+        publish(simulator, error);
+    }
+    return start(simulator, error);
+}
+
+const char *simulator_backend(const Simulator *simulator)
+{
+    return simulator->scene.world.backend;
+}
+
+void simulator_reload(Simulator *simulator)
+{
+    Error error = {{0}};
+    if (simulator->here && simulator->world && !world_reload(simulator->world, &error))
+        tell(simulator, false, error.message);
 }
 
 static void change_begin(Simulator *simulator)

@@ -5,7 +5,10 @@
    It paces itself by the wall clock where the scene says `realtime` (as many frames as the clock asks for,
    times the speed; what it cannot keep up with is left out, dt stays), else runs as fast as it can. It is the
    only thread that opens parallel regions, and it never waits for the view. All functions here belong to one
-   other thread, that of the window. */
+   other thread, that of the window.
+
+   A backend on a GPU steps on that other thread instead, where the context is: simulator_work does what is
+   due, and the views read the world's own buffers. */
 #ifndef SLOSH_SIMULATOR_H
 #define SLOSH_SIMULATOR_H
 
@@ -14,6 +17,7 @@
 #include "app/sim_command.h"
 #include "render/upload.h"
 #include "sim/error.h"
+#include "sim/gl/timer.h"
 #include "sim/stage.h"
 
 #include <stdbool.h>
@@ -26,7 +30,8 @@ typedef struct SimulatorSetup {
     const Scene *scene; /* copied */
     const Recording
         *recording;     /* of this scene, without commands: where the recorded session begins; copied */
-    Upload *upload;     /* for the scene's particles; outlives the simulator */
+    Upload *upload;     /* for the scene's particles; outlives the simulator; NULL: the backend is on a GPU */
+    GlTimer *timer;     /* for the stages there, which are not in SimulatorStatus then; may be NULL */
     void (*wake)(void); /* called on the solver's thread after each new state; may be NULL */
     bool paused;
 } SimulatorSetup;
@@ -37,6 +42,26 @@ Simulator *simulator_create(const SimulatorSetup *setup, Error *error);
 /* Asks the thread to end and waits for it, at most `patience_ms`: a frame of a large scene may take longer.
    False when it still runs; then all that it uses must stay, and only the end of the program ends it. */
 bool simulator_destroy(Simulator *simulator, double patience_ms);
+
+/* On a GPU: does what is due, for about `budget_ms` or one step, and returns for how many ms nothing will be
+   due unless it is asked for: 0, there is more. Else there is nothing to do here: INFINITY. */
+double simulator_work(Simulator *simulator, double budget_ms);
+bool simulator_here(const Simulator *simulator); /* whether it is on a GPU */
+
+/* On a GPU: whether there is a state that simulator_share has not shown; the particles as they are now,
+   world_share. False when there is no world. */
+bool simulator_fresh(const Simulator *simulator);
+bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers *out);
+
+/* Obeys a command that sets the backend, between two steps; the simulation goes on there, with `upload` where
+   it is not on a GPU. A move that fails is told in the status, and all stays as it was; false when nothing
+   can go on.
+   */
+bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, Error *error);
+const char *simulator_backend(const Simulator *simulator); /* the present one */
+
+/* The solver's shaders have changed; where they are wrong the last good ones stay, and the status says so. */
+void simulator_reload(Simulator *simulator);
 
 void simulator_pause(Simulator *simulator, bool paused);
 void simulator_single_step(Simulator *simulator); /* one frame, then paused */

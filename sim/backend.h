@@ -24,6 +24,8 @@ typedef struct Backend {
     void (*destroy)(void *state);
     /* After solver_change; false when there is no memory for what the solver's new terms need. */
     bool (*adapt)(void *state);
+    /* Reads its shaders again; false: those before stay. NULL: it has none. */
+    bool (*reload)(void *state, Error *error);
     /* Puts the solids there: `pose` has one for each. For a world with solids, before all else. */
     void (*pose)(void *state, const SolidPose *pose);
     /* Free flight over `step`, then the last guard of walls and solids, which come to their end poses. */

@@ -194,6 +194,11 @@ bool world_on_gpu(const WorldDef *def)
     return backend && backend->gpu;
 }
 
+bool world_reload(World *world, Error *error)
+{
+    return !world->backend->reload || world->backend->reload(world->state, error);
+}
+
 static void count_step(World *world)
 {
     world->step++;

@@ -63,6 +63,10 @@ typedef struct WorldTrouble {
     int tries, retries; /* halvings in force, and how many there may be */
 } WorldTrouble;
 
+/* Reads the shaders of a backend on a GPU again; false with the reason where one is wrong: those before stay.
+ */
+bool world_reload(World *world, Error *error);
+
 /* What a world is, apart from its particles. */
 typedef struct WorldInfo {
     double time;                        /* simulated, s */

@@ -4,6 +4,7 @@
 #include "sim/world_struct.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -167,4 +168,26 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->box = numbers->box;
     world_put_particles(world, state, false);
     return sentinel_mark(world, error);
+}
+
+bool world_move(World **world, const char *backend, Error *error)
+{
+    World *from = *world, *to = NULL;
+    WorldState state = {.count = 0};
+    WorldDef def = from->def;
+    if (!world_sound(from))
+        return error_set(error, "the simulation is in trouble; change the backend when it has gone back");
+    snprintf(def.backend, sizeof def.backend, "%s", backend);
+    const bool moved =
+        (to = world_create(&def, error)) && world_save(from, &state, error) && world_load(to, &state, error);
+    world_state_free(&state);
+    if (!moved) {
+        world_destroy(to);
+        return false;
+    }
+    to->trouble = from->trouble;
+    memcpy(to->limited, from->limited, sizeof to->limited);
+    world_destroy(from);
+    *world = to;
+    return true;
 }

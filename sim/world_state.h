@@ -61,4 +61,9 @@ bool world_save(World *world, WorldState *state, Error *error);
    False with the reason: another version, other particles, numbers that are none; the world is as it was. */
 bool world_load(World *world, const WorldState *state, Error *error);
 
+/* Carries the world over to another backend, where it goes on from the same state; *world is then another
+   one. A context must be current as world_on_gpu says, for either. False with the reason: nothing has
+   changed. */
+bool world_move(World **world, const char *backend, Error *error);
+
 #endif

@@ -48,7 +48,7 @@ static void live_do(Live *live, SimCommand command)
     world_info(live->world, &info);
     command.step = info.step;
     assert_true(recording_add(&live->recording, &command));
-    must(sim_command_apply(&command, live->world, &live->scene, &error));
+    must(sim_command_apply(&command, &live->world, &live->scene, &error));
 }
 
 static void live_target(Live *live, SimCommandKind kind, double x, double angle)
@@ -208,7 +208,7 @@ static void a_refused_setting_changes_nothing(void **state)
     const uint64_t hash = world_hash(live.world);
     memcpy(&before, &live.scene, sizeof before);
     const SimCommand command = {0, SIM_SET, {.setting = "particles.spacing=0.1"}};
-    assert_false(sim_command_apply(&command, live.world, &live.scene, &error));
+    assert_false(sim_command_apply(&command, &live.world, &live.scene, &error));
     assert_contains(error.message, "particles.spacing cannot change while the simulation runs");
     assert_memory_equal(&before, &live.scene, sizeof before);
     assert_true(hash == world_hash(live.world));

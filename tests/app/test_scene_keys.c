@@ -5,6 +5,7 @@
 
 #include "app/scene_keys.h"
 #include "app/scene_suggest.h"
+#include "sim/gl/backends.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -252,6 +253,7 @@ static void nearest_names(void **state)
 
 int main(void)
 {
+    backends_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_range_holds_on_both_sides),
         cmocka_unit_test(every_list_has_its_bounds),
