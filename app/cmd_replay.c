@@ -62,6 +62,13 @@ static bool same_bits(const Replay *replay)
     return replay->ended && !replay->recording.cut && replay->hash == replay->recording.hash;
 }
 
+static void advise(const WorldDef *def)
+{
+    if (strcmp(def->backend, "compute") == 0 && !def->reproducible)
+        fprintf(stderr,
+                "backend compute gives the same bits only with solver.reproducible: true in the scene\n");
+}
+
 /* What came of it, in words and as exit code. */
 static int judge(const Replay *replay)
 {
@@ -84,6 +91,7 @@ static int judge(const Replay *replay)
                 "different after %" PRIu64 " steps: hash %016" PRIx64 ", and %016" PRIx64 " was recorded%s\n",
                 step, replay->hash, recording->hash,
                 strcmp(recording->program, SLOSH_VERSION) == 0 ? "" : " by another version");
+        advise(&replay->session.scene.world);
         return EXIT_FAILED;
     }
     if (!replay->args->quiet)

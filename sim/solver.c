@@ -116,6 +116,7 @@ static void fluids_set(Solver *solver, const WorldDef *def)
     solver->compression = (float)compression;
     solver->fluid_count = def->fluid_count;
     solver->negative_pressure = def->negative_pressure;
+    solver->reproducible = def->reproducible;
     solver->viscous = false;
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     solver->diffusion = (float)(2 * def->delta_sph * c * reach);

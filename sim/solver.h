@@ -34,6 +34,7 @@ typedef struct Solver {
     float viscosity[FLUIDS_MAX]; /* mu, Pa s */
     bool viscous;                /* some mu is not zero */
     bool negative_pressure;
+    bool reproducible;
     bool continuity; /* wcsph: the particles carry their density; the next seven are its own */
     WcsphKernel kernel;
     float gradient;         /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f in sim/cpu/pairs_wcsph.c */

@@ -71,6 +71,7 @@ typedef struct WorldDef {
     double sound_speed;      /* c, m/s: p = c^2 (rho - rho0) */
     char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel.h */
     bool negative_pressure;         /* false: p = max(0, p) */
+    bool reproducible;              /* the same bits each time on compute too; the others always are */
     char kernel[NAME_SIZE];         /* of wcsph: see wcsph_kernels in sim/kernel.h */
     double artificial_viscosity;    /* alpha of wcsph, for fluids without a viscosity */
     double delta_sph;               /* delta of wcsph's density diffusion; 0: none */

@@ -30,6 +30,7 @@ static inline WorldDef fixture_def(double width, double height, double depth)
     def.dt = 0.002;
     def.substeps = 1;
     def.retries = 0; /* what a step does is what is tested */
+    def.reproducible = true;
     return def;
 }
 

@@ -1,4 +1,5 @@
-/* Counting sort by cell, by id within a cell: the same order as sim/cpu/grid.c makes. */
+/* Counting sort by cell; for who asks to have the same bits each time by id within a cell, the order that
+   sim/cpu/grid.c makes. */
 #include "sim/gl/compute/compute.h"
 
 #include <epoxy/gl.h>
@@ -53,8 +54,10 @@ void compute_grid(void *state)
     compute_scan(c, c->start, cells + 1);
     compute_bind((const unsigned[]){c->cell, c->rank, c->start, c->order}, 4);
     compute_run(c, COMPUTE_PLACE, c->count);
-    compute_bind((const unsigned[]){c->now.name, 0, c->start, c->order}, 4);
-    compute_run(c, COMPUTE_SORT, cells);
+    if (c->solver->reproducible) {
+        compute_bind((const unsigned[]){c->now.name, 0, c->start, c->order}, 4);
+        compute_run(c, COMPUTE_SORT, cells);
+    }
     compute_bind((const unsigned[]){c->order, c->now.position, c->now.velocity, c->now.name,
                                     c->spare.position, c->spare.velocity, c->spare.name},
                  7);
