@@ -574,6 +574,7 @@ bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upl
         world_info(simulator->world, &info);
         now.step = info.step;
         obey(simulator, &now);
+        simulator->here = world_on_gpu(&simulator->scene.world);
         publish(simulator, error);
     }
     return start(simulator, error);

@@ -22,8 +22,8 @@ typedef struct Backend {
     void *(*create)(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
                     Error *error);
     void (*destroy)(void *state);
-    /* After solver_change; false when there is no memory for what the solver's new terms need. */
-    bool (*adapt)(void *state);
+    /* After solver_change; false with the reason when what its new terms need is not to be had. */
+    bool (*adapt)(void *state, Error *error);
     /* Reads its shaders again; false: those before stay. NULL: it has none. */
     bool (*reload)(void *state, Error *error);
     /* Puts the solids there: `pose` has one for each. For a world with solids, before all else. */

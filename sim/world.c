@@ -281,9 +281,10 @@ bool world_adopt(World *world, const WorldDef *def, Error *error)
 {
     if (!solver_change(&world->solver, def, error))
         return false;
-    if (!world->backend->adapt(world->state)) {
-        solver_change(&world->solver, &world->def, error);
-        return error_set(error, "no memory for another term; use a larger spacing");
+    if (!world->backend->adapt(world->state, error)) {
+        Error none;
+        solver_change(&world->solver, &world->def, &none);
+        return false;
     }
     world->def = *def;
     return true;

@@ -52,7 +52,7 @@ static void cpu_destroy(void *state)
     free(cpu);
 }
 
-static bool cpu_adapt(void *state)
+static bool cpu_adapt(void *state, Error *error)
 {
     Cpu *cpu = state;
     const Solver *s = cpu->solver;
@@ -75,10 +75,10 @@ static bool cpu_adapt(void *state)
             *terms[k].array = array(cpu, cpu->capacity, sizeof(float));
         ok &= *terms[k].array || !terms[k].needed;
     }
-    return ok;
+    return ok || error_set(error, "no memory for another term; use a larger spacing");
 }
 
-static bool arrays_create(Cpu *cpu)
+static bool arrays_create(Cpu *cpu, Error *error)
 {
     const Solver *s = cpu->solver;
     float **const floats[] = {&cpu->volume, &cpu->pressure, &cpu->pressure_term,
@@ -97,7 +97,10 @@ static bool arrays_create(Cpu *cpu)
         ok &= (cpu->boundary_at = array(cpu, s->boundary.count, sizeof(uint32_t))) != NULL;
     }
     ok &= (cpu->cell_start = array(cpu, s->cells.count + 2, sizeof(uint32_t))) != NULL;
-    return cpu_adapt(cpu) && ok;
+    return (cpu_adapt(cpu, error) && ok) ||
+           error_set(error,
+                     "no memory for %zu particles and %zu cells; use a larger spacing or a smaller box",
+                     cpu->capacity - s->boundary.count, s->cells.count);
 }
 
 static void particles_set(const Solver *solver, CpuParticles *p, const InitialState *initial)
@@ -132,9 +135,7 @@ static void *cpu_create(const Solver *solver, const InitialState *initial, size_
     cpu->threads = threads > 0 ? threads : parallel_processors();
     cpu->count = cpu->owned = initial->count;
     cpu->capacity = capacity + solver->boundary.count;
-    if (!arrays_create(cpu)) {
-        error_set(error, "no memory for %zu particles and %zu cells; use a larger spacing or a smaller box",
-                  capacity, solver->cells.count);
+    if (!arrays_create(cpu, error)) {
         cpu_destroy(cpu);
         return NULL;
     }

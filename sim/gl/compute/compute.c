@@ -119,8 +119,6 @@ static bool programs_create(Compute *c, Error *error)
     unsigned program[COMPUTE_PASS_COUNT] = {0};
     bool ok = true;
     compute_defines(c->solver, defines);
-    if (c->program[COMPUTE_DRIFT] && strcmp(defines, c->defines) == 0)
-        return true;
     for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++) {
         char path[64];
         snprintf(path, sizeof path, "sim/%s.comp", pass_names[p]);
@@ -184,14 +182,22 @@ static void *compute_create(const Solver *solver, const InitialState *initial, s
     return c;
 }
 
-static bool compute_adapt(void *state)
+static bool compute_adapt(void *state, Error *error)
 {
     Compute *c = state;
-    Error error;
-    if (!compute_term_buffers(c) || !programs_create(c, &error))
+    char defines[COMPUTE_DEFINES_MAX];
+    compute_defines(c->solver, defines);
+    if (!compute_term_buffers(c))
+        return error_set(error, "the GPU has no memory for another term; use a larger spacing");
+    if (strcmp(defines, c->defines) != 0 && !programs_create(c, error))
         return false;
     compute_constants(c);
     return true;
+}
+
+static bool compute_reload(void *state, Error *error)
+{
+    return programs_create(state, error);
 }
 
 const Backend backend_compute = {
@@ -201,6 +207,7 @@ const Backend backend_compute = {
     .create = compute_create,
     .destroy = compute_destroy,
     .adapt = compute_adapt,
+    .reload = compute_reload,
     .pose = compute_pose,
     .drift = compute_drift,
     .grid = compute_grid,

@@ -52,6 +52,8 @@ void compute_defines(const Solver *s, char out[COMPUTE_DEFINES_MAX])
 bool compute_pass_named(const Solver *s, ComputePass pass)
 {
     switch (pass) {
+    case COMPUTE_SORT:
+        return s->reproducible;
     case COMPUTE_DENSITY:
         return !s->continuity;
     case COMPUTE_STATE:

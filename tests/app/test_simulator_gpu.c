@@ -1,0 +1,231 @@
+/* The solver on the window's own thread, its backend on the GPU; and from one backend to another. */
+#include "output_fixture.h"
+
+#include "app/headless.h"
+#include "app/recording_play.h"
+#include "app/simulator.h"
+#include "sim/gl/backends.h"
+#include "sim/gl/shader_source.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+static const char still[] = "box: {size: [1, 1, 1]}\n"
+                            "particles: {spacing: 0.1}\n"
+                            "fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}]\n"
+                            "solver: {backend: compute, reproducible: true, sound_speed: 15, threads: 1,\n"
+                            "  step: {dt: 0.01, substeps: 5}}\n";
+
+static Headless *context;
+static Error error;
+
+static void must(bool ok)
+{
+    if (!ok)
+        fail_msg("%s", error.message);
+}
+
+typedef struct Rig {
+    Scene scene;
+    Recording recording;
+    Upload *upload;
+    Simulator *simulator;
+    SimulatorStatus status;
+} Rig;
+
+static void rig_open(Rig *rig, bool paused)
+{
+    SceneSettings settings = {.count = 0};
+    *rig = (Rig){.upload = NULL};
+    must(scene_parse("a.yaml", still, strlen(still), &settings, &rig->scene, NULL, &error));
+    must(recording_create(&rig->recording, "a.yaml", still, strlen(still), &settings, &error));
+    const SimulatorSetup setup = {.scene = &rig->scene, .recording = &rig->recording, .paused = paused};
+    rig->simulator = simulator_create(&setup, &error);
+    assert_non_null(rig->simulator);
+    rig->upload = upload_create(400, particle_attributes_for(SCALAR_SPEED), &error);
+}
+
+static void rig_close(Rig *rig)
+{
+    assert_true(simulator_destroy(rig->simulator, 10000));
+    upload_destroy(rig->upload);
+    recording_destroy(&rig->recording);
+}
+
+/* Works until that step or, on a thread, waits for it. */
+static void until_step(Rig *rig, uint64_t step)
+{
+    const double until = wall_ms() + 20000;
+    do {
+        simulator_work(rig->simulator, 1);
+        usleep(200);
+        simulator_status(rig->simulator, &rig->status);
+    } while (rig->status.step < step && wall_ms() < until);
+    assert_true(rig->status.step >= step);
+}
+
+static void it_works_when_asked(void **state)
+{
+    (void)state;
+    Rig rig;
+    ParticleBuffers particles;
+    rig_open(&rig, true);
+    simulator_status(rig.simulator, &rig.status);
+    assert_true(rig.status.ready && simulator_here(rig.simulator) && simulator_fresh(rig.simulator));
+    assert_true(isinf(simulator_work(rig.simulator, 5))); /* paused: nothing is due */
+    assert_true(simulator_share(rig.simulator, PARTICLE_SCALAR(SCALAR_SPEED), &particles));
+    assert_true(particles.count == 400 && particles.position.buffer && particles.step == 0);
+    assert_false(simulator_fresh(rig.simulator));
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 5);
+    assert_true(isinf(simulator_work(rig.simulator, 5)) && simulator_fresh(rig.simulator));
+    simulator_pause(rig.simulator, false);
+    until_step(&rig, 10);
+    const double wait = simulator_work(rig.simulator, 1000); /* in real time it has no more than that to do */
+    assert_true(wait >= 0 && wait <= 10);
+    rig_close(&rig);
+}
+
+static void move(Rig *rig, const char *backend)
+{
+    SimCommand command = {.kind = SIM_SET};
+    snprintf(command.setting, sizeof command.setting, "solver.backend=%s", backend);
+    must(simulator_move(rig->simulator, &command, rig->upload, &error));
+    assert_string_equal(simulator_backend(rig->simulator), backend);
+    assert_int_equal(simulator_here(rig->simulator), strcmp(backend, "cpu") != 0);
+}
+
+static double height(Rig *rig)
+{
+    ParticleBuffers particles;
+    if (simulator_here(rig->simulator)) {
+        must(simulator_share(rig->simulator, 0, &particles));
+    } else {
+        must(upload_take(rig->upload, &particles));
+    }
+    float x[4];
+    glGetNamedBufferSubData(particles.position.buffer, (GLintptr)particles.position.offset, sizeof x, x);
+    return (double)x[1];
+}
+
+/* The state is kept, time goes on, and the recorded session does it all again to the bit. */
+static void the_backend_changes_while_it_runs(void **state)
+{
+    (void)state;
+    Rig rig;
+    static Session session;
+    Recording recording;
+    rig_open(&rig, true);
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 5);
+    const double before = height(&rig);
+    move(&rig, "cpu");
+    simulator_status(rig.simulator, &rig.status);
+    assert_int_equal(rig.status.step, 5);
+    assert_true(height(&rig) == before && before > 0);
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 10);
+    move(&rig, "compute");
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 15);
+    simulator_save(rig.simulator, "moved.rec");
+    rig_close(&rig);
+
+    must(recording_read("moved.rec", &recording, &error));
+    assert_int_equal(recording.count, 2);
+    assert_true(recording.commands[0].step == 5 && recording.commands[1].step == 10);
+    RecordingPlay play = {.path = "moved.rec", .recording = &recording};
+    headless_destroy(context); /* the session makes its own */
+    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, &session, &error) == 0);
+    while (recording_play_apply(&play, &session, &error) && !recording_play_ended(&play, &session))
+        must(session_substep(&session, &error));
+    assert_true(world_hash(session.world) == recording.hash);
+    session_close(&session);
+    recording_destroy(&recording);
+    context = headless_create(HEADLESS_GPU_AUTO, &error);
+    assert_non_null(context);
+}
+
+/* A reset begins anew on the backend at hand. */
+static void a_reset_stays_on_its_backend(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, true);
+    move(&rig, "cpu");
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 5);
+    simulator_reset(rig.simulator);
+    do {
+        usleep(1000);
+        simulator_status(rig.simulator, &rig.status);
+    } while (rig.status.step != 0);
+    assert_false(rig.status.failed || simulator_here(rig.simulator));
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 5);
+    rig_close(&rig);
+}
+
+static void a_backend_that_is_none_changes_nothing(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, true);
+    const SimCommand command = {.kind = SIM_SET, .setting = "solver.backend=abacus"};
+    must(simulator_move(rig.simulator, &command, rig.upload, &error));
+    simulator_status(rig.simulator, &rig.status);
+    assert_string_equal(simulator_backend(rig.simulator), "compute");
+    assert_true(rig.status.messages == 1 && strstr(rig.status.message, "abacus") && !rig.status.failed);
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 5);
+    rig_close(&rig);
+}
+
+/* Shaders that were broken while it runs: said, and the last good ones go on. */
+static void broken_shaders_leave_the_last_good_ones(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, true);
+    assert_int_equal(system("rm -rf shaders && cp -r " SLOSH_SOURCE_DIR
+                            "/shaders . && echo 'float x = ;' >> shaders/sim/force.comp"),
+                     0);
+    shader_source_set_directory("shaders");
+    simulator_reload(rig.simulator);
+    simulator_status(rig.simulator, &rig.status);
+    assert_true(rig.status.messages == 1 && strstr(rig.status.message, "sim/force.comp:"));
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 5);
+    assert_false(rig.status.failed);
+    assert_int_equal(system("cp " SLOSH_SOURCE_DIR "/shaders/sim/force.comp shaders/sim/"), 0);
+    simulator_reload(rig.simulator);
+    simulator_status(rig.simulator, &rig.status);
+    assert_int_equal(rig.status.messages, 1);
+    shader_source_set_directory(NULL);
+    rig_close(&rig);
+}
+
+static int setup(void **state)
+{
+    context = headless_create(HEADLESS_GPU_AUTO, &error);
+    backends_add();
+    return context && folder_setup(state) == 0 ? 0 : -1;
+}
+
+static int teardown(void **state)
+{
+    headless_destroy(context);
+    return folder_teardown(state);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_works_when_asked),
+        cmocka_unit_test(the_backend_changes_while_it_runs),
+        cmocka_unit_test(a_reset_stays_on_its_backend),
+        cmocka_unit_test(a_backend_that_is_none_changes_nothing),
+        cmocka_unit_test(broken_shaders_leave_the_last_good_ones),
+    };
+    return cmocka_run_group_tests_name("app.simulator_gpu", tests, setup, teardown);
+}
