@@ -21,17 +21,49 @@ static void print_named(const char *title, const Named *list)
         print_row(list->name, list->help);
 }
 
-static void print_renderer(int gpu)
+/* A world of the scene, or a small one, shows whether a backend on a GPU can do it; `no_context`: why there
+   is none, or NULL. */
+static void print_backend(const Named *backend, const WorldDef *scene, const char *no_context)
+{
+    WorldDef def = *scene;
+    Error error = {{0}};
+    print_row(backend->name, backend->help);
+    snprintf(def.backend, sizeof def.backend, "%s", backend->name);
+    if (!world_on_gpu(&def))
+        return;
+    World *world = no_context ? NULL : world_create(&def, &error);
+    if (!world)
+        printf("  %-12s cannot run here: %s\n", "", no_context ? no_context : error.message);
+    world_destroy(world);
+}
+
+/* A block of fluid in a box. */
+static WorldDef small_def(void)
+{
+    WorldDef def = world_def_default();
+    for (int k = 0; k < 3; k++)
+        def.box_size[k] = 1;
+    def.spacing = 0.1;
+    def.fluid_count = 1;
+    def.fluids[0] = (FluidDef){.density = 1000, .fill_count = 1};
+    def.fluids[0].fills[0] = (Fill){.kind = FILL_BLOCK, .min = {-0.5, 0, -0.5}, .max = {0.5, 0.5, 0.5}};
+    return def;
+}
+
+static void print_backends(const WorldDef *scene, int gpu)
 {
     Error error = {{0}};
+    const WorldDef small = small_def();
     Headless *context = headless_create(gpu, &error);
     printf("renderer\n  %s\n", context ? headless_renderer(context) : error.message);
+    printf("backends\n");
+    for (const Named *backend = world_backends(); backend->name; backend++)
+        print_backend(backend, scene ? scene : &small, context ? NULL : error.message);
     headless_destroy(context);
 }
 
 static void print_lists(void)
 {
-    print_named("backends", world_backends());
     print_named("methods", world_methods());
     printf("density kernels\n");
     for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
@@ -65,9 +97,9 @@ int cmd_info(const Args *args)
         fprintf(stderr, "%s\n", error.message);
         return EXIT_USAGE;
     }
+    print_backends(args->scene_count ? &scene.world : NULL, args->gpu);
     print_lists();
     printf("threads\n  %d\n", world_processors());
-    print_renderer(args->gpu);
     if (!args->scene_count)
         return 0;
     printf("%s: %zu particles\n", scene.path, world_def_count(&scene.world, scene.world.spacing));
