@@ -100,6 +100,13 @@ static bool already_has(const ShaderSource *source, const char *path)
 
 static bool append_file(ShaderSource *source, const char *path, const char *from, Error *error);
 
+/* Behind these a compiler that has left lines out, marks among them, does not know where it is. */
+static bool ends_group(const char *line)
+{
+    line += strspn(line, " \t");
+    return strncmp(line, "#endif", 6) == 0 || strncmp(line, "#el", 3) == 0;
+}
+
 /* A line that is no include is copied. */
 static bool append_source_line(ShaderSource *source, const char *line, size_t size, int file, int number,
                                Error *error)
@@ -107,7 +114,9 @@ static bool append_source_line(ShaderSource *source, const char *line, size_t si
     char path[SHADER_PATH_MAX], from[SHADER_PATH_MAX + 16], copy[SHADER_PATH_MAX + 16];
     snprintf(copy, sizeof copy, "%.*s", (int)size, line);
     if (sscanf(copy, " #include \"%127[^\"]\"", path) != 1)
-        return append(source, line, size) || error_set(error, "out of memory for shaders");
+        return (append(source, line, size) && (line[size - 1] != '\n' || !ends_group(copy) ||
+                                               append_line_mark(source, number + 1, file))) ||
+               error_set(error, "out of memory for shaders");
     snprintf(from, sizeof from, "%s:%d: ", source->file[file], number);
     return append_file(source, path, from, error) &&
            (append_line_mark(source, number + 1, file) || error_set(error, "out of memory for shaders"));

@@ -1,0 +1,92 @@
+"""Backends on a GPU as a user meets them: the commands that run them, and what is said where they cannot."""
+import json
+import os
+import resource
+import shutil
+
+import command
+from command import SCENE, CommandTest, obey_interrupts
+
+SHADERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'shaders')
+ON = ['--backend', 'compute', '--set', 'solver.reproducible=true']
+
+
+class Gpu(CommandTest):
+    def test_run_and_resume_give_the_same_bits(self):
+        """Stopped half way and gone on, as without a stop."""
+        run = lambda out, time, *more: self.slosh('run', 'scene.yaml', *ON, '-o', out, '--time', time, '--every', '0.02',
+                                                  '--json', out + '.json', *more)
+        self.assertEqual(run('a.h5part', '0.1')[0], 0)
+        self.assertEqual(run('b.h5part', '0.06')[0], 0)
+        self.assertEqual(run('b.h5part', '0.1', '--resume')[0], 0)
+        for name in ['a', 'b']:
+            code, said = self.slosh('export', f'{name}.h5part', '-o', f'{name}.ply')
+            self.assertEqual(code, 0, said)
+        self.assertEqual(self.read('a.ply'), self.read('b.ply'))
+        self.assertEqual(json.loads(self.read('a.h5part.json'))['backend'], 'compute')
+
+    def test_render_draws_what_the_cpu_draws(self):
+        for backend in ['cpu', 'compute']:
+            code, said = self.slosh('render', 'scene.yaml', '--backend', backend, '-o', f'{backend}.png', '--time', '0.05',
+                                    '--size', '160x120', '--set', 'view.range=[0, 1]')
+            self.assertEqual(code, 0, said)
+            self.assertIn('renderer:', said)
+        self.assertLess(abs(len(self.read('cpu.png')) - len(self.read('compute.png'))), 100)
+
+    def test_bench_times_its_stages_on_the_gpu(self):
+        code, said = self.slosh('bench', 'scene.yaml', '--backend', 'compute', '--view', 'none', '--frames', '3',
+                                '--clock', 'finish', '--json', 'b.json')
+        self.assertEqual(code, 0, said)
+        result = json.loads(self.read('b.json'))[0]
+        self.assertEqual({s['name']: s['clock'] for s in result['stages']},
+                         dict.fromkeys(['grid', 'density', 'force', 'integrate'], 'finish'))
+        self.assertGreater(result['sim_ms'], 0)
+        self.assertLess(abs(result['sim_ms'] / result['frame_ms'] - 1), 0.25)
+
+    def refused(self, code, words, *arguments):
+        """Before anything starts: nothing is created."""
+        before = self.entries()
+        got, said = self.slosh('run', 'scene.yaml', '-o', 'out.h5part', '--time', '0.1', *arguments)
+        self.assertEqual(got, code, said)
+        self.assertRegex(said, words)
+        self.assertEqual(self.entries(), before)
+
+    def test_what_it_cannot_do_is_said(self):
+        self.refused(2, "solver.backend.*'gpu'", '--backend', 'gpu')
+        self.refused(1, 'there is no GPU 15', *ON, '--gpu', '15')
+        self.refused(1, 'buffers larger than the \\d+ bytes that this driver allows', *ON, '--particles', '20000000')
+
+    def test_a_broken_shader_is_named(self):
+        shutil.copytree(SHADERS, self.path('shaders'))
+        with open(self.path('shaders/sim/force.comp'), 'a') as file:
+            file.write('float broken = ;\n')
+        lines = self.read('shaders/sim/force.comp').count(b'\n')
+        self.refused(1, rf'sim/force.comp:{lines}: .*syntax error', *ON, '--shaders', 'shaders')
+        os.remove(self.path('shaders/sim/drift.comp'))
+        self.refused(1, 'drift.comp', *ON, '--shaders', 'shaders')
+
+    def test_short_memory_is_said(self):
+        """The program starts, and what it then asks for is not there; a driver that dies of it is not ours."""
+        def limit():
+            obey_interrupts()
+            resource.setrlimit(resource.RLIMIT_AS, (1200 << 20, 1200 << 20))
+        before = self.entries()
+        code, said = self.slosh('run', 'scene.yaml', *ON, '--particles', '4000000', '-o', 'out.h5part', '--time', '0.1',
+                                before=limit)
+        self.assertEqual(code, 1, said)
+        self.assertRegex(said, 'memory')
+        self.assertEqual(self.entries(), before)
+
+    def test_trouble_leaves_the_last_good_state(self):
+        """The snapshots that are written are sound, and the last good state is kept."""
+        code, said = self.slosh('run', 'scene.yaml', *ON, '-o', 'out.h5part', '--time', '1', '--set',
+                                'solver.sound_speed=5000', '--set', 'solver.step.retries=1')
+        self.assertEqual(code, 1, said)
+        self.assertRegex(said, 'blew up')
+        code, said = self.slosh('export', 'out.h5part', '-o', 'last.ply')
+        self.assertEqual(code, 0, said)
+        self.assertNotIn(b'nan', self.read('last.ply').lower())
+
+
+if __name__ == '__main__':
+    command.main()
