@@ -10,6 +10,18 @@ layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
 
+// The kernel, but for its scale.
+float weight(vec3 d)
+{
+    float q2 = dot(d, d) * kernel.y * kernel.y;
+#ifdef POLY6
+    float t = max(1.0 - q2, 0.0);
+#else
+    float t = max(1.0 - sqrt(q2), 0.0);
+#endif
+    return t * t * t;
+}
+
 void main()
 {
     uint i = invocation();
@@ -20,28 +32,12 @@ void main()
     float sum = 0.0;
     for (int row = rows.x; row < rows.y; row++) {
         uvec2 range = row_of(at, row);
-        for (uint j = range.x; j < range.y; j++) {
-            vec3 d = x - position[j].xyz;
-            float q2 = dot(d, d) * kernel.y * kernel.y;
-#ifdef POLY6
-            float t = max(1.0 - q2, 0.0);
-#else
-            float t = max(1.0 - sqrt(q2), 0.0);
-#endif
-            sum += t * t * t;
-        }
+        for (uint j = range.x; j < range.y; j++)
+            sum += weight(x - position[j].xyz);
 #ifdef SOLIDS
         range = boundary_row_of(at, row);
-        for (uint j = range.x; j < range.y; j++) {
-            vec3 d = x - boundary_position[j].xyz;
-            float q2 = dot(d, d) * kernel.y * kernel.y;
-#ifdef POLY6
-            float t = max(1.0 - q2, 0.0);
-#else
-            float t = max(1.0 - sqrt(q2), 0.0);
-#endif
-            sum += t * t * t;
-        }
+        for (uint j = range.x; j < range.y; j++)
+            sum += weight(x - boundary_position[j].xyz);
 #endif
     }
     float n = scales.x * sum + walls_at(x, true).density;

@@ -53,25 +53,30 @@ vec3 wall_force(uint i, vec3 x)
     return force;
 }
 
-#ifdef CONTINUITY
+// What a pair takes of one of the two.
 struct Side {
     float pressure, volume, viscosity, artificial; // pressure: p V^2
     vec3 v;
 };
 
-Side side_of(uint i, float volume)
+Side side_of(uint i)
 {
     uint fluid = name[i].y;
-    return Side(pressure[i].y, volume, fluids[fluid].w, fluid_terms[fluid].y, velocity[i].xyz);
+#ifdef CONTINUITY
+    float artificial = fluid_terms[fluid].y;
+#else
+    float artificial = 0.0;
+#endif
+    return Side(pressure[i].y, position[i].w, fluids[fluid].w, artificial, velocity[i].xyz);
 }
 
-// Pressure and laminar or artificial viscosity of one pair, over term_scales.x: wcsph_range in
-// sim/cpu/pairs_wcsph.c.
-vec3 wcsph_force(Side own, Side other, vec3 d, float r2)
+#ifdef CONTINUITY
+// Pressure and laminar or artificial viscosity: wcsph_range in sim/cpu/pairs_wcsph.c.
+vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
-    float f = shape(sqrt(r2) * kernel.y), push = own.pressure + other.pressure;
-    float both = own.volume * other.volume;
+    float f = term_scales.x * shape(sqrt(r2) * kernel.y), push = own.pressure + other.pressure;
     vec3 force = vec3(0), u = other.v - own.v;
+    float both = own.volume * other.volume;
 #ifdef VISCOUS
     force += f * both * (own.viscosity + other.viscosity) * u;
 #endif
@@ -79,6 +84,45 @@ vec3 wcsph_force(Side own, Side other, vec3 d, float r2)
     push += both * (own.artificial + other.artificial) * dot(u, d) / (r2 + kernel.x * kernel.x / 400.0);
 #endif
     return force + f * push * d;
+}
+#else
+// Pressure and viscosity: force_range in sim/cpu/pairs.c.
+vec3 pair_force(Side own, Side other, vec3 d, float r2)
+{
+    float r = sqrt(r2), t = 1.0 - r * kernel.y;
+    vec3 force = scales.y * (t * t) * (own.pressure + other.pressure) / r * d;
+#ifdef VISCOUS
+    force += 0.5 * scales.z * own.volume * t * other.volume * (own.viscosity + other.viscosity) * (other.v - own.v);
+#endif
+    return force;
+}
+#endif
+
+// Coincident pairs go apart.
+void separate(inout vec3 d, inout float r2, uint a, uint b)
+{
+    float least = 1e-6 * kernel.x;
+    if (r2 < least * least) {
+        d = least * direction_of_ids(a, b);
+        r2 = least * least;
+    }
+}
+
+#ifdef SOLIDS
+vec3 boundary_force(uint i, Side own, vec3 x, uvec2 range)
+{
+    vec3 force = vec3(0);
+    for (uint j = range.x; j < range.y; j++) {
+        vec4 other = boundary_position[j], wall = boundary_velocity[j];
+        vec3 d = x - other.xyz;
+        float r2 = dot(d, d);
+        if (r2 >= kernel.x * kernel.x)
+            continue;
+        uvec2 state = boundary_state[j];
+        separate(d, r2, name[i].x, BOUNDARY_ID + state.y);
+        force += pair_force(own, Side(uintBitsToFloat(state.x), other.w, wall.w, 0.0, wall.xyz), d, r2);
+    }
+    return force;
 }
 #endif
 
@@ -89,17 +133,10 @@ void main()
         return;
     vec3 x = position[i].xyz, force = vec3(0);
     ivec3 at = cell_of(x);
-    float h = kernel.x, least = 1e-6 * h, p = pressure[i].y;
-#ifdef VISCOUS
-    vec3 v = velocity[i].xyz;
-    float mu = fluids[name[i].y].w, drag_scale = 0.5 * scales.z * position[i].w;
-#endif
+    Side own = side_of(i);
 #ifdef TENSION
     vec4 tension_sum = vec4(0);
     uint fluid = name[i].y;
-#endif
-#ifdef CONTINUITY
-    Side own = side_of(i, position[i].w);
 #endif
     for (int row = rows.x; row < rows.y; row++) {
         uvec2 range = row_of(at, row);
@@ -107,56 +144,19 @@ void main()
             vec4 other = position[j];
             vec3 d = x - other.xyz;
             float r2 = dot(d, d);
-            if (r2 >= h * h || j == i)
+            if (r2 >= kernel.x * kernel.x || j == i)
                 continue;
 #ifdef TENSION
             if (name[j].y == fluid)
                 tension_add(d, r2, other.w, tension_sum);
 #endif
-            if (r2 < least * least) {
-                d = least * direction_of_ids(name[i].x, name[j].x);
-                r2 = least * least;
-            }
-            float r = sqrt(r2), t = 1.0 - r * kernel.y;
-#ifdef CONTINUITY
-            force += wcsph_force(own, side_of(j, other.w), d, r2);
-#else
-            force += scales.y * (t * t) * (p + pressure[j].y) / r * d;
-#ifdef VISCOUS
-            force += drag_scale * t * other.w * (mu + fluids[name[j].y].w) * (velocity[j].xyz - v);
-#endif
-#endif
+            separate(d, r2, name[i].x, name[j].x);
+            force += pair_force(own, side_of(j), d, r2);
         }
 #ifdef SOLIDS
-        range = boundary_row_of(at, row);
-        for (uint j = range.x; j < range.y; j++) {
-            vec4 other = boundary_position[j];
-            vec3 d = x - other.xyz;
-            float r2 = dot(d, d);
-            if (r2 >= h * h)
-                continue;
-            uvec2 state = boundary_state[j];
-            if (r2 < least * least) {
-                d = least * direction_of_ids(name[i].x, BOUNDARY_ID + state.y);
-                r2 = least * least;
-            }
-            float r = sqrt(r2), t = 1.0 - r * kernel.y;
-#ifdef CONTINUITY
-            vec4 wall = boundary_velocity[j];
-            force += wcsph_force(own, Side(uintBitsToFloat(state.x), other.w, wall.w, 0.0, wall.xyz), d, r2);
-#else
-            force += scales.y * (t * t) * (p + uintBitsToFloat(state.x)) / r * d;
-#ifdef VISCOUS
-            vec4 wall = boundary_velocity[j];
-            force += drag_scale * t * other.w * (mu + wall.w) * (wall.xyz - v);
-#endif
-#endif
-        }
+        force += boundary_force(i, own, x, boundary_row_of(at, row));
 #endif
     }
-#ifdef CONTINUITY
-    force *= term_scales.x;
-#endif
 #ifdef TENSION
     force += tension_force(tension_sum, position[i].w, fluid_terms[name[i].y].z);
 #endif

@@ -1,7 +1,7 @@
 /* Solids on the backend `compute` against `cpu`, from the same states. */
 #include "tests/gl/compare.h"
 
-#include "sim/solid.h"
+#include "sim/gl/compute/compute.h"
 
 /* Two viscous fluids about one solid of each kind, moving ones among them, in a box that moves. */
 static WorldDef solids_def(int dimensions)
@@ -49,15 +49,28 @@ static WorldDef solids_def(int dimensions)
     return def;
 }
 
+/* wcsph with all its terms: one fluid with laminar viscosity, one with artificial, diffusion of density. */
+static WorldDef wcsph_def(void)
+{
+    WorldDef def = solids_def(2);
+    snprintf(def.method, sizeof def.method, "wcsph");
+    def.delta_sph = 0.1;
+    def.artificial_viscosity = 0.2;
+    def.fluids[1].viscosity = 0;
+    def.dt = 0.0005;
+    return def;
+}
+
 static void one_step_is_that_of_the_cpu(void **state)
 {
     (void)state;
-    for (int dimensions = 2; dimensions <= 3; dimensions++) {
-        const WorldDef def = solids_def(dimensions);
+    static const char *const names[] = {"2D, mueller", "3D, mueller", "2D, wcsph"};
+    for (int run = 0; run < 3; run++) {
+        const WorldDef def = run < 2 ? solids_def(2 + run) : wcsph_def();
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
-        fixture_step(cpu, 150);
+        substeps(cpu, 150);
         copy_state(cpu, gpu);
-        compare_one_step(&def, dimensions == 2 ? "2D, solids" : "3D, solids", cpu, gpu);
+        compare_one_step(names[run], cpu, gpu);
         world_destroy(cpu);
         world_destroy(gpu);
     }
@@ -73,7 +86,7 @@ static void scenes_stay_with_the_cpu(void **state)
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
         substeps(cpu, 300);
         copy_state(cpu, gpu);
-        compare_one_step(&def, names[n], cpu, gpu);
+        compare_one_step(names[n], cpu, gpu);
         compare_run(&def, names[n], cpu, gpu, 200);
         assert_true(least_clearance(gpu, &def) > -1e-5);
         world_destroy(cpu);
@@ -189,7 +202,7 @@ static void friction_comes_with_viscosity(void **state)
     substeps(cpu, 50);
     copy_state(cpu, gpu);
     assert_true(world_change(cpu, &thick, &error) && world_change(gpu, &thick, &error));
-    compare_one_step(&def, "viscosity turned on", cpu, gpu);
+    compare_one_step("viscosity turned on", cpu, gpu);
     world_destroy(cpu);
     world_destroy(gpu);
 }
@@ -211,6 +224,20 @@ static void save_load_step_is_step(void **state)
     world_destroy(other);
 }
 
+/* A scene without solids, emitters and drains has no pass and no buffer of theirs. */
+static void what_is_not_named_is_not_there(void **state)
+{
+    (void)state;
+    WorldDef def = shaken_def();
+    def.solid_count = 0;
+    World *world = world_on(def, "compute");
+    const Compute *compute = world->state;
+    for (int pass = COMPUTE_BOUNDARY_BIN; pass <= COMPUTE_DRAIN_GATHER; pass++)
+        assert_int_equal(compute->program[pass], 0);
+    assert_true(!compute->boundary.rest && !compute->boundary.block && !compute->flow.block);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -219,6 +246,7 @@ int main(void)
         cmocka_unit_test_teardown(a_shaken_cup_does_not_leak, no_gl_errors),
         cmocka_unit_test_teardown(a_shaken_box_loses_no_particle, no_gl_errors),
         cmocka_unit_test_teardown(friction_comes_with_viscosity, no_gl_errors),
+        cmocka_unit_test_teardown(what_is_not_named_is_not_there, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.compute_solids", tests, compare_setup, context_teardown);
