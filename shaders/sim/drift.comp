@@ -18,7 +18,8 @@ void main()
 #endif
     float dt = rotation[0].w;
     if (rotation[1].w > 0.5) {
-        x += v * dt;
+        precise vec3 way = v * dt; // the same bits as the CPU's
+        x += way;
     } else {
         vec3 w = v + cross(omega0.xyz, x), y = x + (w * dt - shift.xyz);
         x = y + vec3(dot(rotation[0].xyz, y), dot(rotation[1].xyz, y), dot(rotation[2].xyz, y));

@@ -59,7 +59,7 @@ struct Side {
     vec3 v;
 };
 
-Side side_of(uint i)
+Side side_of(uint i, float volume)
 {
     uint fluid = name[i].y;
 #ifdef CONTINUITY
@@ -67,7 +67,7 @@ Side side_of(uint i)
 #else
     float artificial = 0.0;
 #endif
-    return Side(pressure[i].y, position[i].w, fluids[fluid].w, artificial, velocity[i].xyz);
+    return Side(pressure[i].y, volume, fluids[fluid].w, artificial, velocity[i].xyz);
 }
 
 #ifdef CONTINUITY
@@ -98,14 +98,13 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 }
 #endif
 
-// Coincident pairs go apart.
-void separate(inout vec3 d, inout float r2, uint a, uint b)
+bool coincident(float r2) { return r2 < 1e-12 * kernel.x * kernel.x; }
+
+void separate(uint a, uint b, out vec3 d, out float r2)
 {
     float least = 1e-6 * kernel.x;
-    if (r2 < least * least) {
-        d = least * direction_of_ids(a, b);
-        r2 = least * least;
-    }
+    d = least * direction_of_ids(a, b);
+    r2 = least * least;
 }
 
 #ifdef SOLIDS
@@ -119,7 +118,8 @@ vec3 boundary_force(uint i, Side own, vec3 x, uvec2 range)
         if (r2 >= kernel.x * kernel.x)
             continue;
         uvec2 state = boundary_state[j];
-        separate(d, r2, name[i].x, BOUNDARY_ID + state.y);
+        if (coincident(r2))
+            separate(name[i].x, BOUNDARY_ID + state.y, d, r2);
         force += pair_force(own, Side(uintBitsToFloat(state.x), other.w, wall.w, 0.0, wall.xyz), d, r2);
     }
     return force;
@@ -133,7 +133,7 @@ void main()
         return;
     vec3 x = position[i].xyz, force = vec3(0);
     ivec3 at = cell_of(x);
-    Side own = side_of(i);
+    Side own = side_of(i, position[i].w);
 #ifdef TENSION
     vec4 tension_sum = vec4(0);
     uint fluid = name[i].y;
@@ -150,8 +150,9 @@ void main()
             if (name[j].y == fluid)
                 tension_add(d, r2, other.w, tension_sum);
 #endif
-            separate(d, r2, name[i].x, name[j].x);
-            force += pair_force(own, side_of(j), d, r2);
+            if (coincident(r2))
+                separate(name[i].x, name[j].x, d, r2);
+            force += pair_force(own, side_of(j, other.w), d, r2);
         }
 #ifdef SOLIDS
         force += boundary_force(i, own, x, boundary_row_of(at, row));

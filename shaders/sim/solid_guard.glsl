@@ -3,11 +3,11 @@
 
 // The first part of the way, 0 .. 1, where it meets the surface; more than 1: it does not. Goes forward by the distance
 // to the surface, which it can't meet sooner.
-float meeting(int k, vec3 from, vec3 to, float way, float slack)
+double meeting(int k, dvec3 from, dvec3 to, double way, double slack)
 {
-    float t = 0.0;
+    double t = 0.0;
     for (int i = 0; i < 64 && t <= 1.0; i++) {
-        float d = solid_distance(k, mix(from, to, t));
+        double d = solid_distance(k, from + t * (to - from));
         if (d <= slack)
             return t;
         t += d / way;
@@ -17,18 +17,18 @@ float meeting(int k, vec3 from, vec3 to, float way, float slack)
 
 // Puts `to` a little above the plane that touches the surface where the way meets it, unless it is there. False when the
 // way keeps clear of the solid.
-bool hold(int k, vec3 from, inout vec3 to, out vec3 normal)
+bool hold(int k, dvec3 from, inout dvec3 to, out dvec3 normal)
 {
-    float slack = 1e-6 * solids[k].change.w, way = distance(from, to), at_end = solid_distance(k, to);
-    normal = vec3(0, 1, 0);
+    double slack = 1e-6lf * solids[k].wall.y, way = length(to - from), at_end = solid_distance(k, to);
+    normal = dvec3(0.0, 1.0, 0.0);
     if (at_end >= 0.0 && solid_distance(k, from) + at_end >= way)
         return false;
-    float t = way > 0.0 ? meeting(k, from, to, way, slack) : 0.0;
+    double t = way > 0.0 ? meeting(k, from, to, way, slack) : 0.0;
     if (t > 1.0)
         return false;
-    vec3 entry = from + t * (to - from);
+    dvec3 entry = from + t * (to - from);
     normal = solid_normal(k, entry);
-    float depth = dot(entry - to, normal) + slack - solid_distance(k, entry);
+    double depth = dot(entry - to, normal) + slack - solid_distance(k, entry);
     if (depth <= 0.0 && at_end >= 0.0) // it was at the surface and leaves it
         return false;
     if (depth <= 0.0) {
@@ -47,7 +47,7 @@ bool hold(int k, vec3 from, inout vec3 to, out vec3 normal)
 bool out_of_reach(int k, vec3 before, vec3 x)
 {
     float own = distance(solids[k].begin.x.xyz, solids[k].end.x.xyz);
-    return distance(x, solids[k].end.x.xyz) > solids[k].change.w + distance(before, x) + own;
+    return distance(x, solids[k].end.x.xyz) > solid_reach(k) + distance(before, x) + own;
 }
 
 // Whether it had to hold a particle that went from `before` to x.
@@ -57,10 +57,10 @@ bool solids_guard(vec3 before, inout vec3 x, inout vec3 v)
     for (int k = 0; k < solid_counts.x; k++) {
         if (out_of_reach(k, before, x))
             continue;
-        vec3 from = solid_from_box(solids[k].begin, before), to = solid_from_box(solids[k].end, x), normal;
+        dvec3 from = dvec3(solid_from_box(solids[k].begin, before)), to = dvec3(solid_from_box(solids[k].end, x)), normal;
         for (int i = 0; i < 3 && hold(k, from, to, normal); i++) { // again: an inner edge has two sides
-            x = solid_to_box(solids[k].end, to);
-            vec3 n = solid_to_box(Pose(vec4(0), solids[k].end.r), normal);
+            x = solid_to_box(solids[k].end, vec3(to));
+            vec3 n = solid_to_box(Pose(vec4(0), solids[k].end.r), vec3(normal));
             v -= min(dot(v - solid_velocity_at(k, x), n), 0.0) * n;
             held = true;
         }

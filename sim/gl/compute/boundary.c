@@ -14,11 +14,11 @@ typedef struct Pose {
 typedef struct Solid {
     Pose begin, end;
     float velocity[4], spin[4], change[4], alpha[4];
-    float size[4], wall[4];
+    double size[4], wall[4];
 } Solid;
 
 typedef struct SolidsBlock {
-    int32_t counts[4];
+    int32_t counts[8]; /* solids stand at a multiple of 32 bytes */
     Solid solids[SOLIDS_MAX];
 } SolidsBlock;
 
@@ -36,16 +36,16 @@ static void pose_set(const SolidPose *from, Pose *to)
 
 static void shape_set(const Solver *s, const SolidDef *solid, Solid *out)
 {
-    const float endless = 1e30f; /* half the depth of a box in the plane */
+    const double endless = 1e30; /* half the depth of a box in the plane */
     out->velocity[3] = solid->slip == SLIP_NONE;
     out->spin[3] = (float)solid->kind;
-    out->change[3] = (float)solid_reach(solid);
-    out->size[3] = (float)solid->radius;
-    out->wall[0] = (float)solid->thickness;
+    out->size[3] = solid->radius;
+    out->wall[0] = solid->thickness;
+    out->wall[1] = solid_reach(solid);
     for (int k = 0; k < 3; k++)
-        out->size[k] = k < s->dimensions ? (float)(0.5 * solid->size[k]) : endless;
+        out->size[k] = k < s->dimensions ? 0.5 * solid->size[k] : endless;
     if (solid->kind == SOLID_CYLINDER)
-        out->size[1] = (float)(0.5 * solid->height);
+        out->size[1] = 0.5 * solid->height;
 }
 
 static void steps_set(Compute *c, const SolidStep *steps)
