@@ -1,4 +1,4 @@
-// By number within each cell, so that sums have one order: sort.comp. Then to their places, at rest in sums of friction.
+// Boundary particles to their places, for who asks for the same bits each time by number within each cell: sort.comp.
 #include "sim/constants.glsl"
 #include "sim/solids.glsl"
 #define BOUNDARY_ACCESS writeonly
@@ -12,12 +12,14 @@ void main()
     if (c >= cell_count())
         return;
     uint first = boundary_start[c], end = boundary_start[c + 1u];
+#ifdef REPRODUCIBLE
     for (uint i = first + 1u; i < end; i++) {
         uint moved = order[i], j = i;
         for (; j > first && order[j - 1u] > moved; j--)
             order[j] = order[j - 1u];
         order[j] = moved;
     }
+#endif
     for (uint i = first; i < end; i++) {
         vec4 at = rest[order[i]];
         boundary_position[i] = vec4(solid_to_box(solids[int(at.w)].end, at.xyz), 0.0);

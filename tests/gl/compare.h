@@ -50,6 +50,7 @@ static inline WorldDef scene_def(const char *name, double spacing)
         fail_msg("%s", error.message);
     scene.world.spacing = spacing;
     scene.world.threads = 1;
+    scene.world.reproducible = true;
     return scene.world;
 }
 

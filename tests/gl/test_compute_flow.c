@@ -117,7 +117,7 @@ static void scenes_stay_with_the_cpu(void **state)
         const char *name;
         double spacing;
         int before;
-    } scenes[] = {{"bowl", 0.016, 1000}, {"fountain", 0.02, 600}};
+    } scenes[] = {{"bowl", 0.016, 1000}, {"fountain", 0.022, 600}};
     for (int n = 0; n < 2; n++) {
         const WorldDef def = scene_def(scenes[n].name, scenes[n].spacing);
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");

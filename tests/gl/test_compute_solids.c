@@ -82,7 +82,7 @@ static void scenes_stay_with_the_cpu(void **state)
     (void)state;
     static const char *const names[] = {"pillar", "paddle"};
     for (int n = 0; n < 2; n++) {
-        const WorldDef def = scene_def(names[n], 0.04);
+        const WorldDef def = scene_def(names[n], 0.05);
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
         substeps(cpu, 300);
         copy_state(cpu, gpu);

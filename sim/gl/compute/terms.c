@@ -25,6 +25,7 @@ void compute_defines(const Solver *s, char out[COMPUTE_DEFINES_MAX])
         const char *name;
     } terms[] = {
         {s->solid_count > 0, "SOLIDS"},
+        {s->reproducible, "REPRODUCIBLE"},
         {s->poly6, "POLY6"},
         {s->viscous, "VISCOUS"},
         {s->negative_pressure, "NEGATIVE_PRESSURE"},
