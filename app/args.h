@@ -58,6 +58,7 @@ typedef struct Args {
     int gpu;           /* number of the EGL device; -1: not given */
     ClockChoice clock;
     SnapshotFrame frame; /* export: that positions and velocities are in */
+    const char *table;   /* bench: NAME, or NULL */
     bool play;           /* bench: the live window */
     double seconds;      /* of it; more than 0; default 20 */
     const char *record;  /* FILE, or NULL */

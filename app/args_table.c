@@ -42,6 +42,9 @@ const CommandRow command_rows[] = {
 /* clang-format off */
 const OptionRow option_rows[] = {
     {"-o", "OUT", RENDER | RUN | REPLAY | EXPORT, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
+    {"-o", "OUT", BENCH, OPTION_TEXT, AT(output), .help = "the chart of --table: OUT.svg or OUT.png"},
+    {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
+     .help = "a published table again, beside its figures: paper003-spheres, paper003-substeps"},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
     {"--time", "S", EXPORT, OPTION_NUMBER, AT(time), .max = 1e6,
      .help = "the one snapshot at that time, or the first after it (the last)"},

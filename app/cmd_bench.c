@@ -1,4 +1,6 @@
 #include "app/bench.h"
+#include "app/bench_table.h"
+#include "app/chart.h"
 #include "app/cmd.h"
 #include "app/interrupt.h"
 #include "app/output.h"
@@ -8,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEFAULT_FRAMES = 200 };
+enum { DEFAULT_FRAMES = 200, TABLE_FRAMES = 40 };
 
 static const char *const default_scenes[] = {"scenes/dam_break.yaml", "scenes/box_slosh.yaml"};
 
@@ -17,19 +19,58 @@ typedef struct Plan {
     const Args *args;
     const char *const *scenes;
     size_t scene_count, combinations;
+    const Table *table; /* or NULL */
+    SceneSettings settings;
+    int sweep_count;
+    Sweep sweeps[ARGS_SWEEPS_MAX];
 } Plan;
 
-static Plan plan_make(const Args *args)
+_Static_assert(TABLE_SWEEPS + 1 <= ARGS_SWEEPS_MAX, "a table's sweeps have room");
+
+/* The table's own settings come first, so that the command line may say otherwise. */
+static bool plan_table(Plan *plan, Error *error)
 {
-    Plan plan = {
-        .args = args, .scenes = args->scenes, .scene_count = (size_t)args->scene_count, .combinations = 1};
-    if (plan.scene_count == 0) {
-        plan.scenes = default_scenes;
-        plan.scene_count = sizeof default_scenes / sizeof *default_scenes;
+    const Args *args = plan->args;
+    int count = 0;
+    plan->table = table_find(args->table, error);
+    if (!plan->table)
+        return false;
+    if (args->scene_count || args->sweep_count || args->play)
+        return error_set(error,
+                         "slosh bench: --table brings its own scenes and sweeps; leave the others out");
+    if (args->output && !chart_name(args->output, error))
+        return false;
+    plan->scenes = &plan->table->scene;
+    plan->scene_count = 1;
+    plan->sweep_count = table_sweeps(plan->table, plan->sweeps);
+    for (int i = 0; i < TABLE_SETTINGS && plan->table->settings[i]; i++)
+        plan->settings.set[count++] = plan->table->settings[i];
+    for (int i = 0; i < args->settings.count && count < SCENE_SETTINGS_MAX; i++)
+        plan->settings.set[count++] = args->settings.set[i];
+    plan->settings.count = count;
+    return true;
+}
+
+static bool plan_make(const Args *args, Plan *plan, Error *error)
+{
+    *plan = (Plan){.args = args,
+                   .scenes = args->scenes,
+                   .scene_count = (size_t)args->scene_count,
+                   .combinations = 1,
+                   .settings = args->settings,
+                   .sweep_count = args->sweep_count};
+    memcpy(plan->sweeps, args->sweeps, sizeof plan->sweeps);
+    if (args->table && !plan_table(plan, error))
+        return false;
+    if (args->output && !args->table)
+        return error_set(error, "slosh bench: -o is the chart of a --table; name one, or leave it out");
+    if (plan->scene_count == 0) {
+        plan->scenes = default_scenes;
+        plan->scene_count = sizeof default_scenes / sizeof *default_scenes;
     }
-    for (int i = 0; i < args->sweep_count; i++)
-        plan.combinations *= (size_t)args->sweeps[i].count;
-    return plan;
+    for (int i = 0; i < plan->sweep_count; i++)
+        plan->combinations *= (size_t)plan->sweeps[i].count;
+    return true;
 }
 
 enum { TEXTS_BYTES = ARGS_SWEEPS_MAX * 512 };
@@ -38,9 +79,9 @@ enum { TEXTS_BYTES = ARGS_SWEEPS_MAX * 512 };
 static bool case_settings(const Plan *plan, size_t combination, char texts[TEXTS_BYTES],
                           SceneSettings *settings, Error *error)
 {
-    *settings = plan->args->settings;
-    for (int i = plan->args->sweep_count - 1; i >= 0; i--) {
-        const Sweep *sweep = &plan->args->sweeps[i];
+    *settings = plan->settings;
+    for (int i = plan->sweep_count - 1; i >= 0; i--) {
+        const Sweep *sweep = &plan->sweeps[i];
         const char *value = sweep->values[combination % (size_t)sweep->count];
         combination /= (size_t)sweep->count;
         if (strcmp(sweep->key, "particles") == 0) {
@@ -104,7 +145,9 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
             .draws = strcmp(scene.view.kind, "none") != 0,
             .width = args->width,
             .height = args->height,
-            .frames = args->frames ? args->frames : DEFAULT_FRAMES,
+            .frames = args->frames  ? args->frames
+                      : plan->table ? TABLE_FRAMES
+                                    : DEFAULT_FRAMES,
             .clock = clock_of(args->clock),
         };
         progress_begin(&progress, stderr, "bench", args->quiet);
@@ -113,7 +156,7 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
         progress_end(&progress);
         if (!ok)
             return false;
-        if (!args->quiet)
+        if (!args->quiet && !plan->table)
             bench_print(&results[*done], stdout);
     }
     return true;
@@ -123,6 +166,13 @@ static int fail(const Error *error, int code)
 {
     fprintf(stderr, "%s\n", error->message);
     return code;
+}
+
+static bool show_table(const Plan *plan, const BenchResult *results, size_t count, Error *error)
+{
+    const Args *args = plan->args;
+    return (args->quiet || table_print(plan->table, results, count, stdout, error)) &&
+           (!args->output || table_draw(plan->table, results, count, args->output, error));
 }
 
 static int bench(const Plan *plan, bool wants_context, Error *error)
@@ -138,6 +188,8 @@ static int bench(const Plan *plan, bool wants_context, Error *error)
     if (context)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
     ok = ok && measure_all(plan, context, results, &done, error);
+    if (ok && plan->table)
+        ok = show_table(plan, results, done, error);
     if (args->json && done > 0) {
         Error json_error = {{0}};
         const bool written = bench_write_json(results, done, args->json, &json_error);
@@ -184,9 +236,9 @@ int cmd_bench(const Args *args)
 {
     Error error = {{0}};
     bool wants_context;
-    const Plan plan = plan_make(args);
+    static Plan plan;
     interrupt_install();
-    if (!cases_check(&plan, &wants_context, &error))
+    if (!plan_make(args, &plan, &error) || !cases_check(&plan, &wants_context, &error))
         return fail(&error, EXIT_USAGE);
     if (args->play)
         return bench_play(args, &error);

@@ -85,6 +85,52 @@ class Bench(Case):
         self.assertIn("/no/such/folder", done.stderr)
 
 
+class Tables(Case):
+    def test_a_published_table_beside_its_figures(self):
+        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--frames', '1', '--size', '64x64', '-o', 'chart.svg',
+                              '--json', 'table.json')
+        rows = [line.split() for line in done.stdout.splitlines() if line[:9].strip().isdigit()]
+        published = {(row[0], row[3]): row for row in rows if row[4] == 'published'}
+        self.assertEqual(len(published), 8)
+        self.assertEqual([published['8192', 'GPU,'][k] for k in (5, 8)], ['5.800', '60.000'])
+        self.assertIn('GeForce 9800M GS', done.stdout)
+        results = json.loads(self.read('table.json'))
+        measured = [row for row in rows if row[4] != 'published']
+        self.assertEqual([row[3] for row in measured], [r['backend'] for r in results])
+        self.assertEqual({(r['backend'], r['substeps']) for r in results} & {('cpu', 1), ('compute', 1)},
+                         {('cpu', 1), ('compute', 1)})
+        for row, r in zip(measured, results):
+            self.assertAlmostEqual(float(row[4]), sum(s['median_ms'] for s in r['stages'] if s['part'] == 'sim'), 2)
+            self.assertAlmostEqual(float(row[7]), sum(s['median_ms'] for s in r['stages'] if s['part'] != 'sim'), 2)
+        chart = self.read('chart.svg').decode()
+        self.assertTrue(chart.rstrip().endswith('</svg>'))
+        for words in ['CPU, published', 'compute, spheres', 'particles']:
+            self.assertIn(words, chart)
+
+    def test_what_is_wrong_is_said_before_anything_runs(self):
+        for words, *arguments in [('paper003-spheres', '--table', 'paper9'), ('FILE.svg', '--table', 'paper003-spheres', '-o', 'a.gif'),
+                                  ('its own scenes', SCENE, '--table', 'paper003-spheres'), ('--table', SCENE, '-o', 'a.svg')]:
+            done = self.slosh_out('bench', *arguments, code=2)
+            self.assertIn(words, done.stderr)
+        self.assertEqual(self.entries(), [])
+
+    def test_without_gnuplot_there_is_no_chart(self):
+        os.mkdir(self.path('bin'))
+        done = subprocess.run([command.PROGRAM, 'bench', '--table', 'paper003-substeps', '--frames', '1', '--size', '64x64',
+                               '-o', 'chart.svg', '--set', 'particles.spacing=0.4'],
+                              cwd=self.folder, capture_output=True, text=True, timeout=120, check=False,
+                              env=os.environ | {'PATH': self.path('bin')})
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn('gnuplot', done.stderr)
+        self.assertEqual(self.entries(), ['bin'])
+
+    def test_a_damaged_reference_has_its_line(self):
+        os.makedirs(self.path('scenes/reference'))
+        self.write('scenes/reference/paper003-spheres.csv', '# by hand\nengine,particles\nCPU,1,2\n')
+        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--frames', '1', '--size', '64x64', code=1)
+        self.assertIn('paper003-spheres.csv:3: 3 cells; the columns are 2', done.stderr)
+
+
 class Info(Case):
     def test_lists_and_settings(self):
         done = self.slosh_out("info", SCENE, "--set", "solver.sound_speed=12.5", code=0)

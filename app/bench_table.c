@@ -1,0 +1,160 @@
+#include "app/bench_table.h"
+
+#include "app/reference.h"
+#include "render/view.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define BIT(stage) (1U << (stage))
+
+enum { SIM = BIT(STAGE_GRID) | BIT(STAGE_DENSITY) | BIT(STAGE_FORCE) | BIT(STAGE_INTEGRATE) };
+
+static const Table tables[] = {
+    {.name = "paper003-spheres",
+     .help = "simulation and rendering by spheres, CPU and GPU (SIBGRAPI 2010, Table II and Figure 5)",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"solver.step.dt=0.0012", "solver.step.substeps=1"},
+     .particles = {"1024", "2048", "4096", "8192"},
+     .reference = "scenes/reference/paper003-spheres.csv",
+     .shares = true,
+     .columns = {{"simulation", SIM}, {"rendering", 0}}},
+    {.name = "paper003-substeps",
+     .help = "one step of 0.01 s a picture against ten of 0.001 s (SIBGRAPI 2010, Figure 6)",
+     .scene = "scenes/substeps.yaml",
+     .settings = {"solver.step.dt=0.01"},
+     .particles = {"8192"},
+     .substeps = {"1", "10"},
+     .columns = {{"simulation", SIM}, {"rendering", 0}}},
+};
+
+const Table *table_find(const char *name, Error *error)
+{
+    char all[512] = "";
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        if (strcmp(tables[i].name, name) == 0)
+            return &tables[i];
+        snprintf(all + strlen(all), sizeof all - strlen(all), "\n  %-18s %s", tables[i].name, tables[i].help);
+    }
+    error_set(error, "there is no table '%.60s'; these are there:%s", name, all);
+    return NULL;
+}
+
+static void add(Sweep *sweep, const char *value)
+{
+    if (sweep->count < ARGS_SWEEP_VALUES_MAX)
+        sweep->values[sweep->count++] = value;
+}
+
+int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1])
+{
+    int count = 0;
+    Sweep *views = &sweeps[count++], *particles = &sweeps[count++];
+    *views = (Sweep){.key = "view.kind"};
+    *particles = (Sweep){.key = "particles"};
+    for (const ViewKind *const *view = view_list; *view; view++)
+        add(views, (*view)->name);
+    for (int i = 0; table->particles[i]; i++)
+        add(particles, table->particles[i]);
+    if (table->substeps[0]) {
+        Sweep *substeps = &sweeps[count++];
+        *substeps = (Sweep){.key = "solver.step.substeps"};
+        for (int i = 0; table->substeps[i]; i++)
+            add(substeps, table->substeps[i]);
+    }
+    Sweep *backends = &sweeps[count++];
+    *backends = (Sweep){.key = "solver.backend"};
+    for (const Named *backend = world_backends(); backend->name; backend++)
+        add(backends, backend->name);
+    return count;
+}
+
+double table_value(const Table *table, const BenchResult *result, int column)
+{
+    unsigned named = 0;
+    double sum = 0;
+    for (int c = 0; table->columns[c].title; c++)
+        named |= table->columns[c].stages;
+    const unsigned wanted = table->columns[column].stages ? table->columns[column].stages : ~named;
+    for (unsigned s = 0; s < STAGE_COUNT; s++)
+        sum += wanted & BIT(s) ? result->stages[s].median_ms : 0;
+    return sum;
+}
+
+static void print_values(const double *values, int columns, FILE *file)
+{
+    double all = 0;
+    for (int c = 0; c < columns; c++)
+        all += values[c];
+    for (int c = 0; c < columns; c++)
+        fprintf(file, " %9.3f %5.1f %%", values[c], all > 0 ? 100 * values[c] / all : 0);
+    fprintf(file, " %9.3f\n", all);
+}
+
+static int column_count(const Table *table)
+{
+    int columns = 0;
+    while (table->columns[columns].title)
+        columns++;
+    return columns;
+}
+
+static void print_result(const Table *table, const BenchResult *r, FILE *file)
+{
+    double values[TABLE_COLUMNS];
+    const int columns = column_count(table);
+    for (int c = 0; c < columns; c++)
+        values[c] = table_value(table, r, c);
+    fprintf(file, "%9zu %8d  %-9s %-22s", r->particles, r->substeps, r->view, r->backend);
+    print_values(values, columns, file);
+}
+
+/* What was published of as many particles; the paper's steps are one a frame. */
+static void print_published(const Table *table, const Reference *reference, size_t particles, FILE *file)
+{
+    double values[TABLE_COLUMNS];
+    const int columns = column_count(table);
+    for (int row = 0; row < reference->rows; row++) {
+        if ((size_t)reference_number(reference, row, "particles") != particles)
+            continue;
+        for (int c = 0; c < columns; c++)
+            values[c] = 1e3 * reference_number(reference, row, table->columns[c].title);
+        fprintf(file, "%9zu %8d  %-9s %-3s, published         ", particles, 1, "spheres",
+                reference_text(reference, row, "engine"));
+        print_values(values, columns, file);
+    }
+}
+
+static size_t asked_for(const Table *table, int group)
+{
+    return strtoul(table->particles[group], NULL, 10);
+}
+
+bool table_print(const Table *table, const BenchResult *results, size_t count, FILE *file, Error *error)
+{
+    static Reference reference;
+    if (table->reference && !reference_load(table->reference, &reference, error))
+        return false;
+    fprintf(file, "%s: %s\n", table->name, table->help);
+    if (table->reference)
+        fprintf(file, "published: %s\n", reference.notes);
+    if (count > 0)
+        fprintf(file, "here: %s, cpu with %d threads, %d x %d; medians of %d frames, ms\n\n",
+                results[0].renderer, results[0].threads, results[0].width, results[0].height,
+                results[0].frames);
+    fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view", "backend");
+    for (int c = 0; table->columns[c].title; c++)
+        fprintf(file, " %17s", table->columns[c].title);
+    fprintf(file, " %9s\n", "total");
+    size_t last = 0;
+    int group = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (table->reference && results[i].particles != last && table->particles[group] &&
+            strcmp(results[i].view, "spheres") == 0)
+            print_published(table, &reference, asked_for(table, group++), file);
+        last = results[i].particles;
+        print_result(table, &results[i], file);
+    }
+    fputc('\n', file);
+    return true;
+}

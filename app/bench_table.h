@@ -1,0 +1,43 @@
+/* Published tables, measured again: which cases they have, and how they are shown beside what was published.
+ */
+#ifndef SLOSH_BENCH_TABLE_H
+#define SLOSH_BENCH_TABLE_H
+
+#include "app/args.h"
+#include "app/bench.h"
+
+enum { TABLE_SWEEPS = 3, TABLE_SETTINGS = 2, TABLE_COLUMNS = 4 };
+
+/* A column sums up stages; the last one takes all that no other names. */
+typedef struct TableColumn {
+    const char *title; /* also that of the reference's column */
+    unsigned stages;   /* bits 1 << STAGE_... */
+} TableColumn;
+
+typedef struct Table {
+    const char *name, *help;
+    const char *scene;                    /* its path */
+    const char *settings[TABLE_SETTINGS]; /* before those of the command line */
+    const char *particles[8];             /* each of these, with each view and each backend; ended by NULL */
+    const char *substeps[3];              /* and each of these; ended by NULL */
+    const char *reference;                /* the CSV file of what was published, or NULL */
+    bool shares;                          /* the chart shows the first column's share; else times */
+    TableColumn columns[TABLE_COLUMNS];   /* ended by a NULL title */
+} Table;
+
+/* NULL with the reason, which lists them, when there is none of that name. */
+const Table *table_find(const char *name, Error *error);
+
+/* The sweeps that make up its cases, views and backends as this program has them; how many. */
+int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1]);
+
+/* The table for people. False when the reference cannot be read. */
+bool table_print(const Table *table, const BenchResult *results, size_t count, FILE *file, Error *error);
+
+/* The chart, FILE.svg or FILE.png. */
+bool table_draw(const Table *table, const BenchResult *results, size_t count, const char *path, Error *error);
+
+/* ms of a column, of the median frame. */
+double table_value(const Table *table, const BenchResult *result, int column);
+
+#endif
