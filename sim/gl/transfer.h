@@ -1,0 +1,31 @@
+/* Particles of a GPU backend as plain arrays on this side: for initial states, snapshots and reports, never
+   within a frame. The backend fills and empties its buffers or textures from them. */
+#ifndef SLOSH_GL_TRANSFER_H
+#define SLOSH_GL_TRANSFER_H
+
+#include "sim/solver.h"
+#include "sim/world_state.h"
+
+/* Owns its arrays. */
+typedef struct Transfer {
+    size_t count;
+    float *position; /* 4 a particle: x y z (m), volume (m3) */
+    float *velocity; /* 4: x y z (m/s), rho / rho0 - 1 where particles carry it, else 0 */
+    float *pressure; /* 2: p (Pa), p V^2 */
+    uint32_t *name;  /* 2: id, fluid */
+} Transfer;
+
+/* Room for `count` particles; false when memory is short. */
+bool transfer_make(Transfer *transfer, size_t count);
+void transfer_free(Transfer *transfer);
+
+/* In: positions without volumes, velocities and names. */
+void transfer_set_initial(Transfer *transfer, const Solver *solver, const InitialState *initial);
+void transfer_set_columns(Transfer *transfer, const Solver *solver, const ParticleColumns *from);
+
+/* Out: as world_save, world_read and world_sums want it, `neighbours_mean` excepted. */
+void transfer_get_columns(const Transfer *transfer, const Solver *solver, const ParticleColumns *to);
+void transfer_get_arrays(const Transfer *transfer, const Solver *solver, const ParticleArrays *out);
+void transfer_get_sums(const Transfer *transfer, const Solver *solver, WorldSums *sums);
+
+#endif
