@@ -67,12 +67,40 @@ static bool give_up(World *world, StepTrouble trouble, double time, Error *error
         time, step_trouble_words(trouble), also);
 }
 
+static void grouped(size_t number, char text[32])
+{
+    char digits[24];
+    const int count = snprintf(digits, sizeof digits, "%zu", number);
+    for (int i = 0; i < count; i++) {
+        *text++ = digits[i];
+        if (i + 1 < count && (count - i - 1) % 3 == 0)
+            *text++ = ',';
+    }
+    *text = 0;
+}
+
+/* A smaller step does not mend it: no retry. */
+static bool give_up_lost(World *world, Error *error)
+{
+    WorldInfo info = {0};
+    char lost[32], limit[32];
+    world->backend->info(world->state, &info);
+    if (world->def.retries > 0)
+        restore(world);
+    grouped(info.lost, lost);
+    grouped(world->solver.lost_limit, limit);
+    return error_set(error, "%s %s; raise solver.grid_layers (%d) or solver.lost_limit (%s)", lost,
+                     step_trouble_words(STEP_TROUBLE_LOST), world->solver.grid_layers, limit);
+}
+
 bool sentinel_back(World *world, Error *error)
 {
     const StepTrouble trouble = world->seen;
     StepState *s = &world->stepping;
     WorldTrouble *told = &world->trouble;
     const double time = world_time_at(world, (double)world->step);
+    if (trouble == STEP_TROUBLE_LOST)
+        return give_up_lost(world, error);
     if (world->def.retries == 0)
         return give_up(world, trouble, time, error);
     restore(world);

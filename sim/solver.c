@@ -15,6 +15,12 @@ static double length2(const double v[3])
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 }
 
+static bool grid_check(const WorldDef *def, Error *error)
+{
+    return (def->grid_layers >= 0 && def->lost_limit >= 0) ||
+           error_set(error, "grid_layers and lost_limit must not be negative");
+}
+
 static bool motions_check(const Motion *motions, int count, int dimensions, Error *error)
 {
     if (count < 0 || count > MOTIONS_MAX)
@@ -85,7 +91,7 @@ static bool def_check(const WorldDef *def, Error *error)
         return error_set(error, "the walls' slip is free or none");
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
-    return motions_check(def->motions, def->motion_count, def->dimensions, error) &&
+    return motions_check(def->motions, def->motion_count, def->dimensions, error) && grid_check(def, error) &&
            solids_check(def, error) && flow_check(def, error);
 }
 
@@ -174,6 +180,13 @@ static void tension_set(Solver *solver, const WorldDef *def)
     solver->tension_model = any ? (TensionModel)def->tension_model : TENSION_NONE;
 }
 
+/* The lattice puts ceil(support)^dimensions particles into a cell at most. */
+static int layers_for(const WorldDef *def)
+{
+    const double most = pow(ceil(def->support), def->dimensions);
+    return def->grid_layers > 0 ? def->grid_layers : (int)ceil(most / 4);
+}
+
 bool solver_create(Solver *solver, const WorldDef *def, Error *error)
 {
     memset(solver, 0, sizeof *solver);
@@ -208,6 +221,8 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     solver->dimensions = def->dimensions;
     solver->emits = flow_emits(def);
     solver->drains = def->drain_count > 0;
+    solver->grid_layers = layers_for(def);
+    solver->lost_limit = (size_t)def->lost_limit;
     solver->solid_count = def->solid_count;
     memcpy(solver->solids, def->solids, sizeof solver->solids);
     if (!boundary_create(&solver->boundary, def))

@@ -30,7 +30,9 @@ StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel)
 {
     if (!watch->bounded)
         return STEP_TROUBLE_SPEED;
-    return sentinel && watch->max_compression > COMPRESSION_MOST ? STEP_TROUBLE_DENSITY : STEP_TROUBLE_NONE;
+    if (sentinel && watch->max_compression > COMPRESSION_MOST)
+        return STEP_TROUBLE_DENSITY;
+    return watch->lost > watch->lost_limit ? STEP_TROUBLE_LOST : STEP_TROUBLE_NONE;
 }
 
 static double greatest_kinematic_viscosity(const WorldDef *def)

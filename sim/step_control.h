@@ -42,13 +42,16 @@ typedef struct StepWatch {
     float max_speed;        /* m/s */
     float max_acceleration; /* m/s2, gravity included */
     float max_compression;  /* of number density over that at rest */
+    size_t lost,
+        lost_limit; /* particles without a place in the grid, at most in one step, and how many may be */
 } StepWatch;
 
 /* X(ENUM, words): trouble that the sentinel finds */
 #define STEP_TROUBLES(X)                                                                                     \
     X(NONE, "")                                                                                              \
     X(SPEED, "a particle moves further than the support radius in one step")                                 \
-    X(DENSITY, "fluid is pressed to more than five times its density")
+    X(DENSITY, "fluid is pressed to more than five times its density")                                       \
+    X(LOST, "particles found no place in the grid of backend fragment")
 
 typedef enum StepTrouble {
 #define X(NAME, words) STEP_TROUBLE_##NAME,

@@ -87,6 +87,7 @@ typedef struct WorldInfo {
     StepLimit limit;                    /* what bounded it */
     uint64_t limited[STEP_LIMIT_COUNT]; /* steps by what bounded them, since the start */
     WorldTrouble trouble;
+    size_t lost;    /* backend fragment: particles without a place in its grid, in the last step known */
     size_t guarded; /* times that the last guard of a wall held a particle back, since the start */
 } WorldInfo;
 

@@ -68,7 +68,9 @@ typedef struct WorldDef {
     char method[NAME_SIZE];  /* see method_list */
     char backend[NAME_SIZE]; /* see backend_list */
     int threads;             /* 0: one a processor */
-    double sound_speed;      /* c, m/s: p = c^2 (rho - rho0) */
+    int grid_layers;    /* of backend fragment's grid, four particles a cell each; 0: what a lattice needs */
+    int lost_limit;     /* so many particles may find no place in it in a step */
+    double sound_speed; /* c, m/s: p = c^2 (rho - rho0) */
     char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel.h */
     bool negative_pressure;         /* false: p = max(0, p) */
     bool reproducible;              /* the same bits each time on compute too; the others always are */

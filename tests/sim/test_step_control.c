@@ -2,6 +2,7 @@
    with the last good state. */
 #include "fixture.h"
 
+#include "sim/solver.h"
 #include "sim/step_control.h"
 #include "sim/world_state.h"
 
@@ -216,6 +217,42 @@ static void a_session_with_trouble_comes_out_the_same(void **state)
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
 }
 
+/* It is no matter of the step: sentinel or not, but after what is. */
+static void what_is_lost_is_trouble_above_the_limit(void **state)
+{
+    (void)state;
+    StepWatch watch = {.bounded = true, .max_compression = 1, .lost = 5, .lost_limit = 5};
+    assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_NONE);
+    watch.lost = 6;
+    assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_LOST);
+    assert_int_equal(step_trouble_of(&watch, false), STEP_TROUBLE_LOST);
+    watch.max_compression = 6;
+    assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_DENSITY);
+    watch.bounded = false;
+    assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_SPEED);
+}
+
+/* As many layers of four as a lattice needs, unless the def says otherwise. */
+static void layers_follow_the_support(void **state)
+{
+    (void)state;
+    static const struct {
+        int dimensions, given, layers;
+        double support;
+    } cases[] = {{3, 0, 7, 2.1}, {3, 0, 2, 2},   {2, 0, 3, 2.1},
+                 {2, 0, 4, 3.1}, {3, 1, 1, 2.1}, {2, 9, 9, 2.1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        WorldDef def = fixture_def(1, 1, 1);
+        Solver solver;
+        def.dimensions = cases[i].dimensions;
+        def.support = cases[i].support;
+        def.grid_layers = cases[i].given;
+        assert_true(solver_create(&solver, &def, &error));
+        assert_int_equal(solver.grid_layers, cases[i].layers);
+        solver_destroy(&solver);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -226,6 +263,8 @@ int main(void)
         cmocka_unit_test(without_a_sentinel_it_stops_at_once),
         cmocka_unit_test(calm_brings_the_step_back),
         cmocka_unit_test(a_session_with_trouble_comes_out_the_same),
+        cmocka_unit_test(what_is_lost_is_trouble_above_the_limit),
+        cmocka_unit_test(layers_follow_the_support),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
