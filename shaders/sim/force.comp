@@ -3,6 +3,7 @@
 #include "sim/terms.glsl"
 #include "sim/walls.glsl"
 #include "sim/rows.glsl"
+#include "sim/pair_direction.glsl"
 #ifdef CONTINUITY
 #include "sim/wcsph.glsl"
 #endif
@@ -20,37 +21,9 @@ layout(std430, binding = 3) readonly buffer Pressures { vec2 pressure[]; };
 layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = 5) writeonly buffer Accelerations { vec4 acceleration[]; };
 
-// A direction that only the two ids decide, opposite for (a, b) and (b, a): sim/cpu/pair_loop.h.
-vec3 direction_of_ids(uint a, uint b)
+vec3 felt_at(vec3 x)
 {
-    uint low = min(a, b), high = max(a, b);
-    uint hash = low * 0x9e3779b1u ^ (high * 0x85ebca77u + 0x165667b1u);
-    vec3 d;
-    for (int k = 0; k < 3; k++) {
-        hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
-        hash ^= hash >> 13;
-        d[k] = float(hash >> 8) * exp2(-23.0) - 1.0 + exp2(-24.0);
-    }
-    return normalize(d) * (a < b ? 1.0 : -1.0);
-}
-
-vec3 wall_force(uint i, vec3 x)
-{
-    WallSums sums = walls_at(x, false);
-    vec3 g = felt_origin.xyz - cross(felt_alpha.xyz, x) - cross(felt_omega.xyz, cross(felt_omega.xyz, x));
-    float density = fluids[name[i].y].y, layer = density * kernel.w * length(g);
-    float fade = layer > 0.0 ? clamp(pressure[i].x / layer, 0.0, 1.0) : 0.0;
-    float weight = fade * density * position[i].w / kernel.z;
-    vec3 d = sums.diagonal, m = sums.mixed;
-    vec3 moment_g = vec3(d.x * g.x + m.x * g.y + m.z * g.z, m.x * g.x + d.y * g.y + m.y * g.z,
-                         m.z * g.x + m.y * g.y + d.z * g.z);
-    vec3 force = vec3(0);
-    for (int k = 0; k < 3; k++) {
-        float push = pressure[i].y * sums.push[k], hydrostatic = -weight * moment_g[k];
-        bool pulls = pressure[i].x >= 0.0 && sums.push[k] * (push + hydrostatic) < 0.0;
-        force[k] = pulls ? 0.0 : push + hydrostatic;
-    }
-    return force;
+    return felt_origin.xyz - cross(felt_alpha.xyz, x) - cross(felt_omega.xyz, cross(felt_omega.xyz, x));
 }
 
 // What a pair takes of one of the two.
@@ -161,5 +134,7 @@ void main()
 #ifdef TENSION
     force += tension_force(tension_sum, position[i].w, fluid_terms[name[i].y].z);
 #endif
-    acceleration[i] = vec4((force + wall_force(i, x)) / fluids[name[i].y].x, 0.0);
+    vec4 own_fluid = fluids[name[i].y];
+    force += wall_force(x, felt_at(x), own_fluid.y, position[i].w, pressure[i].x, pressure[i].y);
+    acceleration[i] = vec4(force / own_fluid.x, 0.0);
 }

@@ -1,5 +1,6 @@
 // What the views want to know of each particle besides place and velocity, and the range of it.
 #include "sim/constants.glsl"
+#include "sim/in_order.glsl"
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = 2) readonly buffer Names { uvec2 name[]; }; // id, fluid
@@ -30,13 +31,6 @@ float value_of(uint i)
         return float(name[i].y);
     }
     return float(name[i].x);
-}
-
-// Bits whose order is that of the numbers.
-uint in_order(float value)
-{
-    uint bits = floatBitsToUint(value);
-    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
 }
 
 void main()

@@ -1,6 +1,12 @@
 // The walls of the box, as sim/wall.c has them: tables over the distances to one, two, three faces.
 // An entry is ten numbers: density, push xyz, moment xx yy zz xy yz zx.
+#ifdef WALL_TEXTURE
+uniform samplerBuffer wall_texture;
+float wall_table(int at) { return texelFetch(wall_texture, at).x; }
+#else
 layout(std430, binding = 7) readonly buffer WallTables { float wall_tables[]; };
+float wall_table(int at) { return wall_tables[at]; }
+#endif
 
 struct WallSums {
     float density;
@@ -45,12 +51,12 @@ void add_faces(Face a, Face b, Face c, int count, bool density_only, inout WallS
         float weight = include * part.x * part.y * part.z;
         ivec3 at = (node + up) * stride;
         int entry = 10 * (wall_offset[count - 1] + at.x + at.y + at.z);
-        sums.density += weight * wall_tables[entry];
+        sums.density += weight * wall_table(entry);
         if (density_only)
             continue;
-        push += weight * vec3(wall_tables[entry + 1], wall_tables[entry + 2], wall_tables[entry + 3]);
-        diagonal += weight * vec3(wall_tables[entry + 4], wall_tables[entry + 5], wall_tables[entry + 6]);
-        mixed += weight * vec3(wall_tables[entry + 7], wall_tables[entry + 8], wall_tables[entry + 9]);
+        push += weight * vec3(wall_table(entry + 1), wall_table(entry + 2), wall_table(entry + 3));
+        diagonal += weight * vec3(wall_table(entry + 4), wall_table(entry + 5), wall_table(entry + 6));
+        mixed += weight * vec3(wall_table(entry + 7), wall_table(entry + 8), wall_table(entry + 9));
     }
     if (density_only)
         return;
@@ -89,4 +95,23 @@ WallSums walls_at(vec3 x, bool density_only)
                     add_faces(face[a], face[b], face[c], one ? 1 : two ? 2 : 3, density_only, sums);
             }
     return sums;
+}
+
+// What they do to a particle at x of such a rest density, volume, pressure p and term p V^2, where it feels g: wall_force
+// in sim/cpu/forces.c.
+vec3 wall_force(vec3 x, vec3 g, float density, float volume, float p, float term)
+{
+    WallSums sums = walls_at(x, false);
+    float layer = density * kernel.w * length(g), fade = layer > 0.0 ? clamp(p / layer, 0.0, 1.0) : 0.0;
+    float weight = fade * density * volume / kernel.z;
+    vec3 d = sums.diagonal, m = sums.mixed;
+    vec3 moment_g = vec3(d.x * g.x + m.x * g.y + m.z * g.z, m.x * g.x + d.y * g.y + m.y * g.z,
+                         m.z * g.x + m.y * g.y + d.z * g.z);
+    vec3 force = vec3(0);
+    for (int k = 0; k < 3; k++) {
+        float push = term * sums.push[k], hydrostatic = -weight * moment_g[k];
+        bool pulls = p >= 0.0 && sums.push[k] * (push + hydrostatic) < 0.0;
+        force[k] = pulls ? 0.0 : push + hydrostatic;
+    }
+    return force;
 }
