@@ -3,4 +3,5 @@
 void backends_add(void)
 {
     backend_add(&backend_compute);
+    backend_add(&backend_fragment);
 }

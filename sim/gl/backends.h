@@ -4,7 +4,7 @@
 
 #include "sim/backend.h"
 
-extern const Backend backend_compute;
+extern const Backend backend_compute, backend_fragment;
 
 /* Adds them to the list of sim/backend.h; before any scene is read. */
 void backends_add(void);

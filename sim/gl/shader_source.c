@@ -153,12 +153,18 @@ static bool append_file(ShaderSource *source, const char *path, const char *from
     return done;
 }
 
+/* The backend fragment keeps to GLSL 3.30: the compiler proves it. */
+static const char *version_of(const char *path)
+{
+    static const char fragment[] = "sim/fragment/";
+    return strncmp(path, fragment, sizeof fragment - 1) == 0 ? "#version 330 core\n" : "#version 450 core\n";
+}
+
 bool shader_source_load(ShaderSource *source, const char *path, const char *defines, Error *error)
 {
-    static const char version[] = "#version 450 core\n";
+    const char *version = version_of(path);
     *source = (ShaderSource){0};
-    if (!append(source, version, sizeof version - 1) ||
-        (defines && !append(source, defines, strlen(defines))))
+    if (!append(source, version, strlen(version)) || (defines && !append(source, defines, strlen(defines))))
         return error_set(error, "out of memory for shaders");
     return append_file(source, path, "", error);
 }

@@ -17,7 +17,7 @@ static int setup(void **state)
     return 0;
 }
 
-static WorldDef column_def(void)
+static WorldDef column_def(const char *backend)
 {
     WorldDef def = fixture_def(0.4, 0.6, 0.4);
     def.retries = 3;
@@ -26,7 +26,7 @@ static WorldDef column_def(void)
     def.dt = 0.002;
     def.substeps = 2;
     def.threads = 1;
-    snprintf(def.backend, sizeof def.backend, "compute");
+    snprintf(def.backend, sizeof def.backend, "%s", backend);
     fixture_block(&def, 0, -0.2, 0, -0.2, 0.2, 0.4, 0.2);
     return def;
 }
@@ -104,13 +104,13 @@ static void counting(bool on)
 /* Steps with the sentinel on, and pictures, coloured with a range that follows the state. */
 static void no_particle_crosses_in_a_frame(void **state)
 {
-    (void)state;
     Error error = {0};
     Studio studio;
-    const WorldDef def = column_def();
+    const WorldDef def = column_def(*state);
     const ViewDef view = view_def_default();
     World *world = fixture_world(&def);
     assert_true(def.retries > 0 && view.range_auto);
+    crossings = 0;
     assert_true(studio_open(&studio, &view, world, 64, 64, &error));
     for (int frame = 0; frame < 6; frame++) {
         if (frame == 2) /* the first pictures make what they need */
@@ -131,8 +131,7 @@ static void no_particle_crosses_in_a_frame(void **state)
 /* What the views are given is what world_read reads. */
 static void shared_is_what_is_read(void **state)
 {
-    (void)state;
-    const WorldDef def = column_def();
+    const WorldDef def = column_def(*state);
     World *world = fixture_world(&def);
     ParticleBuffers shared;
     fixture_step(world, 20);
@@ -182,8 +181,7 @@ static void blow_up(World *world, WorldDef def)
    bit; world_sound knows sooner. */
 static void the_sentinel_goes_back_a_frame_later(void **state)
 {
-    (void)state;
-    const WorldDef def = column_def();
+    const WorldDef def = column_def(*state);
     Error error = {0};
     WorldInfo info;
     World *world = fixture_world(&def);
@@ -216,8 +214,7 @@ static void the_sentinel_goes_back_a_frame_later(void **state)
 /* Without retries the end comes a frame later. */
 static void without_retries_it_ends(void **state)
 {
-    (void)state;
-    WorldDef def = column_def();
+    WorldDef def = column_def(*state);
     def.retries = 0;
     Error error = {0};
     World *world = fixture_world(&def);
@@ -231,8 +228,7 @@ static void without_retries_it_ends(void **state)
 /* A saved state knows what the frame before found: mode cfl steps by it. */
 static void adaptive_steps_go_on_from_a_saved_state(void **state)
 {
-    (void)state;
-    WorldDef def = column_def();
+    WorldDef def = column_def(*state);
     def.step_mode = STEP_CFL;
     def.cfl_number = 0.4;
     def.max_dt = 0.01;
@@ -252,12 +248,13 @@ static void adaptive_steps_go_on_from_a_saved_state(void **state)
 
 int main(void)
 {
+#define ON(test, backend)                                                                                    \
+    cmocka_unit_test_prestate_setup_teardown(test, NULL, no_gl_errors, (char[]){backend})
+#define ON_EACH(test) ON(test, "compute"), ON(test, "fragment")
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(no_particle_crosses_in_a_frame, no_gl_errors),
-        cmocka_unit_test_teardown(shared_is_what_is_read, no_gl_errors),
-        cmocka_unit_test_teardown(the_sentinel_goes_back_a_frame_later, no_gl_errors),
-        cmocka_unit_test_teardown(without_retries_it_ends, no_gl_errors),
-        cmocka_unit_test_teardown(adaptive_steps_go_on_from_a_saved_state, no_gl_errors),
+        ON_EACH(no_particle_crosses_in_a_frame),          ON_EACH(shared_is_what_is_read),
+        ON_EACH(the_sentinel_goes_back_a_frame_later),    ON_EACH(without_retries_it_ends),
+        ON_EACH(adaptive_steps_go_on_from_a_saved_state),
     };
     return cmocka_run_group_tests_name("gl.device", tests, setup, context_teardown);
 }

@@ -14,6 +14,7 @@ MAY = {
     "sim/cpu": ["sim", "sim/cpu"],
     "sim/gl": ["sim", "sim/gl"],
     "sim/gl/compute": ["sim", "sim/gl", "sim/gl/compute"],
+    "sim/gl/fragment": ["sim", "sim/gl", "sim/gl/fragment"],
     "render": ["sim", "sim/gl", "render"],
     "app": ["sim", "sim/gl", "render", "app"],
 }

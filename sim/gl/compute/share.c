@@ -1,10 +1,10 @@
 /* The particles for the views, in the buffers that the steps work on; what these do not hold as such is
    written by a pass of its own, for what is wanted only. */
 #include "sim/gl/compute/compute.h"
+#include "sim/gl/float_bits.h"
 #include "sim/gl/particle_buffers.h"
 
 #include <epoxy/gl.h>
-#include <string.h>
 
 enum { RANGE_BYTES = 2 * SCALAR_COUNT * sizeof(uint32_t) };
 
@@ -31,15 +31,6 @@ static void clear_ranges(const Compute *c)
     glNamedBufferSubData(c->ranges.buffer, 0, RANGE_BYTES, none);
 }
 
-/* From bits in the order of the numbers: shaders/sim/show.comp. */
-static double number_of(uint32_t ordered)
-{
-    const uint32_t bits = ordered & 0x80000000U ? ordered & 0x7fffffffU : ~ordered;
-    float number;
-    memcpy(&number, &bits, sizeof number);
-    return number;
-}
-
 static void read_ranges(Compute *c, unsigned attributes, ParticleBuffers *out)
 {
     mailbox_send(&c->ranges);
@@ -47,8 +38,8 @@ static void read_ranges(Compute *c, unsigned attributes, ParticleBuffers *out)
     for (int s = 0; s < SCALAR_COUNT; s++) {
         if (!(attributes & PARTICLE_SCALAR(s)) || c->count == 0)
             continue;
-        out->scalar_min[s] = number_of(range[2 * s]);
-        out->scalar_max[s] = number_of(range[2 * s + 1]);
+        out->scalar_min[s] = (double)float_in_order(range[2 * s]);
+        out->scalar_max[s] = (double)float_in_order(range[2 * s + 1]);
     }
 }
 

@@ -1,10 +1,10 @@
 /* What the kicks of a frame found, read when the next one begins, and the state that the sentinel goes back
  * to. */
 #include "sim/gl/compute/compute.h"
+#include "sim/gl/float_bits.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
-#include <string.h>
 
 /* How far a particle may go in a step is asked with the longest of them. */
 void compute_watch_send(Compute *c, float dt)
@@ -22,24 +22,17 @@ void compute_watch_reset(Compute *c, size_t guarded)
     c->guarded = 0;
 }
 
-static float float_of(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 StepWatch compute_watch(void *state)
 {
     Compute *c = state;
     const uint32_t *watched = mailbox_wait(&c->watch);
     if (!watched)
         return (StepWatch){.bounded = true};
-    const float fastest = c->solver->support_radius / c->longest, speed2 = float_of(watched[0]);
+    const float fastest = c->solver->support_radius / c->longest, speed2 = float_of_bits(watched[0]);
     const StepWatch seen = {.bounded = speed2 <= fastest * fastest,
                             .max_speed = sqrtf(speed2),
-                            .max_acceleration = sqrtf(float_of(watched[1])),
-                            .max_compression = float_of(watched[2])};
+                            .max_acceleration = sqrtf(float_of_bits(watched[1])),
+                            .max_compression = float_of_bits(watched[2])};
     c->guarded = watched[3];
     c->longest = 0;
     glClearNamedBufferSubData(c->watch.buffer, GL_R32UI, 0, 3 * sizeof *watched, GL_RED_INTEGER,

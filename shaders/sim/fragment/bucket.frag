@@ -1,0 +1,5 @@
+// The colour mask picks the place.
+flat in uint number;
+layout(location = 0) out uvec4 place;
+
+void main() { place = uvec4(number); }

@@ -1,0 +1,14 @@
+// A particle becomes one point in the texel of its cell, as deep as its index: after Harada, Koshizuka and Kawaguchi
+// 2007. Whole numbers up to 2^24 times 2^-24 are exact in the depth buffer.
+#include "sim/fragment/particles.glsl"
+#include "sim/fragment/cells.glsl"
+layout(location = 0) in uint listed; // index + 1: 0 is an empty place
+flat out uint number;
+
+void main()
+{
+    ivec2 texel = bucket_of(cell_index(cell_of(of_particle(position, int(listed) - 1).xyz)));
+    vec2 at = (2.0 * vec2(texel) + 1.0) / vec2(1 << bucket_bits, bucket_height) - 1.0;
+    number = listed;
+    gl_Position = vec4(at, float(listed) * exp2(-24.0), 1.0);
+}

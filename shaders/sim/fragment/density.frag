@@ -1,0 +1,45 @@
+// Number density, volume, pressure: sim/cpu/pairs.c and finish_density in sim/cpu/forces.c.
+#include "sim/fragment/own.glsl"
+#include "sim/fragment/neighbours.glsl"
+#include "sim/walls.glsl"
+layout(location = 0) out vec4 fields; // volume, p, 0; 1 for a particle that has no place in the buckets, else 0
+layout(location = 1) out vec4 near; // what force.frag reads of others: x y z, p V^2
+#ifdef VISCOUS
+layout(location = 2) out vec4 moving; // velocity, volume
+#endif
+
+vec3 here;
+float sum;
+
+void meet(int j)
+{
+    vec3 d = here - of_particle(position, j).xyz;
+    float q2 = dot(d, d) * kernel.y * kernel.y;
+#ifdef POLY6
+    float t = max(1.0 - q2, 0.0);
+#else
+    float t = max(1.0 - sqrt(q2), 0.0);
+#endif
+    sum += t * t * t;
+}
+
+void main()
+{
+    int i = own_particle();
+    if (i >= particle_count)
+        discard;
+    vec4 own = of_particle(position, i);
+    here = own.xyz;
+    sum = 1.0; // itself, whether it has a place or not
+    bool placed = meet_neighbours(i, here);
+    float n = scales.x * sum + walls_at(here, true).density;
+    float p = fluids[int(own.w)].z * (n / kernel.z - 1.0);
+#ifndef NEGATIVE_PRESSURE
+    p = max(p, 0.0);
+#endif
+    fields = vec4(1.0 / n, p, 0.0, placed ? 0.0 : 1.0);
+    near = vec4(here, p / (n * n));
+#ifdef VISCOUS
+    moving = vec4(of_particle(velocity, i).xyz, 1.0 / n);
+#endif
+}

@@ -1,0 +1,61 @@
+// Accelerations by pressure, viscosity and walls: sim/cpu/pairs.c and sim/cpu/forces.c.
+#include "sim/fragment/own.glsl"
+#include "sim/fragment/neighbours.glsl"
+#include "sim/walls.glsl"
+#include "sim/pair_direction.glsl"
+uniform sampler2D fields, near, moving; // of density.frag
+uniform vec3 felt_origin, felt_alpha, felt_omega; // apparent gravity
+layout(location = 0) out vec4 acceleration;
+
+int self;
+vec3 here, force;
+float pressure_term;
+#ifdef VISCOUS
+vec3 speed;
+float viscosity, drag_scale;
+#endif
+
+void meet(int j)
+{
+    vec4 other = of_particle(near, j);
+    vec3 d = here - other.xyz;
+    float r2 = dot(d, d), h = kernel.x, least = 1e-6 * h;
+    if (r2 >= h * h)
+        return;
+    if (r2 < least * least) {
+        d = least * direction_of_ids(uint(self), uint(j));
+        r2 = least * least;
+    }
+    float r = sqrt(r2), t = 1.0 - r * kernel.y;
+    force += scales.y * (t * t) * (pressure_term + other.w) / r * d;
+#ifdef VISCOUS
+    vec4 its = of_particle(moving, j);
+#if FLUIDS > 1
+    float mu = viscosity + fluids[int(of_particle(position, j).w)].w;
+#else
+    float mu = 2.0 * viscosity;
+#endif
+    force += drag_scale * t * its.w * mu * (its.xyz - speed);
+#endif
+}
+
+void main()
+{
+    self = own_particle();
+    if (self >= particle_count)
+        discard;
+    vec4 own = of_particle(near, self), known = of_particle(fields, self);
+    vec4 fluid = fluids[int(of_particle(position, self).w)];
+    here = own.xyz;
+    pressure_term = own.w;
+    force = vec3(0);
+#ifdef VISCOUS
+    speed = of_particle(moving, self).xyz;
+    viscosity = fluid.w;
+    drag_scale = 0.5 * scales.z * known.x;
+#endif
+    meet_neighbours(self, here);
+    vec3 g = felt_origin - cross(felt_alpha, here) - cross(felt_omega, cross(felt_omega, here));
+    force += wall_force(here, g, fluid.y, known.x, known.y, pressure_term);
+    acceleration = vec4(force / fluid.x, 0.0);
+}

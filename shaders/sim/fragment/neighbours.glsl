@@ -1,0 +1,31 @@
+// The neighbours of a particle, from the buckets of the cells around its own: nine rows of three cells, in two
+// dimensions three rows. Places fill up from the first on, so that an empty one ends a cell.
+#include "sim/fragment/cells.glsl"
+uniform usampler2DArray buckets; // four particles a texel: their indices + 1; 0: none
+
+void meet(int j); // what the pass makes of particle j, another one, of any distance
+
+// Whether particle i at x stands in the buckets itself.
+bool meet_neighbours(int i, vec3 x)
+{
+    int middle = cell_index(cell_of(x));
+    uint own = uint(i + 1);
+    bool placed = false;
+    for (int row = rows.x; row < rows.y; row++) {
+        int first = middle + cell_index(ivec3(-1, row % 3 - 1, row / 3 - 1));
+        for (int cell = first; cell < first + 3; cell++) {
+            uint last = 1u;
+            for (int layer = 0; layer < bucket_layers && last != 0u; layer++) {
+                uvec4 four = texelFetch(buckets, ivec3(bucket_of(cell), layer), 0);
+                last = four.w;
+                for (int k = 0; k < 4 && four[k] != 0u; k++) {
+                    if (four[k] == own)
+                        placed = true;
+                    else
+                        meet(int(four[k]) - 1);
+                }
+            }
+        }
+    }
+    return placed;
+}

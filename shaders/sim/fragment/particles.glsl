@@ -1,0 +1,9 @@
+// Particles are texels: particle i is texel (i mod width, i / width), of a width of 2^particle_bits, of each of these textures, and stays there.
+// sim/gl/fragment/constants.c writes particle_count, particle_bits and what else is constant before the shader.
+uniform sampler2D position; // x y z, fluid
+uniform sampler2D velocity; // x y z, 0
+uniform vec4 fluids[FLUIDS]; // mass, rest density, stiffness, viscosity
+
+ivec2 texel_of(int i) { return ivec2(i & (1 << particle_bits) - 1, i >> particle_bits); }
+
+vec4 of_particle(sampler2D values, int i) { return texelFetch(values, texel_of(i), 0); }

@@ -1,0 +1,12 @@
+// Positions as the views want them: x y z, volume.
+#include "sim/fragment/own.glsl"
+uniform sampler2D fields;
+layout(location = 0) out vec4 place;
+
+void main()
+{
+    int i = own_particle();
+    if (i >= particle_count)
+        discard;
+    place = vec4(of_particle(position, i).xyz, of_particle(fields, i).x);
+}

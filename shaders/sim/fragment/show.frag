@@ -1,0 +1,36 @@
+// What the views want to know of each particle besides place and velocity: shaders/sim/show.comp.
+#include "sim/fragment/own.glsl"
+uniform sampler2D fields;
+uniform int scalar; // sim/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
+layout(location = 0) out uint word; // bits of a float, or a number
+
+float compression_of(int i) { return scales.w * (1.0 / (of_particle(fields, i).x * kernel.z) - 1.0); }
+
+float value_of(int i)
+{
+    float fluid = of_particle(position, i).w;
+    switch (scalar) {
+    case SCALAR_SPEED:
+        return length(of_particle(velocity, i).xyz);
+    case SCALAR_DENSITY:
+        return fluids[int(fluid)].y * (1.0 + compression_of(i));
+    case SCALAR_PRESSURE:
+        return of_particle(fields, i).y;
+    case SCALAR_COMPRESSION:
+        return compression_of(i);
+    case SCALAR_FLUID:
+        return fluid;
+    }
+    return float(i);
+}
+
+void main()
+{
+    int i = own_particle();
+    if (i >= particle_count)
+        discard;
+    if (scalar > SCALAR_COUNT)
+        word = uint(i);
+    else
+        word = scalar == SCALAR_COUNT ? uint(of_particle(position, i).w) : floatBitsToUint(value_of(i));
+}

@@ -1,0 +1,20 @@
+// Lists the particles that a layer of the buckets has left: its last place holds one before them. Transform feedback
+// keeps their order.
+#include "sim/fragment/particles.glsl"
+#include "sim/fragment/cells.glsl"
+uniform usampler2DArray buckets;
+uniform int layer;
+layout(points) in;
+layout(points, max_vertices = 1) out;
+in uint candidate[];
+out uint waiting;
+
+void main()
+{
+    ivec2 texel = bucket_of(cell_index(cell_of(of_particle(position, int(candidate[0]) - 1).xyz)));
+    uint last = texelFetch(buckets, ivec3(texel, layer), 0).w;
+    if (last == 0u || last >= candidate[0])
+        return;
+    waiting = candidate[0];
+    EmitVertex();
+}

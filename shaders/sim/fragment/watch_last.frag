@@ -1,0 +1,11 @@
+// The steps since the last reading as one: texel 0 the greatest of what they found, texel 1 how often the guard held.
+uniform usampler2D finer, held, before;
+layout(location = 0) out uvec4 watch;
+
+void main()
+{
+    if (gl_FragCoord.x < 1.0)
+        watch = max(texelFetch(finer, ivec2(0), 0), texelFetch(before, ivec2(0), 0));
+    else
+        watch = uvec4(texelFetch(held, ivec2(0), 0).x, 0u, 0u, 0u);
+}

@@ -1,0 +1,85 @@
+/* What is constant while a world lives, as GLSL: the compiler sees all of it. The names are those of
+   shaders/sim/constants.glsl, so that walls.glsl serves both backends. */
+#include "sim/gl/fragment/fragment.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+typedef struct Text {
+    char *text;
+    size_t size, used;
+} Text;
+
+static __attribute__((format(printf, 2, 3))) void put(Text *to, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    const int size = vsnprintf(to->text + to->used, to->size - to->used, format, values);
+    va_end(values);
+    if (size > 0 && (size_t)size < to->size - to->used)
+        to->used += (size_t)size;
+}
+
+/* Ten digits give a float back to the bit. */
+static void put_floats(Text *to, const char *name, int count, const float *values)
+{
+    put(to, "const vec%d %s = vec%d(", count, name, count);
+    for (int k = 0; k < count; k++)
+        put(to, "%.9e%s", (double)values[k], k + 1 < count ? ", " : ");\n");
+}
+
+static void put_ints(Text *to, const char *name, int count, const int *values)
+{
+    put(to, "const ivec%d %s = ivec%d(", count, name, count);
+    for (int k = 0; k < count; k++)
+        put(to, "%d%s", values[k], k + 1 < count ? ", " : ");\n");
+}
+
+static void put_walls(Text *to, const Walls *walls)
+{
+    const float half[4] = {walls->half_size[0], walls->half_size[1], walls->half_size[2], walls->range};
+    float steps[3] = {0};
+    int nodes[3] = {0}, offset[4] = {0};
+    for (int t = 0; t < walls->dimensions; t++) {
+        int entries = 1;
+        nodes[t] = walls->table[t].nodes;
+        steps[t] = walls->table[t].inverse_step;
+        for (int k = 0; k <= t; k++)
+            entries *= nodes[t];
+        offset[t + 1] = offset[t] + entries;
+    }
+    put_floats(to, "half_size", 4, half);
+    put_ints(to, "wall_nodes", 3, nodes);
+    put_floats(to, "wall_steps", 3, steps);
+    put_ints(to, "wall_offset", 3, offset);
+}
+
+/* Terms that the scene does not name are not compiled in. */
+static void put_terms(Text *to, const Solver *s)
+{
+#define X(NAME, name, unit) put(to, "#define SCALAR_" #NAME " %d\n", SCALAR_##NAME);
+    SCALAR_LIST(X)
+    X(COUNT, , )
+#undef X
+    put(to, "#define FLUIDS %d\n#define WALL_TEXTURE 1\n", s->fluid_count);
+    put(to, "%s%s%s", s->poly6 ? "#define POLY6 1\n" : "", s->viscous ? "#define VISCOUS 1\n" : "",
+        s->negative_pressure ? "#define NEGATIVE_PRESSURE 1\n" : "");
+}
+
+void fragment_constants(const Fragment *f, char text[FRAGMENT_CONSTANTS_MAX])
+{
+    const Solver *s = f->solver;
+    const float h = s->support_radius;
+    Text to = {text, FRAGMENT_CONSTANTS_MAX, 0};
+    put_terms(&to, s);
+    put(&to, "const int particle_count = %zu, particle_bits = %d;\n", f->count, f->bits);
+    put(&to, "const int bucket_bits = %d, bucket_height = %d, bucket_layers = %d;\n", f->bucket_bits,
+        f->bucket_height, f->layers);
+    put_floats(&to, "kernel", 4, (const float[]){h, 1 / h, s->rest_number_density, s->spacing});
+    put_floats(&to, "scales", 4,
+               (const float[]){s->kernel_scale, s->pressure_scale, s->viscosity_scale, s->compression});
+    put_ints(&to, "cell_first", 3, s->cells.first);
+    put_ints(&to, "cell_size", 3, s->cells.size);
+    put_ints(&to, "rows", 2, (const int[]){s->first_row, s->last_row});
+    put_walls(&to, &s->walls);
+}

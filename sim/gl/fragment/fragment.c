@@ -1,0 +1,157 @@
+#include "sim/gl/fragment/fragment.h"
+
+#include "sim/gl/backends.h"
+
+#include <epoxy/gl.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void fragment_destroy(void *state)
+{
+    Fragment *f = state;
+    fragment_textures_destroy(f);
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++)
+        glDeleteProgram(f->program[p]);
+    free(f);
+}
+
+/* A texture for so many texels, wide rather than high: software renderers share tiles of 64 x 64 among their
+   threads, and few particles would make few of them. */
+static void shape_for(size_t count, int *bits, int *width, int *height)
+{
+    enum { ROWS = 8, BITS = 12, ROWS_MOST = 16384, BITS_MOST = 14 }; /* GL 4.5 has 16384 x 16384 */
+    *bits = 3;
+    while ((count >> *bits > ROWS && *bits < BITS) || (count >> *bits >= ROWS_MOST && *bits < BITS_MOST))
+        ++*bits;
+    *width = 1 << *bits;
+    *height = (int)((count + (size_t)*width - 1) >> *bits);
+}
+
+static bool can(const char *what, bool asked, Error *error)
+{
+    return !asked || error_set(error, "backend fragment has no %s; use backend compute or cpu", what);
+}
+
+static bool has_terms(const Solver *s, Error *error)
+{
+    return can("method wcsph", s->continuity, error) && can("solids", s->solid_count > 0, error) &&
+           can("emitters", s->emits, error) && can("drains", s->drains, error) &&
+           can("no-slip walls", s->no_slip, error) &&
+           can("surface tension", s->tension_model != TENSION_NONE, error);
+}
+
+static size_t wall_numbers(const Walls *walls)
+{
+    size_t sum = 0;
+    for (int t = 0; t < walls->dimensions; t++) {
+        size_t entries = 1;
+        for (int k = 0; k <= t; k++)
+            entries *= (size_t)walls->table[t].nodes;
+        sum += entries * sizeof(WallSums) / sizeof(float);
+    }
+    return sum;
+}
+
+static bool fits(const Fragment *f, Error *error)
+{
+    GLint side = 0, numbers = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &numbers);
+    if (f->count > FRAGMENT_COUNT_MOST)
+        return error_set(error,
+                         "backend fragment holds up to %d particles, whose indices its depth buffer keeps "
+                         "exactly, not %zu; use a larger spacing or backend compute",
+                         FRAGMENT_COUNT_MOST, f->count);
+    if (f->width > side || f->height > side || f->bucket_width > side || f->bucket_height > side)
+        return error_set(error,
+                         "%zu particles and %zu cells need textures larger than the %d x %d texels that "
+                         "this driver allows; use a larger spacing",
+                         f->count, f->solver->cells.count, side, side);
+    if (f->layers > FRAGMENT_LAYERS_MOST)
+        return error_set(error, "backend fragment has up to %d layers; solver.grid_layers is %d",
+                         FRAGMENT_LAYERS_MOST, f->layers);
+    if (wall_numbers(&f->solver->walls) > (size_t)numbers)
+        return error_set(error,
+                         "the tables of the walls are larger than the textures of %d numbers that this "
+                         "driver allows; use a smaller particles.support or backend compute",
+                         numbers);
+    return true;
+}
+
+static bool fill(Fragment *f, const InitialState *initial, Error *error)
+{
+    return fragment_textures_create(f, error) && fragment_programs_create(f, error) &&
+           (fragment_set_particles(f, initial) || error_set(error, "no memory for %zu particles", f->count));
+}
+
+static void *fragment_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
+                             Error *error)
+{
+    (void)threads, (void)capacity;
+    if (epoxy_gl_version() < 45) {
+        error_set(error, "backend fragment needs OpenGL 4.5, and there is %d.%d", epoxy_gl_version() / 10,
+                  epoxy_gl_version() % 10);
+        return NULL;
+    }
+    Fragment *f = calloc(1, sizeof *f);
+    if (!f) {
+        error_set(error, "no memory");
+        return NULL;
+    }
+    f->solver = solver;
+    f->count = initial->count;
+    f->layers = solver->grid_layers;
+    shape_for(f->count, &f->bits, &f->width, &f->height);
+    shape_for(solver->cells.count, &f->bucket_bits, &f->bucket_width, &f->bucket_height);
+    if (!has_terms(solver, error) || !fits(f, error)) {
+        free(f);
+        return NULL;
+    }
+    if (!fill(f, initial, error)) {
+        fragment_destroy(f);
+        return NULL;
+    }
+    return f;
+}
+
+static bool fragment_adapt(void *state, Error *error)
+{
+    Fragment *f = state;
+    char constants[FRAGMENT_CONSTANTS_MAX];
+    fragment_constants(f, constants);
+    if (!fragment_terms_create(f, error))
+        return false;
+    if (strcmp(constants, f->constants) != 0)
+        return fragment_programs_create(f, error);
+    fragment_set_fluids(f);
+    return true;
+}
+
+static bool fragment_reload(void *state, Error *error)
+{
+    return fragment_programs_create(state, error);
+}
+
+const Backend backend_fragment = {
+    .name = "fragment",
+    .gpu = true,
+    .help = "fragment shaders on the GPU, after Harada 2007: method mueller without solids",
+    .create = fragment_create,
+    .destroy = fragment_destroy,
+    .adapt = fragment_adapt,
+    .reload = fragment_reload,
+    .drift = fragment_drift,
+    .grid = fragment_grid,
+    .density = fragment_density,
+    .force = fragment_force,
+    .kick = fragment_kick,
+    .watch = fragment_watch,
+    .mark = fragment_mark,
+    .back = fragment_back,
+    .share = fragment_share,
+    .sums = fragment_sums,
+    .read = fragment_read,
+    .save = fragment_save,
+    .load = fragment_load,
+    .info = fragment_info,
+};

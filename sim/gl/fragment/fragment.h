@@ -1,0 +1,164 @@
+/* The backend `fragment`: the solver in fragment shaders, after T. Harada, S. Koshizuka, Y. Kawaguchi,
+   "Smoothed particle hydrodynamics on GPUs", 2007. Its state, for the files that make it up.
+
+   Needs a current context, the same one throughout. Particles are texels of float textures and stay where
+   they are: texel = id. A pass draws a triangle over all of them, from one set of textures into another. The
+   neighbours are found through buckets: a texel a cell, which holds four indices, in several layers. Shaders
+   are shaders/sim/fragment, in GLSL 3.30. */
+#ifndef SLOSH_FRAGMENT_H
+#define SLOSH_FRAGMENT_H
+
+#include "sim/backend.h"
+#include "sim/gl/mailbox.h"
+#include "sim/gl/transfer.h"
+
+enum {
+    FRAGMENT_COUNT_MOST = 1 << 24, /* indices up to here are exact in a depth of 32 bits */
+    FRAGMENT_LAYERS_MOST = 63,     /* the stencil, of 8 bits, counts the places of a cell */
+    FRAGMENT_LEVELS_MOST = 8,      /* of the reduction, each an eighth of the one before */
+    FRAGMENT_CONSTANTS_MAX = 3072  /* characters */
+};
+
+/* X(ENUM, vertex shader, the one after it, defines) */
+#define FRAGMENT_PASSES(X)                                                                                   \
+    X(DRIFT, "screen.vert", "drift.frag", "")                                                                \
+    X(BUCKET, "bucket.vert", "bucket.frag", "")                                                              \
+    X(WAITING, "waiting.vert", "waiting.geom", "")                                                           \
+    X(DENSITY, "screen.vert", "density.frag", "")                                                            \
+    X(FORCE, "screen.vert", "force.frag", "")                                                                \
+    X(KICK, "screen.vert", "kick.frag", "")                                                                  \
+    X(WATCH_FIRST, "screen.vert", "watch.frag", "#define FIRST 1\n")                                         \
+    X(WATCH_MORE, "screen.vert", "watch.frag", "")                                                           \
+    X(WATCH_LAST, "screen.vert", "watch_last.frag", "")                                                      \
+    X(PLACE, "screen.vert", "place.frag", "")                                                                \
+    X(SHOW, "screen.vert", "show.frag", "")                                                                  \
+    X(RANGE_FIRST, "screen.vert", "range.frag", "#define FIRST 1\n")                                         \
+    X(RANGE_MORE, "screen.vert", "range.frag", "")
+
+typedef enum FragmentPass {
+#define X(NAME, vertex, next, defines) FRAGMENT_##NAME,
+    FRAGMENT_PASSES(X)
+#undef X
+        FRAGMENT_PASS_COUNT
+} FragmentPass;
+
+/* X(ENUM, name): the samplers of the shaders; each has its own texture unit */
+#define FRAGMENT_SAMPLERS(X)                                                                                 \
+    X(POSITION, "position")                                                                                  \
+    X(VELOCITY, "velocity")                                                                                  \
+    X(FIELDS, "fields")                                                                                      \
+    X(NEAR, "near")                                                                                          \
+    X(MOVING, "moving")                                                                                      \
+    X(ACCELERATION, "acceleration")                                                                          \
+    X(HELD, "held")                                                                                          \
+    X(BUCKETS, "buckets")                                                                                    \
+    X(WALLS, "wall_texture")                                                                                 \
+    X(FINER, "finer")                                                                                        \
+    X(BEFORE, "before")
+
+typedef enum FragmentSampler {
+#define X(NAME, name) FRAGMENT_SAMPLE_##NAME,
+    FRAGMENT_SAMPLERS(X)
+#undef X
+        FRAGMENT_SAMPLER_COUNT
+} FragmentSampler;
+
+/* Texture names, unless said otherwise. Of a pair, [0] is the present one; a pass writes into [1]. */
+typedef struct Fragment {
+    const Solver *solver;
+    size_t count;
+    int bits, width, height;                      /* of the textures of particles; width = 2^bits */
+    int bucket_bits, bucket_width, bucket_height; /* of the buckets, likewise */
+    int layers;
+    unsigned position[2];  /* x y z (m), fluid */
+    unsigned velocity[2];  /* x y z (m/s), 0 */
+    unsigned held[2];      /* uint: by `drift`, how often the guard held the particle */
+    unsigned fields;       /* by `density`: volume, p, 0; 1 for a particle without a place, else 0 */
+    unsigned near;         /* too, for others to read: x y z, p V^2 */
+    unsigned moving;       /* too, where a fluid is viscous: velocity, volume */
+    unsigned acceleration; /* by `force`: x y z (m/s2), 0 */
+    unsigned buckets;      /* by `grid`: uvec4 a cell and layer: index + 1 of four particles, or 0 */
+    unsigned bucket_depth; /* (index + 1) / 2^24 of what went in last; stencil: how many did */
+    unsigned full[FRAGMENT_LAYERS_MOST]; /* queries: whether some cell filled the layer */
+    unsigned listed[3]; /* buffers of uint, index + 1: all; by `grid`, what waits for an even, an odd layer */
+    unsigned lists[3];  /* as vertex arrays */
+    unsigned feedback[2];        /* into the latter two */
+    unsigned walls, wall_buffer; /* the tables, as a texture; the buffer that it shows */
+    int levels;                  /* of the reduction, each coarser than the one before: */
+    unsigned found[FRAGMENT_LEVELS_MOST], held_sum[FRAGMENT_LEVELS_MOST]; /* see watch.frag */
+    int level_size[FRAGMENT_LEVELS_MOST][2];
+    unsigned watch[2];  /* 2 x 1: see watch_last.frag */
+    Mailbox watched;    /* 8 uint: that, sent by each kick */
+    float longest;      /* dt of the kicks since the watch was read, s */
+    size_t lost;        /* greatest number in one step, as last read */
+    unsigned marked[2]; /* position and velocity; 0 before the first `mark` */
+    unsigned placed;    /* by `share`, like what follows: x y z, volume; 0 before the first */
+    unsigned word;      /* uint: a scalar's bits, fluid or id */
+    unsigned shown_position, shown_velocity, shown[SCALAR_COUNT + 2]; /* buffers; 0 until asked for */
+    Mailbox ranges;                                                   /* uvec4 a scalar: see range.frag */
+    unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
+    unsigned program[FRAGMENT_PASS_COUNT];
+    char constants[FRAGMENT_CONSTANTS_MAX]; /* with which they were compiled */
+    size_t bytes, guarded_before, guarded;  /* of all textures; before the last load, and since */
+} Fragment;
+
+/* Textures and what draws into them. False with the reason. */
+bool fragment_textures_create(Fragment *fragment, Error *error);
+void fragment_textures_destroy(Fragment *fragment);
+bool fragment_marked_create(Fragment *fragment, Error *error);
+void fragment_shown_create(Fragment *fragment);
+bool fragment_terms_create(Fragment *fragment, Error *error); /* what terms need that came later */
+
+/* Lines of GLSL that say what is constant: they stand before each shader. */
+void fragment_constants(const Fragment *fragment, char text[FRAGMENT_CONSTANTS_MAX]);
+
+/* (Re)compiles all passes with the solver's terms. False with the reason: the old ones stay. */
+bool fragment_programs_create(Fragment *fragment, Error *error);
+
+/* Gives the programs what may change of the fluids. */
+void fragment_set_fluids(const Fragment *fragment);
+
+/* Draws the pass over `width` x `height` texels of up to three textures. */
+void fragment_draw(const Fragment *fragment, FragmentPass pass, const unsigned *targets, int count, int width,
+                   int height);
+
+void fragment_sample(FragmentSampler sampler, unsigned texture);
+int fragment_uniform(const Fragment *fragment, FragmentPass pass, const char *name);
+void fragment_set3(const Fragment *fragment, FragmentPass pass, const char *name, const float value[3]);
+void fragment_set1(const Fragment *fragment, FragmentPass pass, const char *name, float value);
+
+/* Copies all of a texture into a buffer, from a byte on: 32-bit floats, or uints for an _INTEGER format. */
+void fragment_pack(unsigned texture, unsigned format, unsigned buffer, size_t at, size_t bytes);
+
+/* [1], just drawn into, becomes the present one. */
+void fragment_swap(unsigned pair[2]);
+
+/* sim/gl/fragment/watch.c: gathers what a kick found; forgets all of it, with so many guarded before. */
+void fragment_watch_gather(Fragment *fragment, const float gravity[3], float dt);
+void fragment_watch_reset(Fragment *fragment, size_t guarded);
+
+/* False when memory is short. */
+bool fragment_set_particles(Fragment *fragment, const InitialState *initial);
+
+/* All places of the buckets, to be freed; NULL when memory is short. What stands at a place of a cell: an
+   index
+   + 1, or 0. */
+uint32_t *fragment_buckets_read(const Fragment *fragment);
+uint32_t fragment_bucket_at(const Fragment *fragment, const uint32_t *places, size_t cell, int place);
+
+void fragment_grid(void *state);
+void fragment_density(void *state);
+void fragment_force(void *state, const ApparentGravity *gravity);
+void fragment_drift(void *state, const FrameStep *step);
+void fragment_kick(void *state, const float gravity[3], float dt);
+StepWatch fragment_watch(void *state);
+bool fragment_mark(void *state, Error *error);
+void fragment_back(void *state, size_t count, size_t guarded);
+void fragment_share(void *state, unsigned attributes, struct ParticleBuffers *out);
+void fragment_sums(void *state, WorldSums *sums);
+void fragment_read(void *state, const ParticleArrays *out);
+void fragment_save(void *state, const ParticleColumns *to);
+void fragment_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+void fragment_info(const void *state, WorldInfo *info);
+
+#endif

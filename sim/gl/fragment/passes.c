@@ -1,0 +1,135 @@
+/* Programs, and how a pass is drawn. */
+#include "sim/gl/fragment/fragment.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { FIRST_UNIT = 16 }; /* the views use those below; GL 4.5 has 80 for all stages together */
+
+static const struct {
+    const char *vertex, *next, *defines;
+} passes[] = {
+#define X(NAME, vertex, next, defines) {vertex, next, defines},
+    FRAGMENT_PASSES(X)
+#undef X
+};
+
+static const char *const samplers[] = {
+#define X(NAME, name) name,
+    FRAGMENT_SAMPLERS(X)
+#undef X
+};
+
+/* For transform feedback, which has to be known before the program is linked: once more. */
+static void capture(unsigned program, const char *output)
+{
+    glTransformFeedbackVaryings(program, 1, &output, GL_INTERLEAVED_ATTRIBS);
+    glLinkProgram(program);
+}
+
+static unsigned pass_create(FragmentPass pass, const char *constants, Error *error)
+{
+    char vertex[64], next[64], text[4096];
+    snprintf(vertex, sizeof vertex, "sim/fragment/%s", passes[pass].vertex);
+    snprintf(next, sizeof next, "sim/fragment/%s", passes[pass].next);
+    snprintf(text, sizeof text, "%s%s", passes[pass].defines, constants);
+    const char *const stages[] = {vertex, next, NULL};
+    const unsigned program = program_create(passes[pass].next, stages, text, error);
+    if (program && pass == FRAGMENT_WAITING)
+        capture(program, "waiting");
+    for (int s = 0; program && s < FRAGMENT_SAMPLER_COUNT; s++) {
+        const GLint at = glGetUniformLocation(program, samplers[s]);
+        if (at >= 0)
+            glProgramUniform1i(program, at, FIRST_UNIT + s);
+    }
+    return program;
+}
+
+int fragment_uniform(const Fragment *f, FragmentPass pass, const char *name)
+{
+    return glGetUniformLocation(f->program[pass], name);
+}
+
+void fragment_set_fluids(const Fragment *f)
+{
+    const Solver *s = f->solver;
+    float fluids[FLUIDS_MAX][4];
+    for (int k = 0; k < s->fluid_count; k++)
+        memcpy(fluids[k], (const float[]){s->mass[k], s->density[k], s->stiffness[k], s->viscosity[k]},
+               sizeof fluids[k]);
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        const GLint at = fragment_uniform(f, (FragmentPass)p, "fluids");
+        if (at >= 0)
+            glProgramUniform4fv(f->program[p], at, s->fluid_count, fluids[0]);
+    }
+}
+
+bool fragment_programs_create(Fragment *f, Error *error)
+{
+    unsigned made[FRAGMENT_PASS_COUNT];
+    char constants[FRAGMENT_CONSTANTS_MAX];
+    fragment_constants(f, constants);
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        made[p] = pass_create((FragmentPass)p, constants, error);
+        if (made[p])
+            continue;
+        while (p-- > 0)
+            glDeleteProgram(made[p]);
+        return false;
+    }
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        glDeleteProgram(f->program[p]);
+        f->program[p] = made[p];
+    }
+    memcpy(f->constants, constants, sizeof constants);
+    fragment_set_fluids(f);
+    return true;
+}
+
+void fragment_set3(const Fragment *f, FragmentPass pass, const char *name, const float value[3])
+{
+    glProgramUniform3fv(f->program[pass], fragment_uniform(f, pass, name), 1, value);
+}
+
+void fragment_set1(const Fragment *f, FragmentPass pass, const char *name, float value)
+{
+    glProgramUniform1f(f->program[pass], fragment_uniform(f, pass, name), value);
+}
+
+void fragment_sample(FragmentSampler sampler, unsigned texture)
+{
+    glBindTextureUnit((GLuint)(FIRST_UNIT + (int)sampler), texture);
+}
+
+void fragment_draw(const Fragment *f, FragmentPass pass, const unsigned *targets, int count, int width,
+                   int height)
+{
+    static const GLenum attachments[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    for (int k = 0; k < 3; k++)
+        glNamedFramebufferTexture(f->framebuffer, attachments[k], k < count ? targets[k] : 0, 0);
+    glNamedFramebufferDrawBuffers(f->framebuffer, count, attachments);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->framebuffer);
+    glViewport(0, 0, width, height);
+    glUseProgram(f->program[pass]);
+    glBindVertexArray(f->vertex_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void fragment_pack(unsigned texture, unsigned format, unsigned buffer, size_t at, size_t bytes)
+{
+    const GLenum type = format == GL_RGBA ? GL_FLOAT : GL_UNSIGNED_INT;
+    GLint before;
+    glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &before);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+    glGetTextureImage(texture, 0, format, type, (GLsizei)bytes, (void *)at);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)before);
+}
+
+void fragment_swap(unsigned pair[2])
+{
+    const unsigned before = pair[0];
+    pair[0] = pair[1];
+    pair[1] = before;
+}

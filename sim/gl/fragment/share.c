@@ -1,0 +1,100 @@
+/* The particles for the views: a pass into a texture, from there into a pixel buffer, which is the vertex
+   buffer; nothing leaves the GPU. */
+#include "sim/gl/float_bits.h"
+#include "sim/gl/fragment/fragment.h"
+#include "sim/gl/gl_state.h"
+#include "sim/gl/particle_buffers.h"
+
+#include <epoxy/gl.h>
+
+enum { RANGE_BYTES = 16 };
+
+/* What SHOW is asked for besides scalars. */
+enum { SHOW_FLUID = SCALAR_COUNT, SHOW_ID };
+
+static ParticleAttribute pack(Fragment *f, unsigned *buffer, unsigned texture, GLenum format, size_t stride)
+{
+    const size_t bytes = stride * (size_t)f->width * (size_t)f->height;
+    if (!*buffer) {
+        glCreateBuffers(1, buffer);
+        glObjectLabel(GL_BUFFER, *buffer, -1, "shown");
+        glNamedBufferStorage(*buffer, (GLsizeiptr)bytes, NULL, 0);
+        f->bytes += bytes;
+    }
+    fragment_pack(texture, format, *buffer, 0, bytes);
+    return (ParticleAttribute){*buffer, 0, stride};
+}
+
+static void draw(const Fragment *f, FragmentPass pass, unsigned target)
+{
+    fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
+    fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
+    fragment_sample(FRAGMENT_SAMPLE_FIELDS, f->fields);
+    fragment_draw(f, pass, &target, 1, f->width, f->height);
+}
+
+static void show(Fragment *f, int what)
+{
+    glProgramUniform1i(f->program[FRAGMENT_SHOW], fragment_uniform(f, FRAGMENT_SHOW, "scalar"), what);
+    draw(f, FRAGMENT_SHOW, f->word);
+}
+
+/* Of the scalar that was shown last, into its place in the mailbox. */
+static void find_range(const Fragment *f, int scalar)
+{
+    unsigned finer = f->word;
+    for (int level = 0; level < f->levels; level++) {
+        fragment_sample(FRAGMENT_SAMPLE_FINER, finer);
+        finer = f->found[level];
+        fragment_draw(f, level == 0 ? FRAGMENT_RANGE_FIRST : FRAGMENT_RANGE_MORE, &finer, 1,
+                      f->level_size[level][0], f->level_size[level][1]);
+    }
+    fragment_pack(finer, GL_RGBA_INTEGER, f->ranges.buffer, (size_t)scalar * RANGE_BYTES, RANGE_BYTES);
+}
+
+static void read_ranges(Fragment *f, unsigned attributes, ParticleBuffers *out)
+{
+    mailbox_send(&f->ranges);
+    const uint32_t *range = mailbox_wait(&f->ranges);
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if (attributes & PARTICLE_SCALAR(s)) {
+            out->scalar_min[s] = (double)float_in_order(range[4 * s]);
+            out->scalar_max[s] = (double)float_in_order(range[4 * s + 1]);
+        }
+}
+
+static void share_scalars(Fragment *f, unsigned attributes, ParticleBuffers *out)
+{
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        if (!(attributes & PARTICLE_SCALAR(s)))
+            continue;
+        show(f, s);
+        out->scalar[s] = pack(f, &f->shown[s], f->word, GL_RED_INTEGER, 4);
+        if (attributes & PARTICLE_RANGES)
+            find_range(f, s);
+    }
+}
+
+void fragment_share(void *state, unsigned attributes, ParticleBuffers *out)
+{
+    Fragment *f = state;
+    GlState kept;
+    gl_state_keep(&kept);
+    fragment_shown_create(f);
+    draw(f, FRAGMENT_PLACE, f->placed);
+    out->position = pack(f, &f->shown_position, f->placed, GL_RGBA, 16);
+    if (attributes & PARTICLE_VELOCITY)
+        out->velocity = pack(f, &f->shown_velocity, f->velocity[0], GL_RGBA, 16);
+    share_scalars(f, attributes, out);
+    if (attributes & PARTICLE_FLUID) {
+        show(f, SHOW_FLUID);
+        out->fluid = pack(f, &f->shown[SHOW_FLUID], f->word, GL_RED_INTEGER, 4);
+    }
+    if (attributes & PARTICLE_ID) {
+        show(f, SHOW_ID);
+        out->id = pack(f, &f->shown[SHOW_ID], f->word, GL_RED_INTEGER, 4);
+    }
+    gl_state_restore(&kept);
+    if (attributes & PARTICLE_RANGES)
+        read_ranges(f, attributes, out);
+}

@@ -1,0 +1,79 @@
+/* The stages of a step, each a pass over all particles. */
+#include "sim/gl/fragment/fragment.h"
+#include "sim/gl/gl_state.h"
+
+#include <epoxy/gl.h>
+
+static void draw(const Fragment *f, FragmentPass pass, const unsigned *targets, int count)
+{
+    GlState kept;
+    gl_state_keep(&kept);
+    fragment_draw(f, pass, targets, count, f->width, f->height);
+    gl_state_restore(&kept);
+}
+
+static void set_drift(const Fragment *f, const FrameStep *step)
+{
+    const FragmentPass pass = FRAGMENT_DRIFT;
+    const GLuint program = f->program[pass];
+    glProgramUniform3fv(program, fragment_uniform(f, pass, "rotation"), 3, step->rotation[0]);
+    fragment_set3(f, pass, "omega0", step->omega0);
+    fragment_set3(f, pass, "omega1", step->omega1);
+    fragment_set3(f, pass, "shift", step->shift);
+    fragment_set3(f, pass, "velocity_change", step->velocity_change);
+    fragment_set1(f, pass, "dt", step->dt);
+    glProgramUniform1i(program, fragment_uniform(f, pass, "still"), step->still ? 1 : 0);
+}
+
+void fragment_drift(void *state, const FrameStep *step)
+{
+    Fragment *f = state;
+    set_drift(f, step);
+    fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
+    fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
+    fragment_sample(FRAGMENT_SAMPLE_HELD, f->held[0]);
+    draw(f, FRAGMENT_DRIFT, (const unsigned[]){f->position[1], f->velocity[1], f->held[1]}, 3);
+    fragment_swap(f->position);
+    fragment_swap(f->velocity);
+    fragment_swap(f->held);
+}
+
+static void sample_neighbours(const Fragment *f)
+{
+    fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
+    fragment_sample(FRAGMENT_SAMPLE_BUCKETS, f->buckets);
+    fragment_sample(FRAGMENT_SAMPLE_WALLS, f->walls);
+}
+
+void fragment_density(void *state)
+{
+    const Fragment *f = state;
+    sample_neighbours(f);
+    fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
+    draw(f, FRAGMENT_DENSITY, (const unsigned[]){f->fields, f->near, f->moving}, f->solver->viscous ? 3 : 2);
+}
+
+void fragment_force(void *state, const ApparentGravity *gravity)
+{
+    const Fragment *f = state;
+    fragment_set3(f, FRAGMENT_FORCE, "felt_origin", gravity->origin);
+    fragment_set3(f, FRAGMENT_FORCE, "felt_alpha", gravity->alpha);
+    fragment_set3(f, FRAGMENT_FORCE, "felt_omega", gravity->omega);
+    sample_neighbours(f);
+    fragment_sample(FRAGMENT_SAMPLE_FIELDS, f->fields);
+    fragment_sample(FRAGMENT_SAMPLE_NEAR, f->near);
+    fragment_sample(FRAGMENT_SAMPLE_MOVING, f->moving);
+    draw(f, FRAGMENT_FORCE, &f->acceleration, 1);
+}
+
+void fragment_kick(void *state, const float gravity[3], float dt)
+{
+    Fragment *f = state;
+    fragment_set3(f, FRAGMENT_KICK, "gravity", gravity);
+    fragment_set1(f, FRAGMENT_KICK, "dt", dt);
+    fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
+    fragment_sample(FRAGMENT_SAMPLE_ACCELERATION, f->acceleration);
+    draw(f, FRAGMENT_KICK, &f->velocity[1], 1);
+    fragment_swap(f->velocity);
+    fragment_watch_gather(f, gravity, dt);
+}

@@ -1,0 +1,199 @@
+/* The textures of the backend and the framebuffers that draw into them. */
+#include "sim/gl/fragment/fragment.h"
+
+#include <epoxy/gl.h>
+#include <stdlib.h>
+
+static size_t texel_bytes(GLenum format)
+{
+    return format == GL_R32UI ? 4 : format == GL_DEPTH32F_STENCIL8 ? 8 : 16;
+}
+
+static void clear(unsigned texture, GLenum format)
+{
+    if (format == GL_RGBA32F)
+        glClearTexImage(texture, 0, GL_RGBA, GL_FLOAT, NULL);
+    else if (format == GL_RGBA32UI)
+        glClearTexImage(texture, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, NULL);
+    else if (format == GL_R32UI)
+        glClearTexImage(texture, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+}
+
+/* Zeroed. */
+static unsigned texture(Fragment *f, const char *label, GLenum format, int width, int height)
+{
+    GLuint name;
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    glObjectLabel(GL_TEXTURE, name, -1, label);
+    glTextureStorage2D(name, 1, format, width, height);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    clear(name, format);
+    f->bytes += texel_bytes(format) * (size_t)width * (size_t)height;
+    return name;
+}
+
+static void particles_create(Fragment *f)
+{
+    for (int k = 0; k < 2; k++) {
+        f->position[k] = texture(f, "particle positions", GL_RGBA32F, f->width, f->height);
+        f->velocity[k] = texture(f, "particle velocities", GL_RGBA32F, f->width, f->height);
+        f->held[k] = texture(f, "times held by the guard", GL_R32UI, f->width, f->height);
+    }
+    f->fields = texture(f, "particle volumes and pressures", GL_RGBA32F, f->width, f->height);
+    f->near = texture(f, "particle positions and pressure terms", GL_RGBA32F, f->width, f->height);
+    f->acceleration = texture(f, "particle accelerations", GL_RGBA32F, f->width, f->height);
+}
+
+/* Each layer with a framebuffer of its own; all share the depths. */
+static void buckets_create(Fragment *f)
+{
+    const size_t texels = (size_t)f->bucket_width * (size_t)f->bucket_height;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &f->buckets);
+    glObjectLabel(GL_TEXTURE, f->buckets, -1, "buckets");
+    glTextureStorage3D(f->buckets, 1, GL_RGBA32UI, f->bucket_width, f->bucket_height, f->layers);
+    glTextureParameteri(f->buckets, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(f->buckets, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    f->bytes += 16 * texels * (size_t)f->layers;
+    f->bucket_depth = texture(f, "bucket depths", GL_DEPTH32F_STENCIL8, f->bucket_width, f->bucket_height);
+    glCreateQueries(GL_ANY_SAMPLES_PASSED, f->layers, f->full);
+    glCreateFramebuffers(f->layers, f->bucket_framebuffer);
+    for (int layer = 0; layer < f->layers; layer++) {
+        const GLuint framebuffer = f->bucket_framebuffer[layer];
+        glObjectLabel(GL_FRAMEBUFFER, framebuffer, -1, "a layer of the buckets");
+        glNamedFramebufferTextureLayer(framebuffer, GL_COLOR_ATTACHMENT0, f->buckets, 0, layer);
+        glNamedFramebufferTexture(framebuffer, GL_DEPTH_STENCIL_ATTACHMENT, f->bucket_depth, 0);
+    }
+}
+
+/* Lists of indices, the first of all of them. */
+static bool lists_create(Fragment *f)
+{
+    const size_t bytes = 4 * (f->count + 1);
+    uint32_t *all = malloc(bytes);
+    if (!all)
+        return false;
+    for (size_t i = 0; i < f->count; i++)
+        all[i] = (uint32_t)i + 1;
+    glCreateBuffers(3, f->listed);
+    glCreateVertexArrays(3, f->lists);
+    glCreateTransformFeedbacks(2, f->feedback);
+    for (int k = 0; k < 3; k++) {
+        glNamedBufferStorage(f->listed[k], (GLsizeiptr)bytes, k == 0 ? all : NULL, 0);
+        glObjectLabel(GL_BUFFER, f->listed[k], -1, "listed particles");
+        glVertexArrayVertexBuffer(f->lists[k], 0, f->listed[k], 0, 4);
+        glEnableVertexArrayAttrib(f->lists[k], 0);
+        glVertexArrayAttribIFormat(f->lists[k], 0, 1, GL_UNSIGNED_INT, 0);
+        glVertexArrayAttribBinding(f->lists[k], 0, 0);
+    }
+    for (int k = 0; k < 2; k++)
+        glTransformFeedbackBufferBase(f->feedback[k], 0, f->listed[1 + k]);
+    f->bytes += 3 * bytes;
+    free(all);
+    return true;
+}
+
+static void walls_create_texture(Fragment *f)
+{
+    const Walls *walls = &f->solver->walls;
+    size_t size[3] = {0}, bytes = 0, at = 0;
+    for (int t = 0; t < walls->dimensions; t++) {
+        size[t] = sizeof(WallSums);
+        for (int k = 0; k <= t; k++)
+            size[t] *= (size_t)walls->table[t].nodes;
+        bytes += size[t];
+    }
+    glCreateBuffers(1, &f->wall_buffer);
+    glObjectLabel(GL_BUFFER, f->wall_buffer, -1, "wall tables");
+    glNamedBufferStorage(f->wall_buffer, (GLsizeiptr)bytes, NULL, GL_DYNAMIC_STORAGE_BIT);
+    for (int t = 0; t < walls->dimensions; at += size[t++])
+        glNamedBufferSubData(f->wall_buffer, (GLintptr)at, (GLsizeiptr)size[t], walls->table[t].sums);
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &f->walls);
+    glObjectLabel(GL_TEXTURE, f->walls, -1, "wall tables");
+    glTextureBuffer(f->walls, GL_R32F, f->wall_buffer);
+    f->bytes += bytes;
+}
+
+static bool watch_create(Fragment *f)
+{
+    int width = f->width, height = f->height;
+    do {
+        int *size = f->level_size[f->levels];
+        size[0] = width = (width + 7) / 8;
+        size[1] = height = (height + 7) / 8;
+        f->found[f->levels] = texture(f, "what was found", GL_RGBA32UI, width, height);
+        f->held_sum[f->levels++] = texture(f, "how many were held", GL_R32UI, width, height);
+    } while (width > 1 || height > 1);
+    for (int k = 0; k < 2; k++)
+        f->watch[k] = texture(f, "watch", GL_RGBA32UI, 2, 1);
+    return mailbox_create(&f->watched, "watch", 8 * sizeof(uint32_t)) &&
+           mailbox_create(&f->ranges, "scalar ranges", 4 * SCALAR_COUNT * sizeof(uint32_t));
+}
+
+static bool memory_sufficed(const Fragment *f, bool enough, Error *error)
+{
+    for (GLenum code = glGetError(); code != GL_NO_ERROR; code = glGetError())
+        enough &= code != GL_OUT_OF_MEMORY;
+    return enough || error_set(error,
+                               "the GPU has no memory for %zu particles and %zu cells of %d layers; use a "
+                               "larger spacing",
+                               f->count, f->solver->cells.count, f->layers);
+}
+
+bool fragment_textures_create(Fragment *f, Error *error)
+{
+    particles_create(f);
+    buckets_create(f);
+    walls_create_texture(f);
+    const bool enough = watch_create(f) && lists_create(f);
+    glCreateFramebuffers(1, &f->framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, f->framebuffer, -1, "solver passes");
+    glCreateVertexArrays(1, &f->vertex_array);
+    return memory_sufficed(f, enough, error) && fragment_terms_create(f, error);
+}
+
+bool fragment_marked_create(Fragment *f, Error *error)
+{
+    f->marked[0] = texture(f, "kept particle positions", GL_RGBA32F, f->width, f->height);
+    f->marked[1] = texture(f, "kept particle velocities", GL_RGBA32F, f->width, f->height);
+    return memory_sufficed(f, true, error);
+}
+
+bool fragment_terms_create(Fragment *f, Error *error)
+{
+    if (f->solver->viscous && !f->moving)
+        f->moving = texture(f, "particle velocities and volumes", GL_RGBA32F, f->width, f->height);
+    return memory_sufficed(f, true, error);
+}
+
+void fragment_shown_create(Fragment *f)
+{
+    if (f->placed)
+        return;
+    f->placed = texture(f, "shown positions", GL_RGBA32F, f->width, f->height);
+    f->word = texture(f, "shown scalar", GL_R32UI, f->width, f->height);
+}
+
+void fragment_textures_destroy(Fragment *f)
+{
+    const GLuint textures[] = {f->position[0], f->position[1], f->velocity[0],  f->velocity[1],
+                               f->held[0],     f->held[1],     f->fields,       f->acceleration,
+                               f->buckets,     f->walls,       f->watch[0],     f->watch[1],
+                               f->marked[0],   f->marked[1],   f->bucket_depth, f->placed,
+                               f->word,        f->near,        f->moving};
+    const GLuint buffers[] = {f->wall_buffer, f->shown_position, f->shown_velocity};
+    glDeleteFramebuffers(f->layers, f->bucket_framebuffer);
+    glDeleteFramebuffers(1, &f->framebuffer);
+    glDeleteTextures(sizeof textures / sizeof *textures, textures);
+    glDeleteTextures(f->levels, f->found);
+    glDeleteTextures(f->levels, f->held_sum);
+    glDeleteQueries(f->layers, f->full);
+    glDeleteVertexArrays(1, &f->vertex_array);
+    glDeleteVertexArrays(3, f->lists);
+    glDeleteTransformFeedbacks(2, f->feedback);
+    glDeleteBuffers(3, f->listed);
+    glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
+    glDeleteBuffers(sizeof f->shown / sizeof *f->shown, f->shown);
+    mailbox_destroy(&f->watched);
+    mailbox_destroy(&f->ranges);
+}

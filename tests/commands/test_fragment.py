@@ -1,0 +1,57 @@
+"""The backend fragment as a user meets it: what differs from the others."""
+import os
+import shutil
+
+import command
+from command import CommandTest
+
+SHADERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'shaders')
+ON = ['--backend', 'fragment']
+
+
+class Fragment(CommandTest):
+    def test_run_and_resume_give_the_same_bits(self):
+        run = lambda out, time, *more: self.slosh('run', 'scene.yaml', *ON, '-o', out, '--time', time, '--every', '0.02',
+                                                  *more)
+        self.assertEqual(run('a.h5part', '0.06')[0], 0)
+        self.assertEqual(run('b.h5part', '0.04')[0], 0)
+        self.assertEqual(run('b.h5part', '0.06', '--resume')[0], 0)
+        for name in ['a', 'b']:
+            code, said = self.slosh('export', f'{name}.h5part', '-o', f'{name}.ply')
+            self.assertEqual(code, 0, said)
+        self.assertEqual(self.read('a.ply'), self.read('b.ply'))
+
+    def test_lost_particles_end_the_run(self):
+        """At once, in the last good state: a smaller step would not mend it."""
+        code, said = self.slosh('run', 'overfull', *ON, '-o', 'out.h5part', '--time', '0.1', '--set',
+                                'solver.lost_limit=0')
+        self.assertEqual(code, 1, said)
+        self.assertRegex(said, r'4,\d{3} particles found no place in the grid of backend fragment; raise '
+                               r'solver.grid_layers \(1\) or solver.lost_limit \(0\)')
+        self.assertNotIn('halved', said)
+        code, said = self.slosh('export', 'out.h5part', '-o', 'last.ply')
+        self.assertEqual(code, 0, said)
+
+    def refused(self, words, scene, *arguments):
+        """Before anything starts: nothing is created."""
+        before = self.entries()
+        code, said = self.slosh('run', scene, *ON, '-o', 'out.h5part', '--time', '0.1', *arguments)
+        self.assertEqual(code, 1, said)
+        self.assertRegex(said, words)
+        self.assertEqual(self.entries(), before)
+
+    def test_what_it_cannot_do_is_said(self):
+        self.refused('backend fragment has no solids; use backend compute or cpu', 'pillar')
+        self.refused('backend fragment has no method wcsph', 'scene.yaml', '--method', 'wcsph')
+        self.refused('holds up to 16777216 particles', 'scene.yaml', '--particles', '20000000')
+
+    def test_a_broken_shader_is_named(self):
+        shutil.copytree(SHADERS, self.path('shaders'))
+        with open(self.path('shaders/sim/fragment/force.frag'), 'a') as file:
+            file.write('float broken = ;\n')
+        lines = self.read('shaders/sim/fragment/force.frag').count(b'\n')
+        self.refused(rf'sim/fragment/force.frag:{lines}: .*syntax error', 'scene.yaml', '--shaders', 'shaders')
+
+
+if __name__ == '__main__':
+    command.main()
