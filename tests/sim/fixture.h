@@ -17,6 +17,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The backend that the solver's tests run on: SLOSH_TEST_BACKEND, cpu without it. */
+static inline const char *fixture_backend(void)
+{
+    const char *name = getenv("SLOSH_TEST_BACKEND");
+    return name ? name : "cpu";
+}
+
 /* A box of that size with one inviscid fluid of density 1000 and no fill; spacing 0.1 m, and no sentinel. */
 static inline WorldDef fixture_def(double width, double height, double depth)
 {
@@ -31,6 +38,7 @@ static inline WorldDef fixture_def(double width, double height, double depth)
     def.substeps = 1;
     def.retries = 0; /* what a step does is what is tested */
     def.reproducible = true;
+    snprintf(def.backend, sizeof def.backend, "%s", fixture_backend());
     return def;
 }
 
