@@ -14,6 +14,7 @@ typedef struct Samples {
     double *frame_ms;
     int frames, gl_frames;
     uint64_t steps;
+    size_t lost;
     double simulated; /* s */
     bool sim_on_gpu;
 } Samples;
@@ -190,9 +191,13 @@ static bool measure(Stand *stand, int frames, Progress *progress, double done, d
         samples->cpu[samples->frames] = clock.frame;
         samples->frame_ms[samples->frames++] = now - began;
         progress_update(progress, done + part * samples->frames / frames);
+        world_info(stand->world, &last);
+        samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
         began = wall_ms();
     }
+    world_sound(stand->world);
     world_info(stand->world, &last);
+    samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
     samples->steps = last.step - first.step;
     samples->simulated = last.time - first.time;
     while (samples->gl_frames < samples->frames &&
@@ -237,6 +242,7 @@ bool bench_measure(const BenchSetup *setup, Progress *progress, double done, dou
               measure(&stand, setup->frames, progress, done, part, &samples, error);
     if (ok) {
         describe(setup, stand.world, result);
+        result->lost = samples.lost;
         ok = figures(&samples, gl_timer_clock_name(stand.timer), result, error);
     }
     samples_destroy(&samples);

@@ -24,6 +24,7 @@ typedef struct BenchResult {
     char renderer[256]; /* "" when no context was needed */
     int threads, width, height, substeps, frames;
     size_t particles;
+    size_t lost; /* of them, without a place in the grid, at most in one frame */
     double neighbours_mean;
     double dt, dt_substep; /* s */
     StageFigure stages[STAGE_COUNT];

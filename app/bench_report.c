@@ -5,6 +5,8 @@
 
 static void print_parts(const BenchResult *r, FILE *file)
 {
+    if (r->lost > 0)
+        fprintf(file, "  %zu particles found no place in the grid\n", r->lost);
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
             r->render_ms, r->frame_ms);
     fprintf(file, "  %.3g million particle-steps/s, real-time factor %.2f, %.0f bytes a particle\n\n",
@@ -13,9 +15,11 @@ static void print_parts(const BenchResult *r, FILE *file)
 
 void bench_print(const BenchResult *r, FILE *file)
 {
-    fprintf(file, "%s: %zu particles, %.1f neighbours, %s on %s, %d thread%s, %d x %g s\n", r->scene,
-            r->particles, r->neighbours_mean, r->method, r->backend, r->threads, r->threads == 1 ? "" : "s",
-            r->substeps, r->dt_substep);
+    char threads[32] = "";
+    if (r->threads > 0)
+        snprintf(threads, sizeof threads, "%d thread%s, ", r->threads, r->threads == 1 ? "" : "s");
+    fprintf(file, "%s: %zu particles, %.1f neighbours, %s on %s, %s%d x %g s\n", r->scene, r->particles,
+            r->neighbours_mean, r->method, r->backend, threads, r->substeps, r->dt_substep);
     if (r->renderer[0])
         fprintf(file, "view %s, %d x %d, on %s\n", r->view, r->width, r->height, r->renderer);
     fprintf(file, "  %-12s %-7s %-7s %10s %10s %7s\n", "stage", "part", "clock", "median ms", "p95 ms",
@@ -49,9 +53,10 @@ static json_t *result_json(const BenchResult *r)
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend",
                              r->backend, "method", r->method, "view", r->view, "threads", r->threads,
                              "renderer", r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
-    json_t *more = json_pack("{s:I, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles,
-                             "neighbours_mean", r->neighbours_mean, "dt", r->dt, "dt_substep", r->dt_substep,
-                             "substeps", r->substeps, "frames", r->frames, "stages", stages_json(r));
+    json_t *more =
+        json_pack("{s:I, s:I, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles, "lost",
+                  (json_int_t)r->lost, "neighbours_mean", r->neighbours_mean, "dt", r->dt, "dt_substep",
+                  r->dt_substep, "substeps", r->substeps, "frames", r->frames, "stages", stages_json(r));
     json_t *sums = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "sim_ms", r->sim_ms, "upload_ms",
                              r->upload_ms, "render_ms", r->render_ms, "frame_ms", r->frame_ms,
                              "particle_steps_per_second", r->particle_steps_per_second, "real_time_factor",

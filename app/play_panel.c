@@ -119,6 +119,11 @@ static void find_warnings(Play *play)
              "The solver does not keep up with the clock: fewer particles or substeps, or a lower speed.");
     if (runs && play->meter.pictures > 60 && play->meter.pictures_per_second < 20)
         warn(&play->ui, "Pictures are slow: a smaller window or fewer particles.");
+    if (status->lost > 0) {
+        snprintf(play->ui.lost, sizeof play->ui.lost, "%zu particles find no place in the grid.",
+                 status->lost);
+        warn(&play->ui, play->ui.lost);
+    }
     if (play->movie.video)
         warn(&play->ui, "A video is being recorded.");
 }

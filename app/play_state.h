@@ -42,6 +42,7 @@ typedef struct PlayUi {
     int shown;       /* what was drawn then */
     const char *warnings[8];
     int warning_count;
+    char lost[64]; /* one of them */
 } PlayUi;
 
 typedef struct PlayMovie {

@@ -64,6 +64,18 @@ static void look(Session *session)
     if (session->info.full && !session->told_full)
         fprintf(stderr, "%s\n", session_full_text(&session->info, words));
     session->told_full |= session->info.full;
+    if (session->info.lost && !session->told_lost)
+        fprintf(stderr, "%s\n", session_lost_text(&session->info, words));
+    session->told_lost |= session->info.lost > 0;
+}
+
+const char *session_lost_text(const WorldInfo *info, char words[256])
+{
+    snprintf(words, 256,
+             "t = %.4g s: %zu of %zu particles find no place in the grid, and no neighbour sees them; "
+             "solver.grid_layers 0 has room for all",
+             info->time, info->lost, info->count);
+    return words;
 }
 
 const char *session_full_text(const WorldInfo *info, char words[256])
@@ -153,6 +165,7 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
     if (json) {
         json_object_set_new(json, "limits", limits_json(info));
         json_object_set_new(json, "troubles", json_integer(info->trouble.count));
+        json_object_set_new(json, "lost", json_integer((json_int_t)info->lost));
         json_object_set_new(json, "emitted", json_integer((json_int_t)info->emitted));
         json_object_set_new(json, "drained", json_integer((json_int_t)info->drained));
     }

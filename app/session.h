@@ -18,6 +18,7 @@ typedef struct Session {
     WorldInfo info;  /* of the present state */
     double began_ms; /* wall time of the start */
     bool told_full;  /* that emitters wait */
+    bool told_lost;  /* that particles find no place in the grid */
 } Session;
 
 /* Loads the only scene of the command line, says on standard error what --particles did to dt, makes the
@@ -43,6 +44,9 @@ const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);
 
 /* That emitters wait, in words. */
 const char *session_full_text(const WorldInfo *info, char words[256]);
+
+/* That particles find no place in the grid, in words. */
+const char *session_lost_text(const WorldInfo *info, char words[256]);
 
 /* What a command says when it is done, on standard error and in --json FILE. */
 typedef struct Summary {

@@ -68,6 +68,7 @@ struct Simulator {
     Recording recording;
     unsigned troubles;   /* of the world, that were told */
     bool told_full;      /* that its emitters wait */
+    bool told_lost;      /* that particles find no place in the grid */
     bool recording_lost; /* no memory for all of its commands */
     Upload *upload;
     void (*wake)(void);
@@ -96,6 +97,7 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     status->dt = info->dt;
     status->limit = info->limit;
     status->hand = info->hand;
+    status->lost = info->lost;
     simulator->obeyed[simulator->obeyed_next] = (Obeyed){info->step, simulator->taken};
     simulator->obeyed_next = (simulator->obeyed_next + 1) % OBEYED_MAX;
 }
@@ -127,7 +129,7 @@ static void world_start(Simulator *simulator)
     simulator->scene = simulator->start;
     world_destroy(simulator->world);
     simulator->troubles = 0;
-    simulator->told_full = false;
+    simulator->told_full = simulator->told_lost = false;
     simulator->world = world_create(&simulator->start.world, &error);
     if (!simulator->world || !publish(simulator, &error))
         tell(simulator, true, error.message);
@@ -247,13 +249,16 @@ static bool obey_all(Simulator *simulator, Work *work)
     return go_on;
 }
 
-/* The sentinel went back, or emitters wait: that is worth a word. */
+/* The sentinel went back, emitters wait, or particles are lost: that is worth a word. */
 static void tell_news(Simulator *simulator, const WorldInfo *info)
 {
     char words[256];
     if (info->full && !simulator->told_full)
         tell(simulator, false, session_full_text(info, words));
     simulator->told_full |= info->full;
+    if (info->lost && !simulator->told_lost)
+        tell(simulator, false, session_lost_text(info, words));
+    simulator->told_lost |= info->lost > 0;
     if (info->trouble.count == simulator->troubles)
         return;
     simulator->troubles = info->trouble.count;

@@ -1,4 +1,5 @@
 """The backend fragment as a user meets it: what differs from the others."""
+import json
 import os
 import shutil
 
@@ -31,6 +32,15 @@ class Fragment(CommandTest):
         self.assertNotIn('halved', said)
         code, said = self.slosh('export', 'out.h5part', '-o', 'last.ply')
         self.assertEqual(code, 0, said)
+
+    def test_lost_particles_are_shown(self):
+        code, said = self.slosh('bench', 'overfull', *ON, '--view', 'none', '--frames', '1', '--json', 'b.json', '--set',
+                                'solver.step.substeps=2')
+        self.assertEqual(code, 0, said)
+        lost = json.loads(self.read('b.json'))[0]['lost']
+        self.assertGreater(lost, 4000)
+        code, said = self.slosh('run', 'overfull', *ON, '-o', 'out.h5part', '--time', '0.02', '--quiet')
+        self.assertRegex(said, rf't = .*: {lost} of 8192 particles find no place in the grid')
 
     def refused(self, words, scene, *arguments):
         """Before anything starts: nothing is created."""
