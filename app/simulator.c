@@ -23,7 +23,7 @@ static const double PACE_MS = 1000;  /* the real-time factor is of this long */
 typedef struct FrameInHand {
     bool begun;
     StageClock clock;
-    double began_ms, from_s; /* wall time; simulated */
+    double spent_ms, from_s; /* wall time of its steps; simulated time at its begin */
 } FrameInHand;
 
 /* How many commands the state of a step had obeyed. */
@@ -212,7 +212,7 @@ static void pace(Simulator *simulator, double now)
     simulator->pace_began_s = time;
 }
 
-static void count_frame(Simulator *simulator, double began, double simulated, const StageClock *clock)
+static void count_frame(Simulator *simulator, double spent, double simulated, const StageClock *clock)
 {
     pthread_mutex_lock(&simulator->lock);
     SimulatorStatus *status = &simulator->status;
@@ -220,8 +220,8 @@ static void count_frame(Simulator *simulator, double began, double simulated, co
     simulator->frame_time = simulated;
     status->frames++;
     status->stages = clock->frame;
-    status->solved_ms += now - began;
-    status->history[simulator->history_next] = (float)(now - began);
+    status->solved_ms += spent;
+    status->history[simulator->history_next] = (float)spent;
     simulator->history_next = (simulator->history_next + 1) % SIMULATOR_HISTORY;
     if (status->history_count < SIMULATOR_HISTORY)
         status->history_count++;
@@ -269,7 +269,7 @@ static void frame_begin(Simulator *simulator)
 {
     WorldInfo info;
     world_info(simulator->world, &info);
-    simulator->frame = (FrameInHand){.begun = true, .began_ms = wall_ms(), .from_s = info.time};
+    simulator->frame = (FrameInHand){.begun = true, .from_s = info.time};
     if (simulator->here && simulator->timer)
         simulator->frame.clock = gl_timer_stage_clock(simulator->timer);
 }
@@ -279,7 +279,7 @@ static void frame_end(Simulator *simulator)
     WorldInfo info;
     world_info(simulator->world, &info);
     const FrameInHand *frame = &simulator->frame;
-    count_frame(simulator, frame->began_ms, info.time - frame->from_s, &frame->clock);
+    count_frame(simulator, frame->spent_ms, info.time - frame->from_s, &frame->clock);
     simulator->frame.begun = false;
     awaken(simulator);
 }
@@ -290,6 +290,7 @@ static void frame_step(Simulator *simulator)
 {
     StageClock *clock = simulator->here && !simulator->timer ? NULL : &simulator->frame.clock;
     Error error = {{0}};
+    const double began = wall_ms();
     WorldInfo info;
     if (!obey_all(simulator, simulator->work)) {
         frame_end(simulator);
@@ -304,6 +305,7 @@ static void frame_step(Simulator *simulator)
         STAGE (clock, STAGE_UPLOAD)
             ok = publish(simulator, &error);
     awaken(simulator);
+    simulator->frame.spent_ms += wall_ms() - began;
     if (!ok || !info.within_frame)
         frame_end(simulator);
     if (!ok)
