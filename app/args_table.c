@@ -46,6 +46,8 @@ const OptionRow option_rows[] = {
     {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
      .help = "a published table again, beside its figures: paper003-spheres, paper003-substeps"},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
+    {"--time", "S", BENCH, OPTION_NUMBER, AT(time), .max = 1e6,
+     .help = "measure from the first frame at or after that time on (0)"},
     {"--time", "S", EXPORT, OPTION_NUMBER, AT(time), .max = 1e6,
      .help = "the one snapshot at that time, or the first after it (the last)"},
     {"--frame", FRAMES, EXPORT, OPTION_CHOICE, AT(frame), .min = FRAME_BOX,

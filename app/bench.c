@@ -15,7 +15,7 @@ typedef struct Samples {
     int frames, gl_frames;
     uint64_t steps;
     size_t lost;
-    double simulated; /* s */
+    double began, simulated; /* s */
     bool sim_on_gpu;
 } Samples;
 
@@ -163,6 +163,15 @@ static bool frame(Stand *stand, StageClock *clock, Error *error)
     return !stand->draws || studio_draw(&stand->studio, stand->world, clock, stand->timer, error);
 }
 
+static bool advance(Stand *stand, double from, Error *error)
+{
+    WorldInfo info;
+    for (world_info(stand->world, &info); info.time < from && !interrupted(); world_info(stand->world, &info))
+        if (!world_step(stand->world, NULL, error))
+            return false;
+    return true;
+}
+
 static bool warm_up(Stand *stand, Error *error)
 {
     StageClock clock;
@@ -199,6 +208,7 @@ static bool measure(Stand *stand, int frames, Progress *progress, double done, d
     world_info(stand->world, &last);
     samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
     samples->steps = last.step - first.step;
+    samples->began = first.time;
     samples->simulated = last.time - first.time;
     while (samples->gl_frames < samples->frames &&
            gl_timer_drain(stand->timer, &samples->gl[samples->gl_frames]))
@@ -238,11 +248,13 @@ bool bench_measure(const BenchSetup *setup, Progress *progress, double done, dou
     Stand stand;
     Samples samples = {0};
     bool ok = stand_open(&stand, setup, error) &&
-              samples_create(&samples, setup->frames, stand.sim_on_gpu, error) && warm_up(&stand, error) &&
+              samples_create(&samples, setup->frames, stand.sim_on_gpu, error) &&
+              advance(&stand, setup->from, error) && warm_up(&stand, error) &&
               measure(&stand, setup->frames, progress, done, part, &samples, error);
     if (ok) {
         describe(setup, stand.world, result);
         result->lost = samples.lost;
+        result->time = samples.began;
         ok = figures(&samples, gl_timer_clock_name(stand.timer), result, error);
     }
     samples_destroy(&samples);

@@ -26,6 +26,7 @@ typedef struct BenchResult {
     size_t particles;
     size_t lost; /* of them, without a place in the grid, at most in one frame */
     double neighbours_mean;
+    double time;           /* simulated when the first frame began, s */
     double dt, dt_substep; /* s */
     StageFigure stages[STAGE_COUNT];
     double sim_ms, upload_ms, render_ms; /* medians of the sums over each part's stages */
@@ -40,12 +41,13 @@ typedef struct BenchSetup {
     Headless *context; /* current; NULL: neither solver nor pictures need one */
     bool draws;
     int width, height, frames;
+    double from; /* simulated time at which to begin, s */
     GlClock clock;
 } BenchSetup;
 
-/* Runs a few frames to warm up, then measures. `progress` goes from `done` to `done + part`. Ends early, with
-   the frames that it has, when a signal came; false when the simulation or the drawing failed, or not even
-   one frame was measured. */
+/* Simulates up to `from`, runs a few frames to warm up, then measures. `progress` goes from `done` to `done +
+   part`. Ends early, with the frames that it has, when a signal came; false when the simulation or the
+   drawing failed, or not even one frame was measured. */
 bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part, BenchResult *result,
                    Error *error);
 

@@ -53,10 +53,10 @@ static json_t *result_json(const BenchResult *r)
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend",
                              r->backend, "method", r->method, "view", r->view, "threads", r->threads,
                              "renderer", r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
-    json_t *more =
-        json_pack("{s:I, s:I, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles, "lost",
-                  (json_int_t)r->lost, "neighbours_mean", r->neighbours_mean, "dt", r->dt, "dt_substep",
-                  r->dt_substep, "substeps", r->substeps, "frames", r->frames, "stages", stages_json(r));
+    json_t *more = json_pack("{s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:o}", "particles",
+                             (json_int_t)r->particles, "lost", (json_int_t)r->lost, "time", r->time,
+                             "neighbours_mean", r->neighbours_mean, "dt", r->dt, "dt_substep", r->dt_substep,
+                             "substeps", r->substeps, "frames", r->frames, "stages", stages_json(r));
     json_t *sums = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "sim_ms", r->sim_ms, "upload_ms",
                              r->upload_ms, "render_ms", r->render_ms, "frame_ms", r->frame_ms,
                              "particle_steps_per_second", r->particle_steps_per_second, "real_time_factor",

@@ -148,6 +148,7 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
             .frames = args->frames  ? args->frames
                       : plan->table ? TABLE_FRAMES
                                     : DEFAULT_FRAMES,
+            .from = args->time_given ? args->time : 0,
             .clock = clock_of(args->clock),
         };
         progress_begin(&progress, stderr, "bench", args->quiet);

@@ -8,7 +8,7 @@ import command
 SCENE = 'scene.yaml'
 
 STAGES_SIM = ["grid", "density", "force", "integrate"]
-FIELDS = ["scene", "backend", "method", "view", "threads", "renderer", "size", "particles", "lost", "neighbours_mean", "dt",
+FIELDS = ["scene", "backend", "method", "view", "threads", "renderer", "size", "particles", "lost", "time", "neighbours_mean", "dt",
           "dt_substep", "substeps", "frames", "stages", "sim_ms", "upload_ms", "render_ms", "frame_ms",
           "particle_steps_per_second", "real_time_factor", "bytes_per_particle"]
 
@@ -27,6 +27,10 @@ class Bench(Case):
         self.slosh_out("bench", SCENE, "--json", path, "--frames", "8", *arguments, code=code)
         with open(path, encoding="utf-8") as file:
             return json.load(file)
+
+    def test_it_begins_where_it_is_told(self):
+        (result,) = self.bench('--view', 'none', '--time', '0.2')
+        self.assertAlmostEqual(result['time'], 0.2 + 3 * 0.004, 6)
 
     def test_stages_sum_to_the_frame(self):
         # Medians of a noisy machine: three tries for stages within 10 % of the frame.
