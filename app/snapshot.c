@@ -347,7 +347,7 @@ static bool grow_buffers(Snapshot *snapshot, size_t count, Error *error)
     return true;
 }
 
-static void read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
+static bool read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
 {
     SnapshotStep *step = &snapshot->buffer;
     step->time = info->time;
@@ -356,15 +356,15 @@ static void read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
     memcpy(step->gravity, info->gravity, sizeof step->gravity);
     step->count = info->count;
     world_save_numbers(world, &step->restart);
-    world_read(world, &(ParticleArrays){
-                          .position = snapshot->position,
-                          .velocity = snapshot->velocity,
-                          .scalar = {[SCALAR_DENSITY] = step->density,
-                                     [SCALAR_PRESSURE] = step->pressure,
-                                     [SCALAR_COMPRESSION] = step->compression},
-                          .fluid = snapshot->fluid,
-                          .id = snapshot->id,
-                      });
+    const bool read = world_read(world, &(ParticleArrays){
+                                            .position = snapshot->position,
+                                            .velocity = snapshot->velocity,
+                                            .scalar = {[SCALAR_DENSITY] = step->density,
+                                                       [SCALAR_PRESSURE] = step->pressure,
+                                                       [SCALAR_COMPRESSION] = step->compression},
+                                            .fluid = snapshot->fluid,
+                                            .id = snapshot->id,
+                                        });
     for (size_t i = 0; i < info->count; i++) {
         for (int axis = 0; axis < 3; axis++) {
             step->position[axis][i] = snapshot->position[4 * i + axis];
@@ -373,6 +373,7 @@ static void read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
         step->fluid[i] = (int32_t)snapshot->fluid[i];
         step->id[i] = snapshot->id[i];
     }
+    return read;
 }
 
 bool snapshot_append(Snapshot *snapshot, World *world, Error *error)
@@ -381,6 +382,7 @@ bool snapshot_append(Snapshot *snapshot, World *world, Error *error)
     world_info(world, &info);
     if (!grow_buffers(snapshot, info.count, error))
         return false;
-    read_world(snapshot, world, &info);
+    if (!read_world(snapshot, world, &info))
+        return error_set(error, "%s: no memory to read %zu particles", snapshot->output.path, info.count);
     return snapshot_append_step(snapshot, &snapshot->buffer, error);
 }

@@ -160,7 +160,8 @@ bool upload_write(Upload *upload, World *world, Error *error)
         return false;
     Slot *slot = &upload->slots[slots_write_begin(&upload->turn)];
     ParticleArrays arrays = slot_arrays(upload, slot);
-    world_read(world, &arrays);
+    if (!world_read(world, &arrays))
+        return error_set(error, "no memory to read %zu particles", info.count);
     ParticleBuffers *out = &slot->state;
     particle_buffers_describe(&info, out);
     describe(upload, slot);

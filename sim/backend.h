@@ -30,7 +30,7 @@ typedef struct Backend {
     void (*pose)(void *state, const SolidPose *pose);
     /* Free flight over `step`, then the last guard of walls and solids, which come to their end poses. */
     void (*drift)(void *state, const FrameStep *step);
-    /* Sorts the particles by cell, in a cell by id. */
+    /* Sorts the particles by cell; in a cell by id, but on compute only where the def says reproducible. */
     void (*grid)(void *state);
     /* Number density, volume and pressure of every particle; Müller 2003, eq. 3 and 12. Of wcsph: volume and
        pressure by the density that it carries. */
@@ -46,15 +46,16 @@ typedef struct Backend {
     /* Gives what the guides hold their velocities. */
     void (*guide)(void *state, const Guide *guides, int count);
     void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
-    void (*read)(void *state, const ParticleArrays *out);
+    bool (*read)(void *state, const ParticleArrays *out); /* false when memory is short */
     /* Between steps: adds those particles of a layer that are in the box and not next to
        others, at most `most`, and returns how many; takes out what is in a region, and returns how many. */
     size_t (*emit)(void *state, const EmitLayer *layer, size_t most);
     size_t (*drain)(void *state, const Fill *regions, int count);
     /* Copies the particles into columns of as many; takes `count` of them, no more than its capacity, in any
-       order, whereupon `pose`, `grid` and `density` must follow. */
-    void (*save)(void *state, const ParticleColumns *to);
-    void (*load)(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+       order, whereupon `pose`, `grid` and `density` must follow. False, and nothing done, when memory is
+       short. */
+    bool (*save)(void *state, const ParticleColumns *to);
+    bool (*load)(void *state, const ParticleColumns *from, size_t count, size_t guarded);
     /* Keeps the particles where they are, on the device, and goes back to those, as `load` does; both NULL:
        by `save` and `load`. */
     bool (*mark)(void *state, Error *error);

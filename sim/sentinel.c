@@ -51,7 +51,12 @@ static void restore(World *world)
     world->stepping.max_acceleration = numbers->stepping.max_acceleration;
     world->stepping.frame_left = -1;
     world->stepping.calm = 0;
-    world_put_particles(world, &world->good, world->backend->back);
+    if (world->backend->back)
+        world->backend->back(world->state, world->good.count, (size_t)numbers->guarded);
+    else
+        world->backend->load(world->state, &world->good.particles, world->good.count,
+                             (size_t)numbers->guarded);
+    world_put_back(world, numbers, world->good.count);
 }
 
 static bool give_up(World *world, StepTrouble trouble, double time, Error *error)

@@ -102,7 +102,10 @@ World *world_create(const WorldDef *def, Error *error)
     world->trouble.retries = def->retries;
     box_at(world, &world->filter, 0, &world->box);
     world_settle(world);
-    return world;
+    if (sentinel_mark(world, error)) /* what it needs is there before the first step */
+        return world;
+    world_destroy(world);
+    return NULL;
 }
 
 void world_destroy(World *world)
@@ -337,7 +340,7 @@ void world_sums(World *world, WorldSums *sums)
     world->backend->sums(world->state, sums);
 }
 
-void world_read(World *world, const ParticleArrays *out)
+bool world_read(World *world, const ParticleArrays *out)
 {
-    world->backend->read(world->state, out);
+    return world->backend->read(world->state, out);
 }

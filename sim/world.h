@@ -121,7 +121,8 @@ typedef struct ParticleArrays {
     uint32_t *id;                /* place in the initial state */
 } ParticleArrays;
 
-void world_read(World *world, const ParticleArrays *out);
+/* False, and nothing of use in the arrays, when memory is short. */
+bool world_read(World *world, const ParticleArrays *out);
 
 /* A hash of id, position and velocity of every particle in the order of their ids: equal for equal bits; 0
    when memory is short. */

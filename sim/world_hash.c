@@ -28,8 +28,7 @@ uint64_t world_hash(World *world)
     };
     uint64_t *order = malloc((n + 1) * sizeof *order); /* id, place */
     uint64_t hash = 0;
-    if (out.position && out.velocity && out.id && order) {
-        world_read(world, &out);
+    if (out.position && out.velocity && out.id && order && world_read(world, &out)) {
         for (size_t i = 0; i < n; i++)
             order[i] = (uint64_t)out.id[i] << 32 | i;
         qsort(order, n, sizeof *order, ascending);

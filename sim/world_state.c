@@ -70,10 +70,13 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
 
 bool world_save(World *world, WorldState *state, Error *error)
 {
-    if (!world_state_reserve(state, world->count))
+    if (!world_sound(world))
+        return error_set(error,
+                         "the state at t = %g s is not sound: %s; go on until the simulation has gone back",
+                         world_time_at(world, (double)world->step), step_trouble_words(world->seen));
+    if (!world_state_reserve(state, world->count) || !world->backend->save(world->state, &state->particles))
         return error_set(error, "no memory for the state of %zu particles", world->count);
     world_save_numbers(world, &state->numbers);
-    world->backend->save(world->state, &state->particles);
     return true;
 }
 
@@ -136,18 +139,13 @@ static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
     return def;
 }
 
-void world_put_particles(World *world, const WorldState *state, bool marked)
+void world_put_back(World *world, const WorldNumbers *numbers, size_t count)
 {
-    const size_t guarded = (size_t)state->numbers.guarded;
-    if (marked)
-        world->backend->back(world->state, state->count, guarded);
-    else
-        world->backend->load(world->state, &state->particles, state->count, guarded);
     world->kicked = false;
     world->seen = STEP_TROUBLE_NONE;
-    world->count = state->count;
-    world->emitted = (uint64_t)state->numbers.emitted;
-    world->drained = (uint64_t)state->numbers.drained;
+    world->count = count;
+    world->emitted = (uint64_t)numbers->emitted;
+    world->drained = (uint64_t)numbers->drained;
     world_settle(world);
 }
 
@@ -156,9 +154,14 @@ bool world_load(World *world, const WorldState *state, Error *error)
     const WorldNumbers *numbers = &state->numbers;
     if (!numbers_check(numbers, error) || !particles_check(world, state, error))
         return false;
-    const WorldDef def = def_of(&world->def, numbers);
+    const WorldDef before = world->def, def = def_of(&world->def, numbers);
+    Error none;
     if (!world_adopt(world, &def, error))
         return false;
+    if (!world->backend->load(world->state, &state->particles, state->count, (size_t)numbers->guarded)) {
+        world_adopt(world, &before, &none);
+        return error_set(error, "no memory for the state of %zu particles", state->count);
+    }
     world->step = (uint64_t)numbers->step;
     world->since_step = (uint64_t)numbers->since_step;
     world->since_time = numbers->since_time;
@@ -166,7 +169,7 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->target = numbers->target;
     world->filter = numbers->filter;
     world->box = numbers->box;
-    world_put_particles(world, state, false);
+    world_put_back(world, numbers, state->count);
     return sentinel_mark(world, error);
 }
 
@@ -175,8 +178,6 @@ bool world_move(World **world, const char *backend, Error *error)
     World *from = *world, *to = NULL;
     WorldState state = {.count = 0};
     WorldDef def = from->def;
-    if (!world_sound(from))
-        return error_set(error, "the simulation is in trouble; change the backend when it has gone back");
     snprintf(def.backend, sizeof def.backend, "%s", backend);
     const bool moved =
         (to = world_create(&def, error)) && world_save(from, &state, error) && world_load(to, &state, error);

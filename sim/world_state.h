@@ -54,7 +54,7 @@ void world_state_free(WorldState *state); /* a zeroed one is allowed */
 /* The numbers alone, for who has the particles from world_read. */
 void world_save_numbers(World *world, WorldNumbers *numbers);
 
-/* Copies the world's state. False, and nothing in it, when memory is short. */
+/* Copies the world's state. False with the reason: memory is short, or it is not sound (world_sound). */
 bool world_save(World *world, WorldState *state, Error *error);
 
 /* Puts a world that was made from the same def, but for what may change while it lives, into that state.

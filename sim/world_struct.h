@@ -37,8 +37,8 @@ void world_flow(World *world);
 /* What follows from the particles alone: the solids' places, grid, densities. */
 void world_settle(World *world);
 
-/* The particles of the state, or those that the backend marked with it, with all that follows from them. */
-void world_put_particles(World *world, const WorldState *state, bool marked);
+/* Particles that the backend has got back or taken: how many, and all that follows from them. */
+void world_put_back(World *world, const WorldNumbers *numbers, size_t count);
 
 /* s, of a step by its number, as far as the present step size holds. */
 double world_time_at(const World *world, double step);

@@ -11,8 +11,8 @@ void main()
     if (i >= particle_count())
         return;
     // Clamped, so that a position that is not finite does no harm before it is reported.
-    vec3 first = vec3(cell_first.xyz + 1), last = vec3(cell_first.xyz + cell_size.xyz - 2);
-    uvec3 at = uvec3(min(max(floor(position[i].xyz * kernel.y), first), last) - first) + 1u;
+    ivec3 first = cell_first.xyz + 1, last = cell_first.xyz + cell_size.xyz - 2;
+    uvec3 at = uvec3(clamp(ivec3(floor(position[i].xyz * kernel.y)), first, last) - first) + 1u;
     uint c = (at.z * uint(cell_size.y) + at.y) * uint(cell_size.x) + at.x;
     cell[i] = c;
     rank[i] = atomicAdd(count[c], 1u);

@@ -1,4 +1,4 @@
-// What is constant while a world lives, and what one step brings: mirrors sim/gl/compute/blocks.h.
+// What is constant while a world lives, and what one step brings: mirrors sim/gl/compute/blocks.c.
 #define FLUIDS_MAX 8
 
 layout(std140, binding = 1) uniform Constants {
@@ -26,8 +26,12 @@ layout(std140, binding = 2) uniform Step {
     vec4 felt_omega;
 };
 
-uint particle_count() { return uint(cell_first.w); }
-uint cell_count() { return uint(cell_size.w); }
+// What the kicks have found so far: greatest speed, acceleration, compression; guarded; whether a particle went too far.
+layout(std140, binding = 4) uniform Watched { uvec4 watched[2]; };
+
+// None behind a step that blew up: all fluid in one cell would keep the rest of the frame for minutes.
+uint particle_count() { return watched[1].x != 0u ? 0u : uint(cell_first.w); }
+uint cell_count() { return watched[1].x != 0u ? 0u : uint(cell_size.w); }
 
 layout(local_size_x = 64) in;
 

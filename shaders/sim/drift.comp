@@ -5,7 +5,7 @@
 #endif
 layout(std430, binding = 0) buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = 2) buffer Watch { uint watch[4]; }; // greatest speed, acceleration, compression; guarded
+layout(std430, binding = 2) buffer Watch { uint watch[8]; }; // as `watched`
 
 void main()
 {

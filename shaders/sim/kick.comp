@@ -8,7 +8,7 @@ layout(std430, binding = 4) readonly buffer Names { uvec2 name[]; };
 #endif
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = 2) buffer Watch { uint watch[4]; };
+layout(std430, binding = 2) buffer Watch { uint watch[8]; }; // as `watched`
 layout(std430, binding = 3) readonly buffer Accelerations { vec4 acceleration[]; };
 shared uint greatest[3];
 
@@ -28,6 +28,9 @@ void main()
 #endif
         vec3 v = velocity[i].xyz + a * gravity.w;
         velocity[i].xyz = v;
+        float fastest = kernel.x / gravity.w;
+        if (!(dot(v, v) <= fastest * fastest))
+            watch[4] = 1u;
         atomicMax(greatest[0], floatBitsToUint(abs(dot(v, v))));
         atomicMax(greatest[1], floatBitsToUint(abs(dot(a, a))));
         atomicMax(greatest[2], floatBitsToUint(abs(1.0 / (position[i].w * kernel.z))));

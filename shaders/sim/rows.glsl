@@ -3,8 +3,8 @@ layout(std430, binding = 2) readonly buffer Starts { uint start[]; };
 
 ivec3 cell_of(vec3 x)
 {
-    vec3 first = vec3(cell_first.xyz + 1), last = vec3(cell_first.xyz + cell_size.xyz - 2);
-    return ivec3(min(max(floor(x * kernel.y), first), last) - first) + 1;
+    ivec3 first = cell_first.xyz + 1, last = cell_first.xyz + cell_size.xyz - 2;
+    return clamp(ivec3(floor(x * kernel.y)), first, last) - first + 1;
 }
 
 uvec2 row_of(ivec3 at, int row)

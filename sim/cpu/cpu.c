@@ -220,14 +220,15 @@ static void copy_range(void *context, size_t begin, size_t end)
     (copy->place ? copy_gathered : copy_straight)(copy, begin, end);
 }
 
-static void cpu_save(void *state, const ParticleColumns *to)
+static bool cpu_save(void *state, const ParticleColumns *to)
 {
     Cpu *cpu = state;
     Copy copy = {&cpu->now, to, cpu->owned_at};
     parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, copy_range, &copy);
+    return true;
 }
 
-static void cpu_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
+static bool cpu_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
 {
     Cpu *cpu = state;
     cpu->count = cpu->owned = count;
@@ -236,6 +237,7 @@ static void cpu_load(void *state, const ParticleColumns *from, size_t count, siz
     if (cpu->boundary_at)
         cpu_boundary_append(cpu);
     cpu->guarded = guarded;
+    return true;
 }
 
 const Backend backend_cpu = {

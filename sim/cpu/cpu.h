@@ -118,6 +118,6 @@ size_t cpu_drain(void *state, const Fill *regions, int count);
 void cpu_kick(void *state, const float gravity[3], float dt);
 StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);
-void cpu_read(void *state, const ParticleArrays *out);
+bool cpu_read(void *state, const ParticleArrays *out);
 
 #endif

@@ -67,11 +67,12 @@ static void read_range(void *context, size_t begin, size_t end)
             out->scalar[s][k] = scalar_of(cpu, (Scalar)s, cpu_owned(cpu, k));
 }
 
-void cpu_read(void *state, const ParticleArrays *out)
+bool cpu_read(void *state, const ParticleArrays *out)
 {
     Cpu *cpu = state;
     Read read = {cpu, out};
     parallel_ranges(cpu->threads, cpu->owned, 4 * CPU_GRAIN, read_range, &read);
+    return true;
 }
 
 /* Others with r < h, boundary particles of solids not among them. */

@@ -38,10 +38,12 @@ const void *mailbox_wait(Mailbox *mailbox)
 {
     if (!mailbox->fence)
         return NULL;
-    while (glClientWaitSync(mailbox->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000) == GL_TIMEOUT_EXPIRED)
-        continue;
+    GLenum arrived;
+    do
+        arrived = glClientWaitSync(mailbox->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000);
+    while (arrived == GL_TIMEOUT_EXPIRED);
     mailbox_forget(mailbox);
-    return mailbox->mapped;
+    return arrived == GL_WAIT_FAILED ? NULL : mailbox->mapped;
 }
 
 void mailbox_forget(Mailbox *mailbox)

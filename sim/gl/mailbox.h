@@ -22,7 +22,8 @@ void mailbox_destroy(Mailbox *mailbox); /* a zeroed one is allowed */
 /* Copies what the passes so far have written; an earlier copy is lost. */
 void mailbox_send(Mailbox *mailbox);
 
-/* The last copy, which stays until the next one; NULL when none was sent since the last wait. */
+/* The last copy, which stays until the next one; NULL when none was sent since the last wait (`fence` is NULL
+   then), or the context is lost. */
 const void *mailbox_wait(Mailbox *mailbox);
 
 /* Forgets a copy that was sent. */

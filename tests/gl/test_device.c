@@ -4,6 +4,7 @@
 
 #include "app/studio.h"
 #include "sim/gl/backends.h"
+#include "sim/gl/compute/compute.h"
 #include "sim/world_struct.h"
 
 #include <epoxy/egl.h>
@@ -195,6 +196,9 @@ static void the_sentinel_goes_back_a_frame_later(void **state)
     world_info(world, &info);
     assert_int_equal(info.trouble.count, 0);
     assert_false(world_sound(world));
+    WorldState none = {0};
+    assert_false(world_save(world, &none, &error)); /* nor is it kept as a good one */
+    assert_non_null(strstr(error.message, "not sound"));
     const uint64_t step = info.step;
     assert_true(world_substep(world, NULL, &error));
     world_info(world, &info);
@@ -208,6 +212,29 @@ static void the_sentinel_goes_back_a_frame_later(void **state)
     assert_false(going);
     assert_non_null(strstr(error.message, "further than the support radius"));
     assert_true(world_hash(world) == before);
+    world_destroy(world);
+}
+
+/* Once a step has blown up the rest of its frame does nothing: all fluid would gather in a corner, and each
+   particle there would be everybody's neighbour. */
+static void a_blown_up_frame_costs_nothing(void **state)
+{
+    WorldDef def = column_def(*state);
+    def.substeps = 20;
+    def.retries = 0;
+    Error error = {0};
+    World *world = fixture_world(&def);
+    blow_up(world, def);
+    assert_true(world_step(world, NULL, &error));
+    assert_false(world_sound(world));
+    const Compute *compute = world->state;
+    const size_t cells = compute->solver->cells.count;
+    uint32_t *start = calloc(cells + 1, sizeof *start), fullest = 0;
+    glGetNamedBufferSubData(compute->start, 0, (GLsizeiptr)((cells + 1) * sizeof *start), start);
+    for (size_t c = 0; c < cells; c++)
+        fullest = start[c + 1] - start[c] > fullest ? start[c + 1] - start[c] : fullest;
+    assert_true(fullest < compute->count / 10);
+    free(start);
     world_destroy(world);
 }
 
@@ -254,7 +281,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         ON_EACH(no_particle_crosses_in_a_frame),          ON_EACH(shared_is_what_is_read),
         ON_EACH(the_sentinel_goes_back_a_frame_later),    ON_EACH(without_retries_it_ends),
-        ON_EACH(adaptive_steps_go_on_from_a_saved_state),
+        ON_EACH(adaptive_steps_go_on_from_a_saved_state), ON(a_blown_up_frame_costs_nothing, "compute"),
     };
     return cmocka_run_group_tests_name("gl.device", tests, setup, context_teardown);
 }

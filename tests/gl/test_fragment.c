@@ -303,6 +303,23 @@ static void the_context_is_left_as_it_was(void **state)
     world_destroy(world);
 }
 
+/* What it has not stays out when it is named later: friction of the walls comes with the first viscosity. */
+static void what_comes_later_is_refused_too(void **state)
+{
+    (void)state;
+    WorldDef def = stirred_def(2);
+    Error error = {0};
+    for (int f = 0; f < def.fluid_count; f++)
+        def.fluids[f].viscosity = 0;
+    def.wall_slip = SLIP_NONE;
+    World *world = world_on(def, "fragment");
+    def.fluids[0].viscosity = 1;
+    assert_false(world_change(world, &def, &error));
+    assert_non_null(strstr(error.message, "backend fragment has no no-slip walls"));
+    fixture_step(world, 2);
+    world_destroy(world);
+}
+
 static void refused(const WorldDef *def, const char *message)
 {
     WorldDef on = *def;
@@ -383,6 +400,7 @@ int main(void)
         cmocka_unit_test_teardown(changes_are_taken, no_gl_errors),
         cmocka_unit_test_teardown(the_context_is_left_as_it_was, no_gl_errors),
         cmocka_unit_test_teardown(what_it_cannot_do_is_said, no_gl_errors),
+        cmocka_unit_test_teardown(what_comes_later_is_refused_too, no_gl_errors),
         cmocka_unit_test(shaders_are_of_glsl_3_30),
     };
     return cmocka_run_group_tests_name("gl.fragment", tests, compare_setup, context_teardown);

@@ -2,8 +2,8 @@
 // is reported. Cell c is texel (c mod width, c / width), of a width of 2^bucket_bits, of each layer of the buckets.
 ivec3 cell_of(vec3 x)
 {
-    vec3 first = vec3(cell_first + 1), last = vec3(cell_first + cell_size - 2);
-    return ivec3(min(max(floor(x * kernel.y), first), last) - first) + 1;
+    ivec3 first = cell_first + 1, last = cell_first + cell_size - 2;
+    return clamp(ivec3(floor(x * kernel.y)), first, last) - first + 1;
 }
 
 int cell_index(ivec3 at) { return (at.z * cell_size.y + at.y) * cell_size.x + at.x; }

@@ -87,7 +87,7 @@ static bool buffers_create(Compute *c, Error *error)
     }
     compute_flow_create(c);
     const bool bounded = compute_boundary_create(c);
-    return (bounded && !c->full && mailbox_create(&c->watch, "watch", 4 * sizeof(uint32_t)) &&
+    return (bounded && !c->full && mailbox_create(&c->watch, "watch", 8 * sizeof(uint32_t)) &&
             mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
            no_memory(c, error);
 }
@@ -138,8 +138,15 @@ static bool programs_create(Compute *c, Error *error)
 static bool supported(const Solver *s, size_t capacity, Error *error)
 {
     GLint64 most = 0;
+    GLint blocks = 0, bindings = 0;
+    const int wanted = s->solid_count > 0 ? 12 : 8; /* of the pass that binds most */
     const size_t larger = capacity > s->boundary.count ? capacity : s->boundary.count;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &blocks);
+    glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
+    if (blocks < wanted || bindings < (s->solid_count > 0 ? 16 : 8))
+        return error_set(error, "backend compute needs %d storage blocks in a shader, and this driver has %d",
+                         wanted, blocks);
     if (16 * larger > (size_t)most || 4 * (s->cells.count + 2) > (size_t)most)
         return error_set(
             error,
@@ -174,6 +181,11 @@ static void *compute_create(const Solver *solver, const InitialState *initial, s
     }
     walls_upload(c);
     compute_constants(c);
+    if (c->full) {
+        no_memory(c, error);
+        compute_destroy(c);
+        return NULL;
+    }
     if (!programs_create(c, error) ||
         !(compute_set_particles(c, initial) || error_set(error, "no memory for %zu particles", c->count))) {
         compute_destroy(c);

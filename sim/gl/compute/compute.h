@@ -86,7 +86,7 @@ typedef struct Compute {
     unsigned pressure;                    /* vec2: p, p V^2 */
     unsigned acceleration;                /* vec4 */
     unsigned walls;                       /* tables */
-    Mailbox watch;                        /* 4 uint: see kick.comp; sent by each kick */
+    Mailbox watch;                        /* 8 uint: constants.glsl; sent by each kick */
     float longest;                        /* dt of the kicks since the watch was read, s */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     unsigned shown[COMPUTE_SHOWN];        /* for the views: uint or float; 0 until it is asked for */
@@ -171,9 +171,9 @@ bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);
 void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);
-void compute_read(void *state, const ParticleArrays *out);
-void compute_save(void *state, const ParticleColumns *to);
-void compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+bool compute_read(void *state, const ParticleArrays *out);
+bool compute_save(void *state, const ParticleColumns *to);
+bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void compute_info(const void *state, WorldInfo *info);
 
 /* Copies `initial` into the buffers. False when memory is short. */

@@ -57,6 +57,7 @@ void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
         out->fluid = show(c, COMPUTE_SHOW_FLUID);
     if (attributes & PARTICLE_ID)
         out->id = show(c, COMPUTE_SHOW_ID);
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     if (attributes & PARTICLE_RANGES)
         read_ranges(c, attributes, out);
 }

@@ -32,39 +32,42 @@ bool compute_set_particles(Compute *c, const InitialState *initial)
     return true;
 }
 
-void compute_save(void *state, const ParticleColumns *to)
+bool compute_save(void *state, const ParticleColumns *to)
 {
     const Compute *c = state;
     Transfer copy;
     if (!transfer_make(&copy, c->count))
-        return;
+        return false;
     download(c, &copy);
     transfer_get_columns(&copy, c->solver, to);
     transfer_free(&copy);
+    return true;
 }
 
-void compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
+bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
 {
     Compute *c = state;
     Transfer copy;
     if (count > c->capacity || !transfer_make(&copy, count))
-        return;
+        return false;
     compute_set_count(c, count);
     transfer_set_columns(&copy, c->solver, from);
     upload(c, &copy);
     transfer_free(&copy);
     compute_watch_reset(c, guarded);
+    return true;
 }
 
-void compute_read(void *state, const ParticleArrays *out)
+bool compute_read(void *state, const ParticleArrays *out)
 {
     const Compute *c = state;
     Transfer copy;
     if (!transfer_make(&copy, c->count))
-        return;
+        return false;
     download(c, &copy);
     transfer_get_arrays(&copy, c->solver, out);
     transfer_free(&copy);
+    return true;
 }
 
 /* Others with r < h, of those that the last grid shows next to `cell`, where it had particle i. */

@@ -25,11 +25,13 @@ void compute_watch_reset(Compute *c, size_t guarded)
 StepWatch compute_watch(void *state)
 {
     Compute *c = state;
+    if (!c->watch.fence)
+        return (StepWatch){.bounded = true};
     const uint32_t *watched = mailbox_wait(&c->watch);
     if (!watched)
-        return (StepWatch){.bounded = true};
+        return (StepWatch){.bounded = false};
     const float fastest = c->solver->support_radius / c->longest, speed2 = float_of_bits(watched[0]);
-    const StepWatch seen = {.bounded = speed2 <= fastest * fastest,
+    const StepWatch seen = {.bounded = watched[4] == 0 && speed2 <= fastest * fastest,
                             .max_speed = sqrtf(speed2),
                             .max_acceleration = sqrtf(float_of_bits(watched[1])),
                             .max_compression = float_of_bits(watched[2])};

@@ -119,7 +119,7 @@ static bool fragment_adapt(void *state, Error *error)
     Fragment *f = state;
     char constants[FRAGMENT_CONSTANTS_MAX];
     fragment_constants(f, constants);
-    if (!fragment_terms_create(f, error))
+    if (!has_terms(f->solver, error) || !fragment_terms_create(f, error))
         return false;
     if (strcmp(constants, f->constants) != 0)
         return fragment_programs_create(f, error);

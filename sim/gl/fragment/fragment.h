@@ -156,9 +156,9 @@ bool fragment_mark(void *state, Error *error);
 void fragment_back(void *state, size_t count, size_t guarded);
 void fragment_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void fragment_sums(void *state, WorldSums *sums);
-void fragment_read(void *state, const ParticleArrays *out);
-void fragment_save(void *state, const ParticleColumns *to);
-void fragment_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+bool fragment_read(void *state, const ParticleArrays *out);
+bool fragment_save(void *state, const ParticleColumns *to);
+bool fragment_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void fragment_info(const void *state, WorldInfo *info);
 
 #endif

@@ -85,42 +85,46 @@ bool fragment_set_particles(Fragment *f, const InitialState *initial)
     return done;
 }
 
-void fragment_save(void *state, const ParticleColumns *to)
+bool fragment_save(void *state, const ParticleColumns *to)
 {
     const Fragment *f = state;
     Transfer copy;
     if (!download(f, &copy))
-        return;
+        return false;
     transfer_get_columns(&copy, f->solver, to);
     transfer_free(&copy);
+    return true;
 }
 
-void fragment_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
+bool fragment_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
 {
     Fragment *f = state;
     Transfer copy;
     if (count != f->count || !transfer_make(&copy, count))
-        return;
+        return false;
     transfer_set_columns(&copy, f->solver, from);
-    upload(f, &copy);
+    const bool loaded = upload(f, &copy);
     transfer_free(&copy);
-    fragment_watch_reset(f, guarded);
+    if (loaded)
+        fragment_watch_reset(f, guarded);
+    return loaded;
 }
 
-void fragment_read(void *state, const ParticleArrays *out)
+bool fragment_read(void *state, const ParticleArrays *out)
 {
     const Fragment *f = state;
     Transfer copy;
     if (!download(f, &copy))
-        return;
+        return false;
     transfer_get_arrays(&copy, f->solver, out);
     transfer_free(&copy);
+    return true;
 }
 
 uint32_t *fragment_buckets_read(const Fragment *f)
 {
     const size_t bytes = 16 * (size_t)f->bucket_width * (size_t)f->bucket_height * (size_t)f->layers;
-    uint32_t *places = malloc(bytes);
+    uint32_t *places = bytes <= INT32_MAX ? malloc(bytes) : NULL; /* more, a single read cannot bring */
     if (places)
         texels_read(f->buckets, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bytes, places);
     return places;

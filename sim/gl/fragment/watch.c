@@ -61,9 +61,11 @@ void fragment_watch_reset(Fragment *f, size_t guarded)
 StepWatch fragment_watch(void *state)
 {
     Fragment *f = state;
+    if (!f->watched.fence)
+        return (StepWatch){.bounded = true};
     const uint32_t *found = mailbox_wait(&f->watched);
     if (!found)
-        return (StepWatch){.bounded = true};
+        return (StepWatch){.bounded = false};
     const float fastest = f->solver->support_radius / f->longest, speed2 = float_of_bits(found[0]);
     f->lost = found[3];
     f->guarded = found[4];
