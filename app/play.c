@@ -61,6 +61,8 @@ void play_set(Play *play, const char *setting)
     Error error = {{0}};
     bool concerns_world;
     SimCommand command = {.kind = SIM_SET};
+    char backend[NAME_SIZE];
+    snprintf(backend, sizeof backend, "%s", play->open.scene.world.backend);
     if (!scene_set_live(&play->open.scene, setting, &concerns_world, &error)) {
         play_error(play, error.message);
         return;
@@ -69,8 +71,10 @@ void play_set(Play *play, const char *setting)
     play_view_changed(play);
     snprintf(command.setting, sizeof command.setting, "%s", setting);
     if (sim_command_moves(&command)) {
-        if (!play_scene_move(&play->open, &command, &error))
+        if (!play_scene_move(&play->open, &command, &error)) {
+            snprintf(play->open.scene.world.backend, sizeof backend, "%s", backend);
             play_error(play, error.message);
+        }
         return;
     }
     if (concerns_world && !simulator_send(play->open.simulator, &command))
@@ -131,8 +135,10 @@ static void follow_shaders(Play *play)
     }
     renderer_destroy(play->renderer);
     play->renderer = renderer;
-    simulator_reload(play->open.simulator);
-    play_tell(play, "the shaders were read again");
+    if (simulator_reload(play->open.simulator, &error))
+        play_tell(play, "the shaders were read again");
+    else
+        play_error(play, error.message);
 }
 
 static bool start(Play *play, Error *error)
@@ -242,7 +248,9 @@ static void describe(const Play *play, PlayFigures *figures)
     *figures = (PlayFigures){
         .width = play->width,
         .height = play->height,
-        .threads = scene->world.threads ? scene->world.threads : world_processors(),
+        .threads = world_on_gpu(&scene->world) ? 0
+                   : scene->world.threads      ? scene->world.threads
+                                               : world_processors(),
         .substeps = scene->world.substeps,
         .dt = scene->world.dt,
         .particles = play->particles.count,

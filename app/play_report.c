@@ -80,8 +80,11 @@ static const char *what_limits(const PlayFigures *f)
 
 void play_print(const PlayFigures *f, FILE *file)
 {
-    fprintf(file, "%s: %zu particles, %s on %s, %d threads, live for %.1f s\n", f->scene, f->particles,
-            f->method, f->backend, f->threads, f->wall_s);
+    char threads[32] = "";
+    if (f->threads > 0)
+        snprintf(threads, sizeof threads, "%d threads, ", f->threads);
+    fprintf(file, "%s: %zu particles, %s on %s, %slive for %.1f s\n", f->scene, f->particles, f->method,
+            f->backend, threads, f->wall_s);
     fprintf(file, "view %s, %d x %d, on %s\n", f->view, f->width, f->height, f->renderer);
     fprintf(file, "  real-time factor      %8.3f\n", f->real_time_factor);
     fprintf(file, "  pictures a second     %8.1f\n", f->pictures_per_second);

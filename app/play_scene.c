@@ -69,11 +69,8 @@ bool play_scene_take(PlayScene *open, ParticleBuffers *out)
 
 bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error)
 {
-    const bool going =
-        make_upload(open, error) && simulator_move(open->simulator, command, open->upload, error);
-    snprintf(open->scene.world.backend, sizeof open->scene.world.backend, "%s",
-             simulator_backend(open->simulator));
-    return going;
+    return make_upload(open, error) &&
+           simulator_move(open->simulator, command, open->upload, open->scene.world.backend, error);
 }
 
 bool play_scene_close(PlayScene *open, double patience_ms)

@@ -42,6 +42,23 @@ bool recording_create(Recording *recording, const char *path, const char *text, 
     return true;
 }
 
+bool recording_set(Recording *recording, const char *setting)
+{
+    SceneSettings *own = &recording->settings;
+    const size_t key = strcspn(setting, "=") + 1;
+    int at = 0;
+    while (at < own->count && strncmp(own->set[at], setting, key) != 0)
+        at++;
+    char *copy = at < SCENE_SETTINGS_MAX ? strdup(setting) : NULL;
+    if (!copy)
+        return false;
+    if (at < own->count)
+        free((char *)own->set[at]);
+    own->set[at] = copy;
+    own->count = at == own->count ? at + 1 : own->count;
+    return true;
+}
+
 static bool grow(Recording *recording)
 {
     if (recording->count < recording->capacity)

@@ -47,6 +47,10 @@ typedef struct Recording {
     size_t command_line; /* where the first command stands; see recording_line */
 } Recording;
 
+/* Adds a setting that the session begins with, in place of an earlier one of the same key. False when memory
+   is short or there are too many. */
+bool recording_set(Recording *recording, const char *setting);
+
 /* Starts a recording with copies of its arguments (settings may be NULL). False with the reason, and nothing
    to destroy: no memory, or a byte 0 in the text. */
 bool recording_create(Recording *recording, const char *path, const char *text, size_t size,

@@ -73,7 +73,7 @@ const char *session_lost_text(const WorldInfo *info, char words[256])
 {
     snprintf(words, 256,
              "t = %.4g s: %zu of %zu particles find no place in the grid, and no neighbour sees them; "
-             "solver.grid_layers 0 has room for all",
+             "solver.grid_layers 0 has room for a fluid at rest",
              info->time, info->lost, info->count);
     return words;
 }

@@ -21,16 +21,9 @@ bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers 
     return true;
 }
 
-const char *simulator_backend(const Simulator *simulator)
+bool simulator_reload(Simulator *simulator, Error *error)
 {
-    return simulator->scene.world.backend;
-}
-
-void simulator_reload(Simulator *simulator)
-{
-    Error error = {{0}};
-    if (simulator->here && simulator->world && !world_reload(simulator->world, &error))
-        simulator_tell(simulator, false, error.message);
+    return !simulator->here || !simulator->world || world_reload(simulator->world, error);
 }
 
 static void change_begin(Simulator *simulator)

@@ -54,14 +54,13 @@ bool simulator_fresh(const Simulator *simulator);
 bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers *out);
 
 /* Obeys a command that sets the backend, between two steps; the simulation goes on there, with `upload` where
-   it is not on a GPU. A move that fails is told in the status, and all stays as it was; false when nothing
-   can go on.
-   */
-bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, Error *error);
-const char *simulator_backend(const Simulator *simulator); /* the present one */
+   it is not on a GPU. A move that fails is told in the status, and all stays as it was: `backend` gets the
+   present one. False when the simulation does not answer, and goes on as it did, or nothing can go on. */
+bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, char backend[NAME_SIZE],
+                    Error *error);
 
-/* The solver's shaders have changed; where they are wrong the last good ones stay, and the status says so. */
-void simulator_reload(Simulator *simulator);
+/* The solver's shaders have changed; false where they are wrong: the last good ones stay. */
+bool simulator_reload(Simulator *simulator, Error *error);
 
 void simulator_pause(Simulator *simulator, bool paused);
 void simulator_single_step(Simulator *simulator); /* one frame, then paused */

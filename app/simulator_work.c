@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -196,8 +197,9 @@ static void end_here(Simulator *simulator)
     simulator->ended = true;
 }
 
-/* Asks the thread to end and waits for it, that long. */
-static bool end(Simulator *simulator, double patience_ms)
+/* Asks the thread to end and waits for it, that long; where it still runs then and that is not `for_good`, it
+   goes on. */
+static bool end(Simulator *simulator, double patience_ms, bool for_good)
 {
     const double until = wall_ms() + patience_ms;
     if (simulator->here) {
@@ -210,6 +212,7 @@ static bool end(Simulator *simulator, double patience_ms)
     while (!simulator->ended && wall_ms() < until)
         wait_until(simulator, until);
     const bool ended = simulator->ended;
+    simulator->quit = ended || for_good;
     pthread_mutex_unlock(&simulator->lock);
     if (ended)
         pthread_join(simulator->thread, NULL);
@@ -220,7 +223,7 @@ bool simulator_destroy(Simulator *simulator, double patience_ms)
 {
     if (!simulator)
         return true;
-    if (!end(simulator, patience_ms))
+    if (!end(simulator, patience_ms, true))
         return false;
     release(simulator);
     return true;
@@ -247,16 +250,25 @@ double simulator_work(Simulator *simulator, double budget_ms)
     return 0;
 }
 
-bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, Error *error)
+/* No world could be made: the session begins with that setting. */
+static void start_with(Simulator *simulator, const char *setting, Error *error)
+{
+    simulator->status.failed = false;
+    if (scene_set_live(&simulator->scene, setting, NULL, error) &&
+        !recording_set(&simulator->recording, setting))
+        simulator->recording_lost = true;
+}
+
+bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, char backend[NAME_SIZE],
+                    Error *error)
 {
     WorldInfo info;
     SimCommand now = *command;
-    if (!end(simulator, MOVE_MS))
+    if (!end(simulator, MOVE_MS, false))
         return error_set(error, "the simulation does not answer; try again in a moment");
     simulator->upload = upload;
     if (!simulator->world) {
-        simulator->status.failed = false;
-        scene_set_live(&simulator->scene, command->setting, NULL, error);
+        start_with(simulator, command->setting, error);
     } else {
         world_info(simulator->world, &info);
         now.step = info.step;
@@ -264,5 +276,6 @@ bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upl
         simulator->here = world_on_gpu(&simulator->scene.world);
         simulator_publish(simulator, error);
     }
+    snprintf(backend, NAME_SIZE, "%s", simulator->scene.world.backend);
     return start(simulator, error);
 }

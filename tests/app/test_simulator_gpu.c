@@ -33,16 +33,21 @@ typedef struct Rig {
     SimulatorStatus status;
 } Rig;
 
-static void rig_open(Rig *rig, bool paused)
+static void rig_open_text(Rig *rig, const char *text, bool paused)
 {
     SceneSettings settings = {.count = 0};
     *rig = (Rig){.upload = NULL};
-    must(scene_parse("a.yaml", still, strlen(still), &settings, &rig->scene, NULL, &error));
-    must(recording_create(&rig->recording, "a.yaml", still, strlen(still), &settings, &error));
+    must(scene_parse("a.yaml", text, strlen(text), &settings, &rig->scene, NULL, &error));
+    must(recording_create(&rig->recording, "a.yaml", text, strlen(text), &settings, &error));
     const SimulatorSetup setup = {.scene = &rig->scene, .recording = &rig->recording, .paused = paused};
     rig->simulator = simulator_create(&setup, &error);
     assert_non_null(rig->simulator);
     rig->upload = upload_create(400, particle_attributes_for(SCALAR_SPEED), &error);
+}
+
+static void rig_open(Rig *rig, bool paused)
+{
+    rig_open_text(rig, still, paused);
 }
 
 static void rig_close(Rig *rig)
@@ -90,8 +95,9 @@ static void move(Rig *rig, const char *backend)
 {
     SimCommand command = {.kind = SIM_SET};
     snprintf(command.setting, sizeof command.setting, "solver.backend=%s", backend);
-    must(simulator_move(rig->simulator, &command, rig->upload, &error));
-    assert_string_equal(simulator_backend(rig->simulator), backend);
+    char now[NAME_SIZE];
+    must(simulator_move(rig->simulator, &command, rig->upload, now, &error));
+    assert_string_equal(now, backend);
     assert_int_equal(simulator_here(rig->simulator), strcmp(backend, "cpu") != 0);
 }
 
@@ -172,13 +178,41 @@ static void a_backend_that_is_none_changes_nothing(void **state)
     Rig rig;
     rig_open(&rig, true);
     const SimCommand command = {.kind = SIM_SET, .setting = "solver.backend=abacus"};
-    must(simulator_move(rig.simulator, &command, rig.upload, &error));
+    char now[NAME_SIZE];
+    must(simulator_move(rig.simulator, &command, rig.upload, now, &error));
     simulator_status(rig.simulator, &rig.status);
-    assert_string_equal(simulator_backend(rig.simulator), "compute");
+    assert_string_equal(now, "compute");
     assert_true(rig.status.messages == 1 && strstr(rig.status.message, "abacus") && !rig.status.failed);
     simulator_single_step(rig.simulator);
     until_step(&rig, 5);
     rig_close(&rig);
+}
+
+/* A backend that cannot do the scene: the user takes another one, and the session is recorded with it. */
+static void a_failed_start_goes_on_elsewhere(void **state)
+{
+    (void)state;
+    static const char solid[] = "box: {size: [1, 1, 1]}\n"
+                                "particles: {spacing: 0.1}\n"
+                                "fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0, 0.4, 0.5]}}]}]\n"
+                                "solids: [{sphere: {centre: [0.3, 0.2, 0], radius: 0.1}}]\n"
+                                "solver: {backend: fragment, threads: 1}\n";
+    Rig rig;
+    Recording recording;
+    static Session session;
+    rig_open_text(&rig, solid, true);
+    simulator_status(rig.simulator, &rig.status);
+    assert_true(rig.status.failed && strstr(rig.status.message, "no solids"));
+    move(&rig, "cpu");
+    simulator_single_step(rig.simulator);
+    until_step(&rig, 1);
+    simulator_save(rig.simulator, "cpu.rec");
+    rig_close(&rig);
+    must(recording_read("cpu.rec", &recording, &error));
+    RecordingPlay play = {.path = "cpu.rec", .recording = &recording};
+    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, &session, &error) == 0);
+    session_close(&session);
+    recording_destroy(&recording);
 }
 
 /* Shaders that were broken while it runs: said, and the last good ones go on. */
@@ -191,16 +225,13 @@ static void broken_shaders_leave_the_last_good_ones(void **state)
                             "/shaders . && echo 'float x = ;' >> shaders/sim/force.comp"),
                      0);
     shader_source_set_directory("shaders");
-    simulator_reload(rig.simulator);
-    simulator_status(rig.simulator, &rig.status);
-    assert_true(rig.status.messages == 1 && strstr(rig.status.message, "sim/force.comp:"));
+    assert_false(simulator_reload(rig.simulator, &error));
+    assert_non_null(strstr(error.message, "sim/force.comp:"));
     simulator_single_step(rig.simulator);
     until_step(&rig, 5);
     assert_false(rig.status.failed);
     assert_int_equal(system("cp " SLOSH_SOURCE_DIR "/shaders/sim/force.comp shaders/sim/"), 0);
-    simulator_reload(rig.simulator);
-    simulator_status(rig.simulator, &rig.status);
-    assert_int_equal(rig.status.messages, 1);
+    must(simulator_reload(rig.simulator, &error));
     shader_source_set_directory(NULL);
     rig_close(&rig);
 }
@@ -225,6 +256,7 @@ int main(void)
         cmocka_unit_test(the_backend_changes_while_it_runs),
         cmocka_unit_test(a_reset_stays_on_its_backend),
         cmocka_unit_test(a_backend_that_is_none_changes_nothing),
+        cmocka_unit_test(a_failed_start_goes_on_elsewhere),
         cmocka_unit_test(broken_shaders_leave_the_last_good_ones),
     };
     return cmocka_run_group_tests_name("app.simulator_gpu", tests, setup, teardown);
