@@ -98,12 +98,11 @@ static bool give_up_lost(World *world, Error *error)
                      step_trouble_words(STEP_TROUBLE_LOST), world->solver.grid_layers, limit);
 }
 
-bool sentinel_back(World *world, Error *error)
+bool sentinel_back(World *world, double time, Error *error)
 {
     const StepTrouble trouble = world->seen;
     StepState *s = &world->stepping;
     WorldTrouble *told = &world->trouble;
-    const double time = world_time_at(world, (double)world->step);
     if (trouble == STEP_TROUBLE_LOST)
         return give_up_lost(world, error);
     if (world->def.retries == 0)

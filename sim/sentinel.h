@@ -10,9 +10,10 @@ bool sentinel_mark(World *world, Error *error);
 /* At the begin of a frame: after many calm steps the last halving is taken back. */
 void sentinel_relieve(World *world);
 
-/* After a step with trouble, world->seen: the last good state again, with half the step. The number of steps
-   goes on, and what the hand and the keys have said since stays said, so that a recorded session comes out
-   the same. False, with that state and the reason, when the step was halved `retries` times already. */
-bool sentinel_back(World *world, Error *error);
+/* After a step that ended at `time` with trouble, world->seen: the last good state again, with half the step.
+   The number of steps goes on, and what the hand and the keys have said since stays said, so that a recorded
+   session comes out the same. False, with that state and the reason, when the step was halved `retries` times
+   already. */
+bool sentinel_back(World *world, double time, Error *error);
 
 #endif

@@ -213,8 +213,9 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     Substep step;
     StepState *s = &world->stepping;
     if (s->frame_left < 1 && !world_sound(world)) {
+        const double time = world_time_at(world, (double)world->step);
         count_step(world); /* so that no two states have one number */
-        return sentinel_back(world, error);
+        return sentinel_back(world, time, error);
     }
     if (!begin_step(world, error))
         return false;
@@ -226,7 +227,7 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     world->kicked = true;
     count_step(world);
     if (!world->backend->gpu && !world_sound(world))
-        return sentinel_back(world, error);
+        return sentinel_back(world, world_time_at(world, (double)world->step), error);
     s->frame_left--;
     s->calm++;
     return true;
