@@ -52,6 +52,15 @@ static bool shape_check(const SolidDef *solid, int dimensions)
     }
 }
 
+/* A box that turns about z, a bowl whose axis is in the plane, and none before or behind it. */
+static bool solid_in_plane(const SolidDef *solid)
+{
+    const double *axis = solid->axis;
+    return solid->centre[2] == 0 &&
+           (solid->kind != SOLID_BOX || solid->angle_deg == 0 || (axis[0] == 0 && axis[1] == 0)) &&
+           (solid->kind != SOLID_BOWL || axis[2] == 0);
+}
+
 static bool solids_check(const WorldDef *def, Error *error)
 {
     if (def->solid_count < 0 || def->solid_count > SOLIDS_MAX)
@@ -61,6 +70,8 @@ static bool solids_check(const WorldDef *def, Error *error)
         if (!shape_check(solid, def->dimensions))
             return error_set(error, "solid %d: lengths must be positive, an axis not zero, no cylinder in 2D",
                              i);
+        if (def->dimensions == 2 && !solid_in_plane(solid))
+            return error_set(error, "solid %d: leaves the plane of a 2D scene", i);
         if (!motions_check(solid->motions, solid->motion_count, def->dimensions, error))
             return false;
     }

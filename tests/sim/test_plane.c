@@ -267,6 +267,14 @@ static void what_leaves_the_plane_is_refused(void **state)
     bad = good;
     bad.initial = &(InitialState){.count = 1, .position = x};
     refuse(&bad, "not in the plane");
+    bad = good;
+    bad.solid_count = 1;
+    bad.solids[0] = (SolidDef){.kind = SOLID_BOX,
+                               .centre = {0, 0.5, 0},
+                               .size = {0.2, 0.2, 0.2},
+                               .axis = {0, 1, 0},
+                               .angle_deg = 30};
+    refuse(&bad, "solid 0: leaves the plane");
 }
 
 int main(void)
