@@ -81,6 +81,98 @@ static void prefix_sums(void **state)
     world_destroy(world);
 }
 
+/* Ids in the order in which the backend has sorted them, and the density of each; the caller frees them. */
+static float *sorted(World *world, uint32_t **id)
+{
+    const size_t n = info_of(world).count;
+    float *density = malloc(4 * n + 1);
+    *id = malloc(4 * n + 1);
+    ParticleArrays out = {.id = *id};
+    out.scalar[SCALAR_DENSITY] = density;
+    world_read(world, &out);
+    return density;
+}
+
+static void compare_sorted(World *cpu, World *gpu)
+{
+    const size_t n = info_of(cpu).count;
+    uint32_t *a, *b;
+    float *one = sorted(cpu, &a), *other = sorted(gpu, &b);
+    assert_int_equal(info_of(gpu).count, n);
+    for (size_t i = 0; i < n; i++) {
+        if (a[i] != b[i])
+            fail_msg("of %zu particles, number %zu is %u, not %u", n, i, b[i], a[i]);
+        if (!(fabsf(one[i] / other[i] - 1) < 1e-5F))
+            fail_msg("of %zu particles, %u has the density %g, not %g", n, a[i], (double)other[i],
+                     (double)one[i]);
+    }
+    free(a);
+    free(b);
+    free(one);
+    free(other);
+}
+
+/* So many particles at random places of a cube of that width, sorted by both, at the start and in a step. */
+static void compare_sort(size_t count, double width)
+{
+    float *x = malloc(12 * count);
+    uint32_t seed = (uint32_t)count;
+    WorldDef def = fixture_def(2, 1, 2);
+    def.threads = 1;
+    def.dt = 1e-6;
+    for (size_t i = 0; i < 3 * count; i++)
+        x[i] = (float)(0.005 + width * fixture_random(&seed));
+    def.initial = &(InitialState){.count = count, .position = x};
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    compare_sorted(cpu, gpu);
+    fixture_step(cpu, 1);
+    fixture_step(gpu, 1);
+    compare_sorted(cpu, gpu);
+    world_destroy(cpu);
+    world_destroy(gpu);
+    free(x);
+}
+
+/* Numbers about those of a group of threads, all in one cell of 0.21 m and not. */
+static void it_sorts_as_the_cpu_does(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {1, 63, 64, 65, 1200};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        compare_sort(sizes[s], 0.2);
+        compare_sort(sizes[s], 0.95);
+    }
+}
+
+/* A world that has drained away goes on, and fluid comes into it as into any. */
+static void no_particle_at_all(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(2, 1, 1);
+    fixture_block(&def, 0, -1, 0, -0.5, -0.5, 0.5, 0.5);
+    def.fluids[0].emits[def.fluids[0].emit_count++] =
+        (Emit){.centre = {0, 0.5, 0}, .direction = {1, 0, 0}, .radius = 0.2, .speed = 2, .start = 0.02};
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {-1, 0, -0.5}, .max = {-0.25, 1, 0.5}};
+    def.most = 1000;
+    def.threads = 1;
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    assert_true(info_of(gpu).count > 100);
+    fixture_step(cpu, 5);
+    fixture_step(gpu, 5);
+    WorldSums sums;
+    world_sums(gpu, &sums);
+    assert_int_equal(info_of(gpu).count, 0);
+    assert_true(sums.mass == 0 && sums.kinetic_energy == 0);
+    compare_sorted(cpu, gpu);
+    assert_true(world_hash(gpu) == world_hash(cpu));
+    fixture_step(cpu, 80);
+    fixture_step(gpu, 80);
+    assert_true(info_of(gpu).count > 20);
+    compare_sorted(cpu, gpu);
+    world_destroy(cpu);
+    world_destroy(gpu);
+}
+
 static void what_it_cannot_do_is_said(void **state)
 {
     (void)state;
@@ -100,6 +192,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(prefix_sums, no_gl_errors),
+        cmocka_unit_test_teardown(it_sorts_as_the_cpu_does, no_gl_errors),
+        cmocka_unit_test_teardown(no_particle_at_all, no_gl_errors),
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(a_run_is_the_same_each_time, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
