@@ -24,6 +24,52 @@ static inline const char *fixture_backend(void)
     return name ? name : "cpu";
 }
 
+static inline bool fixture_on_cpu(void)
+{
+    return strcmp(fixture_backend(), "cpu") == 0;
+}
+
+/* How many: particles, steps; fewer on a GPU, which may be a software renderer. */
+static inline int fixture_count(int cpu, int gpu)
+{
+    return fixture_on_cpu() ? cpu : gpu;
+}
+
+/* How large: spacings, steps, bounds; coarser on a GPU. */
+static inline double fixture_coarse(double cpu, double gpu)
+{
+    return fixture_on_cpu() ? cpu : gpu;
+}
+
+/* Ends a test of what only the CPU has, or that no backend changes. */
+static inline void fixture_needs_cpu(const char *what)
+{
+    if (fixture_on_cpu())
+        return;
+    printf("skipped on %s: %s\n", fixture_backend(), what);
+    skip();
+}
+
+static inline bool fixture_on_fragment(void)
+{
+    return strcmp(fixture_backend(), "fragment") == 0;
+}
+
+/* Ends a test of what backend fragment refuses, all but mueller with viscosity, walls and a moving box. */
+static inline void fixture_needs(const char *term)
+{
+    if (!fixture_on_fragment())
+        return;
+    printf("skipped: backend fragment has no %s\n", term);
+    skip();
+}
+
+/* Of mueller and wcsph, in this order, those that the backend has. */
+static inline int fixture_methods(void)
+{
+    return fixture_on_fragment() ? 1 : 2;
+}
+
 /* A box of that size with one inviscid fluid of density 1000 and no fill; spacing 0.1 m, and no sentinel. */
 static inline WorldDef fixture_def(double width, double height, double depth)
 {

@@ -73,7 +73,10 @@ static void neighbours_equal_brute_force(void **state)
     float *x = malloc(3 * COUNT * sizeof *x);
     for (int w = 0; w < 3; w++)
         for (int c = 0; c < 4; c++) {
+            if (fixture_on_fragment() && (w < 2 || c == 1))
+                continue; /* hundreds of particles a cell are more than its grid has places for */
             WorldDef def = fixture_def(widths[w], 1.1, 0.9);
+            def.grid_layers = 20;
             InitialState initial = {.count = COUNT, .position = x};
             clouds[c].make(x, COUNT, def.box_size);
             def.initial = &initial;
@@ -177,7 +180,7 @@ static uint64_t hash_after(const WorldDef *def, int threads, const char *simd)
     WorldDef with = *def;
     with.threads = threads;
     World *world = fixture_world(&with);
-    fixture_step(world, 60);
+    fixture_step(world, fixture_count(60, 30));
     const uint64_t hash = world_hash(world);
     world_destroy(world);
     unsetenv("SLOSH_SIMD");
@@ -187,7 +190,7 @@ static uint64_t hash_after(const WorldDef *def, int threads, const char *simd)
 static WorldDef collapsing_column(void)
 {
     WorldDef def = fixture_def(3, 1.5, 0.8);
-    def.spacing = 0.05;
+    def.spacing = fixture_coarse(0.05, 0.1);
     def.fluids[0].viscosity = 2;
     def.fluid_count = 2;
     def.fluids[1] = (FluidDef){.name = "oil", .density = 800, .viscosity = 10};
@@ -205,10 +208,11 @@ static void equal_bits_for_any_threads_and_simd(void **state)
     const uint64_t one = hash_after(&def, 1, NULL);
     assert_int_not_equal(one, 0);
     const int threads[] = {2, 3, 8};
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; fixture_on_cpu() && i < 3; i++)
         assert_int_equal(hash_after(&def, threads[i], NULL), one);
     assert_int_equal(hash_after(&def, 2, NULL), one); /* and from run to run */
-    assert_int_equal(hash_after(&def, 2, "baseline"), one);
+    if (fixture_on_cpu())
+        assert_int_equal(hash_after(&def, 2, "baseline"), one);
 }
 
 /* The bits of a run without libm in it, on every x86-64 with this compiler family. A change of the solver's
@@ -216,6 +220,7 @@ static void equal_bits_for_any_threads_and_simd(void **state)
 static void golden_hash(void **state)
 {
     (void)state;
+    fixture_needs_cpu("the golden bits are those of its sums");
     WorldDef def = collapsing_column();
     def.motion_count = 0;
     const uint64_t golden = 0x13254aad524a1d69;

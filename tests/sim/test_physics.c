@@ -6,30 +6,33 @@
 static void free_flight_keeps_momenta(void **state)
 {
     (void)state;
-    WorldDef def = fixture_def(40, 40, 40);
+    const double box = fixture_coarse(40, 6);
+    const int side = fixture_count(12, 8), count = side * side * side;
+    const float side_low = (float)fixture_coarse(-2, -1),
+                low[3] = {side_low, (float)fixture_coarse(18, 2), side_low};
+    WorldDef def = fixture_def(box, box, box);
     memset(def.gravity, 0, sizeof def.gravity);
     def.spacing = 0.1;
     def.sound_speed = 10;
-    enum { SIDE = 12, COUNT = SIDE * SIDE * SIDE };
-    float *x = malloc(3 * COUNT * sizeof *x), *v = malloc(3 * COUNT * sizeof *v);
-    uint8_t *fluid = malloc(COUNT);
+    float *x = malloc(12 * (size_t)count), *v = malloc(12 * (size_t)count);
+    uint8_t *fluid = malloc((size_t)count);
     uint32_t seed = 11;
-    for (int i = 0; i < COUNT; i++) {
-        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
+    for (int i = 0; i < count; i++) {
+        const int index[3] = {i % side, i / side % side, i / side / side};
         for (int k = 0; k < 3; k++)
-            x[3 * i + k] = (float)(0.095 * index[k] + 0.02 * fixture_random(&seed) + (k == 1 ? 18 : -2));
-        v[3 * i] = 0.5f - 0.8f * (x[3 * i + 1] - 18);
-        v[3 * i + 1] = 0.3f + 0.8f * (x[3 * i] + 2);
+            x[3 * i + k] = (float)(0.095 * index[k] + 0.02 * fixture_random(&seed) + (double)low[k]);
+        v[3 * i] = 0.5f - 0.8f * (x[3 * i + 1] - low[1]);
+        v[3 * i + 1] = 0.3f + 0.8f * (x[3 * i] - low[0]);
         v[3 * i + 2] = -0.2f;
         fluid[i] = (uint8_t)(i % 2);
     }
     def.fluid_count = 2; /* a density ratio of 3 */
     def.fluids[1] = (FluidDef){.name = "heavy", .density = 3000};
-    def.initial = &(InitialState){COUNT, x, v, fluid, NULL};
+    def.initial = &(InitialState){(size_t)count, x, v, fluid, NULL};
     World *world = fixture_world(&def);
     WorldSums before, after;
     world_sums(world, &before);
-    fixture_step(world, 1000);
+    fixture_step(world, fixture_count(1000, 200));
     world_sums(world, &after);
     assert_true(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 1e-3); /* something happened */
     for (int k = 0; k < 3; k++) {
@@ -62,37 +65,43 @@ static double fitted_surface(const State *s, double spacing)
     return sum / count + 0.5 * spacing;
 }
 
-enum { COLUMN_SIDE = 10, COLUMN_LAYERS = 44, COLUMN = COLUMN_SIDE * COLUMN_SIDE * COLUMN_LAYERS };
+/* Particles along the sides and the height of a column. */
+typedef struct Column {
+    int side, layers;
+} Column;
 
 /* The lattice, each layer pressed as the weight above it will press it: what is left to settle is small. */
-static void pressed_column(float x[3 * COLUMN], double spacing, double sound_speed)
+static void pressed_column(Column column, float *x, double spacing, double sound_speed)
 {
+    const int side = column.side;
     double y = 0;
-    for (int layer = 0; layer < COLUMN_LAYERS; layer++) {
-        const double depth = (COLUMN_LAYERS - layer - 0.5) * spacing;
+    for (int layer = 0; layer < column.layers; layer++) {
+        const double depth = (column.layers - layer - 0.5) * spacing;
         const double thickness = spacing / (1 + 9.81 * depth / (sound_speed * sound_speed));
-        for (int i = 0; i < COLUMN_SIDE * COLUMN_SIDE; i++) {
-            float *p = x + 3 * (layer * COLUMN_SIDE * COLUMN_SIDE + i);
-            p[0] = (float)((i % COLUMN_SIDE - 4.5) * spacing);
+        for (int i = 0; i < side * side; i++) {
+            float *p = x + 3 * (layer * side * side + i);
+            p[0] = (float)((i % side - 0.5 * (side - 1)) * spacing);
             p[1] = (float)(y + 0.5 * thickness);
-            p[2] = (float)((i / COLUMN_SIDE - 4.5) * spacing);
+            p[2] = (float)((i / side - 0.5 * (side - 1)) * spacing);
         }
         y += thickness;
     }
 }
 
-/* rms (p - rho0 g depth) / (rho0 g H) of a column of 44 layers. */
+/* rms (p - rho0 g depth) / (rho0 g H) of a column of 44 layers, or of 20. */
 static double column_error(void)
 {
-    WorldDef def = fixture_def(1, 6, 1);
-    def.sound_speed = 60; /* ten times sqrt(g H) */
-    def.dt = 0.001;
-    def.fluids[0].viscosity = 4000; /* settles within a few seconds */
-    float *x = malloc(3 * COLUMN * sizeof *x);
-    pressed_column(x, def.spacing, def.sound_speed);
-    def.initial = &(InitialState){.count = COLUMN, .position = x};
+    const Column column = {fixture_count(10, 4), fixture_count(44, 20)};
+    const size_t count = (size_t)(column.side * column.side * column.layers);
+    WorldDef def = fixture_def(0.1 * column.side, 6, 0.1 * column.side);
+    def.sound_speed = fixture_coarse(60, 40); /* ten times sqrt(g H) */
+    def.dt = fixture_coarse(0.001, 0.002);
+    def.fluids[0].viscosity = fixture_coarse(4000, 2000); /* settles within a few seconds */
+    float *x = malloc(3 * count * sizeof *x);
+    pressed_column(column, x, def.spacing, def.sound_speed);
+    def.initial = &(InitialState){.count = count, .position = x};
     World *world = fixture_world(&def);
-    fixture_step(world, 6000);
+    fixture_step(world, fixture_count(6000, 700));
     WorldSums sums;
     world_sums(world, &sums);
     if (sums.max_speed > 0.05)
@@ -123,24 +132,24 @@ static void column_at_rest_has_hydrostatic_pressure(void **state)
    spacing, after 1 s: the energy put in gives some 0.7 m/s, and no more may come. */
 static double speed_after_a_jolt(const char *density_kernel)
 {
-    enum { SIDE = 16, COUNT = SIDE * SIDE * SIDE };
-    const double pitch = 0.099, width = SIDE * pitch;
+    const int side = fixture_count(16, 8), count = side * side * side;
+    const double pitch = 0.099, width = side * pitch;
     WorldDef def = fixture_def(width, width, width);
     strcpy(def.density_kernel, density_kernel);
     memset(def.gravity, 0, sizeof def.gravity);
     def.sound_speed = 60;
     def.dt = 0.001;
-    float *x = malloc(3 * COUNT * sizeof *x);
+    float *x = malloc(12 * (size_t)count);
     uint32_t seed = 2;
-    for (int i = 0; i < COUNT; i++) {
-        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
+    for (int i = 0; i < count; i++) {
+        const int index[3] = {i % side, i / side % side, i / side / side};
         for (int k = 0; k < 3; k++)
             x[3 * i + k] = (float)((index[k] + 0.5 + 0.02 * (fixture_random(&seed) - 0.5)) * pitch -
                                    (k == 1 ? 0 : 0.5 * width));
     }
-    def.initial = &(InitialState){.count = COUNT, .position = x};
+    def.initial = &(InitialState){.count = (size_t)count, .position = x};
     World *world = fixture_world(&def);
-    fixture_step(world, 1000);
+    fixture_step(world, fixture_count(1000, 300));
     WorldSums sums;
     world_sums(world, &sums);
     world_destroy(world);
@@ -154,10 +163,13 @@ static double speed_after_a_jolt(const char *density_kernel)
 static void energy_is_conserved_with_one_kernel(void **state)
 {
     (void)state;
-    const double spiky = speed_after_a_jolt("spiky"), poly6 = speed_after_a_jolt("poly6");
+    const double spiky = speed_after_a_jolt("spiky");
+    assert_true(spiky > 0.1 && spiky < 1);
+    if (!fixture_on_cpu())
+        return; /* the failure takes its time */
+    const double poly6 = speed_after_a_jolt("poly6");
     printf("inviscid fluid after 1 s: %.2f m/s with the spiky kernel, %.1f m/s with poly6 as in the paper\n",
            spiky, poly6);
-    assert_true(spiky > 0.1 && spiky < 1);
     assert_true(poly6 > 5);
 }
 
@@ -165,16 +177,17 @@ static void energy_is_conserved_with_one_kernel(void **state)
 static void light_stays_over_heavy(void **state)
 {
     (void)state;
-    WorldDef def = fixture_def(1, 2, 1);
-    def.sound_speed = 40;
-    def.dt = 0.001;
+    const double width = fixture_coarse(1, 0.5);
+    WorldDef def = fixture_def(width, 2, width);
+    def.sound_speed = fixture_coarse(40, 30);
+    def.dt = fixture_coarse(0.001, 0.002);
     def.fluid_count = 2;
     def.fluids[0].viscosity = 20;
     def.fluids[1] = (FluidDef){.name = "light", .density = 250, .viscosity = 20};
     fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.7, 0.5);
     fixture_block(&def, 1, -0.5, 0.7, -0.5, 0.5, 1.4, 0.5);
     World *world = fixture_world(&def);
-    fixture_step(world, 2000);
+    fixture_step(world, fixture_count(2000, 200));
     State s = fixture_read(world);
     double mean[2] = {0}, worst = 0;
     for (size_t i = 0; i < s.count; i++) {

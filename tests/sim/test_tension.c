@@ -135,19 +135,19 @@ static void cohesion_makes_round(void **state)
     (void)state;
     const char *const methods[] = {"mueller", "wcsph"};
     for (int m = 0; m < 2; m++)
-        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        for (int dimensions = 2; dimensions <= fixture_count(3, 2); dimensions++) {
             WorldDef def = tense_def(dimensions, TENSION_COHESION);
-            const double side = dimensions == 3 ? 0.4 : 1;
+            const double side = dimensions == 3 ? 0.4 : fixture_coarse(1, 0.6);
             strcpy(def.method, methods[m]);
             def.fluids[0].viscosity = 60;
             def.fluids[0].surface_tension = 200;
-            def.dt = 0.001;
+            def.dt = fixture_coarse(0.001, 0.0015);
             fixture_block(&def, 0, -side, 4 - side, dimensions == 3 ? -side : 0, side, 4 + side,
                           dimensions == 3 ? side : 0);
             World *world = fixture_world(&def);
             WorldSums sums;
             const double at_rest = out_of_round(world, dimensions);
-            fixture_step(world, 1500);
+            fixture_step(world, fixture_count(1500, 500));
             const double later = out_of_round(world, dimensions);
             world_sums(world, &sums);
             printf("%s, %dD: out of round by %.0f %%, then %.0f %%\n", methods[m], dimensions, 100 * at_rest,

@@ -18,6 +18,12 @@ static const Method methods[] = {
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
+/* All on the CPU; on a GPU, which has their tables, one in space and both in the plane. */
+static bool taken(int m)
+{
+    return fixture_on_cpu() || m == 0 || m == 1 || m == 3;
+}
+
 /* A closed box, full to the height `full`, without gravity; 1 m2/s. */
 static WorldDef no_slip_box(const Method *method, double side, double full)
 {
@@ -62,6 +68,7 @@ static double drag_brute(const Solver *s, bool morris, int faces, const double d
 static void tables_equal_sums(void **state)
 {
     (void)state;
+    fixture_needs_cpu("the tables are the same for all backends");
     uint32_t seed = 3;
     for (int m = 0; m < METHODS; m++) {
         WorldDef def = no_slip_box(&methods[m], 2, 1);
@@ -150,6 +157,8 @@ static void a_linear_shear_is_free_of_force(void **state)
 {
     (void)state;
     for (int m = 0; m < METHODS; m++) {
+        if (!taken(m))
+            continue;
         double a[4];
         layers(&methods[m], shear, a);
         for (int layer = 0; layer < 4; layer++) /* the drag alone gives some 10 m/s2 */
@@ -165,6 +174,8 @@ static void a_parabola_is_slowed_by_its_curvature(void **state)
 {
     (void)state;
     for (int m = 0; m < METHODS; m++) {
+        if (!taken(m))
+            continue;
         double a[4];
         layers(&methods[m], parabola, a);
         printf("parabola, %s %dD %g: layers are slowed by %.3f %.3f %.3f %.3f of -nu u''\n", methods[m].name,
@@ -188,7 +199,7 @@ static void drag_never_overshoots(void **state)
     (void)state;
     for (int faces = 1; faces <= 3; faces++)
         for (int m = 0; m < METHODS; m++) {
-            if (faces > methods[m].dimensions)
+            if (faces > methods[m].dimensions || !taken(m))
                 continue;
             WorldDef def = no_slip_box(&methods[m], 1, 0);
             const float x[3] = {faces > 2 ? -0.4999f : 0, 1e-4f,
@@ -215,6 +226,8 @@ static void the_viscous_limit_holds(void **state)
     (void)state;
     for (int n = 0; n < 2 * METHODS; n++) {
         const int m = n / 2;
+        if (!taken(m))
+            continue;
         WorldDef def = no_slip_box(&methods[m], 1, 1);
         enum { MOST = 1000 };
         static float x[3 * MOST], v[3 * MOST];
@@ -318,7 +331,7 @@ static double stokes_error(const char *method, int slip)
     stokes_begin(&stokes, spacing, x, v);
     World *world = fixture_world(&def);
     double worst = 0;
-    for (int n = 1; n <= 20; n++) {
+    for (int n = 1; n <= fixture_count(20, 9); n++) {
         fixture_step(world, 15);
         worst = fmax(worst, stokes_difference(world, &stokes, spacing, 0.05 * n));
     }
@@ -393,6 +406,7 @@ static void viscosity_may_come_and_go(void **state)
 static void any_threads_give_the_same_bits(void **state)
 {
     (void)state;
+    fixture_needs_cpu("has no threads");
     for (int m = 0; m < METHODS; m += 3) {
         uint64_t hash[3];
         for (int threads = 1; threads <= 3; threads++) {

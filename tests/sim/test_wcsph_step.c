@@ -89,12 +89,12 @@ static void slow_compression_is_not_lost(void **state)
 {
     (void)state;
     static Block block;
-    for (double rate = 1e-2; rate > 5e-6; rate /= 10) {
+    for (double rate = 1e-2; rate > 5e-6; rate /= fixture_coarse(10, 1000)) {
         WorldDef def = free_block(&block, rate);
         def.sound_speed = 0.01; /* hardly any pressure */
         def.dt = 1e-4;
         World *world = world_of(def, &block);
-        fixture_step(world, 1000);
+        fixture_step(world, fixture_count(1000, 40));
         State s = fixture_read(world);
         WorldInfo info;
         world_info(world, &info);
@@ -214,7 +214,7 @@ static void viscosity_keeps_momentum(void **state)
     World *world = world_of(def, &block);
     WorldSums before, after;
     world_sums(world, &before);
-    fixture_step(world, 300);
+    fixture_step(world, fixture_count(300, 50));
     world_sums(world, &after);
     assert_true(after.kinetic_energy < 0.9 * before.kinetic_energy);
     for (int k = 0; k < 3; k++)
@@ -243,13 +243,13 @@ static void it_changes_while_it_lives(void **state)
     def.dt = 0.001;
     World *made = fixture_world(&def);
     assert_true(world_change(changed, &def, &error));
-    fixture_step(changed, 40);
-    fixture_step(made, 40);
+    fixture_step(changed, fixture_count(40, 10));
+    fixture_step(made, fixture_count(40, 10));
     assert_int_equal(world_hash(changed), world_hash(made));
     def.sound_speed = 20;
     def.fluids[0].viscosity = 0;
     assert_true(world_change(changed, &def, &error));
-    fixture_step(changed, 200);
+    fixture_step(changed, fixture_count(200, 20));
     world_destroy(changed);
     world_destroy(made);
 }
