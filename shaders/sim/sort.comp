@@ -1,19 +1,20 @@
-// Insertion sort by id within each cell, so that sums have one order whatever the atomic counters did.
+// The place of each particle among those of its cell, by id, so that sums have one order whatever the atomic counters
+// did. Counted by each for itself: in a cell of many a sort would be a long loop, and llvmpipe ends one after 65,535
+// rounds.
 #include "sim/constants.glsl"
 layout(std430, binding = 0) readonly buffer Names { uvec2 name[]; }; // id, fluid
+layout(std430, binding = 1) readonly buffer Cells { uint cell[]; };
 layout(std430, binding = 2) readonly buffer Starts { uint start[]; };
-layout(std430, binding = 3) buffer Orders { uint order[]; };
+layout(std430, binding = 3) readonly buffer Orders { uint order[]; };
+layout(std430, binding = 4) writeonly buffer Sorted { uint sorted[]; };
 
 void main()
 {
-    uint c = invocation();
-    if (c >= cell_count())
+    uint i = invocation();
+    if (i >= particle_count())
         return;
-    uint first = start[c], end = start[c + 1u];
-    for (uint i = first + 1u; i < end; i++) {
-        uint moved = order[i], key = name[moved].x, j = i;
-        for (; j > first && name[order[j - 1u]].x > key; j--)
-            order[j] = order[j - 1u];
-        order[j] = moved;
-    }
+    uint first = start[cell[i]], end = start[cell[i] + 1u], id = name[i].x, place = first;
+    for (uint j = first; j < end; j++)
+        place += uint(name[order[j]].x < id);
+    sorted[place] = i;
 }

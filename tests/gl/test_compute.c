@@ -112,7 +112,33 @@ static void compare_sorted(World *cpu, World *gpu)
     free(other);
 }
 
-/* So many particles at random places of a cube of that width, sorted by both, at the start and in a step. */
+static void swap_bits(void *column, size_t i, size_t j)
+{
+    uint32_t *values = column, kept = values[i];
+    values[i] = values[j];
+    values[j] = kept;
+}
+
+/* The same particles, at rest, in the opposite order. */
+static void reverse(World *world)
+{
+    WorldState saved = {0};
+    Error error;
+    if (!world_save(world, &saved, &error))
+        fail_msg("%s", error.message);
+    const ParticleColumns *p = &saved.particles;
+    for (size_t i = 0, j = saved.count - 1; i < j; i++, j--) {
+        void *const columns[] = {p->x, p->y, p->z, p->id};
+        for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
+            swap_bits(columns[k], i, j);
+    }
+    if (!world_load(world, &saved, &error))
+        fail_msg("%s", error.message);
+    world_state_free(&saved);
+}
+
+/* So many particles at random places of a cube of that width, sorted by both, from two orders and after a
+ * step. */
 static void compare_sort(size_t count, double width)
 {
     float *x = malloc(12 * count);
@@ -124,6 +150,8 @@ static void compare_sort(size_t count, double width)
         x[i] = (float)(0.005 + width * fixture_random(&seed));
     def.initial = &(InitialState){.count = count, .position = x};
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    compare_sorted(cpu, gpu);
+    reverse(gpu);
     compare_sorted(cpu, gpu);
     fixture_step(cpu, 1);
     fixture_step(gpu, 1);

@@ -47,6 +47,7 @@ void compute_grid(void *state)
 {
     Compute *c = state;
     const size_t cells = c->solver->cells.count;
+    unsigned order = c->order;
     glClearNamedBufferData(c->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     compute_bind((const unsigned[]){c->now.position, c->cell, c->rank, c->start}, 4);
@@ -55,11 +56,12 @@ void compute_grid(void *state)
     compute_bind((const unsigned[]){c->cell, c->rank, c->start, c->order}, 4);
     compute_run(c, COMPUTE_PLACE, c->count);
     if (c->solver->reproducible) {
-        compute_bind((const unsigned[]){c->now.name, 0, c->start, c->order}, 4);
-        compute_run(c, COMPUTE_SORT, cells);
+        compute_bind((const unsigned[]){c->now.name, c->cell, c->start, c->order, c->rank}, 5);
+        compute_run(c, COMPUTE_SORT, c->count);
+        order = c->rank; /* which is free now */
     }
-    compute_bind((const unsigned[]){c->order, c->now.position, c->now.velocity, c->now.name,
-                                    c->spare.position, c->spare.velocity, c->spare.name},
+    compute_bind((const unsigned[]){order, c->now.position, c->now.velocity, c->now.name, c->spare.position,
+                                    c->spare.velocity, c->spare.name},
                  7);
     compute_run(c, COMPUTE_MOVE, c->count);
     compute_swap(c);
