@@ -2,6 +2,7 @@
 
 #include "app/interrupt.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -204,7 +205,8 @@ static bool measure(Stand *stand, int frames, Progress *progress, double done, d
         samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
         began = wall_ms();
     }
-    world_sound(stand->world);
+    if (!world_sound(stand->world) && !world_substep(stand->world, NULL, error)) /* goes back, or gives up */
+        return false;
     world_info(stand->world, &last);
     samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
     samples->steps = last.step - first.step;
@@ -227,8 +229,8 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
         .threads = info.threads,
         .width = setup->width,
         .height = setup->height,
-        .substeps = def->step_mode == STEP_CFL ? 1 : def->substeps,
         .particles = info.count,
+        .troubles = info.trouble.count,
         .neighbours_mean = sums.neighbours_mean,
         .dt = def->step_mode == STEP_CFL ? info.dt : def->dt,
         .dt_substep = info.dt,
@@ -253,6 +255,7 @@ bool bench_measure(const BenchSetup *setup, Progress *progress, double done, dou
               measure(&stand, setup->frames, progress, done, part, &samples, error);
     if (ok) {
         describe(setup, stand.world, result);
+        result->substeps = (int)lround((double)samples.steps / samples.frames);
         result->lost = samples.lost;
         result->time = samples.began;
         ok = figures(&samples, gl_timer_clock_name(stand.timer), result, error);

@@ -22,9 +22,11 @@ typedef struct BenchResult {
     char scene[1024];
     char backend[NAME_SIZE], method[NAME_SIZE], view[NAME_SIZE];
     char renderer[256]; /* "" when no context was needed */
-    int threads, width, height, substeps, frames;
+    int threads, width, height, frames;
+    int substeps; /* of a frame, as they ran: trouble halves the step */
     size_t particles;
-    size_t lost; /* of them, without a place in the grid, at most in one frame */
+    unsigned troubles; /* that the sentinel found, the warming up included */
+    size_t lost;       /* of them, without a place in the grid, at most in one frame */
     double neighbours_mean;
     double time;           /* simulated when the first frame began, s */
     double dt, dt_substep; /* s */

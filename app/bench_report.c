@@ -5,6 +5,11 @@
 
 static void print_parts(const BenchResult *r, FILE *file)
 {
+    if (r->troubles > 0)
+        fprintf(
+            file,
+            "  the sentinel went back %u time%s and halved the step: the figures are those of more steps\n",
+            r->troubles, r->troubles == 1 ? "" : "s");
     if (r->lost > 0)
         fprintf(file, "  %zu particles found no place in the grid\n", r->lost);
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
@@ -53,10 +58,11 @@ static json_t *result_json(const BenchResult *r)
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend",
                              r->backend, "method", r->method, "view", r->view, "threads", r->threads,
                              "renderer", r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
-    json_t *more = json_pack("{s:I, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:o}", "particles",
-                             (json_int_t)r->particles, "lost", (json_int_t)r->lost, "time", r->time,
-                             "neighbours_mean", r->neighbours_mean, "dt", r->dt, "dt_substep", r->dt_substep,
-                             "substeps", r->substeps, "frames", r->frames, "stages", stages_json(r));
+    json_t *more =
+        json_pack("{s:I, s:i, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles,
+                  "troubles", (int)r->troubles, "lost", (json_int_t)r->lost, "time", r->time,
+                  "neighbours_mean", r->neighbours_mean, "dt", r->dt, "dt_substep", r->dt_substep, "substeps",
+                  r->substeps, "frames", r->frames, "stages", stages_json(r));
     json_t *sums = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "sim_ms", r->sim_ms, "upload_ms",
                              r->upload_ms, "render_ms", r->render_ms, "frame_ms", r->frame_ms,
                              "particle_steps_per_second", r->particle_steps_per_second, "real_time_factor",

@@ -27,6 +27,21 @@ typedef struct Plan {
 
 _Static_assert(TABLE_SWEEPS + 1 <= ARGS_SWEEPS_MAX, "a table's sweeps have room");
 
+/* A setting of what a table sweeps: that one value. */
+static bool narrow(Plan *plan, const char *setting)
+{
+    for (int i = 0; i < plan->sweep_count; i++) {
+        Sweep *sweep = &plan->sweeps[i];
+        const size_t key = strlen(sweep->key);
+        if (strncmp(setting, sweep->key, key) == 0 && setting[key] == '=') {
+            sweep->count = 1;
+            sweep->values[0] = setting + key + 1;
+            return true;
+        }
+    }
+    return false;
+}
+
 /* The table's own settings come first, so that the command line may say otherwise. */
 static bool plan_table(Plan *plan, Error *error)
 {
@@ -45,8 +60,13 @@ static bool plan_table(Plan *plan, Error *error)
     plan->sweep_count = table_sweeps(plan->table, plan->sweeps);
     for (int i = 0; i < TABLE_SETTINGS && plan->table->settings[i]; i++)
         plan->settings.set[count++] = plan->table->settings[i];
-    for (int i = 0; i < args->settings.count && count < SCENE_SETTINGS_MAX; i++)
-        plan->settings.set[count++] = args->settings.set[i];
+    for (int i = 0; i < args->settings.count; i++) {
+        if (count == SCENE_SETTINGS_MAX)
+            return error_set(error, "more than %d settings; write them into the scene file",
+                             SCENE_SETTINGS_MAX);
+        if (!narrow(plan, args->settings.set[i]))
+            plan->settings.set[count++] = args->settings.set[i];
+    }
     plan->settings.count = count;
     return true;
 }
@@ -123,7 +143,7 @@ static bool cases_check(const Plan *plan, bool *context, Error *error)
     *context = false;
     for (size_t i = 0; i < plan->scene_count * plan->combinations; i++) {
         Scene scene;
-        if (!case_load(plan, i, false, &scene, error))
+        if (!case_load(plan, i, false, &scene, error) || !world_can(&scene.world, error))
             return false;
         *context |= world_on_gpu(&scene.world) || strcmp(scene.view.kind, "none") != 0;
     }

@@ -26,6 +26,8 @@ int session_open(Session *session, const Args *args, bool draws, Error *error)
 int session_start(Session *session, int gpu, bool draws, Error *error)
 {
     const bool on_gpu = world_on_gpu(&session->scene.world);
+    if (!world_can(&session->scene.world, error))
+        return EXIT_USAGE;
     if (on_gpu || draws) {
         session->context = headless_create(gpu, error);
         if (!session->context)

@@ -17,6 +17,8 @@ typedef struct Backend {
     /* Its steps run behind the caller's back in a GL context, current wherever a world of it is used, and
        `watch` is asked once a frame. */
     bool gpu;
+    /* Whether it has all that the def names, or the reason; needs no context. NULL: it has all. */
+    bool (*can)(const WorldDef *def, Error *error);
     /* The state of `initial->count` particles, with room for `capacity`; NULL with the reason. `solver`
        outlives it. */
     void *(*create)(const Solver *solver, const InitialState *initial, size_t capacity, int threads,

@@ -75,6 +75,16 @@ void world_settle(World *world)
     world->backend->density(world->state);
 }
 
+bool world_can(const WorldDef *def, Error *error)
+{
+    const Backend *backend = backend_find(def->backend);
+    if (!backend)
+        return error_set(error, "unknown backend '%s'; `slosh info` lists them", def->backend);
+    if (!method_find(def->method))
+        return error_set(error, "unknown method '%s'; `slosh info` lists them", def->method);
+    return !backend->can || backend->can(def, error);
+}
+
 World *world_create(const WorldDef *def, Error *error)
 {
     World *world = calloc(1, sizeof *world);
@@ -87,12 +97,7 @@ World *world_create(const WorldDef *def, Error *error)
         world->def.box_size[2] = def->spacing;
     world->backend = backend_find(def->backend);
     world->method = method_find(def->method);
-    bool ok = true;
-    if (!world->backend)
-        ok = error_set(error, "unknown backend '%s'; `slosh info` lists them", def->backend);
-    else if (!world->method)
-        ok = error_set(error, "unknown method '%s'; `slosh info` lists them", def->method);
-    if (!ok || !solver_create(&world->solver, def, error) || !world_start(world, error)) {
+    if (!world_can(def, error) || !solver_create(&world->solver, def, error) || !world_start(world, error)) {
         world_destroy(world);
         return NULL;
     }
@@ -283,7 +288,7 @@ void world_carry(World *world, const BoxTarget *target)
 
 bool world_adopt(World *world, const WorldDef *def, Error *error)
 {
-    if (!solver_change(&world->solver, def, error))
+    if (!world_can(def, error) || !solver_change(&world->solver, def, error))
         return false;
     if (!world->backend->adapt(world->state, error)) {
         Error none;

@@ -22,6 +22,10 @@ typedef struct World World;
 World *world_create(const WorldDef *def, Error *error);
 void world_destroy(World *world); /* NULL is allowed */
 
+/* Whether backend and method are there and have all that the def names; needs no context. World_create asks
+   too. */
+bool world_can(const WorldDef *def, Error *error);
+
 /* Whether the def's backend works on a GPU: a GL context must then be current wherever a world of it is used,
    the same one, from before world_create until after world_destroy. */
 bool world_on_gpu(const WorldDef *def);

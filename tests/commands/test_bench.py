@@ -8,7 +8,7 @@ import command
 SCENE = 'scene.yaml'
 
 STAGES_SIM = ["grid", "density", "force", "integrate"]
-FIELDS = ["scene", "backend", "method", "view", "threads", "renderer", "size", "particles", "lost", "time", "neighbours_mean", "dt",
+FIELDS = ["scene", "backend", "method", "view", "threads", "renderer", "size", "particles", "troubles", "lost", "time", "neighbours_mean", "dt",
           "dt_substep", "substeps", "frames", "stages", "sim_ms", "upload_ms", "render_ms", "frame_ms",
           "particle_steps_per_second", "real_time_factor", "bytes_per_particle"]
 
@@ -110,6 +110,21 @@ class Tables(Case):
         self.assertTrue(chart.rstrip().endswith('</svg>'))
         for words in ['CPU, published', 'compute, spheres', 'particles']:
             self.assertIn(words, chart)
+
+    def test_a_table_of_one_backend(self):
+        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--frames', '1', '--size', '64x64')
+        self.assertNotIn('compute', done.stdout)
+        self.assertEqual(sum('spheres   cpu ' in line for line in done.stdout.splitlines()), 4)
+
+    def test_trouble_is_told(self):
+        """Halved steps are counted as they ran; what blew up in its last frame is no measurement."""
+        loud = ['--view', 'none', '--frames', '8', '--set', 'solver.sound_speed=600', '--json', 'b.json']
+        done = self.slosh_out('bench', SCENE, *loud)
+        self.assertIn('the sentinel went back', done.stdout)
+        (result,) = json.loads(self.read('b.json'))
+        self.assertGreater(result['troubles'], 0)
+        self.assertAlmostEqual(result['dt_substep'] * result['substeps'], result['dt'], 9)
+        self.assertGreater(result['substeps'], 2)
 
     def test_what_is_wrong_is_said_before_anything_runs(self):
         for words, *arguments in [('paper003-spheres', '--table', 'paper9'), ('FILE.svg', '--table', 'paper003-spheres', '-o', 'a.gif'),

@@ -42,25 +42,30 @@ class Fragment(CommandTest):
         code, said = self.slosh('run', 'overfull', *ON, '-o', 'out.h5part', '--time', '0.02', '--quiet')
         self.assertRegex(said, rf't = .*: {lost} of 8192 particles find no place in the grid')
 
-    def refused(self, words, scene, *arguments):
+    def refused(self, exit_code, words, scene, *arguments):
         """Before anything starts: nothing is created."""
         before = self.entries()
         code, said = self.slosh('run', scene, *ON, '-o', 'out.h5part', '--time', '0.1', *arguments)
-        self.assertEqual(code, 1, said)
+        self.assertEqual(code, exit_code, said)
         self.assertRegex(said, words)
         self.assertEqual(self.entries(), before)
 
     def test_what_it_cannot_do_is_said(self):
-        self.refused('backend fragment has no solids; use backend compute or cpu', 'pillar')
-        self.refused('backend fragment has no method wcsph', 'scene.yaml', '--method', 'wcsph')
-        self.refused('holds up to 16777216 particles', 'scene.yaml', '--particles', '20000000')
+        self.refused(2, 'backend fragment has no solids; use backend compute or cpu', 'pillar')
+        self.refused(2, 'backend fragment has no method wcsph', 'scene.yaml', '--method', 'wcsph')
+        self.refused(1, 'holds up to 16777216 particles', 'scene.yaml', '--particles', '20000000')
+
+    def test_bench_refuses_before_it_measures(self):
+        code, said = self.slosh('bench', 'scene.yaml', 'fountain', *ON, '--view', 'none', '--json', 'b.json')
+        self.assertEqual(code, 2, said)
+        self.assertEqual(self.entries(), [])
 
     def test_a_broken_shader_is_named(self):
         shutil.copytree(SHADERS, self.path('shaders'))
         with open(self.path('shaders/sim/fragment/force.frag'), 'a') as file:
             file.write('float broken = ;\n')
         lines = self.read('shaders/sim/fragment/force.frag').count(b'\n')
-        self.refused(rf'sim/fragment/force.frag:{lines}: .*syntax error', 'scene.yaml', '--shaders', 'shaders')
+        self.refused(1, rf'sim/fragment/force.frag:{lines}: .*syntax error', 'scene.yaml', '--shaders', 'shaders')
 
 
 if __name__ == '__main__':

@@ -27,17 +27,23 @@ static void shape_for(size_t count, int *bits, int *width, int *height)
     *height = (int)((count + (size_t)*width - 1) >> *bits);
 }
 
-static bool can(const char *what, bool asked, Error *error)
+static bool lacks(const char *what, bool asked, Error *error)
 {
-    return !asked || error_set(error, "backend fragment has no %s; use backend compute or cpu", what);
+    return asked && !error_set(error, "backend fragment has no %s; use backend compute or cpu", what);
 }
 
-static bool has_terms(const Solver *s, Error *error)
+static bool fragment_can(const WorldDef *def, Error *error)
 {
-    return can("method wcsph", s->continuity, error) && can("solids", s->solid_count > 0, error) &&
-           can("emitters", s->emits, error) && can("drains", s->drains, error) &&
-           can("no-slip walls", s->no_slip, error) &&
-           can("surface tension", s->tension_model != TENSION_NONE, error);
+    bool viscous = false, tense = false;
+    for (int f = 0; f < def->fluid_count; f++) {
+        viscous |= def->fluids[f].viscosity > 0;
+        tense |= def->fluids[f].surface_tension > 0;
+    }
+    return !lacks("method wcsph", strcmp(def->method, "wcsph") == 0, error) &&
+           !lacks("solids", def->solid_count > 0, error) && !lacks("emitters", flow_emits(def), error) &&
+           !lacks("drains", def->drain_count > 0, error) &&
+           !lacks("no-slip walls", viscous && def->wall_slip == SLIP_NONE, error) &&
+           !lacks("surface tension", tense && def->tension_model != TENSION_NONE, error);
 }
 
 static size_t wall_numbers(const Walls *walls)
@@ -103,7 +109,7 @@ static void *fragment_create(const Solver *solver, const InitialState *initial, 
     f->layers = solver->grid_layers;
     shape_for(f->count, &f->bits, &f->width, &f->height);
     shape_for(solver->cells.count, &f->bucket_bits, &f->bucket_width, &f->bucket_height);
-    if (!has_terms(solver, error) || !fits(f, error)) {
+    if (!fits(f, error)) {
         free(f);
         return NULL;
     }
@@ -119,7 +125,7 @@ static bool fragment_adapt(void *state, Error *error)
     Fragment *f = state;
     char constants[FRAGMENT_CONSTANTS_MAX];
     fragment_constants(f, constants);
-    if (!has_terms(f->solver, error) || !fragment_terms_create(f, error))
+    if (!fragment_terms_create(f, error))
         return false;
     if (strcmp(constants, f->constants) != 0)
         return fragment_programs_create(f, error);
@@ -136,6 +142,7 @@ const Backend backend_fragment = {
     .name = "fragment",
     .gpu = true,
     .help = "fragment shaders on the GPU, after Harada 2007: method mueller without solids",
+    .can = fragment_can,
     .create = fragment_create,
     .destroy = fragment_destroy,
     .adapt = fragment_adapt,
