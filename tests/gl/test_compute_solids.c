@@ -32,7 +32,7 @@ static WorldDef solids_def(int dimensions)
          .motion_count = 1,
          .motions = {rock}},
         {.kind = SOLID_BOWL,
-         .centre = {-0.05, 0.3, 0.1},
+         .centre = {-0.05, 0.3, dimensions == 2 ? 0 : 0.1},
          .radius = 0.1,
          .thickness = 0.05,
          .axis = {0.2, 1, 0},
