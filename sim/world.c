@@ -75,13 +75,19 @@ void world_settle(World *world)
     world->backend->density(world->state);
 }
 
+static bool names_check(const WorldDef *def, Error *error)
+{
+    if (!backend_find(def->backend))
+        return error_set(error, "unknown backend '%s'; `slosh info` lists them", def->backend);
+    return method_find(def->method) ||
+           error_set(error, "unknown method '%s'; `slosh info` lists them", def->method);
+}
+
 bool world_can(const WorldDef *def, Error *error)
 {
+    if (!names_check(def, error))
+        return false;
     const Backend *backend = backend_find(def->backend);
-    if (!backend)
-        return error_set(error, "unknown backend '%s'; `slosh info` lists them", def->backend);
-    if (!method_find(def->method))
-        return error_set(error, "unknown method '%s'; `slosh info` lists them", def->method);
     return !backend->can || backend->can(def, error);
 }
 
@@ -97,7 +103,8 @@ World *world_create(const WorldDef *def, Error *error)
         world->def.box_size[2] = def->spacing;
     world->backend = backend_find(def->backend);
     world->method = method_find(def->method);
-    if (!world_can(def, error) || !solver_create(&world->solver, def, error) || !world_start(world, error)) {
+    if (!names_check(def, error) || !solver_create(&world->solver, def, error) || !world_can(def, error) ||
+        !world_start(world, error)) {
         world_destroy(world);
         return NULL;
     }
