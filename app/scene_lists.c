@@ -3,6 +3,7 @@
 #include "app/scene_keys.h"
 #include "render/colormap.h"
 #include "render/renderer.h"
+#include "render/splat_names.h"
 #include "render/view.h"
 #include "sim/kernel.h"
 #include "sim/tension.h"
@@ -68,6 +69,26 @@ const char *colormap_choice(int index)
 const char *scalar_choice(int index)
 {
     return index < SCALAR_COUNT ? scalar_name((Scalar)index) : NULL;
+}
+
+const char *splat_weights_choice(int index)
+{
+    return index <= SPLAT_W1W2 ? splat_weights_names[index] : NULL;
+}
+
+const char *splat_shape_choice(int index)
+{
+    return index <= SPLAT_PAPER ? splat_shape_names[index] : NULL;
+}
+
+const char *splat_sprite_choice(int index)
+{
+    return index <= SPLAT_POINT ? splat_sprite_names[index] : NULL;
+}
+
+const char *splat_show_choice(int index)
+{
+    return index <= SPLAT_CULLED ? splat_show_names[index] : NULL;
 }
 
 const char *step_mode_choice(int index)

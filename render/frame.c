@@ -115,12 +115,14 @@ static void make_bounds(Frame *frame, const double size[3])
     float box_to_eye[16], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     matrix_multiply(frame->camera.view, frame->box_to_world, box_to_eye);
     frame->nearest = INFINITY;
+    frame->farthest = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
         float at[3] = {((corner & 1) ? 1.0F : -1.0F) * ((float)size[0] / 2 + r),
                        (corner & 2) ? (float)size[1] + r : -r,
                        ((corner & 4) ? 1.0F : -1.0F) * ((float)size[2] / 2 + r)};
         matrix_transform(box_to_eye, at, at);
         frame->nearest = fminf(frame->nearest, -at[2]);
+        frame->farthest = fmaxf(frame->farthest, -at[2]);
         for (int k = 0; k < 2; k++) {
             low[k] = fminf(low[k], at[k] / (-at[2] * tangent[k]));
             high[k] = fmaxf(high[k], at[k] / (-at[2] * tangent[k]));

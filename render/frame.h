@@ -29,6 +29,7 @@ typedef struct Frame {
     float bounds[4];           /* x0 x1 y0 y1 in -1..1 that hold all particles; the whole picture when some
                                   may be beside or behind the eye */
     float nearest;             /* least distance of a particle along the eye's axis, m; may be negative */
+    float farthest;            /* greatest distance of a particle along the eye's axis, m */
     bool all_in_view;          /* every particle is wholly in the picture and before the near plane */
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
     bool by_fluid;             /* coloured by the fluids' own colours */

@@ -1,6 +1,7 @@
 #include "render/particle_bind.h"
 
 #include <epoxy/gl.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 static void bind_attribute(GLuint binding, const ParticleAttribute *attribute, size_t count)
@@ -59,12 +60,25 @@ static void reserve(QuadIndices *indices, size_t count)
     glVertexArrayElementBuffer(indices->vertex_array, indices->buffer);
 }
 
-void quad_indices_draw(QuadIndices *indices, size_t count)
+static bool prepare(QuadIndices *indices, size_t count)
 {
     if (count > indices->capacity)
         reserve(indices, count);
-    if (!count || count > indices->capacity)
-        return;
     glBindVertexArray(indices->vertex_array);
+    return count && count <= indices->capacity;
+}
+
+void quad_indices_draw_indirect(QuadIndices *indices, size_t count, unsigned commands, size_t offset)
+{
+    if (!prepare(indices, count))
+        return;
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands);
+    glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, (const char *)NULL + offset);
+}
+
+void quad_indices_draw(QuadIndices *indices, size_t count)
+{
+    if (!prepare(indices, count))
+        return;
     glDrawElements(GL_TRIANGLES, (GLsizei)(6 * count), GL_UNSIGNED_INT, NULL);
 }

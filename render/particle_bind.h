@@ -18,4 +18,7 @@ void quad_indices_create(QuadIndices *indices);
 void quad_indices_destroy(QuadIndices *indices);
 void quad_indices_draw(QuadIndices *indices, size_t count);
 
+/* As many of at most `count` particles as a buffer with a DrawElementsIndirectCommand says. */
+void quad_indices_draw_indirect(QuadIndices *indices, size_t count, unsigned commands, size_t offset);
+
 #endif

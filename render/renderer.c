@@ -5,6 +5,7 @@
 #include "render/legend.h"
 #include "render/shadow.h"
 #include "render/solids.h"
+#include "render/splat_names.h"
 #include "render/view.h"
 
 #include <epoxy/gl.h>
@@ -31,6 +32,7 @@ ViewDef view_def_default(void)
                      .color_by = SCALAR_SPEED,
                      .colormap = "viridis",
                      .range_auto = true,
+                     .splat = splat_def_default(),
                      .legend = true,
                      .box = true,
                      .floor = true,
@@ -120,7 +122,7 @@ static bool follow_view(Renderer *renderer, const ViewDef *def, Error *error)
 {
     const ViewDef *old = &renderer->def;
     if (strcmp(def->kind, old->kind) == 0 && strcmp(def->colormap, old->colormap) == 0 &&
-        (def->solid_count > 0) == (old->solid_count > 0))
+        (def->solid_count > 0) == (old->solid_count > 0) && splat_same_kind(&def->splat, &old->splat))
         return true;
     View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
     if (!view && strcmp(def->kind, "none") != 0)

@@ -1,12 +1,13 @@
 #include "render/view.h"
 
 #include "render/spheres.h"
+#include "render/splat.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-const ViewKind *const view_list[] = {&view_spheres, NULL};
+const ViewKind *const view_list[] = {&view_spheres, &view_splat, NULL};
 
 struct View {
     const ViewKind *kind;

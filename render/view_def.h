@@ -13,6 +13,21 @@ typedef struct CameraDef {
     double fov_deg; /* vertical field of view, degrees */
 } CameraDef;
 
+/* Of the view splat; names by index stand in render/splat_names.c. */
+typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
+typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER } SplatShape;
+typedef enum SplatSprite { SPLAT_QUAD, SPLAT_POINT } SplatSprite;
+typedef enum SplatShow { SPLAT_SHADED, SPLAT_DEPTH, SPLAT_NORMALS, SPLAT_WEIGHT, SPLAT_CULLED } SplatShow;
+
+typedef struct SplatDef {
+    double eps; /* how far below the surface spheres still blend, in radii */
+    SplatWeights weights;
+    SplatShape shape;
+    SplatSprite sprite;
+    SplatShow show;
+    bool cull; /* leave out hidden spheres before they are drawn */
+} SplatDef;
+
 typedef struct ViewDef {
     char kind[NAME_SIZE];     /* see view_list; "none" draws nothing */
     Scalar color_by;          /* SCALAR_FLUID takes the fluids' own colours */
@@ -20,10 +35,11 @@ typedef struct ViewDef {
     bool range_auto;          /* the range follows each state; else range[0] .. range[1] */
     double range[2];          /* in the scalar's unit */
     double radius;            /* of a particle, in spacings; 0: the view's default */
-    bool legend;              /* draw the legend */
-    bool box;                 /* draw the box's edges */
-    bool floor;               /* draw the floor below the box */
-    bool camera_auto;         /* the camera shows the whole box; else `camera` */
+    SplatDef splat;
+    bool legend;      /* draw the legend */
+    bool box;         /* draw the box's edges */
+    bool floor;       /* draw the floor below the box */
+    bool camera_auto; /* the camera shows the whole box; else `camera` */
     CameraDef camera;
     double background[3]; /* linear RGB 0..1, at the horizon */
     /* Filled from the fluids by the scene loader, for colours and legend. */

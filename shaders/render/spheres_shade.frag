@@ -3,22 +3,14 @@
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/particles.glsl"
+#include "common/particle_color.glsl"
 #ifdef SOLIDS
 #include "common/solid_light.glsl"
 #endif
 
 layout(early_fragment_tests) in;
 layout(binding = 1) uniform usampler2D seen_map;
-layout(binding = 2) uniform sampler2D colormap;
 layout(location = 0) out vec4 color;
-
-vec3 particle_color(uint index)
-{
-    if (coloring.z > 0.5)
-        return fluid_color[fluid_words[index * particle_strides.z] & 7u].rgb;
-    float value = (scalar_words[index * particle_strides.y] - coloring.x) * coloring.y;
-    return texelFetch(colormap, ivec2(clamp(value, 0.0, 1.0) * 255.0 + 0.5, 0), 0).rgb;
-}
 
 // `key`: what of the key light arrives; `lit`: the same with no solid in its way.
 vec3 shade(vec3 albedo, vec3 normal, vec3 to_eye, float lit, float key)

@@ -122,7 +122,7 @@ static void open_sections(Desk *desk)
 
 static Desk *all_open(Session *session, const char *scene)
 {
-    Desk *desk = session_open(session, scene, 400, 1600, 13);
+    Desk *desk = session_open(session, scene, 400, 1800, 13);
     open_sections(desk);
     return desk;
 }
@@ -339,7 +339,7 @@ static void test_nothing_is_cut_at_any_scale(void **state)
     static const float scales[] = {1, 1.5F, 2, 3};
     for (int i = 0; i < 4; i++) {
         Session session;
-        Desk *desk = session_open(&session, "two_oils", (int)(700 * scales[i]), (int)(1600 * scales[i]),
+        Desk *desk = session_open(&session, "two_oils", (int)(700 * scales[i]), (int)(1800 * scales[i]),
                                   13 * scales[i]);
         open_sections(desk);
         session.help = true;

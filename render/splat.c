@@ -1,0 +1,235 @@
+#include "render/splat.h"
+
+#include "render/colormap.h"
+#include "render/particle_bind.h"
+#include "render/shadow.h"
+#include "sim/gl/program.h"
+#include "sim/gl/timer.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct SplatView {
+    SplatDef def;                          /* what the programs were made for */
+    GLuint depth, blend, shading, casting; /* programs */
+    GLuint colormap;
+    GLuint screen; /* vertex array without attributes */
+    QuadIndices quads;
+    SplatMaps maps;
+} SplatView;
+
+/* In nearest_map where no sphere is; as in splat_depth.frag. */
+static const GLfloat NOTHING = 1e30F;
+
+const SplatMaps *splat_maps(const void *state)
+{
+    return &((const SplatView *)state)->maps;
+}
+
+static void delete_maps(SplatMaps *maps)
+{
+    glDeleteFramebuffers(2, (GLuint[]){maps->nearest_framebuffer, maps->blend_framebuffer});
+    glDeleteTextures(4, (GLuint[]){maps->nearest, maps->color, maps->normal, maps->weight});
+    *maps = (SplatMaps){0};
+}
+
+static void splat_destroy(void *state)
+{
+    SplatView *splat = state;
+    glDeleteProgram(splat->depth);
+    glDeleteProgram(splat->blend);
+    glDeleteProgram(splat->shading);
+    glDeleteProgram(splat->casting);
+    glDeleteTextures(1, &splat->colormap);
+    glDeleteVertexArrays(1, &splat->screen);
+    delete_maps(&splat->maps);
+    quad_indices_destroy(&splat->quads);
+    free(splat);
+}
+
+static bool create_programs(SplatView *splat, bool solids, Error *error)
+{
+    static const char *const depth[] = {"render/splat.vert", "render/splat_depth.frag", NULL};
+    static const char *const blend[] = {"render/splat.vert", "render/splat_blend.frag", NULL};
+    static const char *const shading[] = {"common/screen.vert", "render/splat_shade.frag", NULL};
+    const SplatDef *def = &splat->def;
+    char shape[256], all[512], shade[128];
+    snprintf(shape, sizeof shape, "%s%s", def->shape == SPLAT_PAPER ? "#define PAPER 1\n" : "",
+             def->sprite == SPLAT_POINT ? "#define POINT 1\n" : "");
+    snprintf(all, sizeof all, "%s#define BLEND 1\n#define WEIGHTS %d\n", shape, (int)def->weights);
+    snprintf(shade, sizeof shade, "%s#define SHOW %d\n", solids ? "#define SOLIDS 1\n" : "", (int)def->show);
+    splat->depth = program_create("splat depth", depth, shape, error);
+    splat->blend = splat->depth ? program_create("splat blend", blend, all, error) : 0;
+    splat->shading = splat->blend ? program_create("splat shade", shading, shade, error) : 0;
+    splat->casting = splat->shading ? program_create_pair("splat shadow", "render/spheres_shadow.vert",
+                                                          "render/depth_only.frag", error)
+                                    : 0;
+    if (splat->casting)
+        glProgramUniform1f(splat->casting, 1, SHADOW_MAP_TEXELS);
+    return splat->casting != 0;
+}
+
+static void *splat_create(const ViewDef *def, Error *error)
+{
+    SplatView *splat = calloc(1, sizeof *splat);
+    if (!splat) {
+        error_set(error, "out of memory for the view");
+        return NULL;
+    }
+    splat->def = def->splat;
+    splat->colormap = colormap_texture(def->colormap);
+    if (!splat->colormap)
+        error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
+    glCreateVertexArrays(1, &splat->screen);
+    quad_indices_create(&splat->quads);
+    if (splat->colormap && create_programs(splat, def->solid_count > 0, error))
+        return splat;
+    splat_destroy(splat);
+    return NULL;
+}
+
+static GLuint create_map(GLenum format, const Target *target, const char *label)
+{
+    GLuint map;
+    glCreateTextures(GL_TEXTURE_2D, 1, &map);
+    glObjectLabel(GL_TEXTURE, map, -1, label);
+    glTextureStorage2D(map, 1, format, target->width, target->height);
+    glTextureParameteri(map, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(map, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return map;
+}
+
+static GLuint create_framebuffer(const GLuint *maps, GLsizei count, const char *label)
+{
+    static const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    GLuint framebuffer;
+    glCreateFramebuffers(1, &framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, framebuffer, -1, label);
+    for (int i = 0; i < count; i++)
+        glNamedFramebufferTexture(framebuffer, buffers[i], maps[i], 0);
+    glNamedFramebufferDrawBuffers(framebuffer, count, buffers);
+    return framebuffer;
+}
+
+static void follow_target(SplatMaps *maps, const Target *target)
+{
+    if (maps->target_number == target->number)
+        return;
+    delete_maps(maps);
+    const GLenum sums = gl_renderer_is_software() ? GL_RGBA32F : GL_RGBA16F; /* no halves in its hardware */
+    maps->nearest = create_map(GL_R32F, target, "splat nearest");
+    maps->color = create_map(sums, target, "splat color");
+    maps->normal = create_map(sums, target, "splat normal");
+    maps->weight = create_map(GL_R32F, target, "splat weight");
+    maps->nearest_framebuffer = create_framebuffer(&maps->nearest, 1, "splat nearest");
+    maps->blend_framebuffer =
+        create_framebuffer((GLuint[]){maps->color, maps->normal, maps->weight}, 3, "splat blend");
+    maps->target_number = target->number;
+}
+
+static void splat_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SplatView *splat = state;
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glUseProgram(splat->casting);
+    particle_bind(splat->casting, particles, frame->def->color_by);
+    glBindVertexArray(splat->screen);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+}
+
+static void draw_sprites(SplatView *splat, GLuint program, const ParticleBuffers *particles,
+                         const Frame *frame)
+{
+    glUseProgram(program);
+    particle_bind(program, particles, frame->def->color_by);
+    if (splat->def.sprite == SPLAT_QUAD) {
+        quad_indices_draw(&splat->quads, particles->count);
+        return;
+    }
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glBindVertexArray(splat->screen);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+}
+
+/* What the sprites of pass 1 and 2 have in common: they mix with what is there, and know no depth buffer. */
+static void begin_sprites(GLuint framebuffer, const Frame *frame, GLenum equation)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendEquation(equation);
+    glBlendFunc(GL_ONE, GL_ONE);
+}
+
+static void find_nearest(SplatView *splat, const ParticleBuffers *particles, const Frame *frame)
+{
+    glClearNamedFramebufferfv(splat->maps.nearest_framebuffer, GL_COLOR, 0, (GLfloat[4]){NOTHING});
+    begin_sprites(splat->maps.nearest_framebuffer, frame, GL_MIN);
+    draw_sprites(splat, splat->depth, particles, frame);
+}
+
+static void blend_attributes(SplatView *splat, const ParticleBuffers *particles, const Frame *frame)
+{
+    for (int i = 0; i < 3; i++)
+        glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
+    begin_sprites(splat->maps.blend_framebuffer, frame, GL_FUNC_ADD);
+    glProgramUniform1f(splat->blend, 1, (float)frame->def->splat.eps * frame->particle_radius);
+    glBindTextureUnit(1, splat->maps.nearest);
+    glBindTextureUnit(2, splat->colormap);
+    draw_sprites(splat, splat->blend, particles, frame);
+    glDisable(GL_BLEND);
+}
+
+static void cut_to_bounds(const Frame *frame)
+{
+    const float *bounds = frame->bounds, width = (float)frame->width, height = (float)frame->height;
+    int x0 = (int)floorf((0.5F + 0.5F * bounds[0]) * width),
+        x1 = (int)ceilf((0.5F + 0.5F * bounds[1]) * width);
+    int y0 = (int)floorf((0.5F + 0.5F * bounds[2]) * height),
+        y1 = (int)ceilf((0.5F + 0.5F * bounds[3]) * height);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x0, y0, x1 - x0, y1 - y0);
+}
+
+/* Solids are in the target already: the test of depth says who hides whom. */
+static void shade_surface(SplatView *splat, const Frame *frame)
+{
+    const SplatMaps *maps = &splat->maps;
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glBindTextureUnit(1, maps->nearest);
+    glBindTextures(5, 3, (GLuint[]){maps->color, maps->normal, maps->weight});
+    glUseProgram(splat->shading);
+    glUniform2f(1, fmaxf(frame->nearest, frame->camera.near_plane), frame->farthest);
+    glBindVertexArray(splat->screen);
+    cut_to_bounds(frame);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+static void splat_draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SplatView *splat = state;
+    follow_target(&splat->maps, frame->target);
+    GL_STAGE(frame->timer, STAGE_VISIBILITY)
+    find_nearest(splat, particles, frame);
+    GL_STAGE(frame->timer, STAGE_BLEND)
+    blend_attributes(splat, particles, frame);
+    GL_STAGE(frame->timer, STAGE_SHADE)
+    shade_surface(splat, frame);
+}
+
+const ViewKind view_splat = {
+    .name = "splat",
+    .help = "one smooth surface, blended from spheres",
+    .radius = 1, /* a spacing: neighbours at rest overlap so far that no hole is left */
+    .create = splat_create,
+    .destroy = splat_destroy,
+    .cast = splat_cast,
+    .draw = splat_draw,
+};

@@ -1,0 +1,22 @@
+#include "render/splat_names.h"
+
+const char *const splat_weights_names[] = {
+    [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2"};
+const char *const splat_shape_names[] = {[SPLAT_PERSPECTIVE] = "perspective", [SPLAT_PAPER] = "paper"};
+const char *const splat_sprite_names[] = {[SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point"};
+const char *const splat_show_names[] = {[SPLAT_SHADED] = "shaded",
+                                        [SPLAT_DEPTH] = "depth",
+                                        [SPLAT_NORMALS] = "normals",
+                                        [SPLAT_WEIGHT] = "weight",
+                                        [SPLAT_CULLED] = "culled"};
+
+SplatDef splat_def_default(void)
+{
+    return (SplatDef){.eps = 1.5, .weights = SPLAT_W1W2, .cull = true};
+}
+
+bool splat_same_kind(const SplatDef *a, const SplatDef *b)
+{
+    return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
+           a->cull == b->cull;
+}

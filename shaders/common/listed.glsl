@@ -1,0 +1,13 @@
+// The particles to be drawn: all, or with LISTED those that culling kept (render/cull.c), in the same order.
+#ifdef LISTED
+layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
+#endif
+
+uint listed_particle(uint i)
+{
+#ifdef LISTED
+    return listed[i];
+#else
+    return i;
+#endif
+}

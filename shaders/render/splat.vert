@@ -1,0 +1,61 @@
+// Four vertices a particle: the corners of its bound on the screen; with POINT one, around whose bound the driver sets a
+// square. With BLEND its colour goes along.
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+#include "common/listed.glsl"
+#include "common/sphere.glsl"
+#include "common/splat.glsl"
+#ifdef BLEND
+#include "common/particle_color.glsl"
+layout(location = 2) flat out vec3 color;
+#endif
+
+#ifdef POINT
+layout(location = 0) flat out vec4 from; // of `at` over the point
+layout(location = 3) flat out vec4 across;
+#else
+layout(location = 0) noperspective out vec4 at;
+#endif
+layout(location = 1) flat out vec2 scale;
+
+vec4 at_corner(vec3 centre, vec2 corner)
+{
+    vec2 ray = ray_of_ndc(corner).xy;
+    return vec4((scale.x * ray - centre.xy) / particle.x, ray);
+}
+
+#ifdef POINT
+void place(vec3 centre, vec4 bounds)
+{
+    vec2 extent = (bounds.yw - bounds.xz) * viewport.xy / 2.0;
+    float size = ceil(8.0 * max(extent.x, extent.y)) / 8.0; // hardware rounds to such steps
+    vec2 middle = 0.5 * (bounds.xz + bounds.yw), reach = size * vec2(1.0, -1.0) * viewport.zw; // gl_PointCoord counts from the top
+    from = at_corner(centre, middle - reach);
+    across = at_corner(centre, middle + reach) - from;
+    gl_PointSize = size;
+    gl_Position = extent.x > 0.0 ? vec4(middle, 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
+}
+#else
+void place(vec3 centre, vec4 bounds)
+{
+    vec2 corner = vec2((gl_VertexID & 1) == 0 ? bounds.x : bounds.y, (gl_VertexID & 2) == 0 ? bounds.z : bounds.w);
+    at = at_corner(centre, corner);
+    gl_Position = vec4(corner, 0.5, 1.0);
+}
+#endif
+
+void main()
+{
+#ifdef POINT
+    uint index = listed_particle(uint(gl_VertexID));
+#else
+    uint index = listed_particle(uint(gl_VertexID) >> 2);
+#endif
+    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
+    float s = splat_scale(centre);
+    scale = vec2(s, (-s - centre.z) / particle.x);
+    place(centre, splat_bounds(centre));
+#ifdef BLEND
+    color = particle_color(index);
+#endif
+}

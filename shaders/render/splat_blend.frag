@@ -1,0 +1,40 @@
+// Pass 2, attribute blending: sums of weighted colours, normals and weights of the spheres within eps of the nearest one.
+// After: Adams et al. 2006, section 3.2. W1 (eq. 6) is 1 on the ray to the centre and 0 at the silhouette; W2 (eq. 7) 1 at the
+// nearest depth and 0 at eps behind it.
+#include "common/frame.glsl"
+#include "common/sphere.glsl"
+#include "common/splat.glsl"
+#include "common/splat_at.glsl"
+
+layout(binding = 1) uniform sampler2D nearest_map;
+layout(location = 1) uniform float eps; // m
+layout(location = 2) flat in vec3 color;
+layout(location = 0) out vec4 color_sum;
+layout(location = 1) out vec4 normal_sum;
+layout(location = 2) out float weight_sum;
+
+float weight_of(Splat hit, float nearest)
+{
+#if WEIGHTS == 0
+    return hit.depth <= nearest * 1.000001 ? 1.0 : 0.0;
+#else
+    float w1 = 1.0 - sqrt(max(1.0 - hit.inside2, 0.0)); // eq. 6
+#if WEIGHTS == 1
+    return w1;
+#else
+    return w1 * (nearest + eps - hit.depth) / eps; // eq. 7
+#endif
+#endif
+}
+
+void main()
+{
+    Splat hit = splat_here();
+    float nearest = texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x;
+    if (!(splat_seen(hit) && hit.depth < nearest + eps))
+        discard;
+    float weight = weight_of(hit, nearest);
+    color_sum = vec4(weight * color, 0.0);
+    normal_sum = vec4(weight * hit.normal, 0.0);
+    weight_sum = weight;
+}

@@ -1,0 +1,202 @@
+/* What the tests of the view splat share: fixed particles, the maps that its passes leave, and the same by
+   the paper's equations in double. */
+#ifndef SLOSH_SPLAT_FIXTURE_H
+#define SLOSH_SPLAT_FIXTURE_H
+
+#include "tests/render/fixture.h"
+
+#include "render/frame.h"
+#include "render/splat.h"
+
+#include <epoxy/gl.h>
+
+typedef struct SplatScene {
+    ViewDef def;
+    ParticleBuffers state;
+    Particles *particles;
+    int width, height;
+    Frame frame; /* of the last drawing */
+} SplatScene;
+
+/* Of a pixel, row by row from below; what nothing covers has weight 0. */
+typedef struct SplatPixel {
+    double depth; /* m; 1e30 where nothing is */
+    double color[3], normal[3], weight;
+    double slope; /* of the nearest sphere's depth there: 1 / sqrt(1 - rho^2), by which rounding grows */
+    bool unsure;  /* so near a rim or a limit that rounding decides */
+} SplatPixel;
+
+static inline SplatScene splat_scene(const double from[3], const double to[3], double fov_deg, double radius)
+{
+    SplatScene scene = {
+        .def = bare_view(), .particles = calloc(1, sizeof(Particles)), .width = 160, .height = 120};
+    assert_non_null(scene.particles);
+    text_set(scene.def.kind, "splat");
+    scene.def.color_by = SCALAR_FLUID;
+    scene.def.camera_auto = false;
+    memcpy(scene.def.camera.from, from, sizeof scene.def.camera.from);
+    memcpy(scene.def.camera.to, to, sizeof scene.def.camera.to);
+    scene.def.camera.fov_deg = fov_deg;
+    scene.def.radius = 1;
+    scene.state = box_state(0, radius);
+    return scene;
+}
+
+static inline void read_maps(const SplatMaps *maps, SplatPixel *pixels, int count)
+{
+    float *depth = calloc((size_t)count, sizeof *depth), *weight = calloc((size_t)count, sizeof *weight);
+    float *color = calloc((size_t)count, 3 * sizeof *color),
+          *normal = calloc((size_t)count, 3 * sizeof *normal);
+    glGetTextureImage(maps->nearest, 0, GL_RED, GL_FLOAT, count * (int)sizeof *depth, depth);
+    glGetTextureImage(maps->weight, 0, GL_RED, GL_FLOAT, count * (int)sizeof *weight, weight);
+    glGetTextureImage(maps->color, 0, GL_RGB, GL_FLOAT, 3 * count * (int)sizeof *color, color);
+    glGetTextureImage(maps->normal, 0, GL_RGB, GL_FLOAT, 3 * count * (int)sizeof *normal, normal);
+    for (int i = 0; i < count; i++) {
+        pixels[i] = (SplatPixel){.depth = depth[i], .weight = weight[i]};
+        for (int k = 0; k < 3; k++)
+            pixels[i].color[k] = color[3 * i + k], pixels[i].normal[k] = normal[3 * i + k];
+    }
+    free(depth), free(weight), free(color), free(normal);
+}
+
+/* width * height pixels, which the caller frees. */
+static inline SplatPixel *splat_drawn(SplatScene *scene)
+{
+    Error error = {0};
+    ParticleBuffers buffers;
+    Target target;
+    const int count = scene->width * scene->height;
+    SplatPixel *pixels = calloc((size_t)count, sizeof *pixels);
+    void *view = view_splat.create(&scene->def, &error);
+    if (!view || !target_create(&target, scene->width, scene->height, &error))
+        fail_msg("%s", error.message);
+    scene->state.count = scene->particles->count;
+    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    frame_make(&scene->frame, &scene->def, &buffers, &target, 1, 0);
+    unsigned uniforms = frame_uniforms_create();
+    frame_uniforms_update(uniforms, &scene->frame, buffers.box_size, buffers.spacing);
+    target_begin(&target);
+    view_splat.draw(view, &buffers, &scene->frame);
+    read_maps(splat_maps(view), pixels, count);
+    glDeleteBuffers(1, &uniforms);
+    upload_destroy(upload);
+    target_destroy(&target);
+    view_splat.destroy(view);
+    return pixels;
+}
+
+static inline double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Of one sphere on one ray. */
+typedef struct SplatHit {
+    double depth, rho; /* rho: how far beside the centre the ray is, in radii */
+    double normal[3];
+} SplatHit;
+
+/* Exact: the first point of the sphere on the ray. */
+static inline SplatHit hit_perspective(const double c[3], double r, const double ray[3])
+{
+    const double dd = dot3(ray, ray), b = dot3(ray, c), q = dot3(c, c) - r * r;
+    const double t = (b - sqrt(fmax(b * b - dd * q, 0))) / dd;
+    SplatHit hit = {.depth = q > 0 && b > 0 ? t : -1, .rho = sqrt(fmax(dot3(c, c) - b * b / dd, 0)) / r};
+    for (int k = 0; k < 3; k++)
+        hit.normal[k] = (t * ray[k] - c[k]) / r;
+    return hit;
+}
+
+/* Eq. 5: x is where the ray meets the square through the centre. */
+static inline SplatHit hit_paper(const double c[3], double r, const double ray[3])
+{
+    const double w = -c[2], dx = w * ray[0] - c[0], dy = w * ray[1] - c[1];
+    const double root = sqrt(fmax(r * r - dx * dx - dy * dy, 0));
+    return (SplatHit){w > 0 ? w - root : -1, sqrt(dx * dx + dy * dy) / r, {dx / r, dy / r, root / r}};
+}
+
+static inline SplatHit hit_of(const SplatScene *scene, size_t particle, int x, int y)
+{
+    const Camera *camera = &scene->frame.camera;
+    const double ray[3] = {(2 * (x + 0.5) / scene->width - 1) * camera->tangent[0],
+                           (2 * (y + 0.5) / scene->height - 1) * camera->tangent[1], -1};
+    float at[3];
+    memcpy(at, &scene->particles->position[4 * particle], sizeof at);
+    matrix_transform(scene->frame.box_to_world, at, at);
+    matrix_transform(camera->view, at, at);
+    const double c[3] = {at[0], at[1], at[2]}, r = scene->frame.particle_radius;
+    return scene->def.splat.shape == SPLAT_PAPER ? hit_paper(c, r, ray) : hit_perspective(c, r, ray);
+}
+
+static inline bool hit_counts(const SplatScene *scene, const SplatHit *hit)
+{
+    return hit->rho < 1 && hit->depth >= scene->frame.camera.near_plane; /* not for NaN */
+}
+
+/* Eq. 6 and 7. */
+static inline double weight_of(const SplatScene *scene, const SplatHit *hit, double nearest, double eps)
+{
+    switch (scene->def.splat.weights) {
+    case SPLAT_NO_WEIGHTS:
+        return hit->depth <= nearest;
+    case SPLAT_W1:
+        return 1 - hit->rho;
+    default:
+        return (1 - hit->rho) * (nearest + eps - hit->depth) / eps;
+    }
+}
+
+/* Eq. 8 to 10 with all particles. */
+static inline SplatPixel splat_wanted(const SplatScene *scene, int x, int y)
+{
+    SplatPixel pixel = {.depth = 1e30};
+    const double eps = scene->def.splat.eps * scene->frame.particle_radius;
+    for (size_t i = 0; i < scene->particles->count; i++) {
+        const SplatHit hit = hit_of(scene, i, x, y);
+        pixel.unsure |= fabs(hit.rho - 1) < 1e-3;
+        if (hit_counts(scene, &hit) && hit.depth < pixel.depth)
+            pixel.depth = hit.depth, pixel.slope = 1 / sqrt(1 - hit.rho * hit.rho);
+    }
+    for (size_t i = 0; i < scene->particles->count; i++) {
+        const SplatHit hit = hit_of(scene, i, x, y);
+        const float *color = scene->def.fluid_color[scene->particles->fluid[i]];
+        if (!hit_counts(scene, &hit) || hit.depth >= pixel.depth + eps)
+            continue;
+        const double weight = weight_of(scene, &hit, pixel.depth, eps);
+        pixel.unsure |= fabs(hit.depth - pixel.depth - eps) < 1e-4 * eps ||
+                        (hit.depth > pixel.depth && hit.depth < pixel.depth * (1 + 1e-5));
+        pixel.weight += weight;
+        for (int k = 0; k < 3; k++)
+            pixel.color[k] += weight * color[k], pixel.normal[k] += weight * hit.normal[k];
+    }
+    return pixel;
+}
+
+/* Depth to 32 bits' precision, sums to 16 bits' of some terms. Returns how many pixels are covered. */
+static inline int splat_compare(SplatScene *scene)
+{
+    SplatPixel *drawn = splat_drawn(scene);
+    int covered = 0;
+    for (int i = 0; i < scene->width * scene->height; i++) {
+        const int x = i % scene->width, y = i / scene->width;
+        const SplatPixel wanted = splat_wanted(scene, x, y);
+        covered += drawn[i].depth < 1e29;
+        if (wanted.unsure)
+            continue;
+        const double slack = 5e-7 * (wanted.depth + 2 * wanted.slope * scene->frame.particle_radius);
+        if (fabs(drawn[i].depth - wanted.depth) > slack)
+            fail_msg("pixel %d %d: depth %.9g, formula %.9g", x, y, drawn[i].depth, wanted.depth);
+        const double most = 2e-3 * (0.05 + wanted.weight);
+        if (fabs(drawn[i].weight - wanted.weight) > most / 10)
+            fail_msg("pixel %d %d: weight %g, formula %g", x, y, drawn[i].weight, wanted.weight);
+        for (int k = 0; k < 3; k++)
+            if (fabs(drawn[i].color[k] - wanted.color[k]) > most ||
+                fabs(drawn[i].normal[k] - wanted.normal[k]) > most)
+                fail_msg("pixel %d %d, component %d: colour %g, formula %g; normal %g, formula %g", x, y, k,
+                         drawn[i].color[k], wanted.color[k], drawn[i].normal[k], wanted.normal[k]);
+    }
+    free(drawn);
+    return covered;
+}
+
+#endif
