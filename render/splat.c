@@ -1,6 +1,7 @@
 #include "render/splat.h"
 
 #include "render/colormap.h"
+#include "render/cull.h"
 #include "render/particle_bind.h"
 #include "render/shadow.h"
 #include "sim/gl/program.h"
@@ -12,11 +13,12 @@
 #include <stdlib.h>
 
 typedef struct SplatView {
-    SplatDef def;                          /* what the programs were made for */
-    GLuint depth, blend, shading, casting; /* programs */
+    SplatDef def;                                          /* what the programs were made for */
+    GLuint depth, blend, shading, casting, casting_listed; /* programs; the last for cull */
     GLuint colormap;
     GLuint screen; /* vertex array without attributes */
     QuadIndices quads;
+    Cull cull; /* where def.cull */
     SplatMaps maps;
 } SplatView;
 
@@ -42,33 +44,46 @@ static void splat_destroy(void *state)
     glDeleteProgram(splat->blend);
     glDeleteProgram(splat->shading);
     glDeleteProgram(splat->casting);
+    glDeleteProgram(splat->casting_listed);
     glDeleteTextures(1, &splat->colormap);
     glDeleteVertexArrays(1, &splat->screen);
     delete_maps(&splat->maps);
+    cull_destroy(&splat->cull);
     quad_indices_destroy(&splat->quads);
     free(splat);
+}
+
+/* To see what culling left out wants it too. */
+static bool culls(const SplatView *splat)
+{
+    return splat->def.cull || splat->def.show == SPLAT_CULLED;
 }
 
 static bool create_programs(SplatView *splat, bool solids, Error *error)
 {
     static const char *const depth[] = {"render/splat.vert", "render/splat_depth.frag", NULL};
     static const char *const blend[] = {"render/splat.vert", "render/splat_blend.frag", NULL};
+    static const char *const casting[] = {"render/spheres_shadow.vert", "render/depth_only.frag", NULL};
     static const char *const shading[] = {"common/screen.vert", "render/splat_shade.frag", NULL};
     const SplatDef *def = &splat->def;
     char shape[256], all[512], shade[128];
-    snprintf(shape, sizeof shape, "%s%s", def->shape == SPLAT_PAPER ? "#define PAPER 1\n" : "",
-             def->sprite == SPLAT_POINT ? "#define POINT 1\n" : "");
+    const char *listed = culls(splat) ? "#define LISTED 1\n" : "";
+    snprintf(shape, sizeof shape, "%s%s%s", def->shape == SPLAT_PAPER ? "#define PAPER 1\n" : "",
+             def->sprite == SPLAT_POINT ? "#define POINT 1\n" : "", listed);
     snprintf(all, sizeof all, "%s#define BLEND 1\n#define WEIGHTS %d\n", shape, (int)def->weights);
     snprintf(shade, sizeof shade, "%s#define SHOW %d\n", solids ? "#define SOLIDS 1\n" : "", (int)def->show);
     splat->depth = program_create("splat depth", depth, shape, error);
     splat->blend = splat->depth ? program_create("splat blend", blend, all, error) : 0;
     splat->shading = splat->blend ? program_create("splat shade", shading, shade, error) : 0;
-    splat->casting = splat->shading ? program_create_pair("splat shadow", "render/spheres_shadow.vert",
-                                                          "render/depth_only.frag", error)
-                                    : 0;
-    if (splat->casting)
-        glProgramUniform1f(splat->casting, 1, SHADOW_MAP_TEXELS);
-    return splat->casting != 0;
+    splat->casting = splat->shading ? program_create("splat shadow", casting, NULL, error) : 0;
+    splat->casting_listed =
+        splat->casting && culls(splat) ? program_create("splat shadow, listed", casting, listed, error) : 0;
+    if (!splat->casting || (culls(splat) && !splat->casting_listed))
+        return false;
+    glProgramUniform1f(splat->casting, 1, SHADOW_MAP_TEXELS);
+    if (splat->casting_listed)
+        glProgramUniform1f(splat->casting_listed, 1, SHADOW_MAP_TEXELS);
+    return !culls(splat) || cull_create(&splat->cull, def->shape, error);
 }
 
 static void *splat_create(const ViewDef *def, Error *error)
@@ -129,28 +144,48 @@ static void follow_target(SplatMaps *maps, const Target *target)
     maps->target_number = target->number;
 }
 
+static void draw_points(SplatView *splat, const ParticleBuffers *particles, const size_t *command)
+{
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glBindVertexArray(splat->screen);
+    if (particles->count == 0)
+        return;
+    if (!command) {
+        glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+        return;
+    }
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, splat->cull.commands);
+    glDrawArraysIndirect(GL_POINTS, (const char *)NULL + *command);
+}
+
 static void splat_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SplatView *splat = state;
-    glEnable(GL_PROGRAM_POINT_SIZE);
-    glUseProgram(splat->casting);
-    particle_bind(splat->casting, particles, frame->def->color_by);
-    glBindVertexArray(splat->screen);
-    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+    const bool listed = culls(splat) && cull_for_light(&splat->cull, particles, frame);
+    const size_t command = listed ? cull_use(&splat->cull, CULL_NEAREST) : 0;
+    const GLuint program = listed ? splat->casting_listed : splat->casting;
+    glUseProgram(program);
+    particle_bind(program, particles, frame->def->color_by);
+    draw_points(splat, particles, listed ? &command : NULL);
 }
 
 static void draw_sprites(SplatView *splat, GLuint program, const ParticleBuffers *particles,
-                         const Frame *frame)
+                         const Frame *frame, CullList list)
 {
+    const size_t command = culls(splat) ? cull_use(&splat->cull, list) : 0;
     glUseProgram(program);
     particle_bind(program, particles, frame->def->color_by);
-    if (splat->def.sprite == SPLAT_QUAD) {
+    if (splat->def.sprite == SPLAT_POINT)
+        draw_points(splat, particles, culls(splat) ? &command : NULL);
+    else if (culls(splat))
+        quad_indices_draw_indirect(&splat->quads, particles->count, splat->cull.commands, command);
+    else
         quad_indices_draw(&splat->quads, particles->count);
-        return;
-    }
-    glEnable(GL_PROGRAM_POINT_SIZE);
-    glBindVertexArray(splat->screen);
-    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+}
+
+static float eps_of(const Frame *frame)
+{
+    return (float)frame->def->splat.eps * frame->particle_radius;
 }
 
 /* What the sprites of pass 1 and 2 have in common: they mix with what is there, and know no depth buffer. */
@@ -166,9 +201,13 @@ static void begin_sprites(GLuint framebuffer, const Frame *frame, GLenum equatio
 
 static void find_nearest(SplatView *splat, const ParticleBuffers *particles, const Frame *frame)
 {
+    const bool hidden = splat->def.show == SPLAT_CULLED;
+    if (culls(splat))
+        cull_for_eye(&splat->cull, particles, frame, eps_of(frame), splat->def.sprite == SPLAT_POINT ? 1 : 6,
+                     hidden);
     glClearNamedFramebufferfv(splat->maps.nearest_framebuffer, GL_COLOR, 0, (GLfloat[4]){NOTHING});
     begin_sprites(splat->maps.nearest_framebuffer, frame, GL_MIN);
-    draw_sprites(splat, splat->depth, particles, frame);
+    draw_sprites(splat, splat->depth, particles, frame, CULL_NEAREST);
 }
 
 static void blend_attributes(SplatView *splat, const ParticleBuffers *particles, const Frame *frame)
@@ -176,10 +215,10 @@ static void blend_attributes(SplatView *splat, const ParticleBuffers *particles,
     for (int i = 0; i < 3; i++)
         glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
     begin_sprites(splat->maps.blend_framebuffer, frame, GL_FUNC_ADD);
-    glProgramUniform1f(splat->blend, 1, (float)frame->def->splat.eps * frame->particle_radius);
+    glProgramUniform1f(splat->blend, 1, eps_of(frame));
     glBindTextureUnit(1, splat->maps.nearest);
     glBindTextureUnit(2, splat->colormap);
-    draw_sprites(splat, splat->blend, particles, frame);
+    draw_sprites(splat, splat->blend, particles, frame, CULL_BLEND);
     glDisable(GL_BLEND);
 }
 

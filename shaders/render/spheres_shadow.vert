@@ -2,12 +2,13 @@
 // texel round off. No discard and no depth written by the fragment, so that the driver's fast path does it.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
+#include "common/listed.glsl"
 
 layout(location = 1) uniform float map_texels;
 
 void main()
 {
-    vec3 at = (box_to_light * vec4(particle_position(uint(gl_VertexID)), 1.0)).xyz;
+    vec3 at = (box_to_light * vec4(particle_position(listed_particle(uint(gl_VertexID))), 1.0)).xyz;
     gl_Position = vec4(2.0 * at.xy - 1.0, at.z, 1.0);
     gl_PointSize = 1.77245 * particle.x / lens.w * map_texels; // the map is lens.w wide
 }

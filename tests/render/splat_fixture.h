@@ -15,6 +15,7 @@ typedef struct SplatScene {
     ParticleBuffers state;
     Particles *particles;
     int width, height;
+    bool empty;  /* as if there were no particles; an upload has at least one */
     Frame frame; /* of the last drawing */
 } SplatScene;
 
@@ -42,21 +43,35 @@ static inline SplatScene splat_scene(const double from[3], const double to[3], d
     return scene;
 }
 
-static inline void read_maps(const SplatMaps *maps, SplatPixel *pixels, int count)
+static inline float *read_map(unsigned map, unsigned format, int count, int components)
 {
-    float *depth = calloc((size_t)count, sizeof *depth), *weight = calloc((size_t)count, sizeof *weight);
-    float *color = calloc((size_t)count, 3 * sizeof *color),
-          *normal = calloc((size_t)count, 3 * sizeof *normal);
-    glGetTextureImage(maps->nearest, 0, GL_RED, GL_FLOAT, count * (int)sizeof *depth, depth);
-    glGetTextureImage(maps->weight, 0, GL_RED, GL_FLOAT, count * (int)sizeof *weight, weight);
-    glGetTextureImage(maps->color, 0, GL_RGB, GL_FLOAT, 3 * count * (int)sizeof *color, color);
-    glGetTextureImage(maps->normal, 0, GL_RGB, GL_FLOAT, 3 * count * (int)sizeof *normal, normal);
+    float *values = calloc((size_t)count, (size_t)components * sizeof *values);
+    assert_non_null(values);
+    glGetTextureImage(map, 0, format, GL_FLOAT, count * components * (int)sizeof *values, values);
+    return values;
+}
+
+static inline void read_depth(const SplatMaps *maps, SplatPixel *pixels, int count)
+{
+    float *depth = read_map(maps->nearest, GL_RED, count, 1);
+    for (int i = 0; i < count; i++)
+        pixels[i].depth = depth[i];
+    free(depth);
+}
+
+static inline void read_sums(const SplatMaps *maps, SplatPixel *pixels, int count)
+{
+    float *color = read_map(maps->color, GL_RGB, count, 3),
+          *normal = read_map(maps->normal, GL_RGB, count, 3);
+    float *weight = read_map(maps->weight, GL_RED, count, 1);
     for (int i = 0; i < count; i++) {
-        pixels[i] = (SplatPixel){.depth = depth[i], .weight = weight[i]};
+        pixels[i].weight = weight[i];
         for (int k = 0; k < 3; k++)
             pixels[i].color[k] = color[3 * i + k], pixels[i].normal[k] = normal[3 * i + k];
     }
-    free(depth), free(weight), free(color), free(normal);
+    free(color);
+    free(normal);
+    free(weight);
 }
 
 /* width * height pixels, which the caller frees. */
@@ -72,12 +87,17 @@ static inline SplatPixel *splat_drawn(SplatScene *scene)
         fail_msg("%s", error.message);
     scene->state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    buffers.count = scene->empty ? 0 : buffers.count;
     frame_make(&scene->frame, &scene->def, &buffers, &target, 1, 0);
     unsigned uniforms = frame_uniforms_create();
     frame_uniforms_update(uniforms, &scene->frame, buffers.box_size, buffers.spacing);
     target_begin(&target);
+    target_begin(&target);
+    view_splat.cast(view, &buffers, &scene->frame);
+    target_begin(&target);
     view_splat.draw(view, &buffers, &scene->frame);
-    read_maps(splat_maps(view), pixels, count);
+    read_depth(splat_maps(view), pixels, count);
+    read_sums(splat_maps(view), pixels, count);
     glDeleteBuffers(1, &uniforms);
     upload_destroy(upload);
     target_destroy(&target);

@@ -153,6 +153,25 @@ static void test_solids(void **state)
     check(&golden);
 }
 
+static void test_splat(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("splat", 320, 240);
+    text_set(golden.def.kind, "splat");
+    check(&golden);
+}
+
+/* Two fluids without blending of depth, where the paper's Figure 3 has its seams. */
+static void test_splat_w1(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("splat_w1", 160, 120);
+    text_set(golden.def.kind, "splat");
+    golden.def.color_by = SCALAR_FLUID;
+    golden.def.splat = (SplatDef){.eps = 0.25, .weights = SPLAT_W1, .shape = SPLAT_PAPER, .cull = true};
+    check(&golden);
+}
+
 /* The measure itself: one shifted picture must not pass. */
 static void test_difference_is_seen(void **state)
 {
@@ -177,6 +196,8 @@ int main(void)
         cmocka_unit_test_teardown(test_fluid_legend, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing, no_gl_errors),
         cmocka_unit_test_teardown(test_solids, no_gl_errors),
+        cmocka_unit_test_teardown(test_splat, no_gl_errors),
+        cmocka_unit_test_teardown(test_splat_w1, no_gl_errors),
         cmocka_unit_test_teardown(test_difference_is_seen, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

@@ -1,0 +1,215 @@
+#include "render/cull.h"
+
+#include "render/particle_bind.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6 };
+
+/* A coarse map: see `grid` and `projection` in shaders/common/cull.glsl. */
+typedef struct Grid {
+    GLuint columns, rows, side, reach;
+    GLfloat projection[4];
+} Grid;
+
+static GLuint compile(const char *label, const char *file, const char *defines, Error *error)
+{
+    return program_create(label, (const char *const[]){file, NULL}, defines, error);
+}
+
+static bool create_programs(Cull *cull, SplatShape shape, Error *error)
+{
+    const char *defines[] = {shape == SPLAT_PAPER ? "#define PAPER 1\n" : NULL, "#define LIGHT 1\n"};
+    for (int i = 0; i < 2; i++) {
+        cull->occlude[i] = compile("cull occlude", "render/cull_occlude.comp", defines[i], error);
+        cull->test[i] =
+            cull->occlude[i] ? compile("cull test", "render/cull_test.comp", defines[i], error) : 0;
+        if (!cull->test[i])
+            return false;
+    }
+    cull->widen = compile("cull widen", "render/cull_widen.comp", NULL, error);
+    cull->sum = cull->widen ? compile("cull sum", "render/cull_sum.comp", NULL, error) : 0;
+    cull->list = cull->sum ? compile("cull list", "render/cull_list.comp", NULL, error) : 0;
+    return cull->list != 0;
+}
+
+static void remake(GLuint *buffer, size_t size, const char *label)
+{
+    glDeleteBuffers(1, buffer);
+    glCreateBuffers(1, buffer);
+    glObjectLabel(GL_BUFFER, *buffer, -1, label);
+    glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, 0);
+}
+
+bool cull_create(Cull *cull, SplatShape shape, Error *error)
+{
+    GLfloat range[2] = {0};
+    *cull = (Cull){0};
+    glGetFloatv(GL_POINT_SIZE_RANGE, range);
+    cull->point_limit = range[1];
+    remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
+    return create_programs(cull, shape, error);
+}
+
+void cull_destroy(Cull *cull)
+{
+    for (int i = 0; i < 2; i++) {
+        glDeleteProgram(cull->occlude[i]);
+        glDeleteProgram(cull->test[i]);
+    }
+    glDeleteProgram(cull->widen);
+    glDeleteProgram(cull->sum);
+    glDeleteProgram(cull->list);
+    glDeleteBuffers(2, cull->map);
+    glDeleteBuffers(CULL_LISTS, cull->lists);
+    glDeleteBuffers(2, (GLuint[]){cull->kept, cull->commands});
+    *cull = (Cull){0};
+}
+
+static GLuint chunks_of(size_t count)
+{
+    return (GLuint)((count + CHUNK - 1) / CHUNK);
+}
+
+static void reserve(Cull *cull, size_t count, size_t cells)
+{
+    if (cells > cull->cells) {
+        for (int i = 0; i < 2; i++)
+            remake(&cull->map[i], cells * sizeof(GLuint), "cull map");
+        cull->cells = cells;
+    }
+    if (count > cull->capacity) {
+        remake(&cull->kept, chunks_of(count) * 4 * sizeof(GLuint), "cull kept");
+        for (int i = 0; i < CULL_LISTS; i++)
+            remake(&cull->lists[i], count * sizeof(GLuint), "cull list");
+        cull->capacity = count;
+    }
+}
+
+static GLuint clamp_to(double value, double low, double high)
+{
+    return (GLuint)fmax(low, fmin(value, high)); /* `low` for NaN */
+}
+
+/* Cells so large that the smallest sprite, `least` pixels wide within all of its rim, covers one wherever it
+   is: that has side + (side - 1) pixels. Maxima reach as far as the largest sprite does. */
+static Grid make_grid(double width, double height, double least, double most)
+{
+    const double coarse = ceil(fmax(width, height) / CELLS_A_SIDE);
+    const GLuint side = clamp_to(floor((least + 1) / 2), coarse, 4096);
+    return (Grid){.columns = (GLuint)ceil(width / side),
+                  .rows = (GLuint)ceil(height / side),
+                  .side = side,
+                  .reach = clamp_to(ceil(most / side / 2 + 1), 1, REACH_MOST),
+                  .projection = {(GLfloat)width, (GLfloat)height}};
+}
+
+static void use(GLuint program, const Grid *grid, const ParticleBuffers *particles, const Frame *frame)
+{
+    glUseProgram(program);
+    if (particles)
+        particle_bind(program, particles, frame->def->color_by);
+    glUniform4ui(1, grid->columns, grid->rows, grid->side, grid->reach);
+    glUniform4fv(2, 1, grid->projection);
+}
+
+static void run(size_t invocations)
+{
+    glDispatchCompute((GLuint)((invocations + 63) / 64), 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+static void widen(const Cull *cull, const Grid *grid)
+{
+    use(cull->widen, grid, NULL, NULL);
+    for (GLuint upwards = 0; upwards < 2; upwards++) {
+        glUniform1ui(3, upwards);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[upwards]);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cull->map[1 - upwards]);
+        run((size_t)grid->columns * grid->rows);
+    }
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+}
+
+static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
+                     int light)
+{
+    static const GLfloat nothing = INFINITY;
+    const size_t cells = (size_t)grid->columns * grid->rows;
+    reserve(cull, particles->count, cells);
+    glClearNamedBufferSubData(cull->map[0], GL_R32F, 0, (GLsizeiptr)(cells * sizeof nothing), GL_RED,
+                              GL_FLOAT, &nothing);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    use(cull->occlude[light], grid, particles, frame);
+    glUniform1ui(3, (GLuint)particles->count);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+    run(particles->count);
+    widen(cull, grid);
+}
+
+static void make_lists(Cull *cull, size_t count, unsigned vertices)
+{
+    glUseProgram(cull->sum);
+    glUniform1ui(1, chunks_of(count));
+    glUniform1ui(2, vertices);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, cull->commands);
+    run(1);
+    glUseProgram(cull->list);
+    glUniform1ui(1, chunks_of(count));
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 6, CULL_LISTS, cull->lists);
+    run(chunks_of(count));
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+}
+
+static void make(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
+                 int light, float eps, unsigned vertices, bool hidden)
+{
+    make_map(cull, grid, particles, frame, light);
+    use(cull->test[light], grid, particles, frame);
+    glUniform1ui(3, (GLuint)particles->count);
+    glUniform1f(4, eps);
+    glUniform1ui(5, hidden);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cull->kept);
+    run(chunks_of(particles->count));
+    make_lists(cull, particles->count, vertices);
+}
+
+/* Pixels across of a sphere at that distance in the middle of the picture. */
+static double pixels_across(const Frame *frame, double distance)
+{
+    return frame->particle_radius / fmax(distance, frame->camera.near_plane) / frame->camera.tangent[1] *
+           frame->height;
+}
+
+void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *frame, float eps,
+                  unsigned vertices, bool hidden)
+{
+    const float *tangent = frame->camera.tangent;
+    const double slant =
+        1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]; /* spheres at the rim are wider */
+    const Grid grid =
+        make_grid(frame->width, frame->height, pixels_across(frame, frame->farthest) * sqrt(0.5),
+                  pixels_across(frame, frame->nearest + frame->particle_radius) * slant);
+    if (particles->count > 0)
+        make(cull, &grid, particles, frame, 0, eps, vertices, hidden);
+}
+
+/* As wide as spheres_shadow.vert draws them. */
+bool cull_for_light(Cull *cull, const ParticleBuffers *particles, const Frame *frame)
+{
+    const double side = 1.77245 * frame->particle_radius / frame->light_depth * SHADOW_MAP_TEXELS;
+    if (side > cull->point_limit || particles->count == 0)
+        return false;
+    Grid grid = make_grid(SHADOW_MAP_TEXELS, SHADOW_MAP_TEXELS, side, fmax(side, 1));
+    grid.projection[2] = (GLfloat)(side / 2), grid.projection[3] = (GLfloat)(fmax(side, 1) / 2);
+    make(cull, &grid, particles, frame, 1, 0, 1, false);
+    return true;
+}
+
+size_t cull_use(const Cull *cull, CullList list)
+{
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, cull->lists[list]);
+    return (size_t)list * COMMAND_SIZE;
+}

@@ -1,0 +1,18 @@
+// Writes the numbers of the particles that are kept, in their order: what is drawn blends as it would without culling, to the bit.
+layout(local_size_x = 64) in;
+layout(location = 1) uniform uint chunks;
+layout(std430, binding = 5) readonly buffer Kept { uvec4 kept[]; }; // bits of two lists, numbers before
+layout(std430, binding = 6) writeonly buffer Nearest { uint nearest_list[]; };
+layout(std430, binding = 7) writeonly buffer Blended { uint blend_list[]; };
+
+void main()
+{
+    uint chunk = gl_GlobalInvocationID.x;
+    if (chunk >= chunks)
+        return;
+    uvec4 own = kept[chunk];
+    for (uint bits = own.x; bits != 0u; bits &= bits - 1u)
+        nearest_list[own.z++] = chunk * 32u + uint(findLSB(bits));
+    for (uint bits = own.y; bits != 0u; bits &= bits - 1u)
+        blend_list[own.w++] = chunk * 32u + uint(findLSB(bits));
+}

@@ -1,0 +1,72 @@
+// Writes each particle into the cells of the coarse map that it covers, of the nine around its centre.
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+#include "common/cull.glsl"
+
+layout(local_size_x = 64) in;
+layout(location = 3) uniform uint count;
+
+const float pixel_margin = 1.0 / 64.0; // rasterisers round corners to 1/256 of a pixel
+
+struct Disc {
+    vec2 middle, radii; // pixels
+    float w, slant;     // depth of the centre, m; tangent of the steepest ray's angle to the axis
+};
+
+#ifdef LIGHT
+Disc disc_of(uint index)
+{
+    vec3 at = light_pixel(index);
+    return Disc(at.xy, vec2(projection.z - pixel_margin), at.z, 0.0);
+}
+
+// Greatest depth of the sprite where it is at most `away` radii beside its centre; infinity where it may end before.
+float depth_within(Disc disc, vec2 away)
+{
+    return max(away.x, away.y) < 1.0 ? max(disc.w, 0.0) : uintBitsToFloat(nothing);
+}
+#else
+// The disc through the centre across the eye's axis, which is in the sphere; nothing where the sphere reaches the near plane.
+Disc disc_of(uint index)
+{
+    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
+    float w = -centre.z;
+    vec2 scale = 0.5 * projection.xy / (w * lens.xy);
+    bool whole = w - particle.x > lens.z;
+#ifdef PAPER
+    float slant = 0.0; // the paper's rays go along the axis
+#else
+    float slant = (length(centre.xy) + particle.x) / w;
+#endif
+    return Disc(centre.xy * scale + 0.5 * projection.xy, whole ? particle.x * scale - pixel_margin : vec2(0.0), w, slant);
+}
+
+// A ray that is r away from the centre in the disc's plane meets the sphere the latest when it leans outwards: as
+// splat_hit with u.d = -r slant.
+float depth_within(Disc disc, vec2 away)
+{
+    float r2 = dot(away, away), length2 = 1.0 + disc.slant * disc.slant;
+    float k = (sqrt(max(length2 - r2, 0.0)) - sqrt(r2) * disc.slant) / length2;
+    return r2 < 0.99 ? (disc.w - particle.x * k) * 1.00001 : uintBitsToFloat(nothing);
+}
+#endif
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= count)
+        return;
+    Disc disc = disc_of(index);
+    vec2 side = vec2(grid.z), middle = floor(disc.middle / side), per_radius = 1.0 / disc.radii;
+    // not for NaN
+    if (!(disc.radii.x > 0.0 && all(greaterThanEqual(middle, vec2(0.0))) && all(lessThan(middle, vec2(grid.xy)))))
+        return;
+    ivec2 low = max(ivec2(middle) - 1, ivec2(0)), high = min(ivec2(middle) + 1, ivec2(grid.xy) - 1);
+    for (int y = low.y; y <= high.y; y++)
+        for (int x = low.x; x <= high.x; x++) {
+            vec2 away = abs((vec2(x, y) + 0.5) * side - disc.middle) + 0.5 * (side - 1.0);
+            uint depth = floatBitsToUint(depth_within(disc, away * per_radius)), cell = uint(y) * grid.x + uint(x);
+            if (depth < nearest[cell])
+                atomicMin(nearest[cell], depth);
+        }
+}

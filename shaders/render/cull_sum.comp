@@ -1,0 +1,35 @@
+// Turns the numbers of kept particles into those before, and writes how much is to be drawn. One workgroup does it all.
+layout(local_size_x = 256) in;
+layout(location = 1) uniform uint chunks;
+layout(location = 2) uniform uint vertices;                          // of a particle
+layout(std430, binding = 5) buffer Kept { uvec4 kept[]; };           // as in cull_test.comp
+layout(std430, binding = 6) writeonly buffer Commands { uint command[]; }; // 8 words for each of the two lists
+shared uvec2 part[256];
+
+void main()
+{
+    uint lane = gl_LocalInvocationID.x, each = (chunks + 255u) / 256u;
+    uint first = min(lane * each, chunks), end = min(first + each, chunks);
+    uvec2 sum = uvec2(0u);
+    for (uint i = first; i < end; i++)
+        sum += kept[i].zw;
+    part[lane] = sum;
+    barrier();
+    for (uint reach = 1u; reach < 256u; reach *= 2u) { // Hillis and Steele 1986
+        uvec2 before = lane >= reach ? part[lane - reach] : uvec2(0u);
+        barrier();
+        part[lane] += before;
+        barrier();
+    }
+    uvec2 running = part[lane] - sum;
+    for (uint i = first; i < end; i++) {
+        uvec2 own = kept[i].zw;
+        kept[i].zw = running;
+        running += own;
+    }
+    if (lane < 2u) { // count, instances, first, base vertex, base instance: what both kinds of indirect drawing read
+        for (uint word = 0u; word < 8u; word++)
+            command[lane * 8u + word] = word == 1u ? 1u : 0u;
+        command[lane * 8u] = vertices * part[255][lane];
+    }
+}

@@ -1,0 +1,122 @@
+/* Culling of hidden particles before the view splat draws: it leaves out many, and changes no pixel. */
+#include "tests/render/splat_fixture.h"
+
+/* A block of fluid, not quite a lattice, with drops above it. */
+static SplatScene fluid(double fov_deg)
+{
+    SplatScene scene = splat_scene((double[]){1.5, 1.6, 2.5}, (double[]){-0.3, 0.3, 0}, fov_deg, 0.05);
+    for (int i = 0; i < 20 * 14 * 16; i++) {
+        const int x = i % 20, y = i / 20 % 14, z = i / 280;
+        particles_add(scene.particles, -0.9 + 0.05 * x + 0.01 * sin(7.1 * i),
+                      0.02 + 0.05 * y + 0.01 * sin(3.7 * i), -0.4 + 0.05 * z + 0.01 * sin(5.3 * i),
+                      1 + sin(i), (unsigned)i % 2);
+    }
+    for (int i = 0; i < 40; i++)
+        particles_add(scene.particles, 0.9 * sin(12.9 * i), 0.8 + 0.1 * sin(78.2 * i), 0.4 * sin(37.7 * i), 1,
+                      1);
+    return scene;
+}
+
+static void compare(SplatScene *scene, const char *what)
+{
+    scene->def.splat.cull = true;
+    SplatPixel *culled = splat_drawn(scene);
+    scene->def.splat.cull = false;
+    SplatPixel *all = splat_drawn(scene);
+    for (int i = 0; i < scene->width * scene->height; i++)
+        if (memcmp(&culled[i], &all[i], sizeof *all) != 0)
+            fail_msg("%s: pixel %d %d: depth %.9g, weight %.9g; with all particles %.9g, %.9g", what,
+                     i % scene->width, i / scene->width, culled[i].depth, culled[i].weight, all[i].depth,
+                     all[i].weight);
+    free(culled);
+    free(all);
+}
+
+static void it_changes_no_pixel(void **state)
+{
+    (void)state; /* from afar, near, with spheres smaller than a pixel, and through a wide lens */
+    static const double fovs[] = {30, 8, 170, 100};
+    for (int i = 0; i < 4; i++)
+        for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++)
+            for (double eps = 0.1; eps < 2; eps += 1.4) {
+                SplatScene scene = fluid(fovs[i]);
+                char what[64];
+                scene.def.splat.shape = (SplatShape)shape, scene.def.splat.eps = eps;
+                snprintf(what, sizeof what, "%g degrees, %s, eps %g", fovs[i], splat_shape_names[shape], eps);
+                compare(&scene, what);
+                free(scene.particles);
+            }
+}
+
+static void nor_from_within_the_fluid(void **state)
+{
+    (void)state;
+    SplatScene scene = fluid(60);
+    memcpy(scene.def.camera.from, (double[]){-0.41, 0.31, 0.02}, sizeof scene.def.camera.from);
+    memcpy(scene.def.camera.to, (double[]){-0.2, 0.4, 0.4}, sizeof scene.def.camera.to);
+    compare(&scene, "eye in the fluid");
+    memcpy(scene.def.camera.from, (double[]){0.2, 0.3, 0.1}, sizeof scene.def.camera.from);
+    memcpy(scene.def.camera.to, (double[]){-1, 0.3, 0}, sizeof scene.def.camera.to);
+    compare(&scene, "eye in the box, beside the fluid");
+    free(scene.particles);
+}
+
+/* What it leaves out lies farther than eps behind the surface everywhere, and is behind more than a third of
+   the picture of the fluid. */
+static void it_leaves_out_what_is_hidden(void **state)
+{
+    (void)state;
+    SplatScene scene = fluid(30);
+    scene.width = 320, scene.height = 240;
+    SplatPixel *seen = splat_drawn(&scene);
+    scene.def.splat.show = SPLAT_CULLED;
+    SplatPixel *hidden = splat_drawn(&scene);
+    const double eps = scene.def.splat.eps * scene.frame.particle_radius;
+    int covered = 0, over = 0;
+    for (int i = 0; i < scene.width * scene.height; i++) {
+        covered += seen[i].depth < 1e29;
+        over += hidden[i].depth < 1e29;
+        if (hidden[i].depth < 1e29 && !(hidden[i].depth > seen[i].depth + eps))
+            fail_msg("pixel %d %d: %g m is hidden by %g m", i % scene.width, i / scene.width, hidden[i].depth,
+                     seen[i].depth);
+    }
+    if (3 * over < covered)
+        fail_msg("hidden particles behind %d of %d pixels", over, covered);
+    free(seen);
+    free(hidden);
+    free(scene.particles);
+}
+
+/* The whole picture, with shadow: the light has its own culling. */
+static void shadows_stay_the_same(void **state)
+{
+    (void)state;
+    Error error = {0};
+    static uint8_t rgb[2][3 * 160 * 120];
+    for (int cull = 0; cull < 2; cull++) {
+        SplatScene scene = fluid(30);
+        ParticleBuffers buffers;
+        scene.def.splat.cull = cull, scene.def.floor = true;
+        scene.state.count = scene.particles->count;
+        Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
+        Renderer *renderer = renderer_create(&scene.def, scene.width, scene.height, &error);
+        assert_non_null(renderer);
+        renderer_draw(renderer, &buffers, NULL);
+        renderer_read(renderer, rgb[cull]);
+        renderer_destroy(renderer);
+        upload_destroy(upload);
+        free(scene.particles);
+    }
+    assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(it_changes_no_pixel, no_gl_errors),
+        cmocka_unit_test_teardown(nor_from_within_the_fluid, no_gl_errors),
+        cmocka_unit_test_teardown(it_leaves_out_what_is_hidden, no_gl_errors),
+        cmocka_unit_test_teardown(shadows_stay_the_same, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}

@@ -1,0 +1,197 @@
+/* The view splat among all else that a picture has: solids, shadows, colours, its settings while it is drawn.
+ */
+#include "tests/render/solids_fixture.h"
+
+#include "render/camera.h"
+
+static Scene splat_among_solids(void)
+{
+    Scene scene = scene_create();
+    text_set(scene.def.kind, "splat");
+    scene.def.color_by = SCALAR_FLUID;
+    scene.def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 30};
+    scene.state.spacing = 0.3; /* m: the radius of a drop */
+    return scene;
+}
+
+static const uint8_t *pixel_of(const uint8_t *rgb, int x, int y)
+{
+    return &rgb[3 * (y * WIDTH + x)];
+}
+
+/* A ball before the drop hides it, a ball behind is hidden by it; where they meet, the nearer one is seen. */
+static void solids_hide_and_are_hidden(void **state)
+{
+    (void)state;
+    static const double places[] = {0.8, -0.8, 0.2};
+    for (int i = 0; i < 3; i++) {
+        static uint8_t rgb[3 * PIXELS];
+        static float depth[PIXELS], alone[PIXELS];
+        Scene scene = splat_among_solids();
+        particles_add(scene.particles, 0, 0.5, 0, 1, 0);
+        draw_depth(&scene, alone);
+        scene_add(&scene, SOLID_SPHERE, 0, 0.5, places[i]);
+        draw_rgb(&scene, true, rgb);
+        draw_depth(&scene, depth);
+        const uint8_t *middle = pixel_of(rgb, WIDTH / 2, HEIGHT / 2);
+        const bool solid = middle[0] > 150 && middle[2] < 100;
+        assert_int_equal(solid, i != 1); /* the ball is red, the drop blue */
+        for (int k = 0; k < PIXELS; k++)
+            assert_true(depth[k] >= alone[k]);
+        free(scene.particles);
+    }
+}
+
+static double brightness(const uint8_t *rgb, int x, int y)
+{
+    const uint8_t *p = pixel_of(rgb, x, y);
+    return p[0] + p[1] + p[2];
+}
+
+/* The pixel, from the top, of a place in the world. */
+static void pixel_at(const Scene *scene, const double at[3], int pixel[2])
+{
+    Camera camera;
+    double place[2], depth;
+    camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT, (Covered){0},
+                &camera);
+    assert_true(camera_project(&camera, at, WIDTH, HEIGHT, place, &depth));
+    pixel[0] = (int)place[0], pixel[1] = (int)place[1];
+}
+
+/* The light comes from the direction (-0.40, 0.84, 0.3666), render/frame.c; the floor is 0.045 diagonals
+ * below the box. */
+static void its_shadow_falls_on_the_floor(void **state)
+{
+    (void)state;
+    static uint8_t with[3 * PIXELS], without[3 * PIXELS];
+    Scene scene = splat_among_solids();
+    scene.def.floor = true;
+    scene.def.camera = (CameraDef){{0, 2.5, 4}, {0, 0, 0}, 40};
+    particles_add(scene.particles, 0, 0.5, 0, 1, 0);
+    draw_rgb(&scene, false, with);
+    scene.particles->position[1] = -100;
+    draw_rgb(&scene, false, without);
+    const double floor = -0.045 * sqrt(6), drop = (0.5 - floor) / 0.84;
+    const double shaded[3] = {0.40 * drop, floor, -0.3666 * drop}, lit[3] = {-0.40 * drop - 0.3, floor, 0.8};
+    int at[2], beside[2];
+    pixel_at(&scene, shaded, at);
+    pixel_at(&scene, lit, beside);
+    assert_true(brightness(with, at[0], at[1]) < 0.85 * brightness(without, at[0], at[1]));
+    assert_true(fabs(brightness(with, beside[0], beside[1]) - brightness(without, beside[0], beside[1])) < 6);
+    free(scene.particles);
+}
+
+/* Along a line through drops of two fluids that overlap the colour goes from one to the other, by small
+ * steps. */
+static void colours_mix_where_fluids_meet(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * PIXELS];
+    Scene scene = splat_among_solids();
+    particles_add(scene.particles, -0.15, 0.5, 0, 1, 0);
+    particles_add(scene.particles, 0.15, 0.5, 0, 1, 1);
+    draw_rgb(&scene, true, rgb);
+    int mixed = 0, greatest = 0;
+    for (int x = WIDTH / 2 - 20; x < WIDTH / 2 + 20; x++) {
+        const int here = pixel_of(rgb, x, HEIGHT / 2)[0], next = pixel_of(rgb, x + 1, HEIGHT / 2)[0];
+        mixed += here > 90 && here < 210; /* the fluids' reds are 48 and 237 */
+        greatest = abs(next - here) > greatest ? abs(next - here) : greatest;
+    }
+    if (mixed < 5 || greatest > 40)
+        fail_msg("%d pixels between the colours, steps up to %d of 255", mixed, greatest);
+    free(scene.particles);
+}
+
+static void scalars_colour_it(void **state)
+{
+    (void)state;
+    static uint8_t slow[3 * PIXELS], fast[3 * PIXELS];
+    Scene scene = splat_among_solids();
+    scene.def.color_by = SCALAR_SPEED;
+    scene.def.range_auto = false, scene.def.range[0] = 0, scene.def.range[1] = 2;
+    particles_add(scene.particles, 0, 0.5, 0, 0, 0);
+    draw_rgb(&scene, true, slow);
+    scene.particles->speed[0] = 2;
+    draw_rgb(&scene, true, fast);
+    const uint8_t *first = pixel_of(slow, WIDTH / 2, HEIGHT / 2),
+                  *last = pixel_of(fast, WIDTH / 2, HEIGHT / 2);
+    assert_true(abs(first[0] - 68) < 3 && abs(first[1] - 1) < 3 &&
+                abs(first[2] - 84) < 3); /* viridis' ends */
+    assert_true(abs(last[0] - 253) < 3 && abs(last[1] - 231) < 3 && abs(last[2] - 37) < 3);
+    free(scene.particles);
+}
+
+static void change(Renderer *renderer, Scene *scene, uint8_t rgb[3 * PIXELS])
+{
+    Error error = {0};
+    if (!renderer_set_def(renderer, &scene->def, &error))
+        fail_msg("%s", error.message);
+    draw(scene, renderer);
+    renderer_read(renderer, rgb);
+}
+
+/* Every setting changes the picture of a renderer that is drawing already, and back again. */
+static void settings_are_live(void **state)
+{
+    (void)state;
+    static uint8_t first[3 * PIXELS], other[3 * PIXELS];
+    static const SplatDef others[] = {{0.2, SPLAT_W1W2, 0, 0, 0, true},
+                                      {1.5, SPLAT_NO_WEIGHTS, 0, 0, 0, true},
+                                      {1.5, SPLAT_W1, 0, 0, 0, true},
+                                      {1.5, SPLAT_W1W2, SPLAT_PAPER, 0, 0, true},
+                                      {1.5, SPLAT_W1W2, 0, 0, SPLAT_DEPTH, true},
+                                      {1.5, SPLAT_W1W2, 0, 0, SPLAT_NORMALS, true},
+                                      {1.5, SPLAT_W1W2, 0, 0, SPLAT_WEIGHT, true}};
+    Scene scene = splat_among_solids();
+    particles_add(scene.particles, -0.15, 0.7, 0, 1, 0);
+    particles_add(scene.particles, 0.15, 0.4, 0.1, 1, 1);
+    Renderer *renderer = drawn(&scene);
+    renderer_read(renderer, first);
+    const SplatDef usual = scene.def.splat;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        scene.def.splat = others[i];
+        change(renderer, &scene, other);
+        assert_memory_not_equal(other, first, sizeof first);
+        scene.def.splat = usual;
+        change(renderer, &scene, other);
+        assert_memory_equal(other, first, sizeof first);
+    }
+    renderer_destroy(renderer);
+    free(scene.particles);
+}
+
+static void maps_can_be_seen(void **state)
+{
+    (void)state;
+    static uint8_t normals[3 * PIXELS], depth[3 * PIXELS];
+    Scene scene = splat_among_solids();
+    particles_add(scene.particles, -0.5, 0.5, 0.3, 1, 0);
+    particles_add(scene.particles, 0.5, 0.5, -0.3, 1, 0);
+    scene.def.splat.show = SPLAT_NORMALS;
+    draw_rgb(&scene, false, normals);
+    scene.def.splat.show = SPLAT_DEPTH;
+    draw_rgb(&scene, false, depth);
+    int near[2], far[2];
+    pixel_at(&scene, (double[]){-0.5, 0.5, 0.3}, near);
+    pixel_at(&scene, (double[]){0.5, 0.5, -0.3}, far);
+    assert_true(brightness(depth, near[0], near[1]) > brightness(depth, far[0], far[1]) + 20);
+    const uint8_t *left = pixel_of(normals, near[0] - 8, near[1]),
+                  *right = pixel_of(normals, near[0] + 8, near[1]);
+    assert_true(left[0] + 30 < right[0] &&
+                left[2] > 200); /* to the left and to the right, both towards the eye */
+    free(scene.particles);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(solids_hide_and_are_hidden, no_gl_errors),
+        cmocka_unit_test_teardown(its_shadow_falls_on_the_floor, no_gl_errors),
+        cmocka_unit_test_teardown(colours_mix_where_fluids_meet, no_gl_errors),
+        cmocka_unit_test_teardown(scalars_colour_it, no_gl_errors),
+        cmocka_unit_test_teardown(settings_are_live, no_gl_errors),
+        cmocka_unit_test_teardown(maps_can_be_seen, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
