@@ -237,7 +237,7 @@ static const Key keys[] = {
     CHOICE("view.splat.shape", L | KEY_INDEX, splat_shape_choice, VIEW(splat.shape),
            "perspective: exact spheres; paper: circles on the screen"),
     CHOICE("view.splat.sprite", L | KEY_INDEX, splat_sprite_choice, VIEW(splat.sprite),
-           "quad; point: a GL point, lost where its centre is outside the picture"),
+           "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
     CHOICE("view.splat.show", L | KEY_INDEX, splat_show_choice, VIEW(splat.show), "a stage of the way to the picture"),
     BOOLEAN("view.splat.cull", L, VIEW(splat.cull), "leave out hidden spheres before they are drawn"),
     BOOLEAN("view.legend", L, VIEW(legend), "draw the legend"),

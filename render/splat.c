@@ -13,8 +13,11 @@
 #include <stdlib.h>
 
 typedef struct SplatView {
-    SplatDef def;                                          /* what the programs were made for */
-    GLuint depth, blend, shading, casting, casting_listed; /* programs; the last for cull */
+    SplatDef def; /* what the programs were made for */
+    GLuint depth[SPLAT_POINT + 1], blend[SPLAT_POINT + 1], shading, casting,
+        casting_listed; /* programs; the last for cull */
+    float point_limit; /* largest point that the driver draws, pixels; 0 on hardware, where quads cost no more
+                        */
     GLuint colormap;
     GLuint screen; /* vertex array without attributes */
     QuadIndices quads;
@@ -40,8 +43,10 @@ static void delete_maps(SplatMaps *maps)
 static void splat_destroy(void *state)
 {
     SplatView *splat = state;
-    glDeleteProgram(splat->depth);
-    glDeleteProgram(splat->blend);
+    for (int sprite = 0; sprite <= SPLAT_POINT; sprite++) {
+        glDeleteProgram(splat->depth[sprite]);
+        glDeleteProgram(splat->blend[sprite]);
+    }
     glDeleteProgram(splat->shading);
     glDeleteProgram(splat->casting);
     glDeleteProgram(splat->casting_listed);
@@ -53,37 +58,67 @@ static void splat_destroy(void *state)
     free(splat);
 }
 
+static const char LISTED[] = "#define LISTED 1\n";
+
 /* To see what culling left out wants it too. */
 static bool culls(const SplatView *splat)
 {
     return splat->def.cull || splat->def.show == SPLAT_CULLED;
 }
 
-static bool create_programs(SplatView *splat, bool solids, Error *error)
+static bool may_draw(const SplatView *splat, SplatSprite sprite)
+{
+    return splat->def.sprite == sprite ||
+           (splat->def.sprite == SPLAT_AUTO && (sprite == SPLAT_QUAD || splat->point_limit > 0));
+}
+
+static bool create_sprites(SplatView *splat, SplatSprite sprite, Error *error)
 {
     static const char *const depth[] = {"render/splat.vert", "render/splat_depth.frag", NULL};
     static const char *const blend[] = {"render/splat.vert", "render/splat_blend.frag", NULL};
-    static const char *const casting[] = {"render/spheres_shadow.vert", "render/depth_only.frag", NULL};
-    static const char *const shading[] = {"common/screen.vert", "render/splat_shade.frag", NULL};
     const SplatDef *def = &splat->def;
-    char shape[256], all[512], shade[128];
-    const char *listed = culls(splat) ? "#define LISTED 1\n" : "";
+    char shape[128], all[256];
     snprintf(shape, sizeof shape, "%s%s%s", def->shape == SPLAT_PAPER ? "#define PAPER 1\n" : "",
-             def->sprite == SPLAT_POINT ? "#define POINT 1\n" : "", listed);
+             sprite == SPLAT_POINT ? "#define POINT 1\n" : "", culls(splat) ? LISTED : "");
     snprintf(all, sizeof all, "%s#define BLEND 1\n#define WEIGHTS %d\n", shape, (int)def->weights);
-    snprintf(shade, sizeof shade, "%s#define SHOW %d\n", solids ? "#define SOLIDS 1\n" : "", (int)def->show);
-    splat->depth = program_create("splat depth", depth, shape, error);
-    splat->blend = splat->depth ? program_create("splat blend", blend, all, error) : 0;
-    splat->shading = splat->blend ? program_create("splat shade", shading, shade, error) : 0;
-    splat->casting = splat->shading ? program_create("splat shadow", casting, NULL, error) : 0;
-    splat->casting_listed =
-        splat->casting && culls(splat) ? program_create("splat shadow, listed", casting, listed, error) : 0;
-    if (!splat->casting || (culls(splat) && !splat->casting_listed))
-        return false;
-    glProgramUniform1f(splat->casting, 1, SHADOW_MAP_TEXELS);
-    if (splat->casting_listed)
-        glProgramUniform1f(splat->casting_listed, 1, SHADOW_MAP_TEXELS);
-    return !culls(splat) || cull_create(&splat->cull, def->shape, error);
+    splat->depth[sprite] = program_create("splat depth", depth, shape, error);
+    splat->blend[sprite] = splat->depth[sprite] ? program_create("splat blend", blend, all, error) : 0;
+    return splat->blend[sprite] != 0;
+}
+
+/* For the shadow map, where the light culls and where it cannot. */
+static GLuint create_casting(const char *defines, Error *error)
+{
+    static const char *const stages[] = {"render/spheres_shadow.vert", "render/depth_only.frag", NULL};
+    const GLuint program = program_create("splat shadow", stages, defines, error);
+    if (program)
+        glProgramUniform1f(program, 1, SHADOW_MAP_TEXELS);
+    return program;
+}
+
+static bool create_programs(SplatView *splat, bool solids, Error *error)
+{
+    static const char *const shading[] = {"common/screen.vert", "render/splat_shade.frag", NULL};
+    char defines[128];
+    snprintf(defines, sizeof defines, "%s#define SHOW %d\n", solids ? "#define SOLIDS 1\n" : "",
+             (int)splat->def.show);
+    for (int sprite = SPLAT_QUAD; sprite <= SPLAT_POINT; sprite++)
+        if (may_draw(splat, (SplatSprite)sprite) && !create_sprites(splat, (SplatSprite)sprite, error))
+            return false;
+    splat->shading = program_create("splat shade", shading, defines, error);
+    splat->casting = splat->shading ? create_casting(NULL, error) : 0;
+    if (!splat->casting || !culls(splat))
+        return splat->casting != 0;
+    splat->casting_listed = create_casting(LISTED, error);
+    return splat->casting_listed && cull_create(&splat->cull, splat->def.shape, error);
+}
+
+static float find_point_limit(void)
+{
+    GLfloat range[2] = {0};
+    if (gl_renderer_is_software())
+        glGetFloatv(GL_POINT_SIZE_RANGE, range);
+    return range[1];
 }
 
 static void *splat_create(const ViewDef *def, Error *error)
@@ -99,6 +134,7 @@ static void *splat_create(const ViewDef *def, Error *error)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     glCreateVertexArrays(1, &splat->screen);
     quad_indices_create(&splat->quads);
+    splat->point_limit = find_point_limit();
     if (splat->colormap && create_programs(splat, def->solid_count > 0, error))
         return splat;
     splat_destroy(splat);
@@ -169,13 +205,26 @@ static void splat_cast(void *state, const ParticleBuffers *particles, const Fram
     draw_points(splat, particles, listed ? &command : NULL);
 }
 
-static void draw_sprites(SplatView *splat, GLuint program, const ParticleBuffers *particles,
-                         const Frame *frame, CullList list)
+/* An upper bound of the pixels across of the largest sphere, at the rim of the picture. */
+static SplatSprite choose_sprite(const SplatView *splat, const Frame *frame)
+{
+    const float *tangent = frame->camera.tangent, r = frame->particle_radius;
+    const float slant = 1 + tangent[0] * tangent[0] + tangent[1] * tangent[1];
+    if (splat->def.sprite != SPLAT_AUTO)
+        return splat->def.sprite;
+    if (splat->point_limit <= 0 || frame->nearest <= r)
+        return SPLAT_QUAD;
+    const float across = r / frame->nearest * slant / tangent[1] * (float)frame->height + 1;
+    return across < splat->point_limit ? SPLAT_POINT : SPLAT_QUAD;
+}
+
+static void draw_sprites(SplatView *splat, SplatSprite sprite, GLuint program,
+                         const ParticleBuffers *particles, const Frame *frame, CullList list)
 {
     const size_t command = culls(splat) ? cull_use(&splat->cull, list) : 0;
     glUseProgram(program);
     particle_bind(program, particles, frame->def->color_by);
-    if (splat->def.sprite == SPLAT_POINT)
+    if (sprite == SPLAT_POINT)
         draw_points(splat, particles, culls(splat) ? &command : NULL);
     else if (culls(splat))
         quad_indices_draw_indirect(&splat->quads, particles->count, splat->cull.commands, command);
@@ -199,26 +248,27 @@ static void begin_sprites(GLuint framebuffer, const Frame *frame, GLenum equatio
     glBlendFunc(GL_ONE, GL_ONE);
 }
 
-static void find_nearest(SplatView *splat, const ParticleBuffers *particles, const Frame *frame)
+static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
+                         const Frame *frame)
 {
     const bool hidden = splat->def.show == SPLAT_CULLED;
     if (culls(splat))
-        cull_for_eye(&splat->cull, particles, frame, eps_of(frame), splat->def.sprite == SPLAT_POINT ? 1 : 6,
-                     hidden);
+        cull_for_eye(&splat->cull, particles, frame, eps_of(frame), sprite == SPLAT_POINT ? 1 : 6, hidden);
     glClearNamedFramebufferfv(splat->maps.nearest_framebuffer, GL_COLOR, 0, (GLfloat[4]){NOTHING});
     begin_sprites(splat->maps.nearest_framebuffer, frame, GL_MIN);
-    draw_sprites(splat, splat->depth, particles, frame, CULL_NEAREST);
+    draw_sprites(splat, sprite, splat->depth[sprite], particles, frame, CULL_NEAREST);
 }
 
-static void blend_attributes(SplatView *splat, const ParticleBuffers *particles, const Frame *frame)
+static void blend_attributes(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
+                             const Frame *frame)
 {
     for (int i = 0; i < 3; i++)
         glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
     begin_sprites(splat->maps.blend_framebuffer, frame, GL_FUNC_ADD);
-    glProgramUniform1f(splat->blend, 1, eps_of(frame));
+    glProgramUniform1f(splat->blend[sprite], 1, eps_of(frame));
     glBindTextureUnit(1, splat->maps.nearest);
     glBindTextureUnit(2, splat->colormap);
-    draw_sprites(splat, splat->blend, particles, frame, CULL_BLEND);
+    draw_sprites(splat, sprite, splat->blend[sprite], particles, frame, CULL_BLEND);
     glDisable(GL_BLEND);
 }
 
@@ -254,11 +304,12 @@ static void shade_surface(SplatView *splat, const Frame *frame)
 static void splat_draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SplatView *splat = state;
+    const SplatSprite sprite = choose_sprite(splat, frame);
     follow_target(&splat->maps, frame->target);
     GL_STAGE(frame->timer, STAGE_VISIBILITY)
-    find_nearest(splat, particles, frame);
+    find_nearest(splat, sprite, particles, frame);
     GL_STAGE(frame->timer, STAGE_BLEND)
-    blend_attributes(splat, particles, frame);
+    blend_attributes(splat, sprite, particles, frame);
     GL_STAGE(frame->timer, STAGE_SHADE)
     shade_surface(splat, frame);
 }

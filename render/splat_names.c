@@ -3,7 +3,8 @@
 const char *const splat_weights_names[] = {
     [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2"};
 const char *const splat_shape_names[] = {[SPLAT_PERSPECTIVE] = "perspective", [SPLAT_PAPER] = "paper"};
-const char *const splat_sprite_names[] = {[SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point"};
+const char *const splat_sprite_names[] = {
+    [SPLAT_AUTO] = "auto", [SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point"};
 const char *const splat_show_names[] = {[SPLAT_SHADED] = "shaded",
                                         [SPLAT_DEPTH] = "depth",
                                         [SPLAT_NORMALS] = "normals",

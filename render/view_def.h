@@ -16,7 +16,7 @@ typedef struct CameraDef {
 /* Of the view splat; names by index stand in render/splat_names.c. */
 typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
 typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER } SplatShape;
-typedef enum SplatSprite { SPLAT_QUAD, SPLAT_POINT } SplatSprite;
+typedef enum SplatSprite { SPLAT_AUTO, SPLAT_QUAD, SPLAT_POINT } SplatSprite;
 typedef enum SplatShow { SPLAT_SHADED, SPLAT_DEPTH, SPLAT_NORMALS, SPLAT_WEIGHT, SPLAT_CULLED } SplatShow;
 
 typedef struct SplatDef {

@@ -28,7 +28,7 @@ vec4 at_corner(vec3 centre, vec2 corner)
 void place(vec3 centre, vec4 bounds)
 {
     vec2 extent = (bounds.yw - bounds.xz) * viewport.xy / 2.0;
-    float size = ceil(8.0 * max(extent.x, extent.y)) / 8.0; // hardware rounds to such steps
+    float size = max(ceil(8.0 * max(extent.x, extent.y)) / 8.0, 1.0); // hardware rounds to such steps; none is smaller
     vec2 middle = 0.5 * (bounds.xz + bounds.yw), reach = size * vec2(1.0, -1.0) * viewport.zw; // gl_PointCoord counts from the top
     from = at_corner(centre, middle - reach);
     across = at_corner(centre, middle + reach) - from;

@@ -17,6 +17,14 @@ static SplatScene fluid(double fov_deg)
     return scene;
 }
 
+static bool same(const SplatPixel *a, const SplatPixel *b)
+{
+    bool equal = a->depth == b->depth && a->weight == b->weight;
+    for (int k = 0; k < 3; k++)
+        equal = equal && a->color[k] == b->color[k] && a->normal[k] == b->normal[k];
+    return equal;
+}
+
 static void compare(SplatScene *scene, const char *what)
 {
     scene->def.splat.cull = true;
@@ -24,7 +32,7 @@ static void compare(SplatScene *scene, const char *what)
     scene->def.splat.cull = false;
     SplatPixel *all = splat_drawn(scene);
     for (int i = 0; i < scene->width * scene->height; i++)
-        if (memcmp(&culled[i], &all[i], sizeof *all) != 0)
+        if (!same(&culled[i], &all[i]))
             fail_msg("%s: pixel %d %d: depth %.9g, weight %.9g; with all particles %.9g, %.9g", what,
                      i % scene->width, i / scene->width, culled[i].depth, culled[i].weight, all[i].depth,
                      all[i].weight);
@@ -35,14 +43,15 @@ static void compare(SplatScene *scene, const char *what)
 static void it_changes_no_pixel(void **state)
 {
     (void)state; /* from afar, near, with spheres smaller than a pixel, and through a wide lens */
-    static const double fovs[] = {30, 8, 170, 100};
+    static const double fovs[] = {30, 8, 170, 100}, all_eps[] = {0.1, 1.5};
     for (int i = 0; i < 4; i++)
         for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++)
-            for (double eps = 0.1; eps < 2; eps += 1.4) {
+            for (int k = 0; k < 2; k++) {
                 SplatScene scene = fluid(fovs[i]);
                 char what[64];
-                scene.def.splat.shape = (SplatShape)shape, scene.def.splat.eps = eps;
-                snprintf(what, sizeof what, "%g degrees, %s, eps %g", fovs[i], splat_shape_names[shape], eps);
+                scene.def.splat.shape = (SplatShape)shape, scene.def.splat.eps = all_eps[k];
+                snprintf(what, sizeof what, "%g degrees, %s, eps %g", fovs[i], splat_shape_names[shape],
+                         all_eps[k]);
                 compare(&scene, what);
                 free(scene.particles);
             }
