@@ -13,10 +13,10 @@
 #include <stdlib.h>
 
 typedef struct SplatView {
-    SplatDef def; /* what the programs were made for */
-    GLuint depth[SPLAT_POINT + 1], blend[SPLAT_POINT + 1], shading, casting,
-        casting_listed; /* programs; the last for cull */
-    float point_limit; /* largest point that the driver draws, pixels; 0 on hardware, where quads cost no more
+    SplatDef def;                                          /* what the programs were made for */
+    GLuint depth[SPLAT_POINT + 1], blend[SPLAT_POINT + 1]; /* programs, by sprite */
+    GLuint limit, shading, casting, casting_listed;        /* programs; the last where culling does */
+    float point_limit; /* largest point that the driver draws, pixels; 0 on hardware: quads cost no more there
                         */
     GLuint colormap;
     GLuint screen; /* vertex array without attributes */
@@ -36,7 +36,7 @@ const SplatMaps *splat_maps(const void *state)
 static void delete_maps(SplatMaps *maps)
 {
     glDeleteFramebuffers(2, (GLuint[]){maps->nearest_framebuffer, maps->blend_framebuffer});
-    glDeleteTextures(4, (GLuint[]){maps->nearest, maps->color, maps->normal, maps->weight});
+    glDeleteTextures(5, (GLuint[]){maps->nearest, maps->color, maps->normal, maps->weight, maps->limit});
     *maps = (SplatMaps){0};
 }
 
@@ -47,6 +47,7 @@ static void splat_destroy(void *state)
         glDeleteProgram(splat->depth[sprite]);
         glDeleteProgram(splat->blend[sprite]);
     }
+    glDeleteProgram(splat->limit);
     glDeleteProgram(splat->shading);
     glDeleteProgram(splat->casting);
     glDeleteProgram(splat->casting_listed);
@@ -105,6 +106,9 @@ static bool create_programs(SplatView *splat, bool solids, Error *error)
     for (int sprite = SPLAT_QUAD; sprite <= SPLAT_POINT; sprite++)
         if (may_draw(splat, (SplatSprite)sprite) && !create_sprites(splat, (SplatSprite)sprite, error))
             return false;
+    splat->limit = program_create_pair("splat limit", "common/screen.vert", "render/splat_limit.frag", error);
+    if (!splat->limit)
+        return false;
     splat->shading = program_create("splat shade", shading, defines, error);
     splat->casting = splat->shading ? create_casting(NULL, error) : 0;
     if (!splat->casting || !culls(splat))
@@ -177,6 +181,8 @@ static void follow_target(SplatMaps *maps, const Target *target)
     maps->nearest_framebuffer = create_framebuffer(&maps->nearest, 1, "splat nearest");
     maps->blend_framebuffer =
         create_framebuffer((GLuint[]){maps->color, maps->normal, maps->weight}, 3, "splat blend");
+    maps->limit = create_map(GL_DEPTH_COMPONENT32F, target, "splat limit");
+    glNamedFramebufferTexture(maps->blend_framebuffer, GL_DEPTH_ATTACHMENT, maps->limit, 0);
     maps->target_number = target->number;
 }
 
@@ -259,19 +265,6 @@ static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuf
     draw_sprites(splat, sprite, splat->depth[sprite], particles, frame, CULL_NEAREST);
 }
 
-static void blend_attributes(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
-                             const Frame *frame)
-{
-    for (int i = 0; i < 3; i++)
-        glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
-    begin_sprites(splat->maps.blend_framebuffer, frame, GL_FUNC_ADD);
-    glProgramUniform1f(splat->blend[sprite], 1, eps_of(frame));
-    glBindTextureUnit(1, splat->maps.nearest);
-    glBindTextureUnit(2, splat->colormap);
-    draw_sprites(splat, sprite, splat->blend[sprite], particles, frame, CULL_BLEND);
-    glDisable(GL_BLEND);
-}
-
 static void cut_to_bounds(const Frame *frame)
 {
     const float *bounds = frame->bounds, width = (float)frame->width, height = (float)frame->height;
@@ -281,6 +274,41 @@ static void cut_to_bounds(const Frame *frame)
         y1 = (int)ceilf((0.5F + 0.5F * bounds[3]) * height);
     glEnable(GL_SCISSOR_TEST);
     glScissor(x0, y0, x1 - x0, y1 - y0);
+}
+
+static void set_limit(SplatView *splat, const Frame *frame)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, splat->maps.blend_framebuffer);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glBindTextureUnit(1, splat->maps.nearest);
+    glUseProgram(splat->limit);
+    glUniform1f(1, eps_of(frame));
+    glBindVertexArray(splat->screen);
+    cut_to_bounds(frame);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+static void blend_attributes(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
+                             const Frame *frame)
+{
+    for (int i = 0; i < 3; i++)
+        glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
+    set_limit(splat, frame);
+    begin_sprites(splat->maps.blend_framebuffer, frame, GL_FUNC_ADD);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(GL_FALSE);
+    glProgramUniform1f(splat->blend[sprite], 1, eps_of(frame));
+    glBindTextureUnit(1, splat->maps.nearest);
+    glBindTextureUnit(2, splat->colormap);
+    draw_sprites(splat, sprite, splat->blend[sprite], particles, frame, CULL_BLEND);
+    glDisable(GL_BLEND);
 }
 
 /* Solids are in the target already: the test of depth says who hides whom. */

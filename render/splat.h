@@ -16,6 +16,7 @@ typedef struct SplatMaps {
         color; /* RGBA16F, on a software driver the faster RGBA32F: sum of weight x linear colour (eq. 8) */
     unsigned normal; /* the same: sum of weight x normal in the eye's frame (eq. 9) */
     unsigned weight; /* R32F: sum of weights (eq. 10) */
+    unsigned limit;  /* DEPTH_COMPONENT32F: the depth at which blending ends */
     unsigned nearest_framebuffer, blend_framebuffer;
 } SplatMaps;
 

@@ -57,14 +57,16 @@ void main()
     if (index >= count)
         return;
     Disc disc = disc_of(index);
-    vec2 side = vec2(grid.z), middle = floor(disc.middle / side), per_radius = 1.0 / disc.radii;
-    // not for NaN
-    if (!(disc.radii.x > 0.0 && all(greaterThanEqual(middle, vec2(0.0))) && all(lessThan(middle, vec2(grid.xy)))))
+    float side = float(grid.z), margin = 0.5 * (side - 1.0); // from a cell's middle to its outermost pixels' centres
+    vec2 reach = disc.radii - margin, per_radius = 1.0 / disc.radii;
+    if (!(min(reach.x, reach.y) > 0.0)) // nor for NaN
         return;
-    ivec2 low = max(ivec2(middle) - 1, ivec2(0)), high = min(ivec2(middle) + 1, ivec2(grid.xy) - 1);
-    for (int y = low.y; y <= high.y; y++)
-        for (int x = low.x; x <= high.x; x++) {
-            vec2 away = abs((vec2(x, y) + 0.5) * side - disc.middle) + 0.5 * (side - 1.0);
+    vec2 low = max(ceil((disc.middle - reach) / side - 0.5), vec2(0.0));
+    vec2 high = min(floor((disc.middle + reach) / side - 0.5), vec2(grid.xy) - 1.0);
+    high = min(high, low + 3.0);
+    for (float y = low.y; y <= high.y; y++)
+        for (float x = low.x; x <= high.x; x++) {
+            vec2 away = abs((vec2(x, y) + 0.5) * side - disc.middle) + margin;
             uint depth = floatBitsToUint(depth_within(disc, away * per_radius)), cell = uint(y) * grid.x + uint(x);
             if (depth < nearest[cell])
                 atomicMin(nearest[cell], depth);

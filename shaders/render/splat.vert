@@ -25,7 +25,7 @@ vec4 at_corner(vec3 centre, vec2 corner)
 }
 
 #ifdef POINT
-void place(vec3 centre, vec4 bounds)
+void place(vec3 centre, vec4 bounds, float depth)
 {
     vec2 extent = (bounds.yw - bounds.xz) * viewport.xy / 2.0;
     float size = max(ceil(8.0 * max(extent.x, extent.y)) / 8.0, 1.0); // hardware rounds to such steps; none is smaller
@@ -33,14 +33,14 @@ void place(vec3 centre, vec4 bounds)
     from = at_corner(centre, middle - reach);
     across = at_corner(centre, middle + reach) - from;
     gl_PointSize = size;
-    gl_Position = extent.x > 0.0 ? vec4(middle, 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
+    gl_Position = extent.x > 0.0 ? vec4(middle, depth, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
 }
 #else
-void place(vec3 centre, vec4 bounds)
+void place(vec3 centre, vec4 bounds, float depth)
 {
     vec2 corner = vec2((gl_VertexID & 1) == 0 ? bounds.x : bounds.y, (gl_VertexID & 2) == 0 ? bounds.z : bounds.w);
     at = at_corner(centre, corner);
-    gl_Position = vec4(corner, 0.5, 1.0);
+    gl_Position = vec4(corner, depth, 1.0);
 }
 #endif
 
@@ -54,7 +54,8 @@ void main()
     vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
     float s = splat_scale(centre);
     scale = vec2(s, (-s - centre.z) / particle.x);
-    place(centre, splat_bounds(centre));
+    float nearest = max(-centre.z - particle.x, lens.z);
+    place(centre, splat_bounds(centre), min(lens.z / nearest * 1.00001, 1.0));
 #ifdef BLEND
     color = particle_color(index);
 #endif

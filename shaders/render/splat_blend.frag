@@ -9,6 +9,7 @@
 layout(binding = 1) uniform sampler2D nearest_map;
 layout(location = 1) uniform float eps; // m
 layout(location = 2) flat in vec3 color;
+layout(early_fragment_tests) in;
 layout(location = 0) out vec4 color_sum;
 layout(location = 1) out vec4 normal_sum;
 layout(location = 2) out float weight_sum;

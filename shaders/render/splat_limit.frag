@@ -1,0 +1,10 @@
+// Between pass 1 and 2: the depth at which blending ends, for an early test of whole sprites.
+#include "common/frame.glsl"
+
+layout(binding = 1) uniform sampler2D nearest_map;
+layout(location = 1) uniform float eps; // m
+
+void main()
+{
+    gl_FragDepth = lens.z / (texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x + eps);
+}
