@@ -60,15 +60,25 @@ static bool check_block(const Check *check, const Fill *fill, const char *path)
     return true;
 }
 
-static bool check_ball(const Check *check, const Fill *fill, const char *path)
+/* A ball or a cylinder. */
+static bool check_round(const Check *check, const Fill *fill, const char *path)
 {
+    const char *shape = fill->kind == FILL_BALL ? "ball" : "cylinder";
+    double low[3], high[3];
     char centre[96];
+    fill_bounds(fill, low, high);
     for (int k = 0; k < check->scene->world.dimensions; k++) {
-        snprintf(centre, sizeof centre, "%s.ball.centre[%d]", path, k);
-        if (!between_walls(check, centre, k, fill->centre[k] - fill->radius, fill->centre[k] + fill->radius))
+        snprintf(centre, sizeof centre, "%s.%s.centre[%d]", path, shape, k);
+        if (!between_walls(check, centre, k, low[k], high[k]))
             return false;
     }
     return true;
+}
+
+static bool check_axis(const Check *check, const char *path, const double axis[3])
+{
+    return hypot(hypot(axis[0], axis[1]), axis[2]) >= 1e-9 ||
+           FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
 }
 
 /* In two dimensions nothing may point out of the plane. */
@@ -131,6 +141,20 @@ static bool check_emit(const Check *check, int f, int index)
     return check_out_of_solids(check, key, emit->centre);
 }
 
+static bool check_fill(const Check *check, const Fill *fill, const char *path)
+{
+    char axis[96];
+    if (!check_plane(check, path, fill->min) || !check_plane(check, path, fill->max) ||
+        !check_plane(check, path, fill->centre))
+        return false;
+    if (fill->kind == FILL_BLOCK)
+        return check_block(check, fill, path);
+    snprintf(axis, sizeof axis, "%s.cylinder.axis", path);
+    if (fill->kind == FILL_CYLINDER && check->scene->world.dimensions == 2)
+        return FAIL(check, path, "a 2D scene has no cylinders; write a ball, which is a disc there");
+    return (fill->kind == FILL_BALL || check_axis(check, axis, fill->axis)) && check_round(check, fill, path);
+}
+
 static bool check_fluid(const Check *check, int f)
 {
     const FluidDef *fluid = &check->scene->world.fluids[f];
@@ -145,11 +169,7 @@ static bool check_fluid(const Check *check, int f)
         return false;
     for (int i = 0; i < fluid->fill_count; i++) {
         snprintf(path, sizeof path, "fluids[%d].fill[%d]", f, i);
-        const Fill *fill = &fluid->fills[i];
-        if (!check_plane(check, path, fill->min) || !check_plane(check, path, fill->max) ||
-            !check_plane(check, path, fill->centre))
-            return false;
-        if (!(fill->kind == FILL_BALL ? check_ball(check, fill, path) : check_block(check, fill, path)))
+        if (!check_fill(check, &fluid->fills[i], path))
             return false;
     }
     for (int i = 0; i < fluid->emit_count; i++)
@@ -177,12 +197,6 @@ static bool check_drain(const Check *check, int index)
                          : fmin(fmax(clamp_to_box(check, k, drain->min[k]), drain->min[k]), drain->max[k]);
     return outside_box(check, nearest) <= reach ||
            FAIL(check, path, "the drain is outside the box; no fluid comes there");
-}
-
-static bool check_axis(const Check *check, const char *path, const double axis[3])
-{
-    return hypot(hypot(axis[0], axis[1]), axis[2]) >= 1e-9 ||
-           FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
 }
 
 static bool check_motion(const Check *check, const char *list, int m, const Motion *motion)
@@ -292,11 +306,10 @@ static double points_walked(const WorldDef *world, double spacing)
     for (int f = 0; f < world->fluid_count; f++)
         for (int i = 0; i < world->fluids[f].fill_count; i++) {
             const Fill *fill = &world->fluids[f].fills[i];
-            double points = 1;
-            for (int k = 0; k < world->dimensions; k++) {
-                const double width = fill->kind == FILL_BALL ? 2 * fill->radius : fill->max[k] - fill->min[k];
-                points *= width / spacing + 2;
-            }
+            double points = 1, low[3], high[3];
+            fill_bounds(fill, low, high);
+            for (int k = 0; k < world->dimensions; k++)
+                points *= (high[k] - low[k]) / spacing + 2;
             sum += points;
         }
     return sum;

@@ -126,6 +126,12 @@ void fluid_init(void *element, int index)
         fluid->color[k] = (float)srgb_to_linear(palette[index % 8][k]);
 }
 
+void fill_init(void *element, int index)
+{
+    (void)index;
+    ((Fill *)element)->axis[1] = 1;
+}
+
 void solid_init(void *element, int index)
 {
     (void)index;

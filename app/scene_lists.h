@@ -19,6 +19,7 @@ const char *step_mode_choice(int index);
 
 /* Defaults of a list's element, which is zeroed: `index` is its place. */
 const char *slip_choice(int index);
+void fill_init(void *element, int index);
 void solid_init(void *element, int index);
 void fluid_init(void *element, int index);
 

@@ -91,7 +91,8 @@ static bool is_container(KeyType type)
 /* What the default column is read from. */
 typedef struct Defaults {
     Scene scene;
-    FluidDef fluid; /* these two have defaults other than zero */
+    FluidDef fluid; /* these three have defaults other than zero */
+    Fill fill;
     SolidDef solid;
     Motion motion;
     Emit zero;
@@ -102,6 +103,7 @@ static void defaults_make(Defaults *defaults)
     *defaults = (Defaults){0};
     scene_default(&defaults->scene);
     scene_key_find("fluids")->init(&defaults->fluid, 0);
+    scene_key_find("fluids[].fill")->init(&defaults->fill, 0);
     scene_key_find("solids")->init(&defaults->solid, 0);
 }
 
@@ -111,6 +113,8 @@ static const void *default_base(const Defaults *defaults, const Key *key)
         return &defaults->scene;
     if (strstr(key->path, "emit[]") || strncmp(key->path, "drains", 6) == 0)
         return &defaults->zero;
+    if (strstr(key->path, "fill[]"))
+        return &defaults->fill;
     if (strncmp(key->path, "fluids[]", 8) == 0)
         return &defaults->fluid;
     return strstr(key->path, "motion[]") ? (const void *)&defaults->motion : &defaults->solid;

@@ -17,6 +17,9 @@ size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid);
    near inside its high side is not. */
 bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance);
 
+/* The corners of the least block with faces along the axes around it, m; of a ball in two dimensions too. */
+void fill_bounds(const Fill *fill, double low[3], double high[3]);
+
 /* m3, or in two dimensions m2. */
 double fill_volume(const Fill *fill, int dimensions);
 

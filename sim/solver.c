@@ -78,6 +78,15 @@ static bool solids_check(const WorldDef *def, Error *error)
     return true;
 }
 
+static bool fills_check(const FluidDef *fluid, int dimensions)
+{
+    for (int i = 0; i < fluid->fill_count; i++)
+        if (fluid->fills[i].kind == FILL_CYLINDER &&
+            (dimensions != 3 || !positive(length2(fluid->fills[i].axis))))
+            return false;
+    return true;
+}
+
 static bool def_check(const WorldDef *def, Error *error)
 {
     if (def->dimensions != 2 && def->dimensions != 3)
@@ -98,6 +107,10 @@ static bool def_check(const WorldDef *def, Error *error)
             !(def->fluids[f].surface_tension >= 0))
             return error_set(
                 error, "fluid %d: density must be positive, viscosity and surface tension not negative", f);
+    for (int f = 0; f < def->fluid_count; f++)
+        if (!fills_check(&def->fluids[f], def->dimensions))
+            return error_set(error, "fluid %d: the axis of a cylinder must not be zero; no cylinder in 2D",
+                             f);
     if (def->wall_slip != SLIP_FREE && def->wall_slip != SLIP_NONE)
         return error_set(error, "the walls' slip is free or none");
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))

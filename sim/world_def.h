@@ -12,14 +12,15 @@
 
 enum { FLUIDS_MAX = 8, FILLS_MAX = 16, EMITS_MAX = 4, DRAINS_MAX = 8, NAME_SIZE = 32 };
 
-typedef enum FillKind { FILL_BLOCK, FILL_BALL } FillKind;
+typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER } FillKind;
 
 /* A region that is full of a fluid at the start: it takes the points of one lattice that all fills share,
    with the scene's spacing, half a spacing from the floor and centred between the walls. */
 typedef struct Fill {
     FillKind kind;
     double min[3], max[3];    /* block, m */
-    double centre[3], radius; /* ball, m */
+    double centre[3], radius; /* ball and cylinder, m */
+    double axis[3], height;   /* cylinder: its direction, of any length but zero; m. 3D only */
 } Fill;
 
 /* A disk that sends out fluid at rest density, with a velocity along its normal, in the box's frame. A

@@ -239,7 +239,7 @@ static void what_is_missing_is_named(void **state)
     assert_refused(LEAST "      - block: {min: [0, 0, 0]}\n",
                    "scene.yaml:7:16: fluids[0].fill[1].block.max is missing");
     assert_refused(LEAST "      - {}\n",
-                   "scene.yaml:7:9: fluids[0].fill[1] must have exactly one of: block, ball");
+                   "scene.yaml:7:9: fluids[0].fill[1] must have exactly one of: block, ball, cylinder");
     assert_refused(LEAST "motion:\n  - turn: {axis: [0, 1, 0], angle: 3}\n",
                    "scene.yaml:8:11: motion[0].turn.duration is missing");
     assert_refused(LEAST "view: {camera: {fov: 30}}\n", "scene.yaml:7:16: view.camera.from is missing");
@@ -257,6 +257,11 @@ static void fluid_must_lie_in_the_box(void **state)
     assert_refused(LEAST "      - block: {min: [-0.6, 0, 0], max: [0.1, 0.1, 0.1]}\n", message);
     snprintf(message, sizeof message, "scene.yaml:7:28: %s 0.7 to 1.1 m in y", outside);
     assert_refused(LEAST "      - ball: {centre: [0, 0.9, 0], radius: 0.2}\n", message);
+    snprintf(message, sizeof message, "scene.yaml:7:32: %s -0.1 to 0.3 m in y", outside);
+    assert_refused(LEAST "      - cylinder: {centre: [0, 0.1, 0], radius: 0.1, height: 0.4}\n", message);
+    assert_refused(LEAST
+                   "      - cylinder: {centre: [0, 0.5, 0], radius: 0.1, height: 0.4, axis: [0, 0, 0]}\n",
+                   "scene.yaml:7:73: the axis has no direction; write one such as [1, 0, 0]");
     assert_refused(LEAST "      - block: {min: [0, 0.5, 0], max: [0.1, 0.5, 0.1]}\n",
                    "scene.yaml:7:46: the block's min is not below its max in y (0.5 and 0.5 m)");
 }

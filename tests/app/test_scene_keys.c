@@ -16,6 +16,7 @@ static const char everything[] = "box: {size: [1, 1, 1]}\n"
                                  "fluids:\n"
                                  "  - fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.5, 0.5]}}]\n"
                                  "  - fill: [{ball: {centre: [0, 0.8, 0], radius: 0.2}}]\n"
+                                 "  - fill: [{cylinder: {centre: [0.3, 0.7, 0], radius: 0.1, height: 0.3}}]\n"
                                  "  - emit:\n"
                                  "      - disk: {centre: [0, 0.5, 0], direction: [0, 1, 0], radius: 0.1}\n"
                                  "        speed: 1\n"
@@ -56,8 +57,9 @@ static void path_in_scene(const char *row, char path[128])
 {
     snprintf(path, 128, "%s", row);
     replace(path, "fluids[].fill[].ball", "fluids[1].fill[0].ball");
+    replace(path, "fluids[].fill[].cylinder", "fluids[2].fill[0].cylinder");
     replace(path, "fluids[].fill[]", "fluids[0].fill[0]");
-    replace(path, "fluids[].emit[]", "fluids[2].emit[0]");
+    replace(path, "fluids[].emit[]", "fluids[3].emit[0]");
     replace(path, "drains[].block", "drains[0].block");
     replace(path, "drains[].ball", "drains[1].ball");
     replace(path, "fluids[]", "fluids[0]");

@@ -53,6 +53,8 @@ static void what_leaves_the_plane_is_refused(void **state)
     refuse("motion[0].shake.axis=[1, 0, 1]", "the motion leaves the plane of a 2D scene");
     refuse("motion=[{rock: {axis: [1, 0, 0], angle: 3, frequency: 1}}]", "the motion leaves the plane");
     refuse("fluids[0].fill[0].block.max=[0, 1.5]", "the fluid is outside the box");
+    refuse("fluids[0].fill[1]={cylinder: {centre: [0.5, 0.5], radius: 0.1, height: 0.1}}",
+           "a 2D scene has no cylinders; write a ball, which is a disc there");
     refuse("particles.spacing=0.6", "too large for the box");
     refuse("gravity=[0]", "two numbers [x, y], or three");
 }

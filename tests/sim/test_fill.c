@@ -1,0 +1,70 @@
+/* Fills: which points of the lattice are theirs. */
+#include "fixture.h"
+
+#include "sim/seed.h"
+
+/* A slanted cylinder, by the distance from its axis and along it. */
+static void a_cylinder_has_its_points(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(4, 4, 4);
+    Fill *fill = &def.fluids[0].fills[def.fluids[0].fill_count++];
+    *fill = (Fill){.kind = FILL_CYLINDER,
+                   .centre = {0.3, 2, -0.2},
+                   .radius = 0.55,
+                   .height = 1.7,
+                   .axis = {2, 3, -6}}; /* of length 7 */
+    const size_t count = seed_lattice(&def, NULL, NULL);
+    float *x = malloc(3 * count * sizeof *x);
+    uint8_t *fluid = malloc(count);
+    assert_int_equal(seed_lattice(&def, x, fluid), count);
+    for (size_t i = 0; i < count; i++) {
+        const double d[3] = {x[3 * i] - 0.3, x[3 * i + 1] - 2, x[3 * i + 2] + 0.2};
+        const double along = (2 * d[0] + 3 * d[1] - 6 * d[2]) / 7;
+        const double across2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - along * along;
+        assert_true(fabs(along) < 0.85 + 1e-6 && across2 < 0.55 * 0.55 + 1e-6);
+    }
+    const double volume = fill_volume(fill, 3);
+    assert_true(fabs(volume - 0.55 * 0.55 * M_PI * 1.7) < 1e-12);
+    assert_true(fabs((double)count * 1e-3 / volume - 1) < 0.02); /* none is missing */
+    free(x);
+    free(fluid);
+}
+
+/* The block around a fill touches it on each side. */
+static void bounds_are_close(void **state)
+{
+    (void)state;
+    double low[3], high[3];
+    const Fill slanted = {
+        .kind = FILL_CYLINDER, .centre = {1, 2, 3}, .radius = 0.5, .height = 2, .axis = {0, 3, 4}};
+    fill_bounds(&slanted, low, high);
+    assert_true(fabs(high[0] - 1.5) < 1e-12 && fabs(low[0] - 0.5) < 1e-12);
+    assert_true(fabs(high[1] - (2 + 0.6 + 0.5 * 0.8)) < 1e-12 &&
+                fabs(low[2] - (3 - 0.8 - 0.5 * 0.6)) < 1e-12);
+    const Fill ball = {.kind = FILL_BALL, .centre = {1, 2, 3}, .radius = 0.5};
+    fill_bounds(&ball, low, high);
+    assert_true(low[2] == 2.5 && high[1] == 2.5);
+}
+
+static void a_cylinder_needs_three_dimensions(void **state)
+{
+    (void)state;
+    Error error;
+    WorldDef def = fixture_def(4, 4, 0);
+    def.fluids[0].fills[def.fluids[0].fill_count++] =
+        (Fill){.kind = FILL_CYLINDER, .centre = {0, 2, 0}, .radius = 0.5, .height = 1, .axis = {0, 1, 0}};
+    def.dimensions = 2;
+    assert_null(world_create(&def, &error));
+    assert_non_null(strstr(error.message, "2D"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cylinder_has_its_points),
+        cmocka_unit_test(bounds_are_close),
+        cmocka_unit_test(a_cylinder_needs_three_dimensions),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
