@@ -27,8 +27,8 @@ static void emit(const PanelKey *row, PanelEvents *events, const char *format, .
 static void help_of(const PanelKey *row, char *text, size_t size)
 {
     char range[160];
-    const bool numbers =
-        row->key->type == KEY_NUMBER || row->key->type == KEY_INTEGER || row->key->type == KEY_VEC3;
+    const bool numbers = row->key->type == KEY_NUMBER || row->key->type == KEY_CURVE ||
+                         row->key->type == KEY_INTEGER || row->key->type == KEY_VEC3;
     key_range_text(row->key, range, sizeof range);
     snprintf(text, size, "%s\n%s: %s%s%s%s", row->key->help, row->path, range, *row->key->unit ? " " : "",
              row->key->unit, numbers ? "\nCtrl + click to type a number" : "");
@@ -153,6 +153,7 @@ void panel_key(Ui *ui, const PanelKey *row, PanelEvents *events)
     bool on;
     switch (row->key->type) {
     case KEY_NUMBER:
+    case KEY_CURVE:
     case KEY_INTEGER:
         draw_number(ui, row, &field, events);
         break;

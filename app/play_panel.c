@@ -133,6 +133,7 @@ static void collect(Play *play, float pictures[METER_HISTORY], PanelData *data)
     const ViewDef *view = &play->open.scene.view;
     const SimulatorStatus *status = &play->status;
     find_warnings(play);
+    world_def_at(&play->open.scene.world, play->particles.time); /* what tables say now */
     *data = (PanelData){.scene = &play->open.scene,
                         .render_stages_known = play->timer != NULL,
                         .render_ms = play->last_render_ms,

@@ -34,6 +34,11 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
         .path = PATH, .type = KEY_NUMBER, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),           \
         .help = HELP                                                                                         \
     }
+#define CURVE(PATH, FLAGS, UNIT, LO, HI, AT, TABLE, HELP)                                                    \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_CURVE, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), .offset = AT,         \
+        .aux = TABLE, .help = HELP                                                                           \
+    }
 #define VEC3(PATH, FLAGS, UNIT, LO, HI, AT, HELP)                                                            \
     {                                                                                                        \
         .path = PATH, .type = KEY_VEC3, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),             \
@@ -137,7 +142,7 @@ static const Key keys[] = {
          "the fluids; where fills overlap, the first has the place"),
     TEXT("fluids[].name", 0, NAME_SIZE, FLUID(name), "fluid 1, fluid 2, ...", "for the legend; each its own"),
     NUMBER("fluids[].density", 0, "kg/m3", 0.001, 1e5, FLUID(density), "at rest"),
-    NUMBER("fluids[].viscosity", L, "Pa s", 0, 1e6, FLUID(viscosity), "dynamic; water 0.001, olive oil 0.08, honey 10"),
+    CURVE("fluids[].viscosity", L, "Pa s", 0, 1e6, FLUID(viscosity), FLUID(viscosity_table), "dynamic; water 0.001, olive oil 0.08, honey 10; or a table over time such as [[0, 50], [2, 50], [6, 0.1]]: seconds (ascending) and Pa s, at most 16 rows, straight lines between them, constant before and after"),
     NUMBER("fluids[].surface_tension", 0, "N/m", 0, 1000, FLUID(surface_tension), "where solver.surface_tension names a model; water 0.072"),
     VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
     COLOR("fluids[].color", L | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),

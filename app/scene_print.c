@@ -21,6 +21,15 @@ static void color_text(const Key *key, const char *field, char *text, size_t siz
     print_triple(text, size, "%.3g", color);
 }
 
+/* One number, or the rows. */
+static void curve_text(const TimeTable *table, double number, char *text, size_t size)
+{
+    int used = snprintf(text, size, table->rows > 0 ? "[" : "%.9g", number);
+    for (int k = 0; k < (int)table->rows && used >= 0 && (size_t)used < size; k++)
+        used += snprintf(text + used, size - (size_t)used, "%s[%.9g, %.9g]%s", k ? ", " : "", table->time[k],
+                         table->value[k], k + 1 < (int)table->rows ? "" : "]");
+}
+
 void key_value_text(const Key *key, const void *base, char *text, size_t size)
 {
     *text = 0;
@@ -32,6 +41,9 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
     switch (key->type) {
     case KEY_NUMBER:
         snprintf(text, size, "%.9g", *(const double *)field);
+        break;
+    case KEY_CURVE:
+        curve_text((const TimeTable *)((const char *)base + key->aux), *(const double *)field, text, size);
         break;
     case KEY_INTEGER:
         snprintf(text, size, "%d", *(const int *)field);
@@ -135,10 +147,18 @@ static void print_default(const Key *key, const Defaults *defaults, FILE *file)
 void scene_keys_print(FILE *file)
 {
     static const char *const types[] = {
-        [KEY_MAPPING] = "mapping", [KEY_VARIANT] = "mapping",      [KEY_LIST] = "list",
-        [KEY_NUMBER] = "number",   [KEY_INTEGER] = "whole number", [KEY_BOOLEAN] = "boolean",
-        [KEY_TEXT] = "text",       [KEY_CHOICE] = "name",          [KEY_VEC3] = "[x, y, z]",
-        [KEY_COLOR] = "[r, g, b]", [KEY_RANGE] = "[low, high]",
+        [KEY_MAPPING] = "mapping",
+        [KEY_VARIANT] = "mapping",
+        [KEY_LIST] = "list",
+        [KEY_NUMBER] = "number",
+        [KEY_CURVE] = "number or table",
+        [KEY_INTEGER] = "whole number",
+        [KEY_BOOLEAN] = "boolean",
+        [KEY_TEXT] = "text",
+        [KEY_CHOICE] = "name",
+        [KEY_VEC3] = "[x, y, z]",
+        [KEY_COLOR] = "[r, g, b]",
+        [KEY_RANGE] = "[low, high]",
     };
     int count;
     const Key *keys = scene_keys(&count);
@@ -188,7 +208,7 @@ static bool is_absent(const Key *key, const char *base)
 
 static void print_key(const Key *key, const Walk *walk, const char *shown, FILE *file)
 {
-    char value[256];
+    char value[TIME_TABLE_ROWS * 48];
     Walk inner = {.base = walk->base};
     switch (key->type) {
     case KEY_MAPPING:

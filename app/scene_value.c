@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double TIME_MOST = 1e6; /* s: as of motions */
+
 /* A value on its way into its field. */
 typedef struct Value {
     const Tree *tree;
@@ -150,6 +152,45 @@ static bool read_numbers(const Value *value, size_t count, const char *wanted, d
     return true;
 }
 
+static bool read_row(const Value *value, const Node *row, TimeTable *table, int k)
+{
+    static const char wanted[] = "a number or rows [seconds, number], the numbers";
+    double *time = &table->time[k];
+    if (row->kind != NODE_SEQUENCE || node_count(row) != 2)
+        return wrong(value, row, wanted);
+    if (!number_parse(row->first, time))
+        return wrong(value, row->first, wanted);
+    if (!(*time >= 0 && *time <= TIME_MOST))
+        return tree_error(value->tree, row->first, value->error, "%s: times must be 0 to %g s, not %.60s",
+                          value->shown, TIME_MOST, row->first->text);
+    if (k > 0 && !(*time > table->time[k - 1]))
+        return tree_error(value->tree, row->first, value->error,
+                          "%s: times must ascend; %.60s stands after %.9g", value->shown, row->first->text,
+                          table->time[k - 1]);
+    return read_number(value, row->first->next, wanted, &table->value[k]);
+}
+
+/* A number, or rows of time and number; the field then has the value at time 0. */
+static bool read_curve(const Value *value, TimeTable *table)
+{
+    const Node *node = value->node;
+    *table = (TimeTable){0};
+    if (node->kind != NODE_SEQUENCE)
+        return read_number(value, node, "a number or rows [seconds, number], the numbers",
+                           (double *)value->field);
+    const size_t rows = node_count(node);
+    if (rows < 1 || rows > TIME_TABLE_ROWS)
+        return tree_error(value->tree, node, value->error, "%s has %zu rows; a table must have 1 to %d",
+                          value->shown, rows, TIME_TABLE_ROWS);
+    int k = 0;
+    for (const Node *row = node->first; row; row = row->next, k++)
+        if (!read_row(value, row, table, k))
+            return false;
+    table->rows = k;
+    *(double *)value->field = time_table_at(table, 0);
+    return true;
+}
+
 static bool read_vec3(const Value *value)
 {
     double *v = (double *)value->field;
@@ -190,6 +231,8 @@ bool value_read(const Tree *tree, const Key *key, const Node *node, const char *
     switch (key->type) {
     case KEY_NUMBER:
         return read_number(&value, node, "a number", (double *)value.field);
+    case KEY_CURVE:
+        return read_curve(&value, (TimeTable *)(base + key->aux));
     case KEY_INTEGER:
         return read_integer(&value);
     case KEY_BOOLEAN:

@@ -5,8 +5,8 @@
 #include "app/scene_keys.h"
 #include "app/scene_tree.h"
 
-/* Reads a number, integer, boolean, text, choice, vector, colour or range into `base` + the key's offset;
-   `shown` is the key's path for people. False with "place: shown must be ...". */
+/* Reads a number, curve, integer, boolean, text, choice, vector, colour or range into `base` + the key's
+   offset; `shown` is the key's path for people. False with "place: shown must be ...". */
 bool value_read(const Tree *tree, const Key *key, const Node *node, const char *shown, char *base,
                 Error *error);
 

@@ -26,6 +26,8 @@ typedef struct Backend {
     void (*destroy)(void *state);
     /* After solver_change; false with the reason when what its new terms need is not to be had. */
     bool (*adapt)(void *state, Error *error);
+    /* After solver_vary: the viscosities, and nothing else of it, are others. NULL: it reads them there. */
+    void (*vary)(void *state);
     /* Reads its shaders again; false: those before stay. NULL: it has none. */
     bool (*reload)(void *state, Error *error);
     /* Puts the solids there: `pose` has one for each. For a world with solids, before all else. */

@@ -87,6 +87,27 @@ static bool fills_check(const FluidDef *fluid, int dimensions)
     return true;
 }
 
+static bool fluids_check(const WorldDef *def, Error *error)
+{
+    if (def->fluid_count < 1 || def->fluid_count > FLUIDS_MAX)
+        return error_set(error, "a world needs 1 to %d fluids, not %d", FLUIDS_MAX, def->fluid_count);
+    for (int f = 0; f < def->fluid_count; f++) {
+        const FluidDef *fluid = &def->fluids[f];
+        if (!positive(fluid->density) || !(fluid->viscosity >= 0) || !(fluid->surface_tension >= 0))
+            return error_set(
+                error, "fluid %d: density must be positive, viscosity and surface tension not negative", f);
+        if (!time_table_sound(&fluid->viscosity_table))
+            return error_set(
+                error,
+                "fluid %d: a table of viscosity has up to %d rows, whose times must ascend and whose values must not be negative",
+                f, TIME_TABLE_ROWS);
+        if (!fills_check(fluid, def->dimensions))
+            return error_set(error, "fluid %d: the axis of a cylinder must not be zero; no cylinder in 2D",
+                             f);
+    }
+    return true;
+}
+
 static bool def_check(const WorldDef *def, Error *error)
 {
     if (def->dimensions != 2 && def->dimensions != 3)
@@ -100,22 +121,12 @@ static bool def_check(const WorldDef *def, Error *error)
         return error_set(error, "spacing must be positive and support between 1.5 and 4 spacings");
     if (!positive(def->dt) || def->substeps < 1 || !positive(def->sound_speed))
         return error_set(error, "dt and sound_speed must be positive, substeps at least 1");
-    if (def->fluid_count < 1 || def->fluid_count > FLUIDS_MAX)
-        return error_set(error, "a world needs 1 to %d fluids, not %d", FLUIDS_MAX, def->fluid_count);
-    for (int f = 0; f < def->fluid_count; f++)
-        if (!positive(def->fluids[f].density) || !(def->fluids[f].viscosity >= 0) ||
-            !(def->fluids[f].surface_tension >= 0))
-            return error_set(
-                error, "fluid %d: density must be positive, viscosity and surface tension not negative", f);
-    for (int f = 0; f < def->fluid_count; f++)
-        if (!fills_check(&def->fluids[f], def->dimensions))
-            return error_set(error, "fluid %d: the axis of a cylinder must not be zero; no cylinder in 2D",
-                             f);
     if (def->wall_slip != SLIP_FREE && def->wall_slip != SLIP_NONE)
         return error_set(error, "the walls' slip is free or none");
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
-    return motions_check(def->motions, def->motion_count, def->dimensions, error) && grid_check(def, error) &&
+    return fluids_check(def, error) &&
+           motions_check(def->motions, def->motion_count, def->dimensions, error) && grid_check(def, error) &&
            solids_check(def, error) && flow_check(def, error);
 }
 
@@ -147,13 +158,14 @@ static void fluids_set(Solver *solver, const WorldDef *def)
     solver->fluid_count = def->fluid_count;
     solver->negative_pressure = def->negative_pressure;
     solver->reproducible = def->reproducible;
-    solver->viscous = false;
+    solver->viscous = solver->varies = false;
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     solver->diffusion = (float)(2 * def->delta_sph * c * reach);
     solver->artificial = false;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
-        const double alpha = fluid->viscosity > 0 ? 0 : def->artificial_viscosity;
+        const bool viscous = fluid_viscosity_most(fluid) > 0;
+        const double alpha = viscous ? 0 : def->artificial_viscosity;
         solver->tait[f] = (float)(fluid->density * c * c / 7);
         solver->artificial_viscosity[f] = (float)(0.5 * alpha * c * reach * fluid->density);
         solver->artificial |= alpha > 0;
@@ -161,7 +173,8 @@ static void fluids_set(Solver *solver, const WorldDef *def)
         solver->density[f] = (float)fluid->density;
         solver->stiffness[f] = (float)(c2 * fluid->density);
         solver->viscosity[f] = (float)fluid->viscosity;
-        solver->viscous |= fluid->viscosity > 0;
+        solver->viscous |= viscous;
+        solver->varies |= fluid->viscosity_table.rows > 0;
     }
     solver->no_slip = solver->viscous && def->wall_slip == SLIP_NONE;
 }
@@ -171,7 +184,7 @@ static bool drag_set(Solver *solver, const WorldDef *def, Error *error)
 {
     bool needed = false;
     for (int f = 0; f < def->fluid_count; f++)
-        needed |= def->wall_slip == SLIP_NONE && def->fluids[f].viscosity > 0;
+        needed |= def->wall_slip == SLIP_NONE && fluid_viscosity_most(&def->fluids[f]) > 0;
     if (!needed || solver->drag.table[0] ||
         wall_drag_create(&solver->drag, def->box_size, def->spacing, def->support * def->spacing,
                          &solver->lattice, solver->continuity))
@@ -260,6 +273,17 @@ bool solver_change(Solver *solver, const WorldDef *def, Error *error)
         return false;
     fluids_set(solver, def);
     return true;
+}
+
+bool solver_vary(Solver *solver, const WorldDef *def)
+{
+    bool other = false;
+    for (int f = 0; f < def->fluid_count; f++) {
+        const float now = (float)def->fluids[f].viscosity;
+        other |= solver->viscosity[f] != now;
+        solver->viscosity[f] = now;
+    }
+    return other;
 }
 
 void solver_destroy(Solver *solver)

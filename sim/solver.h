@@ -1,4 +1,5 @@
-/* What a def means in numbers: computed once, constant while a world lives; every backend reads it. */
+/* What a def means in numbers: computed once, constant while a world lives but for viscosities over time;
+ * every backend reads it. */
 #ifndef SLOSH_SOLVER_H
 #define SLOSH_SOLVER_H
 
@@ -31,8 +32,9 @@ typedef struct Solver {
     float density[FLUIDS_MAX];   /* rho0, kg/m3 */
     float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0 compression, Pa */
     float compression;           /* relative change of density over that of n / n0, see Lattice */
-    float viscosity[FLUIDS_MAX]; /* mu, Pa s */
-    bool viscous;                /* some mu is not zero */
+    float viscosity[FLUIDS_MAX]; /* mu, Pa s; of the step in hand where it varies */
+    bool viscous;                /* some mu is not zero, now or ever */
+    bool varies;                 /* some mu is a table over time */
     bool negative_pressure;
     bool reproducible;
     bool continuity; /* wcsph: the particles carry their density; the next seven are its own */
@@ -49,7 +51,7 @@ typedef struct Solver {
     int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
     Lattice lattice;
     Walls walls;
-    bool no_slip;  /* walls hold fluid: the def says so and some mu is not zero */
+    bool no_slip;  /* walls hold fluid: the def says so and some fluid is viscous */
     WallDrag drag; /* made once `no_slip` is first true */
     int dimensions;
     bool emits, drains; /* fluid may come; go */
@@ -65,6 +67,9 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error);
 /* Takes what may change while a world lives: viscosities, sound speed, negative pressure. False with the
    reason, no memory among them: nothing has changed. */
 bool solver_change(Solver *solver, const WorldDef *def, Error *error);
+
+/* Takes the viscosities of the def, which differ from those before by the time alone; true where one does. */
+bool solver_vary(Solver *solver, const WorldDef *def);
 
 void solver_destroy(Solver *solver);
 

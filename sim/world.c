@@ -91,6 +91,15 @@ bool world_can(const WorldDef *def, Error *error)
     return !backend->can || backend->can(def, error);
 }
 
+void world_vary(World *world, double time)
+{
+    if (!world->solver.varies)
+        return;
+    world_def_at(&world->def, time);
+    if (solver_vary(&world->solver, &world->def) && world->backend->vary)
+        world->backend->vary(world->state);
+}
+
 World *world_create(const WorldDef *def, Error *error)
 {
     World *world = calloc(1, sizeof *world);
@@ -108,6 +117,7 @@ World *world_create(const WorldDef *def, Error *error)
         world_destroy(world);
         return NULL;
     }
+    world_vary(world, 0);
     world->filter = box_filter_at_rest();
     world->target = (BoxTarget){.orientation = {0, 0, 0, 1}};
     world->stepping = (StepState){.dt = def->dt / def->substeps, .refine = 1};
@@ -199,7 +209,9 @@ static bool begin_step(World *world, Error *error)
             return false;
         s->frame_left = world->def.step_mode == STEP_CFL ? 1 : world->def.substeps * s->refine;
     }
+    world_vary(world, world_time_at(world, (double)world->step)); /* bounds the step */
     choose_step(world);
+    world_vary(world, world_time_at(world, (double)world->step + 0.5));
     return true;
 }
 
@@ -310,8 +322,10 @@ bool world_change(World *world, const WorldDef *def, Error *error)
 {
     WorldDef after = world->def;
     memcpy(after.gravity, def->gravity, sizeof after.gravity);
-    for (int f = 0; f < after.fluid_count; f++)
+    for (int f = 0; f < after.fluid_count; f++) {
         after.fluids[f].viscosity = def->fluids[f].viscosity;
+        after.fluids[f].viscosity_table = def->fluids[f].viscosity_table;
+    }
     after.sound_speed = def->sound_speed;
     after.negative_pressure = def->negative_pressure;
     after.dt = def->dt;
@@ -319,7 +333,10 @@ bool world_change(World *world, const WorldDef *def, Error *error)
     after.cfl_number = def->cfl_number;
     after.max_dt = def->max_dt;
     after.limits = def->limits;
-    return world_adopt(world, &after, error);
+    if (!world_adopt(world, &after, error))
+        return false;
+    world_vary(world, world_time_at(world, (double)world->step));
+    return true;
 }
 
 void world_info(const World *world, WorldInfo *info)

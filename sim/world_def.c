@@ -27,6 +27,22 @@ WorldDef world_def_default(void)
     };
 }
 
+double fluid_viscosity_at(const FluidDef *fluid, double time)
+{
+    return fluid->viscosity_table.rows > 0 ? time_table_at(&fluid->viscosity_table, time) : fluid->viscosity;
+}
+
+double fluid_viscosity_most(const FluidDef *fluid)
+{
+    return fluid->viscosity_table.rows > 0 ? time_table_most(&fluid->viscosity_table) : fluid->viscosity;
+}
+
+void world_def_at(WorldDef *def, double time)
+{
+    for (int f = 0; f < def->fluid_count; f++)
+        def->fluids[f].viscosity = fluid_viscosity_at(&def->fluids[f], time);
+}
+
 size_t world_def_count(const WorldDef *def, double spacing)
 {
     double volume = 0;

@@ -5,6 +5,7 @@
 #include "sim/box_filter.h"
 #include "sim/box_motion.h"
 #include "sim/solid.h"
+#include "sim/time_table.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -37,11 +38,12 @@ typedef struct Emit {
 
 typedef struct FluidDef {
     char name[NAME_SIZE];
-    double density;         /* rest density rho0, kg/m3 */
-    double viscosity;       /* dynamic, mu, Pa s */
-    double surface_tension; /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
-    double velocity[3];     /* at the start, in the box's frame, m/s */
-    float color[3];         /* linear RGB 0..1: for the views, no solver reads it */
+    double density;            /* rest density rho0, kg/m3 */
+    double viscosity;          /* dynamic, mu, Pa s; in a world, of a fluid with a table: the present one */
+    TimeTable viscosity_table; /* mu over time; without rows it is `viscosity` at any time */
+    double surface_tension;    /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
+    double velocity[3];        /* at the start, in the box's frame, m/s */
+    float color[3];            /* linear RGB 0..1: for the views, no solver reads it */
     int fill_count;
     Fill fills[FILLS_MAX];
     int emit_count;
@@ -98,6 +100,14 @@ typedef struct WorldDef {
     BoxLimits limits;            /* of the box in the hand */
     const InitialState *initial; /* NULL: the fills; read by world_create only */
 } WorldDef;
+
+/* mu at `time` (s), and the greatest at any time, Pa s. A fluid whose table is above 0 somewhere counts as
+   viscous throughout, so that the terms of a world do not change with time. */
+double fluid_viscosity_at(const FluidDef *fluid, double time);
+double fluid_viscosity_most(const FluidDef *fluid);
+
+/* Puts the viscosities of fluids with a table to those of `time` (s). */
+void world_def_at(WorldDef *def, double time);
 
 /* The defaults of every field but the box, the spacing, the fluids: what a scene that says nothing gets. The
    reason for each number stands beside it in world_def.c. */

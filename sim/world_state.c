@@ -64,8 +64,10 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
         .limits = def->limits,
     };
     memcpy(numbers->gravity, def->gravity, sizeof numbers->gravity);
-    for (int f = 0; f < def->fluid_count; f++)
-        numbers->viscosity[f] = def->fluids[f].viscosity;
+    for (int f = 0; f < def->fluid_count; f++) {
+        numbers->viscosity[f] = fluid_viscosity_at(&def->fluids[f], info.time);
+        numbers->table[f] = def->fluids[f].viscosity_table;
+    }
 }
 
 bool world_save(World *world, WorldState *state, Error *error)
@@ -134,8 +136,10 @@ static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
     def.cfl_number = numbers->cfl_number;
     def.max_dt = numbers->max_dt;
     def.limits = numbers->limits;
-    for (int f = 0; f < def.fluid_count; f++)
+    for (int f = 0; f < def.fluid_count; f++) {
         def.fluids[f].viscosity = numbers->viscosity[f];
+        def.fluids[f].viscosity_table = numbers->table[f];
+    }
     return def;
 }
 
@@ -169,6 +173,7 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->target = numbers->target;
     world->filter = numbers->filter;
     world->box = numbers->box;
+    world_vary(world, world_time_at(world, numbers->step));
     world_put_back(world, numbers, state->count);
     return sentinel_mark(world, error);
 }

@@ -25,9 +25,10 @@ typedef struct WorldNumbers {
     double cfl_number, max_dt;    /* of mode cfl, s */
     BoxLimits limits;             /* of the hand */
     double viscosity[FLUIDS_MAX]; /* Pa s */
+    TimeTable table[FLUIDS_MAX];  /* of viscosity over time */
 } WorldNumbers;
 
-enum { WORLD_STATE_VERSION = 2, WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double) };
+enum { WORLD_STATE_VERSION = 3, WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double) };
 
 /* What is of a particle, a column each. */
 typedef struct ParticleColumns {

@@ -40,6 +40,9 @@ void world_settle(World *world);
 /* Particles that the backend has got back or taken: how many, and all that follows from them. */
 void world_put_back(World *world, const WorldNumbers *numbers, size_t count);
 
+/* Viscosities that are tables are those of `time` (s) from here on. */
+void world_vary(World *world, double time);
+
 /* s, of a step by its number, as far as the present step size holds. */
 double world_time_at(const World *world, double step);
 

@@ -245,6 +245,53 @@ static void what_is_missing_is_named(void **state)
     assert_refused(LEAST "view: {camera: {fov: 30}}\n", "scene.yaml:7:16: view.camera.from is missing");
 }
 
+/* A number, or rows of seconds and Pa s in either style of YAML. */
+static void a_viscosity_may_be_a_table(void **state)
+{
+    (void)state;
+    static Scene scene;
+    const FluidDef *fluid = &scene.world.fluids[0];
+    const TimeTable *table = &fluid->viscosity_table;
+    Error error;
+    assert_true(parse_text(LEAST "    viscosity: [[1, 50], [3, 10]]\n", NULL, &scene, &error));
+    assert_true(table->rows == 2 && table->time[1] == 3 && table->value[0] == 50 && table->value[1] == 10);
+    assert_true(fluid->viscosity == 50 && fluid_viscosity_at(fluid, 2) == 30);
+    assert_true(parse_text(LEAST "    viscosity:\n      - [0.5, 7]\n", NULL, &scene, &error));
+    assert_true(table->rows == 1 && table->time[0] == 0.5 && fluid->viscosity == 7);
+    assert_true(
+        parse_set(LEAST "    viscosity: [[0, 1], [1, 2]]\n", "fluids[0].viscosity=3", &scene, &error));
+    assert_true(table->rows == 0 && fluid->viscosity == 3);
+    assert_true(parse_set(LEAST, "fluids[0].viscosity[0]=[0, 4]", &scene, &error));
+    assert_true(table->rows == 1 && fluid->viscosity == 4);
+}
+
+static void tables_must_make_sense(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"[]", "16: fluids[0].viscosity has 0 rows; a table must have 1 to 16"},
+        {"[[0,1],[1,1],[2,1],[3,1],[4,1],[5,1],[6,1],[7,1],[8,1],[9,1],[10,1],[11,1],[12,1],[13,1],[14,1],[15,1],"
+         "[16,1]]",
+         "16: fluids[0].viscosity has 17 rows; a table must have 1 to 16"},
+        {"[1, 2]", "17: fluids[0].viscosity must be a number or rows [seconds, number]"},
+        {"[[1]]", "17: fluids[0].viscosity must be a number or rows [seconds, number]"},
+        {"[[0, 1], [x, 1]]", "26: fluids[0].viscosity must be a number or rows [seconds, number]"},
+        {"[[0, 1], [2, y]]", "29: fluids[0].viscosity must be a number or rows [seconds, number]"},
+        {"[[0, 1], [2, -1]]", "29: fluids[0].viscosity must be 0 to 1e+06 Pa s, not -1"},
+        {"[[0, 1], [2, .nan]]", "29: fluids[0].viscosity must be a finite number, not .nan"},
+        {"[[-1, 1]]", "18: fluids[0].viscosity: times must be 0 to 1e+06 s, not -1"},
+        {"[[.nan, 1]]", "18: fluids[0].viscosity: times must be 0 to 1e+06 s, not .nan"},
+        {"[[2, 1], [2, 3]]", "26: fluids[0].viscosity: times must ascend; 2 stands after 2"},
+        {"{at: 1}", "16: fluids[0].viscosity must be a number or rows [seconds, number]"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512], message[256];
+        snprintf(text, sizeof text, LEAST "    viscosity: %s\n", cases[i][0]);
+        snprintf(message, sizeof message, "scene.yaml:7:%s", cases[i][1]);
+        assert_refused(text, message);
+    }
+}
+
 static void fluid_must_lie_in_the_box(void **state)
 {
     (void)state;
@@ -392,6 +439,8 @@ int main(void)
         cmocka_unit_test(wrong_types_are_refused),
         cmocka_unit_test(numbers_must_be_finite_and_in_range),
         cmocka_unit_test(what_is_missing_is_named),
+        cmocka_unit_test(a_viscosity_may_be_a_table),
+        cmocka_unit_test(tables_must_make_sense),
         cmocka_unit_test(fluid_must_lie_in_the_box),
         cmocka_unit_test(values_must_fit_each_other),
         cmocka_unit_test(solids_must_make_sense),

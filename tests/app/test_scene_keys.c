@@ -16,7 +16,8 @@ static const char everything[] = "box: {size: [1, 1, 1]}\n"
                                  "fluids:\n"
                                  "  - fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.5, 0.5]}}]\n"
                                  "  - fill: [{ball: {centre: [0, 0.8, 0], radius: 0.2}}]\n"
-                                 "  - fill: [{cylinder: {centre: [0.3, 0.7, 0], radius: 0.1, height: 0.3}}]\n"
+                                 "  - viscosity: [[0, 50], [2.5, 40], [6, 0.1]]\n"
+                                 "    fill: [{cylinder: {centre: [0.3, 0.7, 0], radius: 0.1, height: 0.3}}]\n"
                                  "  - emit:\n"
                                  "      - disk: {centre: [0, 0.5, 0], direction: [0, 1, 0], radius: 0.1}\n"
                                  "        speed: 1\n"
@@ -85,8 +86,8 @@ static int components(const Key *key)
 
 static bool is_bounded_number(const Key *key)
 {
-    return key->type == KEY_NUMBER || key->type == KEY_INTEGER || key->type == KEY_VEC3 ||
-           key->type == KEY_COLOR || key->type == KEY_RANGE;
+    return key->type == KEY_NUMBER || key->type == KEY_CURVE || key->type == KEY_INTEGER ||
+           key->type == KEY_VEC3 || key->type == KEY_COLOR || key->type == KEY_RANGE;
 }
 
 /* Whether the loader finds `value`, as the component `k` of the key, out of its range. */
@@ -208,6 +209,7 @@ static void what_is_printed_can_be_set(void **state)
     assert_non_null(strstr(first, "particles.spacing = 0.1 m\n"));
     assert_non_null(strstr(first, "motion[3].spin.rate = 1 rad/s\n"));
     assert_non_null(strstr(first, "fluids[1].fill[0].ball.centre = [0, 0.8, 0] m\n"));
+    assert_non_null(strstr(first, "fluids[2].viscosity = [[0, 50], [2.5, 40], [6, 0.1]] Pa s\n"));
     assert_null(strstr(first, "fluids[1].fill[0].block"));
 
     file = fmemopen(first, size, "r");

@@ -52,6 +52,9 @@ static void each_type_reaches_its_field(void **state)
     assert_true(scene.world.gravity[1] == -3 && scene.world.gravity[2] == 1.5);
     assert_true(set("fluids[1].viscosity=0.2"));
     assert_true(scene.world.fluids[0].viscosity == 0 && scene.world.fluids[1].viscosity == 0.2);
+    assert_true(set("fluids[1].viscosity=[[0, 5], [2, 1]]"));
+    assert_true(scene.world.fluids[1].viscosity_table.rows == 2 && scene.world.fluids[1].viscosity == 5);
+    assert_true(set("fluids[1].viscosity=0.2") && scene.world.fluids[1].viscosity_table.rows == 0);
     assert_true(set("solver.step.substeps=7"));
     assert_int_equal(scene.world.substeps, 7);
     assert_true(set("solver.negative_pressure=true") && scene.world.negative_pressure);
@@ -133,6 +136,8 @@ static void messages_are_those_of_set(void **state)
         "gravity=[0, .nan, 0]",
         "gravity=[0, 1",
         "fluids[1].viscosity=-1",
+        "fluids[1].viscosity=[[1, 2], [0, 2]]",
+        "fluids[1].viscosity=[]",
         "fluids[0].color=[2, 0, 0]",
         "view.kind=sphere",
         "view.color_by=presure",

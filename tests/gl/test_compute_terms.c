@@ -252,6 +252,28 @@ static void changes_reach_the_programs(void **state)
     world_destroy(gpu);
 }
 
+/* No program, no buffer is made anew; a state brings the viscosity of its time. */
+static void a_table_is_a_number_each_step(void **state)
+{
+    (void)state;
+    WorldDef def = def_of(&cases[SQUARE_NO_SLIP]);
+    def.fluids[0].viscosity_table = (TimeTable){3, {0, 40 * def.dt, 100 * def.dt}, {4, 4, 0}};
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    const Compute *compute = gpu->state;
+    const unsigned force = compute->program[COMPUTE_FORCE], kick = compute->program[COMPUTE_KICK];
+    const size_t bytes = compute->bytes;
+    fixture_step(cpu, 60);
+    assert_true(cpu->solver.viscosity[0] > 1 && cpu->solver.viscosity[0] < 4);
+    copy_state(cpu, gpu);
+    compare_step("a viscosity by a table", cpu, gpu);
+    fixture_step(gpu, 100);
+    assert_true(gpu->solver.viscosity[0] < 1e-6F);
+    assert_true(compute->program[COMPUTE_FORCE] == force && compute->program[COMPUTE_KICK] == kick);
+    assert_true(compute->bytes == bytes);
+    world_destroy(cpu);
+    world_destroy(gpu);
+}
+
 /* With a shader that does not compile the world goes on as it was. */
 static void a_broken_shader_changes_nothing(void **state)
 {
@@ -293,6 +315,7 @@ int main(void)
         cmocka_unit_test_teardown(views_see_the_densities, no_gl_errors),
         cmocka_unit_test_teardown(neighbours_are_those_of_the_last_grid, no_gl_errors),
         cmocka_unit_test_teardown(changes_reach_the_programs, no_gl_errors),
+        cmocka_unit_test_teardown(a_table_is_a_number_each_step, no_gl_errors),
         cmocka_unit_test_teardown(a_broken_shader_changes_nothing, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.compute_terms", tests, compare_setup, context_teardown);

@@ -256,6 +256,26 @@ static void changes_are_taken(void **state)
     world_destroy(gpu);
 }
 
+/* A viscosity by a table is a number each step: no program is made anew. */
+static void a_table_is_taken(void **state)
+{
+    (void)state;
+    WorldDef def = coarse_def(2);
+    def.fluids[0].viscosity_table = (TimeTable){3, {0, 40 * def.dt, 150 * def.dt}, {4, 4, 0}};
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "fragment");
+    const Fragment *fragment = gpu->state;
+    const unsigned force = fragment->program[FRAGMENT_FORCE];
+    fixture_step(cpu, 100);
+    assert_true(cpu->solver.viscosity[0] > 1 && cpu->solver.viscosity[0] < 3);
+    copy_state(cpu, gpu);
+    compare_step("a viscosity by a table", cpu, gpu);
+    fixture_step(gpu, 10);
+    assert_true(fragment->program[FRAGMENT_FORCE] == force &&
+                gpu->solver.viscosity[0] < cpu->solver.viscosity[0]);
+    world_destroy(cpu);
+    world_destroy(gpu);
+}
+
 /* A step leaves what the views have set. */
 static void the_context_is_left_as_it_was(void **state)
 {
@@ -398,6 +418,7 @@ int main(void)
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(marked_particles_come_back, no_gl_errors),
         cmocka_unit_test_teardown(changes_are_taken, no_gl_errors),
+        cmocka_unit_test_teardown(a_table_is_taken, no_gl_errors),
         cmocka_unit_test_teardown(the_context_is_left_as_it_was, no_gl_errors),
         cmocka_unit_test_teardown(what_it_cannot_do_is_said, no_gl_errors),
         cmocka_unit_test_teardown(what_comes_later_is_refused_too, no_gl_errors),

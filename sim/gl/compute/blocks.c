@@ -42,6 +42,12 @@ static void walls_constants(const Walls *walls, Constants *c)
     }
 }
 
+static void set_fluids(const Solver *s, float fluids[FLUIDS_MAX][4])
+{
+    for (int f = 0; f < s->fluid_count; f++)
+        set4(fluids[f], s->mass[f], s->density[f], s->stiffness[f], s->viscosity[f]);
+}
+
 void compute_constants(Compute *compute)
 {
     const Solver *s = compute->solver;
@@ -57,8 +63,7 @@ void compute_constants(Compute *compute)
     c.rows[0] = s->first_row;
     c.rows[1] = s->last_row;
     walls_constants(&s->walls, &c);
-    for (int f = 0; f < s->fluid_count; f++)
-        set4(c.fluids[f], s->mass[f], s->density[f], s->stiffness[f], s->viscosity[f]);
+    set_fluids(s, c.fluids);
     if (!compute->constants) {
         glCreateBuffers(1, &compute->constants);
         glNamedBufferStorage(compute->constants, sizeof c, NULL, GL_DYNAMIC_STORAGE_BIT);
@@ -67,6 +72,14 @@ void compute_constants(Compute *compute)
     }
     glNamedBufferSubData(compute->constants, 0, sizeof c, &c);
     compute_term_constants(compute);
+}
+
+void compute_vary(void *state)
+{
+    const Compute *compute = state;
+    float fluids[FLUIDS_MAX][4] = {0};
+    set_fluids(compute->solver, fluids);
+    glNamedBufferSubData(compute->constants, offsetof(Constants, fluids), sizeof fluids, fluids);
 }
 
 void compute_set_count(Compute *compute, size_t count)

@@ -219,6 +219,7 @@ const Backend backend_compute = {
     .create = compute_create,
     .destroy = compute_destroy,
     .adapt = compute_adapt,
+    .vary = compute_vary,
     .reload = compute_reload,
     .pose = compute_pose,
     .drift = compute_drift,

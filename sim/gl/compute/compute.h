@@ -138,6 +138,7 @@ void compute_term_constants(Compute *compute);
 
 /* Fills the uniform blocks. */
 void compute_constants(Compute *compute);
+void compute_vary(void *state);
 void compute_set_drift(Compute *compute, const FrameStep *step);
 void compute_set_force(Compute *compute, const ApparentGravity *gravity);
 void compute_set_kick(Compute *compute, const float gravity[3], float dt);

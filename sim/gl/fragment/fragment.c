@@ -133,6 +133,11 @@ static bool fragment_adapt(void *state, Error *error)
     return true;
 }
 
+static void fragment_vary(void *state)
+{
+    fragment_set_fluids(state);
+}
+
 static bool fragment_reload(void *state, Error *error)
 {
     return fragment_programs_create(state, error);
@@ -146,6 +151,7 @@ const Backend backend_fragment = {
     .create = fragment_create,
     .destroy = fragment_destroy,
     .adapt = fragment_adapt,
+    .vary = fragment_vary,
     .reload = fragment_reload,
     .drift = fragment_drift,
     .grid = fragment_grid,
