@@ -162,6 +162,17 @@ void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particl
     frame->by_fluid = def->color_by == SCALAR_FLUID || !particles->scalar[def->color_by].buffer;
 }
 
+void frame_cut_to_bounds(const Frame *frame)
+{
+    const float *bounds = frame->bounds, width = (float)frame->width, height = (float)frame->height;
+    int x0 = (int)floorf((0.5F + 0.5F * bounds[0]) * width),
+        x1 = (int)ceilf((0.5F + 0.5F * bounds[1]) * width);
+    int y0 = (int)floorf((0.5F + 0.5F * bounds[2]) * height),
+        y1 = (int)ceilf((0.5F + 0.5F * bounds[3]) * height);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x0, y0, x1 - x0, y1 - y0);
+}
+
 unsigned frame_uniforms_create(void)
 {
     GLuint buffer;

@@ -43,6 +43,9 @@ enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
                 double radius, double covered_left);
 
+/* Sets the scissor to frame->bounds. The caller ends it. */
+void frame_cut_to_bounds(const Frame *frame);
+
 /* The uniform block of shaders/common/frame.glsl; the caller deletes the buffer. */
 unsigned frame_uniforms_create(void);
 

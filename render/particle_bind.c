@@ -1,5 +1,7 @@
 #include "render/particle_bind.h"
 
+#include "sim/gl/timer.h"
+
 #include <epoxy/gl.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -21,6 +23,14 @@ void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar sc
     bind_attribute(2, &particles->fluid, particles->count);
     glProgramUniform4ui(program, 0, (GLuint)(particles->position.stride / 4), (GLuint)(shown->stride / 4),
                         (GLuint)(particles->fluid.stride / 4), 0);
+}
+
+float point_limit(void)
+{
+    GLfloat range[2] = {0};
+    if (gl_renderer_is_software())
+        glGetFloatv(GL_POINT_SIZE_RANGE, range);
+    return range[1];
 }
 
 void quad_indices_create(QuadIndices *indices)

@@ -7,6 +7,10 @@
 /* Binds positions, the scalar and the fluid (those that are there) and sets the strides of `program`. */
 void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar);
 
+/* The largest point that is worth drawing instead of a quad, pixels; 0 where none is: points are cheaper on a
+   software driver only, and not all hardware draws them to the bit. */
+float point_limit(void);
+
 /* Indices of two triangles a particle over the vertices 4 i .. 4 i + 3, for glDrawElements. They are indexed
    quads rather than instances: on the software driver an instance costs microseconds. */
 typedef struct QuadIndices {

@@ -54,15 +54,6 @@ static bool create_programs(Spheres *spheres, Error *error)
     return spheres->casting != 0;
 }
 
-/* Points are cheaper than quads on a software driver only, and not all hardware draws them to the bit. */
-static float find_point_limit(void)
-{
-    GLfloat range[2] = {0};
-    if (gl_renderer_is_software())
-        glGetFloatv(GL_POINT_SIZE_RANGE, range);
-    return range[1];
-}
-
 static void *spheres_create(const ViewDef *def, Error *error)
 {
     Spheres *spheres = calloc(1, sizeof *spheres);
@@ -76,7 +67,7 @@ static void *spheres_create(const ViewDef *def, Error *error)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     glCreateVertexArrays(1, &spheres->screen);
     quad_indices_create(&spheres->quads);
-    spheres->point_limit = find_point_limit();
+    spheres->point_limit = point_limit();
     if (spheres->colormap && create_programs(spheres, error))
         return spheres;
     spheres_destroy(spheres);
@@ -146,17 +137,6 @@ static void find_visible(Spheres *spheres, const ParticleBuffers *particles, con
     glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
 }
 
-static void cut_to_bounds(const Frame *frame)
-{
-    const float *bounds = frame->bounds, width = (float)frame->width, height = (float)frame->height;
-    int x0 = (int)floorf((0.5F + 0.5F * bounds[0]) * width),
-        x1 = (int)ceilf((0.5F + 0.5F * bounds[1]) * width);
-    int y0 = (int)floorf((0.5F + 0.5F * bounds[2]) * height),
-        y1 = (int)ceilf((0.5F + 0.5F * bounds[3]) * height);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(x0, y0, x1 - x0, y1 - y0);
-}
-
 /* The triangle at depth 0 passes where something has been drawn; the shader leaves out solids. */
 static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
 {
@@ -168,7 +148,7 @@ static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, co
     glUseProgram(spheres->shading);
     particle_bind(spheres->shading, particles, frame->def->color_by);
     glBindVertexArray(spheres->screen);
-    cut_to_bounds(frame);
+    frame_cut_to_bounds(frame);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_SCISSOR_TEST);
 }

@@ -117,14 +117,6 @@ static bool create_programs(SplatView *splat, bool solids, Error *error)
     return splat->casting_listed && cull_create(&splat->cull, splat->def.shape, error);
 }
 
-static float find_point_limit(void)
-{
-    GLfloat range[2] = {0};
-    if (gl_renderer_is_software())
-        glGetFloatv(GL_POINT_SIZE_RANGE, range);
-    return range[1];
-}
-
 static void *splat_create(const ViewDef *def, Error *error)
 {
     SplatView *splat = calloc(1, sizeof *splat);
@@ -138,7 +130,7 @@ static void *splat_create(const ViewDef *def, Error *error)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     glCreateVertexArrays(1, &splat->screen);
     quad_indices_create(&splat->quads);
-    splat->point_limit = find_point_limit();
+    splat->point_limit = point_limit();
     if (splat->colormap && create_programs(splat, def->solid_count > 0, error))
         return splat;
     splat_destroy(splat);
@@ -265,17 +257,6 @@ static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuf
     draw_sprites(splat, sprite, splat->depth[sprite], particles, frame, CULL_NEAREST);
 }
 
-static void cut_to_bounds(const Frame *frame)
-{
-    const float *bounds = frame->bounds, width = (float)frame->width, height = (float)frame->height;
-    int x0 = (int)floorf((0.5F + 0.5F * bounds[0]) * width),
-        x1 = (int)ceilf((0.5F + 0.5F * bounds[1]) * width);
-    int y0 = (int)floorf((0.5F + 0.5F * bounds[2]) * height),
-        y1 = (int)ceilf((0.5F + 0.5F * bounds[3]) * height);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(x0, y0, x1 - x0, y1 - y0);
-}
-
 static void set_limit(SplatView *splat, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, splat->maps.blend_framebuffer);
@@ -288,7 +269,7 @@ static void set_limit(SplatView *splat, const Frame *frame)
     glUseProgram(splat->limit);
     glUniform1f(1, eps_of(frame));
     glBindVertexArray(splat->screen);
-    cut_to_bounds(frame);
+    frame_cut_to_bounds(frame);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_SCISSOR_TEST);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -324,7 +305,7 @@ static void shade_surface(SplatView *splat, const Frame *frame)
     glUseProgram(splat->shading);
     glUniform2f(1, fmaxf(frame->nearest, frame->camera.near_plane), frame->farthest);
     glBindVertexArray(splat->screen);
-    cut_to_bounds(frame);
+    frame_cut_to_bounds(frame);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_SCISSOR_TEST);
 }

@@ -1,4 +1,4 @@
-// Writes each particle into the cells of the coarse map that it covers, of the nine around its centre.
+// Writes each particle into the cells of the coarse map that it covers.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/cull.glsl"
@@ -61,9 +61,9 @@ void main()
     vec2 reach = disc.radii - margin, per_radius = 1.0 / disc.radii;
     if (!(min(reach.x, reach.y) > 0.0)) // nor for NaN
         return;
-    vec2 low = max(ceil((disc.middle - reach) / side - 0.5), vec2(0.0));
-    vec2 high = min(floor((disc.middle + reach) / side - 0.5), vec2(grid.xy) - 1.0);
-    high = min(high, low + 3.0);
+    vec2 own = floor(disc.middle / side); // of large spheres those around the centre will do
+    vec2 low = max(ceil((disc.middle - reach) / side - 0.5), max(own - 2.0, 0.0));
+    vec2 high = min(floor((disc.middle + reach) / side - 0.5), min(own + 2.0, vec2(grid.xy) - 1.0));
     for (float y = low.y; y <= high.y; y++)
         for (float x = low.x; x <= high.x; x++) {
             vec2 away = abs((vec2(x, y) + 0.5) * side - disc.middle) + margin;
