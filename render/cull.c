@@ -115,9 +115,13 @@ static void use(GLuint program, const Grid *grid, const ParticleBuffers *particl
     glUniform4fv(2, 1, grid->projection);
 }
 
+/* Rows of workgroups where one row would be too long; only cull_occlude.comp, which has one invocation a
+ * particle, needs more. */
 static void run(size_t invocations)
 {
-    glDispatchCompute((GLuint)((invocations + 63) / 64), 1, 1);
+    enum { ROW = 32768 };
+    const size_t groups = (invocations + 63) / 64, rows = (groups + ROW - 1) / ROW;
+    glDispatchCompute((GLuint)(rows > 1 ? ROW : groups), (GLuint)rows, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

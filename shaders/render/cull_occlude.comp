@@ -53,7 +53,7 @@ float depth_within(Disc disc, vec2 away)
 
 void main()
 {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
     if (index >= count)
         return;
     Disc disc = disc_of(index);
