@@ -36,7 +36,7 @@ static bool fragment_can(const WorldDef *def, Error *error)
 {
     bool viscous = false, tense = false;
     for (int f = 0; f < def->fluid_count; f++) {
-        viscous |= def->fluids[f].viscosity > 0;
+        viscous |= fluid_viscosity_most(&def->fluids[f]) > 0;
         tense |= def->fluids[f].surface_tension > 0;
     }
     return !lacks("method wcsph", strcmp(def->method, "wcsph") == 0, error) &&
