@@ -26,6 +26,18 @@ static const Table tables[] = {
      .particles = {"8192"},
      .substeps = {"1", "10"},
      .columns = {{"simulation", SIM}, {"rendering", 0}}},
+    {.name = "paper002-passes",
+     .help =
+         "the passes of splatting, and frames a second (Adams et al. 2006, Table 1); give it --size 640x480",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"view.radius=1"},
+     .particles = {"18000", "59000", "63000", "110000"},
+     .reference = "scenes/reference/paper002-passes.csv",
+     .view = "splat",
+     .percent = true,
+     .columns = {{"visibility", BIT(STAGE_VISIBILITY)},
+                 {"blend", BIT(STAGE_BLEND)},
+                 {"shade", BIT(STAGE_SHADE)}}},
 };
 
 const Table *table_find(const char *name, Error *error)
@@ -53,7 +65,8 @@ int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1])
     *views = (Sweep){.key = "view.kind"};
     *particles = (Sweep){.key = "particles"};
     for (const ViewKind *const *view = view_list; *view; view++)
-        add(views, (*view)->name);
+        if (!table->view || strcmp(table->view, (*view)->name) == 0)
+            add(views, (*view)->name);
     for (int i = 0; table->particles[i]; i++)
         add(particles, table->particles[i]);
     if (table->substeps[0]) {
@@ -62,6 +75,8 @@ int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1])
         for (int i = 0; table->substeps[i]; i++)
             add(substeps, table->substeps[i]);
     }
+    if (table->view)
+        return count;
     Sweep *backends = &sweeps[count++];
     *backends = (Sweep){.key = "solver.backend"};
     for (const Named *backend = world_backends(); backend->name; backend++)
@@ -81,14 +96,23 @@ double table_value(const Table *table, const BenchResult *result, int column)
     return sum;
 }
 
-static void print_values(const double *values, int columns, FILE *file)
+/* Values in ms, or published as shares: then without times. */
+static void print_values(const double *values, int columns, bool times, FILE *file)
 {
     double all = 0;
     for (int c = 0; c < columns; c++)
         all += values[c];
-    for (int c = 0; c < columns; c++)
-        fprintf(file, " %9.3f %5.1f %%", values[c], all > 0 ? 100 * values[c] / all : 0);
-    fprintf(file, " %9.3f\n", all);
+    for (int c = 0; c < columns; c++) {
+        if (times)
+            fprintf(file, " %9.3f", values[c]);
+        else
+            fprintf(file, " %9s", "");
+        fprintf(file, " %5.1f %%", all > 0 ? 100 * values[c] / all : 0);
+    }
+    if (times)
+        fprintf(file, " %9.3f", all);
+    else
+        fprintf(file, " %9s", "");
 }
 
 static int column_count(const Table *table)
@@ -106,7 +130,10 @@ static void print_result(const Table *table, const BenchResult *r, FILE *file)
     for (int c = 0; c < columns; c++)
         values[c] = table_value(table, r, c);
     fprintf(file, "%9zu %8d  %-9s %-22s", r->particles, r->substeps, r->view, r->backend);
-    print_values(values, columns, file);
+    print_values(values, columns, true, file);
+    if (table->percent)
+        fprintf(file, " %9.1f", r->render_ms > 0 ? 1e3 / r->render_ms : 0);
+    fputc('\n', file);
 }
 
 /* What was published of as many particles; the paper's steps are one a frame. */
@@ -118,10 +145,16 @@ static void print_published(const Table *table, const Reference *reference, size
         if ((size_t)reference_number(reference, row, "particles") != particles)
             continue;
         for (int c = 0; c < columns; c++)
-            values[c] = 1e3 * reference_number(reference, row, table->columns[c].title);
-        fprintf(file, "%9zu %8d  %-9s %-3s, published         ", particles, 1, "spheres",
-                reference_text(reference, row, "engine"));
-        print_values(values, columns, file);
+            values[c] =
+                (table->percent ? 1 : 1e3) * reference_number(reference, row, table->columns[c].title);
+        char label[64];
+        snprintf(label, sizeof label, "%s, published", reference_text(reference, row, "engine"));
+        fprintf(file, "%9zu %8s  %-9s %-22s", particles, table->percent ? "" : "1",
+                table->view ? table->view : "spheres", label);
+        print_values(values, columns, !table->percent, file);
+        if (table->percent)
+            fprintf(file, " %9.1f", reference_number(reference, row, "rate"));
+        fputc('\n', file);
     }
 }
 
@@ -145,12 +178,12 @@ bool table_print(const Table *table, const BenchResult *results, size_t count, F
     fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view", "backend");
     for (int c = 0; table->columns[c].title; c++)
         fprintf(file, " %17s", table->columns[c].title);
-    fprintf(file, " %9s\n", "total");
+    fprintf(file, " %9s%s\n", "total", table->percent ? "  frames/s" : "");
     size_t last = 0;
     int group = 0;
     for (size_t i = 0; i < count; i++) {
         if (table->reference && results[i].particles != last && table->particles[group] &&
-            strcmp(results[i].view, "spheres") == 0)
+            strcmp(results[i].view, table->view ? table->view : "spheres") == 0)
             print_published(table, &reference, asked_for(table, group++), file);
         last = results[i].particles;
         print_result(table, &results[i], file);

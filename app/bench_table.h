@@ -8,7 +8,7 @@
 
 enum { TABLE_SWEEPS = 3, TABLE_SETTINGS = 2, TABLE_COLUMNS = 4 };
 
-/* A column sums up stages; the last one takes all that no other names. */
+/* A column sums up stages; one without takes all that no other names. */
 typedef struct TableColumn {
     const char *title; /* also that of the reference's column */
     unsigned stages;   /* bits 1 << STAGE_... */
@@ -21,6 +21,8 @@ typedef struct Table {
     const char *particles[8];             /* each of these, with each view and each backend; ended by NULL */
     const char *substeps[3];              /* and each of these; ended by NULL */
     const char *reference;                /* the CSV file of what was published, or NULL */
+    const char *view;                     /* the only one, drawn for one backend; NULL: all of both */
+    bool percent;                         /* shares were published, and frames a second as `rate` */
     bool shares;                          /* the chart shows the first column's share; else times */
     TableColumn columns[TABLE_COLUMNS];   /* ended by a NULL title */
 } Table;

@@ -1,0 +1,98 @@
+/* Published tables beside made-up measurements: each figure stands in its row. */
+#include "tests/sim/fixture.h"
+
+#include "app/bench_table.h"
+#include "sim/gl/backends.h"
+
+static BenchResult made_up(size_t particles, const char *view, const char *backend)
+{
+    BenchResult r = {.particles = particles, .substeps = 1, .threads = 2, .render_ms = 50};
+    snprintf(r.view, sizeof r.view, "%s", view);
+    snprintf(r.backend, sizeof r.backend, "%s", backend);
+    r.stages[STAGE_FORCE].median_ms = 3;
+    r.stages[STAGE_GRID].median_ms = 1;
+    r.stages[STAGE_VISIBILITY].median_ms = 10;
+    r.stages[STAGE_BLEND].median_ms = 25;
+    r.stages[STAGE_SHADE].median_ms = 5;
+    return r;
+}
+
+static char *printed(const char *name, const BenchResult *results, size_t count)
+{
+    Error error = {{0}};
+    char *text = NULL;
+    size_t size = 0;
+    const Table *table = table_find(name, &error);
+    assert_non_null(table);
+    FILE *file = open_memstream(&text, &size);
+    if (!table_print(table, results, count, file, &error))
+        fail_msg("%s", error.message);
+    fclose(file);
+    return text;
+}
+
+/* The words of the first line that begins with those particles and holds `label`, one blank between them. */
+static void expect(const char *text, const char *label, const char *row)
+{
+    char words[512] = "";
+    size_t used = 0;
+    const char *at = strstr(text, label);
+    assert_non_null(at);
+    while (at > text && at[-1] != '\n')
+        at--;
+    for (; *at && *at != '\n'; at++)
+        if (*at != ' ' || (used > 0 && words[used - 1] != ' '))
+            words[used++] = *at;
+    assert_string_equal(words, row);
+}
+
+static void shares_of_passes(void **state)
+{
+    (void)state;
+    const BenchResult results[] = {made_up(17640, "splat", "cpu"), made_up(109744, "splat", "cpu")};
+    char *text = printed("paper002-passes", results, 2);
+    expect(text, "Beethoven, published", "18000 splat Beethoven, published 25.0 % 45.0 % 30.0 % 47.0");
+    expect(text, "17640", "17640 1 splat cpu 10.000 25.0 % 25.000 62.5 % 5.000 12.5 % 40.000 20.0");
+    free(text);
+}
+
+static void times_of_parts(void **state)
+{
+    (void)state;
+    const BenchResult results[] = {made_up(1024, "spheres", "cpu"), made_up(1024, "spheres", "compute")};
+    char *text = printed("paper003-spheres", results, 2);
+    expect(text, "GPU, published", "1024 1 spheres GPU, published 1.500 16.3 % 7.700 83.7 % 9.200");
+    expect(text, "compute", "1024 1 spheres compute 4.000 9.1 % 40.000 90.9 % 44.000");
+    assert_null(strstr(text, "8192"));
+    free(text);
+}
+
+static void cases_are_all_views_and_backends(void **state)
+{
+    (void)state;
+    Error error;
+    Sweep sweeps[TABLE_SWEEPS + 1];
+    assert_int_equal(table_sweeps(table_find("paper003-spheres", &error), sweeps), 3);
+    assert_string_equal(sweeps[0].key, "view.kind");
+    assert_true(sweeps[0].count >= 2 && sweeps[1].count == 4 && sweeps[2].count == 3);
+    assert_int_equal(table_sweeps(table_find("paper002-passes", &error), sweeps), 2);
+    assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "splat") == 0);
+    assert_null(table_find("paper9", &error));
+}
+
+static int setup(void **state)
+{
+    (void)state;
+    backends_add();
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shares_of_passes),
+        cmocka_unit_test(times_of_parts),
+        cmocka_unit_test(cases_are_all_views_and_backends),
+    };
+    return cmocka_run_group_tests_name("app.bench_table", tests, setup, NULL);
+}
