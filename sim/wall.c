@@ -349,3 +349,15 @@ bool walls_guard(const Walls *walls, float x[3], float v[3])
     }
     return held;
 }
+
+size_t walls_entries(const Walls *walls, int tables)
+{
+    size_t all = 0;
+    for (int t = 0; t < tables; t++) {
+        size_t entries = 1;
+        for (int k = 0; k <= t; k++)
+            entries *= (size_t)walls->table[t].nodes;
+        all += entries;
+    }
+    return all;
+}

@@ -49,6 +49,9 @@ typedef struct Walls {
     WallTable table[3]; /* face, edge, corner */
 } Walls;
 
+/* Entries of the first so many tables together: that of t + 1 faces has nodes^(t + 1). */
+size_t walls_entries(const Walls *walls, int tables);
+
 /* False when memory is short. */
 bool walls_create(Walls *walls, const double box_size[3], double spacing, double support_radius,
                   const Kernel *density_kernel, const Lattice *lattice);

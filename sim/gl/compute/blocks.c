@@ -28,17 +28,11 @@ static void set4(float out[4], float x, float y, float z, float w)
 
 static void walls_constants(const Walls *walls, Constants *c)
 {
-    int32_t offset = 0, entries = 1;
     set4(c->half_size, walls->half_size[0], walls->half_size[1], walls->half_size[2], walls->range);
     for (int t = 0; t < walls->dimensions; t++) {
-        const int nodes = walls->table[t].nodes;
-        c->wall_nodes[t] = nodes;
+        c->wall_nodes[t] = walls->table[t].nodes;
         c->wall_steps[t] = walls->table[t].inverse_step;
-        c->wall_offset[t] = offset;
-        entries = nodes;
-        for (int k = 0; k < t; k++)
-            entries *= nodes;
-        offset += entries;
+        c->wall_offset[t] = (int32_t)walls_entries(walls, t);
     }
 }
 

@@ -95,19 +95,11 @@ static bool buffers_create(Compute *c, Error *error)
 static void walls_upload(Compute *c)
 {
     const Walls *walls = &c->solver->walls;
-    size_t entries[3] = {0}, all = 0;
-    for (int t = 0; t < walls->dimensions; t++) {
-        entries[t] = (size_t)walls->table[t].nodes;
-        for (int k = 0; k < t; k++)
-            entries[t] *= (size_t)walls->table[t].nodes;
-        all += entries[t];
-    }
-    c->walls = compute_buffer(c, "wall tables", all * sizeof(WallSums));
-    size_t at = 0;
-    for (int t = 0; t < walls->dimensions; t++) {
-        glNamedBufferSubData(c->walls, (GLintptr)at, (GLsizeiptr)(entries[t] * sizeof(WallSums)),
-                             walls->table[t].sums);
-        at += entries[t] * sizeof(WallSums);
+    c->walls = compute_buffer(c, "wall tables", walls_entries(walls, walls->dimensions) * sizeof(WallSums));
+    for (int t = 0; t < walls->dimensions && !c->full; t++) {
+        const size_t at = walls_entries(walls, t) * sizeof(WallSums),
+                     end = walls_entries(walls, t + 1) * sizeof(WallSums);
+        glNamedBufferSubData(c->walls, (GLintptr)at, (GLsizeiptr)(end - at), walls->table[t].sums);
     }
 }
 

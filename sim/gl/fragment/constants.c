@@ -39,14 +39,11 @@ static void put_walls(Text *to, const Walls *walls)
 {
     const float half[4] = {walls->half_size[0], walls->half_size[1], walls->half_size[2], walls->range};
     float steps[3] = {0};
-    int nodes[3] = {0}, offset[4] = {0};
+    int nodes[3] = {0}, offset[3] = {0};
     for (int t = 0; t < walls->dimensions; t++) {
-        int entries = 1;
         nodes[t] = walls->table[t].nodes;
         steps[t] = walls->table[t].inverse_step;
-        for (int k = 0; k <= t; k++)
-            entries *= nodes[t];
-        offset[t + 1] = offset[t] + entries;
+        offset[t] = (int)walls_entries(walls, t);
     }
     put_floats(to, "half_size", 4, half);
     put_ints(to, "wall_nodes", 3, nodes);

@@ -46,18 +46,6 @@ static bool fragment_can(const WorldDef *def, Error *error)
            !lacks("surface tension", tense && def->tension_model != TENSION_NONE, error);
 }
 
-static size_t wall_numbers(const Walls *walls)
-{
-    size_t sum = 0;
-    for (int t = 0; t < walls->dimensions; t++) {
-        size_t entries = 1;
-        for (int k = 0; k <= t; k++)
-            entries *= (size_t)walls->table[t].nodes;
-        sum += entries * sizeof(WallSums) / sizeof(float);
-    }
-    return sum;
-}
-
 static bool fits(const Fragment *f, Error *error)
 {
     GLint side = 0, numbers = 0;
@@ -76,7 +64,8 @@ static bool fits(const Fragment *f, Error *error)
     if (f->layers > FRAGMENT_LAYERS_MOST)
         return error_set(error, "backend fragment has up to %d layers; solver.grid_layers is %d",
                          FRAGMENT_LAYERS_MOST, f->layers);
-    if (wall_numbers(&f->solver->walls) > (size_t)numbers)
+    const Walls *walls = &f->solver->walls;
+    if (walls_entries(walls, walls->dimensions) * sizeof(WallSums) / sizeof(float) > (size_t)numbers)
         return error_set(error,
                          "the tables of the walls are larger than the textures of %d numbers that this "
                          "driver allows; use a smaller particles.support or backend compute",

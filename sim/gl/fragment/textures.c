@@ -96,18 +96,15 @@ static bool lists_create(Fragment *f)
 static void walls_create_texture(Fragment *f)
 {
     const Walls *walls = &f->solver->walls;
-    size_t size[3] = {0}, bytes = 0, at = 0;
-    for (int t = 0; t < walls->dimensions; t++) {
-        size[t] = sizeof(WallSums);
-        for (int k = 0; k <= t; k++)
-            size[t] *= (size_t)walls->table[t].nodes;
-        bytes += size[t];
-    }
+    const size_t bytes = walls_entries(walls, walls->dimensions) * sizeof(WallSums);
     glCreateBuffers(1, &f->wall_buffer);
     glObjectLabel(GL_BUFFER, f->wall_buffer, -1, "wall tables");
     glNamedBufferStorage(f->wall_buffer, (GLsizeiptr)bytes, NULL, GL_DYNAMIC_STORAGE_BIT);
-    for (int t = 0; t < walls->dimensions; at += size[t++])
-        glNamedBufferSubData(f->wall_buffer, (GLintptr)at, (GLsizeiptr)size[t], walls->table[t].sums);
+    for (int t = 0; t < walls->dimensions; t++) {
+        const size_t at = walls_entries(walls, t) * sizeof(WallSums),
+                     end = walls_entries(walls, t + 1) * sizeof(WallSums);
+        glNamedBufferSubData(f->wall_buffer, (GLintptr)at, (GLsizeiptr)(end - at), walls->table[t].sums);
+    }
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &f->walls);
     glObjectLabel(GL_TEXTURE, f->walls, -1, "wall tables");
     glTextureBuffer(f->walls, GL_R32F, f->wall_buffer);
