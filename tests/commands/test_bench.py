@@ -91,7 +91,7 @@ class Bench(Case):
 
 class Tables(Case):
     def test_a_published_table_beside_its_figures(self):
-        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--frames', '1', '--size', '64x64', '-o', 'chart.svg',
+        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--view', 'spheres', '--frames', '1', '--size', '64x64', '-o', 'chart.svg',
                               '--json', 'table.json')
         rows = [line.split() for line in done.stdout.splitlines() if line[:9].strip().isdigit()]
         published = {(row[0], row[3]): row for row in rows if row[4] == 'published'}
@@ -112,7 +112,7 @@ class Tables(Case):
             self.assertIn(words, chart)
 
     def test_a_table_of_one_backend(self):
-        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--frames', '1', '--size', '64x64')
+        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--view', 'spheres', '--frames', '1', '--size', '64x64')
         self.assertNotIn('compute', done.stdout)
         self.assertEqual(sum('spheres   cpu ' in line for line in done.stdout.splitlines()), 4)
 
@@ -146,7 +146,7 @@ class Tables(Case):
     def test_a_damaged_reference_has_its_line(self):
         os.makedirs(self.path('scenes/reference'))
         self.write('scenes/reference/paper003-spheres.csv', '# by hand\nengine,particles\nCPU,1,2\n')
-        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--frames', '1', '--size', '64x64', code=1)
+        done = self.slosh_out('bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--view', 'spheres', '--frames', '1', '--size', '64x64', code=1)
         self.assertIn('paper003-spheres.csv:3: 3 cells; the columns are 2', done.stderr)
 
 
