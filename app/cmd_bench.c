@@ -102,6 +102,8 @@ static bool case_settings(const Plan *plan, size_t combination, char texts[TEXTS
     *settings = plan->settings;
     for (int i = plan->sweep_count - 1; i >= 0; i--) {
         const Sweep *sweep = &plan->sweeps[i];
+        if (sweep->count < 1)
+            return error_set(error, "the sweep of %s has no values", sweep->key);
         const char *value = sweep->values[combination % (size_t)sweep->count];
         combination /= (size_t)sweep->count;
         if (strcmp(sweep->key, "particles") == 0) {
