@@ -35,7 +35,7 @@ static void read_ranges(Compute *c, unsigned attributes, ParticleBuffers *out)
 {
     mailbox_send(&c->ranges);
     const uint32_t *range = mailbox_wait(&c->ranges);
-    for (int s = 0; s < SCALAR_COUNT; s++) {
+    for (int s = 0; range && s < SCALAR_COUNT; s++) {
         if (!(attributes & PARTICLE_SCALAR(s)) || c->count == 0)
             continue;
         out->scalar_min[s] = (double)float_in_order(range[2 * s]);

@@ -21,8 +21,8 @@ void compute_run(const Compute *compute, ComputePass pass, size_t count)
 {
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, compute->constants);
     glBindBufferBase(GL_UNIFORM_BUFFER, 2, compute->step);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 4, compute->watch.buffer);
     glBindBufferBase(GL_UNIFORM_BUFFER, 3, compute->terms);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 4, compute->watch.buffer);
     glUseProgram(compute->program[pass]);
     compute_dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);

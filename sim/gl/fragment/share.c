@@ -56,7 +56,7 @@ static void read_ranges(Fragment *f, unsigned attributes, ParticleBuffers *out)
 {
     mailbox_send(&f->ranges);
     const uint32_t *range = mailbox_wait(&f->ranges);
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; range && s < SCALAR_COUNT; s++)
         if (attributes & PARTICLE_SCALAR(s)) {
             out->scalar_min[s] = (double)float_in_order(range[4 * s]);
             out->scalar_max[s] = (double)float_in_order(range[4 * s + 1]);
