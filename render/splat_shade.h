@@ -1,0 +1,23 @@
+/* Pass 3 of the view splat: deferred shading of the blended surface into the target. After: Adams et al.
+   2006, section 3.3. */
+#ifndef SLOSH_SPLAT_SHADE_H
+#define SLOSH_SPLAT_SHADE_H
+
+#include "render/frame.h"
+#include "render/splat_maps.h"
+#include "sim/error.h"
+
+typedef struct SplatShade {
+    unsigned program;
+    unsigned screen; /* vertex array without attributes */
+} SplatShade;
+
+/* False when a shader does not compile; splat_shade_destroy is needed in either case. */
+bool splat_shade_create(SplatShade *shade, const ViewDef *def, Error *error);
+void splat_shade_destroy(SplatShade *shade);
+
+/* Writes colour and depth of the surface. Solids are in the target already: the test of depth says who hides
+   whom. */
+void splat_shade_draw(const SplatShade *shade, const SplatMaps *maps, const Frame *frame);
+
+#endif

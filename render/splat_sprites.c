@@ -1,0 +1,108 @@
+#include "render/splat_sprites.h"
+
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+
+bool splat_culls(const SplatDef *def)
+{
+    return def->cull || def->show == SPLAT_CULLED;
+}
+
+bool splat_sprites_create(SplatSprites *sprites, const SplatDef *def, Error *error)
+{
+    *sprites = (SplatSprites){.def = *def, .point_limit = point_limit()};
+    glCreateVertexArrays(1, &sprites->screen);
+    quad_indices_create(&sprites->quads);
+    return !splat_culls(def) || cull_create(&sprites->cull, def->shape, error);
+}
+
+void splat_sprites_destroy(SplatSprites *sprites)
+{
+    glDeleteVertexArrays(1, &sprites->screen);
+    quad_indices_destroy(&sprites->quads);
+    cull_destroy(&sprites->cull);
+}
+
+bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite)
+{
+    return sprites->def.sprite == sprite ||
+           (sprites->def.sprite == SPLAT_AUTO && (sprite == SPLAT_QUAD || sprites->point_limit > 0));
+}
+
+/* An upper bound of the pixels across of the largest sphere, at the rim of the picture. */
+SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame)
+{
+    const float *tangent = frame->camera.tangent, r = frame->particle_radius;
+    const float slant = 1 + tangent[0] * tangent[0] + tangent[1] * tangent[1];
+    if (sprites->def.sprite != SPLAT_AUTO)
+        return sprites->def.sprite;
+    if (sprites->point_limit <= 0 || frame->nearest <= r)
+        return SPLAT_QUAD;
+    const float across = r / frame->nearest * slant / tangent[1] * (float)frame->height + 1;
+    return across < sprites->point_limit ? SPLAT_POINT : SPLAT_QUAD;
+}
+
+unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, bool listed,
+                               const char *fragment, const char *defines, Error *error)
+{
+    const char *const stages[] = {"render/splat.vert", fragment, NULL};
+    char all[256];
+    snprintf(all, sizeof all, "%s%s%s%s", sprites->def.shape == SPLAT_PAPER ? "#define PAPER 1\n" : "",
+             sprite == SPLAT_POINT ? "#define POINT 1\n" : "", listed ? "#define LISTED 1\n" : "", defines);
+    return program_create(fragment, stages, all, error);
+}
+
+static void bind(unsigned program, const ParticleBuffers *particles, const Frame *frame)
+{
+    glUseProgram(program);
+    particle_bind(program, particles, frame->def->color_by);
+}
+
+void splat_sprites_draw_points(SplatSprites *sprites, unsigned program, const ParticleBuffers *particles,
+                               const Frame *frame, const CullList *list)
+{
+    const size_t command = list ? cull_use(&sprites->cull, *list) : 0;
+    bind(program, particles, frame);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glBindVertexArray(sprites->screen);
+    if (particles->count == 0)
+        return;
+    if (!list) {
+        glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+        return;
+    }
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, sprites->cull.commands);
+    glDrawArraysIndirect(GL_POINTS, (const char *)NULL + command);
+}
+
+static void draw_quads(SplatSprites *sprites, unsigned program, const ParticleBuffers *particles,
+                       const Frame *frame, const CullList *list)
+{
+    const size_t command = list ? cull_use(&sprites->cull, *list) : 0;
+    bind(program, particles, frame);
+    if (list)
+        quad_indices_draw_indirect(&sprites->quads, particles->count, sprites->cull.commands, command);
+    else
+        quad_indices_draw(&sprites->quads, particles->count);
+}
+
+void splat_sprites_draw(SplatSprites *sprites, SplatSprite sprite, unsigned program,
+                        const ParticleBuffers *particles, const Frame *frame, const CullList *list)
+{
+    if (sprite == SPLAT_POINT)
+        splat_sprites_draw_points(sprites, program, particles, frame, list);
+    else
+        draw_quads(sprites, program, particles, frame, list);
+}
+
+void splat_sprites_begin(unsigned framebuffer, const Frame *frame, unsigned equation)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendEquation(equation);
+    glBlendFunc(GL_ONE, GL_ONE);
+}
