@@ -91,6 +91,11 @@ const char *splat_show_choice(int index)
     return index <= SPLAT_CULLED ? splat_show_names[index] : NULL;
 }
 
+const char *splat_shading_choice(int index)
+{
+    return index <= SPLAT_JELLY ? splat_shading_names[index] : NULL;
+}
+
 const char *step_mode_choice(int index)
 {
     static const char *const modes[] = {[STEP_FIXED] = "fixed", [STEP_CFL] = "cfl"};

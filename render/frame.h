@@ -31,6 +31,7 @@ typedef struct Frame {
     float nearest;             /* least distance of a particle along the eye's axis, m; may be negative */
     float farthest;            /* greatest distance of a particle along the eye's axis, m */
     bool all_in_view;          /* every particle is wholly in the picture and before the near plane */
+    unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor; 0: not known */
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
     bool by_fluid;             /* coloured by the fluids' own colours */
     bool plain;                /* colours as they are, without light and shadow */
@@ -38,8 +39,8 @@ typedef struct Frame {
 
 enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
 
-/* Fills all of `frame` but the timer. `radius` of a particle in spacings where the def says 0; what lies over
-   the left side of the picture, as in Covered. */
+/* Fills all of `frame` but timer, floor_light and plain. `radius` of a particle in spacings where the def
+   says 0; what lies over the left side of the picture, as in Covered. */
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
                 double radius, double covered_left);
 

@@ -189,6 +189,7 @@ void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer
     frame_make(&frame, &renderer->def, particles, &renderer->target, radius, renderer->covered_left);
     frame.timer = timer;
     frame.plain = renderer->plain;
+    frame.floor_light = renderer->shadow.floor_map;
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
     GL_STAGE(timer, STAGE_SHADOW)
     draw_shadow(renderer, particles, &frame);

@@ -4,6 +4,7 @@
 #include "render/shadow.h"
 #include "render/splat_shade.h"
 #include "render/splat_sprites.h"
+#include "render/thickness.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -17,6 +18,7 @@ typedef struct SplatView {
     GLuint colormap;
     SplatSprites sprites;
     SplatMaps maps;
+    Thickness thickness; /* where the shading wants it */
     SplatShade shade;
 } SplatView;
 
@@ -38,6 +40,7 @@ static void splat_destroy(void *state)
     glDeleteTextures(1, &splat->colormap);
     splat_maps_delete(&splat->maps);
     splat_sprites_destroy(&splat->sprites);
+    thickness_destroy(&splat->thickness);
     splat_shade_destroy(&splat->shade);
     free(splat);
 }
@@ -78,6 +81,14 @@ static bool create_programs(SplatView *splat, Error *error)
     return splat_culls(&splat->def) ? splat->casting_listed != 0 : splat->casting != 0;
 }
 
+static bool create_shading(SplatView *splat, const ViewDef *def, Error *error)
+{
+    if (splat_shade_wants_thickness(&def->splat) &&
+        !thickness_create(&splat->thickness, &splat->sprites, def->solid_count > 0, error))
+        return false;
+    return splat_shade_create(&splat->shade, def, error);
+}
+
 static void *splat_create(const ViewDef *def, Error *error)
 {
     SplatView *splat = calloc(1, sizeof *splat);
@@ -90,7 +101,7 @@ static void *splat_create(const ViewDef *def, Error *error)
     if (!splat->colormap)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     if (splat->colormap && splat_sprites_create(&splat->sprites, &def->splat, error) &&
-        create_programs(splat, error) && splat_shade_create(&splat->shade, def, error))
+        create_programs(splat, error) && create_shading(splat, def, error))
         return splat;
     splat_destroy(splat);
     return NULL;
@@ -166,14 +177,20 @@ static void blend_attributes(SplatView *splat, SplatSprite sprite, const Particl
 static void splat_draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SplatView *splat = state;
-    const SplatSprite sprite = splat_sprites_choose(&splat->sprites, frame);
+    const SplatSprite sprite =
+        splat_sprites_choose(&splat->sprites, frame, frame->particle_radius, (float)frame->height);
     splat_maps_follow(&splat->maps, frame->target);
     GL_STAGE(frame->timer, STAGE_VISIBILITY)
     find_nearest(splat, sprite, particles, frame);
     GL_STAGE(frame->timer, STAGE_BLEND)
     blend_attributes(splat, sprite, particles, frame);
+    if (splat_shade_wants_thickness(&splat->def))
+        GL_STAGE(frame->timer, STAGE_THICKNESS)
+        {
+            thickness_draw(&splat->thickness, &splat->sprites, particles, frame);
+        }
     GL_STAGE(frame->timer, STAGE_SHADE)
-    splat_shade_draw(&splat->shade, &splat->maps, frame);
+    splat_shade_draw(&splat->shade, &splat->maps, splat->thickness.map, frame, particles->box_size);
 }
 
 const ViewKind view_splat = {

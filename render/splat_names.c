@@ -5,19 +5,19 @@ const char *const splat_weights_names[] = {
 const char *const splat_shape_names[] = {[SPLAT_PERSPECTIVE] = "perspective", [SPLAT_PAPER] = "paper"};
 const char *const splat_sprite_names[] = {
     [SPLAT_AUTO] = "auto", [SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point"};
-const char *const splat_show_names[] = {[SPLAT_SHADED] = "shaded",
-                                        [SPLAT_DEPTH] = "depth",
-                                        [SPLAT_NORMALS] = "normals",
-                                        [SPLAT_WEIGHT] = "weight",
-                                        [SPLAT_CULLED] = "culled"};
+const char *const splat_show_names[] = {
+    [SPLAT_SHADED] = "shaded", [SPLAT_DEPTH] = "depth",         [SPLAT_NORMALS] = "normals",
+    [SPLAT_WEIGHT] = "weight", [SPLAT_THICKNESS] = "thickness", [SPLAT_CULLED] = "culled"};
+const char *const splat_shading_names[] = {
+    [SPLAT_PHONG] = "phong", [SPLAT_WATER] = "water", [SPLAT_JELLY] = "jelly"};
 
 SplatDef splat_def_default(void)
 {
-    return (SplatDef){.eps = 1.5, .weights = SPLAT_W1W2, .cull = true};
+    return (SplatDef){.eps = 1.5, .weights = SPLAT_W1W2, .cull = true, .ior = 1.333};
 }
 
 bool splat_same_kind(const SplatDef *a, const SplatDef *b)
 {
     return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
-           a->cull == b->cull;
+           a->cull == b->cull && a->shading == b->shading;
 }

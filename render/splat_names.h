@@ -5,8 +5,11 @@
 #include "render/view_def.h"
 
 /* By their enums. */
-extern const char *const splat_weights_names[], *const splat_shape_names[], *const splat_sprite_names[],
-                                                                                *const splat_show_names[];
+extern const char *const splat_weights_names[];
+extern const char *const splat_shape_names[];
+extern const char *const splat_sprite_names[];
+extern const char *const splat_show_names[];
+extern const char *const splat_shading_names[];
 
 SplatDef splat_def_default(void);
 

@@ -3,13 +3,15 @@
 #ifndef SLOSH_SPLAT_SHADE_H
 #define SLOSH_SPLAT_SHADE_H
 
-#include "render/frame.h"
+#include "render/behind.h"
 #include "render/splat_maps.h"
 #include "sim/error.h"
 
 typedef struct SplatShade {
     unsigned program;
     unsigned screen; /* vertex array without attributes */
+    bool clear;      /* water or jelly: what is behind shows through */
+    Behind behind;   /* where clear */
 } SplatShade;
 
 /* False when a shader does not compile; splat_shade_destroy is needed in either case. */
@@ -17,7 +19,11 @@ bool splat_shade_create(SplatShade *shade, const ViewDef *def, Error *error);
 void splat_shade_destroy(SplatShade *shade);
 
 /* Writes colour and depth of the surface. Solids are in the target already: the test of depth says who hides
-   whom. */
-void splat_shade_draw(const SplatShade *shade, const SplatMaps *maps, const Frame *frame);
+   whom. `thickness`: the texture of render/thickness.h where the shading reads it
+   (splat_shade_wants_thickness), else 0. `box_size` in m. */
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame,
+                      const double box_size[3]);
+
+bool splat_shade_wants_thickness(const SplatDef *def);
 
 #endif

@@ -32,15 +32,15 @@ bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite)
 }
 
 /* An upper bound of the pixels across of the largest sphere, at the rim of the picture. */
-SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame)
+SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame, float radius, float height)
 {
-    const float *tangent = frame->camera.tangent, r = frame->particle_radius;
+    const float *tangent = frame->camera.tangent;
     const float slant = 1 + tangent[0] * tangent[0] + tangent[1] * tangent[1];
     if (sprites->def.sprite != SPLAT_AUTO)
         return sprites->def.sprite;
-    if (sprites->point_limit <= 0 || frame->nearest <= r)
+    if (sprites->point_limit <= 0 || frame->nearest <= radius)
         return SPLAT_QUAD;
-    const float across = r / frame->nearest * slant / tangent[1] * (float)frame->height + 1;
+    const float across = radius / frame->nearest * slant / tangent[1] * height + 1;
     return across < sprites->point_limit ? SPLAT_POINT : SPLAT_QUAD;
 }
 

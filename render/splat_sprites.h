@@ -26,8 +26,8 @@ bool splat_culls(const SplatDef *def);
 /* Whether some frame may be drawn with it: never SPLAT_AUTO. */
 bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite);
 
-/* For this frame: quad or point. */
-SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame);
+/* For this frame: quad or point, for spheres of that radius (m) in a picture that many pixels high. */
+SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame, float radius, float height);
 
 /* A program of render/splat.vert and a fragment shader, for all particles or those listed by culling. The
    caller deletes it; 0 on failure. */

@@ -17,7 +17,15 @@ typedef struct CameraDef {
 typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
 typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER } SplatShape;
 typedef enum SplatSprite { SPLAT_AUTO, SPLAT_QUAD, SPLAT_POINT } SplatSprite;
-typedef enum SplatShow { SPLAT_SHADED, SPLAT_DEPTH, SPLAT_NORMALS, SPLAT_WEIGHT, SPLAT_CULLED } SplatShow;
+typedef enum SplatShading { SPLAT_PHONG, SPLAT_WATER, SPLAT_JELLY } SplatShading;
+typedef enum SplatShow {
+    SPLAT_SHADED,
+    SPLAT_DEPTH,
+    SPLAT_NORMALS,
+    SPLAT_WEIGHT,
+    SPLAT_THICKNESS,
+    SPLAT_CULLED
+} SplatShow;
 
 typedef struct SplatDef {
     double eps; /* how far below the surface spheres still blend, in radii */
@@ -26,6 +34,10 @@ typedef struct SplatDef {
     SplatSprite sprite;
     SplatShow show;
     bool cull; /* leave out hidden spheres before they are drawn */
+    SplatShading shading;
+    double ior;                  /* index of refraction, of water and jelly */
+    double attenuation_distance; /* through which white light becomes the fluid's colour, m; 0: a fifth of the
+                                    box's longest side */
 } SplatDef;
 
 typedef struct ViewDef {

@@ -19,6 +19,7 @@
     X(SOLIDS, "solids", PART_RENDER)                                                                         \
     X(VISIBILITY, "visibility", PART_RENDER)                                                                 \
     X(BLEND, "blend", PART_RENDER)                                                                           \
+    X(THICKNESS, "thickness", PART_RENDER)                                                                   \
     X(SHADE, "shade", PART_RENDER)                                                                           \
     X(BACKDROP, "backdrop", PART_RENDER)                                                                     \
     X(OVERLAY, "overlay", PART_RENDER)

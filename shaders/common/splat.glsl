@@ -2,6 +2,12 @@
 // ray d = (x, y, -1): u = (s d - c) / r for a scale s near the centre's depth; the ray meets the sphere at the depth s - k r
 // along the eye's axis, where |u - k d| = 1. Neither cancels when the sphere is small and far. With PAPER the ray goes
 // along the axis instead, from the point of the square through the centre, which is eq. 5.
+#ifdef THICKNESS
+layout(location = 1) uniform float splat_radius; // of the kernel, m
+#else
+#define splat_radius particle.x
+#endif
+
 struct Splat {
     float depth;   // z_i, m
     float inside2; // 1 - (distance of the ray from the centre / r)^2: below 0 beside the sphere
@@ -13,13 +19,13 @@ Splat splat_hit(vec4 at, vec2 scale)
 {
 #ifdef PAPER
     float inside2 = 1.0 - dot(at.xy, at.xy), k = sqrt(max(inside2, 0.0));
-    return Splat(scale.x - particle.x * k, inside2, vec3(at.xy, k));
+    return Splat(scale.x - splat_radius * k, inside2, vec3(at.xy, k));
 #else
     float length2 = 1.0 + dot(at.zw, at.zw), per = 1.0 / length2;
     float slant = (dot(at.xy, at.zw) - scale.y) * per;
     float e = slant * slant + (1.0 - scale.y * scale.y - dot(at.xy, at.xy)) * per;
     float k = slant + sqrt(max(e, 0.0));
-    return Splat(scale.x - particle.x * k, e * length2, vec3(at.xy - k * at.zw, scale.y + k));
+    return Splat(scale.x - splat_radius * k, e * length2, vec3(at.xy - k * at.zw, scale.y + k));
 #endif
 }
 
@@ -35,9 +41,9 @@ vec4 splat_bounds(vec3 centre)
     float w = -centre.z;
     if (!(w > lens.z))
         return vec4(0.0);
-    return clamp((centre.xxyy + particle.x * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * lens.xxyy), -1.0, 1.0);
+    return clamp((centre.xxyy + splat_radius * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * lens.xxyy), -1.0, 1.0);
 #else
-    return sphere_bounds(sphere_at(centre, particle.x));
+    return sphere_bounds(sphere_at(centre, splat_radius));
 #endif
 }
 
@@ -46,6 +52,6 @@ float splat_scale(vec3 centre)
 #ifdef PAPER
     return -centre.z;
 #else
-    return max(-centre.z, 0.5 * particle.x);
+    return max(-centre.z, 0.5 * splat_radius);
 #endif
 }

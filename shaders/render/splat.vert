@@ -10,6 +10,13 @@
 layout(location = 2) flat out vec3 color;
 #endif
 
+#ifdef THICKNESS
+layout(location = 2) uniform vec2 texels;
+layout(location = 2) flat out vec2 column;
+#else
+#define texels viewport.xy
+#endif
+
 #ifdef POINT
 layout(location = 0) flat out vec4 from; // of `at` over the point
 layout(location = 3) flat out vec4 across;
@@ -21,15 +28,15 @@ layout(location = 1) flat out vec2 scale;
 vec4 at_corner(vec3 centre, vec2 corner)
 {
     vec2 ray = ray_of_ndc(corner).xy;
-    return vec4((scale.x * ray - centre.xy) / particle.x, ray);
+    return vec4((scale.x * ray - centre.xy) / splat_radius, ray);
 }
 
 #ifdef POINT
 void place(vec3 centre, vec4 bounds, float depth)
 {
-    vec2 extent = (bounds.yw - bounds.xz) * viewport.xy / 2.0;
+    vec2 extent = (bounds.yw - bounds.xz) * texels / 2.0;
     float size = max(ceil(8.0 * max(extent.x, extent.y)) / 8.0, 1.0); // hardware rounds to such steps; none is smaller
-    vec2 middle = 0.5 * (bounds.xz + bounds.yw), reach = size * vec2(1.0, -1.0) * viewport.zw; // gl_PointCoord counts from the top
+    vec2 middle = 0.5 * (bounds.xz + bounds.yw), reach = size * vec2(1.0, -1.0) / texels; // gl_PointCoord counts from the top
     from = at_corner(centre, middle - reach);
     across = at_corner(centre, middle + reach) - from;
     gl_PointSize = size;
@@ -53,10 +60,13 @@ void main()
 #endif
     vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
     float s = splat_scale(centre);
-    scale = vec2(s, (-s - centre.z) / particle.x);
-    float nearest = max(-centre.z - particle.x, lens.z);
+    scale = vec2(s, (-s - centre.z) / splat_radius);
+    float nearest = max(-centre.z - splat_radius, lens.z);
     place(centre, splat_bounds(centre), min(lens.z / nearest * 1.00001, 1.0));
 #ifdef BLEND
     color = particle_color(index);
+#endif
+#ifdef THICKNESS
+    column = vec2(4.5 / 3.14159265 * particle_volume(index) / (splat_radius * splat_radius), lens.z / -centre.z);
 #endif
 }

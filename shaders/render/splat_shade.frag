@@ -1,37 +1,61 @@
-// Pass 3, deferred shading of the blended surface. After: Adams et al. 2006, section 3.3. SHOW 1 depth, 2 normals, 3 weight
-// show what came before it instead.
+// Pass 3, deferred shading of the blended surface. After: Adams et al. 2006, section 3.3. SHADING 0 phong, 1 water, 2 jelly;
+// SHOW 1 depth, 2 normals, 3 weight, 4 thickness show what came before it instead.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #ifdef SOLIDS
 #include "common/solid_light.glsl"
 #endif
+#include "common/environment.glsl"
+#include "common/behind.glsl"
+#include "common/splat_surface.glsl"
+#include "common/splat_clear.glsl"
 
 layout(binding = 1) uniform sampler2D nearest_map;
 layout(binding = 5) uniform sampler2D color_map;
 layout(binding = 6) uniform sampler2D normal_map;
 layout(binding = 7) uniform sampler2D weight_map;
-layout(location = 1) uniform vec2 depths; // nearest and farthest of a particle, m
+layout(binding = 10) uniform sampler2D thickness_map; // m, may be coarser
+layout(location = 1) uniform vec2 depths;             // nearest and farthest of a particle, m
 layout(location = 0) out vec4 color;
 
-// `key`: what of the key light arrives; `lit`: the same with no solid in its way. After: Phong, Illumination for computer
-// generated pictures, 1975.
-vec3 phong(vec3 albedo, vec3 normal, vec3 to_eye, float lit, float key)
+float thickness_here()
 {
-    float to_light = dot(normal, light_in_eye.xyz);
-    float glint = max(dot(2.0 * to_light * normal - light_in_eye.xyz, to_eye), 0.0);
-    glint *= glint, glint *= glint, glint *= glint, glint *= glint, glint *= glint;
-    vec3 sky = ambient_light(normal) * (0.35 + 0.65 * lit);
-    return albedo * sky + light_color.rgb * (key * (albedo * max(to_light, 0.0) + 0.35 * glint));
+    return textureLod(thickness_map, gl_FragCoord.xy * viewport.zw, 0.0).x;
 }
 
-vec3 lit_surface(vec3 ray, float depth, vec3 albedo, vec3 normal)
+#if SHADING == 0
+vec3 shaded(Surface s)
 {
-    vec3 place = depth * ray;
-    float lit = fluid_light(place), key = lit;
-#ifdef SOLIDS
-    key *= solid_light(place);
+    return mix(s.albedo, phong(s), light_in_eye.w);
+}
+#elif SHADING == 1
+vec3 shaded(Surface s)
+{
+    vec3 inside = transmitted(s);
+    return mix(inside, with_surface(s, inside + scattered(s)), light_in_eye.w);
+}
+#else
+// The paper's "Phong shading together with refraction and reflection": the thicker, the cloudier.
+vec3 shaded(Surface s)
+{
+    float clear = 0.8 * exp2(-2.0 * s.thickness / medium.y);
+    vec3 inside = mix(mix(s.albedo, phong(s), light_in_eye.w), transmitted(s), clear);
+    return mix(inside, with_surface(s, inside), light_in_eye.w);
+}
 #endif
-    return mix(albedo, phong(albedo, normal, -normalize(ray), lit, key), light_in_eye.w);
+
+Surface surface_at(vec3 ray, float depth, vec3 normal, vec3 albedo)
+{
+    Surface s = Surface(depth * ray, normalize(ray), normal, albedo, 0.0, 0.0, 0.0);
+    s.lit = s.key = fluid_light(s.place);
+#ifdef SOLIDS
+    s.key *= solid_light(s.place);
+#endif
+#if SHADING > 0
+    s.normal = facing(normal, s.view);
+    s.thickness = thickness_here();
+#endif
+    return s;
 }
 
 void main()
@@ -50,8 +74,10 @@ void main()
     color = vec4(0.5 + 0.5 * normal, 1.0);
 #elif SHOW == 3
     color = vec4(vec3(weight / (1.0 + weight)), 1.0);
+#elif SHOW == 4
+    color = vec4(vec3(thickness_here() / max(box_size.x, max(box_size.y, box_size.z))), 1.0);
 #else
     vec3 albedo = texelFetch(color_map, pixel, 0).rgb / weight;
-    color = vec4(lit_surface(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, albedo, normal), 1.0);
+    color = vec4(shaded(surface_at(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, normal, albedo)), 1.0);
 #endif
 }

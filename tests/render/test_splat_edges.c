@@ -122,8 +122,8 @@ static void a_position_that_is_no_number(void **state)
                 particles_add(scene.particles, INFINITY, 0.5, -INFINITY, 1, 0);
                 particles_add(scene.particles, 1e30, -1e30, 1e30, 1, 0);
                 particles_add(scene.particles, 0.35, 0.4, 0.1, 1, 0);
-                scene.def.splat =
-                    (SplatDef){1, SPLAT_W1W2, (SplatShape)shape, (SplatSprite)sprite, SPLAT_SHADED, cull};
+                scene.def.splat.eps = 1, scene.def.splat.cull = cull;
+                scene.def.splat.shape = (SplatShape)shape, scene.def.splat.sprite = (SplatSprite)sprite;
                 assert_true(splat_compare(&scene) > 600);
                 free(scene.particles);
             }

@@ -136,20 +136,29 @@ static void settings_are_live(void **state)
 {
     (void)state;
     static uint8_t first[3 * PIXELS], other[3 * PIXELS];
-    static const SplatDef others[] = {{0.2, SPLAT_W1W2, 0, 0, 0, true},
-                                      {1.5, SPLAT_NO_WEIGHTS, 0, 0, 0, true},
-                                      {1.5, SPLAT_W1, 0, 0, 0, true},
-                                      {1.5, SPLAT_W1W2, SPLAT_PAPER, 0, 0, true},
-                                      {1.5, SPLAT_W1W2, 0, 0, SPLAT_DEPTH, true},
-                                      {1.5, SPLAT_W1W2, 0, 0, SPLAT_NORMALS, true},
-                                      {1.5, SPLAT_W1W2, 0, 0, SPLAT_WEIGHT, true}};
+    enum { OTHERS = 12 };
+    SplatDef others[OTHERS];
     Scene scene = splat_among_solids();
     particles_add(scene.particles, -0.15, 0.7, 0, 1, 0);
     particles_add(scene.particles, 0.15, 0.4, 0.1, 1, 1);
     Renderer *renderer = drawn(&scene);
     renderer_read(renderer, first);
     const SplatDef usual = scene.def.splat;
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+    for (int i = 0; i < OTHERS; i++)
+        others[i] = usual;
+    others[0].eps = 0.2;
+    others[1].weights = SPLAT_NO_WEIGHTS;
+    others[2].weights = SPLAT_W1;
+    others[3].shape = SPLAT_PAPER;
+    others[4].show = SPLAT_DEPTH;
+    others[5].show = SPLAT_NORMALS;
+    others[6].show = SPLAT_WEIGHT;
+    others[7].show = SPLAT_THICKNESS;
+    for (int i = 8; i < OTHERS; i++)
+        others[i].shading = i == 9 ? SPLAT_JELLY : SPLAT_WATER;
+    others[10].ior = 1.6;
+    others[11].attenuation_distance = 0.05;
+    for (int i = 0; i < OTHERS; i++) {
         scene.def.splat = others[i];
         change(renderer, &scene, other);
         assert_memory_not_equal(other, first, sizeof first);

@@ -1,0 +1,26 @@
+// What stands behind the fluid, bent by it; render/behind.c binds it. Wants common/frame.glsl and, with FLOOR_SHADOW,
+// common/environment.glsl.
+layout(binding = 8) uniform sampler2D behind_color;
+#ifdef SOLIDS
+layout(binding = 9) uniform sampler2D behind_depth; // reversed
+#endif
+
+vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame
+{
+    return background.rgb * environment_brightness((eye_to_world * vec4(origin, 1.0)).xyz, mat3(eye_to_world) * ray);
+}
+
+// What the eye sees of the scene without the fluid in the direction of a place, in the eye's frame. Beside the picture it is sky
+// and floor; a solid before the surface (at the reversed depth `surface`) is not behind it: what is straight behind `straight`
+// then.
+vec3 behind_at(vec3 place, float surface, vec2 straight)
+{
+    vec2 at = 0.5 + 0.5 * place.xy / (-place.z * lens.xy);
+    if (!(place.z < -lens.z && all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, vec2(1.0)))))
+        return environment(vec3(0.0), place);
+#ifdef SOLIDS
+    if (texelFetch(behind_depth, ivec2(at * viewport.xy), 0).x > surface)
+        at = straight * viewport.zw;
+#endif
+    return textureLod(behind_color, at, 0.0).rgb;
+}
