@@ -27,6 +27,11 @@ const SplatMaps *splat_maps(const void *state)
     return &((const SplatView *)state)->maps;
 }
 
+unsigned splat_thickness_map(const void *state)
+{
+    return ((const SplatView *)state)->thickness.map;
+}
+
 static void splat_destroy(void *state)
 {
     SplatView *splat = state;

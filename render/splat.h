@@ -11,5 +11,6 @@ extern const ViewKind view_splat;
 
 /* Of a state that view_splat.create made; for tests. */
 const SplatMaps *splat_maps(const void *state);
+unsigned splat_thickness_map(const void *state); /* see render/thickness.h; 0 where the shading wants none */
 
 #endif

@@ -74,34 +74,65 @@ static inline void read_sums(const SplatMaps *maps, SplatPixel *pixels, int coun
     free(weight);
 }
 
-/* width * height pixels, which the caller frees. */
-static inline SplatPixel *splat_drawn(SplatScene *scene)
+/* The view after it drew a scene into a target of its own; splat_close ends it. */
+typedef struct SplatDrawing {
+    void *view;
+    Target target;
+    Upload *upload;
+    unsigned uniforms;
+} SplatDrawing;
+
+/* What the target shows before the view draws into it; NULL: nothing in particular. */
+typedef void SplatGround(const Target *target);
+
+static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bool plain)
 {
     Error error = {0};
     ParticleBuffers buffers;
-    Target target;
-    const int count = scene->width * scene->height;
-    SplatPixel *pixels = calloc((size_t)count, sizeof *pixels);
-    void *view = view_splat.create(&scene->def, &error);
-    if (!view || !target_create(&target, scene->width, scene->height, &error))
+    SplatDrawing drawing = {.view = view_splat.create(&scene->def, &error)};
+    if (!drawing.view || !target_create(&drawing.target, scene->width, scene->height, &error))
         fail_msg("%s", error.message);
     scene->state.count = scene->particles->count;
-    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    drawing.upload = upload_particles(scene->particles, &scene->state, &buffers);
     buffers.count = scene->empty ? 0 : buffers.count;
-    frame_make(&scene->frame, &scene->def, &buffers, &target, 1, 0);
-    unsigned uniforms = frame_uniforms_create();
-    frame_uniforms_update(uniforms, &scene->frame, buffers.box_size, buffers.spacing);
-    target_begin(&target);
-    target_begin(&target);
-    view_splat.cast(view, &buffers, &scene->frame);
-    target_begin(&target);
-    view_splat.draw(view, &buffers, &scene->frame);
-    read_depth(splat_maps(view), pixels, count);
-    read_sums(splat_maps(view), pixels, count);
-    glDeleteBuffers(1, &uniforms);
-    upload_destroy(upload);
-    target_destroy(&target);
-    view_splat.destroy(view);
+    frame_make(&scene->frame, &scene->def, &buffers, &drawing.target, 1, 0);
+    scene->frame.plain = plain;
+    drawing.uniforms = frame_uniforms_create();
+    frame_uniforms_update(drawing.uniforms, &scene->frame, buffers.box_size, buffers.spacing);
+    target_begin(&drawing.target);
+    view_splat.cast(drawing.view, &buffers, &scene->frame);
+    target_begin(&drawing.target);
+    if (ground)
+        ground(&drawing.target);
+    view_splat.draw(drawing.view, &buffers, &scene->frame);
+    return drawing;
+}
+
+static inline void splat_close(SplatDrawing *drawing)
+{
+    glDeleteBuffers(1, &drawing->uniforms);
+    upload_destroy(drawing->upload);
+    target_destroy(&drawing->target);
+    view_splat.destroy(drawing->view);
+}
+
+/* width * height pixels, which the caller frees. */
+static inline SplatPixel *splat_read(const SplatScene *scene, const SplatDrawing *drawing)
+{
+    const int count = scene->width * scene->height;
+    SplatPixel *pixels = calloc((size_t)count, sizeof *pixels);
+    assert_non_null(pixels);
+    read_depth(splat_maps(drawing->view), pixels, count);
+    read_sums(splat_maps(drawing->view), pixels, count);
+    return pixels;
+}
+
+/* The same of a scene that is drawn for it. */
+static inline SplatPixel *splat_drawn(SplatScene *scene)
+{
+    SplatDrawing drawing = splat_open(scene, NULL, false);
+    SplatPixel *pixels = splat_read(scene, &drawing);
+    splat_close(&drawing);
     return pixels;
 }
 

@@ -22,6 +22,8 @@ static Image draw(const Golden *golden)
     ParticleBuffers buffers;
     Particles *particles = particles_wave(SPACING);
     particles_spare(particles, &golden->def, SPACING);
+    for (size_t i = 0; i < particles->count; i++)
+        particles->position[4 * i + 3] = (float)(SPACING * SPACING * SPACING);
     ParticleBuffers box = box_state(particles->count, SPACING);
     box.box = golden->box;
     Upload *upload = upload_particles(particles, &box, &buffers);
@@ -172,6 +174,34 @@ static void test_splat_w1(void **state)
     check(&golden);
 }
 
+/* Over the floor, with a ball and a pillar in it. */
+static void clear_splat(const char *name, SplatShading shading)
+{
+    static const SolidDef solids[] = {
+        {SOLID_SPHERE, .centre = {-0.45, 0.3, 0}, .radius = 0.2, .color = {0.75F, 0.20F, 0.12F}},
+        {SOLID_CYLINDER, .centre = {0.3, 0.3, 0.1}, .radius = 0.1, .height = 0.6, .axis = {0, 1, 0},
+         .color = {0.80F, 0.62F, 0.20F}}};
+    Golden golden = golden_create(name, 320, 240);
+    text_set(golden.def.kind, "splat");
+    golden.def.color_by = SCALAR_FLUID;
+    golden.def.splat.shading = shading;
+    golden.def.solid_count = 2;
+    memcpy(golden.def.solids, solids, sizeof solids);
+    check(&golden);
+}
+
+static void test_splat_water(void **state)
+{
+    (void)state;
+    clear_splat("splat_water", SPLAT_WATER);
+}
+
+static void test_splat_jelly(void **state)
+{
+    (void)state;
+    clear_splat("splat_jelly", SPLAT_JELLY);
+}
+
 /* The measure itself: one shifted picture must not pass. */
 static void test_difference_is_seen(void **state)
 {
@@ -198,6 +228,8 @@ int main(void)
         cmocka_unit_test_teardown(test_solids, no_gl_errors),
         cmocka_unit_test_teardown(test_splat, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_w1, no_gl_errors),
+        cmocka_unit_test_teardown(test_splat_water, no_gl_errors),
+        cmocka_unit_test_teardown(test_splat_jelly, no_gl_errors),
         cmocka_unit_test_teardown(test_difference_is_seen, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

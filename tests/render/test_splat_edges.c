@@ -5,6 +5,7 @@
 static SplatScene two_drops(void)
 {
     SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 40, 0.2);
+    scene.def.splat.shading = SPLAT_WATER; /* has all passes */
     particles_add(scene.particles, -0.3, 0.6, 0.1, 1, 0);
     particles_add(scene.particles, 0.3, 0.4, 0, 1, 1);
     return scene;

@@ -82,6 +82,71 @@ static void its_shadow_falls_on_the_floor(void **state)
     free(scene.particles);
 }
 
+/* A layer of drops on the ground, seen from above; `shade` at 0.5 m above it puts its shadow where the
+   light's direction says, and nowhere else. */
+static void compare_shadow(bool solid)
+{
+    static uint8_t with[3 * PIXELS], without[3 * PIXELS];
+    Scene scene = splat_among_solids();
+    scene.def.camera = (CameraDef){{0.3, 3.5, 0.5}, {0.2, 0, -0.1}, 40};
+    scene.state.spacing = 0.1;
+    for (int i = 0; i < 30 * 20; i++)
+        particles_add(scene.particles, -1.1 + 0.075 * (i % 30), 0, -0.7 + 0.075 * (i / 30), 1, 0);
+    draw_rgb(&scene, false, without);
+    if (solid)
+        scene_add(&scene, SOLID_SPHERE, -0.2, 0.5, 0.2)->radius = 0.15;
+    else
+        particles_add(scene.particles, -0.2, 0.5, 0.2, 1, 0);
+    draw_rgb(&scene, false, with);
+    const double drop = (0.5 - 0.1) / 0.84, shaded[3] = {-0.2 + 0.40 * drop, 0.1, 0.2 - 0.3666 * drop};
+    static const double lit[3][3] = {{-0.8, 0.1, 0.5}, {0.8, 0.1, -0.4}, {-0.4, 0.1, -0.4}};
+    int at[2];
+    pixel_at(&scene, shaded, at);
+    if (brightness(with, at[0], at[1]) > 0.85 * brightness(without, at[0], at[1]))
+        fail_msg("in the shadow of a %s: %g, without %g", solid ? "solid" : "drop",
+                 brightness(with, at[0], at[1]), brightness(without, at[0], at[1]));
+    for (int i = 0; i < 3; i++) {
+        pixel_at(&scene, lit[i], at);
+        assert_true(fabs(brightness(with, at[0], at[1]) - brightness(without, at[0], at[1])) < 6);
+    }
+    free(scene.particles);
+}
+
+static void solids_and_drops_shade_the_fluid(void **state)
+{
+    (void)state;
+    compare_shadow(true);
+    compare_shadow(false);
+}
+
+/* Through clear fluid one sees a solid behind it, where it is bent to; a solid before it hides it and is not
+   seen again inside. */
+static void solids_through_clear_fluid(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * PIXELS];
+    for (int behind = 0; behind < 2; behind++) {
+        Scene scene = splat_among_solids();
+        int red = 0;
+        scene.def.splat.shading = SPLAT_WATER;
+        for (int k = 0; k < 3; k++)
+            scene.def.fluid_color[0][k] = 1;
+        scene.state.spacing = 0.1;
+        for (int i = 0; i < 8 * 8 * 8; i++)
+            particles_add(scene.particles, -0.28 + 0.08 * (i % 8), 0.22 + 0.08 * (i / 8 % 8),
+                          -0.28 + 0.08 * (i / 64), 1, 0);
+        scene_add(&scene, SOLID_SPHERE, 0.1, 0.5, behind ? -0.6 : 0.6)->radius = 0.1;
+        draw_rgb(&scene, true, rgb);
+        for (int i = 0; i < PIXELS; i++)
+            red += rgb[3 * i] > 120 && rgb[3 * i + 1] < 100;
+        const double depth = behind ? 3.6 : 2.4, radius = 0.1 / depth * HEIGHT / (2 * tan(M_PI / 12));
+        const double area = M_PI * radius * radius;
+        if (behind ? red < 0.5 * area || red > 2.5 * area : fabs(red - area) > 0.1 * area)
+            fail_msg("%s: %d red pixels; the ball has %g", behind ? "behind" : "before", red, area);
+        free(scene.particles);
+    }
+}
+
 /* Along a line through drops of two fluids that overlap the colour goes from one to the other, by small
  * steps. */
 static void colours_mix_where_fluids_meet(void **state)
@@ -197,6 +262,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(solids_hide_and_are_hidden, no_gl_errors),
         cmocka_unit_test_teardown(its_shadow_falls_on_the_floor, no_gl_errors),
+        cmocka_unit_test_teardown(solids_and_drops_shade_the_fluid, no_gl_errors),
+        cmocka_unit_test_teardown(solids_through_clear_fluid, no_gl_errors),
         cmocka_unit_test_teardown(colours_mix_where_fluids_meet, no_gl_errors),
         cmocka_unit_test_teardown(scalars_colour_it, no_gl_errors),
         cmocka_unit_test_teardown(settings_are_live, no_gl_errors),
