@@ -4,7 +4,7 @@
 #include <math.h>
 
 /* Texels that the support radius has at least, of a particle far away. */
-static const float TEXELS = 3;
+static const float TEXELS = 2;
 static const unsigned COARSEST = 8;
 
 bool thickness_create(Thickness *thickness, const SplatSprites *sprites, bool solids, Error *error)
