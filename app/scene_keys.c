@@ -241,6 +241,8 @@ static const Key keys[] = {
      .aux = VIEW(range_auto), .help = "auto, or [low, high] in the scalar's unit"},
     NUMBER("view.radius", L, "spacings", 0, 10, VIEW(radius), "of a particle; 0: the view's own"),
     MAPPING("view.splat", "of the view splat: the fluid as one surface, after Adams, Lenaerts and Dutré 2006"),
+    NUMBER("view.splat.level", L, "", 0, 1, VIEW(splat.level),
+           "of the field that is the surface (0.1 and so on); 0: the spheres; above, radius 0 is the solver's support radius"),
     NUMBER("view.splat.eps", L | O, "radii", 0, 10, VIEW(splat.eps), "how far below the surface spheres still blend"),
     CHOICE("view.splat.weights", L | KEY_INDEX, splat_weights_choice, VIEW(splat.weights),
            "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),

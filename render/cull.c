@@ -53,6 +53,12 @@ bool cull_create(Cull *cull, SplatShape shape, Error *error)
     return create_programs(cull, shape, error);
 }
 
+bool cull_create_limit(Cull *cull, Error *error)
+{
+    cull->limit = compile("cull limit", "render/cull_limit.comp", NULL, error);
+    return cull->limit != 0;
+}
+
 void cull_destroy(Cull *cull)
 {
     for (int i = 0; i < 2; i++) {
@@ -62,6 +68,7 @@ void cull_destroy(Cull *cull)
     glDeleteProgram(cull->widen);
     glDeleteProgram(cull->sum);
     glDeleteProgram(cull->list);
+    glDeleteProgram(cull->limit);
     glDeleteBuffers(2, cull->map);
     glDeleteBuffers(CULL_LISTS, cull->lists);
     glDeleteBuffers(2, (GLuint[]){cull->kept, cull->commands});
@@ -167,10 +174,9 @@ static void make_lists(Cull *cull, size_t count, unsigned vertices)
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
 
-static void make(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
+static void test(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
                  int light, float eps, unsigned vertices, bool hidden)
 {
-    make_map(cull, grid, particles, frame, light);
     use(cull->test[light], grid, particles, frame);
     glUniform1ui(3, (GLuint)particles->count);
     glUniform1f(4, eps);
@@ -180,6 +186,13 @@ static void make(Cull *cull, const Grid *grid, const ParticleBuffers *particles,
     make_lists(cull, particles->count, vertices);
 }
 
+static void make(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
+                 int light, float eps, unsigned vertices, bool hidden)
+{
+    make_map(cull, grid, particles, frame, light);
+    test(cull, grid, particles, frame, light, eps, vertices, hidden);
+}
+
 /* Pixels across of a sphere at that distance in the middle of the picture. */
 static double pixels_across(const Frame *frame, double distance)
 {
@@ -187,23 +200,42 @@ static double pixels_across(const Frame *frame, double distance)
            frame->height;
 }
 
-void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *frame, float eps,
-                  unsigned vertices, bool hidden)
+static Grid eye_grid(const Frame *frame)
 {
     const float *tangent = frame->camera.tangent;
     const double slant =
         1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]; /* spheres at the rim are wider */
-    const Grid grid =
-        make_grid(frame->width, frame->height, pixels_across(frame, frame->farthest) * sqrt(0.5),
-                  pixels_across(frame, frame->nearest + frame->particle_radius) * slant);
+    return make_grid(frame->width, frame->height, pixels_across(frame, frame->farthest) * sqrt(0.5),
+                     pixels_across(frame, frame->nearest + frame->particle_radius) * slant);
+}
+
+void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *frame, float eps,
+                  unsigned vertices, bool hidden)
+{
+    const Grid grid = eye_grid(frame);
     if (particles->count > 0)
         make(cull, &grid, particles, frame, 0, eps, vertices, hidden);
+}
+
+void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *frame, unsigned limit,
+                   unsigned vertices)
+{
+    const Grid grid = eye_grid(frame);
+    if (particles->count == 0)
+        return;
+    reserve(cull, particles->count, (size_t)grid.columns * grid.rows);
+    use(cull->limit, &grid, NULL, NULL);
+    glBindTextureUnit(7, limit);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+    run((size_t)grid.columns * grid.rows);
+    widen(cull, &grid);
+    test(cull, &grid, particles, frame, 0, 0, vertices, false);
 }
 
 /* As wide as spheres_shadow.vert draws them. */
 bool cull_for_light(Cull *cull, const ParticleBuffers *particles, const Frame *frame)
 {
-    const double side = 1.77245 * frame->particle_radius / frame->light_depth * SHADOW_MAP_TEXELS;
+    const double side = 1.77245 * frame->shadow_radius / frame->light_depth * SHADOW_MAP_TEXELS;
     if (side > cull->point_limit || particles->count == 0)
         return false;
     Grid grid = make_grid(SHADOW_MAP_TEXELS, SHADOW_MAP_TEXELS, side, fmax(side, 1));

@@ -19,6 +19,7 @@ typedef enum CullList { CULL_NEAREST, CULL_BLEND, CULL_LISTS } CullList;
 typedef struct Cull {
     unsigned occlude[2], test[2]; /* programs, for the eye and for the light */
     unsigned widen, sum, list;
+    unsigned limit;          /* program, after cull_create_limit */
     unsigned map[2];         /* buffers: a depth a cell, and the same before it was widened along y */
     unsigned kept, commands; /* see cull_test.comp, cull_sum.comp */
     unsigned lists[CULL_LISTS];
@@ -34,6 +35,14 @@ void cull_destroy(Cull *cull);
  * particle. */
 void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *frame, float eps,
                   unsigned vertices, bool hidden);
+
+/* For cull_to_limit: false when its shader does not compile. */
+bool cull_create_limit(Cull *cull, Error *error);
+
+/* Both lists: the particles whose sprites reach before what a depth map as large as the picture has at some
+   pixel; `limit` is reversed, 0 lets all through, 1 nothing. Binds texture unit 7. */
+void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *frame, unsigned limit,
+                   unsigned vertices);
 
 /* The list CULL_NEAREST for the shadow map, which draws points. False where culling cannot be exact: then all
  * must be drawn. */

@@ -1,6 +1,7 @@
 #include "render/frame.h"
 
 #include "render/legend.h"
+#include "render/splat_level.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -143,6 +144,27 @@ static double flat_depth(const ParticleBuffers *particles)
     return fabs(depth - particles->spacing) < 1e-6 * depth ? depth : 0;
 }
 
+static bool at_a_level(const ViewDef *def)
+{
+    return def->splat.level > 0 && strcmp(def->kind, "splat") == 0;
+}
+
+/* A field needs the solver's support radius: with less it ripples too much for a level. Its surface casts the
+ * shadow of the balls that particles have at the level when alone, but half a spacing at least. */
+static void make_radii(Frame *frame, const ParticleBuffers *particles, double radius)
+{
+    const ViewDef *def = frame->def;
+    const double spacing = particles->spacing;
+    const double own = at_a_level(def) ? particles->support_radius : radius * spacing;
+    frame->particle_radius = (float)(def->radius > 0 ? def->radius * spacing : own);
+    frame->shadow_radius = frame->particle_radius;
+    if (at_a_level(def)) {
+        const double gain = splat_level_gain(frame->particle_radius, spacing, frame->slab > 0);
+        const double alone = splat_level_alone(def->splat.level, gain, frame->particle_radius);
+        frame->shadow_radius = (float)fmax(alone, 0.5 * spacing);
+    }
+}
+
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
                 double radius, double covered_left)
 {
@@ -154,8 +176,8 @@ void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particl
     float middle[3] = {0, (float)particles->box_size[1] / 2, 0}, center[3];
     matrix_transform(frame->box_to_world, middle, center);
     make_light(frame, particles->box_size, center);
-    frame->particle_radius = (float)((def->radius > 0 ? def->radius : radius) * particles->spacing);
     frame->slab = flat_depth(particles);
+    make_radii(frame, particles, radius);
     make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box, particles->time);
     make_range(frame, particles);
@@ -235,7 +257,7 @@ static void fill_places(FrameBlock *block, const Frame *frame, const double box_
     set(block->floor_map, frame->floor_map_corner[0], frame->floor_map_corner[1], frame->floor_map_size[0],
         frame->floor_map_size[1]);
     set(block->light_to, frame->to_light[0], frame->to_light[1], frame->to_light[2], LIGHT_RADIUS);
-    set(block->particle, frame->particle_radius, spacing, 0, 0);
+    set(block->particle, frame->particle_radius, spacing, frame->shadow_radius, 0);
     set(block->coloring, frame->range[0], 1 / (frame->range[1] - frame->range[0]), frame->by_fluid, 0);
     set(block->box_size, box_size[0], box_size[1], box_size[2], 0);
 }

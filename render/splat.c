@@ -2,6 +2,7 @@
 
 #include "render/colormap.h"
 #include "render/shadow.h"
+#include "render/splat_level.h"
 #include "render/splat_shade.h"
 #include "render/splat_sprites.h"
 #include "render/thickness.h"
@@ -20,6 +21,7 @@ typedef struct SplatView {
     SplatMaps maps;
     Thickness thickness; /* where the shading wants it */
     SplatShade shade;
+    SplatLevel level; /* where splat_level_wanted */
 } SplatView;
 
 const SplatMaps *splat_maps(const void *state)
@@ -43,6 +45,7 @@ static void splat_destroy(void *state)
     glDeleteProgram(splat->casting);
     glDeleteProgram(splat->casting_listed);
     glDeleteTextures(1, &splat->colormap);
+    splat_level_destroy(&splat->level);
     splat_maps_delete(&splat->maps);
     splat_sprites_destroy(&splat->sprites);
     thickness_destroy(&splat->thickness);
@@ -53,13 +56,14 @@ static void splat_destroy(void *state)
 static bool create_sprites(SplatView *splat, SplatSprite sprite, Error *error)
 {
     char blend[64];
+    const char *const file =
+        splat_level_wanted(&splat->def) ? "render/splat_level_blend.frag" : "render/splat_blend.frag";
     const bool listed = splat_culls(&splat->def);
     snprintf(blend, sizeof blend, "#define BLEND 1\n#define WEIGHTS %d\n", (int)splat->def.weights);
     splat->depth[sprite] =
         splat_sprites_program(&splat->sprites, sprite, listed, "render/splat_depth.frag", "", error);
     if (splat->depth[sprite])
-        splat->blend[sprite] =
-            splat_sprites_program(&splat->sprites, sprite, listed, "render/splat_blend.frag", blend, error);
+        splat->blend[sprite] = splat_sprites_program(&splat->sprites, sprite, listed, file, blend, error);
     return splat->blend[sprite] != 0;
 }
 
@@ -106,7 +110,9 @@ static void *splat_create(const ViewDef *def, Error *error)
     if (!splat->colormap)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     if (splat->colormap && splat_sprites_create(&splat->sprites, &def->splat, error) &&
-        create_programs(splat, error) && create_shading(splat, def, error))
+        create_programs(splat, error) &&
+        (!splat_level_wanted(&splat->def) || splat_level_create(&splat->level, &splat->sprites, error)) &&
+        create_shading(splat, def, error))
         return splat;
     splat_destroy(splat);
     return NULL;
@@ -132,16 +138,24 @@ static float eps_of(const Frame *frame)
     return (float)frame->def->splat.eps * frame->particle_radius;
 }
 
+/* How far behind the nearest sphere others matter, m. */
+static float reach_of(const SplatView *splat, const Frame *frame)
+{
+    return splat_level_wanted(&splat->def) ? splat_level_range(frame) : eps_of(frame);
+}
+
 static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
                          const Frame *frame)
 {
     const bool hidden = splat->def.show == SPLAT_CULLED;
     if (splat_culls(&splat->def))
-        cull_for_eye(&splat->sprites.cull, particles, frame, eps_of(frame), sprite == SPLAT_POINT ? 1 : 6,
-                     hidden);
+        cull_for_eye(&splat->sprites.cull, particles, frame, reach_of(splat, frame),
+                     sprite == SPLAT_POINT ? 1 : 6, hidden);
     glClearNamedFramebufferfv(splat->maps.nearest_framebuffer, GL_COLOR, 0, (GLfloat[4]){SPLAT_NOTHING});
     splat_sprites_begin(splat->maps.nearest_framebuffer, frame, GL_MIN);
     draw_sprites(splat, sprite, splat->depth[sprite], particles, frame, CULL_NEAREST);
+    if (splat_level_wanted(&splat->def))
+        splat_level_find(&splat->level, &splat->maps, &splat->sprites, sprite, particles, frame);
 }
 
 static void set_limit(SplatView *splat, const Frame *frame)
@@ -167,12 +181,15 @@ static void blend_attributes(SplatView *splat, SplatSprite sprite, const Particl
 {
     for (int i = 0; i < 3; i++)
         glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
-    set_limit(splat, frame);
+    const bool level = splat_level_wanted(&splat->def); /* its search has set the limit */
+    if (!level)
+        set_limit(splat, frame);
     splat_sprites_begin(splat->maps.blend_framebuffer, frame, GL_FUNC_ADD);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_FALSE);
-    glProgramUniform1f(splat->blend[sprite], 1, eps_of(frame));
+    glProgramUniform1f(splat->blend[sprite], 1,
+                       level ? splat_level_gain_of(frame, particles) : eps_of(frame));
     glBindTextureUnit(1, splat->maps.nearest);
     glBindTextureUnit(2, splat->colormap);
     draw_sprites(splat, sprite, splat->blend[sprite], particles, frame, CULL_BLEND);

@@ -19,5 +19,5 @@ SplatDef splat_def_default(void)
 bool splat_same_kind(const SplatDef *a, const SplatDef *b)
 {
     return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
-           a->cull == b->cull && a->shading == b->shading;
+           a->cull == b->cull && a->shading == b->shading && (a->level > 0) == (b->level > 0);
 }

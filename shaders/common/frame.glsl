@@ -17,7 +17,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 floor_place; // height, m; centre x z, m; radius at which it has faded, m (0: no floor)
     vec4 floor_map;   // corner x z of the floor's shadow map in the world, m; its size in x z, m
     vec4 light_to;    // unit vector towards the light in the world; light radius of soft shadow, in texture units
-    vec4 particle;    // radius, m; spacing, m
+    vec4 particle;    // radius, m; spacing, m; radius for the light, m
     vec4 coloring;    // scalar's minimum; 1 / (maximum - minimum); 1: by fluid; -
     vec4 box_size;
     vec4 edge_color;

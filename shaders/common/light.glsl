@@ -6,7 +6,7 @@ layout(binding = 0) uniform sampler2D shadow_map; // reversed: 1 next to the lig
 float fluid_light_at(vec3 at)
 {
     float below = (textureLod(shadow_map, at.xy, 0.0).x - at.z) * lens.w;
-    return 0.12 + 0.88 * exp2(-0.55 * max(below - particle.x, 0.0) / max(particle.x, 1e-9));
+    return 0.12 + 0.88 * exp2(-0.55 * max(below - particle.z, 0.0) / max(particle.z, 1e-9));
 }
 
 float fluid_light(vec3 in_eye)

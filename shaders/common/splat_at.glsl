@@ -7,11 +7,16 @@ layout(location = 0) noperspective in vec4 at;
 #endif
 layout(location = 1) flat in vec2 scale;
 
-Splat splat_here()
+vec4 splat_at()
 {
 #ifdef POINT
-    return splat_hit(from + across * gl_PointCoord.xyxy, scale);
+    return from + across * gl_PointCoord.xyxy;
 #else
-    return splat_hit(at, scale);
+    return at;
 #endif
+}
+
+Splat splat_here()
+{
+    return splat_hit(splat_at(), scale);
 }

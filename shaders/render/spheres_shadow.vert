@@ -10,5 +10,5 @@ void main()
 {
     vec3 at = (box_to_light * vec4(particle_position(listed_particle(uint(gl_VertexID))), 1.0)).xyz;
     gl_Position = vec4(2.0 * at.xy - 1.0, at.z, 1.0);
-    gl_PointSize = 1.77245 * particle.x / lens.w * map_texels; // the map is lens.w wide
+    gl_PointSize = 1.77245 * particle.z / lens.w * map_texels; // the map is lens.w wide
 }

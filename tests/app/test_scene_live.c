@@ -70,6 +70,8 @@ static void each_type_reaches_its_field(void **state)
     assert_int_equal(scene.view.color_by, SCALAR_PRESSURE);
     assert_false(set("view.splat.weights=w1") || set("view.splat.eps=0.25"));
     assert_true(scene.view.splat.weights == SPLAT_W1 && scene.view.splat.eps == 0.25);
+    assert_false(set("view.splat.level=0.15"));
+    assert_true(scene.view.splat.level == 0.15);
     assert_false(set("view.camera.from=[1, 2, 3]"));
     assert_true(scene.view.camera.from[2] == 3 && !scene.view.camera_auto);
     assert_true(scene_set_live(&scene, "view.legend=false", NULL, &error) && !scene.view.legend);
@@ -146,6 +148,7 @@ static void messages_are_those_of_set(void **state)
         "view.legend=1",
         "view.splat.eps=0",
         "view.splat.weights=w2",
+        "view.splat.level=1.5",
         "solver.step.dt=0",
         "solver.sound_speed=a",
         "view.radius=11",

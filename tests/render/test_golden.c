@@ -202,6 +202,17 @@ static void test_splat_jelly(void **state)
     clear_splat("splat_jelly", SPLAT_JELLY);
 }
 
+/* A level of the field above zero: no bumps. */
+static void test_splat_level(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("splat_level", 320, 240);
+    text_set(golden.def.kind, "splat");
+    golden.def.color_by = SCALAR_FLUID;
+    golden.def.splat.level = 0.12;
+    check(&golden);
+}
+
 /* The measure itself: one shifted picture must not pass. */
 static void test_difference_is_seen(void **state)
 {
@@ -230,6 +241,7 @@ int main(void)
         cmocka_unit_test_teardown(test_splat_w1, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_water, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_jelly, no_gl_errors),
+        cmocka_unit_test_teardown(test_splat_level, no_gl_errors),
         cmocka_unit_test_teardown(test_difference_is_seen, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

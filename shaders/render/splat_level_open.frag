@@ -1,0 +1,26 @@
+// Before a sum: sets it to 0 and lets through the spheres that reach before the end of the range: of pixels that are still
+// searched, or with FOUND of those that have their root.
+#include "common/frame.glsl"
+
+layout(binding = 1) uniform sampler2D start_map;
+layout(binding = 3) uniform sampler2D march_map;
+layout(location = 1) uniform float range; // m
+layout(location = 0) out vec4 value_sum;
+#ifndef FOUND
+layout(location = 1) out vec4 slope_sum;
+#endif
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float start = texelFetch(start_map, pixel, 0).x;
+    bool found = texelFetch(march_map, pixel, 0).w > 0.0;
+    value_sum = vec4(0.0);
+#ifdef FOUND
+    bool open = found;
+#else
+    bool open = !found && start < 1e29;
+    slope_sum = vec4(0.0);
+#endif
+    gl_FragDepth = open ? lens.z / (start + range) : 1.0; // nothing is before the near plane
+}

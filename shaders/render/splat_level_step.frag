@@ -1,0 +1,75 @@
+// Looks for the first place where the field rises to the level, between samples of its value and slope: cubic Hermite
+// pieces. Where it does not, goes on behind: at once while the field is above zero, else from the next sphere.
+#include "common/frame.glsl"
+
+layout(binding = 1) uniform sampler2D start_map;
+layout(binding = 3) uniform sampler2D march_map; // end of what has been searched, m; value and slope per radius there; 1: found
+layout(binding = 5) uniform sampler2D value_map;
+layout(binding = 6) uniform sampler2D slope_map;
+layout(location = 1) uniform vec3 field; // radii between samples, now and in the next round; the level over the gain
+layout(location = 0) out vec4 march;
+layout(location = 1) out float start;
+
+// Value less the level: c.x + t (c.y + t (c.z + t c.w)) for t = 0 .. 1.
+vec4 hermite(vec2 value, vec2 slope)
+{
+    float rise = value.y - value.x;
+    return vec4(value.x - field.z, slope.x, 3.0 * rise - 2.0 * slope.x - slope.y, slope.x + slope.y - 2.0 * rise);
+}
+
+float at(vec4 c, float t)
+{
+    return c.x + t * (c.y + t * (c.z + t * c.w));
+}
+
+// Where it is highest between ends of which it rises from the first and falls to the second.
+float top_of(vec4 c)
+{
+    return c.y / (sqrt(max(c.z * c.z - 3.0 * c.w * c.y, 0.0)) - c.z);
+}
+
+// The first t at which it rises to 0, or 2.
+float crossing(vec4 c, float value, float slope)
+{
+    float low = 0.0, high = 1.0;
+    if (value < field.z) {
+        if (!(c.y > 0.0 && slope < 0.0))
+            return 2.0;
+        high = top_of(c);
+        if (!(at(c, high) >= 0.0))
+            return 2.0;
+    }
+    for (int i = 0; i < 10; i++) {
+        float middle = 0.5 * (low + high);
+        if (at(c, middle) < 0.0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 before = texelFetch(march_map, pixel, 0);
+    float from = texelFetch(start_map, pixel, 0).x;
+    if (before.w > 0.0 || from >= 1e29)
+        discard;
+    vec4 value = texelFetch(value_map, pixel, 0), slope = texelFetch(slope_map, pixel, 0) * field.x;
+    float a = before.y, b = before.z * field.x, reach = field.x * particle.x, end = from + 4.0 * reach;
+    for (int i = 0; i < 4; i++) {
+        float t = crossing(hermite(vec2(a, value[i]), vec2(b, slope[i])), value[i], slope[i]);
+        if (t <= 1.0) {
+            march = vec4(end, 0.0, 0.0, 1.0);
+            start = from + (float(i) + t) * reach;
+            gl_FragDepth = 1.0;
+            return;
+        }
+        a = value[i], b = slope[i];
+    }
+    bool gap = !(a > 0.0);
+    march = vec4(end, a, b / field.x, 0.0);
+    start = gap ? 1e30 : end;
+    gl_FragDepth = gap ? 0.0 : lens.z / (end + 4.0 * field.y * particle.x);
+}
