@@ -254,7 +254,7 @@ static const Key keys[] = {
     CHOICE("view.splat.shading", L | KEY_INDEX, splat_shading_choice, VIEW(splat.shading),
            "phong: opaque; water: clear, bends what is behind and mirrors the sky; jelly: both"),
     NUMBER("view.splat.ior", L, "", 1, 3, VIEW(splat.ior), "index of refraction, of water and jelly"),
-    NUMBER("view.splat.attenuation_distance", L, "m", 0, 1e5, VIEW(splat.attenuation_distance),
+    NUMBER("view.splat.attenuation", L, "m", 0, 1e5, VIEW(splat.attenuation),
            "through which white light becomes the fluid's colour; 0: a fifth of the box's longest side"),
     BOOLEAN("view.splat.cull", L, VIEW(splat.cull), "leave out hidden spheres before they are drawn"),
     BOOLEAN("view.legend", L, VIEW(legend), "draw the legend"),

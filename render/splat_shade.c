@@ -9,7 +9,7 @@
 /* A fifth of the longest side where the scene names no distance. */
 static float attenuation_distance(const Frame *frame, const double box_size[3])
 {
-    const double named = frame->def->splat.attenuation_distance;
+    const double named = frame->def->splat.attenuation;
     return (float)(named > 0 ? named : fmax(box_size[0], fmax(box_size[1], box_size[2])) / 5);
 }
 

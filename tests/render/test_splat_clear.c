@@ -304,7 +304,7 @@ static void absorption_by_beer_and_lambert(void **state)
     static const float colour[3] = {0.2F, 0.5F, 0.9F};
     SplatScene scene = ball_scene(0.03);
     scene.width = scene.height = SIDE;
-    scene.def.splat.attenuation_distance = 0.4;
+    scene.def.splat.attenuation = 0.4;
     memcpy(scene.def.fluid_color[0], colour, sizeof colour);
     SplatDrawing drawing = splat_open(&scene, lay_grey, true);
     SplatPixel *pixels = splat_read(&scene, &drawing);
@@ -363,7 +363,7 @@ static void reflection_by_fresnel(void **state)
     (void)state;
     SplatScene scene = ball_scene(0.03);
     scene.width = scene.height = SIDE;
-    scene.def.splat.attenuation_distance = 1e-3;
+    scene.def.splat.attenuation = 1e-3;
     memset(scene.def.fluid_color[0], 0, sizeof scene.def.fluid_color[0]);
     SplatDrawing drawing = splat_open(&scene, lay_grey, false);
     SplatPixel *pixels = splat_read(&scene, &drawing);

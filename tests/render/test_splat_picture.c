@@ -222,7 +222,7 @@ static void settings_are_live(void **state)
     for (int i = 8; i < OTHERS; i++)
         others[i].shading = i == 9 ? SPLAT_JELLY : SPLAT_WATER;
     others[10].ior = 1.6;
-    others[11].attenuation_distance = 0.05;
+    others[11].attenuation = 0.05;
     for (int i = 0; i < OTHERS; i++) {
         scene.def.splat = others[i];
         change(renderer, &scene, other);
