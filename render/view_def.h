@@ -35,10 +35,10 @@ typedef struct SplatDef {
     SplatShow show;
     bool cull; /* leave out hidden spheres before they are drawn */
     SplatShading shading;
-    double ior;                  /* index of refraction, of water and jelly */
+    double ior;         /* index of refraction, of water and jelly */
     double attenuation; /* through which white light becomes the fluid's colour, m; 0: a fifth of the
                                     box's longest side */
-    double level;                /* of the field that is the surface, 0 .. 1; 0: the union of the spheres */
+    double level;       /* of the field that is the surface, 0 .. 1; 0: the union of the spheres */
 } SplatDef;
 
 typedef struct ViewDef {
