@@ -78,7 +78,7 @@ const char *splat_weights_choice(int index)
 
 const char *splat_shape_choice(int index)
 {
-    return index <= SPLAT_PAPER ? splat_shape_names[index] : NULL;
+    return index <= SPLAT_ELLIPSOID ? splat_shape_names[index] : NULL;
 }
 
 const char *splat_sprite_choice(int index)

@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
+#include <stdio.h>
 
 enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6 };
 
@@ -19,9 +20,11 @@ static GLuint compile(const char *label, const char *file, const char *defines, 
     return program_create(label, (const char *const[]){file, NULL}, defines, error);
 }
 
-static bool create_programs(Cull *cull, SplatShape shape, Error *error)
+static bool create_programs(Cull *cull, const char *body, Error *error)
 {
-    const char *defines[] = {shape == SPLAT_PAPER ? "#define PAPER 1\n" : NULL, "#define LIGHT 1\n"};
+    char light[64];
+    snprintf(light, sizeof light, "#define LIGHT 1\n%s", body);
+    const char *defines[] = {body, light};
     for (int i = 0; i < 2; i++) {
         cull->occlude[i] = compile("cull occlude", "render/cull_occlude.comp", defines[i], error);
         cull->test[i] =
@@ -43,14 +46,14 @@ static void remake(GLuint *buffer, size_t size, const char *label)
     glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, 0);
 }
 
-bool cull_create(Cull *cull, SplatShape shape, Error *error)
+bool cull_create(Cull *cull, const char *body, Error *error)
 {
     GLfloat range[2] = {0};
     *cull = (Cull){0};
     glGetFloatv(GL_POINT_SIZE_RANGE, range);
     cull->point_limit = range[1];
     remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
-    return create_programs(cull, shape, error);
+    return create_programs(cull, body, error);
 }
 
 bool cull_create_limit(Cull *cull, Error *error)
@@ -239,7 +242,7 @@ bool cull_for_light(Cull *cull, const ParticleBuffers *particles, const Frame *f
     if (side > cull->point_limit || particles->count == 0)
         return false;
     Grid grid = make_grid(SHADOW_MAP_TEXELS, SHADOW_MAP_TEXELS, side, fmax(side, 1));
-    grid.projection[2] = (GLfloat)(side / 2), grid.projection[3] = (GLfloat)(fmax(side, 1) / 2);
+    grid.projection[2] = (GLfloat)(side / 2);
     make(cull, &grid, particles, frame, 1, 0, 1, false);
     return true;
 }

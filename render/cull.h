@@ -27,8 +27,9 @@ typedef struct Cull {
     float point_limit;      /* largest point that the driver draws, pixels */
 } Cull;
 
-/* For spheres of that shape. False when a shader does not compile; cull_destroy is needed in either case. */
-bool cull_create(Cull *cull, SplatShape shape, Error *error);
+/* For particles as common/splat_body.glsl has them with these defines. False when a shader does not
+ * compile; cull_destroy is needed in either case. */
+bool cull_create(Cull *cull, const char *body, Error *error);
 void cull_destroy(Cull *cull);
 
 /* Both lists for the picture, of the hidden particles with `hidden`; `eps` in m, `vertices` drawn for a

@@ -1,5 +1,6 @@
 #include "render/frame.h"
 
+#include "render/ellipsoids.h"
 #include "render/legend.h"
 #include "render/splat_level.h"
 
@@ -112,7 +113,7 @@ static void make_floor(Frame *frame, const double size[3], const BoxState *box, 
 /* Of the box and a radius around it: a cube around each sphere is inside. */
 static void make_bounds(Frame *frame, const double size[3])
 {
-    const float r = frame->particle_radius, *tangent = frame->camera.tangent;
+    const float r = frame->particle_reach, *tangent = frame->camera.tangent;
     float box_to_eye[16], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     matrix_multiply(frame->camera.view, frame->box_to_world, box_to_eye);
     frame->nearest = INFINITY;
@@ -158,6 +159,8 @@ static void make_radii(Frame *frame, const ParticleBuffers *particles, double ra
     const double own = at_a_level(def) ? particles->support_radius : radius * spacing;
     frame->particle_radius = (float)(def->radius > 0 ? def->radius * spacing : own);
     frame->shadow_radius = frame->particle_radius;
+    const bool stretched = strcmp(def->kind, "splat") == 0 && ellipsoids_stretched(&def->splat);
+    frame->particle_reach = frame->particle_radius * (float)(stretched ? ELLIPSOID_REACH : 1);
     if (at_a_level(def)) {
         const double gain = splat_level_gain(frame->particle_radius, spacing, frame->slab > 0);
         const double alone = splat_level_alone(def->splat.level, gain, frame->particle_radius);

@@ -25,6 +25,7 @@ typedef struct Frame {
                                   shade, m */
     float floor_map_size[2];   /* m */
     float particle_radius;     /* m */
+    float particle_reach;      /* how far from a particle it may be drawn, m */
     float shadow_radius;       /* of a particle as the light sees it, m */
     double slab;               /* depth of the box of a scene of two dimensions, m; 0 in three */
     float bounds[4];           /* x0 x1 y0 y1 in -1..1 that hold all particles; the whole picture when some

@@ -191,6 +191,8 @@ void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer
     frame.plain = renderer->plain;
     frame.floor_light = renderer->shadow.floor_map;
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
+    if (renderer->view)
+        view_prepare(renderer->view, particles, &frame);
     GL_STAGE(timer, STAGE_SHADOW)
     draw_shadow(renderer, particles, &frame);
     GL_STAGE(timer, STAGE_BACKDROP)

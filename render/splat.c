@@ -18,6 +18,7 @@ typedef struct SplatView {
     GLuint limit, casting, casting_listed;                 /* programs; the last where culling does */
     GLuint colormap;
     SplatSprites sprites;
+    Ellipsoids ellipsoids;
     SplatMaps maps;
     Thickness thickness; /* where the shading wants it */
     SplatShade shade;
@@ -27,6 +28,11 @@ typedef struct SplatView {
 const SplatMaps *splat_maps(const void *state)
 {
     return &((const SplatView *)state)->maps;
+}
+
+const Ellipsoids *splat_ellipsoids(const void *state)
+{
+    return &((const SplatView *)state)->ellipsoids;
 }
 
 unsigned splat_thickness_map(const void *state)
@@ -48,6 +54,7 @@ static void splat_destroy(void *state)
     splat_level_destroy(&splat->level);
     splat_maps_delete(&splat->maps);
     splat_sprites_destroy(&splat->sprites);
+    ellipsoids_destroy(&splat->ellipsoids);
     thickness_destroy(&splat->thickness);
     splat_shade_destroy(&splat->shade);
     free(splat);
@@ -68,9 +75,11 @@ static bool create_sprites(SplatView *splat, SplatSprite sprite, Error *error)
 }
 
 /* For the shadow map, where the light culls and where it cannot. */
-static GLuint create_casting(const char *defines, Error *error)
+static GLuint create_casting(const SplatDef *def, const char *listed, Error *error)
 {
     static const char *const stages[] = {"render/spheres_shadow.vert", "render/depth_only.frag", NULL};
+    char defines[64];
+    snprintf(defines, sizeof defines, "%s%s", ellipsoids_defines(def), listed);
     const GLuint program = program_create("splat shadow", stages, defines, error);
     if (program)
         glProgramUniform1f(program, 1, SHADOW_MAP_TEXELS);
@@ -84,9 +93,9 @@ static bool create_programs(SplatView *splat, Error *error)
             !create_sprites(splat, (SplatSprite)sprite, error))
             return false;
     splat->limit = program_create_pair("splat limit", "common/screen.vert", "render/splat_limit.frag", error);
-    splat->casting = splat->limit ? create_casting(NULL, error) : 0;
+    splat->casting = splat->limit ? create_casting(&splat->def, "", error) : 0;
     if (splat->casting && splat_culls(&splat->def))
-        splat->casting_listed = create_casting("#define LISTED 1\n", error);
+        splat->casting_listed = create_casting(&splat->def, "#define LISTED 1\n", error);
     return splat_culls(&splat->def) ? splat->casting_listed != 0 : splat->casting != 0;
 }
 
@@ -110,7 +119,7 @@ static void *splat_create(const ViewDef *def, Error *error)
     if (!splat->colormap)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     if (splat->colormap && splat_sprites_create(&splat->sprites, &def->splat, error) &&
-        create_programs(splat, error) &&
+        ellipsoids_create(&splat->ellipsoids, &def->splat, error) && create_programs(splat, error) &&
         (!splat_level_wanted(&splat->def) || splat_level_create(&splat->level, &splat->sprites, error)) &&
         create_shading(splat, def, error))
         return splat;
@@ -118,9 +127,20 @@ static void *splat_create(const ViewDef *def, Error *error)
     return NULL;
 }
 
+static void splat_prepare(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SplatView *splat = state;
+    if (ellipsoids_wanted(&splat->def))
+        GL_STAGE(frame->timer, STAGE_VISIBILITY)
+        {
+            ellipsoids_make(&splat->ellipsoids, particles, frame);
+        }
+}
+
 static void splat_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SplatView *splat = state;
+    ellipsoids_bind(&splat->ellipsoids);
     const bool listed = splat_culls(&splat->def) && cull_for_light(&splat->sprites.cull, particles, frame);
     splat_sprites_draw_points(&splat->sprites, listed ? splat->casting_listed : splat->casting, particles,
                               frame, listed ? &(CullList){CULL_NEAREST} : NULL);
@@ -200,8 +220,9 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
 {
     SplatView *splat = state;
     const SplatSprite sprite =
-        splat_sprites_choose(&splat->sprites, frame, frame->particle_radius, (float)frame->height);
+        splat_sprites_choose(&splat->sprites, frame, frame->particle_reach, (float)frame->height);
     splat_maps_follow(&splat->maps, frame->target);
+    ellipsoids_bind(&splat->ellipsoids);
     GL_STAGE(frame->timer, STAGE_VISIBILITY)
     find_nearest(splat, sprite, particles, frame);
     GL_STAGE(frame->timer, STAGE_BLEND)
@@ -221,6 +242,7 @@ const ViewKind view_splat = {
     .radius = 1, /* a spacing: neighbours at rest overlap so far that no hole is left */
     .create = splat_create,
     .destroy = splat_destroy,
+    .prepare = splat_prepare,
     .cast = splat_cast,
     .draw = splat_draw,
 };

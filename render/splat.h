@@ -3,6 +3,7 @@
 #ifndef SLOSH_SPLAT_H
 #define SLOSH_SPLAT_H
 
+#include "render/ellipsoids.h"
 #include "render/splat_maps.h"
 #include "render/splat_names.h"
 #include "render/view.h"
@@ -11,6 +12,7 @@ extern const ViewKind view_splat;
 
 /* Of a state that view_splat.create made; for tests. */
 const SplatMaps *splat_maps(const void *state);
+const Ellipsoids *splat_ellipsoids(const void *state);
 unsigned splat_thickness_map(const void *state); /* see render/thickness.h; 0 where the shading wants none */
 
 #endif

@@ -2,7 +2,8 @@
 
 const char *const splat_weights_names[] = {
     [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2"};
-const char *const splat_shape_names[] = {[SPLAT_PERSPECTIVE] = "perspective", [SPLAT_PAPER] = "paper"};
+const char *const splat_shape_names[] = {
+    [SPLAT_PERSPECTIVE] = "perspective", [SPLAT_PAPER] = "paper", [SPLAT_ELLIPSOID] = "ellipsoid"};
 const char *const splat_sprite_names[] = {
     [SPLAT_AUTO] = "auto", [SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point"};
 const char *const splat_show_names[] = {
@@ -13,11 +14,12 @@ const char *const splat_shading_names[] = {
 
 SplatDef splat_def_default(void)
 {
-    return (SplatDef){.eps = 1.5, .weights = SPLAT_W1W2, .cull = true, .ior = 1.333};
+    return (SplatDef){.eps = 1.5, .weights = SPLAT_W1W2, .cull = true, .drops = true, .ior = 1.333};
 }
 
 bool splat_same_kind(const SplatDef *a, const SplatDef *b)
 {
     return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
-           a->cull == b->cull && a->shading == b->shading && (a->level > 0) == (b->level > 0);
+           a->cull == b->cull && a->drops == b->drops && a->shading == b->shading &&
+           (a->level > 0) == (b->level > 0);
 }

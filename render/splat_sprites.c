@@ -1,5 +1,6 @@
 #include "render/splat_sprites.h"
 
+#include "render/ellipsoids.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -15,7 +16,7 @@ bool splat_sprites_create(SplatSprites *sprites, const SplatDef *def, Error *err
     *sprites = (SplatSprites){.def = *def, .point_limit = point_limit()};
     glCreateVertexArrays(1, &sprites->screen);
     quad_indices_create(&sprites->quads);
-    return !splat_culls(def) || cull_create(&sprites->cull, def->shape, error);
+    return !splat_culls(def) || cull_create(&sprites->cull, ellipsoids_defines(def), error);
 }
 
 void splat_sprites_destroy(SplatSprites *sprites)
@@ -49,7 +50,7 @@ unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, 
 {
     const char *const stages[] = {"render/splat.vert", fragment, NULL};
     char all[256];
-    snprintf(all, sizeof all, "%s%s%s%s", sprites->def.shape == SPLAT_PAPER ? "#define PAPER 1\n" : "",
+    snprintf(all, sizeof all, "%s%s%s%s", ellipsoids_defines(&sprites->def),
              sprite == SPLAT_POINT ? "#define POINT 1\n" : "", listed ? "#define LISTED 1\n" : "", defines);
     return program_create(fragment, stages, all, error);
 }

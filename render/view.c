@@ -61,6 +61,12 @@ const ViewKind *view_kind(const View *view)
     return view->kind;
 }
 
+void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame)
+{
+    if (view->kind->prepare)
+        view->kind->prepare(view->state, particles, frame);
+}
+
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame)
 {
     view->kind->cast(view->state, particles, frame);

@@ -15,6 +15,9 @@ typedef struct ViewKind {
        looks there for what it needs to stand with them. */
     void *(*create)(const ViewDef *def, Error *error);
     void (*destroy)(void *state);
+    /* Once a picture, before the rest: what cast and draw need, within a stage of frame->timer. May be NULL.
+     */
+    void (*prepare)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws what casts shadows, into the map of render/shadow.h. */
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
@@ -31,6 +34,7 @@ View *view_create(const ViewDef *def, Error *error);
 void view_destroy(View *view); /* NULL is allowed */
 const ViewKind *view_kind(const View *view);
 
+void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
 

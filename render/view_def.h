@@ -15,7 +15,7 @@ typedef struct CameraDef {
 
 /* Of the view splat; names by index stand in render/splat_names.c. */
 typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
-typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER } SplatShape;
+typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER, SPLAT_ELLIPSOID } SplatShape;
 typedef enum SplatSprite { SPLAT_AUTO, SPLAT_QUAD, SPLAT_POINT } SplatSprite;
 typedef enum SplatShading { SPLAT_PHONG, SPLAT_WATER, SPLAT_JELLY } SplatShading;
 typedef enum SplatShow {
@@ -33,7 +33,8 @@ typedef struct SplatDef {
     SplatShape shape;
     SplatSprite sprite;
     SplatShow show;
-    bool cull; /* leave out hidden spheres before they are drawn */
+    bool cull;  /* leave out hidden spheres before they are drawn */
+    bool drops; /* a particle with few neighbours shrinks to a drop of its own volume */
     SplatShading shading;
     double ior;         /* index of refraction, of water and jelly */
     double attenuation; /* through which white light becomes the fluid's colour, m; 0: a fifth of the

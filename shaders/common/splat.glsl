@@ -1,8 +1,10 @@
-// A particle as a sphere of the view splat. After: Adams, Lenaerts, Dutré 2006, section 3.1. With centre c, radius r and view
-// ray d = (x, y, -1): u = (s d - c) / r for a scale s near the centre's depth; the ray meets the sphere at the depth s - k r
-// along the eye's axis, where |u - k d| = 1. Neither cancels when the sphere is small and far. With PAPER the ray goes
-// along the axis instead, from the point of the square through the centre, which is eq. 5.
-#ifdef THICKNESS
+// A particle as a sphere or an ellipsoid of the view splat. After: Adams, Lenaerts, Dutré 2006, section 3.1. With centre c, radius
+// r and view ray d = (x, y, -1): u = (s d - c) / r for a scale s near the centre's depth; the ray meets the sphere at the depth
+// s - k r along the eye's axis, where |u - k d| = 1. Neither cancels when the sphere is small and far. With PAPER the ray goes
+// along the axis instead, from the point of the square through the centre, which is eq. 5. With ELLIPSOID |A (u - k d)| = 1.
+#ifdef THICKNESS // of the field, which is one of balls
+#undef ELLIPSOID
+#undef DROPS
 layout(location = 1) uniform float splat_radius; // of the kernel, m
 #else
 #define splat_radius particle.x
@@ -10,48 +12,36 @@ layout(location = 1) uniform float splat_radius; // of the kernel, m
 
 struct Splat {
     float depth;   // z_i, m
-    float inside2; // 1 - (distance of the ray from the centre / r)^2: below 0 beside the sphere
+    float inside2; // 1 - (distance of the ray from the centre / r)^2: below 0 beside the sphere; of an ellipsoid where A takes it
     vec3 normal;   // in the eye's frame
 };
 
 // `at`: u.x u.y and x y of the ray, linear on the screen; `scale`: s and u.z, which is 0 but where the eye is next to it.
-Splat splat_hit(vec4 at, vec2 scale)
+#ifdef ELLIPSOID
+Splat splat_hit(vec4 at, vec2 scale, float radius, mat3 inverse)
+{
+    vec3 u = inverse * vec3(at.xy, scale.y), d = inverse * vec3(at.zw, -1.0);
+    float length2 = dot(d, d), per = 1.0 / length2, slant = dot(u, d) * per;
+    float e = slant * slant + (1.0 - dot(u, u)) * per, k = slant + sqrt(max(e, 0.0));
+    return Splat(scale.x - radius * k, e * length2, normalize(inverse * (u - k * d)));
+}
+#else
+Splat splat_hit(vec4 at, vec2 scale, float radius)
 {
 #ifdef PAPER
     float inside2 = 1.0 - dot(at.xy, at.xy), k = sqrt(max(inside2, 0.0));
-    return Splat(scale.x - splat_radius * k, inside2, vec3(at.xy, k));
+    return Splat(scale.x - radius * k, inside2, vec3(at.xy, k));
 #else
     float length2 = 1.0 + dot(at.zw, at.zw), per = 1.0 / length2;
     float slant = (dot(at.xy, at.zw) - scale.y) * per;
     float e = slant * slant + (1.0 - scale.y * scale.y - dot(at.xy, at.xy)) * per;
     float k = slant + sqrt(max(e, 0.0));
-    return Splat(scale.x - splat_radius * k, e * length2, vec3(at.xy - k * at.zw, scale.y + k));
+    return Splat(scale.x - radius * k, e * length2, vec3(at.xy - k * at.zw, scale.y + k));
 #endif
 }
+#endif
 
 bool splat_seen(Splat hit)
 {
     return hit.inside2 >= 0.0 && hit.depth >= lens.z;
-}
-
-// x0 x1 y0 y1 on the screen of what is to be seen of a sphere, cut at its edges; empty (x0 = x1) when that is nothing.
-vec4 splat_bounds(vec3 centre)
-{
-#ifdef PAPER
-    float w = -centre.z;
-    if (!(w > lens.z))
-        return vec4(0.0);
-    return clamp((centre.xxyy + splat_radius * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * lens.xxyy), -1.0, 1.0);
-#else
-    return sphere_bounds(sphere_at(centre, splat_radius));
-#endif
-}
-
-float splat_scale(vec3 centre)
-{
-#ifdef PAPER
-    return -centre.z;
-#else
-    return max(-centre.z, 0.5 * splat_radius);
-#endif
 }

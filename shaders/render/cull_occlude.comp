@@ -1,7 +1,10 @@
 // Writes each particle into the cells of the coarse map that it covers.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
+#include "common/ball.glsl"
 #include "common/cull.glsl"
+#include "common/sphere.glsl"
+#include "common/splat_body.glsl"
 
 layout(local_size_x = 64) in;
 layout(location = 3) uniform uint count;
@@ -11,13 +14,14 @@ const float pixel_margin = 1.0 / 64.0; // rasterisers round corners to 1/256 of 
 struct Disc {
     vec2 middle, radii; // pixels
     float w, slant;     // depth of the centre, m; tangent of the steepest ray's angle to the axis
+    float radius;       // m
 };
 
 #ifdef LIGHT
 Disc disc_of(uint index)
 {
-    vec3 at = light_pixel(index);
-    return Disc(at.xy, vec2(projection.z - pixel_margin), at.z, 0.0);
+    vec4 at = light_pixel(index);
+    return Disc(at.xy, vec2(at.w - pixel_margin), at.z, 0.0, 0.0);
 }
 
 // Greatest depth of the sprite where it is at most `away` radii beside its centre; infinity where it may end before.
@@ -26,19 +30,21 @@ float depth_within(Disc disc, vec2 away)
     return max(away.x, away.y) < 1.0 ? max(disc.w, 0.0) : uintBitsToFloat(nothing);
 }
 #else
-// The disc through the centre across the eye's axis, which is in the sphere; nothing where the sphere reaches the near plane.
+// The disc through the centre across the eye's axis, which is in the sphere or in the ball within an ellipsoid; nothing where
+// that reaches the near plane.
 Disc disc_of(uint index)
 {
-    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
-    float w = -centre.z;
+    Body body = body_of(index);
+    vec3 centre = body.centre;
+    float w = -centre.z, radius = body.inner;
     vec2 scale = 0.5 * projection.xy / (w * lens.xy);
-    bool whole = w - particle.x > lens.z;
+    bool whole = body_nearest(body) > lens.z;
 #ifdef PAPER
     float slant = 0.0; // the paper's rays go along the axis
 #else
-    float slant = (length(centre.xy) + particle.x) / w;
+    float slant = (length(centre.xy) + radius) / w;
 #endif
-    return Disc(centre.xy * scale + 0.5 * projection.xy, whole ? particle.x * scale - pixel_margin : vec2(0.0), w, slant);
+    return Disc(centre.xy * scale + 0.5 * projection.xy, whole ? radius * scale - pixel_margin : vec2(0.0), w, slant, radius);
 }
 
 // A ray that is r away from the centre in the disc's plane meets the sphere the latest when it leans outwards: as
@@ -47,7 +53,7 @@ float depth_within(Disc disc, vec2 away)
 {
     float r2 = dot(away, away), length2 = 1.0 + disc.slant * disc.slant;
     float k = (sqrt(max(length2 - r2, 0.0)) - sqrt(r2) * disc.slant) / length2;
-    return r2 < 0.99 ? (disc.w - particle.x * k) * 1.00001 : uintBitsToFloat(nothing);
+    return r2 < 0.99 ? (disc.w - disc.radius * k) * 1.00001 : uintBitsToFloat(nothing);
 }
 #endif
 

@@ -2,9 +2,10 @@
 // these are.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
+#include "common/ball.glsl"
 #include "common/cull.glsl"
 #include "common/sphere.glsl"
-#include "common/splat.glsl"
+#include "common/splat_body.glsl"
 
 layout(local_size_x = 64) in;
 layout(location = 3) uniform uint count;
@@ -16,16 +17,16 @@ layout(std430, binding = 5) writeonly buffer Kept { uvec4 kept[]; }; // bits to 
 #ifdef LIGHT
 vec4 sprite_of(uint index, out float depth)
 {
-    vec3 at = light_pixel(index);
+    vec4 at = light_pixel(index);
     depth = at.z;
-    return at.xxyy + (projection.w + 1.0 / 64.0) * vec4(-1.0, 1.0, -1.0, 1.0);
+    return at.xxyy + (max(at.w, 0.5) + 1.0 / 64.0) * vec4(-1.0, 1.0, -1.0, 1.0);
 }
 #else
 vec4 sprite_of(uint index, out float depth)
 {
-    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
-    depth = -centre.z - particle.x;
-    return (splat_bounds(centre) * 0.5 + 0.5) * projection.xxyy;
+    Body body = body_of(index);
+    depth = body_nearest(body);
+    return (body_bounds(body) * 0.5 + 0.5) * projection.xxyy;
 }
 #endif
 

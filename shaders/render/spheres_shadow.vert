@@ -3,12 +3,14 @@
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/listed.glsl"
+#include "common/ball.glsl"
 
 layout(location = 1) uniform float map_texels;
 
 void main()
 {
-    vec3 at = (box_to_light * vec4(particle_position(listed_particle(uint(gl_VertexID))), 1.0)).xyz;
+    vec4 ball = ball_of(listed_particle(uint(gl_VertexID)));
+    vec3 at = (box_to_light * vec4(ball.xyz, 1.0)).xyz;
     gl_Position = vec4(2.0 * at.xy - 1.0, at.z, 1.0);
-    gl_PointSize = 1.77245 * particle.z / lens.w * map_texels; // the map is lens.w wide
+    gl_PointSize = 1.77245 * particle.z * (ball.w / particle.x) / lens.w * map_texels; // the map is lens.w wide
 }

@@ -5,6 +5,8 @@
 #include "common/listed.glsl"
 #include "common/sphere.glsl"
 #include "common/splat.glsl"
+#include "common/ball.glsl"
+#include "common/splat_body.glsl"
 #ifdef BLEND
 #include "common/particle_color.glsl"
 layout(location = 2) flat out vec3 color;
@@ -24,32 +26,52 @@ layout(location = 3) flat out vec4 across;
 layout(location = 0) noperspective out vec4 at;
 #endif
 layout(location = 1) flat out vec2 scale;
+#if defined ELLIPSOID || defined DROPS
+layout(location = 4) flat out float radius;
+#endif
+#ifdef ELLIPSOID
+layout(location = 5) flat out vec3 inverse_own;
+layout(location = 6) flat out vec3 inverse_mixed;
+#endif
 
-vec4 at_corner(vec3 centre, vec2 corner)
+vec4 at_corner(Body body, vec2 corner)
 {
     vec2 ray = ray_of_ndc(corner).xy;
-    return vec4((scale.x * ray - centre.xy) / splat_radius, ray);
+    return vec4((scale.x * ray - body.centre.xy) / body.radius, ray);
 }
 
 #ifdef POINT
-void place(vec3 centre, vec4 bounds, float depth)
+void place(Body body, vec4 bounds, float depth)
 {
     vec2 extent = (bounds.yw - bounds.xz) * texels / 2.0;
     float size = max(ceil(8.0 * max(extent.x, extent.y)) / 8.0, 1.0); // hardware rounds to such steps; none is smaller
     vec2 middle = 0.5 * (bounds.xz + bounds.yw), reach = size * vec2(1.0, -1.0) / texels; // gl_PointCoord counts from the top
-    from = at_corner(centre, middle - reach);
-    across = at_corner(centre, middle + reach) - from;
+    from = at_corner(body, middle - reach);
+    across = at_corner(body, middle + reach) - from;
     gl_PointSize = size;
     gl_Position = extent.x > 0.0 ? vec4(middle, depth, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
 }
 #else
-void place(vec3 centre, vec4 bounds, float depth)
+void place(Body body, vec4 bounds, float depth)
 {
     vec2 corner = vec2((gl_VertexID & 1) == 0 ? bounds.x : bounds.y, (gl_VertexID & 2) == 0 ? bounds.z : bounds.w);
-    at = at_corner(centre, corner);
+    at = at_corner(body, corner);
     gl_Position = vec4(corner, depth, 1.0);
 }
 #endif
+
+void describe(Body body)
+{
+    float s = body_scale(body);
+    scale = vec2(s, (-s - body.centre.z) / body.radius);
+#if defined ELLIPSOID || defined DROPS
+    radius = body.radius;
+#endif
+#ifdef ELLIPSOID
+    inverse_own = vec3(body.inverse[0].x, body.inverse[1].y, body.inverse[2].z);
+    inverse_mixed = vec3(body.inverse[0].yz, body.inverse[1].z);
+#endif
+}
 
 void main()
 {
@@ -58,15 +80,14 @@ void main()
 #else
     uint index = listed_particle(uint(gl_VertexID) >> 2);
 #endif
-    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
-    float s = splat_scale(centre);
-    scale = vec2(s, (-s - centre.z) / splat_radius);
-    float nearest = max(-centre.z - splat_radius, lens.z);
-    place(centre, splat_bounds(centre), min(lens.z / nearest * 1.00001, 1.0));
+    Body body = body_of(index);
+    describe(body);
+    float nearest = max(body_nearest(body), lens.z);
+    place(body, body_bounds(body), min(lens.z / nearest * 1.00001, 1.0));
 #ifdef BLEND
     color = particle_color(index);
 #endif
 #ifdef THICKNESS
-    column = vec2(4.5 / 3.14159265 * particle_volume(index) / (splat_radius * splat_radius), lens.z / -centre.z);
+    column = vec2(4.5 / 3.14159265 * particle_volume(index) / (splat_radius * splat_radius), lens.z / -body.centre.z);
 #endif
 }

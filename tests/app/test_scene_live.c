@@ -70,6 +70,8 @@ static void each_type_reaches_its_field(void **state)
     assert_int_equal(scene.view.color_by, SCALAR_PRESSURE);
     assert_false(set("view.splat.weights=w1") || set("view.splat.eps=0.25"));
     assert_true(scene.view.splat.weights == SPLAT_W1 && scene.view.splat.eps == 0.25);
+    assert_false(set("view.splat.shape=ellipsoid") || set("view.splat.drops=false"));
+    assert_true(scene.view.splat.shape == SPLAT_ELLIPSOID && !scene.view.splat.drops);
     assert_false(set("view.splat.level=0.15"));
     assert_true(scene.view.splat.level == 0.15);
     assert_false(set("view.camera.from=[1, 2, 3]"));

@@ -120,6 +120,7 @@ static inline ViewDef bare_view(void)
 {
     ViewDef def = view_def_default();
     def.legend = def.box = def.floor = false;
+    def.splat.drops = false;
     def.fluid_count = 2;
     text_set(def.fluid_name[0], "water");
     text_set(def.fluid_name[1], "oil");

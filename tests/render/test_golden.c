@@ -163,6 +163,15 @@ static void test_splat(void **state)
     check(&golden);
 }
 
+static void test_splat_ellipsoid(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("splat_ellipsoid", 320, 240);
+    text_set(golden.def.kind, "splat");
+    golden.def.splat.shape = SPLAT_ELLIPSOID, golden.def.splat.drops = true;
+    check(&golden);
+}
+
 /* Two fluids without blending of depth, where the paper's Figure 3 has its seams. */
 static void test_splat_w1(void **state)
 {
@@ -238,6 +247,7 @@ int main(void)
         cmocka_unit_test_teardown(test_nothing, no_gl_errors),
         cmocka_unit_test_teardown(test_solids, no_gl_errors),
         cmocka_unit_test_teardown(test_splat, no_gl_errors),
+        cmocka_unit_test_teardown(test_splat_ellipsoid, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_w1, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_water, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_jelly, no_gl_errors),

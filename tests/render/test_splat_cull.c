@@ -45,11 +45,12 @@ static void it_changes_no_pixel(void **state)
     (void)state; /* from afar, near, with spheres smaller than a pixel, and through a wide lens */
     static const double fovs[] = {30, 8, 170, 100}, all_eps[] = {0.1, 1.5};
     for (int i = 0; i < 4; i++)
-        for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++)
+        for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape++)
             for (int k = 0; k < 2; k++) {
                 SplatScene scene = fluid(fovs[i]);
                 char what[64];
                 scene.def.splat.shape = (SplatShape)shape, scene.def.splat.eps = all_eps[k];
+                scene.def.splat.drops = k == 1;
                 snprintf(what, sizeof what, "%g degrees, %s, eps %g", fovs[i], splat_shape_names[shape],
                          all_eps[k]);
                 compare(&scene, what);
@@ -67,6 +68,25 @@ static void nor_from_within_the_fluid(void **state)
     memcpy(scene.def.camera.from, (double[]){0.2, 0.3, 0.1}, sizeof scene.def.camera.from);
     memcpy(scene.def.camera.to, (double[]){-1, 0.3, 0}, sizeof scene.def.camera.to);
     compare(&scene, "eye in the box, beside the fluid");
+    free(scene.particles);
+}
+
+/* Thin ellipsoids, seen from their edges, with gaps between them that balls of their volume would close. */
+static void nor_behind_gaps_between_sheets(void **state)
+{
+    (void)state;
+    SplatScene scene = splat_scene((double[]){0, 0.5, 2.5}, (double[]){0, 0.5, 0}, 8, 0.05);
+    scene.state.support_radius = 0.055; /* less than from sheet to sheet */
+    for (int i = 0; i < 16 * 4 * 9; i++) {
+        const int column = i % 16, row = i / 16 % 4, sheet = i / 64;
+        particles_add(scene.particles, 0.05 * (column - 7.5) + 0.012 * row, 0.5 + 0.06 * (sheet - 4),
+                      0.05 * (row - 1.5), 1, 0);
+    }
+    for (int i = 0; i < 150; i++)
+        particles_add(scene.particles, 0.3 * sin(12.9 * i), 0.5 + 0.25 * sin(78.2 * i),
+                      -0.45 + 0.1 * sin(37.7 * i), 1, 1);
+    scene.def.splat.shape = SPLAT_ELLIPSOID, scene.def.splat.eps = 0.1;
+    compare(&scene, "sheets");
     free(scene.particles);
 }
 
@@ -96,27 +116,36 @@ static void it_leaves_out_what_is_hidden(void **state)
     free(scene.particles);
 }
 
-/* The whole picture, with shadow: the light has its own culling. */
+static void draw_with_shadows(SplatScene *scene, uint8_t *rgb)
+{
+    Error error = {0};
+    ParticleBuffers buffers;
+    scene->state.count = scene->particles->count;
+    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    Renderer *renderer = renderer_create(&scene->def, scene->width, scene->height, &error);
+    assert_non_null(renderer);
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_read(renderer, rgb);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+}
+
+/* The whole picture: the light has its own culling. */
 static void shadows_stay_the_same(void **state)
 {
     (void)state;
-    Error error = {0};
     static uint8_t rgb[2][3 * 160 * 120];
-    for (int cull = 0; cull < 2; cull++) {
-        SplatScene scene = fluid(30);
-        ParticleBuffers buffers;
-        scene.def.splat.cull = cull, scene.def.floor = true;
-        scene.state.count = scene.particles->count;
-        Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
-        Renderer *renderer = renderer_create(&scene.def, scene.width, scene.height, &error);
-        assert_non_null(renderer);
-        renderer_draw(renderer, &buffers, NULL);
-        renderer_read(renderer, rgb[cull]);
-        renderer_destroy(renderer);
-        upload_destroy(upload);
-        free(scene.particles);
-    }
-    assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
+    SplatScene scene = fluid(30);
+    for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape += 2)
+        for (int drops = 0; drops < 2; drops++) {
+            scene.def.splat.shape = (SplatShape)shape, scene.def.splat.drops = drops, scene.def.floor = true;
+            for (int cull = 0; cull < 2; cull++) {
+                scene.def.splat.cull = cull;
+                draw_with_shadows(&scene, rgb[cull]);
+            }
+            assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
+        }
+    free(scene.particles);
 }
 
 int main(void)
@@ -124,6 +153,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(it_changes_no_pixel, no_gl_errors),
         cmocka_unit_test_teardown(nor_from_within_the_fluid, no_gl_errors),
+        cmocka_unit_test_teardown(nor_behind_gaps_between_sheets, no_gl_errors),
         cmocka_unit_test_teardown(it_leaves_out_what_is_hidden, no_gl_errors),
         cmocka_unit_test_teardown(shadows_stay_the_same, no_gl_errors),
     };

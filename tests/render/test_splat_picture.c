@@ -201,7 +201,7 @@ static void settings_are_live(void **state)
 {
     (void)state;
     static uint8_t first[3 * PIXELS], other[3 * PIXELS];
-    enum { OTHERS = 12 };
+    enum { OTHERS = 14 };
     SplatDef others[OTHERS];
     Scene scene = splat_among_solids();
     particles_add(scene.particles, -0.15, 0.7, 0, 1, 0);
@@ -219,10 +219,12 @@ static void settings_are_live(void **state)
     others[5].show = SPLAT_NORMALS;
     others[6].show = SPLAT_WEIGHT;
     others[7].show = SPLAT_THICKNESS;
-    for (int i = 8; i < OTHERS; i++)
+    for (int i = 8; i < 12; i++)
         others[i].shading = i == 9 ? SPLAT_JELLY : SPLAT_WATER;
     others[10].ior = 1.6;
     others[11].attenuation = 0.05;
+    others[12].shape = SPLAT_ELLIPSOID;
+    others[13].drops = true;
     for (int i = 0; i < OTHERS; i++) {
         scene.def.splat = others[i];
         change(renderer, &scene, other);

@@ -1,0 +1,22 @@
+// The ball that stands for a particle: of the view's radius, with DROPS of its own one, with ELLIPSOID that of an ellipsoid's volume
+// (render/ellipsoids.c). Wants common/frame.glsl and common/particles.glsl.
+#ifdef ELLIPSOID
+// Of each: centre, radius of the ball of its volume, m; the symmetric matrix A that takes it to that ball, of determinant 1: xx yy
+// zz, least axis in radii at most; xy xz yz.
+layout(std430, binding = 8) readonly buffer Shapes { vec4 shape[]; };
+#elif defined DROPS
+layout(std430, binding = 8) readonly buffer Shapes { float shape_radius[]; };
+#endif
+
+vec4 ball_of(uint index) // centre in the box's frame, radius
+{
+#ifdef ELLIPSOID
+    return shape[3u * index];
+#elif defined DROPS
+    return vec4(particle_position(index), shape_radius[index]);
+#elif defined THICKNESS
+    return vec4(particle_position(index), splat_radius);
+#else
+    return vec4(particle_position(index), particle.x);
+#endif
+}

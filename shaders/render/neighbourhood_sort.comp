@@ -1,0 +1,21 @@
+// Positions by cell, within a cell by number, so that sums have one order whatever the atomic counters did. Each counts its place
+// for itself, as in sim/sort.comp; what is nowhere has any.
+#include "common/particles.glsl"
+#include "common/neighbourhood_grid.glsl"
+layout(std430, binding = 4) readonly buffer Cells { uint cell[]; };
+layout(std430, binding = 5) readonly buffer Orders { uint order[]; };
+layout(std430, binding = 6) readonly buffer Starts { uint start[]; };
+layout(std430, binding = 7) writeonly buffer Sorted { uvec4 sorted[]; };
+
+void main()
+{
+    uint at = invocation();
+    if (at >= grid_size.w)
+        return;
+    uint i = order[at], c = cell[i], first = start[c], end = start[c + 1u], place = first;
+    if (c == grid_size.x * grid_size.y * grid_size.z)
+        place = at, end = first;
+    for (uint j = first; j < end; j++)
+        place += uint(order[j] < i);
+    sorted[place] = uvec4(floatBitsToUint(particle_position(i)), i);
+}
