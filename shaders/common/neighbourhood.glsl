@@ -11,7 +11,8 @@ uvec2 row_of(uvec3 at, uint row)
     if (yz.x >= grid_size.y || yz.y >= grid_size.z)
         return uvec2(0u);
     uint base = cell_number(uvec3(0u, yz));
-    return uvec2(start[base + max(at.x, 1u) - 1u], start[base + min(at.x + 2u, grid_size.x)]);
+    uint first = start[base + max(at.x, 1u) - 1u], end = start[base + min(at.x + 2u, grid_size.x)];
+    return uvec2(first, min(end, first + crowded));
 }
 
 bool in_grid(uint i)

@@ -3,12 +3,15 @@ layout(location = 1) uniform uvec4 grid_size;  // cells along each axis; particl
 layout(location = 2) uniform vec4 grid_place;  // least corner, m; cells a metre
 layout(local_size_x = 64) in;
 
+// In a cell or a row of cells; fluid has some thirty there. What collapsed into one place would keep a picture for minutes.
+const uint crowded = 4096u;
+
 uint invocation()
 {
     return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u + gl_GlobalInvocationID.x;
 }
 
-// Also of what is no number. All fluid in one cell, behind a step that blew up, would keep a picture for minutes.
+// Also of what is no number.
 bool beside_grid(vec3 x)
 {
     vec3 at = (x - grid_place.xyz) * grid_place.w;

@@ -1,5 +1,5 @@
 // Positions by cell, within a cell by number, so that sums have one order whatever the atomic counters did. Each counts its place
-// for itself, as in sim/sort.comp; what is nowhere has any.
+// for itself, as in sim/sort.comp; what is nowhere, or in too large a crowd, has any.
 #include "common/particles.glsl"
 #include "common/neighbourhood_grid.glsl"
 layout(std430, binding = 4) readonly buffer Cells { uint cell[]; };
@@ -13,7 +13,7 @@ void main()
     if (at >= grid_size.w)
         return;
     uint i = order[at], c = cell[i], first = start[c], end = start[c + 1u], place = first;
-    if (c == grid_size.x * grid_size.y * grid_size.z)
+    if (c == grid_size.x * grid_size.y * grid_size.z || end - first > crowded)
         place = at, end = first;
     for (uint j = first; j < end; j++)
         place += uint(order[j] < i);

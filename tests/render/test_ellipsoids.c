@@ -286,6 +286,19 @@ static void the_bulk_gives_balls(void **state)
     assert_true(fabsf(shape[3] / 0.05F - 1) < 1e-4F && shape[7] > 0.85F && shape[7] <= 1);
 }
 
+/* A fluid that collapsed ends a picture in time, and with shapes that are numbers. */
+static void all_in_one_place(void **state)
+{
+    (void)state;
+    SplatScene scene = in_a_box(0.05);
+    for (int i = 0; i < PARTICLES_MAX; i++)
+        particles_add(scene.particles, 0.3, 0.4, 0.1 + 1e-9 * i, 1, 0);
+    shape_all(&scene);
+    for (size_t i = 0; i < 12 * scene.particles->count; i++)
+        assert_true(isfinite(splat_shapes[i]));
+    free(scene.particles);
+}
+
 /* A sheet of many in few places is as thin, a line as long as it gets. */
 static void none_reaches_farther_than_said(void **state)
 {
@@ -309,6 +322,7 @@ int main(void)
         cmocka_unit_test_teardown(radii_of_drops, no_gl_errors),
         cmocka_unit_test_teardown(few_particles_in_a_vast_box, no_gl_errors),
         cmocka_unit_test_teardown(in_two_dimensions, no_gl_errors),
+        cmocka_unit_test_teardown(all_in_one_place, no_gl_errors),
         cmocka_unit_test_teardown(a_sheet_gives_discs, no_gl_errors),
         cmocka_unit_test_teardown(a_line_gives_needles, no_gl_errors),
         cmocka_unit_test_teardown(the_bulk_gives_balls, no_gl_errors),
