@@ -64,7 +64,7 @@ static double full_sum(const ParticleBuffers *particles, bool flat)
 {
     static const double pi = 3.14159265358979323846;
     const double q = particles->support_radius / particles->spacing;
-    return 0.25 * (flat ? 0.6 * pi * q * q - 1 : 2 * pi / 3 * q * q * q - 1);
+    return 0.25 * fmax(flat ? 0.6 * pi * q * q - 1 : 2 * pi / 3 * q * q * q - 1, 1);
 }
 
 /* Of a drop of one particle; a disc in two dimensions. */

@@ -130,20 +130,25 @@ static void draw_with_shadows(SplatScene *scene, uint8_t *rgb)
     upload_destroy(upload);
 }
 
+static void compare_shadows(SplatScene *scene)
+{
+    static uint8_t rgb[2][3 * 160 * 120];
+    for (int cull = 0; cull < 2; cull++) {
+        scene->def.splat.cull = cull;
+        draw_with_shadows(scene, rgb[cull]);
+    }
+    assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
+}
+
 /* The whole picture: the light has its own culling. */
 static void shadows_stay_the_same(void **state)
 {
     (void)state;
-    static uint8_t rgb[2][3 * 160 * 120];
     SplatScene scene = fluid(30);
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape += 2)
         for (int drops = 0; drops < 2; drops++) {
             scene.def.splat.shape = (SplatShape)shape, scene.def.splat.drops = drops, scene.def.floor = true;
-            for (int cull = 0; cull < 2; cull++) {
-                scene.def.splat.cull = cull;
-                draw_with_shadows(&scene, rgb[cull]);
-            }
-            assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
+            compare_shadows(&scene);
         }
     free(scene.particles);
 }

@@ -147,6 +147,30 @@ static void solids_through_clear_fluid(void **state)
     }
 }
 
+/* What the floor loses of light, summed up, is as its silhouette: 0.62^2 of that of a sphere of a spacing.
+ * The drop itself is not in the picture. */
+static void a_drops_shadow_is_its_own(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3][3 * PIXELS];
+    double lost[2] = {0};
+    Scene scene = splat_among_solids();
+    scene.def.floor = true;
+    scene.def.camera = (CameraDef){{2.2, 0.6, -0.27}, {0.29, -0.11, -0.27}, 16};
+    particles_add(scene.particles, 0, 0.5, 0, 1, 0);
+    for (int i = 0; i < 3; i++) {
+        scene.def.splat.drops = i == 1;
+        scene.particles->position[1] = i == 2 ? -100 : 0.5F;
+        draw_rgb(&scene, false, rgb[i]);
+    }
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3 * PIXELS; k++)
+            lost[i] += rgb[2][k] - rgb[i][k];
+    if (!(lost[0] > 1000 && fabs(lost[1] / lost[0] - 0.385) < 0.06))
+        fail_msg("a sphere takes %g of light, its drop %g", lost[0], lost[1]);
+    free(scene.particles);
+}
+
 /* Along a line through drops of two fluids that overlap the colour goes from one to the other, by small
  * steps. */
 static void colours_mix_where_fluids_meet(void **state)
@@ -264,6 +288,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(solids_hide_and_are_hidden, no_gl_errors),
         cmocka_unit_test_teardown(its_shadow_falls_on_the_floor, no_gl_errors),
+        cmocka_unit_test_teardown(a_drops_shadow_is_its_own, no_gl_errors),
         cmocka_unit_test_teardown(solids_and_drops_shade_the_fluid, no_gl_errors),
         cmocka_unit_test_teardown(solids_through_clear_fluid, no_gl_errors),
         cmocka_unit_test_teardown(colours_mix_where_fluids_meet, no_gl_errors),
