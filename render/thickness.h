@@ -1,7 +1,7 @@
-/* How much fluid lies on each ray before the first solid, in m: the integral of the fluid's field
-   sum V W(r - r_j, h) along it, summed up over all particles. Inside the fluid the field is 1, so that this
-   is the length of the ray in it. W is poly6 (Müller et al. 2003), of which the integral along a line that
-   passes at a distance b is 9 / (2 pi h^2) (1 - b^2 / h^2)^(7/2). */
+/* How much fluid lies on each ray before the first solid, in m: the integral along it of the fluid's field
+   sum V W(r - r_j, h), V a particle's volume at rest, spacing^3. Inside the fluid the field is 1, so that
+   this is the length of the ray in it. W is poly6 (Müller et al. 2003), of which the integral along a line
+   that passes at a distance b is 9 / (2 pi h^2) (1 - b^2 / h^2)^(7/2). */
 #ifndef SLOSH_THICKNESS_H
 #define SLOSH_THICKNESS_H
 

@@ -9,8 +9,3 @@ vec3 particle_position(uint particle_index)
     uint at = particle_index * particle_strides.x;
     return vec3(position_words[at], position_words[at + 1u], position_words[at + 2u]);
 }
-
-float particle_volume(uint particle_index) // m3
-{
-    return position_words[particle_index * particle_strides.x + 3u];
-}

@@ -88,6 +88,6 @@ void main()
     color = particle_color(index);
 #endif
 #ifdef THICKNESS
-    column = vec2(4.5 / 3.14159265 * particle_volume(index) / (splat_radius * splat_radius), lens.z / -body.centre.z);
+    column = vec2(4.5 / 3.14159265 * particle.y * particle.y * particle.y / (splat_radius * splat_radius), lens.z / -body.centre.z);
 #endif
 }

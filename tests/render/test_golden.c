@@ -22,8 +22,6 @@ static Image draw(const Golden *golden)
     ParticleBuffers buffers;
     Particles *particles = particles_wave(SPACING);
     particles_spare(particles, &golden->def, SPACING);
-    for (size_t i = 0; i < particles->count; i++)
-        particles->position[4 * i + 3] = (float)(SPACING * SPACING * SPACING);
     ParticleBuffers box = box_state(particles->count, SPACING);
     box.box = golden->box;
     Upload *upload = upload_particles(particles, &box, &buffers);
