@@ -33,9 +33,13 @@ motion:
 PROGRAM = None
 
 
-def main():
-    """Runs the tests of the calling file; its first argument is the path of slosh."""
+def main(*groups):
+    """Runs the tests of the calling file; its first argument is the path of slosh, and what follows names tests. Where none
+    is named, groups of classes run side by side, each in a process of its own."""
     global PROGRAM
+    if groups and len(sys.argv) == 2:
+        runs = [subprocess.Popen([sys.executable, *sys.argv, *group.split()]) for group in groups]
+        sys.exit(max([run.wait() != 0 for run in runs]))
     PROGRAM = os.path.abspath(sys.argv.pop(1))
     unittest.main(module='__main__')
 

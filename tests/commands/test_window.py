@@ -2,16 +2,22 @@
 import json
 import os
 import re
+import select
 import shutil
 import signal
 import struct
 import subprocess
 import time
 
+import Xlib.display
+from Xlib import X, Xatom
+from Xlib.protocol import event
+
 import command
 from command import CommandTest, obey_interrupts, video_frames
 
 WIDTH, HEIGHT = 480, 360
+FLUID_COLORS = 400  # text alone has fewer
 
 # GLFW unloads it before leaks are counted, and what it kept for its own end would be counted among them.
 DRIVER = '/usr/lib/x86_64-linux-gnu/dri/swrast_dri.so'
@@ -39,8 +45,43 @@ class Display:
         os.close(write)
         with os.fdopen(read) as answer:
             self.name = ':' + answer.readline().strip()
+        self.connection = Xlib.display.Display(self.name)
+        self.root = self.connection.screen().root
+        self.root.change_attributes(event_mask=X.SubstructureNotifyMask)
+        self.pings = 0
+
+    def tell(self, window, protocol, value):
+        """As a window manager does."""
+        kind, name = (self.connection.intern_atom(word) for word in ('WM_PROTOCOLS', protocol))
+        message = event.ClientMessage(window=window, client_type=kind, data=(32, [name, value, window, 0, 0]))
+        self.connection.create_resource_object('window', window).send_event(message)
+        self.connection.sync()
+
+    def press_close_button(self, window):
+        self.tell(window, 'WM_DELETE_WINDOW', X.CurrentTime)
+
+    def colors(self, window):
+        """How many are in its picture, of which a part may lie beside the screen."""
+        drawn = self.connection.create_resource_object('window', window)
+        size = drawn.get_geometry()
+        picture = drawn.get_image(0, 0, min(size.width, WIDTH), min(size.height, HEIGHT), X.ZPixmap, 0xffffffff)
+        return len(set(memoryview(picture.data).cast('I')))
+
+    def ping(self, window):
+        """The window answers when it has taken all events that were sent before, between two pictures."""
+        self.pings += 1
+        self.tell(window, '_NET_WM_PING', self.pings)
+
+    def answered(self, seconds):
+        """Whether the last ping is, within that time."""
+        while self.connection.pending_events() or select.select([self.connection], [], [], seconds)[0]:
+            answer = self.connection.next_event()
+            if answer.type & 127 == X.ClientMessage and answer.data[1][1] == self.pings:
+                return True
+        return False
 
     def close(self):
+        self.connection.close()
         self.process.terminate()
         self.process.wait()
 
@@ -66,7 +107,17 @@ class Window(CommandTest):
                               check=True, timeout=30).stdout
 
     def open(self, *arguments, size=(WIDTH, HEIGHT)):
-        """Starts the window and waits until it shows its first picture."""
+        """Starts the window and waits until it shows its fluid."""
+        self.start(*arguments, size=size)
+        end = time.monotonic() + 60
+        while self.display.colors(self.window) < FLUID_COLORS:
+            self.assertIsNone(self.process.poll(), 'the window ended')
+            self.assertLess(time.monotonic(), end, 'the window stays empty')
+            time.sleep(0.05)
+        self.shown(0.2)
+
+    def start(self, *arguments, size=(WIDTH, HEIGHT)):
+        """Starts the window and waits until it takes events."""
         self.said = open(self.path('said.txt'), 'w+')
         self.addCleanup(self.said.close)
         self.process = subprocess.Popen([command.PROGRAM, *arguments, '--size', f'{size[0]}x{size[1]}', '--json', 'out.json'],
@@ -74,18 +125,27 @@ class Window(CommandTest):
                                         preexec_fn=obey_interrupts)
         self.addCleanup(self.process.wait)
         self.addCleanup(self.process.kill)
-        self.window = self.xdo('search', '--sync', '--onlyvisible', '--class', 'slosh').split()[0]
+        self.window = int(self.xdo('search', '--sync', '--onlyvisible', '--class', 'slosh').split()[0])
         self.xdo('windowfocus', '--sync', self.window)
-        time.sleep(1.0)
+        self.shown(0)
+
+    def shown(self, seconds):
+        """Until it has taken what was done to it, and so long, for a picture of it."""
+        end = time.monotonic() + 60
+        self.display.ping(self.window)
+        while not self.display.answered(0.2):
+            self.assertIsNone(self.process.poll(), 'the window ended')
+            self.assertLess(time.monotonic(), end, 'the window does not answer')
+        time.sleep(seconds)
 
     def keys(self, *keys):
         for key in keys:
             self.xdo('key', key)
-            time.sleep(0.15)
+            self.shown(0.1)
 
     def at(self, x, y):
         self.xdo('mousemove', '--window', self.window, x, y)
-        time.sleep(0.08)
+        self.shown(0.06)
 
     def drag(self, button, points, modifier=None):
         self.at(*points[0])
@@ -97,7 +157,7 @@ class Window(CommandTest):
         self.xdo('mouseup', button)
         if modifier:
             self.xdo('keyup', modifier)
-        time.sleep(0.1)
+        self.shown(0.1)
 
     def end(self):
         """Waits for the end, which must be a good one; the session's figures."""
@@ -110,7 +170,7 @@ class Window(CommandTest):
         return figures
 
     def quit(self):
-        self.keys('Escape')
+        self.xdo('key', 'Escape')
         return self.end()
 
     def files(self, extension):
@@ -120,6 +180,7 @@ class Window(CommandTest):
 class Keys(Window):
     def test_nothing_pressed(self):
         self.open('still.yaml')
+        time.sleep(0.7)
         out = self.quit()
         self.assertGreater(out['pictures'], 5)
         self.assertGreater(out['simulated_seconds'], 0.3)
@@ -173,11 +234,11 @@ class Keys(Window):
     def test_a_pause_is_in_the_video(self):
         self.open('still.yaml')
         self.keys('v', 'space')
-        time.sleep(2)
+        time.sleep(1)
         self.keys('space', 'v')
         self.quit()
         name, = self.files('mp4')
-        self.assertGreater(video_frames(self.path(name)), 55)
+        self.assertGreater(video_frames(self.path(name)), 25)
 
     def test_a_video_is_whole_when_the_window_is_closed(self):
         self.open('still.yaml')
@@ -214,8 +275,9 @@ class Keys(Window):
 
     def test_record_keeps_all_sessions(self):
         self.open('still.yaml', '--record', 'a.rec')
+        time.sleep(0.7)  # a session worth keeping
         self.keys('r')
-        time.sleep(0.3)
+        self.wait_for(lambda: self.files('recording'), self.process)
         self.quit()
         kept = self.files('recording')
         self.assertEqual(len(kept), 1)
@@ -225,7 +287,7 @@ class Keys(Window):
     def test_fullscreen(self):
         self.open('still.yaml')
         self.keys('F11')
-        time.sleep(0.5)
+        self.shown(0.4)
         out = self.quit()
         self.assertEqual((out['fullscreen'], out['size']), (True, [800, 600]))
 
@@ -293,12 +355,10 @@ class Mouse(Window):
         self.assertLess(out['box_orientation'][3], 0.995)
 
     def lose_focus(self):
-        from Xlib import X, display
-        connection = display.Display(self.display.name)
+        connection = self.display.connection
         connection.set_input_focus(X.NONE, X.RevertToNone, X.CurrentTime)
         connection.sync()
-        connection.close()
-        time.sleep(0.3)
+        self.shown(0.3)
 
     def test_lost_focus_stops_only_what_is_held(self):
         self.open('still.yaml')
@@ -358,10 +418,13 @@ class Panel(Window):
         self.keys('p')
         time.sleep(0.3)
 
+    def drag(self, *arguments):
+        super().drag(*arguments)
+        time.sleep(0.3)
+
     def test_a_button_is_the_panels_own(self):
         self.open()
         self.drag(1, [(44, 146), (44, 146)])  # pause
-        time.sleep(0.3)
         self.drag(1, [(120, 60), (200, 90)])  # between the widgets: nothing
         out = self.quit()
         self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (True, True, True))
@@ -376,17 +439,13 @@ class Panel(Window):
     def test_a_slider_changes_the_fluid(self):
         self.open('--record', 'a.rec')
         self.drag(1, [(60, 452), (60, 452)])  # the heading World, closed at first
-        time.sleep(0.4)
         self.drag(1, [(248, 473), (255, 473), (262, 473)])
-        time.sleep(0.2)
         self.quit()
         self.assertRegex(self.read('a.rec').decode(), r'\d+ set gravity=\[')
         self.assertEqual(self.slosh('replay', 'a.rec', '--quiet'), (0, ''))
 
     def test_high_density(self):
-        from Xlib import Xatom, display
-        connection = display.Display(self.display.name)
-        root = connection.screen().root
+        connection, root = self.display.connection, self.display.root
         root.change_property(Xatom.RESOURCE_MANAGER, Xatom.STRING, 8, b'Xft.dpi:\t192\n')
         connection.sync()
         try:
@@ -404,14 +463,8 @@ class Panel(Window):
 class Ends(Window):
     def test_close_button(self):
         self.open('still.yaml')
-        from Xlib import X, display
-        from Xlib.protocol import event
-        connection = display.Display(self.display.name)
-        window = connection.create_resource_object('window', int(self.window))
-        window.send_event(event.ClientMessage(window=window, client_type=connection.intern_atom('WM_PROTOCOLS'),
-                                              data=(32, [connection.intern_atom('WM_DELETE_WINDOW'), X.CurrentTime, 0, 0, 0])))
-        connection.sync()
         began = time.monotonic()
+        self.display.press_close_button(self.window)
         self.end()
         self.assertLess(time.monotonic() - began, 2)
 
@@ -422,7 +475,8 @@ class Ends(Window):
         self.assertEqual(self.slosh('replay', 'a.recording', '--quiet'), (0, ''))
 
     def test_a_large_scene_closes_at_once(self):
-        self.open('still.yaml', '--particles', '300000')
+        self.start('still.yaml', '--particles', '300000')
+        time.sleep(0.7)  # in the middle of it
         began = time.monotonic()
         self.process.send_signal(signal.SIGTERM)
         self.process.wait(timeout=60)
@@ -431,9 +485,9 @@ class Ends(Window):
     def test_smallest_size_and_back(self):
         self.open('still.yaml')
         self.xdo('windowsize', self.window, 1, 1)
-        time.sleep(0.5)
+        self.shown(0.4)
         self.xdo('windowsize', self.window, 300, 200)
-        time.sleep(0.5)
+        self.shown(0.4)
         self.keys('F12')
         out = self.quit()
         self.assertEqual(out['size'], [300, 200])
@@ -469,4 +523,4 @@ class Without(CommandTest):
 
 
 if __name__ == '__main__':
-    command.main()
+    command.main('Keys Ends', 'Mouse Shaders Panel Without')

@@ -6,10 +6,10 @@
 static void free_flight_keeps_momenta(void **state)
 {
     (void)state;
-    const double box = fixture_coarse(40, 6);
+    const double box = fixture_coarse(26, 6);
     const int side = fixture_count(12, 8), count = side * side * side;
     const float side_low = (float)fixture_coarse(-2, -1),
-                low[3] = {side_low, (float)fixture_coarse(18, 2), side_low};
+                low[3] = {side_low, (float)fixture_coarse(12, 2), side_low};
     WorldDef def = fixture_def(box, box, box);
     memset(def.gravity, 0, sizeof def.gravity);
     def.spacing = 0.1;
@@ -91,7 +91,7 @@ static void pressed_column(Column column, float *x, double spacing, double sound
 /* rms (p - rho0 g depth) / (rho0 g H) of a column of 44 layers, or of 20. */
 static double column_error(void)
 {
-    const Column column = {fixture_count(10, 4), fixture_count(44, 20)};
+    const Column column = {fixture_count(6, 4), fixture_count(44, 20)};
     const size_t count = (size_t)(column.side * column.side * column.layers);
     WorldDef def = fixture_def(0.1 * column.side, 6, 0.1 * column.side);
     def.sound_speed = fixture_coarse(60, 40); /* ten times sqrt(g H) */
@@ -132,7 +132,7 @@ static void column_at_rest_has_hydrostatic_pressure(void **state)
    spacing, after 1 s: the energy put in gives some 0.7 m/s, and no more may come. */
 static double speed_after_a_jolt(const char *density_kernel)
 {
-    const int side = fixture_count(16, 8), count = side * side * side;
+    const int side = fixture_count(12, 8), count = side * side * side;
     const double pitch = 0.099, width = side * pitch;
     WorldDef def = fixture_def(width, width, width);
     strcpy(def.density_kernel, density_kernel);

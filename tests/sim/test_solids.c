@@ -413,7 +413,7 @@ static PlateFlow plate_flow(const char *method, int slip)
     def.gravity[1] = -1;
     def.sound_speed = 10;
     def.dt = 1.0 / steps;
-    def.substeps = fixture_count(4, 1);
+    def.substeps = fixture_count(2, 1);
     def.fluids[0].viscosity = 100; /* nu = 0.1 m2/s: d = 0.18 m with a period of 1 s */
     fixture_block(&def, 0, -1, 0.1, -1, 1, 0.6, 1);
     SolidDef *plate = &def.solids[def.solid_count++];

@@ -44,8 +44,8 @@ static double drag_brute(const Solver *s, bool morris, int faces, const double d
 {
     const double h = (double)s->support_radius, spacing = (double)s->spacing;
     double sum = 0;
-    for (int n = 0; n < 15 * 15 * 15; n++) {
-        const int index[3] = {n % 15 - 7, n / 15 % 15 - 7, n / 225 - 7};
+    for (int n = 0; n < 11 * 11 * 11; n++) { /* h is at most three spacings, and d at most h */
+        const int index[3] = {n % 11 - 4, n / 11 % 11 - 4, n / 121 - 4};
         double r2 = 0, factor = 0;
         if (s->lattice.dimensions == 2 && index[2] != 0)
             continue;

@@ -344,9 +344,9 @@ static void hydrostatic_column(const WorldDef *def, Column column, float *x, flo
 
 static void column_rests(double diffusion, int steps)
 {
-    enum { MOST = 4400 };
+    enum { MOST = 6 * 6 * 44 };
     static float x[3 * MOST], density[MOST];
-    const Column column = {fixture_count(10, 4), fixture_count(44, 20)};
+    const Column column = {fixture_count(6, 4), fixture_count(44, 20)};
     const size_t count = (size_t)(column.side * column.side * column.layers);
     WorldDef def = fixture_def(0.1 * column.side, 6, 0.1 * column.side);
     strcpy(def.method, "wcsph");
