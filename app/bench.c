@@ -258,7 +258,8 @@ bool bench_measure(const BenchSetup *setup, Progress *progress, double done, dou
         result->substeps = (int)lround((double)samples.steps / samples.frames);
         result->lost = samples.lost;
         result->time = samples.began;
-        ok = figures(&samples, gl_timer_clock_name(stand.timer), result, error);
+        ok = figures(&samples, gl_timer_clock_name(stand.timer), result, error) &&
+             (!stand.draws || studio_count(&stand.studio, stand.world, &result->counts, error));
     }
     samples_destroy(&samples);
     stand_close(&stand);

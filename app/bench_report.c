@@ -27,14 +27,20 @@ void bench_print(const BenchResult *r, FILE *file)
             r->neighbours_mean, r->method, r->backend, threads, r->substeps, r->dt_substep);
     if (r->renderer[0])
         fprintf(file, "view %s, %d x %d, on %s\n", r->view, r->width, r->height, r->renderer);
-    fprintf(file, "  %-12s %-7s %-7s %10s %10s %7s\n", "stage", "part", "clock", "median ms", "p95 ms",
-            "share");
+    if (r->counts.counted)
+        fprintf(file, "  coverage %.1f %% of the picture\n", 100 * r->counts.coverage);
+    fprintf(file, "  %-12s %-7s %-7s %10s %10s %7s%s\n", "stage", "part", "clock", "median ms", "p95 ms",
+            "share", r->counts.counted ? "  fragments a covered pixel" : "");
     for (int s = 0; s < STAGE_COUNT; s++) {
         const StageFigure *figure = &r->stages[s];
-        if (figure->ran)
-            fprintf(file, "  %-12s %-7s %-7s %10.3f %10.3f %6.1f%%\n", stage_name((Stage)s),
-                    part_name(stage_part((Stage)s)), figure->clock, figure->median_ms, figure->p95_ms,
-                    100 * figure->share);
+        if (!figure->ran)
+            continue;
+        fprintf(file, "  %-12s %-7s %-7s %10.3f %10.3f %6.1f%%", stage_name((Stage)s),
+                part_name(stage_part((Stage)s)), figure->clock, figure->median_ms, figure->p95_ms,
+                100 * figure->share);
+        if (r->counts.fragments[s] > 0)
+            fprintf(file, " %10.1f", r->counts.fragments[s]);
+        fputc('\n', file);
     }
     print_parts(r, file);
 }
@@ -44,11 +50,14 @@ static json_t *stages_json(const BenchResult *r)
     json_t *stages = json_array();
     for (int s = 0; s < STAGE_COUNT; s++) {
         const StageFigure *figure = &r->stages[s];
-        if (figure->ran)
-            json_array_append_new(
-                stages, json_pack("{s:s, s:s, s:s, s:f, s:f, s:f}", "name", stage_name((Stage)s), "part",
+        if (!figure->ran)
+            continue;
+        json_t *stage = json_pack("{s:s, s:s, s:s, s:f, s:f, s:f}", "name", stage_name((Stage)s), "part",
                                   part_name(stage_part((Stage)s)), "clock", figure->clock, "median_ms",
-                                  figure->median_ms, "p95_ms", figure->p95_ms, "share", figure->share));
+                                  figure->median_ms, "p95_ms", figure->p95_ms, "share", figure->share);
+        if (r->counts.fragments[s] > 0)
+            json_object_set_new(stage, "fragments", json_real(r->counts.fragments[s]));
+        json_array_append_new(stages, stage);
     }
     return stages;
 }
@@ -71,6 +80,8 @@ static json_t *result_json(const BenchResult *r)
         json && more && sums && json_object_update(json, more) == 0 && json_object_update(json, sums) == 0;
     json_decref(more);
     json_decref(sums);
+    if (ok && r->counts.counted)
+        json_object_set_new(json, "coverage", json_real(r->counts.coverage));
     if (ok)
         return json;
     json_decref(json);

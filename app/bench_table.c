@@ -123,6 +123,16 @@ static int column_count(const Table *table)
     return columns;
 }
 
+/* Coverage, and fragments a covered pixel of the columns that are one counted stage. */
+static void print_counts(const Table *table, const BenchResult *r, FILE *file)
+{
+    fprintf(file, " %8.1f %%", 100 * r->counts.coverage);
+    for (int c = 0; table->columns[c].title; c++)
+        for (unsigned s = 0; s < STAGE_COUNT; s++)
+            if (table->columns[c].stages == BIT(s) && r->counts.fragments[s] > 0)
+                fprintf(file, " %6.1f", r->counts.fragments[s]);
+}
+
 static void print_result(const Table *table, const BenchResult *r, FILE *file)
 {
     double values[TABLE_COLUMNS];
@@ -133,6 +143,8 @@ static void print_result(const Table *table, const BenchResult *r, FILE *file)
     print_values(values, columns, true, file);
     if (table->percent)
         fprintf(file, " %9.1f", r->render_ms > 0 ? 1e3 / r->render_ms : 0);
+    if (r->counts.counted)
+        print_counts(table, r, file);
     fputc('\n', file);
 }
 
@@ -178,7 +190,8 @@ bool table_print(const Table *table, const BenchResult *results, size_t count, F
     fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view", "backend");
     for (int c = 0; table->columns[c].title; c++)
         fprintf(file, " %17s", table->columns[c].title);
-    fprintf(file, " %9s%s\n", "total", table->percent ? "  frames/s" : "");
+    fprintf(file, " %9s%s%s\n", "total", table->percent ? "  frames/s" : "",
+            count > 0 && results[0].counts.counted ? "   coverage  fragments a covered pixel" : "");
     size_t last = 0;
     int group = 0;
     for (size_t i = 0; i < count; i++) {

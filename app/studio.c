@@ -19,19 +19,33 @@ void studio_close(Studio *studio)
     renderer_destroy(studio->renderer);
 }
 
+/* The world's state as the view reads it. */
+static bool take(Studio *studio, World *world, StageClock *clock, GlTimer *timer, ParticleBuffers *particles,
+                 Error *error)
+{
+    bool ok = true;
+    if (world_shares(world))
+        GL_STAGE(timer, STAGE_SCALARS)
+    world_share(world, studio->attributes, particles);
+    else STAGE (clock, STAGE_UPLOAD) ok =
+        upload_write(studio->upload, world, error) && upload_take(studio->upload, particles);
+    return ok;
+}
+
 bool studio_draw(Studio *studio, World *world, StageClock *clock, GlTimer *timer, Error *error)
 {
     ParticleBuffers particles;
-    bool ok = false;
-    if (world_shares(world)) {
-        GL_STAGE(timer, STAGE_SCALARS)
-        world_share(world, studio->attributes, &particles);
-        renderer_draw(studio->renderer, &particles, timer);
-        return true;
-    }
-    STAGE (clock, STAGE_UPLOAD)
-        ok = upload_write(studio->upload, world, error) && upload_take(studio->upload, &particles);
+    const bool ok = take(studio, world, clock, timer, &particles, error);
     if (ok)
         renderer_draw(studio->renderer, &particles, timer);
+    return ok;
+}
+
+bool studio_count(Studio *studio, World *world, ViewCounts *counts, Error *error)
+{
+    ParticleBuffers particles;
+    const bool ok = take(studio, world, NULL, NULL, &particles, error);
+    if (ok)
+        renderer_count(studio->renderer, &particles, counts);
     return ok;
 }

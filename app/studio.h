@@ -24,4 +24,7 @@ void studio_close(Studio *studio); /* a zeroed one is allowed */
  */
 bool studio_draw(Studio *studio, World *world, StageClock *clock, GlTimer *timer, Error *error);
 
+/* Draws it once more and counts what the view's passes do: see render/counts.h. */
+bool studio_count(Studio *studio, World *world, ViewCounts *counts, Error *error);
+
 #endif

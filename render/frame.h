@@ -3,6 +3,7 @@
 #define SLOSH_FRAME_H
 
 #include "render/camera.h"
+#include "render/counts.h"
 #include "render/target.h"
 #include "render/view_def.h"
 #include "sim/gl/particle_buffers.h"
@@ -12,7 +13,8 @@ typedef struct Frame {
     int width, height; /* pixels */
     const ViewDef *def;
     const Target *target;
-    GlTimer *timer; /* NULL: not measured */
+    GlTimer *timer;     /* NULL: not measured */
+    ViewCounts *counts; /* NULL: not counted */
     Camera camera;
     float box_to_world[16];
     float world_to_light[16];  /* orthographic, to 0..1 in the shadow map, 1 nearest to the light */
@@ -41,8 +43,8 @@ typedef struct Frame {
 
 enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
 
-/* Fills all of `frame` but timer, floor_light and plain. `radius` of a particle in spacings where the def
-   says 0; what lies over the left side of the picture, as in Covered. */
+/* Fills all of `frame` but timer, counts, floor_light and plain. `radius` of a particle in spacings where the
+   def says 0; what lies over the left side of the picture, as in Covered. */
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
                 double radius, double covered_left);
 

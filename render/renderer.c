@@ -182,12 +182,13 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
     text_end(renderer->text);
 }
 
-void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)
+static void draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer, ViewCounts *counts)
 {
     Frame frame;
     double radius = renderer->view ? view_kind(renderer->view)->radius : 0;
     frame_make(&frame, &renderer->def, particles, &renderer->target, radius, renderer->covered_left);
     frame.timer = timer;
+    frame.counts = counts;
     frame.plain = renderer->plain;
     frame.floor_light = renderer->shadow.floor_map;
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
@@ -209,6 +210,17 @@ void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer
         view_draw(renderer->view, particles, &frame);
     GL_STAGE(timer, STAGE_OVERLAY)
     draw_overlays(renderer, particles, &frame);
+}
+
+void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)
+{
+    draw(renderer, particles, timer, NULL);
+}
+
+void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts)
+{
+    *counts = (ViewCounts){0};
+    draw(renderer, particles, NULL, counts);
 }
 
 void renderer_read(const Renderer *renderer, uint8_t *rgb)

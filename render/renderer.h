@@ -5,6 +5,7 @@
 #ifndef SLOSH_RENDERER_H
 #define SLOSH_RENDERER_H
 
+#include "render/counts.h"
 #include "render/view_def.h"
 #include "sim/error.h"
 #include "sim/gl/particle_buffers.h"
@@ -32,6 +33,9 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
 /* Draws one state into the renderer's own target; stages go to `timer` (NULL: not measured). Does not wait.
  */
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
+
+/* The same, and what the view says of its passes: waits for them. `counts` is all 0 where it says nothing. */
+void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts);
 
 /* The picture: 3 * width * height bytes of sRGB, rows from the top down. Waits for the drawing. */
 void renderer_read(const Renderer *renderer, uint8_t *rgb);

@@ -173,7 +173,9 @@ static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuf
                      sprite == SPLAT_POINT ? 1 : 6, hidden);
     glClearNamedFramebufferfv(splat->maps.nearest_framebuffer, GL_COLOR, 0, (GLfloat[4]){SPLAT_NOTHING});
     splat_sprites_begin(splat->maps.nearest_framebuffer, frame, GL_MIN);
+    counts_begin(frame->counts);
     draw_sprites(splat, sprite, splat->depth[sprite], particles, frame, CULL_NEAREST);
+    counts_end(frame->counts, STAGE_VISIBILITY);
     if (splat_level_wanted(&splat->def))
         splat_level_find(&splat->level, &splat->maps, &splat->sprites, sprite, particles, frame);
 }
@@ -212,7 +214,9 @@ static void blend_attributes(SplatView *splat, SplatSprite sprite, const Particl
                        level ? splat_level_gain_of(frame, particles) : eps_of(frame));
     glBindTextureUnit(1, splat->maps.nearest);
     glBindTextureUnit(2, splat->colormap);
+    counts_begin(frame->counts);
     draw_sprites(splat, sprite, splat->blend[sprite], particles, frame, CULL_BLEND);
+    counts_end(frame->counts, STAGE_BLEND);
     glDisable(GL_BLEND);
 }
 
@@ -234,6 +238,9 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
         }
     GL_STAGE(frame->timer, STAGE_SHADE)
     splat_shade_draw(&splat->shade, &splat->maps, splat->thickness.map, frame, particles->box_size);
+    if (frame->counts)
+        counts_finish(frame->counts, splat_maps_covered(&splat->maps, frame->target),
+                      (uint64_t)frame->width * (uint64_t)frame->height);
 }
 
 const ViewKind view_splat = {

@@ -3,6 +3,7 @@
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
+#include <stdlib.h>
 
 void splat_maps_delete(SplatMaps *maps)
 {
@@ -50,4 +51,18 @@ void splat_maps_follow(SplatMaps *maps, const Target *target)
     maps->limit = splat_map_create(GL_DEPTH_COMPONENT32F, target, "splat limit");
     glNamedFramebufferTexture(maps->blend_framebuffer, GL_DEPTH_ATTACHMENT, maps->limit, 0);
     maps->target_number = target->number;
+}
+
+uint64_t splat_maps_covered(const SplatMaps *maps, const Target *target)
+{
+    const size_t pixels = (size_t)target->width * (size_t)target->height;
+    uint64_t covered = 0;
+    float *weight = malloc(pixels * sizeof *weight);
+    if (!weight)
+        return 0;
+    glGetTextureImage(maps->weight, 0, GL_RED, GL_FLOAT, (GLsizei)(pixels * sizeof *weight), weight);
+    for (size_t i = 0; i < pixels; i++)
+        covered += weight[i] > 0;
+    free(weight);
+    return covered;
 }

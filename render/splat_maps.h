@@ -4,6 +4,8 @@
 
 #include "render/target.h"
 
+#include <stdint.h>
+
 /* What the passes leave for the next: textures as large as the target. */
 typedef struct SplatMaps {
     unsigned target_number; /* of the target that they were made for */
@@ -24,6 +26,9 @@ typedef struct SplatMaps {
 void splat_maps_follow(SplatMaps *maps, const Target *target);
 
 void splat_maps_delete(SplatMaps *maps);
+
+/* Pixels with a weight, as shading finds them. Waits for the drawing. */
+uint64_t splat_maps_covered(const SplatMaps *maps, const Target *target);
 
 /* A texture as large as the target, read by its nearest texel; the caller deletes it. */
 unsigned splat_map_create(unsigned format, const Target *target, const char *label);

@@ -49,10 +49,15 @@ static void expect(const char *text, const char *label, const char *row)
 static void shares_of_passes(void **state)
 {
     (void)state;
-    const BenchResult results[] = {made_up(17640, "splat", "cpu"), made_up(109744, "splat", "cpu")};
+    BenchResult results[] = {made_up(17640, "splat", "cpu"), made_up(109744, "splat", "cpu")};
+    results[1].counts = (ViewCounts){.counted = true, .coverage = 0.125};
+    results[1].counts.fragments[STAGE_VISIBILITY] = 7.5;
+    results[1].counts.fragments[STAGE_BLEND] = 2.5;
     char *text = printed("paper002-passes", results, 2);
     expect(text, "Beethoven, published", "18000 splat Beethoven, published 25.0 % 45.0 % 30.0 % 47.0");
     expect(text, "17640", "17640 1 splat cpu 10.000 25.0 % 25.000 62.5 % 5.000 12.5 % 40.000 20.0");
+    expect(text, "109744",
+           "109744 1 splat cpu 10.000 25.0 % 25.000 62.5 % 5.000 12.5 % 40.000 20.0 12.5 % 7.5 2.5");
     free(text);
 }
 

@@ -60,6 +60,17 @@ class Bench(Case):
         self.assertIsNone(result["renderer"])
         self.assertAlmostEqual(result["dt"], result["dt_substep"] * result["substeps"], places=9)
 
+    def test_splat_tells_coverage_and_fragments(self):
+        done = self.slosh_out("bench", SCENE, "--json", "b.json", "--frames", "2", "--size", "160x120",
+                              "--view", "splat", "--set", "view.legend=false")
+        (result,) = json.loads(self.read("b.json"))
+        self.assertEqual(list(result), FIELDS + ["coverage"])
+        self.assertTrue(0.1 < result["coverage"] < 1, result["coverage"])
+        fragments = {stage["name"]: stage["fragments"] for stage in result["stages"] if "fragments" in stage}
+        self.assertEqual(list(fragments), ["visibility", "blend"])
+        self.assertGreater(min(fragments.values()), 1)
+        self.assertIn(f"coverage {100 * result['coverage']:.1f} % of the picture", done.stdout)
+
     def test_query_clock_is_named(self):
         (result,) = self.bench("--clock", "gl", "--size", "64x64")
         self.assertEqual({s["clock"] for s in result["stages"] if s["part"] == "render"}, {"gl"})
