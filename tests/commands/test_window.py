@@ -60,12 +60,14 @@ class Display:
     def press_close_button(self, window):
         self.tell(window, 'WM_DELETE_WINDOW', X.CurrentTime)
 
-    def colors(self, window):
-        """How many are in its picture, of which a part may lie beside the screen."""
+    def picture(self, window):
+        """Its pixels, as far as they lie on the screen."""
         drawn = self.connection.create_resource_object('window', window)
         size = drawn.get_geometry()
-        picture = drawn.get_image(0, 0, min(size.width, WIDTH), min(size.height, HEIGHT), X.ZPixmap, 0xffffffff)
-        return len(set(memoryview(picture.data).cast('I')))
+        return drawn.get_image(0, 0, min(size.width, WIDTH), min(size.height, HEIGHT), X.ZPixmap, 0xffffffff).data
+
+    def colors(self, window):
+        return len(set(memoryview(self.picture(window)).cast('I')))
 
     def ping(self, window):
         """The window answers when it has taken all events that were sent before, between two pictures."""
@@ -415,6 +417,7 @@ class Shaders(Window):
 class Panel(Window):
     def open(self, *arguments):
         super().open('still.yaml', *arguments, size=(760, 560))
+        time.sleep(0.7)
         self.keys('p')
         time.sleep(0.3)
 
