@@ -168,14 +168,18 @@ static void collect(Play *play, float pictures[METER_HISTORY], PanelData *data)
     data->scalar_range[1] = view->range_auto ? play->particles.scalar_max[view->color_by] : view->range[1];
 }
 
-/* What is held stays, what has come once has been seen. */
-static void input_seen(PlayUi *ui)
+/* What is held stays, what has come once has been seen. Whether something was let go, which the next picture
+   sees first. */
+static bool input_seen(PlayUi *ui)
 {
+    const bool let_go = memcmp(ui->input.button, ui->buttons_down, sizeof ui->input.button) != 0 ||
+                        ui->input.keys != ui->keys_down;
     memcpy(ui->input.button, ui->buttons_down, sizeof ui->input.button);
     ui->input.keys = ui->keys_down;
     ui->input.wheel = 0;
     memset(ui->input.text, 0, sizeof ui->input.text);
     ui->input.changed = false;
+    return let_go;
 }
 
 double play_covered_left(const Play *play)
@@ -204,7 +208,7 @@ void play_panel_draw(Play *play)
             panel_draw(ui->panel, ui->ui, play->width, play->height, &data, &events);
         if (play->help)
             panel_help_draw(ui->ui, play->width, play->height);
-        input_seen(ui);
+        play->dirty |= input_seen(ui);
     }
     ui_end(ui->ui);
     play->panel_ms += thread_cpu_ms() - began;

@@ -432,6 +432,13 @@ class Panel(Window):
         out = self.quit()
         self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (True, True, True))
 
+    def test_a_click_counts_while_nothing_moves(self):
+        self.open()
+        self.keys('space')
+        time.sleep(0.3)
+        self.drag(1, [(44, 146), (44, 146)])  # goes on
+        self.assertFalse(self.quit()['paused'])
+
     def test_hidden_it_takes_nothing(self):
         self.open()
         self.keys('F2')
