@@ -96,6 +96,11 @@ const char *splat_shading_choice(int index)
     return index <= SPLAT_JELLY ? splat_shading_names[index] : NULL;
 }
 
+const char *splat_filter_choice(int index)
+{
+    return index <= SPLAT_NARROW_RANGE ? splat_filter_names[index] : NULL;
+}
+
 const char *step_mode_choice(int index)
 {
     static const char *const modes[] = {[STEP_FIXED] = "fixed", [STEP_CFL] = "cfl"};

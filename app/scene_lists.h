@@ -16,6 +16,7 @@ const char *splat_shape_choice(int index);
 const char *splat_sprite_choice(int index);
 const char *splat_show_choice(int index);
 const char *splat_shading_choice(int index);
+const char *splat_filter_choice(int index);
 const char *step_mode_choice(int index);
 
 /* Defaults of a list's element, which is zeroed: `index` is its place. */

@@ -1,6 +1,7 @@
 #include "render/splat.h"
 
 #include "render/colormap.h"
+#include "render/narrow_range.h"
 #include "render/shadow.h"
 #include "render/splat_level.h"
 #include "render/splat_shade.h"
@@ -21,6 +22,8 @@ typedef struct SplatView {
     Ellipsoids ellipsoids;
     SplatMaps maps;
     Thickness thickness; /* where the shading wants it */
+    NarrowRange filter;  /* where the def has it */
+    SplatMaps shown;     /* what is shaded: maps, or what the filter made of them */
     SplatShade shade;
     SplatLevel level; /* where splat_level_wanted */
 } SplatView;
@@ -40,6 +43,11 @@ unsigned splat_thickness_map(const void *state)
     return ((const SplatView *)state)->thickness.map;
 }
 
+const SplatMaps *splat_shown_maps(const void *state)
+{
+    return &((const SplatView *)state)->shown;
+}
+
 static void splat_destroy(void *state)
 {
     SplatView *splat = state;
@@ -53,6 +61,7 @@ static void splat_destroy(void *state)
     glDeleteTextures(1, &splat->colormap);
     splat_level_destroy(&splat->level);
     splat_maps_delete(&splat->maps);
+    narrow_range_destroy(&splat->filter);
     splat_sprites_destroy(&splat->sprites);
     ellipsoids_destroy(&splat->ellipsoids);
     thickness_destroy(&splat->thickness);
@@ -121,7 +130,8 @@ static void *splat_create(const ViewDef *def, Error *error)
     if (splat->colormap && splat_sprites_create(&splat->sprites, &def->splat, error) &&
         ellipsoids_create(&splat->ellipsoids, &def->splat, error) && create_programs(splat, error) &&
         (!splat_level_wanted(&splat->def) || splat_level_create(&splat->level, &splat->sprites, error)) &&
-        create_shading(splat, def, error))
+        create_shading(splat, def, error) &&
+        (splat->def.filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, error)))
         return splat;
     splat_destroy(splat);
     return NULL;
@@ -236,8 +246,14 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
         {
             thickness_draw(&splat->thickness, &splat->sprites, particles, frame);
         }
+    splat->shown = splat->maps;
+    if (splat->def.filter == SPLAT_NARROW_RANGE)
+        GL_STAGE(frame->timer, STAGE_FILTER)
+        {
+            splat->shown = narrow_range_draw(&splat->filter, &splat->maps, frame);
+        }
     GL_STAGE(frame->timer, STAGE_SHADE)
-    splat_shade_draw(&splat->shade, &splat->maps, splat->thickness.map, frame, particles->box_size);
+    splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, frame, particles->box_size);
     if (frame->counts)
         counts_finish(frame->counts, splat_maps_covered(&splat->maps, frame->target),
                       (uint64_t)frame->width * (uint64_t)frame->height);

@@ -15,4 +15,7 @@ const SplatMaps *splat_maps(const void *state);
 const Ellipsoids *splat_ellipsoids(const void *state);
 unsigned splat_thickness_map(const void *state); /* see render/thickness.h; 0 where the shading wants none */
 
+/* Those that were shaded: the filter's depth and normals, where there is one. */
+const SplatMaps *splat_shown_maps(const void *state);
+
 #endif

@@ -12,14 +12,23 @@ const char *const splat_show_names[] = {
 const char *const splat_shading_names[] = {
     [SPLAT_PHONG] = "phong", [SPLAT_WATER] = "water", [SPLAT_JELLY] = "jelly"};
 
+const char *const splat_filter_names[] = {[SPLAT_NO_FILTER] = "none", [SPLAT_NARROW_RANGE] = "narrow_range"};
+
 SplatDef splat_def_default(void)
 {
-    return (SplatDef){.eps = 1.5, .weights = SPLAT_W1W2, .cull = true, .drops = true, .ior = 1.333};
+    return (SplatDef){.eps = 1.5,
+                      .weights = SPLAT_W1W2,
+                      .cull = true,
+                      .drops = true,
+                      .ior = 1.333,
+                      .filter_size = 4,
+                      .filter_range = 3,
+                      .filter_iterations = 2};
 }
 
 bool splat_same_kind(const SplatDef *a, const SplatDef *b)
 {
     return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
            a->cull == b->cull && a->drops == b->drops && a->shading == b->shading &&
-           (a->level > 0) == (b->level > 0);
+           (a->level > 0) == (b->level > 0) && a->filter == b->filter;
 }

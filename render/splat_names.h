@@ -10,6 +10,7 @@ extern const char *const splat_shape_names[];
 extern const char *const splat_sprite_names[];
 extern const char *const splat_show_names[];
 extern const char *const splat_shading_names[];
+extern const char *const splat_filter_names[];
 
 SplatDef splat_def_default(void);
 

@@ -27,6 +27,8 @@ typedef enum SplatShow {
     SPLAT_CULLED
 } SplatShow;
 
+typedef enum SplatFilter { SPLAT_NO_FILTER, SPLAT_NARROW_RANGE } SplatFilter;
+
 typedef struct SplatDef {
     double eps; /* how far below the surface spheres still blend, in radii */
     SplatWeights weights;
@@ -40,6 +42,10 @@ typedef struct SplatDef {
     double attenuation; /* through which white light becomes the fluid's colour, m; 0: a fifth of the
                                     box's longest side */
     double level;       /* of the field that is the surface, 0 .. 1; 0: the union of the spheres */
+    SplatFilter filter;
+    double filter_size;    /* half the kernel's width, in radii */
+    double filter_range;   /* depths farther apart are two surfaces, in radii */
+    int filter_iterations; /* of one pass along x and one along y */
 } SplatDef;
 
 typedef struct ViewDef {

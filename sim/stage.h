@@ -20,6 +20,7 @@
     X(VISIBILITY, "visibility", PART_RENDER)                                                                 \
     X(BLEND, "blend", PART_RENDER)                                                                           \
     X(THICKNESS, "thickness", PART_RENDER)                                                                   \
+    X(FILTER, "filter", PART_RENDER)                                                                         \
     X(SHADE, "shade", PART_RENDER)                                                                           \
     X(BACKDROP, "backdrop", PART_RENDER)                                                                     \
     X(OVERLAY, "overlay", PART_RENDER)

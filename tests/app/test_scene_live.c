@@ -74,6 +74,8 @@ static void each_type_reaches_its_field(void **state)
     assert_true(scene.view.splat.shape == SPLAT_ELLIPSOID && !scene.view.splat.drops);
     assert_false(set("view.splat.level=0.15"));
     assert_true(scene.view.splat.level == 0.15);
+    assert_false(set("view.splat.filter=narrow_range") || set("view.splat.filter_size=6"));
+    assert_true(scene.view.splat.filter == SPLAT_NARROW_RANGE && scene.view.splat.filter_size == 6);
     assert_false(set("view.camera.from=[1, 2, 3]"));
     assert_true(scene.view.camera.from[2] == 3 && !scene.view.camera_auto);
     assert_true(scene_set_live(&scene, "view.legend=false", NULL, &error) && !scene.view.legend);
@@ -151,6 +153,8 @@ static void messages_are_those_of_set(void **state)
         "view.splat.eps=0",
         "view.splat.weights=w2",
         "view.splat.level=1.5",
+        "view.splat.filter=bilateral",
+        "view.splat.filter_iterations=0",
         "solver.step.dt=0",
         "solver.sound_speed=a",
         "view.radius=11",

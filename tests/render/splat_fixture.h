@@ -27,6 +27,7 @@ typedef struct SplatScene {
 typedef struct SplatPixel {
     double depth; /* m; 1e30 where nothing is */
     double color[3], normal[3], weight;
+    double shown_depth, shown_normal[3]; /* what is shaded: after a filter, if there is one */
     double slope; /* of the nearest sphere's depth there: 1 / sqrt(1 - rho^2), by which rounding grows */
     bool unsure;  /* so near a rim or a limit that rounding decides */
 } SplatPixel;
@@ -86,6 +87,19 @@ static inline void read_shapes(const Ellipsoids *ellipsoids, size_t count)
                                 splat_shapes);
 }
 
+static inline void read_shown(const SplatMaps *maps, SplatPixel *pixels, int count)
+{
+    float *depth = read_map(maps->nearest, GL_RED, count, 1),
+          *normal = read_map(maps->normal, GL_RGB, count, 3);
+    for (int i = 0; i < count; i++) {
+        pixels[i].shown_depth = depth[i];
+        for (int k = 0; k < 3; k++)
+            pixels[i].shown_normal[k] = normal[3 * i + k];
+    }
+    free(depth);
+    free(normal);
+}
+
 /* The view after it drew a scene into a target of its own; splat_close ends it. */
 typedef struct SplatDrawing {
     void *view;
@@ -138,6 +152,7 @@ static inline SplatPixel *splat_read(const SplatScene *scene, const SplatDrawing
     read_depth(splat_maps(drawing->view), pixels, count);
     read_sums(splat_maps(drawing->view), pixels, count);
     read_shapes(splat_ellipsoids(drawing->view), scene->empty ? 0 : scene->particles->count);
+    read_shown(splat_shown_maps(drawing->view), pixels, count);
     return pixels;
 }
 

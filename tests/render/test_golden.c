@@ -177,7 +177,18 @@ static void test_splat_w1(void **state)
     Golden golden = golden_create("splat_w1", 160, 120);
     text_set(golden.def.kind, "splat");
     golden.def.color_by = SCALAR_FLUID;
-    golden.def.splat = (SplatDef){.eps = 0.25, .weights = SPLAT_W1, .shape = SPLAT_PAPER, .cull = true};
+    golden.def.splat.eps = 0.25, golden.def.splat.weights = SPLAT_W1;
+    golden.def.splat.shape = SPLAT_PAPER;
+    check(&golden);
+}
+
+static void test_splat_narrow_range(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("splat_narrow_range", 160, 120);
+    text_set(golden.def.kind, "splat");
+    golden.def.color_by = SCALAR_FLUID;
+    golden.def.splat.filter = SPLAT_NARROW_RANGE;
     check(&golden);
 }
 
@@ -250,6 +261,7 @@ int main(void)
         cmocka_unit_test_teardown(test_splat_water, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_jelly, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_level, no_gl_errors),
+        cmocka_unit_test_teardown(test_splat_narrow_range, no_gl_errors),
         cmocka_unit_test_teardown(test_difference_is_seen, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

@@ -225,7 +225,7 @@ static void settings_are_live(void **state)
 {
     (void)state;
     static uint8_t first[3 * PIXELS], other[3 * PIXELS];
-    enum { OTHERS = 14 };
+    enum { OTHERS = 15 };
     SplatDef others[OTHERS];
     Scene scene = splat_among_solids();
     particles_add(scene.particles, -0.15, 0.7, 0, 1, 0);
@@ -249,6 +249,7 @@ static void settings_are_live(void **state)
     others[11].attenuation = 0.05;
     others[12].shape = SPLAT_ELLIPSOID;
     others[13].drops = true;
+    others[14].filter = SPLAT_NARROW_RANGE;
     for (int i = 0; i < OTHERS; i++) {
         scene.def.splat = others[i];
         change(renderer, &scene, other);

@@ -1,0 +1,77 @@
+// One pass of the filter of render/narrow_range.h: along one axis, or with CLEAN over 5 x 5 pixels. Pairs of opposite
+// neighbours go from the middle outwards; a pair of which one is out of the picture is left out.
+#include "common/frame.glsl"
+
+layout(binding = 1) uniform sampler2D depth_map;
+layout(location = 1) uniform vec3 filter_size; // half the kernel's width at a depth of 1 m, pixels; range, m; radius, m
+layout(location = 2) uniform ivec2 along;      // the axis
+layout(location = 0) out float filtered;
+
+// Of a neighbour t = middle / z - 1, by how much it is nearer: linear on the screen where the surface is a plane.
+float nearness(float middle, ivec2 pixel)
+{
+    float z = texelFetch(depth_map, pixel, 0).x;
+    return z < 1e29 ? (middle - z) / z : -1e9;
+}
+
+// What counts of t; what lies between `limits` does, and widens them. False: nothing, it is another surface before this one.
+bool admit(inout float t, inout vec2 limits, float range, float clamped)
+{
+    if (t > limits.y)
+        return false;
+    if (t < limits.x)
+        t = clamped;
+    else
+        limits = vec2(min(limits.x, t - range), max(limits.y, t + range));
+    return true;
+}
+
+// Sums of weight t and of weight; of a constant depth the first is exactly 0.
+#ifdef CLEAN
+const ivec2 steps[12] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1), ivec2(2, 0), ivec2(0, 2), ivec2(2, 1),
+                                ivec2(2, -1), ivec2(1, 2), ivec2(-1, 2), ivec2(2, 2), ivec2(2, -2));
+
+vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
+{
+    float range = filter_size.y / middle, clamped = -filter_size.z / (middle + filter_size.z);
+    vec2 limits = vec2(-range, range), sums = vec2(0.0, 1.0);
+    for (int i = 0; i < 12; i++) {
+        ivec2 offset = steps[i];
+        if (any(greaterThan(abs(offset), room)))
+            continue;
+        float one = nearness(middle, pixel + offset), other = nearness(middle, pixel - offset);
+        float w = 1.0 - float(offset.x * offset.x + offset.y * offset.y) / 9.0;
+        bool first = admit(one, limits, range, clamped), second = admit(other, limits, range, clamped);
+        if (first && second)
+            sums += w * w * w * vec2(one + other, 2.0);
+    }
+    return sums;
+}
+#else
+vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
+{
+    float range = filter_size.y / middle, clamped = -filter_size.z / (middle + filter_size.z);
+    vec2 ahead = vec2(-range, range), back = ahead, sums = vec2(0.0, 1.0);
+    float reach = filter_size.x / middle, stride = max(ceil(reach / float(TAPS)), 1.0);
+    int taps = min(int(ceil(reach / stride)) - 1, (along.x != 0 ? room.x : room.y) / int(stride));
+    for (int i = 1; i <= taps; i++) {
+        ivec2 offset = i * int(stride) * along;
+        float one = nearness(middle, pixel + offset), other = nearness(middle, pixel - offset);
+        float q = float(i) * stride / reach, w = 1.0 - q * q;
+        bool first = admit(one, ahead, range, clamped), second = admit(other, back, range, clamped);
+        if (first && second)
+            sums += w * w * w * vec2(one + other, 2.0);
+    }
+    return sums;
+}
+#endif
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float middle = texelFetch(depth_map, pixel, 0).x;
+    vec2 sums = vec2(0.0, 1.0);
+    if (middle < 1e29)
+        sums = sum_up(middle, pixel, min(pixel, ivec2(viewport.xy) - 1 - pixel));
+    filtered = middle / (1.0 + sums.x / sums.y);
+}

@@ -1,0 +1,44 @@
+// Normals of a map of depths, for render/narrow_range.c. Of the plane n.P = d the points are P = z (x, y, -1), so
+// 1 / z = (n.x x + n.y y - n.z) / d is linear on the screen, and its slopes there give n.
+#include "common/frame.glsl"
+
+layout(binding = 1) uniform sampler2D depth_map;
+layout(binding = 6) uniform sampler2D normal_map;
+layout(location = 1) uniform float edge; // m: from there on a step that is not the surface's slope
+layout(location = 0) out vec4 normal;
+
+// Of 1 / z per pixel along an axis, and the step: next to the picture's border and beyond it as on the other side.
+vec4 steps_along(ivec2 pixel, float z, ivec2 along)
+{
+    bvec2 inside = bvec2(all(greaterThanEqual(pixel, along)), all(lessThan(pixel + along, ivec2(viewport.xy))));
+    vec2 sides = vec2(inside.x ? texelFetch(depth_map, pixel - along, 0).x : z,
+                      inside.y ? texelFetch(depth_map, pixel + along, 0).x : z);
+    vec4 steps = vec4(vec2(sides.x - z, z - sides.y) / (z * sides), abs(sides - z));
+    return inside.x && inside.y ? steps : inside.x ? steps.xxzz : steps.yyww;
+}
+
+// Both sides' mean, or at an edge, where they differ, that of the smaller step; false where that is one too.
+bool slope_along(ivec2 pixel, float z, ivec2 along, out float slope)
+{
+    vec4 steps = steps_along(pixel, z, along);
+    bool even = abs(steps.x - steps.y) * z * z < edge;
+    slope = even ? 0.5 * (steps.x + steps.y) : steps.z < steps.w ? steps.x : steps.y;
+    return even || min(steps.z, steps.w) < edge;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float z = texelFetch(depth_map, pixel, 0).x;
+    vec2 slopes;
+    if (!(z < 1e29)) {
+        normal = vec4(0.0);
+    } else if (slope_along(pixel, z, ivec2(1, 0), slopes.x) && slope_along(pixel, z, ivec2(0, 1), slopes.y)) {
+        slopes *= 0.5 * viewport.xy / lens.xy;
+        vec2 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)).xy;
+        normal = vec4(normalize(vec3(-slopes, 1.0 / z - dot(ray, slopes))), 0.0);
+    } else { // a thread or a drop of one pixel: as blended
+        vec3 blended = texelFetch(normal_map, pixel, 0).xyz;
+        normal = dot(blended, blended) > 0.0 ? vec4(normalize(blended), 0.0) : vec4(0.0);
+    }
+}
