@@ -264,6 +264,7 @@ static const Key keys[] = {
     NUMBER("view.splat.filter_range", L | O, "radii", 0, 100, VIEW(splat.filter_range),
            "the filter takes what lies farther in front or behind for another surface"),
     INTEGER("view.splat.filter_iterations", L, 1, 20, VIEW(splat.filter_iterations), "how often the filter runs"),
+    BOOLEAN("view.splat.antialias", L, VIEW(splat.antialias), "smooth outlines, and spheres smaller than pixels"),
     BOOLEAN("view.legend", L, VIEW(legend), "draw the legend"),
     BOOLEAN("view.box", L, VIEW(box), "draw the box's edges"),
     BOOLEAN("view.floor", L, VIEW(floor), "draw the floor below the box"),

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6 };
+enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6, SMALL_MOST = 2 };
 
 /* A coarse map: see `grid` and `projection` in shaders/common/cull.glsl. */
 typedef struct Grid {
@@ -22,7 +22,7 @@ static GLuint compile(const char *label, const char *file, const char *defines, 
 
 static bool create_programs(Cull *cull, const char *body, Error *error)
 {
-    char light[64];
+    char light[96];
     snprintf(light, sizeof light, "#define LIGHT 1\n%s", body);
     const char *defines[] = {body, light};
     for (int i = 0; i < 2; i++) {
@@ -209,7 +209,7 @@ static Grid eye_grid(const Frame *frame)
     const double slant =
         1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]; /* spheres at the rim are wider */
     return make_grid(frame->width, frame->height, pixels_across(frame, frame->farthest) * sqrt(0.5),
-                     pixels_across(frame, frame->nearest + frame->particle_radius) * slant);
+                     fmax(pixels_across(frame, frame->nearest + frame->particle_radius) * slant, SMALL_MOST));
 }
 
 void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *frame, float eps,

@@ -187,15 +187,21 @@ void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particl
     frame->by_fluid = def->color_by == SCALAR_FLUID || !particles->scalar[def->color_by].buffer;
 }
 
+void frame_bounds(const Frame *frame, int part[4])
+{
+    const float size[2] = {(float)frame->width, (float)frame->height};
+    for (int k = 0; k < 2; k++) {
+        part[k] = (int)floorf((0.5F + 0.5F * frame->bounds[2 * k]) * size[k]);
+        part[2 + k] = (int)ceilf((0.5F + 0.5F * frame->bounds[2 * k + 1]) * size[k]);
+    }
+}
+
 void frame_cut_to_bounds(const Frame *frame)
 {
-    const float *bounds = frame->bounds, width = (float)frame->width, height = (float)frame->height;
-    int x0 = (int)floorf((0.5F + 0.5F * bounds[0]) * width),
-        x1 = (int)ceilf((0.5F + 0.5F * bounds[1]) * width);
-    int y0 = (int)floorf((0.5F + 0.5F * bounds[2]) * height),
-        y1 = (int)ceilf((0.5F + 0.5F * bounds[3]) * height);
+    int part[4];
+    frame_bounds(frame, part);
     glEnable(GL_SCISSOR_TEST);
-    glScissor(x0, y0, x1 - x0, y1 - y0);
+    glScissor(part[0], part[1], part[2] - part[0], part[3] - part[1]);
 }
 
 unsigned frame_uniforms_create(void)

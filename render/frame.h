@@ -48,6 +48,9 @@ enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
                 double radius, double covered_left);
 
+/* frame->bounds in pixels: x0 y0 x1 y1. */
+void frame_bounds(const Frame *frame, int part[4]);
+
 /* Sets the scissor to frame->bounds. The caller ends it. */
 void frame_cut_to_bounds(const Frame *frame);
 

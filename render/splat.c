@@ -3,6 +3,7 @@
 #include "render/colormap.h"
 #include "render/narrow_range.h"
 #include "render/shadow.h"
+#include "render/silhouette.h"
 #include "render/splat_level.h"
 #include "render/splat_shade.h"
 #include "render/splat_sprites.h"
@@ -25,7 +26,8 @@ typedef struct SplatView {
     NarrowRange filter;  /* where the def has it */
     SplatMaps shown;     /* what is shaded: maps, or what the filter made of them */
     SplatShade shade;
-    SplatLevel level; /* where splat_level_wanted */
+    SplatLevel level;      /* where splat_level_wanted */
+    Silhouette silhouette; /* where it smooths outlines */
 } SplatView;
 
 const SplatMaps *splat_maps(const void *state)
@@ -62,6 +64,7 @@ static void splat_destroy(void *state)
     splat_level_destroy(&splat->level);
     splat_maps_delete(&splat->maps);
     narrow_range_destroy(&splat->filter);
+    silhouette_destroy(&splat->silhouette);
     splat_sprites_destroy(&splat->sprites);
     ellipsoids_destroy(&splat->ellipsoids);
     thickness_destroy(&splat->thickness);
@@ -71,13 +74,14 @@ static void splat_destroy(void *state)
 
 static bool create_sprites(SplatView *splat, SplatSprite sprite, Error *error)
 {
-    char blend[64];
+    char blend[96];
     const char *const file =
         splat_level_wanted(&splat->def) ? "render/splat_level_blend.frag" : "render/splat_blend.frag";
+    const char *const discs = silhouette_by_discs(&splat->def) ? "#define DISCS 1\n" : "";
     const bool listed = splat_culls(&splat->def);
-    snprintf(blend, sizeof blend, "#define BLEND 1\n#define WEIGHTS %d\n", (int)splat->def.weights);
+    snprintf(blend, sizeof blend, "#define BLEND 1\n#define WEIGHTS %d\n%s", (int)splat->def.weights, discs);
     splat->depth[sprite] =
-        splat_sprites_program(&splat->sprites, sprite, listed, "render/splat_depth.frag", "", error);
+        splat_sprites_program(&splat->sprites, sprite, listed, "render/splat_depth.frag", discs, error);
     if (splat->depth[sprite])
         splat->blend[sprite] = splat_sprites_program(&splat->sprites, sprite, listed, file, blend, error);
     return splat->blend[sprite] != 0;
@@ -116,6 +120,16 @@ static bool create_shading(SplatView *splat, const ViewDef *def, Error *error)
     return splat_shade_create(&splat->shade, def, error);
 }
 
+/* Those that only some settings have, and shading. */
+static bool create_passes(SplatView *splat, const ViewDef *def, Error *error)
+{
+    const SplatDef *own = &splat->def;
+    return (!splat_level_wanted(own) || splat_level_create(&splat->level, &splat->sprites, error)) &&
+           (own->filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, error)) &&
+           (!silhouette_wanted(own) || silhouette_create(&splat->silhouette, def, error)) &&
+           create_shading(splat, def, error);
+}
+
 static void *splat_create(const ViewDef *def, Error *error)
 {
     SplatView *splat = calloc(1, sizeof *splat);
@@ -129,9 +143,7 @@ static void *splat_create(const ViewDef *def, Error *error)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     if (splat->colormap && splat_sprites_create(&splat->sprites, &def->splat, error) &&
         ellipsoids_create(&splat->ellipsoids, &def->splat, error) && create_programs(splat, error) &&
-        (!splat_level_wanted(&splat->def) || splat_level_create(&splat->level, &splat->sprites, error)) &&
-        create_shading(splat, def, error) &&
-        (splat->def.filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, error)))
+        create_passes(splat, def, error))
         return splat;
     splat_destroy(splat);
     return NULL;
@@ -235,7 +247,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
     SplatView *splat = state;
     const SplatSprite sprite =
         splat_sprites_choose(&splat->sprites, frame, frame->particle_reach, (float)frame->height);
-    splat_maps_follow(&splat->maps, frame->target);
+    splat_maps_follow(&splat->maps, frame->target, silhouette_by_discs(&splat->def));
     ellipsoids_bind(&splat->ellipsoids);
     GL_STAGE(frame->timer, STAGE_VISIBILITY)
     find_nearest(splat, sprite, particles, frame);
@@ -254,6 +266,11 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
         }
     GL_STAGE(frame->timer, STAGE_SHADE)
     splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, frame, particles->box_size);
+    if (silhouette_wanted(&splat->def))
+        GL_STAGE(frame->timer, STAGE_ANTIALIAS)
+        {
+            silhouette_draw(&splat->silhouette, &splat->maps, splat->shown.nearest, eps_of(frame), frame);
+        }
     if (frame->counts)
         counts_finish(frame->counts, splat_maps_covered(&splat->maps, frame->target),
                       (uint64_t)frame->width * (uint64_t)frame->height);

@@ -35,7 +35,7 @@ unsigned splat_framebuffer_create(const unsigned *maps, int count, const char *l
     return framebuffer;
 }
 
-void splat_maps_follow(SplatMaps *maps, const Target *target)
+void splat_maps_follow(SplatMaps *maps, const Target *target, bool covers)
 {
     if (maps->target_number == target->number)
         return;
@@ -44,7 +44,7 @@ void splat_maps_follow(SplatMaps *maps, const Target *target)
     maps->nearest = splat_map_create(GL_R32F, target, "splat nearest");
     maps->color = splat_map_create(sums, target, "splat color");
     maps->normal = splat_map_create(sums, target, "splat normal");
-    maps->weight = splat_map_create(GL_R32F, target, "splat weight");
+    maps->weight = splat_map_create(covers ? GL_RG32F : GL_R32F, target, "splat weight");
     maps->nearest_framebuffer = splat_framebuffer_create(&maps->nearest, 1, "splat nearest");
     maps->blend_framebuffer =
         splat_framebuffer_create((GLuint[]){maps->color, maps->normal, maps->weight}, 3, "splat blend");

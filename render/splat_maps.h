@@ -14,7 +14,8 @@ typedef struct SplatMaps {
     unsigned
         color; /* RGBA16F, on a software driver the faster RGBA32F: sum of weight x linear colour (eq. 8) */
     unsigned normal; /* the same: sum of weight x normal in the eye's frame (eq. 9) */
-    unsigned weight; /* R32F: sum of weights (eq. 10) */
+    unsigned weight; /* R32F: sum of weights (eq. 10); with `covers` RG32F: and what the fluid covers of the
+                        pixel */
     unsigned limit;  /* DEPTH_COMPONENT32F: the depth at which blending ends */
     unsigned nearest_framebuffer, blend_framebuffer;
 } SplatMaps;
@@ -22,8 +23,8 @@ typedef struct SplatMaps {
 /* In `nearest` where no sphere is; as in splat_depth.frag. */
 #define SPLAT_NOTHING 1e30F
 
-/* Made anew where they are not those of that target. */
-void splat_maps_follow(SplatMaps *maps, const Target *target);
+/* Made anew where they are not those of that target; with `covers` from the first time on, or never. */
+void splat_maps_follow(SplatMaps *maps, const Target *target, bool covers);
 
 void splat_maps_delete(SplatMaps *maps);
 

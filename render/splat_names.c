@@ -23,12 +23,13 @@ SplatDef splat_def_default(void)
                       .ior = 1.333,
                       .filter_size = 4,
                       .filter_range = 3,
-                      .filter_iterations = 2};
+                      .filter_iterations = 2,
+                      .antialias = true};
 }
 
 bool splat_same_kind(const SplatDef *a, const SplatDef *b)
 {
     return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
            a->cull == b->cull && a->drops == b->drops && a->shading == b->shading &&
-           (a->level > 0) == (b->level > 0) && a->filter == b->filter;
+           (a->level > 0) == (b->level > 0) && a->filter == b->filter && a->antialias == b->antialias;
 }

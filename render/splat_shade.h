@@ -9,6 +9,8 @@
 
 typedef struct SplatShade {
     unsigned program;
+    unsigned mixing; /* program for spheres smaller than pixels, which let through what is behind; where
+                        silhouette_by_discs */
     unsigned screen; /* vertex array without attributes */
     bool clear;      /* water or jelly: what is behind shows through */
     Behind behind;   /* where clear */

@@ -1,9 +1,11 @@
 #include "render/splat_sprites.h"
 
 #include "render/ellipsoids.h"
+#include "render/silhouette.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
+#include <math.h>
 #include <stdio.h>
 
 bool splat_culls(const SplatDef *def)
@@ -16,7 +18,10 @@ bool splat_sprites_create(SplatSprites *sprites, const SplatDef *def, Error *err
     *sprites = (SplatSprites){.def = *def, .point_limit = point_limit()};
     glCreateVertexArrays(1, &sprites->screen);
     quad_indices_create(&sprites->quads);
-    return !splat_culls(def) || cull_create(&sprites->cull, ellipsoids_defines(def), error);
+    char body[64];
+    snprintf(body, sizeof body, "%s%s", ellipsoids_defines(def),
+             silhouette_by_discs(def) ? "#define DISCS 1\n" : "");
+    return !splat_culls(def) || cull_create(&sprites->cull, body, error);
 }
 
 void splat_sprites_destroy(SplatSprites *sprites)
@@ -43,6 +48,14 @@ SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame
         return SPLAT_QUAD;
     const float across = radius / frame->nearest * slant / tangent[1] * height + 1;
     return across < sprites->point_limit ? SPLAT_POINT : SPLAT_QUAD;
+}
+
+bool splat_sprites_small(const Frame *frame)
+{
+    const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* of 1 m at 1 m */
+    const double spacings = frame->def->radius > 0 ? frame->def->radius : 1;
+    const double drop = frame->def->splat.drops ? fmin(0.62 / spacings, 1) : 1; /* of a spacing's volume */
+    return drop * frame->particle_radius * pixels < 0.8F * frame->farthest;
 }
 
 unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, bool listed,

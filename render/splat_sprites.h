@@ -29,6 +29,9 @@ bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite);
 /* For this frame: quad or point, for spheres of that radius (m) in a picture that many pixels high. */
 SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame, float radius, float height);
 
+/* Whether some sphere may be so small that it is drawn larger than it is: shaders/common/splat_small.glsl. */
+bool splat_sprites_small(const Frame *frame);
+
 /* A program of render/splat.vert and a fragment shader, for all particles or those listed by culling. The
    caller deletes it; 0 on failure. */
 unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, bool listed,

@@ -46,6 +46,7 @@ typedef struct SplatDef {
     double filter_size;    /* half the kernel's width, in radii */
     double filter_range;   /* depths farther apart are two surfaces, in radii */
     int filter_iterations; /* of one pass along x and one along y */
+    bool antialias;        /* smooth outlines, and spheres smaller than a pixel */
 } SplatDef;
 
 typedef struct ViewDef {

@@ -22,6 +22,7 @@
     X(THICKNESS, "thickness", PART_RENDER)                                                                   \
     X(FILTER, "filter", PART_RENDER)                                                                         \
     X(SHADE, "shade", PART_RENDER)                                                                           \
+    X(ANTIALIAS, "antialias", PART_RENDER)                                                                   \
     X(BACKDROP, "backdrop", PART_RENDER)                                                                     \
     X(OVERLAY, "overlay", PART_RENDER)
 

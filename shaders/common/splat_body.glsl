@@ -1,5 +1,11 @@
 // What stands for a particle in the view splat, in the eye's frame: a ball or with ELLIPSOID an ellipsoid. Wants
 // common/frame.glsl, common/particles.glsl, common/sphere.glsl and common/ball.glsl.
+#ifdef DISCS
+#include "common/splat_small.glsl"
+#else
+#define drawn_radius(radius, centre) (radius)
+#endif
+
 struct Body {
     vec3 centre;
     float radius;
@@ -66,9 +72,9 @@ vec4 body_bounds(Body body)
     float w = -centre.z;
     if (!(w > lens.z))
         return vec4(0.0);
-    return clamp((centre.xxyy + body.radius * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * lens.xxyy), -1.0, 1.0);
+    return clamp((centre.xxyy + drawn_radius(body.radius, centre) * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * lens.xxyy), -1.0, 1.0);
 #else
-    return sphere_bounds(sphere_at(body.centre, body.radius));
+    return sphere_bounds(sphere_at(body.centre, drawn_radius(body.radius, body.centre)));
 #endif
 }
 #endif

@@ -10,6 +10,9 @@
 #ifdef BLEND
 #include "common/particle_color.glsl"
 layout(location = 2) flat out vec3 color;
+#ifdef DISCS
+layout(location = 7) flat out float gain; // see common/splat_small.glsl
+#endif
 #endif
 
 #ifdef THICKNESS
@@ -37,7 +40,7 @@ layout(location = 6) flat out vec3 inverse_mixed;
 vec4 at_corner(Body body, vec2 corner)
 {
     vec2 ray = ray_of_ndc(corner).xy;
-    return vec4((scale.x * ray - body.centre.xy) / body.radius, ray);
+    return vec4((scale.x * ray - body.centre.xy) / drawn_radius(body.radius, body.centre), ray);
 }
 
 #ifdef POINT
@@ -86,6 +89,9 @@ void main()
     place(body, body_bounds(body), min(lens.z / nearest * 1.00001, 1.0));
 #ifdef BLEND
     color = particle_color(index);
+#ifdef DISCS
+    gain = cover_gain(body.radius, drawn_radius(body.radius, body.centre));
+#endif
 #endif
 #ifdef THICKNESS
     column = vec2(4.5 / 3.14159265 * particle.y * particle.y * particle.y / (splat_radius * splat_radius), lens.z / -body.centre.z);

@@ -12,7 +12,12 @@ layout(location = 2) flat in vec3 color;
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 color_sum;
 layout(location = 1) out vec4 normal_sum;
+#ifdef DISCS
+layout(location = 7) flat in float gain; // see common/splat_small.glsl
+layout(location = 2) out vec2 weight_sum; // and what is covered of the pixel, in parts of it; above 1e8: all
+#else
 layout(location = 2) out float weight_sum;
+#endif
 
 float weight_of(Splat hit, float nearest)
 {
@@ -28,6 +33,18 @@ float weight_of(Splat hit, float nearest)
 #endif
 }
 
+// The way from the ray to the outline on the screen, in the view's radii. On the screen 1 - rho falls by |beside.xy| / rho a
+// radius towards it.
+vec2 rim_of(Splat hit)
+{
+    float rho = sqrt(max(1.0 - hit.inside2, 0.0));
+    vec2 rim = hit.beside * ((1.0 - rho) * rho / max(dot(hit.beside, hit.beside), 1e-12));
+#ifdef DROPS
+    rim *= radius / particle.x;
+#endif
+    return rim;
+}
+
 void main()
 {
     Splat hit = splat_here();
@@ -35,7 +52,15 @@ void main()
     if (!(splat_seen(hit) && hit.depth < nearest + eps))
         discard;
     float weight = weight_of(hit, nearest);
-    color_sum = vec4(weight * color, 0.0);
-    normal_sum = vec4(weight * hit.normal, 0.0);
+    vec2 rim = vec2(0.0);
+#ifdef DISCS
+    rim = hit.depth <= nearest * 1.000001 ? rim_of(hit) : vec2(0.0);
+#endif
+    color_sum = vec4(weight * color, rim.x);
+    normal_sum = vec4(weight * hit.normal, rim.y);
+#ifdef DISCS
+    weight_sum = vec2(weight, gain * hit.inside2);
+#else
     weight_sum = weight;
+#endif
 }

@@ -17,6 +17,9 @@ layout(binding = 7) uniform sampler2D weight_map;
 layout(binding = 10) uniform sampler2D thickness_map; // m, may be coarser
 layout(location = 1) uniform vec2 depths;             // nearest and farthest of a particle, m
 layout(location = 0) out vec4 color;
+#ifdef MIXING
+#include "common/splat_cover.glsl"
+#endif
 
 float thickness_here()
 {
@@ -78,6 +81,10 @@ void main()
     color = vec4(vec3(thickness_here() / max(box_size.x, max(box_size.y, box_size.z))), 1.0);
 #else
     vec3 albedo = texelFetch(color_map, pixel, 0).rgb / weight;
-    color = vec4(shaded(surface_at(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, normal, albedo)), 1.0);
+    float cover = 1.0;
+#ifdef MIXING
+    cover = cover_at(pixel, depth, albedo, normal);
+#endif
+    color = vec4(shaded(surface_at(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, normal, albedo)), cover);
 #endif
 }

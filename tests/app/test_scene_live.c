@@ -76,6 +76,7 @@ static void each_type_reaches_its_field(void **state)
     assert_true(scene.view.splat.level == 0.15);
     assert_false(set("view.splat.filter=narrow_range") || set("view.splat.filter_size=6"));
     assert_true(scene.view.splat.filter == SPLAT_NARROW_RANGE && scene.view.splat.filter_size == 6);
+    assert_true(!set("view.splat.antialias=false") && !scene.view.splat.antialias);
     assert_false(set("view.camera.from=[1, 2, 3]"));
     assert_true(scene.view.camera.from[2] == 3 && !scene.view.camera_auto);
     assert_true(scene_set_live(&scene, "view.legend=false", NULL, &error) && !scene.view.legend);

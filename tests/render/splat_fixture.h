@@ -44,6 +44,7 @@ static inline SplatScene splat_scene(const double from[3], const double to[3], d
     memcpy(scene.def.camera.to, to, sizeof scene.def.camera.to);
     scene.def.camera.fov_deg = fov_deg;
     scene.def.radius = 1;
+    scene.def.splat.antialias = false; /* spheres as they are, however small */
     scene.state = box_state(0, radius);
     return scene;
 }

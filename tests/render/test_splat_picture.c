@@ -225,7 +225,7 @@ static void settings_are_live(void **state)
 {
     (void)state;
     static uint8_t first[3 * PIXELS], other[3 * PIXELS];
-    enum { OTHERS = 15 };
+    enum { OTHERS = 16 };
     SplatDef others[OTHERS];
     Scene scene = splat_among_solids();
     particles_add(scene.particles, -0.15, 0.7, 0, 1, 0);
@@ -250,6 +250,7 @@ static void settings_are_live(void **state)
     others[12].shape = SPLAT_ELLIPSOID;
     others[13].drops = true;
     others[14].filter = SPLAT_NARROW_RANGE;
+    others[15].antialias = !usual.antialias;
     for (int i = 0; i < OTHERS; i++) {
         scene.def.splat = others[i];
         change(renderer, &scene, other);

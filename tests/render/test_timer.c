@@ -137,7 +137,8 @@ static void picture_stages(const char *view)
     ViewDef def = view_def_default();
     text_set(def.kind, view);
     def.splat.shading = SPLAT_WATER; /* has all stages */
-    def.solid_count = 1;             /* what only some scenes have */
+    def.splat.filter = SPLAT_NARROW_RANGE;
+    def.solid_count = 1; /* what only some scenes have */
     def.solids[0] = (SolidDef){.radius = 0.2, .centre = {0, 0.7, 0}};
     Particles *particles = particles_wave(0.08);
     ParticleBuffers box = box_state(particles->count, 0.08);
@@ -155,7 +156,8 @@ static void picture_stages(const char *view)
         for (int stage = 0; stage < STAGE_COUNT; stage++) {
             assert_int_equal(times.ran[stage],
                              stage_part((Stage)stage) == PART_RENDER && stage != STAGE_SCALARS &&
-                                 (stage != STAGE_BLEND || blends) && (stage != STAGE_THICKNESS || blends));
+                                 (blends || (stage != STAGE_BLEND && stage != STAGE_THICKNESS &&
+                                             stage != STAGE_FILTER && stage != STAGE_ANTIALIAS)));
             sum += times.ms[stage];
         }
         best = frame ? fmin(best, fabs(whole - sum) / whole) : 1; /* the first frame makes things */

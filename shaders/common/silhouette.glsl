@@ -1,0 +1,23 @@
+// What is seen in a finished picture of the view splat, for render/silhouette.c. Wants common/frame.glsl.
+layout(binding = 1) uniform sampler2D nearest_map;
+layout(binding = 2) uniform sampler2D target_depth;
+layout(binding = 7) uniform sampler2D weight_map;
+layout(location = 1) uniform float least; // m: what is no farther behind belongs to what is before it
+
+struct Seen {
+    float depth; // m; 1e30 where neither fluid nor solid is
+    bool fluid;
+};
+
+// Beyond the picture's border as next to it.
+Seen seen_at(ivec2 pixel)
+{
+    pixel = clamp(pixel, ivec2(0), ivec2(viewport.xy) - 1);
+    float z = texelFetch(nearest_map, pixel, 0).x;
+#ifdef SOLIDS
+    float nearness = texelFetch(target_depth, pixel, 0).x;
+    if (nearness > lens.z / z * 1.00001)
+        return Seen(lens.z / nearness, false);
+#endif
+    return Seen(z, z < 1e29);
+}

@@ -1,0 +1,25 @@
+// What the fluid covers of a pixel where its spheres are smaller, for shading with MIXING.
+layout(location = 9) uniform float cover_step; // m: fluid that is farther behind is behind the pixel's spheres
+
+// 1 where spheres are larger. What else is in the pixel is fluid farther behind, then it is as it is two pixels beside, or what
+// the target has, but not amid fluid.
+float cover_at(ivec2 pixel, float depth, inout vec3 albedo, inout vec3 normal)
+{
+    float sum = texelFetch(weight_map, pixel, 0).y;
+    if (sum >= 1e8)
+        return 1.0;
+    float left = max(1.0 - 0.5 * sum, 0.0), cover = 1.0 - left * left; // near 1 - exp(-sum): they overlap
+    int around = 0;
+    for (int i = 0; i < 4; i++) {
+        ivec2 offset = i < 2 ? ivec2(4 * i - 2, 0) : ivec2(0, 4 * i - 10);
+        ivec2 beside = clamp(pixel + offset, ivec2(0), ivec2(viewport.xy) - 1);
+        float z = texelFetch(nearest_map, beside, 0).x, weight = texelFetch(weight_map, beside, 0).x;
+        around += int(z < 1e29);
+        if (z < 1e29 && z > depth + cover_step && weight > 0.0) {
+            albedo = mix(texelFetch(color_map, beside, 0).rgb / weight, albedo, cover);
+            normal = normalize(mix(normalize(texelFetch(normal_map, beside, 0).xyz), normal, cover));
+            return 1.0;
+        }
+    }
+    return around == 4 ? 1.0 : cover;
+}
