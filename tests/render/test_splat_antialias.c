@@ -171,6 +171,16 @@ static void outlines_are_nearer_to_the_truth(void **state)
     expect_nearer("filter", &scene, 2.5);
 }
 
+/* By rows: a level's outline is none of spheres. */
+static void outlines_of_a_level(void **state)
+{
+    (void)state;
+    Scene scene = scene_of(20);
+    scene.def.radius = 2;
+    scene.def.splat.level = 0.3;
+    expect_nearer("level", &scene, 2);
+}
+
 /* One before the fluid, one that is half in it, one behind: outlines of the fluid before a solid, of a solid
    before the fluid, and where they meet. */
 static void outlines_with_solids(void **state)
@@ -367,6 +377,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(outlines_are_nearer_to_the_truth, no_gl_errors),
+        cmocka_unit_test_teardown(outlines_of_a_level, no_gl_errors),
         cmocka_unit_test_teardown(outlines_with_solids, no_gl_errors),
         cmocka_unit_test_teardown(the_inside_stays, no_gl_errors),
         cmocka_unit_test_teardown(what_came_before_shading_stays, no_gl_errors),
