@@ -10,7 +10,7 @@ static Scene splat_among_solids(void)
     text_set(scene.def.kind, "splat");
     scene.def.color_by = SCALAR_FLUID;
     scene.def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 30};
-    scene.state.spacing = 0.3; /* m: the radius of a drop */
+    scene.state.spacing = 0.3;         /* m: the radius of a drop */
     scene.def.splat.antialias = false; /* pixels are counted */
     return scene;
 }
