@@ -242,6 +242,13 @@ static void blend_attributes(SplatView *splat, SplatSprite sprite, const Particl
     glDisable(GL_BLEND);
 }
 
+/* Fluid that is farther behind is seen to be behind: it shares nothing with what is before. Levels are
+   smooth, and have no eps. */
+static float apart(const SplatView *splat, const Frame *frame)
+{
+    return splat_level_wanted(&splat->def) ? frame->particle_radius / 2 : eps_of(frame);
+}
+
 static void splat_draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SplatView *splat = state;
@@ -269,7 +276,8 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
     if (silhouette_wanted(&splat->def))
         GL_STAGE(frame->timer, STAGE_ANTIALIAS)
         {
-            silhouette_draw(&splat->silhouette, &splat->maps, splat->shown.nearest, eps_of(frame), frame);
+            silhouette_draw(&splat->silhouette, &splat->maps, splat->shown.nearest, apart(splat, frame),
+                            frame);
         }
     if (frame->counts)
         counts_finish(frame->counts, splat_maps_covered(&splat->maps, frame->target),
