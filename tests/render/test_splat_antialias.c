@@ -192,12 +192,15 @@ static void outlines_with_solids(void **state)
     expect_nearer("solids", &scene, 1.6);
 }
 
-/* A pixel with no outline in it or next to it is what it is without. */
+/* A pixel with no outline in it or next to it is what it is without; so is a solid before fluid that it
+ * hides. */
 static void the_inside_stays(void **state)
 {
     (void)state;
     static uint8_t with[3 * N], without[3 * N];
     Scene scene = scene_of(20), nothing = scene_of(20);
+    scene_add(&scene, SOLID_SPHERE, 0.6, 0.8, 0.7);
+    scene_add(&nothing, SOLID_SPHERE, 0.6, 0.8, 0.7);
     nothing.particles->count = 0;
     particles_add(nothing.particles, 0, -100, 0, 1, 0);
     draw_fine(&scene, &fine);
@@ -338,6 +341,27 @@ static void small_drops_leave_no_hole(void **state)
     free(scene.particles);
 }
 
+/* Where the view's radius is less than a spacing, spheres within eps do not cover a far body: what is behind
+ * them does. */
+static void a_far_body_is_opaque(void **state)
+{
+    (void)state;
+    static uint8_t far[3 * N];
+    Scene scene = scene_of(30);
+    scene.def.camera = (CameraDef){{2.3, 3, 11}, {-0.7, 0.2, 0}, 20};
+    scene.def.radius = 0.5;
+    memcpy(scene.def.fluid_color[1], scene.def.fluid_color[0], sizeof(float[3]));
+    memcpy(scene.def.background, (double[]){1, 0, 0}, sizeof scene.def.background);
+    draw_at(&scene, W, H, far, NULL);
+    int inside = 0;
+    for (int y = H / 2 - 2; y < H / 2 + 2; y++)
+        for (int x = W / 2 - 4; x < W / 2 + 4; x++)
+            inside += 2 * far[3 * (y * W + x)] < far[3 * (y * W + x) + 2]; /* blue, not red */
+    if (inside < 32)
+        fail_msg("the background shows in %d of 32 pixels", 32 - inside);
+    free(scene.particles);
+}
+
 /* Culling changes nothing, where spheres are smaller than pixels too. */
 static void culling_changes_no_pixel(void **state)
 {
@@ -382,6 +406,7 @@ int main(void)
         cmocka_unit_test_teardown(what_came_before_shading_stays, no_gl_errors),
         cmocka_unit_test_teardown(small_drops_neither_vanish_nor_sparkle, no_gl_errors),
         cmocka_unit_test_teardown(small_drops_leave_no_hole, no_gl_errors),
+        cmocka_unit_test_teardown(a_far_body_is_opaque, no_gl_errors),
         cmocka_unit_test_teardown(culling_changes_no_pixel, no_gl_errors),
         cmocka_unit_test_teardown(strange_pictures, no_gl_errors),
     };
