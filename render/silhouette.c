@@ -13,7 +13,7 @@ bool silhouette_wanted(const SplatDef *def)
 
 bool silhouette_by_discs(const SplatDef *def)
 {
-    return silhouette_wanted(def) && !splat_level_wanted(def) && def->shape != SPLAT_ELLIPSOID;
+    return silhouette_wanted(def) && !splat_level_wanted(def);
 }
 
 bool silhouette_create(Silhouette *silhouette, const ViewDef *def, Error *error)

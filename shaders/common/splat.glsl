@@ -14,7 +14,7 @@ struct Splat {
     float depth;   // z_i, m
     float inside2; // 1 - (distance of the ray from the centre / r)^2: below 0 beside the sphere; of an ellipsoid where A takes it
     vec3 normal;   // in the eye's frame
-    vec2 beside;   // x y of how far the ray goes beside the centre, in radii; not of an ellipsoid
+    vec2 beside;   // x y of how far the ray goes beside the centre, in radii; of an ellipsoid A times that where A takes it
 };
 
 // `at`: u.x u.y and x y of the ray, linear on the screen; `scale`: s and u.z, which is 0 but where the eye is next to it.
@@ -24,7 +24,7 @@ Splat splat_hit(vec4 at, vec2 scale, float radius, mat3 inverse)
     vec3 u = inverse * vec3(at.xy, scale.y), d = inverse * vec3(at.zw, -1.0);
     float length2 = dot(d, d), per = 1.0 / length2, slant = dot(u, d) * per;
     float e = slant * slant + (1.0 - dot(u, u)) * per, k = slant + sqrt(max(e, 0.0));
-    return Splat(scale.x - radius * k, e * length2, normalize(inverse * (u - k * d)), vec2(0.0));
+    return Splat(scale.x - radius * k, e * length2, normalize(inverse * (u - k * d)), (inverse * (u - slant * d)).xy);
 }
 #else
 Splat splat_hit(vec4 at, vec2 scale, float radius)

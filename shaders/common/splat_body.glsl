@@ -46,6 +46,8 @@ vec2 ellipsoid_slopes(float a, float w, float saa, float saz, float szz, float a
 vec4 body_bounds(Body body)
 {
     vec3 c = body.centre, within = body.inverse * c, x = body.axes[0], y = body.axes[1], z = body.axes[2];
+    float grown = drawn_radius(body.radius, c) / max(body.radius, 1e-30);
+    x *= grown, y *= grown, z *= grown;
     float w = -c.z, szz = dot(z, z), around = sqrt(dot(x, x) + dot(y, y) + szz);
     if (!(dot(within, within) > body.radius * body.radius && dot(c, c) < 1e30) || w + sqrt(szz) <= lens.z)
         return vec4(0.0);

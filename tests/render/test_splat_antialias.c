@@ -180,6 +180,22 @@ static void outlines_of_a_level(void **state)
     expect_nearer("level", &scene, 1.6);
 }
 
+static void outlines_of_drops_and_ellipsoids(void **state)
+{
+    (void)state;
+    Scene scene = scene_of(20);
+    for (size_t i = 0; i < scene.particles->count; i++) /* half of them are far from each other */
+        if (i % 2)
+            for (int k = 0; k < 3; k++)
+                scene.particles->position[4 * i + k] =
+                    (k == 1 ? 0.5F : 0.0F) + (k ? 0.5F : 1.0F) * (float)sin(12.9 * (double)i + 7.3 * k);
+    scene.def.splat.drops = true;
+    expect_nearer("drops", &scene, 2);
+    scene = scene_of(20);
+    scene.def.splat.shape = SPLAT_ELLIPSOID;
+    expect_nearer("ellipsoids", &scene, 1.9);
+}
+
 /* One before the fluid, one that is half in it, one behind: outlines of the fluid before a solid, of a solid
    before the fluid, and where they meet. */
 static void outlines_with_solids(void **state)
@@ -368,8 +384,9 @@ static void culling_changes_no_pixel(void **state)
     (void)state;
     static uint8_t with[3 * N], without[3 * N];
     const double fov[] = {10, 60, 150};
-    for (int i = 0; i < 3; i++) {
-        Scene scene = scene_of(fov[i]);
+    for (int i = 0; i < 4; i++) {
+        Scene scene = scene_of(fov[i < 3 ? i : 2]);
+        scene.def.splat.shape = i < 3 ? SPLAT_PERSPECTIVE : SPLAT_ELLIPSOID;
         draw_at(&scene, W, H, with, NULL);
         scene.def.splat.cull = false;
         draw_at(&scene, W, H, without, NULL);
@@ -381,19 +398,24 @@ static void culling_changes_no_pixel(void **state)
 static void strange_pictures(void **state)
 {
     (void)state;
-    static uint8_t rgb[3 * 4096 * 16];
-    Scene scene = scene_of(30);
-    draw_at(&scene, 1, 1, rgb, NULL);
-    draw_at(&scene, 4096, 16, rgb, NULL);
-    draw_at(&scene, 3, 300, rgb, NULL);
-    particles_add(scene.particles, NAN, 0.5, 0, 1, 0);
-    particles_add(scene.particles, 1.2, 1.1, 2.99, 1, 0); /* around the eye */
-    scene_add(&scene, SOLID_SPHERE, 0.3, 0.4, 0.6);
-    draw_at(&scene, W, H, rgb, NULL);
-    scene.particles->count = 0;
-    particles_add(scene.particles, INFINITY, NAN, 0, 1, 0);
-    draw_at(&scene, W, H, rgb, NULL);
-    free(scene.particles);
+    static uint8_t rgb[3 * 4096 * 16], with[3 * N];
+    for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape += 2) {
+        Scene scene = scene_of(30);
+        scene.def.splat.shape = (SplatShape)shape;
+        draw_at(&scene, 1, 1, rgb, NULL);
+        draw_at(&scene, 4096, 16, rgb, NULL);
+        draw_at(&scene, W, H, rgb, NULL);
+        particles_add(scene.particles, NAN, 0.5, 0, 1, 0);
+        draw_at(&scene, W, H, with, NULL);
+        assert_memory_equal(rgb, with, sizeof with);
+        particles_add(scene.particles, 1.2, 1.1, 2.99, 1, 0); /* around the eye */
+        scene_add(&scene, SOLID_SPHERE, 0.3, 0.4, 0.6);
+        draw_at(&scene, W, H, rgb, NULL);
+        scene.particles->count = 0;
+        particles_add(scene.particles, INFINITY, NAN, 0, 1, 0);
+        draw_at(&scene, W, H, rgb, NULL);
+        free(scene.particles);
+    }
 }
 
 int main(void)
@@ -401,6 +423,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(outlines_are_nearer_to_the_truth, no_gl_errors),
         cmocka_unit_test_teardown(outlines_of_a_level, no_gl_errors),
+        cmocka_unit_test_teardown(outlines_of_drops_and_ellipsoids, no_gl_errors),
         cmocka_unit_test_teardown(outlines_with_solids, no_gl_errors),
         cmocka_unit_test_teardown(the_inside_stays, no_gl_errors),
         cmocka_unit_test_teardown(what_came_before_shading_stays, no_gl_errors),
