@@ -90,6 +90,7 @@ SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Fr
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(filter->screen);
+    glViewport(0, 0, frame->width, frame->height);
     for (int i = 0; i < 2; i++)
         glClearNamedFramebufferfv(filter->depth_framebuffer[i], GL_COLOR, 0, (GLfloat[4]){SPLAT_NOTHING});
     frame_cut_to_bounds(frame);

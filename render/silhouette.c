@@ -109,6 +109,7 @@ void silhouette_draw(Silhouette *silhouette, const SplatMaps *blended, unsigned 
     glClearNamedFramebufferfv(silhouette->edges_framebuffer, GL_DEPTH, 0, (GLfloat[]){1});
     glDisable(GL_BLEND);
     glBindVertexArray(silhouette->screen);
+    glViewport(0, 0, frame->width, frame->height);
     frame_cut_to_bounds(frame);
     run(silhouette, step);
     glDisable(GL_SCISSOR_TEST);

@@ -205,6 +205,7 @@ static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuf
 static void set_limit(SplatView *splat, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, splat->maps.blend_framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);

@@ -136,6 +136,7 @@ static void fill(const Search *search, GLuint program, GLuint framebuffer)
 {
     glTextureBarrier(); /* some read texels that they write */
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, search->frame->width, search->frame->height);
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
@@ -170,6 +171,7 @@ static void list_to_limit(const Search *search)
 static void ask(const Search *search, GLuint query)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, search->level->next_framebuffer);
+    glViewport(0, 0, search->frame->width, search->frame->height);
     glDepthRange(1, 1);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);

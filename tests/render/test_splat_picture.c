@@ -172,6 +172,29 @@ static void a_drops_shadow_is_its_own(void **state)
     free(scene.particles);
 }
 
+/* Where the surface is has nothing to do with its shading, whatever else is on: passes of one do not disturb
+ * another's. */
+static void shading_leaves_the_surface_alone(void **state)
+{
+    (void)state;
+    static float opaque[PIXELS], clear[PIXELS];
+    for (int i = 0; i < 4; i++) {
+        Scene scene = splat_among_solids();
+        scene.state.spacing = 0.1;
+        for (int k = 0; k < 8 * 8 * 8; k++)
+            particles_add(scene.particles, -0.28 + 0.08 * (k % 8), 0.22 + 0.08 * (k / 8 % 8),
+                          -0.28 + 0.08 * (k / 64), 1, 0);
+        scene.def.splat.filter = i & 1 ? SPLAT_NARROW_RANGE : 0;
+        scene.def.splat.level = i & 2 ? 0.2 : 0;
+        scene.def.splat.antialias = true;
+        draw_depth(&scene, opaque);
+        scene.def.splat.shading = SPLAT_WATER;
+        draw_depth(&scene, clear);
+        assert_memory_equal(opaque, clear, sizeof opaque);
+        free(scene.particles);
+    }
+}
+
 /* Along a line through drops of two fluids that overlap the colour goes from one to the other, by small
  * steps. */
 static void colours_mix_where_fluids_meet(void **state)
@@ -294,6 +317,7 @@ int main(void)
         cmocka_unit_test_teardown(a_drops_shadow_is_its_own, no_gl_errors),
         cmocka_unit_test_teardown(solids_and_drops_shade_the_fluid, no_gl_errors),
         cmocka_unit_test_teardown(solids_through_clear_fluid, no_gl_errors),
+        cmocka_unit_test_teardown(shading_leaves_the_surface_alone, no_gl_errors),
         cmocka_unit_test_teardown(colours_mix_where_fluids_meet, no_gl_errors),
         cmocka_unit_test_teardown(scalars_colour_it, no_gl_errors),
         cmocka_unit_test_teardown(settings_are_live, no_gl_errors),
