@@ -70,6 +70,14 @@ static void solids_default(Scene *scene)
     memcpy(scene->view.solids, world->solids, sizeof scene->view.solids);
 }
 
+static void view_space(Scene *scene)
+{
+    const WorldDef *world = &scene->world;
+    memcpy(scene->view.box_size, world->box_size, sizeof scene->view.box_size);
+    scene->view.spacing = world->spacing;
+    scene->view.support_radius = world->support * world->spacing;
+}
+
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char note[256], Error *error)
 {
     if (!apply_settings(tree, settings, error) || !read_scene(tree, out, error))
@@ -84,6 +92,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char not
     snprintf(out->path, sizeof out->path, "%s", tree->path);
     title_default(out);
     view_fluids(out);
+    view_space(out);
     return true;
 }
 

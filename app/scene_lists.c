@@ -5,6 +5,7 @@
 #include "render/renderer.h"
 #include "render/splat_names.h"
 #include "render/view.h"
+#include "render/volume_names.h"
 #include "sim/kernel.h"
 #include "sim/tension.h"
 #include "sim/world.h"
@@ -99,6 +100,26 @@ const char *splat_shading_choice(int index)
 const char *splat_filter_choice(int index)
 {
     return index <= SPLAT_NARROW_RANGE ? splat_filter_names[index] : NULL;
+}
+
+const char *volume_bounds_choice(int index)
+{
+    return index <= VOLUME_FLUID ? volume_bounds_names[index] : NULL;
+}
+
+const char *volume_method_choice(int index)
+{
+    return index <= VOLUME_DIRECT ? volume_method_names[index] : NULL;
+}
+
+const char *volume_show_choice(int index)
+{
+    return index <= VOLUME_SLICE ? volume_show_names[index] : NULL;
+}
+
+const char *volume_axis_choice(int index)
+{
+    return index < 3 ? volume_axis_names[index] : NULL;
 }
 
 const char *step_mode_choice(int index)

@@ -7,6 +7,7 @@
 #include "render/solids.h"
 #include "render/splat_names.h"
 #include "render/view.h"
+#include "render/volume_names.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -33,6 +34,7 @@ ViewDef view_def_default(void)
                      .colormap = "viridis",
                      .range_auto = true,
                      .splat = splat_def_default(),
+                     .volume = volume_def_default(),
                      .legend = true,
                      .box = true,
                      .floor = true,
@@ -122,7 +124,8 @@ static bool follow_view(Renderer *renderer, const ViewDef *def, Error *error)
 {
     const ViewDef *old = &renderer->def;
     if (strcmp(def->kind, old->kind) == 0 && strcmp(def->colormap, old->colormap) == 0 &&
-        (def->solid_count > 0) == (old->solid_count > 0) && splat_same_kind(&def->splat, &old->splat))
+        (def->solid_count > 0) == (old->solid_count > 0) && splat_same_kind(&def->splat, &old->splat) &&
+        volume_same_kind(&def->volume, &old->volume))
         return true;
     View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
     if (!view && strcmp(def->kind, "none") != 0)

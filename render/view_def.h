@@ -49,6 +49,31 @@ typedef struct SplatDef {
     bool antialias;        /* smooth outlines, and spheres smaller than a pixel */
 } SplatDef;
 
+/* Of the view volume; names by index stand in render/volume_names.c. */
+typedef enum VolumeBounds { VOLUME_BOX, VOLUME_FLUID } VolumeBounds;
+typedef enum VolumeMethod {
+    VOLUME_AUTO,     /* the fastest on this driver */
+    VOLUME_GEOMETRY, /* a geometry shader makes one point a slice that a particle cuts */
+    VOLUME_LAYERS,  /* as many instances of the points as a particle may cut slices, without a geometry shader
+                     */
+    VOLUME_PLANES,  /* four slices a pass, in red, green, blue, alpha (Iwasaki et al. 2006) */
+    VOLUME_SCATTER, /* compute: each particle adds to its voxels */
+    VOLUME_GATHER,  /* compute: each voxel sums over the particles around, by cell lists */
+    VOLUME_SLABS,   /* sums on the CPU, each thread in slabs of its own */
+    VOLUME_DIRECT   /* no volume: the field is summed at the sample, by cell lists */
+} VolumeMethod;
+typedef enum VolumeShow { VOLUME_SHADED, VOLUME_SLICE } VolumeShow;
+
+typedef struct VolumeDef {
+    int cells;   /* along the box's longest side, where `cell` is 0 */
+    double cell; /* side of a cell, in spacings; 0: by `cells` */
+    VolumeBounds bounds;
+    VolumeMethod method;
+    VolumeShow show;
+    int slice_axis; /* 0 to 2: x y z; which the slice shown lies across */
+    double slice;   /* where along it, 0 .. 1 of the box */
+} VolumeDef;
+
 typedef struct ViewDef {
     char kind[NAME_SIZE];     /* see view_list; "none" draws nothing */
     Scalar color_by;          /* SCALAR_FLUID takes the fluids' own colours */
@@ -57,6 +82,7 @@ typedef struct ViewDef {
     double range[2];          /* in the scalar's unit */
     double radius;            /* of a particle, in spacings; 0: the view's default */
     SplatDef splat;
+    VolumeDef volume;
     bool legend;      /* draw the legend */
     bool box;         /* draw the box's edges */
     bool floor;       /* draw the floor below the box */
@@ -67,6 +93,9 @@ typedef struct ViewDef {
     int fluid_count;
     char fluid_name[FLUIDS_MAX][NAME_SIZE];
     float fluid_color[FLUIDS_MAX][3];
+    /* Filled from the scene by the loader: what a view may need to know before the first state. 0: not known.
+     */
+    double box_size[3], spacing, support_radius; /* m */
     /* Filled from the scene's solids by the loader. */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];

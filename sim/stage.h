@@ -17,6 +17,8 @@
     X(SCALARS, "scalars", PART_RENDER)                                                                       \
     X(SHADOW, "shadow", PART_RENDER)                                                                         \
     X(SOLIDS, "solids", PART_RENDER)                                                                         \
+    X(VOXELIZE, "voxelize", PART_RENDER)                                                                     \
+    X(RAYCAST, "raycast", PART_RENDER)                                                                       \
     X(VISIBILITY, "visibility", PART_RENDER)                                                                 \
     X(BLEND, "blend", PART_RENDER)                                                                           \
     X(THICKNESS, "thickness", PART_RENDER)                                                                   \

@@ -1,0 +1,71 @@
+/* The fluid's field on a grid of voxels: F(r) = sum_j V_j W_poly6(r - r_j, h) (Müller 2003, eq. 20). F is
+   about 1 inside the fluid, 0.5 at its surface, 0 farther than h from any particle; a point in space is in
+   the box's frame.
+
+   Needs a current OpenGL 4.5 core context, but for volume_grid_for and volume_grid_crop. */
+#ifndef SLOSH_VOLUME_H
+#define SLOSH_VOLUME_H
+
+#include "render/view_def.h"
+#include "render/volume_names.h"
+#include "sim/error.h"
+#include "sim/gl/particle_buffers.h"
+#include "sim/gl/timer.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Cubic cells; voxel i, j, k has its value at corner + cell (i + 1/2, j + 1/2, k + 1/2). */
+typedef struct VolumeGrid {
+    int size[3];      /* cells, each at least 1 */
+    double corner[3]; /* m, box's frame: corner of the first voxel */
+    double cell;      /* m */
+} VolumeGrid;
+
+typedef struct Volume {
+    VolumeGrid grid;
+    double support;   /* h of the kernel, m */
+    unsigned texture; /* GL_TEXTURE_3D, linear filter, 0 outside: R32F with F; with a scalar RG32F, sum V W
+                         and sum V W scalar. 0 with method `direct`: shaders/common/field.glsl then sums at
+                         the sample */
+    bool scalar;
+    size_t bytes; /* of the texture, or of the lists */
+} Volume;
+
+/* The grid that covers the box and h around it: `cells` along the box's longest side or cells of `cell`
+   spacings. Reads of the particles box, spacing and h only. False when a side has more than 4096 cells or all
+   together more than 2^31. */
+bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, VolumeGrid *grid, Error *error);
+
+/* The part of `whole` that holds `low` .. `high` (m) and h around it, on the same lattice, its sides
+   multiples of 8 cells unless it ends with the whole. One cell where low > high. */
+void volume_grid_crop(const VolumeGrid *whole, const double low[3], const double high[3], double support,
+                      VolumeGrid *out);
+
+/* False when the driver takes no 3D texture of that size, or it needs more memory than there is. */
+bool volume_grid_fits(const VolumeGrid *grid, bool scalar, Error *error);
+
+/* Makes volumes by one method, each in the place of the one before. */
+typedef struct Voxelizer Voxelizer;
+
+/* With `scalar` volumes carry one. VOLUME_AUTO takes the fastest. NULL when the driver lacks what the method
+   needs or a shader does not compile. */
+Voxelizer *voxelizer_create(VolumeMethod method, bool scalar, Error *error);
+void voxelizer_destroy(Voxelizer *voxelizer); /* NULL is allowed */
+
+/* Makes the volume of these particles. The scalar carried is `carried`, where it is there, else 0. What `out`
+   names belongs to the voxelizer and holds until its next run. Particles with a position or volume that is
+   not finite are left out. False when memory is short: `out` is then empty. */
+bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuffers *particles,
+                   Scalar carried, Volume *out, Error *error);
+
+/* The method in use: what VOLUME_AUTO became. */
+VolumeMethod voxelizer_method(const Voxelizer *voxelizer);
+
+/* Lines of defines that shaders/common/field.glsl needs for this voxelizer's volumes; a constant. */
+const char *voxelizer_defines(const Voxelizer *voxelizer);
+
+/* Binds the newest volume for shaders/common/field.glsl: texture unit 8, uniform block 2, storage 8 to 10. */
+void voxelizer_bind(const Voxelizer *voxelizer);
+
+#endif
