@@ -24,12 +24,12 @@ typedef struct VolumeGrid {
 
 typedef struct Volume {
     VolumeGrid grid;
-    double support;   /* h of the kernel, m */
-    unsigned texture; /* GL_TEXTURE_3D, linear filter, 0 outside: R32F with F; with a scalar RG32F, sum V W
-                         and sum V W scalar. 0 with method `direct`: shaders/common/field.glsl then sums at
-                         the sample */
-    bool scalar;
-    size_t bytes; /* of the texture, or of the lists */
+    double support;  /* h of the kernel, m */
+    unsigned field;  /* GL_TEXTURE_3D, R32F, linear, 0 outside: F. 0 with method `direct`, where
+                        shaders/common/field.glsl sums at the sample */
+    unsigned scalar; /* the same for sum V W scalar, whose mean is this by F; 0 where none is carried. A
+                        texture of its own, since most samples need F alone */
+    size_t bytes;    /* of both textures, or of the lists */
 } Volume;
 
 /* The grid that covers the box and h around it: `cells` along the box's longest side or cells of `cell`
@@ -41,9 +41,6 @@ bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, Vol
    multiples of 8 cells unless it ends with the whole. One cell where low > high. */
 void volume_grid_crop(const VolumeGrid *whole, const double low[3], const double high[3], double support,
                       VolumeGrid *out);
-
-/* False when the driver takes no 3D texture of that size, or it needs more memory than there is. */
-bool volume_grid_fits(const VolumeGrid *grid, bool scalar, Error *error);
 
 /* Makes volumes by one method, each in the place of the one before. */
 typedef struct Voxelizer Voxelizer;
@@ -59,13 +56,17 @@ void voxelizer_destroy(Voxelizer *voxelizer); /* NULL is allowed */
 bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuffers *particles,
                    Scalar carried, Volume *out, Error *error);
 
+/* False when the driver or the memory has no room for such a volume, or the method cannot make it. */
+bool voxelizer_fits(const Voxelizer *voxelizer, const VolumeGrid *grid, double support, Error *error);
+
 /* The method in use: what VOLUME_AUTO became. */
 VolumeMethod voxelizer_method(const Voxelizer *voxelizer);
 
 /* Lines of defines that shaders/common/field.glsl needs for this voxelizer's volumes; a constant. */
 const char *voxelizer_defines(const Voxelizer *voxelizer);
 
-/* Binds the newest volume for shaders/common/field.glsl: texture unit 8, uniform block 2, storage 8 to 10. */
+/* Binds the newest volume for shaders/common/field.glsl: texture units 8 and 9, uniform block 2, storage 8
+ * to 10. */
 void voxelizer_bind(const Voxelizer *voxelizer);
 
 #endif
