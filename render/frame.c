@@ -26,6 +26,8 @@ static void make_range(Frame *frame, const ParticleBuffers *particles)
     frame->range[0] = def->range_auto ? particles->scalar_min[def->color_by] : def->range[0];
     frame->range[1] = def->range_auto ? particles->scalar_max[def->color_by] : def->range[1];
     double least = 1e-6 * fmax(fabs(frame->range[0]), 1e-6); /* the same everywhere: any width will do */
+    frame->shown = scalar_name(def->color_by);
+    frame->shown_unit = scalar_unit(def->color_by);
     if (!(frame->range[1] - frame->range[0] > least))
         frame->range[1] = frame->range[0] + fmax(1e-3 * fabs(frame->range[0]), 1e-3);
 }

@@ -114,8 +114,8 @@ static void draw_scalar(Text *text, const Frame *frame)
     float em = layout.em, x = layout.left + 0.8F * em, y0 = layout.top + 3.0F * em,
           y1 = layout.bottom - 1.0F * em;
     char unit[32], title[80];
-    legend_unit(scalar_unit(frame->def->color_by), unit);
-    snprintf(title, sizeof title, "%s%s%s", scalar_name(frame->def->color_by), *unit ? ", " : "", unit);
+    legend_unit(frame->shown_unit, unit);
+    snprintf(title, sizeof title, "%s%s%s", frame->shown, *unit ? ", " : "", unit);
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
     text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
     draw_bar(text, frame->def->colormap, x, y0, x + 1.2F * em, y1);

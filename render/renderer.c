@@ -126,7 +126,7 @@ static bool follow_view(Renderer *renderer, const ViewDef *def, Error *error)
     if (strcmp(def->kind, old->kind) == 0 && strcmp(def->colormap, old->colormap) == 0 &&
         (def->solid_count > 0) == (old->solid_count > 0) && splat_same_kind(&def->splat, &old->splat) &&
         volume_same_kind(&def->volume, &old->volume))
-        return true;
+        return !renderer->view || view_accepts(renderer->view, def, error);
     View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
     if (!view && strcmp(def->kind, "none") != 0)
         return false;
@@ -194,6 +194,8 @@ static void draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *
     frame.counts = counts;
     frame.plain = renderer->plain;
     frame.floor_light = renderer->shadow.floor_map;
+    if (renderer->view)
+        view_show(renderer->view, &renderer->def, &frame);
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
     if (renderer->view)
         view_prepare(renderer->view, particles, &frame);

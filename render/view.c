@@ -2,12 +2,13 @@
 
 #include "render/spheres.h"
 #include "render/splat.h"
+#include "render/volume_view.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-const ViewKind *const view_list[] = {&view_spheres, &view_splat, NULL};
+const ViewKind *const view_list[] = {&view_spheres, &view_splat, &view_volume, NULL};
 
 struct View {
     const ViewKind *kind;
@@ -65,6 +66,17 @@ void view_prepare(View *view, const ParticleBuffers *particles, const Frame *fra
 {
     if (view->kind->prepare)
         view->kind->prepare(view->state, particles, frame);
+}
+
+bool view_accepts(View *view, const ViewDef *def, Error *error)
+{
+    return !view->kind->accepts || view->kind->accepts(view->state, def, error);
+}
+
+void view_show(const View *view, const ViewDef *def, Frame *frame)
+{
+    if (view->kind->show)
+        view->kind->show(def, frame);
 }
 
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame)

@@ -18,6 +18,10 @@ typedef struct ViewKind {
     /* Once a picture, before the rest: what cast and draw need, within a stage of frame->timer. May be NULL.
      */
     void (*prepare)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* Whether it can draw by a def that differs from its own in numbers only; NULL: always. */
+    bool (*accepts)(void *state, const ViewDef *def, Error *error);
+    /* Says in the frame what colours and legend show, where that is not the def's scalar; NULL: it is. */
+    void (*show)(const ViewDef *def, Frame *frame);
     /* Draws what casts shadows, into the map of render/shadow.h. */
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
@@ -35,6 +39,8 @@ void view_destroy(View *view); /* NULL is allowed */
 const ViewKind *view_kind(const View *view);
 
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
+bool view_accepts(View *view, const ViewDef *def, Error *error);
+void view_show(const View *view, const ViewDef *def, Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
 

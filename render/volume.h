@@ -51,8 +51,9 @@ Voxelizer *voxelizer_create(VolumeMethod method, bool scalar, Error *error);
 void voxelizer_destroy(Voxelizer *voxelizer); /* NULL is allowed */
 
 /* Makes the volume of these particles. The scalar carried is `carried`, where it is there, else 0. What `out`
-   names belongs to the voxelizer and holds until its next run. Particles with a position or volume that is
-   not finite are left out. False when memory is short: `out` is then empty. */
+   names belongs to the voxelizer and holds until its next run. Particles outside the whole
+   grid, and those whose position or volume is not finite, count for nothing. False when memory is short:
+   `out` is then empty. */
 bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuffers *particles,
                    Scalar carried, Volume *out, Error *error);
 

@@ -1,0 +1,14 @@
+/* View "volume": the fluid's field on a grid of voxels. After: SPH coupled with volume rendering, SIBGRAPI
+ * 2010. */
+#ifndef SLOSH_VOLUME_VIEW_H
+#define SLOSH_VOLUME_VIEW_H
+
+#include "render/view.h"
+#include "render/volume.h"
+
+extern const ViewKind view_volume;
+
+/* The newest volume of a state that view_volume.create made; for tests. */
+const Volume *volume_view_volume(const void *state);
+
+#endif

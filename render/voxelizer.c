@@ -1,0 +1,297 @@
+/* The grid, the textures and the constants of a volume; its values come from the methods of
+ * render/voxelize.h. */
+#include "render/cell_lists.h"
+#include "render/particle_bind.h"
+#include "render/voxelize.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* As in shaders/common/volume.glsl, std140. */
+typedef struct VolumeBlock {
+    float place[4], low[4], high[4];
+    int32_t size[4], list_size[4];
+    float scale[4];
+} VolumeBlock;
+
+struct Voxelizer {
+    VolumeMethod method;
+    bool scalar;
+    const VoxelizeMethod *by;
+    void *state;          /* of the method */
+    GLuint block, bounds; /* buffers */
+    GLuint find_bounds;   /* program, made when the bounds of the fluid are first wanted */
+    Volume volume;
+};
+
+static const double PI = 3.14159265358979323846;
+
+static const VoxelizeMethod *const methods[] = {
+    [VOLUME_GEOMETRY] = &voxelize_points, [VOLUME_LAYERS] = &voxelize_points,
+    [VOLUME_PLANES] = &voxelize_points,   [VOLUME_SCATTER] = &voxelize_compute,
+    [VOLUME_GATHER] = &voxelize_compute,  [VOLUME_SLABS] = &voxelize_slabs,
+    [VOLUME_DIRECT] = &voxelize_compute};
+
+/* On a software driver its memory is ours, and sums on the CPU are by far the fastest; on hardware the
+ * paper's way. */
+static VolumeMethod choose(VolumeMethod method)
+{
+    if (method != VOLUME_AUTO)
+        return method;
+    return gl_renderer_is_software() ? VOLUME_SLABS : VOLUME_GEOMETRY;
+}
+
+static GLuint create_buffer(size_t size, const char *label)
+{
+    GLuint buffer;
+    glCreateBuffers(1, &buffer);
+    glObjectLabel(GL_BUFFER, buffer, -1, label);
+    glNamedBufferStorage(buffer, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
+    return buffer;
+}
+
+Voxelizer *voxelizer_create(VolumeMethod method, bool scalar, Error *error)
+{
+    Voxelizer *own = calloc(1, sizeof *own);
+    if (!own) {
+        error_set(error, "out of memory for the voxelizer");
+        return NULL;
+    }
+    own->method = choose(method);
+    own->scalar = scalar;
+    own->by = methods[own->method];
+    own->block = create_buffer(sizeof(VolumeBlock), "volume");
+    own->bounds = create_buffer(6 * sizeof(GLuint), "volume bounds");
+    own->state = own->by->create(own->method, scalar, error);
+    if (own->state)
+        return own;
+    voxelizer_destroy(own);
+    return NULL;
+}
+
+static void delete_textures(Volume *volume)
+{
+    glDeleteTextures(2, (GLuint[]){volume->field, volume->scalar});
+    *volume = (Volume){0};
+}
+
+void voxelizer_destroy(Voxelizer *own)
+{
+    if (!own)
+        return;
+    if (own->state)
+        own->by->destroy(own->state);
+    delete_textures(&own->volume);
+    glDeleteBuffers(2, (GLuint[]){own->block, own->bounds});
+    glDeleteProgram(own->find_bounds);
+    free(own);
+}
+
+VolumeMethod voxelizer_method(const Voxelizer *own)
+{
+    return own->method;
+}
+
+const char *voxelizer_defines(const Voxelizer *own)
+{
+    static const char *const lines[] = {"", "#define SCALAR 1\n", "#define FIELD_DIRECT 1\n",
+                                        "#define FIELD_DIRECT 1\n#define SCALAR 1\n"};
+    return lines[2 * (own->method == VOLUME_DIRECT) + own->scalar];
+}
+
+unsigned volume_texture(const int size[3], unsigned format, const char *label)
+{
+    static const GLfloat none[4] = {0};
+    GLuint texture;
+    while (glGetError() != GL_NO_ERROR) /* what is asked below is of this texture */
+        continue;
+    glCreateTextures(GL_TEXTURE_3D, 1, &texture);
+    glObjectLabel(GL_TEXTURE, texture, -1, label);
+    glTextureStorage3D(texture, 1, format, size[0], size[1], size[2]);
+    if (glGetError() != GL_NO_ERROR) {
+        glDeleteTextures(1, &texture);
+        return 0;
+    }
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (GLenum axis = 0; axis < 3; axis++)
+        glTextureParameteri(texture,
+                            (GLenum[]){GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}[axis],
+                            GL_CLAMP_TO_BORDER);
+    glClearTexImage(texture, 0, format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, none);
+    return texture;
+}
+
+void voxelize_dispatch(size_t invocations)
+{
+    enum { ROW = 32768 };
+    const size_t groups = (invocations + 63) / 64, rows = (groups + ROW - 1) / ROW;
+    glDispatchCompute((GLuint)(rows > 1 ? ROW : groups), (GLuint)rows, 1);
+}
+
+static double bytes_of(const VolumeGrid *grid, bool scalar)
+{
+    return 4.0 * grid->size[0] * grid->size[1] * grid->size[2] * (scalar ? 2 : 1);
+}
+
+/* Of the machine, or of the GPU where it tells; planes and slabs need as much again for themselves. */
+static double bytes_there(void)
+{
+    GLint kib = 0;
+    if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
+        glGetIntegerv(GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX, &kib);
+    return kib > 0 ? 1024.0 * kib : (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+}
+
+static bool driver_takes(const VolumeGrid *grid)
+{
+    GLint width = 0;
+    glTexImage3D(GL_PROXY_TEXTURE_3D, 0, GL_R32F, grid->size[0], grid->size[1], grid->size[2], 0, GL_RED,
+                 GL_FLOAT, NULL);
+    glGetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &width);
+    return width == grid->size[0];
+}
+
+bool voxelizer_fits(const Voxelizer *own, const VolumeGrid *grid, double support, Error *error)
+{
+    const double bytes = bytes_of(grid, own->scalar);
+    if (own->method == VOLUME_DIRECT)
+        return true;
+    if (!driver_takes(grid) || 2.5 * bytes > bytes_there())
+        return error_set(
+            error,
+            "a volume of %d x %d x %d cells (%.0f MB) is more than this driver has room for: take fewer "
+            "view.volume.cells, or a larger view.volume.cell",
+            grid->size[0], grid->size[1], grid->size[2], bytes / 1e6);
+    return !own->by->fits || own->by->fits(grid, support / grid->cell, error);
+}
+
+static bool follow_grid(Voxelizer *own, const VolumeGrid *grid, Error *error)
+{
+    Volume *volume = &own->volume;
+    if (own->method == VOLUME_DIRECT)
+        return true;
+    if (volume->field && memcmp(volume->grid.size, grid->size, sizeof grid->size) == 0)
+        return true;
+    delete_textures(volume);
+    volume->field = volume_texture(grid->size, GL_R32F, "volume field");
+    if (volume->field && own->scalar)
+        volume->scalar = volume_texture(grid->size, GL_R32F, "volume scalar");
+    if (volume->field && (volume->scalar || !own->scalar))
+        return true;
+    delete_textures(volume);
+    return error_set(error, "the GPU has no memory for a volume of %d x %d x %d cells; take larger cells",
+                     grid->size[0], grid->size[1], grid->size[2]);
+}
+
+static void fill_block(const Voxelizer *own, const VoxelizeJob *job, const VolumeGrid *grid)
+{
+    VolumeBlock block = {.place[3] = (float)(1 / grid->cell),
+                         .low[3] = (float)job->radius,
+                         .high[3] = (float)(1 / (job->radius * job->radius)),
+                         .size[3] = (int32_t)job->particles->count};
+    for (int k = 0; k < 3; k++) {
+        block.place[k] = (float)grid->corner[k];
+        block.low[k] = (float)job->low[k];
+        block.high[k] = (float)job->high[k];
+        block.size[k] = grid->size[k];
+    }
+    block.scale[0] = (float)job->amplitude;
+    block.scale[1] = (float)cell_lists_size(grid, job->radius, block.list_size);
+    glNamedBufferSubData(own->block, 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 2, own->block);
+}
+
+/* From the numbers of shaders/render/volume_bounds.comp. */
+static double ordered(GLuint value)
+{
+    const GLuint bits = value & 0x80000000U ? value & 0x7fffffffU : ~value;
+    GLfloat number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+/* Asks the GPU, which this waits for: the grid's size is known on this side. */
+static bool crop_to_fluid(Voxelizer *own, const VoxelizeJob *job, const VolumeGrid *whole, VolumeGrid *grid,
+                          Error *error)
+{
+    static const char *const stages[] = {"render/volume_bounds.comp", NULL};
+    GLuint found[6] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0, 0, 0};
+    double low[3], high[3];
+    if (!own->find_bounds && !(own->find_bounds = program_create("volume bounds", stages, NULL, error)))
+        return false;
+    glNamedBufferSubData(own->bounds, 0, sizeof found, found);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, own->bounds);
+    glUseProgram(own->find_bounds);
+    particle_bind(own->find_bounds, job->particles, job->carried);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(own->bounds, 0, sizeof found, found);
+    for (int k = 0; k < 3; k++) {
+        low[k] = ordered(found[k]);
+        high[k] = ordered(found[3 + k]);
+    }
+    volume_grid_crop(whole, low, high, job->particles->support_radius, grid);
+    return true;
+}
+
+static VoxelizeJob make_job(const Voxelizer *own, const ParticleBuffers *particles, Scalar carried,
+                            const VolumeGrid *whole)
+{
+    const double h = particles->support_radius;
+    VoxelizeJob job = {.particles = particles,
+                       .carried = carried,
+                       .scalar = own->scalar,
+                       .radius = h / whole->cell,
+                       .amplitude = 315 / (64 * PI * h * h * h),
+                       .volume = &own->volume};
+    for (int k = 0; k < 3; k++) {
+        job.low[k] = whole->corner[k];
+        job.high[k] = whole->corner[k] + whole->size[k] * whole->cell;
+    }
+    return job;
+}
+
+static bool make_volume(Voxelizer *own, const VolumeDef *def, const VoxelizeJob *job, const VolumeGrid *whole,
+                        Error *error)
+{
+    VolumeGrid grid = *whole;
+    fill_block(own, job, &grid);
+    if (def->bounds == VOLUME_FLUID) {
+        if (!crop_to_fluid(own, job, whole, &grid, error))
+            return false;
+        fill_block(own, job, &grid);
+    }
+    if (!follow_grid(own, &grid, error))
+        return false;
+    own->volume.grid = grid;
+    own->volume.support = job->particles->support_radius;
+    own->volume.bytes = own->volume.field ? (size_t)bytes_of(&grid, own->scalar) : 0;
+    return own->by->run(own->state, job, error);
+}
+
+bool voxelizer_run(Voxelizer *own, const VolumeDef *def, const ParticleBuffers *particles, Scalar carried,
+                   Volume *out, Error *error)
+{
+    VolumeGrid whole;
+    *out = (Volume){0};
+    if (!volume_grid_for(def, particles, &whole, error))
+        return false;
+    const VoxelizeJob job = make_job(own, particles, carried, &whole);
+    if (!make_volume(own, def, &job, &whole, error))
+        return false;
+    *out = own->volume;
+    return true;
+}
+
+void voxelizer_bind(const Voxelizer *own)
+{
+    glBindBufferBase(GL_UNIFORM_BUFFER, 2, own->block);
+    glBindTextures(8, 2, (GLuint[]){own->volume.field, own->volume.scalar});
+    if (own->method == VOLUME_DIRECT)
+        voxelize_compute_bind(own->state);
+}
