@@ -55,13 +55,25 @@ double field_at(const FieldParticles *particles, const double r[3], double *weig
 
 /* ---- which particles reach into which slab ---- */
 
+/* The first whole number from x on, and the first above x, of 0 .. size. */
+static int whole_from(double x, int size)
+{
+    const double bounded = x < 0 ? 0 : x > size ? size : x;
+    return (int)bounded + (bounded > (int)bounded);
+}
+
+static int whole_above(double x, int size)
+{
+    return x < 0 ? 0 : x >= size ? size : (int)x + 1;
+}
+
 /* The values within h of coordinate x along an axis: first <= i < end, none where first >= end. */
 static void reached(const FieldParticles *particles, const VolumeGrid *grid, int axis, float x, int *first,
                     int *end)
 {
     const double at = (x - grid->corner[axis]) / grid->cell - 0.5, reach = particles->support / grid->cell;
-    *first = (int)fmin(fmax(ceil(at - reach), 0), grid->size[axis]);
-    *end = (int)fmin(fmax(floor(at + reach) + 1, 0), grid->size[axis]);
+    *first = whole_from(at - reach, grid->size[axis]);
+    *end = whole_above(at + reach, grid->size[axis]);
 }
 
 /* The slabs that a particle reaches into: first <= s < end. */
@@ -132,30 +144,57 @@ typedef struct Sum {
     float *field, *weighted;
 } Sum;
 
-/* W = scale (1 - q^2)^3 with q^2 = (squared distance in cells) / reach^2: Müller 2003, eq. 20. */
-static void add_row(float *restrict row, int first, int end, float from, float left, float inverse,
-                    float scale)
+/* A particle as a row of the grid sees it: V W = most (1 - q^2)^3, q = r / h; Müller 2003, eq. 20. */
+typedef struct Bump {
+    int first[3], end[3]; /* the values that it is added to */
+    float at[3];          /* its place among the values, cells */
+    float most, inverse;  /* V W(0); 1 / (h / cell)^2 */
+} Bump;
+
+enum { LANES = 4, ROW = 256 }; /* values along x at a time: in a register; of a bump */
+
+typedef float Lanes __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
+typedef int32_t LaneMask __attribute__((vector_size(4 * LANES)));
+
+/* Adds most (1 - q^2)^3, where q^2 = square + 1 - left. */
+static void add_row(float *restrict row, const float *restrict square, int count, float left, float most)
 {
-    for (int i = first; i < end; i++) {
-        const float d = (float)i - from, t = left - d * d * inverse, u = t > 0 ? t : 0;
-        row[i] += scale * (u * u * u);
+    int i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        const Lanes t = left - *(const Lanes *)(square + i), u = (Lanes)((LaneMask)t & (t > 0));
+        *(Lanes *)(row + i) += most * (u * u * u);
+    }
+    for (; i < count; i++) {
+        const float t = left - square[i], u = t > 0 ? t : 0;
+        row[i] += most * (u * u * u);
     }
 }
 
-/* Adds a particle to the values of slices first[2] <= k < end[2]. */
-static void add_particle(float *values, const VolumeGrid *grid, const int first[3], const int end[3],
-                         const float at[3], float inverse, float scale)
+/* Adds to the values first <= i < first + count of each row; if there is room to as many as fill whole
+   registers, since those beyond the bump get nothing. */
+static void add_rows(float *values, const VolumeGrid *grid, const Bump *bump, int first, int count)
 {
-    const size_t width = (size_t)grid->size[0], height = (size_t)grid->size[1];
-    for (int k = first[2]; k < end[2]; k++) {
-        const float dz = (float)k - at[2];
-        for (int j = first[1]; j < end[1]; j++) {
-            const float dy = (float)j - at[1], left = 1 - (dy * dy + dz * dz) * inverse;
-            if (left > 0)
-                add_row(values + width * ((size_t)j + height * (size_t)k), first[0], end[0], at[0], left,
-                        inverse, scale);
-        }
+    float square[ROW];
+    const int width = grid->size[0], height = grid->size[1], whole = (count + LANES - 1) / LANES * LANES;
+    count = first + whole <= width ? whole : count;
+    for (int i = 0; i < count; i++) {
+        const float d = (float)(first + i) - bump->at[0];
+        square[i] = bump->inverse * d * d;
     }
+    for (int k = bump->first[2]; k < bump->end[2]; k++)
+        for (int j = bump->first[1]; j < bump->end[1]; j++) {
+            const float dy = (float)j - bump->at[1], dz = (float)k - bump->at[2];
+            const float left = 1 - (dy * dy + dz * dz) * bump->inverse;
+            if (left > 0)
+                add_row(values + (size_t)width * ((size_t)j + (size_t)height * (size_t)k) + first, square,
+                        count, left, bump->most);
+        }
+}
+
+static void add_bump(float *values, const VolumeGrid *grid, const Bump *bump)
+{
+    for (int i = bump->first[0]; i < bump->end[0]; i += ROW)
+        add_rows(values, grid, bump, i, bump->end[0] - i < ROW ? bump->end[0] - i : ROW);
 }
 
 static void sum_member(const Sum *sum, size_t i, int slice, int slice_end)
@@ -164,19 +203,19 @@ static void sum_member(const Sum *sum, size_t i, int slice, int slice_end)
     const VolumeGrid *grid = sum->grid;
     const float *p = particles->position + 4 * i;
     const double reach = particles->support / grid->cell;
-    const float inverse = (float)(1 / (reach * reach));
-    const float scale = (float)(p[3] * kernel_poly6(0, particles->support));
-    float at[3];
-    int first[3], end[3];
+    Bump bump = {.most = (float)(p[3] * kernel_poly6(0, particles->support)),
+                 .inverse = (float)(1 / (reach * reach))};
     for (int k = 0; k < 3; k++) {
-        reached(particles, grid, k, p[k], &first[k], &end[k]);
-        at[k] = (float)((p[k] - grid->corner[k]) / grid->cell - 0.5);
+        reached(particles, grid, k, p[k], &bump.first[k], &bump.end[k]);
+        bump.at[k] = (float)((p[k] - grid->corner[k]) / grid->cell - 0.5);
     }
-    first[2] = first[2] > slice ? first[2] : slice;
-    end[2] = end[2] < slice_end ? end[2] : slice_end;
-    add_particle(sum->field, grid, first, end, at, inverse, scale);
-    if (sum->weighted)
-        add_particle(sum->weighted, grid, first, end, at, inverse, scale * particles->scalar[i]);
+    bump.first[2] = bump.first[2] > slice ? bump.first[2] : slice;
+    bump.end[2] = bump.end[2] < slice_end ? bump.end[2] : slice_end;
+    add_bump(sum->field, grid, &bump);
+    if (!sum->weighted)
+        return;
+    bump.most *= particles->scalar[i];
+    add_bump(sum->weighted, grid, &bump);
 }
 
 static void sum_slab(void *context, size_t slab, size_t slab_end)

@@ -59,7 +59,8 @@ static void assert_like_brute_force(const FieldParticles *particles, const Volum
             }
 }
 
-/* Around the particles, cut through them, beside them, fine, coarse, and of one cell. */
+/* Around the particles, cut through them, beside them, coarse, of one cell, long, and of cells far smaller
+ * than h. */
 static void each_value_is_the_sum_over_all_particles(void **state)
 {
     (void)state;
@@ -70,6 +71,7 @@ static void each_value_is_the_sum_over_all_particles(void **state)
         {{3, 2, 2}, {-1, -1, -1}, 0.9},
         {{1, 1, 1}, {-0.05, -0.05, -0.05}, 0.1},
         {{5, 3, 90}, {-0.05, -0.05, -0.9}, 0.02},
+        {{699, 2, 3}, {-0.35, -0.05, 0.1}, 0.001},
     };
     Cloud cloud;
     const FieldParticles particles = some_particles(&cloud, 0.21);
@@ -128,8 +130,9 @@ static void a_lattice_has_one_inside_and_a_half_at_its_face(void **state)
     enum { SIDE = 9 };
     static float position[4 * SIDE * SIDE * SIDE];
     for (size_t i = 0; i < SIDE * SIDE * SIDE; i++) {
-        const float p[4] = {0.1F * (float)(i % SIDE), 0.1F * (float)(i / SIDE % SIDE),
-                            0.1F * (float)(i / SIDE / SIDE), 0.001F};
+        const size_t row = i / SIDE, slice = row / SIDE;
+        const float p[4] = {0.1F * (float)(i % SIDE), 0.1F * (float)(row % SIDE), 0.1F * (float)slice,
+                            0.001F};
         memcpy(position + 4 * i, p, sizeof p);
     }
     const FieldParticles particles = {SIDE * SIDE * SIDE, position, NULL, 0.21};
