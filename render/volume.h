@@ -9,18 +9,12 @@
 #include "render/view_def.h"
 #include "render/volume_names.h"
 #include "sim/error.h"
+#include "sim/field.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/timer.h"
 
 #include <stdbool.h>
 #include <stddef.h>
-
-/* Cubic cells; voxel i, j, k has its value at corner + cell (i + 1/2, j + 1/2, k + 1/2). */
-typedef struct VolumeGrid {
-    int size[3];      /* cells, each at least 1 */
-    double corner[3]; /* m, box's frame: corner of the first voxel */
-    double cell;      /* m */
-} VolumeGrid;
 
 typedef struct Volume {
     VolumeGrid grid;

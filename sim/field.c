@@ -151,13 +151,16 @@ typedef struct Bump {
     float most, inverse;  /* V W(0); 1 / (h / cell)^2 */
 } Bump;
 
-enum { LANES = 4, ROW = 256 }; /* values along x at a time: in a register; of a bump */
+enum { LANES = 8, ROW = 256 }; /* values along x at a time, of a bump */
 
 typedef float Lanes __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
 typedef int32_t LaneMask __attribute__((vector_size(4 * LANES)));
 
+/* Inlined into a function for each instruction set; lanes are independent, so the bits are the same. */
+#define INLINE static inline __attribute__((always_inline))
+
 /* Adds most (1 - q^2)^3, where q^2 = square + 1 - left. */
-static void add_row(float *restrict row, const float *restrict square, int count, float left, float most)
+INLINE void add_row(float *restrict row, const float *restrict square, int count, float left, float most)
 {
     int i = 0;
     for (; i + LANES <= count; i += LANES) {
@@ -172,7 +175,7 @@ static void add_row(float *restrict row, const float *restrict square, int count
 
 /* Adds to the values first <= i < first + count of each row; if there is room to as many as fill whole
    registers, since those beyond the bump get nothing. */
-static void add_rows(float *values, const VolumeGrid *grid, const Bump *bump, int first, int count)
+INLINE void add_rows(float *values, const VolumeGrid *grid, const Bump *bump, int first, int count)
 {
     float square[ROW];
     const int width = grid->size[0], height = grid->size[1], whole = (count + LANES - 1) / LANES * LANES;
@@ -191,10 +194,28 @@ static void add_rows(float *values, const VolumeGrid *grid, const Bump *bump, in
         }
 }
 
-static void add_bump(float *values, const VolumeGrid *grid, const Bump *bump)
+INLINE void add_pieces(float *values, const VolumeGrid *grid, const Bump *bump)
 {
     for (int i = bump->first[0]; i < bump->end[0]; i += ROW)
         add_rows(values, grid, bump, i, bump->end[0] - i < ROW ? bump->end[0] - i : ROW);
+}
+
+#if defined(__x86_64__)
+static __attribute__((target("avx2"))) void add_wide(float *values, const VolumeGrid *grid, const Bump *bump)
+{
+    add_pieces(values, grid, bump);
+}
+#endif
+
+static void add_bump(float *values, const VolumeGrid *grid, const Bump *bump)
+{
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) {
+        add_wide(values, grid, bump);
+        return;
+    }
+#endif
+    add_pieces(values, grid, bump);
 }
 
 static void sum_member(const Sum *sum, size_t i, int slice, int slice_end)

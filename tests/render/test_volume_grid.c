@@ -2,7 +2,6 @@
 #include "tests/render/volume_fixture.h"
 
 #include "render/view.h"
-#include "render/voxelize_rows.h"
 #include "sim/gl/shader_source.h"
 
 static VolumeGrid grid_of(const VolumeDef *def, const ParticleBuffers *state)

@@ -15,7 +15,7 @@ MAY = {
     "sim/gl": ["sim", "sim/gl"],
     "sim/gl/compute": ["sim", "sim/gl", "sim/gl/compute"],
     "sim/gl/fragment": ["sim", "sim/gl", "sim/gl/fragment"],
-    "render": ["sim", "sim/gl", "render"],
+    "render": ["sim", "sim/cpu/parallel.h", "sim/gl", "render"],
     "app": ["sim", "sim/gl", "render", "app"],
 }
 
