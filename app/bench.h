@@ -21,6 +21,7 @@ typedef struct StageFigure {
 typedef struct BenchResult {
     char scene[1024];
     char backend[NAME_SIZE], method[NAME_SIZE], view[NAME_SIZE];
+    char swept[256];    /* "key=value" of each sweep, joined by ", "; "" without sweeps */
     char renderer[256]; /* "" when no context was needed */
     int threads, width, height, frames;
     int substeps; /* of a frame, as they ran: trouble halves the step */

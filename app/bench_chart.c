@@ -93,8 +93,11 @@ static void draw_times(const Table *table, const BenchResult *results, size_t co
 {
     fputs("$bars << EOD\n", gnuplot);
     for (size_t i = 0; i < count; i++) {
-        fprintf(gnuplot, "\"%s\\n%s\\n%d x %g s\"", results[i].backend, results[i].view, results[i].substeps,
-                results[i].dt_substep);
+        if (table->sweep)
+            fprintf(gnuplot, "\"%s\\n%zu\"", table_row_name(table, &results[i]), results[i].particles);
+        else
+            fprintf(gnuplot, "\"%s\\n%s\\n%d x %g s\"", results[i].backend, results[i].view,
+                    results[i].substeps, results[i].dt_substep);
         for (int c = 0; table->columns[c].title; c++)
             fprintf(gnuplot, " %.4f", table_value(table, &results[i], c));
         fputc('\n', gnuplot);

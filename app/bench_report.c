@@ -27,6 +27,8 @@ void bench_print(const BenchResult *r, FILE *file)
             r->neighbours_mean, r->method, r->backend, threads, r->substeps, r->dt_substep);
     if (r->renderer[0])
         fprintf(file, "view %s, %d x %d, on %s\n", r->view, r->width, r->height, r->renderer);
+    if (r->swept[0])
+        fprintf(file, "%s\n", r->swept);
     if (r->counts.counted)
         fprintf(file, "  coverage %.1f %% of the picture\n", 100 * r->counts.coverage);
     fprintf(file, "  %-12s %-7s %-7s %10s %10s %7s%s\n", "stage", "part", "clock", "median ms", "p95 ms",
@@ -64,9 +66,10 @@ static json_t *stages_json(const BenchResult *r)
 
 static json_t *result_json(const BenchResult *r)
 {
-    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend",
-                             r->backend, "method", r->method, "view", r->view, "threads", r->threads,
-                             "renderer", r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
+    json_t *json =
+        json_pack("{s:s, s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend", r->backend,
+                  "method", r->method, "view", r->view, "swept", r->swept, "threads", r->threads, "renderer",
+                  r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
     json_t *more =
         json_pack("{s:I, s:i, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles,
                   "troubles", (int)r->troubles, "lost", (json_int_t)r->lost, "time", r->time,

@@ -38,6 +38,16 @@ static const Table tables[] = {
      .columns = {{"visibility", BIT(STAGE_VISIBILITY)},
                  {"blend", BIT(STAGE_BLEND)},
                  {"shade", BIT(STAGE_SHADE)}}},
+    {.name = "paper003-voxelize",
+     .help =
+         "the ways to the volume side by side; `direct` lists the particles and sums where the slice is drawn",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"view.volume.show=slice"},
+     .particles = {"1024", "8192"},
+     .view = "volume",
+     .sweep = "view.volume.method",
+     .values = {"geometry", "layers", "planes", "scatter", "gather", "slabs", "direct"},
+     .columns = {{"voxelize", BIT(STAGE_VOXELIZE)}, {"slice", BIT(STAGE_SHADE)}}},
 };
 
 const Table *table_find(const char *name, Error *error)
@@ -75,6 +85,12 @@ int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1])
         for (int i = 0; table->substeps[i]; i++)
             add(substeps, table->substeps[i]);
     }
+    if (table->sweep) {
+        Sweep *values = &sweeps[count++];
+        *values = (Sweep){.key = table->sweep};
+        for (int i = 0; table->values[i]; i++)
+            add(values, table->values[i]);
+    }
     if (table->view)
         return count;
     Sweep *backends = &sweeps[count++];
@@ -94,6 +110,12 @@ double table_value(const Table *table, const BenchResult *result, int column)
     for (unsigned s = 0; s < STAGE_COUNT; s++)
         sum += wanted & BIT(s) ? result->stages[s].median_ms : 0;
     return sum;
+}
+
+const char *table_row_name(const Table *table, const BenchResult *result)
+{
+    const char *value = table->sweep ? strrchr(result->swept, '=') : NULL;
+    return value ? value + 1 : result->backend;
 }
 
 /* Values in ms, or published as shares: then without times. */
@@ -139,7 +161,7 @@ static void print_result(const Table *table, const BenchResult *r, FILE *file)
     const int columns = column_count(table);
     for (int c = 0; c < columns; c++)
         values[c] = table_value(table, r, c);
-    fprintf(file, "%9zu %8d  %-9s %-22s", r->particles, r->substeps, r->view, r->backend);
+    fprintf(file, "%9zu %8d  %-9s %-22s", r->particles, r->substeps, r->view, table_row_name(table, r));
     print_values(values, columns, true, file);
     if (table->percent)
         fprintf(file, " %9.1f", r->render_ms > 0 ? 1e3 / r->render_ms : 0);
@@ -187,7 +209,8 @@ bool table_print(const Table *table, const BenchResult *results, size_t count, F
         fprintf(file, "here: %s, cpu with %d threads, %d x %d; medians of %d frames, ms\n\n",
                 results[0].renderer, results[0].threads, results[0].width, results[0].height,
                 results[0].frames);
-    fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view", "backend");
+    fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view",
+            table->sweep ? strrchr(table->sweep, '.') + 1 : "backend");
     for (int c = 0; table->columns[c].title; c++)
         fprintf(file, " %17s", table->columns[c].title);
     fprintf(file, " %9s%s%s\n", "total", table->percent ? "  frames/s" : "",

@@ -22,9 +22,11 @@ typedef struct Table {
     const char *substeps[3];              /* and each of these; ended by NULL */
     const char *reference;                /* the CSV file of what was published, or NULL */
     const char *view;                     /* the only one, drawn for one backend; NULL: all of both */
-    bool percent;                         /* shares were published, and frames a second as `rate` */
-    bool shares;                          /* the chart shows the first column's share; else times */
-    TableColumn columns[TABLE_COLUMNS];   /* ended by a NULL title */
+    const char *sweep,
+        *values[8]; /* with a view: a setting and its values, ended by NULL, a row each; or NULL */
+    bool percent;   /* shares were published, and frames a second as `rate` */
+    bool shares;    /* the chart shows the first column's share; else times */
+    TableColumn columns[TABLE_COLUMNS]; /* ended by a NULL title */
 } Table;
 
 /* NULL with the reason, which lists them, when there is none of that name. */
@@ -38,6 +40,9 @@ bool table_print(const Table *table, const BenchResult *results, size_t count, F
 
 /* The chart, FILE.svg or FILE.png. */
 bool table_draw(const Table *table, const BenchResult *results, size_t count, const char *path, Error *error);
+
+/* What a row is of beside its view: the value of the table's sweep, or the backend. */
+const char *table_row_name(const Table *table, const BenchResult *result);
 
 /* ms of a column, of the median frame. */
 double table_value(const Table *table, const BenchResult *result, int column);

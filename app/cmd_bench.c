@@ -120,6 +120,19 @@ static bool case_settings(const Plan *plan, size_t combination, char texts[TEXTS
     return true;
 }
 
+/* What tells the case from the others, for people. */
+static void case_name(const Plan *plan, size_t combination, char *name, size_t size)
+{
+    size_t used = 0, behind = plan->combinations;
+    *name = 0;
+    for (int i = 0; i < plan->sweep_count && used < size; i++) {
+        const Sweep *sweep = &plan->sweeps[i];
+        behind /= (size_t)sweep->count;
+        used += (size_t)snprintf(name + used, size - used, "%s%s=%s", i ? ", " : "", sweep->key,
+                                 sweep->values[combination / behind % (size_t)sweep->count]);
+    }
+}
+
 static bool case_load(const Plan *plan, size_t index, bool tell, Scene *scene, Error *error)
 {
     char texts[TEXTS_BYTES], note[256] = "";
@@ -179,6 +192,7 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
         progress_end(&progress);
         if (!ok)
             return false;
+        case_name(plan, *done % plan->combinations, results[*done].swept, sizeof results->swept);
         if (!args->quiet && !plan->table)
             bench_print(&results[*done], stdout);
     }

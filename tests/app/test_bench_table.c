@@ -72,6 +72,18 @@ static void times_of_parts(void **state)
     free(text);
 }
 
+static void a_row_for_each_value_of_a_setting(void **state)
+{
+    (void)state;
+    BenchResult result = made_up(8192, "volume", "cpu");
+    result.stages[STAGE_VOXELIZE].median_ms = 20;
+    snprintf(result.swept, sizeof result.swept, "particles=8192, view.volume.method=planes");
+    char *text = printed("paper003-voxelize", &result, 1);
+    expect(text, "method", "particles substeps view method voxelize slice total");
+    expect(text, "planes", "8192 1 volume planes 20.000 80.0 % 5.000 20.0 % 25.000");
+    free(text);
+}
+
 static void cases_are_all_views_and_backends(void **state)
 {
     (void)state;
@@ -82,6 +94,8 @@ static void cases_are_all_views_and_backends(void **state)
     assert_true(sweeps[0].count >= 2 && sweeps[1].count == 4 && sweeps[2].count == 3);
     assert_int_equal(table_sweeps(table_find("paper002-passes", &error), sweeps), 2);
     assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "splat") == 0);
+    assert_int_equal(table_sweeps(table_find("paper003-voxelize", &error), sweeps), 3);
+    assert_true(strcmp(sweeps[2].key, "view.volume.method") == 0 && sweeps[2].count == 7);
     assert_null(table_find("paper9", &error));
 }
 
@@ -95,6 +109,7 @@ static int setup(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_row_for_each_value_of_a_setting),
         cmocka_unit_test(shares_of_passes),
         cmocka_unit_test(times_of_parts),
         cmocka_unit_test(cases_are_all_views_and_backends),
