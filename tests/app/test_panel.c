@@ -122,7 +122,7 @@ static void open_sections(Desk *desk)
 
 static Desk *all_open(Session *session, const char *scene)
 {
-    Desk *desk = session_open(session, scene, 400, 2100, 13);
+    Desk *desk = session_open(session, scene, 400, 2700, 13);
     open_sections(desk);
     return desk;
 }
@@ -179,7 +179,7 @@ static void click_for_change(Desk *desk, const Key *key, const char *path, float
         desk_click(desk, seen->rect[0] + 10, seen->rect[3] + 1.5F * line);
     if (key->type == KEY_COLOR)
         desk_click(desk, middle + 60, seen->rect[3] + 60);
-    desk_click(desk, 395, 2095); /* closes it */
+    desk_click(desk, 395, 2695); /* closes it */
 }
 
 static void test_what_it_asks_for_is_accepted(void **state)
