@@ -1,5 +1,6 @@
 #include "app/scene_check.h"
 
+#include "render/volume.h"
 #include "sim/boundary.h"
 #include "sim/flow.h"
 #include "sim/seed.h"
@@ -414,11 +415,24 @@ static bool check_boundary(const Check *check, size_t fluid)
                sum);
 }
 
+/* What no driver would take; what this one does not is found with it. */
+static bool check_volume(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    const VolumeDef *volume = &check->scene->view.volume;
+    ParticleBuffers space = {.spacing = world->spacing, .support_radius = world->support * world->spacing};
+    VolumeGrid grid;
+    Error error;
+    memcpy(space.box_size, world->box_size, sizeof space.box_size);
+    return strcmp(check->scene->view.kind, "volume") != 0 || volume_grid_for(volume, &space, &grid, &error) ||
+           FAIL(check, volume->cell > 0 ? "view.volume.cell" : "view.volume.cells", "%s", error.message);
+}
+
 bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
 {
     const Check check = {tree, scene, error};
     const double spacing = scene->world.spacing;
-    if (!check_widths(&check) || !check_boundary(&check, 0))
+    if (!check_widths(&check) || !check_boundary(&check, 0) || !check_volume(&check))
         return false;
     if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
         return false;

@@ -423,6 +423,10 @@ static void what_no_machine_can_hold_is_refused(void **state)
                                     "      - ball: {centre: [499, 999, 499], radius: 0.05}\n";
     assert_false(parse_text(far_apart, NULL, &scene, &error));
     assert_non_null(strstr(error.message, "scene.yaml:2:22: the box holds"));
+    assert_refused(LEAST "view: {kind: volume, volume: {cells: 4000}}\n",
+                   "scene.yaml:7:38: a volume of 5680 cells along x");
+    assert_refused(LEAST "view: {kind: volume, volume: {cell: 0.001}}\n",
+                   "scene.yaml:7:38: a volume of 14200 cells along x");
 }
 
 int main(void)

@@ -77,6 +77,8 @@ static void each_type_reaches_its_field(void **state)
     assert_false(set("view.splat.filter=narrow_range") || set("view.splat.filter_size=6"));
     assert_true(scene.view.splat.filter == SPLAT_NARROW_RANGE && scene.view.splat.filter_size == 6);
     assert_true(!set("view.splat.antialias=false") && !scene.view.splat.antialias);
+    assert_false(set("view.volume.method=planes") || set("view.volume.cells=96"));
+    assert_true(scene.view.volume.method == VOLUME_PLANES && scene.view.volume.cells == 96);
     assert_false(set("view.camera.from=[1, 2, 3]"));
     assert_true(scene.view.camera.from[2] == 3 && !scene.view.camera_auto);
     assert_true(scene_set_live(&scene, "view.legend=false", NULL, &error) && !scene.view.legend);
@@ -156,6 +158,8 @@ static void messages_are_those_of_set(void **state)
         "view.splat.level=1.5",
         "view.splat.filter=bilateral",
         "view.splat.filter_iterations=0",
+        "view.volume.cells=3",
+        "view.volume.method=cubes",
         "solver.step.dt=0",
         "solver.sound_speed=a",
         "view.radius=11",

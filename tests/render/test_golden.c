@@ -22,6 +22,8 @@ static Image draw(const Golden *golden)
     ParticleBuffers buffers;
     Particles *particles = particles_wave(SPACING);
     particles_spare(particles, &golden->def, SPACING);
+    for (size_t i = 0; i < particles->count; i++)
+        particles->position[4 * i + 3] = (float)(SPACING * SPACING * SPACING);
     ParticleBuffers box = box_state(particles->count, SPACING);
     box.box = golden->box;
     Upload *upload = upload_particles(particles, &box, &buffers);
@@ -231,6 +233,17 @@ static void test_splat_level(void **state)
     check(&golden);
 }
 
+static void test_volume_slice(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("volume_slice", 240, 180);
+    text_set(golden.def.kind, "volume");
+    golden.def.volume.show = VOLUME_SLICE;
+    golden.def.volume.cells = 64;
+    golden.def.legend = true;
+    check(&golden);
+}
+
 /* The measure itself: one shifted picture must not pass. */
 static void test_difference_is_seen(void **state)
 {
@@ -258,6 +271,7 @@ int main(void)
         cmocka_unit_test_teardown(test_splat, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_ellipsoid, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_w1, no_gl_errors),
+        cmocka_unit_test_teardown(test_volume_slice, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_water, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_jelly, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_level, no_gl_errors),

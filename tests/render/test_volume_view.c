@@ -1,0 +1,164 @@
+/* View `volume`, one slice of it: the colours of the field, from wherever one looks. */
+#include "tests/render/volume_fixture.h"
+
+#include "render/colormap.h"
+
+enum { SIZE = 96 };
+
+static ViewDef slice_def(const VolumeScene *scene, const double from[3], const double to[3])
+{
+    ViewDef def = bare_view();
+    text_set(def.kind, "volume");
+    def.volume = scene->def;
+    def.volume.show = VOLUME_SLICE;
+    def.camera_auto = false;
+    def.camera.fov_deg = 30;
+    memcpy(def.camera.from, from, sizeof def.camera.from);
+    memcpy(def.camera.to, to, sizeof def.camera.to);
+    return def;
+}
+
+static void picture_of(const ViewDef *def, VolumeScene *scene, uint8_t *rgb)
+{
+    Error error = {0};
+    ParticleBuffers buffers;
+    scene->state.count = scene->particles->count;
+    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    Renderer *renderer = renderer_create(def, SIZE, SIZE, &error);
+    if (!renderer)
+        fail_msg("%s", error.message);
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_read(renderer, rgb);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+}
+
+/* Whether the colour is the map's for a value within so much of that one. */
+static bool has_color_of(const uint8_t *rgb, double value, double within)
+{
+    uint8_t map[3 * COLORMAP_SIZE];
+    assert_true(colormap_fill("viridis", map));
+    for (int i = 0; i < COLORMAP_SIZE; i++)
+        if (fabs(i * 1.25 / 255 - fmin(value, 1.25)) <= within && abs(map[3 * i] - rgb[0]) <= 2 &&
+            abs(map[3 * i + 1] - rgb[1]) <= 2 && abs(map[3 * i + 2] - rgb[2]) <= 2)
+            return true;
+    return false;
+}
+
+/* Looks along an axis at the slice across it. */
+static void compare_slice(VolumeMethod method, int axis, double place, double within)
+{
+    VolumeScene scene = volume_scene(0.08, 128);
+    add_fluid(&scene);
+    scene.def.method = method;
+    scene.def.slice_axis = axis;
+    scene.def.slice = place;
+    const double low[3] = {-1, 0, -0.5}, size[3] = {2, 1, 1}, middle = low[axis] + place * size[axis];
+    double to[3] = {-0.75, 0.2, -0.2}, from[3];
+    to[axis] = middle;
+    memcpy(from, to, sizeof from);
+    from[axis] += 2;
+    if (axis == 1)
+        from[2] += 1e-3; /* up is not along the sight */
+    const ViewDef def = slice_def(&scene, from, to);
+    uint8_t rgb[3 * SIZE * SIZE];
+    picture_of(&def, &scene, rgb);
+    static const int across[3] = {2, 0, 0}, upward[3] = {1, 2, 1}, across_sign[3] = {-1, 1, 1},
+                     up_sign[3] = {1, -1, 1};
+    const double pixel = 2 * 2 * tan(15 * 3.14159265358979 / 180) / SIZE; /* m in the slice */
+    int inside = 0;
+    for (int y = 2; y < SIZE; y += 5)
+        for (int x = 2; x < SIZE; x += 5) {
+            double at[3], field, scalar;
+            memcpy(at, to, sizeof at);
+            at[across[axis]] += across_sign[axis] * (x + 0.5 - SIZE / 2.0) * pixel;
+            at[upward[axis]] += up_sign[axis] * (SIZE / 2.0 - y - 0.5) * pixel;
+            if (at[0] < -1.1 || at[1] < -0.1 || at[2] < -0.6)
+                continue; /* beside the volume */
+            brute_field(&scene, at, &field, &scalar);
+            inside += field > 0.5;
+            if (!has_color_of(&rgb[3 * (y * SIZE + x)], field, within))
+                fail_msg("%s, axis %d: at %g %g %g, where F is %g, the colour is %d %d %d",
+                         volume_method_names[method], axis, at[0], at[1], at[2], field,
+                         rgb[3 * (y * SIZE + x)], rgb[3 * (y * SIZE + x) + 1], rgb[3 * (y * SIZE + x) + 2]);
+        }
+    assert_true(inside > 20);
+    volume_scene_free(&scene);
+}
+
+static void a_slice_shows_the_field(void **state)
+{
+    (void)state;
+    for (int axis = 0; axis < 3; axis++) {
+        compare_slice(VOLUME_DIRECT, axis, axis == 2 ? 0.25 : 0.1, 0.02);
+        compare_slice(VOLUME_SLABS, axis, axis == 2 ? 0.25 : 0.1, 0.04);
+    }
+}
+
+/* In the slice, in the volume, behind it, along it; without particles, and with ones that are nowhere. */
+static void from_wherever_one_looks(void **state)
+{
+    (void)state;
+    static const double froms[][3] = {{0, 0.5, 0},
+                                      {-0.8, 0.2, -0.3},
+                                      {0, 0.5, -6},
+                                      {3, 0.5, 0},
+                                      {0, 40, 1e-3}},
+                        tos[][3] = {{1, 0.5, 0}, {-0.8, 0.2, 1}, {0, 0.5, -9}, {0, 0.5, 0}, {0, 0.5, 0}};
+    uint8_t rgb[3 * SIZE * SIZE];
+    VolumeScene scene = volume_scene(0.08, 32);
+    for (int i = 0; i < 5; i++)
+        for (int bounds = VOLUME_BOX; bounds <= VOLUME_FLUID; bounds++) {
+            scene.def.bounds = (VolumeBounds)bounds;
+            const ViewDef def = slice_def(&scene, froms[i], tos[i]);
+            scene.particles->count = 0;
+            picture_of(&def, &scene, rgb);
+            add_fluid(&scene);
+            add_volume(&scene, NAN, NAN, NAN, NAN, NAN);
+            picture_of(&def, &scene, rgb);
+        }
+    volume_scene_free(&scene);
+}
+
+static void methods_are_swapped_while_it_runs(void **state)
+{
+    (void)state;
+    Error error = {0};
+    ParticleBuffers buffers;
+    VolumeScene scene = volume_scene(0.08, 64);
+    add_fluid(&scene);
+    scene.state.count = scene.particles->count;
+    Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
+    ViewDef def = slice_def(&scene, (double[]){-0.7, 0.3, 2}, (double[]){-0.7, 0.2, 0});
+    def.volume.slice = 0.2;
+    uint8_t first[3 * SIZE * SIZE], rgb[3 * SIZE * SIZE];
+    Renderer *renderer = renderer_create(&def, SIZE, SIZE, &error);
+    assert_non_null(renderer);
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_read(renderer, first);
+    for (int turn = 0; turn < 2 * VOLUME_DIRECT; turn++) {
+        def.volume.method = (VolumeMethod)(turn % VOLUME_DIRECT); /* direct does not interpolate */
+        def.volume.bounds = (VolumeBounds)(turn / VOLUME_DIRECT);
+        assert_true(renderer_set_def(renderer, &def, &error));
+        renderer_draw(renderer, &buffers, NULL);
+        renderer_read(renderer, rgb);
+        int apart = 0;
+        for (int i = 0; i < SIZE * SIZE; i++)
+            apart += abs(rgb[3 * i] - first[3 * i]) > 4;
+        if (turn < VOLUME_DIRECT && apart > SIZE * SIZE / 200)
+            fail_msg("%s: %d pixels differ", volume_method_names[def.volume.method], apart);
+    }
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    volume_scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(a_slice_shows_the_field, no_gl_errors),
+        cmocka_unit_test_teardown(from_wherever_one_looks, no_gl_errors),
+        cmocka_unit_test_teardown(methods_are_swapped_while_it_runs, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
