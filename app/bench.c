@@ -236,6 +236,7 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
         .dt_substep = info.dt,
         .bytes_per_particle = (double)info.state_bytes / (double)info.capacity,
     };
+    snprintf(result->swept, sizeof result->swept, "%s", setup->swept ? setup->swept : "");
     snprintf(result->scene, sizeof result->scene, "%s", setup->scene->path);
     snprintf(result->backend, sizeof result->backend, "%s", def->backend);
     snprintf(result->method, sizeof result->method, "%s", def->method);

@@ -42,6 +42,7 @@ typedef struct BenchResult {
 
 typedef struct BenchSetup {
     const Scene *scene;
+    const char *swept; /* as in BenchResult; NULL: "" */
     Headless *context; /* current; NULL: neither solver nor pictures need one */
     bool draws;
     int width, height, frames;

@@ -124,7 +124,7 @@ static bool case_settings(const Plan *plan, size_t combination, char texts[TEXTS
 static void case_name(const Plan *plan, size_t combination, char *name, size_t size)
 {
     size_t used = 0, behind = plan->combinations;
-    *name = 0;
+    snprintf(name, size, "%s", "");
     for (int i = 0; i < plan->sweep_count && used < size; i++) {
         const Sweep *sweep = &plan->sweeps[i];
         behind /= (size_t)sweep->count;
@@ -172,10 +172,13 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
     for (; *done < count && !interrupted(); ++*done) {
         Scene scene;
         Progress progress;
+        char swept[256];
         if (!case_load(plan, *done, true, &scene, error))
             return false;
+        case_name(plan, *done % plan->combinations, swept, sizeof swept);
         const BenchSetup setup = {
             .scene = &scene,
+            .swept = swept,
             .context = context,
             .draws = strcmp(scene.view.kind, "none") != 0,
             .width = args->width,
@@ -192,7 +195,6 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
         progress_end(&progress);
         if (!ok)
             return false;
-        case_name(plan, *done % plan->combinations, results[*done].swept, sizeof results->swept);
         if (!args->quiet && !plan->table)
             bench_print(&results[*done], stdout);
     }

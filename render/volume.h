@@ -1,4 +1,5 @@
-/* The fluid's field on a grid of voxels: F(r) = sum_j V_j W_poly6(r - r_j, h) (Müller 2003, eq. 20). F is
+/* The fluid's field on a grid of voxels: F(r) = sum_j V_j W_poly6(r - r_j, h) (Müller 2003, eq. 20). In a
+   scene of two dimensions V is an area and W the plane's, 4 (h^2 - r^2)^3 / (pi h^8), right where z = 0. F is
    about 1 inside the fluid, 0.5 at its surface, 0 farther than h from any particle; a point in space is in
    the box's frame.
 

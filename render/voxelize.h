@@ -11,8 +11,8 @@ typedef struct VoxelizeJob {
     bool scalar;            /* one is carried */
     double low[3], high[3]; /* where particles count, m */
     double radius;          /* h, cells */
-    double amplitude;       /* 315 / (64 pi h^3), 1/m3: what a particle adds at its centre, by its volume */
-    const Volume *volume;   /* to be filled; textures as they were left, or 0 everywhere */
+    double amplitude; /* W(0), 1/m3 (1/m2 in the plane): what a particle adds at its centre, by its volume */
+    const Volume *volume; /* to be filled; textures as they were left, or 0 everywhere */
 } VoxelizeJob;
 
 typedef struct VoxelizeMethod {

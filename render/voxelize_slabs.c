@@ -2,6 +2,7 @@
 #include "render/voxelize.h"
 #include "sim/cpu/parallel.h"
 #include "sim/field.h"
+#include "sim/kernel.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -101,7 +102,9 @@ static bool read_particles(Slabs *own, const VoxelizeJob *job, FieldParticles *o
     const ParticleAttribute *scalar = &particles->scalar[job->carried];
     const size_t all = particles->count;
     const bool carried = own->scalar && scalar->buffer;
+    const float scale = (float)(job->amplitude / kernel_poly6(0, particles->support_radius)); /* 1 in space */
     size_t count = 0;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a backend on the GPU may have written them */
     if (all > 0 && !(read_attribute(&particles->position, all, 4, own->position) &&
                      (!carried || read_attribute(scalar, all, 1, own->value))))
         return error_set(error, "no memory to read %zu particles", all);
@@ -109,6 +112,7 @@ static bool read_particles(Slabs *own, const VoxelizeJob *job, FieldParticles *o
         if (!counts(own->position + 4 * i, job))
             continue;
         memmove(own->position + 4 * count, own->position + 4 * i, 4 * sizeof(float));
+        own->position[4 * count + 3] *= scale;
         if (own->scalar)
             own->value[count] = carried && fabsf(own->value[i]) < 1e30F ? own->value[i] : 0;
         count++;

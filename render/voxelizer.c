@@ -4,6 +4,7 @@
 #include "render/particle_bind.h"
 #include "render/voxelize.h"
 #include "sim/gl/program.h"
+#include "sim/kernel.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -56,20 +57,20 @@ static GLuint create_buffer(size_t size, const char *label)
 
 Voxelizer *voxelizer_create(VolumeMethod method, bool scalar, Error *error)
 {
-    Voxelizer *own = calloc(1, sizeof *own);
-    if (!own) {
+    Voxelizer *voxelizer = calloc(1, sizeof *voxelizer);
+    if (!voxelizer) {
         error_set(error, "out of memory for the voxelizer");
         return NULL;
     }
-    own->method = choose(method);
-    own->scalar = scalar;
-    own->by = methods[own->method];
-    own->block = create_buffer(sizeof(VolumeBlock), "volume");
-    own->bounds = create_buffer(6 * sizeof(GLuint), "volume bounds");
-    own->state = own->by->create(own->method, scalar, error);
-    if (own->state)
-        return own;
-    voxelizer_destroy(own);
+    voxelizer->method = choose(method);
+    voxelizer->scalar = scalar;
+    voxelizer->by = methods[voxelizer->method];
+    voxelizer->block = create_buffer(sizeof(VolumeBlock), "volume");
+    voxelizer->bounds = create_buffer(6 * sizeof(GLuint), "volume bounds");
+    voxelizer->state = voxelizer->by->create(voxelizer->method, scalar, error);
+    if (voxelizer->state)
+        return voxelizer;
+    voxelizer_destroy(voxelizer);
     return NULL;
 }
 
@@ -79,28 +80,28 @@ static void delete_textures(Volume *volume)
     *volume = (Volume){0};
 }
 
-void voxelizer_destroy(Voxelizer *own)
+void voxelizer_destroy(Voxelizer *voxelizer)
 {
-    if (!own)
+    if (!voxelizer)
         return;
-    if (own->state)
-        own->by->destroy(own->state);
-    delete_textures(&own->volume);
-    glDeleteBuffers(2, (GLuint[]){own->block, own->bounds});
-    glDeleteProgram(own->find_bounds);
-    free(own);
+    if (voxelizer->state)
+        voxelizer->by->destroy(voxelizer->state);
+    delete_textures(&voxelizer->volume);
+    glDeleteBuffers(2, (GLuint[]){voxelizer->block, voxelizer->bounds});
+    glDeleteProgram(voxelizer->find_bounds);
+    free(voxelizer);
 }
 
-VolumeMethod voxelizer_method(const Voxelizer *own)
+VolumeMethod voxelizer_method(const Voxelizer *voxelizer)
 {
-    return own->method;
+    return voxelizer->method;
 }
 
-const char *voxelizer_defines(const Voxelizer *own)
+const char *voxelizer_defines(const Voxelizer *voxelizer)
 {
     static const char *const lines[] = {"", "#define SCALAR 1\n", "#define FIELD_DIRECT 1\n",
                                         "#define FIELD_DIRECT 1\n#define SCALAR 1\n"};
-    return lines[2 * (own->method == VOLUME_DIRECT) + own->scalar];
+    return lines[2 * (voxelizer->method == VOLUME_DIRECT) + voxelizer->scalar];
 }
 
 unsigned volume_texture(const int size[3], unsigned format, const char *label)
@@ -156,10 +157,10 @@ static bool driver_takes(const VolumeGrid *grid)
     return width == grid->size[0];
 }
 
-bool voxelizer_fits(const Voxelizer *own, const VolumeGrid *grid, double support, Error *error)
+bool voxelizer_fits(const Voxelizer *voxelizer, const VolumeGrid *grid, double support, Error *error)
 {
-    const double bytes = bytes_of(grid, own->scalar);
-    if (own->method == VOLUME_DIRECT)
+    const double bytes = bytes_of(grid, voxelizer->scalar);
+    if (voxelizer->method == VOLUME_DIRECT)
         return true;
     if (!driver_takes(grid) || 2.5 * bytes > bytes_there())
         return error_set(
@@ -167,28 +168,28 @@ bool voxelizer_fits(const Voxelizer *own, const VolumeGrid *grid, double support
             "a volume of %d x %d x %d cells (%.0f MB) is more than this driver has room for: take fewer "
             "view.volume.cells, or a larger view.volume.cell",
             grid->size[0], grid->size[1], grid->size[2], bytes / 1e6);
-    return !own->by->fits || own->by->fits(grid, support / grid->cell, error);
+    return !voxelizer->by->fits || voxelizer->by->fits(grid, support / grid->cell, error);
 }
 
-static bool follow_grid(Voxelizer *own, const VolumeGrid *grid, Error *error)
+static bool follow_grid(Voxelizer *voxelizer, const VolumeGrid *grid, Error *error)
 {
-    Volume *volume = &own->volume;
-    if (own->method == VOLUME_DIRECT)
+    Volume *volume = &voxelizer->volume;
+    if (voxelizer->method == VOLUME_DIRECT)
         return true;
     if (volume->field && memcmp(volume->grid.size, grid->size, sizeof grid->size) == 0)
         return true;
     delete_textures(volume);
     volume->field = volume_texture(grid->size, GL_R32F, "volume field");
-    if (volume->field && own->scalar)
+    if (volume->field && voxelizer->scalar)
         volume->scalar = volume_texture(grid->size, GL_R32F, "volume scalar");
-    if (volume->field && (volume->scalar || !own->scalar))
+    if (volume->field && (volume->scalar || !voxelizer->scalar))
         return true;
     delete_textures(volume);
     return error_set(error, "the GPU has no memory for a volume of %d x %d x %d cells; take larger cells",
                      grid->size[0], grid->size[1], grid->size[2]);
 }
 
-static void fill_block(const Voxelizer *own, const VoxelizeJob *job, const VolumeGrid *grid)
+static void fill_block(const Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *grid)
 {
     VolumeBlock block = {.place[3] = (float)(1 / grid->cell),
                          .low[3] = (float)job->radius,
@@ -202,8 +203,8 @@ static void fill_block(const Voxelizer *own, const VoxelizeJob *job, const Volum
     }
     block.scale[0] = (float)job->amplitude;
     block.scale[1] = (float)cell_lists_size(grid, job->radius, block.list_size);
-    glNamedBufferSubData(own->block, 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 2, own->block);
+    glNamedBufferSubData(voxelizer->block, 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 2, voxelizer->block);
 }
 
 /* From the numbers of shaders/render/volume_bounds.comp. */
@@ -216,21 +217,22 @@ static double ordered(GLuint value)
 }
 
 /* Asks the GPU, which this waits for: the grid's size is known on this side. */
-static bool crop_to_fluid(Voxelizer *own, const VoxelizeJob *job, const VolumeGrid *whole, VolumeGrid *grid,
-                          Error *error)
+static bool crop_to_fluid(Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *whole,
+                          VolumeGrid *grid, Error *error)
 {
     static const char *const stages[] = {"render/volume_bounds.comp", NULL};
     GLuint found[6] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0, 0, 0};
     double low[3], high[3];
-    if (!own->find_bounds && !(own->find_bounds = program_create("volume bounds", stages, NULL, error)))
+    if (!voxelizer->find_bounds &&
+        !(voxelizer->find_bounds = program_create("volume bounds", stages, NULL, error)))
         return false;
-    glNamedBufferSubData(own->bounds, 0, sizeof found, found);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, own->bounds);
-    glUseProgram(own->find_bounds);
-    particle_bind(own->find_bounds, job->particles, job->carried);
+    glNamedBufferSubData(voxelizer->bounds, 0, sizeof found, found);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, voxelizer->bounds);
+    glUseProgram(voxelizer->find_bounds);
+    particle_bind(voxelizer->find_bounds, job->particles, job->carried);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(own->bounds, 0, sizeof found, found);
+    glGetNamedBufferSubData(voxelizer->bounds, 0, sizeof found, found);
     for (int k = 0; k < 3; k++) {
         low[k] = ordered(found[k]);
         high[k] = ordered(found[3 + k]);
@@ -239,16 +241,23 @@ static bool crop_to_fluid(Voxelizer *own, const VoxelizeJob *job, const VolumeGr
     return true;
 }
 
-static VoxelizeJob make_job(const Voxelizer *own, const ParticleBuffers *particles, Scalar carried,
+/* A scene of two dimensions is as deep as its particles; their volumes are areas, and the kernel is that of
+ * the plane. */
+static bool is_flat(const ParticleBuffers *particles)
+{
+    return fabs(particles->box_size[2] - particles->spacing) < 1e-6 * particles->spacing;
+}
+
+static VoxelizeJob make_job(const Voxelizer *voxelizer, const ParticleBuffers *particles, Scalar carried,
                             const VolumeGrid *whole)
 {
     const double h = particles->support_radius;
     VoxelizeJob job = {.particles = particles,
                        .carried = carried,
-                       .scalar = own->scalar,
+                       .scalar = voxelizer->scalar,
                        .radius = h / whole->cell,
-                       .amplitude = 315 / (64 * PI * h * h * h),
-                       .volume = &own->volume};
+                       .amplitude = is_flat(particles) ? 4 / (PI * h * h) : kernel_poly6(0, h),
+                       .volume = &voxelizer->volume};
     for (int k = 0; k < 3; k++) {
         job.low[k] = whole->corner[k];
         job.high[k] = whole->corner[k] + whole->size[k] * whole->cell;
@@ -256,42 +265,42 @@ static VoxelizeJob make_job(const Voxelizer *own, const ParticleBuffers *particl
     return job;
 }
 
-static bool make_volume(Voxelizer *own, const VolumeDef *def, const VoxelizeJob *job, const VolumeGrid *whole,
-                        Error *error)
+static bool make_volume(Voxelizer *voxelizer, const VolumeDef *def, const VoxelizeJob *job,
+                        const VolumeGrid *whole, Error *error)
 {
     VolumeGrid grid = *whole;
-    fill_block(own, job, &grid);
+    fill_block(voxelizer, job, &grid);
     if (def->bounds == VOLUME_FLUID) {
-        if (!crop_to_fluid(own, job, whole, &grid, error))
+        if (!crop_to_fluid(voxelizer, job, whole, &grid, error))
             return false;
-        fill_block(own, job, &grid);
+        fill_block(voxelizer, job, &grid);
     }
-    if (!follow_grid(own, &grid, error))
+    if (!follow_grid(voxelizer, &grid, error))
         return false;
-    own->volume.grid = grid;
-    own->volume.support = job->particles->support_radius;
-    own->volume.bytes = own->volume.field ? (size_t)bytes_of(&grid, own->scalar) : 0;
-    return own->by->run(own->state, job, error);
+    voxelizer->volume.grid = grid;
+    voxelizer->volume.support = job->particles->support_radius;
+    voxelizer->volume.bytes = voxelizer->volume.field ? (size_t)bytes_of(&grid, voxelizer->scalar) : 0;
+    return voxelizer->by->run(voxelizer->state, job, error);
 }
 
-bool voxelizer_run(Voxelizer *own, const VolumeDef *def, const ParticleBuffers *particles, Scalar carried,
-                   Volume *out, Error *error)
+bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuffers *particles,
+                   Scalar carried, Volume *out, Error *error)
 {
     VolumeGrid whole;
     *out = (Volume){0};
     if (!volume_grid_for(def, particles, &whole, error))
         return false;
-    const VoxelizeJob job = make_job(own, particles, carried, &whole);
-    if (!make_volume(own, def, &job, &whole, error))
+    const VoxelizeJob job = make_job(voxelizer, particles, carried, &whole);
+    if (!make_volume(voxelizer, def, &job, &whole, error))
         return false;
-    *out = own->volume;
+    *out = voxelizer->volume;
     return true;
 }
 
-void voxelizer_bind(const Voxelizer *own)
+void voxelizer_bind(const Voxelizer *voxelizer)
 {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 2, own->block);
-    glBindTextures(8, 2, (GLuint[]){own->volume.field, own->volume.scalar});
-    if (own->method == VOLUME_DIRECT)
-        voxelize_compute_bind(own->state);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 2, voxelizer->block);
+    glBindTextures(8, 2, (GLuint[]){voxelizer->volume.field, voxelizer->volume.scalar});
+    if (voxelizer->method == VOLUME_DIRECT)
+        voxelize_compute_bind(voxelizer->state);
 }

@@ -5,7 +5,7 @@ layout(std140, binding = 2) uniform VolumeBlock {
     vec4 volume_high;   // the same; 1 / radius^2
     ivec4 volume_size;  // cells; particles
     ivec4 list_size;    // cells of the lists; -
-    vec4 volume_scale;  // 315 / (64 pi h^3); cells of the lists a cell of the grid; -
+    vec4 volume_scale;  // W(0), 1/m3; cells of the lists a cell of the grid; -
 };
 
 vec3 cells_of(vec3 box_point)

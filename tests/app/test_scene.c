@@ -426,7 +426,7 @@ static void what_no_machine_can_hold_is_refused(void **state)
     assert_refused(LEAST "view: {kind: volume, volume: {cells: 4000}}\n",
                    "scene.yaml:7:38: a volume of 5680 cells along x");
     assert_refused(LEAST "view: {kind: volume, volume: {cell: 0.001}}\n",
-                   "scene.yaml:7:38: a volume of 14200 cells along x");
+                   "scene.yaml:7:37: a volume of 14200 cells along x");
 }
 
 int main(void)

@@ -61,6 +61,33 @@ static void coarse_and_fine(void **state)
         }
 }
 
+/* A plane: the volumes are areas, and F is 1 in the middle of a lattice. */
+static void a_scene_of_two_dimensions(void **state)
+{
+    (void)state;
+    const double d = 0.05, h = 2.1 * d, ratio = 4 / (3.14159265358979 * h * h) / kernel_poly6(0, h);
+    VolumeScene scene = volume_scene(d, 64);
+    scene.state.box_size[2] = d;
+    for (int i = 0; i < 12 * 12; i++)
+        add_volume(&scene, -0.5 + d * (i % 12), 0.1 + d * floor(i / 12.0), 0, d * d, 1);
+    for (int m = 0; m < TEXTURED; m++) {
+        Voxelizer *voxelizer = voxelizer_of(textured[m], false);
+        Voxels voxels = voxelized(voxelizer, &scene), wanted = brute_voxels(&scene, &voxels.volume.grid);
+        double most = 0;
+        for (size_t i = 0; i < voxels.count; i++) {
+            wanted.field[i] *= (float)ratio;
+            most = fmax(most, (double)voxels.field[i]);
+        }
+        const double off = worst_of(voxels.field, wanted.field, wanted.count);
+        if (!(off < 1e-5 && most > 0.9 && most < 1.05)) /* less where no voxel's centre is in the plane */
+            fail_msg("%s: %g off, %g at most", volume_method_names[textured[m]], off, most);
+        voxels_free(&voxels);
+        voxels_free(&wanted);
+        voxelizer_destroy(voxelizer);
+    }
+    volume_scene_free(&scene);
+}
+
 static double integral(const Voxels *voxels)
 {
     double sum = 0;
@@ -245,6 +272,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(each_voxel_is_the_sum_over_all_particles, no_gl_errors),
         cmocka_unit_test_teardown(coarse_and_fine, no_gl_errors),
+        cmocka_unit_test_teardown(a_scene_of_two_dimensions, no_gl_errors),
         cmocka_unit_test_teardown(the_integral_is_the_volume_of_the_fluid, no_gl_errors),
         cmocka_unit_test_teardown(bounds_of_the_fluid_are_on_the_same_lattice, no_gl_errors),
         cmocka_unit_test_teardown(nothing_then_one_then_elsewhere_then_nothing, no_gl_errors),

@@ -86,7 +86,9 @@ static inline Voxels voxelized(Voxelizer *voxelizer, VolumeScene *scene)
     if (!voxelizer_run(voxelizer, &scene->def, &buffers, SCALAR_SPEED, &voxels.volume, &error))
         fail_msg("%s", error.message);
     voxels.count = voxel_count(&voxels.volume.grid);
-    voxels.field = voxels.volume.field ? read_texture(voxels.volume.field, voxels.count) : NULL;
+    voxels.field = voxels.volume.field ? read_texture(voxels.volume.field, voxels.count)
+                                       : calloc(voxels.count, sizeof(float));
+    assert_non_null(voxels.field);
     voxels.scalar = voxels.volume.scalar ? read_texture(voxels.volume.scalar, voxels.count) : NULL;
     glFinish();
     upload_destroy(upload);
@@ -139,7 +141,7 @@ static inline double worst_of(const float *values, const float *wanted, size_t c
     for (size_t i = 0; i < count; i++) {
         const double off = fabs((double)values[i] - wanted[i]);
         worst = off <= worst ? worst : isnan(off) ? INFINITY : off;
-        range = fmax(range, fabs(wanted[i]));
+        range = fmax(range, fabs((double)wanted[i]));
     }
     return worst / range;
 }
