@@ -185,7 +185,7 @@ static bool slabs_run(void *state, const VoxelizeJob *job, Error *error)
 {
     Slabs *own = state;
     const VolumeGrid *grid = &job->volume->grid;
-    FieldParticles particles;
+    FieldParticles particles = {0};
     if (!reserve(own, job->particles->count, volume_grid_cells(grid)))
         return error_set(error, "no memory for the sums of a volume; take larger cells");
     if (!read_particles(own, job, &particles, error) ||
