@@ -66,10 +66,9 @@ static json_t *stages_json(const BenchResult *r)
 
 static json_t *result_json(const BenchResult *r)
 {
-    json_t *json =
-        json_pack("{s:s, s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend", r->backend,
-                  "method", r->method, "view", r->view, "swept", r->swept, "threads", r->threads, "renderer",
-                  r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
+    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend",
+                             r->backend, "method", r->method, "view", r->view, "threads", r->threads,
+                             "renderer", r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
     json_t *more =
         json_pack("{s:I, s:i, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles,
                   "troubles", (int)r->troubles, "lost", (json_int_t)r->lost, "time", r->time,
@@ -85,6 +84,8 @@ static json_t *result_json(const BenchResult *r)
     json_decref(sums);
     if (ok && r->counts.counted)
         json_object_set_new(json, "coverage", json_real(r->counts.coverage));
+    if (ok && r->swept[0])
+        json_object_set_new(json, "swept", json_string(r->swept));
     if (ok)
         return json;
     json_decref(json);

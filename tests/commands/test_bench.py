@@ -78,6 +78,8 @@ class Bench(Case):
     def test_sweep_is_the_product(self):
         results = self.bench("--view", "none", "--sweep", "particles=500,1000", "--sweep", "threads=1,2")
         self.assertEqual([r["threads"] for r in results], [1, 2, 1, 2])
+        self.assertEqual(results[1]["swept"], "particles=500, solver.threads=2")
+        self.assertEqual(results[2]["swept"], "particles=1000, solver.threads=1")
         self.assertLess(results[0]["particles"], results[2]["particles"])
         for result, wanted in zip(results, [500, 500, 1000, 1000]):
             self.assertLess(abs(result["particles"] / wanted - 1), 0.2)  # few particles: few spacings fit
