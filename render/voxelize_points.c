@@ -126,12 +126,11 @@ static bool points_fit(const VolumeGrid *grid, double radius, Error *error)
                      grid->size[2], layers);
 }
 
-static void draw(const ByPoints *own, GLsizei instances, const VoxelizeJob *job)
+static void draw(const VoxelizeJob *job, GLsizei instances)
 {
     const GLsizei count = (GLsizei)job->particles->count;
     if (count > 0)
         glDrawArraysInstanced(GL_POINTS, 0, count, instances);
-    (void)own;
 }
 
 /* Layer -1: all of them. */
@@ -159,7 +158,7 @@ static void draw_passes(const ByPoints *own, const GLuint textures[2], const Vox
     for (int slice = 0; slice < size; slice += slices) {
         attach(own, textures, slice / slices);
         glUniform1i(1, slice);
-        draw(own, 1, job);
+        draw(job, 1);
     }
 }
 
@@ -234,7 +233,7 @@ static bool points_run(void *state, const VoxelizeJob *job, Error *error)
     if (slices_a_pass(own))
         draw_passes(own, planes ? own->packed : volume, job);
     else
-        draw(own, own->method == VOLUME_LAYERS ? (GLsizei)ceil(2 * job->radius) + 1 : 1, job);
+        draw(job, own->method == VOLUME_LAYERS ? (GLsizei)ceil(2 * job->radius) + 1 : 1);
     glDisable(GL_BLEND);
     if (planes)
         unpack(own, volume, job->volume->grid.size);
