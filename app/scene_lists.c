@@ -2,6 +2,7 @@
 
 #include "app/scene_keys.h"
 #include "render/colormap.h"
+#include "render/raycast_names.h"
 #include "render/renderer.h"
 #include "render/splat_names.h"
 #include "render/view.h"
@@ -114,7 +115,12 @@ const char *volume_method_choice(int index)
 
 const char *volume_show_choice(int index)
 {
-    return index <= VOLUME_SLICE ? volume_show_names[index] : NULL;
+    return index <= VOLUME_NORMALS ? volume_show_names[index] : NULL;
+}
+
+const char *raycast_look_choice(int index)
+{
+    return index <= RAYCAST_TRANSLUCENT ? raycast_look_names[index] : NULL;
 }
 
 const char *volume_axis_choice(int index)

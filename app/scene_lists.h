@@ -21,6 +21,7 @@ const char *volume_bounds_choice(int index);
 const char *volume_method_choice(int index);
 const char *volume_show_choice(int index);
 const char *volume_axis_choice(int index);
+const char *raycast_look_choice(int index);
 const char *step_mode_choice(int index);
 
 /* Defaults of a list's element, which is zeroed: `index` is its place. */

@@ -45,7 +45,7 @@ void behind_take(Behind *behind, const Frame *frame)
     copy(frame->target->color, behind->color, frame);
     if (behind->depth)
         copy(frame->target->depth, behind->depth, frame);
-    glBindTextureUnit(8, behind->color);
-    glBindTextureUnit(9, behind->depth);
+    glBindTextureUnit(14, behind->color);
+    glBindTextureUnit(15, behind->depth);
     glBindTextureUnit(3, frame->floor_light);
 }

@@ -10,8 +10,8 @@ typedef struct Behind {
     unsigned color, depth;  /* textures like the target's; no depth without solids */
 } Behind;
 
-/* Copies what is drawn up to now and binds it to texture units 8 (colour), 9 (depth, of a scene with solids)
-   and 3 (what of the light arrives on the floor). All zero at first. */
+/* Copies what is drawn up to now and binds it to texture units 14 (colour), 15 (depth, of a scene with
+   solids) and 3 (what of the light arrives on the floor). All zero at first. */
 void behind_take(Behind *behind, const Frame *frame);
 
 void behind_destroy(Behind *behind);

@@ -3,6 +3,7 @@
 #include "render/backdrop.h"
 #include "render/edges.h"
 #include "render/legend.h"
+#include "render/raycast_names.h"
 #include "render/shadow.h"
 #include "render/solids.h"
 #include "render/splat_names.h"
@@ -35,6 +36,7 @@ ViewDef view_def_default(void)
                      .range_auto = true,
                      .splat = splat_def_default(),
                      .volume = volume_def_default(),
+                     .raycast = raycast_def_default(),
                      .legend = true,
                      .box = true,
                      .floor = true,
@@ -125,7 +127,7 @@ static bool follow_view(Renderer *renderer, const ViewDef *def, Error *error)
     const ViewDef *old = &renderer->def;
     if (strcmp(def->kind, old->kind) == 0 && strcmp(def->colormap, old->colormap) == 0 &&
         (def->solid_count > 0) == (old->solid_count > 0) && splat_same_kind(&def->splat, &old->splat) &&
-        volume_same_kind(&def->volume, &old->volume))
+        volume_same_kind(&def->volume, &old->volume) && raycast_same_kind(def, old))
         return !renderer->view || view_accepts(renderer->view, def, error);
     View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
     if (!view && strcmp(def->kind, "none") != 0)

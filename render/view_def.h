@@ -62,7 +62,15 @@ typedef enum VolumeMethod {
     VOLUME_SLABS,   /* sums on the CPU, each thread in slabs of its own */
     VOLUME_DIRECT   /* no volume: the field is summed at the sample, by cell lists */
 } VolumeMethod;
-typedef enum VolumeShow { VOLUME_SHADED, VOLUME_SLICE } VolumeShow;
+typedef enum VolumeShow {
+    VOLUME_SHADED,
+    VOLUME_SLICE,
+    VOLUME_ENTRY, /* where rays enter, as red, green, blue */
+    VOLUME_EXIT,
+    VOLUME_LENGTH, /* of the way between them, of the volume's diagonal */
+    VOLUME_STEPS,  /* taken, of 64, through the colormap */
+    VOLUME_NORMALS
+} VolumeShow;
 
 typedef struct VolumeDef {
     int cells;   /* along the box's longest side, where `cell` is 0 */
@@ -74,6 +82,25 @@ typedef struct VolumeDef {
     double slice;   /* where along it, 0 .. 1 of the box */
 } VolumeDef;
 
+/* How the view volume casts its rays; names by index stand in render/raycast_names.c. */
+typedef enum RaycastLook { RAYCAST_OPAQUE, RAYCAST_WATER, RAYCAST_TRANSLUCENT } RaycastLook;
+
+typedef struct RaycastDef {
+    RaycastLook look;
+    double level;     /* of the field, where the surface of opaque and water is */
+    double step;      /* between two samples, cells */
+    double threshold; /* opacity at which a ray ends; 1: never */
+    double ramp[2];   /* the field at which opacity begins and where it is full; ramp[0] < ramp[1] */
+    double opacity;   /* full: of fluid one spacing deep, 0 .. 1 */
+    double skin;      /* opacity of the layer in which that begins: of each surface crossed, 0 .. 1 */
+    double by_scalar; /* how much of the opacity goes with the scalar shown, 0 .. 1 */
+    double ior;       /* index of refraction, of water */
+    double attenuation_distance; /* as SplatDef has it, of water */
+    bool shadows; /* of the fluid on itself, by marching toward the light; else by the shadow map */
+    bool jitter;  /* rays start at different parts of a step, so that no bands show */
+    bool skip;    /* empty bricks: else all between the faces of the volume is marched through */
+} RaycastDef;
+
 typedef struct ViewDef {
     char kind[NAME_SIZE];     /* see view_list; "none" draws nothing */
     Scalar color_by;          /* SCALAR_FLUID takes the fluids' own colours */
@@ -83,6 +110,7 @@ typedef struct ViewDef {
     double radius;            /* of a particle, in spacings; 0: the view's default */
     SplatDef splat;
     VolumeDef volume;
+    RaycastDef raycast;
     bool legend;      /* draw the legend */
     bool box;         /* draw the box's edges */
     bool floor;       /* draw the floor below the box */

@@ -5,7 +5,9 @@ const char *const volume_method_names[] = {
     [VOLUME_AUTO] = "auto",     [VOLUME_GEOMETRY] = "geometry", [VOLUME_LAYERS] = "layers",
     [VOLUME_PLANES] = "planes", [VOLUME_SCATTER] = "scatter",   [VOLUME_GATHER] = "gather",
     [VOLUME_SLABS] = "slabs",   [VOLUME_DIRECT] = "direct"};
-const char *const volume_show_names[] = {[VOLUME_SHADED] = "shaded", [VOLUME_SLICE] = "slice"};
+const char *const volume_show_names[] = {
+    [VOLUME_SHADED] = "shaded", [VOLUME_SLICE] = "slice", [VOLUME_ENTRY] = "entry",    [VOLUME_EXIT] = "exit",
+    [VOLUME_LENGTH] = "length", [VOLUME_STEPS] = "steps", [VOLUME_NORMALS] = "normals"};
 const char *const volume_axis_names[] = {"x", "y", "z"};
 
 VolumeDef volume_def_default(void)

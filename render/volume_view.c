@@ -1,12 +1,22 @@
 #include "render/volume_view.h"
 
+#include "render/fluid_numbers.h"
+#include "render/particle_bind.h"
+#include "render/raycast.h"
 #include "render/volume_slice.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
 
 #include <stdlib.h>
 
 typedef struct VolumeView {
     Voxelizer *voxelizer;
-    VolumeSlice slice;
+    VolumeSlice slice;    /* shown alone: nothing below is there */
+    Raycast *raycast;     /* NULL: the slice */
+    unsigned casting;     /* program: particles as the light sees them */
+    unsigned casting_vao; /* without attributes */
+    FluidNumbers numbers; /* where the volume carries fluids; else zero */
     Volume volume;
 } VolumeView;
 
@@ -19,6 +29,10 @@ static void destroy(void *state)
 {
     VolumeView *view = state;
     volume_slice_destroy(&view->slice);
+    raycast_destroy(view->raycast);
+    fluid_numbers_destroy(&view->numbers);
+    glDeleteProgram(view->casting);
+    glDeleteVertexArrays(1, &view->casting_vao);
     voxelizer_destroy(view->voxelizer);
     free(view);
 }
@@ -37,6 +51,30 @@ static bool accepts(void *state, const ViewDef *def, Error *error)
            voxelizer_fits(view->voxelizer, &grid, def->support_radius, error);
 }
 
+static bool create_raycast(VolumeView *view, const ViewDef *def, Error *error)
+{
+    view->raycast = raycast_create(def, view->voxelizer, error);
+    if (!view->raycast)
+        return false;
+    glCreateVertexArrays(1, &view->casting_vao);
+    view->casting =
+        program_create_pair("volume shadow", "render/spheres_shadow.vert", "render/depth_only.frag", error);
+    if (view->casting)
+        glProgramUniform1f(view->casting, 1, SHADOW_MAP_TEXELS);
+    return view->casting != 0;
+}
+
+/* Fluids are carried where the picture has the colours of several, a scalar where it has that one's. */
+static bool carries_fluids(const ViewDef *def)
+{
+    return def->volume.show == VOLUME_SHADED && def->color_by == SCALAR_FLUID && def->fluid_count > 1;
+}
+
+static bool carries(const ViewDef *def)
+{
+    return def->volume.show == VOLUME_SHADED && (def->color_by != SCALAR_FLUID || carries_fluids(def));
+}
+
 static void *create(const ViewDef *def, Error *error)
 {
     VolumeView *view = calloc(1, sizeof *view);
@@ -44,18 +82,28 @@ static void *create(const ViewDef *def, Error *error)
         error_set(error, "out of memory for the view");
         return NULL;
     }
-    view->voxelizer = voxelizer_create(def->volume.method, false, error);
+    view->voxelizer = voxelizer_create(def->volume.method, carries(def), error);
+    const bool slice = def->volume.show == VOLUME_SLICE;
     if (view->voxelizer && accepts(view, def, error) &&
-        volume_slice_create(&view->slice, def, view->voxelizer, error))
+        (!carries_fluids(def) || fluid_numbers_create(&view->numbers, error)) &&
+        (slice ? volume_slice_create(&view->slice, def, view->voxelizer, error)
+               : create_raycast(view, def, error)))
         return view;
     destroy(view);
     return NULL;
 }
 
-/* A slice of the field casts none. */
+/* A slice of the field casts none; the fluid does as its particles do. */
 static void cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
-    (void)state, (void)particles, (void)frame;
+    const VolumeView *view = state;
+    if (!view->raycast)
+        return;
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glUseProgram(view->casting);
+    particle_bind(view->casting, particles, frame->def->color_by);
+    glBindVertexArray(view->casting_vao);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
 }
 
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
@@ -64,10 +112,18 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     Error error;
     bool made = false;
     GL_STAGE(frame->timer, STAGE_VOXELIZE)
-    made = voxelizer_run(view->voxelizer, &frame->def->volume, particles, frame->def->color_by, &view->volume,
-                         &error);
+    {
+        const ParticleBuffers carrying =
+            view->numbers.program ? fluid_numbers_add(&view->numbers, particles) : *particles;
+        made = voxelizer_run(view->voxelizer, &frame->def->volume, &carrying, frame->def->color_by,
+                             &view->volume, &error);
+    }
     if (!made) /* memory that was there at the start is not there now */
         return;
+    if (view->raycast) {
+        raycast_draw(view->raycast, &view->volume, view->voxelizer, particles, frame);
+        return;
+    }
     GL_STAGE(frame->timer, STAGE_SHADE)
     {
         voxelizer_bind(view->voxelizer);
@@ -78,7 +134,8 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
 /* The field is 1 in a fluid at rest, more where it is compressed. */
 static void show(const ViewDef *def, Frame *frame)
 {
-    (void)def;
+    if (def->volume.show != VOLUME_SLICE)
+        return;
     frame->by_fluid = false;
     frame->shown = "field";
     frame->shown_unit = "";
@@ -88,7 +145,7 @@ static void show(const ViewDef *def, Frame *frame)
 
 const ViewKind view_volume = {
     .name = "volume",
-    .help = "the fluid's field on a grid of voxels",
+    .help = "the fluid's field on a grid of voxels, by raycasting: a surface, or translucent",
     .radius = 0.5,
     .create = create,
     .destroy = destroy,

@@ -1,8 +1,8 @@
 // What stands behind the fluid, bent by it; render/behind.c binds it. Wants common/frame.glsl and, with FLOOR_SHADOW,
 // common/environment.glsl.
-layout(binding = 8) uniform sampler2D behind_color;
+layout(binding = 14) uniform sampler2D behind_color;
 #ifdef SOLIDS
-layout(binding = 9) uniform sampler2D behind_depth; // reversed
+layout(binding = 15) uniform sampler2D behind_depth; // reversed
 #endif
 
 vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame

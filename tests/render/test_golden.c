@@ -244,6 +244,40 @@ static void test_volume_slice(void **state)
     check(&golden);
 }
 
+/* Two fluids over the floor, and a ball that stands in one of them. */
+static void cast_volume(const char *name, RaycastLook look)
+{
+    static const SolidDef ball = {SOLID_SPHERE, .centre = {-0.45, 0.4, 0.1}, .radius = 0.25,
+                                  .color = {0.75F, 0.20F, 0.12F}};
+    Golden golden = golden_create(name, 240, 180);
+    text_set(golden.def.kind, "volume");
+    golden.def.color_by = SCALAR_FLUID;
+    golden.def.raycast.look = look;
+    golden.def.raycast.jitter = false;
+    golden.def.volume.cells = 64;
+    golden.def.solid_count = 1;
+    golden.def.solids[0] = ball;
+    check(&golden);
+}
+
+static void test_volume(void **state)
+{
+    (void)state;
+    cast_volume("volume", RAYCAST_OPAQUE);
+}
+
+static void test_volume_water(void **state)
+{
+    (void)state;
+    cast_volume("volume_water", RAYCAST_WATER);
+}
+
+static void test_volume_translucent(void **state)
+{
+    (void)state;
+    cast_volume("volume_translucent", RAYCAST_TRANSLUCENT);
+}
+
 /* The measure itself: one shifted picture must not pass. */
 static void test_difference_is_seen(void **state)
 {
@@ -272,6 +306,9 @@ int main(void)
         cmocka_unit_test_teardown(test_splat_ellipsoid, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_w1, no_gl_errors),
         cmocka_unit_test_teardown(test_volume_slice, no_gl_errors),
+        cmocka_unit_test_teardown(test_volume, no_gl_errors),
+        cmocka_unit_test_teardown(test_volume_water, no_gl_errors),
+        cmocka_unit_test_teardown(test_volume_translucent, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_water, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_jelly, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_level, no_gl_errors),

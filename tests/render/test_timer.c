@@ -133,20 +133,16 @@ static bool has_stage(const char *view, Stage stage)
     static const struct {
         const char *view;
         Stage stage;
-    } of_one_view[] = {{"spheres", STAGE_VISIBILITY},
-                       {"splat", STAGE_VISIBILITY},
-                       {"splat", STAGE_BLEND},
-                       {"splat", STAGE_THICKNESS},
-                       {"splat", STAGE_FILTER},
-                       {"splat", STAGE_ANTIALIAS},
-                       {"volume", STAGE_VOXELIZE}};
+    } of_one_view[] = {{"spheres", STAGE_VISIBILITY}, {"splat", STAGE_VISIBILITY}, {"splat", STAGE_BLEND},
+                       {"splat", STAGE_THICKNESS},    {"splat", STAGE_FILTER},     {"splat", STAGE_ANTIALIAS},
+                       {"spheres", STAGE_SHADE},      {"splat", STAGE_SHADE},      {"volume", STAGE_VOXELIZE},
+                       {"volume", STAGE_RAYCAST}};
     bool named = false, own = false;
     for (size_t i = 0; i < sizeof of_one_view / sizeof *of_one_view; i++) {
         named |= of_one_view[i].stage == stage;
         own |= of_one_view[i].stage == stage && strcmp(of_one_view[i].view, view) == 0;
     }
-    return stage_part(stage) == PART_RENDER && stage != STAGE_SCALARS && stage != STAGE_RAYCAST &&
-           (own || !named);
+    return stage_part(stage) == PART_RENDER && stage != STAGE_SCALARS && (own || !named);
 }
 
 /* A whole picture: every pass has its stage, and between them nothing is lost. The best of some, since others

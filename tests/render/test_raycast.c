@@ -1,0 +1,394 @@
+/* Rays through fields that are known: where they meet a ball, how much of it they cross, what hides them and
+   what they hide. */
+#include "tests/render/raycast_fixture.h"
+
+/* In a box of 1 m: 64 cells along a side, whose first corner is the box's. */
+static const VolumeGrid whole = {{64, 64, 64}, {-0.5, 0, -0.5}, 1.0 / 64};
+
+typedef struct Ball {
+    double centre[3], radius, rim; /* m; the field falls from 1 to 0 within a rim */
+} Ball;
+
+static const Ball ball = {{0.05, 0.48, -0.03}, 0.3, 0.125};
+
+static double distance(const double a[3], const double b[3])
+{
+    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+static double ball_at(const double at[3], const void *context)
+{
+    const Ball *own = context;
+    const double x = fmax(0, fmin(0.5 + (own->radius - distance(at, own->centre)) / own->rim, 1));
+    return x * x * (3 - 2 * x); /* without kinks, of which cells would cut the corners */
+}
+
+static RayScene ball_scene(const double from[3], const double to[3], double fov_deg)
+{
+    RayScene scene = ray_scene(from, to, fov_deg);
+    ray_volume(&scene, &whole, ball_at, &ball);
+    return scene;
+}
+
+static void scene_end(RayScene *scene)
+{
+    glDeleteTextures(1, &scene->volume.field);
+}
+
+/* Of the field along a ray, m, by many steps. */
+static double integral_of(const double from[3], const double to[3], double end)
+{
+    enum { STEPS = 4000 };
+    double sum = 0, slant = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+    for (int i = 0; i < STEPS; i++) {
+        const double t = (i + 0.5) * end / STEPS;
+        const double at[3] = {from[0] + t * to[0], from[1] + t * to[1], from[2] + t * to[2]};
+        sum += ball_at(at, &ball);
+    }
+    return sum * slant * end / STEPS;
+}
+
+/* The surface is where the ball ends, its normal is the ball's. Of a cell's width 1.3 % is lost to cells that
+   are straight where the ball is round. Returns how many pixels were compared. */
+static int compare_sphere(RayScene *scene, bool normals)
+{
+    int compared = 0;
+    scene->def.volume.show = normals ? VOLUME_NORMALS : VOLUME_SHADED;
+    RayPixel *pixels = ray_drawn(scene, true);
+    for (int i = 0; i < scene->width * scene->height; i++) {
+        double from[3], to[3], t[2], cosine = 0;
+        ray_of(scene, i % scene->width, i / scene->width, from, to);
+        const bool meets = ray_meets_sphere(from, to, ball.centre, ball.radius, t, &cosine);
+        if (cosine > 0 && cosine < 0.2)
+            continue;
+        if (meets && t[0] > 0 ? !(pixels[i].depth > 0) : pixels[i].depth > 0)
+            fail_msg("pixel %d %d: depth %g, but the sphere is at %g", i % scene->width, i / scene->width,
+                     pixels[i].depth, meets ? t[0] : -1);
+        if (!meets || t[0] <= 0)
+            continue;
+        const double found = scene->frame.camera.near_plane / pixels[i].depth;
+        if (fabs(found - t[0]) > 0.03 * whole.cell / cosine)
+            fail_msg("pixel %d %d: %g m, the sphere is at %g m", i % scene->width, i / scene->width, found,
+                     t[0]);
+        float outward[3], in_eye[3], to_eye[16];
+        matrix_multiply(scene->frame.camera.view, scene->frame.box_to_world, to_eye);
+        for (int k = 0; k < 3; k++)
+            outward[k] = (float)((from[k] + t[0] * to[k] - ball.centre[k]) / ball.radius);
+        for (int k = 0; k < 3; k++)
+            in_eye[k] = to_eye[k] * outward[0] + to_eye[4 + k] * outward[1] + to_eye[8 + k] * outward[2];
+        for (int k = 0; normals && k < 3; k++)
+            if (fabsf(2 * pixels[i].color[k] - 1 - in_eye[k]) > 0.02F)
+                fail_msg("pixel %d %d, axis %d: normal %g, the sphere's is %g", i % scene->width,
+                         i / scene->width, k, 2 * pixels[i].color[k] - 1, in_eye[k]);
+        compared++;
+    }
+    free(pixels);
+    return compared;
+}
+
+static void the_surface_of_a_ball(void **state)
+{
+    (void)state;
+    RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, (double[]){0.05, 0.48, 0}, 30);
+    for (int skip = 0; skip < 2; skip++)
+        for (int big = 0; big < 2; big++) {
+            scene.def.raycast.skip = skip, scene.def.raycast.step = big ? 2 : 0.5;
+            assert_true(compare_sphere(&scene, false) > 2000);
+        }
+    assert_true(compare_sphere(&scene, true) > 2000);
+    scene_end(&scene);
+}
+
+/* The volume goes with the box. */
+static void the_surface_in_a_tilted_box(void **state)
+{
+    (void)state;
+    RayScene scene = ball_scene((double[]){1.5, 1.1, 1.4}, (double[]){0.3, 0.6, 0}, 40);
+    scene.state.box = (BoxState){.position = {0.3, 0.1, -0.1}, .orientation = {0.1, 0.3, -0.2, sqrt(0.86)}};
+    assert_true(compare_sphere(&scene, false) > 1000);
+    assert_true(compare_sphere(&scene, true) > 1000);
+    scene_end(&scene);
+}
+
+/* Rays along the axes of the volume, one of them exactly: nothing there may be divided by. */
+static void a_camera_square_to_each_face(void **state)
+{
+    (void)state;
+    for (int axis = 0; axis < 3; axis++)
+        for (int side = -1; side <= 1; side += 2) {
+            double from[3] = {ball.centre[0], ball.centre[1], ball.centre[2]};
+            from[axis] += 2.0 * side + (axis == 1 ? 1e-6 : 0);
+            RayScene scene = ball_scene(from, ball.centre, 25);
+            scene.width = scene.height = 61;
+            assert_true(compare_sphere(&scene, false) > 500);
+            scene_end(&scene);
+        }
+}
+
+static void a_camera_in_the_volume(void **state)
+{
+    (void)state;
+    RayScene scene = ball_scene((double[]){-0.4, 0.9, 0.42}, ball.centre, 70); /* beside the ball */
+    assert_true(compare_sphere(&scene, false) > 1000);
+    scene_end(&scene);
+    scene = ball_scene(ball.centre, (double[]){1, 1, 1}, 60); /* in the ball: all that it sees is fluid */
+    RayPixel *pixels = ray_drawn(&scene, true);
+    for (int i = 0; i < scene.width * scene.height; i++)
+        assert_true(pixels[i].depth > 0.99F && pixels[i].depth <= 1);
+    free(pixels);
+    scene_end(&scene);
+}
+
+static void expect_nothing(RayScene *scene)
+{
+    RayPixel *pixels = ray_drawn(scene, true);
+    for (int i = 0; i < scene->width * scene->height; i++)
+        if (pixels[i].depth > 0 || pixels[i].color[3] > 0)
+            fail_msg("pixel %d %d: depth %g, opacity %g where nothing is", i % scene->width, i / scene->width,
+                     pixels[i].depth, pixels[i].color[3]);
+    free(pixels);
+}
+
+static void a_camera_that_looks_away(void **state)
+{
+    (void)state;
+    RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, (double[]){2.6, 1.7, 2.8}, 60);
+    expect_nothing(&scene);
+    scene_end(&scene);
+}
+
+static double nothing_at(const double at[3], const void *context)
+{
+    (void)at, (void)context;
+    return 0;
+}
+
+static double nan_at(const double at[3], const void *context)
+{
+    (void)at, (void)context;
+    return NAN;
+}
+
+/* Not a number in one corner, which the ball is far from. */
+static double ball_and_nan_at(const double at[3], const void *context)
+{
+    return at[0] < -0.45 && at[1] < 0.05 && at[2] < -0.45 ? NAN : ball_at(at, context);
+}
+
+static void nothing_and_what_is_no_number(void **state)
+{
+    (void)state;
+    for (int look = RAYCAST_OPAQUE; look <= RAYCAST_TRANSLUCENT; look += RAYCAST_TRANSLUCENT) {
+        RayScene scene = ray_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+        scene.def.raycast.look = (RaycastLook)look;
+        ray_volume(&scene, &whole, nothing_at, NULL);
+        expect_nothing(&scene);
+        scene.def.raycast.skip = false;
+        expect_nothing(&scene);
+        ray_volume(&scene, &whole, nan_at, NULL);
+        free(ray_drawn(&scene, true)); /* it ends */
+        scene_end(&scene);
+    }
+    RayScene scene = ray_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+    ray_volume(&scene, &whole, ball_and_nan_at, &ball);
+    assert_true(compare_sphere(&scene, false) > 2000);
+    scene_end(&scene);
+}
+
+static double one_at(const double at[3], const void *context)
+{
+    (void)at, (void)context;
+    return 1;
+}
+
+/* Fluid up to the volume's sides: what is cut is closed, to the cell at whose middle the field ends. */
+static void a_volume_full_of_fluid_has_no_holes(void **state)
+{
+    (void)state;
+    RayScene scene = ray_scene((double[]){1.3, 1.1, 1.4}, (double[]){0, 0.5, 0}, 45);
+    ray_volume(&scene, &whole, one_at, NULL);
+    RayPixel *pixels = ray_drawn(&scene, true);
+    int covered = 0;
+    for (int i = 0; i < scene.width * scene.height; i++) {
+        double from[3], to[3], begin = 0, end = INFINITY;
+        ray_of(&scene, i % scene.width, i / scene.width, from, to);
+        for (int k = 0; k < 3; k++) {
+            const double low = (whole.corner[k] - from[k]) / to[k],
+                         high = (whole.corner[k] + 1 - from[k]) / to[k];
+            begin = fmax(begin, fmin(low, high)), end = fmin(end, fmax(low, high));
+        }
+        if (fabs(end - begin) > 0.05 && (end > begin) != (pixels[i].depth > 0))
+            fail_msg("pixel %d %d: depth %g of a ray that is in the volume from %g to %g", i % scene.width,
+                     i / scene.width, pixels[i].depth, begin, end);
+        if (end - begin > 0.05)
+            assert_true(fabs(scene.frame.camera.near_plane / pixels[i].depth - begin) < 2 * whole.cell);
+        covered += pixels[i].depth > 0;
+    }
+    assert_true(covered > 2000);
+    free(pixels);
+    scene_end(&scene);
+}
+
+static RaycastDef translucent(double opacity)
+{
+    RaycastDef def = raycast_def_default();
+    def.look = RAYCAST_TRANSLUCENT;
+    def.ramp[0] = 0, def.ramp[1] = 1; /* extinction is as the field */
+    def.skin = 0;
+    def.opacity = opacity;
+    def.threshold = 1;
+    return def;
+}
+
+/* What a ray crosses by its opacity, against the field's integral; through the middle that is the chord. */
+static void compare_lengths(RayScene *scene, double opacity)
+{
+    const double per_m = -log(1 - opacity) / scene->state.spacing;
+    double longest = 0;
+    RayPixel *pixels = ray_drawn(scene, true);
+    for (int i = 0; i < scene->width * scene->height; i += 7) {
+        double from[3], to[3], t[2], cosine = 0;
+        ray_of(scene, i % scene->width, i / scene->width, from, to);
+        if (!ray_meets_sphere(from, to, ball.centre, ball.radius, t, &cosine) || cosine < 0.3)
+            continue;
+        const double length = integral_of(from, to, t[1] + 0.3),
+                     found = -log(1.0 - pixels[i].color[3]) / per_m;
+        if (fabs(found - length) > 0.01 * length)
+            fail_msg("pixel %d %d, step %g: %g m of fluid, not %g", i % scene->width, i / scene->width,
+                     scene->def.raycast.step, found, length);
+        longest = fmax(longest, found);
+    }
+    assert_true(fabs(longest - 2 * ball.radius) < 0.02 * ball.radius);
+    free(pixels);
+}
+
+static void the_chord_of_a_ball_at_any_step(void **state)
+{
+    (void)state;
+    static const double steps[] = {0.25, 0.7, 1, 2};
+    RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+    for (int i = 0; i < 4; i++)
+        for (int way = 0; way < 4; way++) {
+            scene.def.raycast = translucent(0.08);
+            scene.def.raycast.step = steps[i];
+            scene.def.raycast.jitter = way & 1, scene.def.raycast.skip = way & 2;
+            compare_lengths(&scene, 0.08);
+        }
+    scene_end(&scene);
+}
+
+/* Each surface crossed hides `skin` of what is behind: two do (1 - skin)^2. */
+static void the_skin_at_any_step(void **state)
+{
+    (void)state;
+    RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+    static const double steps[] = {0.25, 0.5, 1, 2};
+    for (int i = 0; i < 4; i++) {
+        scene.def.raycast = translucent(0);
+        scene.def.raycast.skin = 0.4, scene.def.raycast.step = steps[i];
+        RayPixel *pixels = ray_drawn(&scene, true);
+        const float found = pixels[60 * scene.width + 80].color[3];
+        if (fabs(found - (1 - 0.6 * 0.6)) > 0.002)
+            fail_msg("step %g: opacity %g", steps[i], found);
+        free(pixels);
+    }
+    scene_end(&scene);
+}
+
+/* Neighbours sample at different places, so that what a step misses is noise and no band. */
+static void jitter_moves_samples(void **state)
+{
+    (void)state;
+    int unlike[2] = {0};
+    for (int jitter = 0; jitter < 2; jitter++) {
+        RayScene scene = ball_scene((double[]){0.05, 0.48, 2}, ball.centre, 20);
+        scene.def.raycast = translucent(0.2);
+        scene.def.raycast.step = 6, scene.def.raycast.jitter = jitter;
+        RayPixel *pixels = ray_drawn(&scene, true);
+        for (int x = 70; x < 90; x++) { /* the ball is nearly flat there */
+            const RayPixel *pixel = &pixels[60 * scene.width + x];
+            unlike[jitter] += fabsf(pixel[0].color[3] - pixel[1].color[3]) > 1e-3F;
+        }
+        free(pixels);
+        scene_end(&scene);
+    }
+    if (!(unlike[0] == 0 && unlike[1] > 5))
+        fail_msg("%d neighbours differ without jitter, %d with", unlike[0], unlike[1]);
+}
+
+/* A ray that ends early lacks no more than what was left, and takes fewer steps. */
+static void early_termination(void **state)
+{
+    (void)state;
+    RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+    static const double thresholds[] = {0.8, 0.95};
+    for (int t = 0; t < 2; t++) {
+        const double threshold = thresholds[t];
+        scene.def.raycast = translucent(0.3);
+        RayPixel *full = ray_drawn(&scene, true);
+        scene.def.raycast.threshold = threshold;
+        RayPixel *early = ray_drawn(&scene, true);
+        double most = 0;
+        for (int i = 0; i < scene.width * scene.height; i++)
+            for (int k = 0; k < 4; k++) {
+                const double lacks = fabsf(full[i].color[k] - early[i].color[k]);
+                if (lacks > 1 - threshold)
+                    fail_msg("pixel %d, threshold %g: %g instead of %g", i, threshold, early[i].color[k],
+                             full[i].color[k]);
+                most = fmax(most, lacks);
+            }
+        assert_true(most > 0.1 * (1 - threshold)); /* it ended early at all */
+        free(full);
+        free(early);
+    }
+    scene_end(&scene);
+}
+
+/* Flat, as far from the eye as the middle of the ball, or nearer than all of it, or behind. */
+static void solids_hide_and_are_hidden(void **state)
+{
+    (void)state;
+    RayScene scene = ball_scene((double[]){0.05, 0.48, 2}, ball.centre, 20);
+    scene.def.solid_count = 1;
+    const int middle = 60 * scene.width + 80;
+    free(ray_drawn(&scene, true)); /* for the near plane */
+    const float near = scene.frame.camera.near_plane, depths[] = {1.5F, 2.03F, 2.5F};
+    for (int place = 0; place < 3; place++) {
+        scene.solid_depth = near / depths[place];
+        scene.def.raycast = raycast_def_default();
+        RayPixel *pixels = ray_drawn(&scene, true);
+        const float wanted = place == 0 ? scene.solid_depth : near / 1.73F;
+        if (fabsf(pixels[middle].depth / wanted - 1) > 1e-3F || (pixels[middle].color[3] > 0) != (place > 0))
+            fail_msg("solid at %g m: depth %g, not %g", depths[place], near / pixels[middle].depth,
+                     near / wanted);
+        free(pixels);
+        scene.def.raycast = translucent(0.02);
+        pixels = ray_drawn(&scene, true);
+        const double length = -log(1.0 - pixels[middle].color[3]) / -log(0.98) * scene.state.spacing;
+        if (fabs(length - 0.3 * place) > 0.006)
+            fail_msg("solid at %g m: %g m of fluid before it", depths[place], length);
+        assert_true(pixels[middle].depth == scene.solid_depth); /* less than half of it is hidden */
+        free(pixels);
+    }
+    scene_end(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(the_surface_of_a_ball, no_gl_errors),
+        cmocka_unit_test_teardown(the_surface_in_a_tilted_box, no_gl_errors),
+        cmocka_unit_test_teardown(a_camera_square_to_each_face, no_gl_errors),
+        cmocka_unit_test_teardown(a_camera_in_the_volume, no_gl_errors),
+        cmocka_unit_test_teardown(a_camera_that_looks_away, no_gl_errors),
+        cmocka_unit_test_teardown(nothing_and_what_is_no_number, no_gl_errors),
+        cmocka_unit_test_teardown(a_volume_full_of_fluid_has_no_holes, no_gl_errors),
+        cmocka_unit_test_teardown(the_chord_of_a_ball_at_any_step, no_gl_errors),
+        cmocka_unit_test_teardown(the_skin_at_any_step, no_gl_errors),
+        cmocka_unit_test_teardown(jitter_moves_samples, no_gl_errors),
+        cmocka_unit_test_teardown(early_termination, no_gl_errors),
+        cmocka_unit_test_teardown(solids_hide_and_are_hidden, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
