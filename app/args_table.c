@@ -44,7 +44,7 @@ const OptionRow option_rows[] = {
     {"-o", "OUT", RENDER | RUN | REPLAY | EXPORT, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
     {"-o", "OUT", BENCH, OPTION_TEXT, AT(output), .help = "the chart of --table: OUT.svg or OUT.png"},
     {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
-     .help = "a published table again, beside its figures: paper003-spheres, paper003-substeps, paper002-passes"},
+     .help = "a published table again, beside its figures: paper003-spheres, paper003-raycast, paper003-substeps, paper002-passes"},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
     {"--time", "S", BENCH, OPTION_NUMBER, AT(time), .max = 1e6,
      .help = "measure from the first frame at or after that time on (0)"},

@@ -38,6 +38,21 @@ static const Table tables[] = {
      .columns = {{"visibility", BIT(STAGE_VISIBILITY)},
                  {"blend", BIT(STAGE_BLEND)},
                  {"shade", BIT(STAGE_SHADE)}}},
+    {.name = "paper003-raycast",
+     .help =
+         "simulation, volume and raycasting (SIBGRAPI 2010, Table I and Figure 5); 128 cells along the box, "
+         "as the paper's CPU has, or with --set view.volume.cells=512 as many as its GPU has",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"solver.step.dt=0.0012", "solver.step.substeps=1"},
+     .particles = {"1024", "2048", "4096", "8192"},
+     .reference = "scenes/reference/paper003-raycast.csv",
+     .view = "volume",
+     .backends = true,
+     .shares = true,
+     .columns = {{"simulation", SIM},
+                 {"voxelize", BIT(STAGE_VOXELIZE)},
+                 {"raycast", BIT(STAGE_RAYCAST)},
+                 {"rendering", 0}}},
     {.name = "paper003-voxelize",
      .help =
          "the ways to the volume side by side; `direct` lists the particles and sums where the slice is drawn",
@@ -91,7 +106,7 @@ int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1])
         for (int i = 0; table->values[i]; i++)
             add(values, table->values[i]);
     }
-    if (table->view)
+    if (table->view && !table->backends)
         return count;
     Sweep *backends = &sweeps[count++];
     *backends = (Sweep){.key = "solver.backend"};

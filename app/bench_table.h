@@ -6,7 +6,7 @@
 #include "app/args.h"
 #include "app/bench.h"
 
-enum { TABLE_SWEEPS = 3, TABLE_SETTINGS = 2, TABLE_COLUMNS = 4 };
+enum { TABLE_SWEEPS = 3, TABLE_SETTINGS = 2, TABLE_COLUMNS = 5 };
 
 /* A column sums up stages; one without takes all that no other names. */
 typedef struct TableColumn {
@@ -22,6 +22,7 @@ typedef struct Table {
     const char *substeps[3];              /* and each of these; ended by NULL */
     const char *reference;                /* the CSV file of what was published, or NULL */
     const char *view;                     /* the only one, drawn for one backend; NULL: all of both */
+    bool backends;                        /* with a view: for all of these */
     const char *sweep,
         *values[8]; /* with a view: a setting and its values, ended by NULL, a row each; or NULL */
     bool percent;   /* shares were published, and frames a second as `rate` */

@@ -72,6 +72,21 @@ static void times_of_parts(void **state)
     free(text);
 }
 
+/* Table I: both engines, four parts; the rest is rendering. */
+static void times_of_raycasting(void **state)
+{
+    (void)state;
+    BenchResult result = made_up(8192, "volume", "compute");
+    result.stages[STAGE_VOXELIZE].median_ms = 8;
+    result.stages[STAGE_RAYCAST].median_ms = 28;
+    char *text = printed("paper003-raycast", &result, 1);
+    expect(text, "CPU, published",
+           "1024 1 volume CPU, published 22.000 58.5 % 7.500 19.9 % 7.600 20.2 % 0.510 1.4 % 37.610");
+    expect(text, "compute",
+           "8192 1 volume compute 4.000 5.0 % 8.000 10.0 % 28.000 35.0 % 40.000 50.0 % 80.000");
+    free(text);
+}
+
 static void a_row_for_each_value_of_a_setting(void **state)
 {
     (void)state;
@@ -96,6 +111,8 @@ static void cases_are_all_views_and_backends(void **state)
     assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "splat") == 0);
     assert_int_equal(table_sweeps(table_find("paper003-voxelize", &error), sweeps), 3);
     assert_true(strcmp(sweeps[2].key, "view.volume.method") == 0 && sweeps[2].count == 7);
+    assert_int_equal(table_sweeps(table_find("paper003-raycast", &error), sweeps), 3);
+    assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "volume") == 0 && sweeps[2].count == 3);
     assert_null(table_find("paper9", &error));
 }
 
@@ -110,6 +127,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_row_for_each_value_of_a_setting),
+        cmocka_unit_test(times_of_raycasting),
         cmocka_unit_test(shares_of_passes),
         cmocka_unit_test(times_of_parts),
         cmocka_unit_test(cases_are_all_views_and_backends),
