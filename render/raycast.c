@@ -297,6 +297,18 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
     write_depth(raycast, frame);
 }
 
+/* Pixels whose depth is written: of translucent fluid those that it hides by half. */
+static void count_covered(const Raycast *raycast, const Frame *frame)
+{
+    ViewCounts *counts = frame->counts;
+    counts_begin(counts);
+    write_depth(raycast, frame);
+    counts_end(counts, STAGE_RAYCAST);
+    const uint64_t covered = (uint64_t)counts->fragments[STAGE_RAYCAST];
+    counts->fragments[STAGE_RAYCAST] = 0;
+    counts_finish(counts, covered, (uint64_t)frame->width * (uint64_t)frame->height);
+}
+
 void raycast_draw(Raycast *raycast, const Volume *volume, const Voxelizer *voxelizer,
                   const ParticleBuffers *particles, const Frame *frame)
 {
@@ -304,6 +316,8 @@ void raycast_draw(Raycast *raycast, const Volume *volume, const Voxelizer *voxel
         voxelizer_bind(voxelizer);
     GL_STAGE(frame->timer, STAGE_RAYCAST)
     cast_rays(raycast, volume, particles, frame);
+    if (frame->counts)
+        count_covered(raycast, frame);
 }
 
 RaycastMaps raycast_maps(const Raycast *raycast)

@@ -151,6 +151,32 @@ static void water_of_index_one_is_not_seen(void **state)
     free(picture.particles);
 }
 
+/* What `bench` says of a picture: the pixels that differ from one without the fluid. */
+static void coverage_is_counted(void **state)
+{
+    (void)state;
+    Error error = {0};
+    ParticleBuffers buffers;
+    ViewCounts counts;
+    Picture picture = picture_of_block();
+    Image image = drawn(&picture, true);
+    ParticleBuffers box = box_state(picture.particles->count, SPACING);
+    Upload *upload = upload_particles(picture.particles, &box, &buffers);
+    Renderer *renderer = renderer_create(&picture.def, picture.width, picture.height, &error);
+    assert_non_null(renderer);
+    renderer_count(renderer, &buffers, &counts);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    text_set(picture.def.kind, "none");
+    Image nothing = drawn(&picture, true);
+    const double covered = (double)pixels_apart(&image, &nothing, 4) / (picture.width * picture.height);
+    if (!counts.counted || fabs(counts.coverage - covered) > 0.002 || covered < 0.1)
+        fail_msg("coverage %g, but %g of the picture is fluid", counts.coverage, covered);
+    image_destroy(&image);
+    image_destroy(&nothing);
+    free(picture.particles);
+}
+
 /* A slab, and with a context that is not NULL a ball above. */
 static double slab_at(const double at[3], const void *context)
 {
@@ -209,6 +235,7 @@ int main(void)
         cmocka_unit_test_teardown(colors_of_scalars_and_fluids, no_gl_errors),
         cmocka_unit_test_teardown(without_a_volume, no_gl_errors),
         cmocka_unit_test_teardown(water_of_index_one_is_not_seen, no_gl_errors),
+        cmocka_unit_test_teardown(coverage_is_counted, no_gl_errors),
         cmocka_unit_test_teardown(the_shadow_of_a_ball_by_marching, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
