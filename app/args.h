@@ -58,6 +58,8 @@ typedef struct Args {
     int gpu;           /* number of the EGL device; -1: not given */
     ClockChoice clock;
     SnapshotFrame frame; /* export: that positions and velocities are in */
+    bool surface;        /* export: the fluid's surface instead of the particles */
+    double level, cell;  /* of it; 0: not given */
     const char *table;   /* bench: NAME, or NULL */
     bool play;           /* bench: the live window */
     double seconds;      /* of it; more than 0; default 20 */

@@ -31,6 +31,13 @@ static bool choose(const Args *args, SnapshotReader *reader, size_t *index, Erro
     return error_set(error, "%s: ends at %.9g s, before --time %.9g", args->scenes[0], time, args->time);
 }
 
+static json_t *surface_json(const Export *export)
+{
+    return json_pack("{s:f, s:f, s:I, s:I, s:f}", "level", export->surface->level, "cell",
+                     export->surface->cell, "vertices", (json_int_t) export->vertices, "triangles",
+                     (json_int_t) export->triangles, "volume", export->volume);
+}
+
 static bool write_json(const Export *export, const Args *args, double wall_seconds, Error *error)
 {
     if (!args->json)
@@ -40,6 +47,8 @@ static bool write_json(const Export *export, const Args *args, double wall_secon
                              snapshot_frame_name(export->frame), "snapshots", (json_int_t) export->snapshots,
                              "particles", (json_int_t) export->particles, "simulated_seconds", export->time,
                              "wall_seconds", wall_seconds, "stopped", export->interrupted);
+    if (json && export->surface)
+        json_object_set_new(json, "surface", surface_json(export));
     const bool written = json_file_write(json, args->json, error);
     json_decref(json);
     return written;
@@ -49,10 +58,17 @@ static void report(const Export *export, const Args *args)
 {
     if (export->interrupted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->time, args->output);
-    if (!args->quiet)
-        fprintf(stderr, "%s: %zu snapshot%s t = %.4g s, %zu particles, in the frame of the %s\n",
-                args->output, export->snapshots, export->snapshots == 1 ? " of" : "s up to", export->time,
-                export->particles, snapshot_frame_name(export->frame));
+    if (export->empty > 0)
+        fprintf(stderr,
+                "%s: warning: no fluid reaches the level %g in %zu of %zu snapshots: no surface there\n",
+                args->output, export->surface->level, export->empty, export->snapshots);
+    if (args->quiet)
+        return;
+    fprintf(stderr, "%s: %zu snapshot%s t = %.4g s, %zu particles, ", args->output, export->snapshots,
+            export->snapshots == 1 ? " of" : "s up to", export->time, export->particles);
+    if (export->surface)
+        fprintf(stderr, "a surface of %zu triangles around %.4g m3, ", export->triangles, export->volume);
+    fprintf(stderr, "in the frame of the %s\n", snapshot_frame_name(export->frame));
 }
 
 static int run(Export *export, size_t index, const Args *args, Error *error)
@@ -62,8 +78,8 @@ static int run(Export *export, size_t index, const Args *args, Error *error)
     if (args->json && !output_check(args->json, error))
         return fail(EXIT_FAILED, error);
     progress_begin(&progress, stderr, "export", args->quiet);
-    const bool done = export->kind == EXPORT_PVD ? export_series(export, &progress, error)
-                                                 : export_one(export, index, error);
+    const bool done = export_is_series(export->kind) ? export_series(export, &progress, error)
+                                                     : export_one(export, index, error);
     progress_end(&progress);
     if (!done)
         return fail(EXIT_FAILED, error);
@@ -73,12 +89,25 @@ static int run(Export *export, size_t index, const Args *args, Error *error)
     return export->interrupted ? EXIT_INTERRUPTED : 0;
 }
 
+static bool understand_surface(Export *export, SurfaceDef *surface, const Args *args, Error *error)
+{
+    if (!args->surface && (args->level > 0 || args->cell > 0))
+        return error_set(error, "%s is of a surface; add --surface", args->level > 0 ? "--level" : "--cell");
+    if (!args->surface)
+        return true;
+    surface->level = args->level > 0 ? args->level : surface->level;
+    surface->cell = args->cell > 0 ? args->cell : surface->cell;
+    export->surface = surface;
+    return snapshot_read_scene(export->reader, &export->scene, error) &&
+           surface_check(surface, &export->scene, error);
+}
+
 /* What is to be done, before anything is: false is a mistake of the command line or of the input. */
-static bool understand(Export *export, size_t *index, const Args *args, Error *error)
+static bool understand(Export *export, SurfaceDef *surface, size_t *index, const Args *args, Error *error)
 {
     if (!export_kind(args->output, &export->kind, error))
         return false;
-    if (export->kind == EXPORT_PVD && args->time_given)
+    if (export_is_series(export->kind) && args->time_given)
         return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vtp or a FILE.ply",
                          args->output);
     export->reader = snapshot_open(args->scenes[0], error);
@@ -86,17 +115,18 @@ static bool understand(Export *export, size_t *index, const Args *args, Error *e
         return false;
     if (snapshot_count_steps(export->reader) == 0)
         return error_set(error, "%s: has no whole snapshot; make some with slosh run", args->scenes[0]);
-    return choose(args, export->reader, index, error);
+    return understand_surface(export, surface, args, error) && choose(args, export->reader, index, error);
 }
 
 int cmd_export(const Args *args)
 {
     Export export = {.path = args->output, .frame = args->frame};
+    SurfaceDef surface = surface_def_default();
     Error error = {{0}};
     size_t index = 0;
     interrupt_install();
-    const int code = understand(&export, &index, args, &error) ? run(&export, index, args, &error)
-                                                               : fail(EXIT_USAGE, &error);
+    const int code = understand(&export, &surface, &index, args, &error) ? run(&export, index, args, &error)
+                                                                         : fail(EXIT_USAGE, &error);
     snapshot_reader_close(export.reader);
     return code;
 }

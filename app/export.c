@@ -1,5 +1,6 @@
 #include "app/export.h"
 
+#include "app/export_index.h"
 #include "app/interrupt.h"
 #include "app/output.h"
 #include "app/output_folder.h"
@@ -15,7 +16,8 @@
 static const Named kinds[] = {
     [EXPORT_PVD] = {"pvd", "all snapshots for ParaView: an index, and a folder with a .vtp for each"},
     [EXPORT_VTP] = {"vtp", "one snapshot for ParaView"},
-    [EXPORT_PLY] = {"ply", "one snapshot as a point cloud: Blender, MeshLab, CloudCompare"},
+    [EXPORT_PLY] = {"ply", "one snapshot as a point cloud or a mesh: Blender, MeshLab, CloudCompare"},
+    [EXPORT_PLY_SERIES] = {"ply.series", "all snapshots: an index, and a folder with a .ply for each"},
     {0},
 };
 
@@ -24,28 +26,38 @@ const Named *export_kinds(void)
     return kinds;
 }
 
-bool export_kind(const char *path, ExportKind *kind, Error *error)
+/* Whether the file is called SOMETHING.EXTENSION. */
+static bool has_extension(const char *path, const char *extension)
 {
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
-    const char *extension = strrchr(name, '.');
-    for (int k = 0; extension && extension > name && kinds[k].name; k++)
-        if (strcasecmp(extension + 1, kinds[k].name) == 0) {
+    const size_t length = strlen(name), end = strlen(extension);
+    return length > end + 1 && name[length - end - 1] == '.' &&
+           strcasecmp(name + length - end, extension) == 0;
+}
+
+bool export_kind(const char *path, ExportKind *kind, Error *error)
+{
+    for (int k = 0; kinds[k].name; k++)
+        if (has_extension(path, kinds[k].name)) {
             *kind = (ExportKind)k;
             return true;
         }
-    return error_set(error, "'%s' says not what to write; name a FILE.pvd, a FILE.vtp or a FILE.ply", path);
+    return error_set(error,
+                     "'%s' says not what to write; name a FILE.pvd, a FILE.vtp or a FILE.ply, or for all "
+                     "snapshots as .ply a FILE.ply.series",
+                     path);
 }
 
-static bool read_snapshot(Export *export, size_t index, SnapshotStep *step, Error *error)
+bool export_is_series(ExportKind kind)
 {
-    if (!snapshot_read_step(export->reader, index, step, error))
-        return false;
-    if (export->frame == FRAME_WORLD)
-        snapshot_step_to_world(step);
-    export->particles = step->count;
-    export->time = step->time;
-    return true;
+    return kind == EXPORT_PVD || kind == EXPORT_PLY_SERIES;
+}
+
+/* Of the file of one snapshot. */
+static bool is_ply(const Export *export)
+{
+    return export->kind == EXPORT_PLY || export->kind == EXPORT_PLY_SERIES;
 }
 
 /* Closes a stream that was written; `written` says how that went. */
@@ -69,37 +81,76 @@ static FILE *open_file(const Export *export, const char *name, Error *error)
 
 /* ---- one snapshot ---- */
 
-static bool write_ply(const Export *export, FILE *file, const SnapshotStep *step)
+static PlyColors read_colors(const Export *export)
 {
     PlyColors colors;
     colors.count = snapshot_read_colors(export->reader, colors.color);
-    return ply_write(file, step, snapshot_frame_name(export->frame), &colors);
+    return colors;
 }
 
-static bool write_one(const Export *export, const char *name, const SnapshotStep *step, Error *error)
+static bool write_particles(const Export *export, const char *name, SnapshotStep *step, Error *error)
 {
-    if (export->kind == EXPORT_PLY && !ply_check(step, error))
+    if (export->frame == FRAME_WORLD)
+        snapshot_step_to_world(step);
+    if (is_ply(export) && !ply_check(step, error))
         return false;
     FILE *file = open_file(export, name, error);
     if (!file)
         return false;
-    const bool written = export->kind == EXPORT_PLY ? write_ply(export, file, step) : vtp_write(file, step);
+    const PlyColors colors = read_colors(export);
+    const bool written = is_ply(export) ? ply_write(file, step, snapshot_frame_name(export->frame), &colors)
+                                        : vtp_write(file, step);
     return close_file(export, file, written, error);
+}
+
+static bool write_mesh(Export *export, const char *name, Surface *surface, Error *error)
+{
+    export->vertices = surface->vertices.count;
+    export->triangles = surface->triangle_count;
+    export->volume = surface->volume;
+    export->empty += surface->triangle_count == 0;
+    if (export->frame == FRAME_WORLD)
+        surface_to_world(surface);
+    FILE *file = open_file(export, name, error);
+    if (!file)
+        return false;
+    const PlyColors colors = read_colors(export);
+    const bool written = is_ply(export)
+                             ? ply_write_surface(file, surface, snapshot_frame_name(export->frame), &colors)
+                             : vtp_write_surface(file, surface);
+    return close_file(export, file, written, error);
+}
+
+static bool write_surface(Export *export, const char *name, const SnapshotStep *step, Error *error)
+{
+    Surface surface;
+    if (!surface_make(export->surface, &export->scene, step, &surface, error))
+        return false;
+    const bool written = write_mesh(export, name, &surface, error);
+    surface_free(&surface);
+    return written;
+}
+
+static bool write_snapshot(Export *export, size_t index, const char *name, Error *error)
+{
+    SnapshotStep step;
+    if (!snapshot_read_step(export->reader, index, &step, error))
+        return false;
+    export->particles = step.count;
+    export->time = step.time;
+    const bool written = export->surface ? write_surface(export, name, &step, error)
+                                         : write_particles(export, name, &step, error);
+    snapshot_step_free(&step);
+    export->snapshots += written;
+    return written;
 }
 
 bool export_one(Export *export, size_t index, Error *error)
 {
     Output output = {0};
-    SnapshotStep step;
     if (!output_begin(&output, export->path, error))
         return false;
-    bool written = read_snapshot(export, index, &step, error);
-    if (written) {
-        written = write_one(export, output.temp, &step, error);
-        snapshot_step_free(&step);
-    }
-    export->snapshots = written;
-    if (written)
+    if (write_snapshot(export, index, output.temp, error))
         return output_commit(&output, error);
     output_discard(&output);
     return false;
@@ -114,6 +165,11 @@ typedef struct Series {
     double *times; /* of each snapshot, s */
 } Series;
 
+static const char *file_extension(const Export *export)
+{
+    return is_ply(export) ? ".ply" : ".vtp";
+}
+
 /* The folder is called as the index without its extension. */
 static bool begin_series(Series *series, const Export *export, Error *error)
 {
@@ -121,26 +177,23 @@ static bool begin_series(Series *series, const Export *export, Error *error)
     const size_t count = snapshot_count_steps(export->reader);
     if (!output_begin(&series->index, export->path, error))
         return false;
-    snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(export->path, '.') - export->path), export->path);
+    const size_t length = strlen(export->path) - strlen(kinds[export->kind].name) - 1;
+    snprintf(folder, sizeof folder, "%.*s", (int)length, export->path);
     series->times = calloc(count, sizeof *series->times);
     if (!series->times)
         return error_set(error, "%s: out of memory for %zu snapshots", export->path, count);
-    return output_folder_begin(&series->folder, folder, ".vtp", error);
+    return output_folder_begin(&series->folder, folder, file_extension(export), error);
 }
 
 static bool add_snapshot(Series *series, Export *export, Error *error)
 {
     char name[1088], path[sizeof series->folder.temp + sizeof name];
-    SnapshotStep step;
-    vtp_series_name(series->folder.path, export->snapshots, name, sizeof name);
+    export_index_name(series->folder.path, export->snapshots, file_extension(export), name, sizeof name);
     snprintf(path, sizeof path, "%s/%s", series->folder.temp, name);
-    if (!read_snapshot(export, export->snapshots, &step, error))
+    if (!write_snapshot(export, export->snapshots, path, error))
         return false;
-    const bool written = write_one(export, path, &step, error);
-    snapshot_step_free(&step);
-    series->times[export->snapshots] = export->time;
-    export->snapshots += written;
-    return written;
+    series->times[export->snapshots - 1] = export->time;
+    return true;
 }
 
 static bool add_all(Series *series, Export *export, Progress *progress, Error *error)
@@ -158,9 +211,11 @@ static bool add_all(Series *series, Export *export, Progress *progress, Error *e
 static bool write_index(const Series *series, const Export *export, Error *error)
 {
     FILE *file = open_file(export, series->index.temp, error);
-    return file &&
-           close_file(export, file,
-                      vtp_write_index(file, series->folder.path, export->snapshots, series->times), error);
+    if (!file)
+        return false;
+    const bool written = (is_ply(export) ? export_index_series : export_index_pvd)(
+        file, series->folder.path, file_extension(export), export->snapshots, series->times);
+    return close_file(export, file, written, error);
 }
 
 bool export_series(Export *export, Progress *progress, Error *error)

@@ -4,11 +4,15 @@
 
 #include "app/progress.h"
 #include "app/snapshot_frame.h"
+#include "app/surface.h"
 
-typedef enum ExportKind { EXPORT_PVD, EXPORT_VTP, EXPORT_PLY } ExportKind;
+typedef enum ExportKind { EXPORT_PVD, EXPORT_VTP, EXPORT_PLY, EXPORT_PLY_SERIES } ExportKind;
 
 /* Their names, which are the extensions, in the order of ExportKind; ended by a row without a name. */
 const Named *export_kinds(void);
+
+/* Whether it is of all snapshots. */
+bool export_is_series(ExportKind kind);
 
 /* By the extension of the name; false with what would be right. */
 bool export_kind(const char *path, ExportKind *kind, Error *error);
@@ -19,17 +23,23 @@ typedef struct Export {
     const char *path;       /* of the output */
     ExportKind kind;
     SnapshotFrame frame;
-    size_t snapshots; /* written */
-    size_t particles; /* of the last one */
-    double time;      /* of the last one, s */
-    bool interrupted; /* by a signal, before the last snapshot of a series */
+    const SurfaceDef *surface;  /* instead of the particles; NULL: the particles */
+    SnapshotScene scene;        /* with a surface: that the snapshots are of */
+    size_t snapshots;           /* written */
+    size_t particles;           /* of the last one */
+    double time;                /* of the last one, s */
+    size_t vertices, triangles; /* of the last surface */
+    double volume;              /* that it encloses, m3 */
+    size_t empty;               /* surfaces without a triangle */
+    bool interrupted;           /* by a signal, before the last snapshot of a series */
 } Export;
 
-/* Writes snapshot `index` into one file, .vtp or .ply. False with the reason: it cannot be read or written;
+/* Writes snapshot `index` into one file. False with the reason: it cannot be read or written;
    then what had that name before stays. */
 bool export_one(Export *export, size_t index, Error *error);
 
-/* Writes all snapshots: the index OUT.pvd, and beside it the folder OUT with OUT-0000.vtp, OUT-0001.vtp, ...
+/* Writes all snapshots: the index OUT.pvd, and beside it the folder OUT with OUT-0000.vtp, OUT-0001.vtp, ...;
+   or the index OUT.ply.series, and the folder OUT with OUT-0000.ply, ...
    Both get their names when all is written, or after a signal with the snapshots that are; false with the
    reason, and what had those names before stays. */
 bool export_series(Export *export, Progress *progress, Error *error);

@@ -15,20 +15,24 @@ bool ply_check(const SnapshotStep *step, Error *error)
     return true;
 }
 
-static void print_head(FILE *file, const SnapshotStep *step, const char *frame, bool colored)
+static void print_head(FILE *file, const SnapshotStep *step, const char *frame)
 {
     fprintf(file,
             "ply\nformat binary_little_endian 1.0\ncomment slosh, time %.17g s, frame of the %s, SI units\n"
             "element vertex %zu\n",
             step->time, frame, step->count);
-    static const char *const floats[] = {"x", "y", "z", "vx", "vy", "vz", "density", "pressure"};
-    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++)
-        fprintf(file, "property float %s\n", floats[i]);
-    fputs("property int fluid\nproperty uint id\n", file);
-    if (colored)
-        fputs("property uchar red\nproperty uchar green\nproperty uchar blue\n", file);
-    fputs("end_header\n", file);
 }
+
+static void print_properties(FILE *file, const char *type, const char *const names[])
+{
+    for (; *names; names++)
+        fprintf(file, "property %s %s\n", type, *names);
+}
+
+static const char *const places[] = {"x", "y", "z", NULL}, *const normals[] = {"nx", "ny", "nz", NULL},
+                         *const fields[] = {"vx", "vy", "vz", "density", "pressure", NULL},
+                         *const fluids[] = {"fluid", NULL}, *const ids[] = {"id", NULL},
+                         *const channels[] = {"red", "green", "blue", NULL};
 
 /* The bytes of the fluid's colour. */
 static void color_bytes(const PlyColors *colors, int32_t fluid, uint8_t rgb[3])
@@ -39,20 +43,85 @@ static void color_bytes(const PlyColors *colors, int32_t fluid, uint8_t rgb[3])
         rgb[k] = (uint8_t)lround(255 * fmin(fmax(color[k], 0), 1));
 }
 
+/* A row in the making. */
+typedef struct Row {
+    size_t size;
+    uint8_t byte[64];
+} Row;
+
+static void put(Row *row, const void *value, size_t size)
+{
+    memcpy(row->byte + row->size, value, size);
+    row->size += size;
+}
+
+static void put_vector(Row *row, float *const vector[3], size_t i)
+{
+    for (int k = 0; k < 3; k++)
+        put(row, &vector[k][i], sizeof(float));
+}
+
+/* Velocity, density, pressure and fluid. */
+static void put_fields(Row *row, const SnapshotStep *step, size_t i)
+{
+    put_vector(row, step->velocity, i);
+    put(row, &step->density[i], sizeof(float));
+    put(row, &step->pressure[i], sizeof(float));
+    put(row, &step->fluid[i], sizeof(int32_t));
+}
+
+static void put_color(Row *row, const PlyColors *colors, int32_t fluid)
+{
+    uint8_t rgb[3];
+    color_bytes(colors, fluid, rgb);
+    if (colors->count > 0)
+        put(row, rgb, sizeof rgb);
+}
+
 bool ply_write(FILE *file, const SnapshotStep *step, const char *frame, const PlyColors *colors)
 {
-    print_head(file, step, frame, colors->count > 0);
+    print_head(file, step, frame);
+    print_properties(file, "float", places);
+    print_properties(file, "float", fields);
+    print_properties(file, "int", fluids);
+    print_properties(file, "uint", ids);
+    print_properties(file, "uchar", colors->count > 0 ? channels : channels + 3);
+    fputs("end_header\n", file);
     for (size_t i = 0; i < step->count; i++) {
-        const float numbers[8] = {step->position[0][i], step->position[1][i], step->position[2][i],
-                                  step->velocity[0][i], step->velocity[1][i], step->velocity[2][i],
-                                  step->density[i],     step->pressure[i]};
         const uint32_t id = (uint32_t)step->id[i];
-        uint8_t row[43];
-        memcpy(row, numbers, 32);
-        memcpy(row + 32, &step->fluid[i], 4);
-        memcpy(row + 36, &id, 4);
-        color_bytes(colors, step->fluid[i], row + 40);
-        fwrite(row, colors->count > 0 ? 43 : 40, 1, file);
+        Row row = {.size = 0};
+        put_vector(&row, step->position, i);
+        put_fields(&row, step, i);
+        put(&row, &id, sizeof id);
+        put_color(&row, colors, step->fluid[i]);
+        fwrite(row.byte, row.size, 1, file);
+    }
+    return !ferror(file);
+}
+
+bool ply_write_surface(FILE *file, const Surface *surface, const char *frame, const PlyColors *colors)
+{
+    const SnapshotStep *step = &surface->vertices;
+    print_head(file, step, frame);
+    print_properties(file, "float", places);
+    print_properties(file, "float", normals);
+    print_properties(file, "float", fields);
+    print_properties(file, "int", fluids);
+    print_properties(file, "uchar", colors->count > 0 ? channels : channels + 3);
+    fprintf(file, "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
+            surface->triangle_count);
+    for (size_t i = 0; i < step->count; i++) {
+        Row row = {.size = 0};
+        put_vector(&row, step->position, i);
+        put_vector(&row, surface->normal, i);
+        put_fields(&row, step, i);
+        put_color(&row, colors, step->fluid[i]);
+        fwrite(row.byte, row.size, 1, file);
+    }
+    for (size_t i = 0; i < surface->triangle_count; i++) {
+        Row row = {.size = 1, .byte = {3}};
+        put(&row, surface->triangle[i], sizeof surface->triangle[i]);
+        fwrite(row.byte, row.size, 1, file);
     }
     return !ferror(file);
 }

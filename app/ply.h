@@ -1,12 +1,15 @@
-/* Particles as a point cloud: PLY, binary little endian, for Blender, MeshLab, CloudCompare and scripts.
+/* Particles as a point cloud, or the fluid's surface as a mesh: PLY, binary little endian, for Blender,
+   MeshLab, CloudCompare and scripts.
 
    One element `vertex` with the properties x y z (m), vx vy vz (m/s), density (kg/m3), pressure (Pa): float;
    fluid: int; id: uint, since PLY has no integer of 64 bits; and red green blue: uchar, sRGB, where the
-   fluids' colours are known. */
+   fluids' colours are known. A surface has its normal, nx ny nz, behind x y z, and no id; then the element
+   `face` with vertex_indices, a list of int. */
 #ifndef SLOSH_PLY_H
 #define SLOSH_PLY_H
 
 #include "app/snapshot.h"
+#include "app/surface.h"
 
 #include <stdio.h>
 
@@ -22,5 +25,6 @@ bool ply_check(const SnapshotStep *step, Error *error);
 /* `frame` and the step's time go into a comment. A fluid that has no colour among others that have is grey.
    False when the stream fails (errno tells why). */
 bool ply_write(FILE *file, const SnapshotStep *step, const char *frame, const PlyColors *colors);
+bool ply_write_surface(FILE *file, const Surface *surface, const char *frame, const PlyColors *colors);
 
 #endif

@@ -94,6 +94,18 @@ bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Erro
    file knows none. */
 size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_MAX][3]);
 
+/* What the file says of its scene. */
+typedef struct SnapshotScene {
+    int dimensions;
+    double spacing, support_radius; /* m */
+    double box_size[3];             /* m */
+    size_t fluid_count;
+    double density[FLUIDS_MAX]; /* of each fluid at rest, kg/m3 */
+} SnapshotScene;
+
+/* False with what is missing. */
+bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error);
+
 /* Reads step `index` into new arrays, that the caller frees. */
 bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
 

@@ -91,12 +91,48 @@ bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Erro
     return read || error_set(error, "%s: Step#%zu: 'TimeValue' is missing", reader->path, index);
 }
 
-size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_MAX][3])
+/* `width` numbers of each fluid; returns of how many fluids. */
+static size_t read_fluids(const SnapshotReader *reader, const char *name, size_t width, double *values)
 {
-    size_t count = H5Aexists(reader->file, SNAPSHOT_COLORS) > 0 ? FLUIDS_MAX : 0;
-    while (count > 0 && !read_values(reader->file, SNAPSHOT_COLORS, H5T_NATIVE_DOUBLE, 3 * count, colors[0]))
+    size_t count = H5Aexists(reader->file, name) > 0 ? FLUIDS_MAX : 0;
+    while (count > 0 && !read_values(reader->file, name, H5T_NATIVE_DOUBLE, width * count, values))
         count--;
     return count;
+}
+
+size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_MAX][3])
+{
+    return read_fluids(reader, SNAPSHOT_COLORS, 3, colors[0]);
+}
+
+/* By the number of sides of the box that the settings have; files of older versions are of three. */
+static int read_dimensions(const SnapshotReader *reader)
+{
+    double side[3];
+    char *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
+    const char *size = settings ? strstr(settings, "\nbox.size = [") : NULL;
+    const int sides = size ? sscanf(size, "\nbox.size = [%lf, %lf, %lf]", &side[0], &side[1], &side[2]) : 3;
+    free(settings);
+    return sides;
+}
+
+bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error)
+{
+    const struct {
+        const char *name;
+        size_t count;
+        double *values;
+    } numbers[] = {{"spacing", 1, &scene->spacing},
+                   {"support_radius", 1, &scene->support_radius},
+                   {"box_size", 3, scene->box_size}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (H5Aexists(reader->file, numbers[i].name) <= 0 ||
+            !read_values(reader->file, numbers[i].name, H5T_NATIVE_DOUBLE, numbers[i].count,
+                         numbers[i].values))
+            return error_set(error, "%s: '%s' is missing", reader->path, numbers[i].name);
+    scene->dimensions = read_dimensions(reader);
+    scene->fluid_count = read_fluids(reader, "fluid_densities", 1, scene->density);
+    return scene->fluid_count > 0 || error_set(error, "%s: 'fluid_densities' is missing", reader->path);
 }
 
 char *snapshot_root_text(const SnapshotReader *reader, const char *name)

@@ -232,7 +232,8 @@ static void sum_member(const Sum *sum, size_t i, int slice, int slice_end)
     }
     bump.first[2] = bump.first[2] > slice ? bump.first[2] : slice;
     bump.end[2] = bump.end[2] < slice_end ? bump.end[2] : slice_end;
-    add_bump(sum->field, grid, &bump);
+    if (sum->field)
+        add_bump(sum->field, grid, &bump);
     if (!sum->weighted)
         return;
     bump.most *= particles->scalar[i];
@@ -247,7 +248,8 @@ static void sum_slab(void *context, size_t slab, size_t slab_end)
         const int depth = sum->grid->size[2], slice = (int)slab * SLAB;
         const int slice_end = slice + SLAB < depth ? slice + SLAB : depth;
         const size_t from = slice_cells * (size_t)slice, cells = slice_cells * (size_t)(slice_end - slice);
-        memset(sum->field + from, 0, cells * sizeof *sum->field);
+        if (sum->field)
+            memset(sum->field + from, 0, cells * sizeof *sum->field);
         if (sum->weighted)
             memset(sum->weighted + from, 0, cells * sizeof *sum->weighted);
         for (size_t m = sum->slabs->begin[slab]; m < sum->slabs->begin[slab + 1]; m++)

@@ -41,7 +41,7 @@ typedef struct FieldSlabs {
 
 void field_slabs_free(FieldSlabs *slabs); /* a zeroed one is allowed */
 
-/* Sets each of the grid's values: field to sum V W, and `weighted`, unless it is NULL, to sum V W scalar.
+/* Sets each of the grid's values: field to sum V W, `weighted` to sum V W scalar; either may be NULL.
    Slabs of the grid are summed in parallel, each value in the particles' order: the same bits for any number
    of threads. A weight is rounded to float before it is added. False when memory is short: then the values
    are not set. */

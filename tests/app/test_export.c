@@ -2,6 +2,7 @@
 #include "output_fixture.h"
 
 #include "app/export.h"
+#include "app/export_index.h"
 #include "app/ply.h"
 #include "app/vtp.h"
 
@@ -204,12 +205,12 @@ static void the_index_names_its_files(void **state)
     (void)state;
     static const double times[] = {0, 0.1};
     char name[64], text[1024] = "";
-    vtp_series_name("some/where/fluid", 7, name, sizeof name);
+    export_index_name("some/where/fluid", 7, ".vtp", name, sizeof name);
     assert_string_equal(name, "fluid-0007.vtp");
-    vtp_series_name("fluid", 12345, name, sizeof name);
-    assert_string_equal(name, "fluid-12345.vtp");
+    export_index_name("fluid", 12345, ".ply", name, sizeof name);
+    assert_string_equal(name, "fluid-12345.ply");
     FILE *file = fopen("a.pvd", "w+");
-    assert_true(vtp_write_index(file, "x/a&<b>\"", 2, times));
+    assert_true(export_index_pvd(file, "x/a&<b>\"", ".vtp", 2, times));
     rewind(file);
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);

@@ -79,6 +79,10 @@ static void each_value_is_the_sum_over_all_particles(void **state)
         float *field = new_values(&grids[g]), *weighted = new_values(&grids[g]);
         sum(&particles, &grids[g], 2, field, weighted);
         assert_like_brute_force(&particles, &grids[g], field, weighted);
+        memset(field, 0xff, volume_grid_cells(&grids[g]) * sizeof *field);
+        sum(&particles, &grids[g], 2, NULL, field);
+        assert_memory_equal(field, weighted, volume_grid_cells(&grids[g]) * sizeof *field);
+        sum(&particles, &grids[g], 2, field, NULL);
         sum(&particles, &grids[g], 1, weighted, NULL);
         assert_memory_equal(field, weighted, volume_grid_cells(&grids[g]) * sizeof *field);
         free(field);
