@@ -54,7 +54,7 @@ const OptionRow option_rows[] = {
      .help = "whose positions and velocities are written (box)"},
     {"--surface", NULL, EXPORT, OPTION_FLAG, AT(surface), .help = "the fluid's surface as a mesh instead of the particles"},
     {"--level", "F", EXPORT, OPTION_NUMBER, AT(level), .max = 0.99, .flags = OPTION_OPEN_LOW,
-     .help = "of the field at the surface (0.5: it encloses the fluid's volume; less shows more of the spray)"},
+     .help = "of the field at the surface (the one at which it encloses the fluid's volume: about 0.5)"},
     {"--cell", "SPACINGS", EXPORT, OPTION_NUMBER, AT(cell), .min = 0.05, .max = 4,
      .help = "side of the cells that the surface is made from (0.5)"},
     {"--every", "S", RUN | REPLAY, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,

@@ -59,15 +59,15 @@ static void report(const Export *export, const Args *args)
     if (export->interrupted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->time, args->output);
     if (export->empty > 0)
-        fprintf(stderr,
-                "%s: warning: no fluid reaches the level %g in %zu of %zu snapshots: no surface there\n",
-                args->output, export->surface->level, export->empty, export->snapshots);
+        fprintf(stderr, "%s: warning: %zu of %zu snapshots have no fluid at that level, and no surface\n",
+                args->output, export->empty, export->snapshots);
     if (args->quiet)
         return;
     fprintf(stderr, "%s: %zu snapshot%s t = %.4g s, %zu particles, ", args->output, export->snapshots,
             export->snapshots == 1 ? " of" : "s up to", export->time, export->particles);
     if (export->surface)
-        fprintf(stderr, "a surface of %zu triangles around %.4g m3, ", export->triangles, export->volume);
+        fprintf(stderr, "a surface of %zu triangles around %.4g m3 at level %.3g, ", export->triangles,
+                export->volume, export->level);
     fprintf(stderr, "in the frame of the %s\n", snapshot_frame_name(export->frame));
 }
 
@@ -95,8 +95,7 @@ static bool understand_surface(Export *export, SurfaceDef *surface, const Args *
         return error_set(error, "%s is of a surface; add --surface", args->level > 0 ? "--level" : "--cell");
     if (!args->surface)
         return true;
-    surface->level = args->level > 0 ? args->level : surface->level;
-    surface->cell = args->cell > 0 ? args->cell : surface->cell;
+    *surface = (SurfaceDef){.level = args->level, .cell = args->cell > 0 ? args->cell : 0.5};
     export->surface = surface;
     return snapshot_read_scene(export->reader, &export->scene, error) &&
            surface_check(surface, &export->scene, error);
@@ -121,7 +120,7 @@ static bool understand(Export *export, SurfaceDef *surface, size_t *index, const
 int cmd_export(const Args *args)
 {
     Export export = {.path = args->output, .frame = args->frame};
-    SurfaceDef surface = surface_def_default();
+    SurfaceDef surface = {0};
     Error error = {{0}};
     size_t index = 0;
     interrupt_install();

@@ -107,6 +107,7 @@ static bool write_mesh(Export *export, const char *name, Surface *surface, Error
 {
     export->vertices = surface->vertices.count;
     export->triangles = surface->triangle_count;
+    export->level = surface->level;
     export->volume = surface->volume;
     export->empty += surface->triangle_count == 0;
     if (export->frame == FRAME_WORLD)

@@ -29,7 +29,7 @@ typedef struct Export {
     size_t particles;           /* of the last one */
     double time;                /* of the last one, s */
     size_t vertices, triangles; /* of the last surface */
-    double volume;              /* that it encloses, m3 */
+    double level, volume;       /* of its field; that it encloses, m3 */
     size_t empty;               /* surfaces without a triangle */
     bool interrupted;           /* by a signal, before the last snapshot of a series */
 } Export;

@@ -10,11 +10,6 @@
 #include <string.h>
 #include <unistd.h>
 
-SurfaceDef surface_def_default(void)
-{
-    return (SurfaceDef){.level = 0.5, .cell = 0.5};
-}
-
 /* ---- the grid ---- */
 
 static double physical_bytes(void)
@@ -42,6 +37,11 @@ static bool grid_around(const double low[3], const double high[3], const Snapsho
     return cells * 2 * sizeof(float) < physical_bytes();
 }
 
+static double cell_side(const SurfaceDef *def, const SnapshotScene *scene)
+{
+    return (def->cell > 0 ? def->cell : 0.5) * scene->spacing;
+}
+
 static bool box_grid(const SnapshotScene *scene, double cell, VolumeGrid *grid)
 {
     const double *size = scene->box_size;
@@ -52,17 +52,17 @@ static bool box_grid(const SnapshotScene *scene, double cell, VolumeGrid *grid)
 bool surface_check(const SurfaceDef *def, const SnapshotScene *scene, Error *error)
 {
     VolumeGrid grid;
-    double fits = def->cell;
+    double fits = cell_side(def, scene);
     if (scene->dimensions != 3)
         return error_set(error, "a scene of two dimensions has no surface; export it without --surface");
-    if (box_grid(scene, def->cell * scene->spacing, &grid))
+    if (box_grid(scene, fits, &grid))
         return true;
-    while (!box_grid(scene, fits * scene->spacing, &grid))
+    while (!box_grid(scene, fits, &grid))
         fits *= 1.1;
     return error_set(error,
                      "the grid of a surface needs more memory than this machine has (%.3g GB); use a --cell "
                      "of %.2g or more",
-                     physical_bytes() / 1e9, fits);
+                     physical_bytes() / 1e9, fits / scene->spacing);
 }
 
 /* ---- the work in hand ---- */
@@ -186,22 +186,6 @@ static void place_vertices(Work *work)
     }
 }
 
-/* By the tetrahedra that the triangles make with the origin. */
-static double enclosed(const Surface *surface)
-{
-    double volume = 0;
-    for (size_t i = 0; i < surface->triangle_count; i++) {
-        double p[3][3];
-        for (int corner = 0; corner < 3; corner++)
-            for (int k = 0; k < 3; k++)
-                p[corner][k] = surface->vertices.position[k][surface->triangle[i][corner]];
-        volume += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
-                  p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
-                  p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
-    }
-    return volume / 6;
-}
-
 /* ---- all of it ---- */
 
 static bool allocate(Surface *surface, const Work *work)
@@ -214,6 +198,40 @@ static bool allocate(Surface *surface, const Work *work)
     surface->vertices.step = work->step->step;
     surface->vertices.box = work->step->box;
     return all;
+}
+
+static bool march(Work *work, double level, Error *error)
+{
+    const double side = work->grid.cell;
+    isosurface_free(&work->mesh);
+    if (!isosurface(work->grid.size, work->field, (float)level, &work->mesh, error))
+        return false;
+    work->surface->level = level;
+    work->surface->volume = isosurface_volume(&work->mesh) * side * side * side;
+    return true;
+}
+
+/* The level at which the mesh encloses the volume that the fluid has at rest, by the method of secants.
+ */
+static bool march_to_volume(Work *work, Error *error)
+{
+    const double s = work->scene->spacing, volume = s * s * s * (double)work->particles.count;
+    double level = 0.5, change = -1, before = 0; /* of the excess with the level; the last excess */
+    for (int tries = 0; tries < 6; tries++) {
+        const double last = work->surface->level;
+        if (!march(work, level, error))
+            return false;
+        const double excess = work->surface->volume / volume - 1;
+        if (tries > 0 && level != last)
+            change = fmin((excess - before) / (level - last), -0.2);
+        if (fabs(excess) < 0.003)
+            break;
+        before = excess;
+        level = fmin(fmax(level - excess / change, 0.25), 0.75);
+        if (level == work->surface->level)
+            break; /* at a bound */
+    }
+    return true;
 }
 
 /* The mesh, or none where there are no particles. */
@@ -230,9 +248,10 @@ static bool cross_level(Work *work, double level, Error *error)
     work->weighted = malloc(cells * sizeof *work->weighted);
     if (!work->field || !work->weighted)
         return error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
-    return field_sum(&work->particles, &work->grid, parallel_processors(), &work->slabs, work->field, NULL,
-                     error) &&
-           isosurface(work->grid.size, work->field, (float)level, &work->mesh, error);
+    if (!field_sum(&work->particles, &work->grid, parallel_processors(), &work->slabs, work->field, NULL,
+                   error))
+        return false;
+    return level > 0 ? march(work, level, error) : march_to_volume(work, error);
 }
 
 static bool make(Work *work, double level, Error *error)
@@ -251,7 +270,6 @@ static bool make(Work *work, double level, Error *error)
     surface->triangle_count = work->mesh.triangle_count;
     surface->triangle = work->mesh.triangle;
     work->mesh.triangle = NULL;
-    surface->volume = enclosed(surface);
     return surface->triangle_count == 0 || find_means(work, error);
 }
 
@@ -259,7 +277,7 @@ bool surface_make(const SurfaceDef *def, const SnapshotScene *scene, const Snaps
                   Surface *surface, Error *error)
 {
     *surface = (Surface){0};
-    Work work = {.scene = scene, .step = step, .grid.cell = def->cell * scene->spacing, .surface = surface};
+    Work work = {.scene = scene, .step = step, .grid.cell = cell_side(def, scene), .surface = surface};
     const bool made = make(&work, def->level, error);
     work_free(&work);
     if (!made)

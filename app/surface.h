@@ -8,11 +8,10 @@
 
 /* How it is made. */
 typedef struct SurfaceDef {
-    double level; /* more than 0, less than 1; 0.5: the mesh encloses the fluid's volume */
-    double cell;  /* of the grid, in spacings; 0.5: half of it changes that volume by 0.5 % */
+    double level; /* less than 1; 0: for each step the one at which the mesh encloses the fluid's volume at
+                     rest, spacing^3 a particle, to 0.3 %: about 0.5, and within 0.25 .. 0.75 */
+    double cell;  /* of the grid, in spacings; 0: 0.5, finer shows little more */
 } SurfaceDef;
-
-SurfaceDef surface_def_default(void); /* 0.5 and 0.5 */
 
 typedef struct Surface {
     SnapshotStep vertices; /* of the mesh as if they were particles; `fluid`: the one with most weight there;
@@ -20,7 +19,7 @@ typedef struct Surface {
     float *normal[3];      /* of each vertex, unit, outwards */
     size_t triangle_count;
     uint32_t (*triangle)[3]; /* counter-clockwise seen from outside */
-    double volume;           /* enclosed, m3 */
+    double level, volume;    /* of the field; enclosed, m3 */
 } Surface;
 
 /* Whether there is memory for the grid over all of the scene's box, which a step needs at most; false with

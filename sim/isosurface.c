@@ -327,6 +327,21 @@ void isosurface_place(const IsoMesh *mesh, size_t vertex, double place[3])
         place[k] = (double)index[k] + (k == v->axis ? (double)v->t : 0);
 }
 
+/* The sum of the tetrahedra that the triangles make with the first value. */
+double isosurface_volume(const IsoMesh *mesh)
+{
+    double volume = 0;
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        double a[3], b[3], c[3];
+        isosurface_place(mesh, mesh->triangle[i][0], a);
+        isosurface_place(mesh, mesh->triangle[i][1], b);
+        isosurface_place(mesh, mesh->triangle[i][2], c);
+        volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                  a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    return volume / 6;
+}
+
 float isosurface_value(const IsoMesh *mesh, size_t vertex, const float *values)
 {
     const IsoVertex *v = &mesh->vertex[vertex];

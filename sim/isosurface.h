@@ -37,6 +37,9 @@ void isosurface_free(IsoMesh *mesh); /* a zeroed one is allowed */
 /* The place of a vertex, in cells from the first value. */
 void isosurface_place(const IsoMesh *mesh, size_t vertex, double place[3]);
 
+/* What the mesh encloses, in cells. */
+double isosurface_volume(const IsoMesh *mesh);
+
 /* Any values on the same grid at a vertex, linear along its edge. */
 float isosurface_value(const IsoMesh *mesh, size_t vertex, const float *values);
 

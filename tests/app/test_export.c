@@ -6,6 +6,7 @@
 #include "app/ply.h"
 #include "app/vtp.h"
 
+#include <jansson.h>
 #include <math.h>
 
 static SnapshotStep some_step(size_t count)
@@ -200,6 +201,118 @@ static void a_vtp_is_read_back(void **state)
     }
 }
 
+/* A tetrahedron. */
+static Surface some_surface(void)
+{
+    static const uint32_t corners[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    Surface surface = {.vertices = some_step(4), .triangle_count = 4};
+    surface.triangle = malloc(sizeof corners);
+    memcpy(surface.triangle, corners, sizeof corners);
+    for (int k = 0; k < 3; k++) {
+        surface.normal[k] = malloc(4 * sizeof(float));
+        for (int i = 0; i < 4; i++)
+            surface.normal[k][i] = (float)(k == i % 3);
+    }
+    return surface;
+}
+
+static void a_surface_as_ply_is_read_back(void **state)
+{
+    (void)state;
+    static const char head[] = "ply\nformat binary_little_endian 1.0\n"
+                               "comment slosh, time 0.10000000000000001 s, frame of the box, SI units\n"
+                               "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                               "property float nx\nproperty float ny\nproperty float nz\n"
+                               "property float vx\nproperty float vy\nproperty float vz\n"
+                               "property float density\nproperty float pressure\nproperty int fluid\n"
+                               "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                               "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+    static const PlyColors colors = {1, {{0, 0.5, 1}}};
+    enum { VERTEX = 51, FACE = 13 };
+    size_t size;
+    Surface surface = some_surface();
+    FILE *out = fopen("a.ply", "wb");
+    assert_true(ply_write_surface(out, &surface, "box", &colors));
+    assert_int_equal(fclose(out), 0);
+    char *file = read_all("a.ply", &size);
+    const char *row = file + strlen(head);
+    assert_int_equal(size, strlen(head) + (size_t)4 * VERTEX + (size_t)4 * FACE);
+    assert_memory_equal(file, head, strlen(head));
+    for (size_t i = 0; i < 4; i++, row += VERTEX) {
+        for (size_t k = 0; k < 3; k++) {
+            assert_memory_equal(row + 4 * k, &surface.vertices.position[k][i], 4);
+            assert_memory_equal(row + 12 + 4 * k, &surface.normal[k][i], 4);
+            assert_memory_equal(row + 24 + 4 * k, &surface.vertices.velocity[k][i], 4);
+        }
+        assert_memory_equal(row + 36, &surface.vertices.density[i], 4);
+        assert_memory_equal(row + 40, &surface.vertices.pressure[i], 4);
+        assert_memory_equal(row + 44, &surface.vertices.fluid[i], 4);
+        assert_memory_equal(row + 48, i % 3 == 0 ? "\0\200\377" : "\200\200\200", 3);
+    }
+    for (size_t i = 0; i < 4; i++, row += FACE) {
+        assert_int_equal(row[0], 3);
+        assert_memory_equal(row + 1, surface.triangle[i], 12);
+    }
+    free(file);
+    surface_free(&surface);
+}
+
+static void a_surface_as_vtp_is_read_back(void **state)
+{
+    (void)state;
+    static const int32_t ends[4] = {3, 6, 9, 12};
+    size_t size;
+    Surface surface = some_surface();
+    const SnapshotStep *step = &surface.vertices;
+    FILE *out = fopen("a.vtp", "wb");
+    assert_true(vtp_write_surface(out, &surface));
+    assert_int_equal(fclose(out), 0);
+    char *file = read_all("a.vtp", &size);
+    assert_contains(file, "NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+                          "NumberOfPolys=\"4\"");
+    assert_contains(file, "<PointData Vectors=\"velocity\" Scalars=\"density\" Normals=\"Normals\">");
+    assert_memory_equal(vtp_array(file, "connectivity", 48), surface.triangle, 48);
+    assert_memory_equal(vtp_array(file, "offsets", 16), ends, 16);
+    assert_memory_equal(vtp_array(file, "density", 16), step->density, 16);
+    assert_memory_equal(vtp_array(file, "pressure", 16), step->pressure, 16);
+    assert_memory_equal(vtp_array(file, "fluid", 16), step->fluid, 16);
+    for (size_t i = 0; i < 4; i++)
+        for (size_t k = 0; k < 3; k++) {
+            assert_memory_equal(vtp_array(file, "Points", 48) + 12 * i + 4 * k, &step->position[k][i], 4);
+            assert_memory_equal(vtp_array(file, "velocity", 48) + 12 * i + 4 * k, &step->velocity[k][i], 4);
+            assert_memory_equal(vtp_array(file, "Normals", 48) + 12 * i + 4 * k, &surface.normal[k][i], 4);
+        }
+    assert_memory_equal(file + size - 27, "</AppendedData>\n</VTKFile>\n", 27);
+    free(file);
+    surface_free(&surface);
+}
+
+static void a_series_of_ply_has_an_index_in_json(void **state)
+{
+    (void)state;
+    static const double times[] = {0, 0.1};
+    char text[1024] = "";
+    FILE *file = fopen("a.ply.series", "w+");
+    assert_true(export_index_series(file, "x/a \"b\"", ".ply", 2, times));
+    rewind(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    json_t *index = json_loads(text, 0, NULL);
+    assert_non_null(index);
+    assert_string_equal(json_string_value(json_object_get(index, "file-series-version")), "1.0");
+    const json_t *second = json_array_get(json_object_get(index, "files"), 1);
+    assert_string_equal(json_string_value(json_object_get(second, "name")), "a \"b\"/a \"b\"-0001.ply");
+    assert_true(json_real_value(json_object_get(second, "time")) == 0.1);
+    json_decref(index);
+    file = fopen("a.ply.series", "w+");
+    assert_false(export_index_series(file, "\xff", ".ply", 2, times)); /* not UTF-8 */
+    fclose(file);
+    file = fopen("/dev/full", "w");
+    setbuf(file, NULL);
+    assert_false(export_index_series(file, "a", ".ply", 2, times));
+    fclose(file);
+}
+
 static void the_index_names_its_files(void **state)
 {
     (void)state;
@@ -229,18 +342,31 @@ static void a_failed_stream_is_told(void **state)
     file = fopen("/dev/full", "wb");
     assert_false(ply_write(file, &step, "box", &(PlyColors){0}));
     fclose(file);
+    Surface surface = some_surface();
+    for (int k = 0; k < 2; k++) {
+        file = fopen("/dev/full", "wb");
+        setbuf(file, NULL);
+        assert_false(k == 0 ? vtp_write_surface(file, &surface)
+                            : ply_write_surface(file, &surface, "box", &(PlyColors){0}));
+        fclose(file);
+    }
+    surface_free(&surface);
     snapshot_step_free(&step);
 }
 
 static void the_extension_says_what_is_written(void **state)
 {
     (void)state;
-    static const char *const others[] = {"a", "a.h5part", ".ply", "a.vtp/b", "", "a.", "a.plyx", "b/.vtp"};
+    static const char *const others[] = {"a",  "a.h5part", ".ply",   "a.vtp/b",  "",
+                                         "a.", "a.plyx",   "b/.vtp", "a.series", ".ply.series"};
     ExportKind kind;
     Error error = {{0}};
     assert_true(export_kind("a.b/c.PVD", &kind, &error) && kind == EXPORT_PVD);
     assert_true(export_kind("a.vtp", &kind, &error) && kind == EXPORT_VTP);
     assert_true(export_kind("a.vtp.ply", &kind, &error) && kind == EXPORT_PLY);
+    assert_true(export_kind("b/a.ply.Series", &kind, &error) && kind == EXPORT_PLY_SERIES);
+    assert_true(export_is_series(EXPORT_PLY_SERIES) && export_is_series(EXPORT_PVD));
+    assert_false(export_is_series(EXPORT_PLY) || export_is_series(EXPORT_VTP));
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         assert_false(export_kind(others[i], &kind, &error));
         assert_contains(error.message, "name a FILE.pvd, a FILE.vtp or a FILE.ply");
@@ -256,6 +382,9 @@ int main(void)
         TEST(a_ply_is_read_back),
         TEST(an_id_that_ply_cannot_hold_is_refused),
         TEST(a_vtp_is_read_back),
+        TEST(a_surface_as_ply_is_read_back),
+        TEST(a_surface_as_vtp_is_read_back),
+        TEST(a_series_of_ply_has_an_index_in_json),
         TEST(the_index_names_its_files),
         TEST(a_failed_stream_is_told),
         TEST(the_extension_says_what_is_written),

@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "sim/isosurface.h"
+#include "tests/closed_mesh.h"
 
 /* A field in a cube of 2 m around the origin: more inside. */
 typedef double Shape(double x, double y, double z);
@@ -57,32 +58,6 @@ static IsoMesh march(const int size[3], const float *values, float level)
 
 /* ---- what each mesh must be ---- */
 
-static int ascending(const void *a, const void *b)
-{
-    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-    return (x > y) - (x < y);
-}
-
-/* Each side of a triangle, as from << 32 | to, is there once, and once the other way round. */
-static void assert_closed(const IsoMesh *mesh)
-{
-    const size_t count = 3 * mesh->triangle_count;
-    uint64_t *side = malloc((count + 1) * sizeof *side), *back = malloc((count + 1) * sizeof *back);
-    for (size_t i = 0; i < count; i++) {
-        const uint64_t from = mesh->triangle[i / 3][i % 3], to = mesh->triangle[i / 3][(i + 1) % 3];
-        assert_true(from < mesh->vertex_count && from != to);
-        side[i] = from << 32 | to;
-        back[i] = to << 32 | from;
-    }
-    qsort(side, count, sizeof *side, ascending);
-    qsort(back, count, sizeof *back, ascending);
-    for (size_t i = 0; i + 1 < count; i++)
-        assert_true(side[i] != side[i + 1]);
-    assert_memory_equal(side, back, count * sizeof *side);
-    free(side);
-    free(back);
-}
-
 /* Every vertex is used, and none lies where another does: no two on one edge of the grid, none at its end. */
 static void assert_vertices_differ(const IsoMesh *mesh)
 {
@@ -95,27 +70,11 @@ static void assert_vertices_differ(const IsoMesh *mesh)
         key[i] = 3 * mesh->vertex[i].at + (uint64_t)mesh->vertex[i].axis;
         assert_true(used[i] && mesh->vertex[i].t > 0.0005F && mesh->vertex[i].t < 0.9995F);
     }
-    qsort(key, mesh->vertex_count, sizeof *key, ascending);
+    qsort(key, mesh->vertex_count, sizeof *key, closed_mesh_order);
     for (size_t i = 0; i + 1 < mesh->vertex_count; i++)
         assert_true(key[i] != key[i + 1]);
     free(key);
     free(used);
-}
-
-/* In cells^3; positive when the triangles turn outwards. */
-static double enclosed(const IsoMesh *mesh)
-{
-    double volume = 0;
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
-        double a[3], b[3], c[3];
-        isosurface_place(mesh, mesh->triangle[i][0], a);
-        isosurface_place(mesh, mesh->triangle[i][1], b);
-        isosurface_place(mesh, mesh->triangle[i][2], c);
-        volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                   a[2] * (b[0] * c[1] - b[1] * c[0])) /
-                  6;
-    }
-    return volume;
 }
 
 /* Vertices - edges + faces: 2 for each ball, 0 for a torus. */
@@ -130,9 +89,9 @@ static void assert_shape(Shape *shape, int side, double volume, long characteris
     const double cell = 2.0 / (side - 1);
     float *values = sample(shape, side);
     IsoMesh mesh = march(size, values, 0);
-    assert_closed(&mesh);
+    assert_closed(mesh.triangle, mesh.triangle_count, mesh.vertex_count);
     assert_vertices_differ(&mesh);
-    assert_true(fabs(enclosed(&mesh) * cell * cell * cell / volume - 1) < 0.01);
+    assert_true(fabs(isosurface_volume(&mesh) * cell * cell * cell / volume - 1) < 0.01);
     assert_int_equal(euler(&mesh), characteristic);
     isosurface_free(&mesh);
     free(values);
@@ -155,7 +114,7 @@ static void a_contact_on_the_grid_is_closed(void **state)
     float *values = sample(touching_balls, 51);
     for (int k = -2; k <= 2; k++) {
         IsoMesh mesh = march(size, values, 0.01F * (float)k);
-        assert_closed(&mesh);
+        assert_closed(mesh.triangle, mesh.triangle_count, mesh.vertex_count);
         assert_vertices_differ(&mesh);
         assert_int_equal(euler(&mesh), k > 0 ? 4 : 2);
         isosurface_free(&mesh);
@@ -207,9 +166,9 @@ static void noise_is_closed(void **state)
             values[i] = (float)(floor(steps * fixture_random(&seed)) / (steps - 1));
         IsoMesh mesh = march(size, values, steps == 3 ? 0.5F : 0.2F + 0.015F * (float)round);
         assert_true(mesh.triangle_count > 1000);
-        assert_closed(&mesh);
+        assert_closed(mesh.triangle, mesh.triangle_count, mesh.vertex_count);
         assert_vertices_differ(&mesh);
-        assert_true(enclosed(&mesh) > 0);
+        assert_true(isosurface_volume(&mesh) > 0);
         isosurface_free(&mesh);
     }
 }
@@ -225,8 +184,8 @@ static void each_case_is_closed(void **state)
             values[1 + (corner & 1) + 4 * (1 + (corner >> 1 & 1)) + 16 * (1 + (corner >> 2))] =
                 (float)(inside >> corner & 1);
         IsoMesh mesh = march(size, values, 0.5F);
-        assert_closed(&mesh);
-        assert_true(enclosed(&mesh) > 0.1);
+        assert_closed(mesh.triangle, mesh.triangle_count, mesh.vertex_count);
+        assert_true(isosurface_volume(&mesh) > 0.1);
         isosurface_free(&mesh);
     }
 }
@@ -238,8 +197,8 @@ static void the_border_is_outside(void **state)
     static const int size[3] = {9, 9, 9}, flat[3] = {9, 9, 2}, one[3] = {1, 1, 1};
     float *values = sample(everywhere, 9);
     IsoMesh mesh = march(size, values, 0.5F);
-    assert_closed(&mesh);
-    assert_true(fabs(enclosed(&mesh) - 8 * 8 * 8 + 12 * 8 * 0.5) < 6); /* its edges are cut off */
+    assert_closed(mesh.triangle, mesh.triangle_count, mesh.vertex_count);
+    assert_true(fabs(isosurface_volume(&mesh) - 8 * 8 * 8 + 12 * 8 * 0.5) < 6); /* its edges are cut off */
     isosurface_free(&mesh);
     mesh = march(size, values, 1.5F);
     assert_true(mesh.vertex_count == 0 && mesh.triangle_count == 0);
@@ -261,7 +220,7 @@ static void what_is_no_number_is_outside(void **state)
     for (size_t i = 0; i < 9 * 9 * 9; i += 7)
         values[i] = i % 2 ? NAN : INFINITY;
     IsoMesh mesh = march(size, values, 0.5F);
-    assert_closed(&mesh);
+    assert_closed(mesh.triangle, mesh.triangle_count, mesh.vertex_count);
     assert_vertices_differ(&mesh);
     isosurface_free(&mesh);
     free(values);
