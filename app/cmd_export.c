@@ -33,9 +33,9 @@ static bool choose(const Args *args, SnapshotReader *reader, size_t *index, Erro
 
 static json_t *surface_json(const Export *export)
 {
-    return json_pack("{s:f, s:f, s:I, s:I, s:f}", "level", export->surface->level, "cell",
-                     export->surface->cell, "vertices", (json_int_t) export->vertices, "triangles",
-                     (json_int_t) export->triangles, "volume", export->volume);
+    return json_pack("{s:f, s:f, s:I, s:I, s:f}", "level", export->level, "cell", export->surface->cell,
+                     "vertices", (json_int_t) export->vertices, "triangles", (json_int_t) export->triangles,
+                     "volume", export->volume);
 }
 
 static bool write_json(const Export *export, const Args *args, double wall_seconds, Error *error)

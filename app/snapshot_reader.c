@@ -105,17 +105,6 @@ size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_M
     return read_fluids(reader, SNAPSHOT_COLORS, 3, colors[0]);
 }
 
-/* By the number of sides of the box that the settings have; files of older versions are of three. */
-static int read_dimensions(const SnapshotReader *reader)
-{
-    double side[3];
-    char *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
-    const char *size = settings ? strstr(settings, "\nbox.size = [") : NULL;
-    const int sides = size ? sscanf(size, "\nbox.size = [%lf, %lf, %lf]", &side[0], &side[1], &side[2]) : 3;
-    free(settings);
-    return sides;
-}
-
 bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error)
 {
     const struct {
@@ -130,7 +119,8 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
             !read_values(reader->file, numbers[i].name, H5T_NATIVE_DOUBLE, numbers[i].count,
                          numbers[i].values))
             return error_set(error, "%s: '%s' is missing", reader->path, numbers[i].name);
-    scene->dimensions = read_dimensions(reader);
+    /* a box of two dimensions is a spacing deep: WorldDef */
+    scene->dimensions = scene->box_size[2] > 1.001 * scene->spacing ? 3 : 2;
     scene->fluid_count = read_fluids(reader, "fluid_densities", 1, scene->density);
     return scene->fluid_count > 0 || error_set(error, "%s: 'fluid_densities' is missing", reader->path);
 }

@@ -29,7 +29,9 @@ for time in list(reader.TimestepValues) or [None]:
     arrays = data.GetPointData()
     names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
     own = data.GetFieldData().GetArray('TimeValue')
+    cells = vtk_to_numpy(data.GetPolys().GetData()).tolist() if data.GetNumberOfPolys() else []
     steps.append({'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
+                  'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
                   'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
                   'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
                   'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}})
@@ -41,15 +43,33 @@ PLY_TYPES = {'float': '<f4', 'int': '<i4', 'uint': '<u4', 'uchar': 'u1'}
 
 
 def read_ply(content):
-    """By what its header says: {property: values}."""
+    """By what its header says: {property: values} of the vertices; of a mesh, and the vertices of its triangles."""
     head, rows = content.split(b'end_header\n', 1)
     lines = head.decode().split('\n')
     assert lines[:2] == ['ply', 'format binary_little_endian 1.0'], lines
-    count = int(re.search(r'^element vertex (\d+)$', head.decode(), re.M)[1])
-    kind = numpy.dtype([(name, PLY_TYPES[type_])
-                        for _, type_, name in (line.split() for line in lines if line.startswith('property'))])
-    assert len(rows) == count * kind.itemsize
-    return numpy.frombuffer(rows, kind)
+    counts = [int(count) for count in re.findall(r'^element (?:vertex|face) (\d+)$', head.decode(), re.M)]
+    kind = numpy.dtype([(name, PLY_TYPES[type_]) for _, type_, name in
+                        (line.split() for line in lines if re.match(r'property (?!list)', line))])
+    vertices = numpy.frombuffer(rows[:counts[0] * kind.itemsize], kind)
+    if len(counts) == 1:
+        assert len(rows) == counts[0] * kind.itemsize
+        return vertices
+    assert lines[-2] == 'property list uchar int vertex_indices', lines
+    faces = numpy.frombuffer(rows[counts[0] * kind.itemsize:], numpy.dtype([('count', 'u1'), ('vertex', '<i4', 3)]))
+    assert len(faces) == counts[1] and (faces['count'] == 3).all()
+    return vertices, faces['vertex']
+
+
+def enclosed(points, triangles):
+    """The volume in a mesh, which must be closed: each side is there once, and once the other way round."""
+    triangles = numpy.array(triangles)
+    sides = numpy.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    keys = sides[:, 0] * len(points) + sides[:, 1]
+    assert len(numpy.unique(keys)) == len(keys)
+    numpy.testing.assert_array_equal(numpy.sort(keys), numpy.sort(sides[:, 1] * len(points) + sides[:, 0]))
+    assert len(numpy.unique(numpy.float32(points), axis=0)) == len(points)  # no two vertices in one place
+    corner = numpy.float64(points)[triangles]
+    return numpy.einsum('ij,ij->', corner[:, 0], numpy.cross(corner[:, 1], corner[:, 2])) / 6
 
 
 def rotated(q, v):
@@ -92,6 +112,15 @@ class ExportTest(CommandTest):
             has = len(file)
             for k in range(has, count):
                 file[f'Step#{k}'] = file[f'Step#{k % has}']
+
+    def empty_the_last(self):
+        """The last step of the file then has no particles."""
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            group = file[f'Step#{len(file) - 1}']
+            for name, values in group.items():
+                kind = values.dtype
+                del group[name]
+                group.create_dataset(name, data=numpy.empty(0, kind))
 
     def assert_whole_series(self, name, count):
         """The index and its folder, to the last byte of each file."""
@@ -187,6 +216,100 @@ class ParaView(ExportTest):
         colors = numpy.array(seen['arrays']['RGB'])
         self.assertTrue((colors[first] == (255, 128, 0)).all())
         self.assertEqual(len(numpy.unique(colors[~first], axis=0)), 1)
+
+
+    def test_surfaces(self):
+        """A .vtp of each snapshot, closed, with normals and fields; the last one has no fluid."""
+        self.make('--time', '0.2')
+        self.empty_the_last()
+        self.assertRegex(self.export('a.pvd', '--surface', '--frame', 'world'),
+                         'a.pvd: warning: 1 of 5 snapshots have no fluid at that level, and no surface')
+        seen = self.read_with_paraview('a.pvd')
+        self.assertEqual([len(step['triangles']) > 500 for step in seen], [True] * 4 + [False])
+        self.assertEqual(seen[4]['points'], [])
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            for k, step in enumerate(seen[:4]):
+                self.assertEqual(step['time'], file[f'Step#{k}'].attrs['TimeValue'])
+                self.assertEqual(step['own_time'], step['time'])
+                self.assertEqual(step['vertices'], 0)
+                self.assertLess(abs(enclosed(step['points'], step['triangles']) / 0.5 - 1), 0.004)
+                self.assertEqual(step['types'], {'velocity': 'float', 'density': 'float', 'pressure': 'float',
+                                                 'fluid': 'int', 'Normals': 'float'})
+                normals = numpy.array(step['arrays']['Normals'])
+                numpy.testing.assert_allclose((normals ** 2).sum(1), 1, atol=1e-5)
+                position = in_world(file[f'Step#{k}'])[0]  # vertices are about half a spacing around the particles
+                points = numpy.array(step['points'])
+                for side in (numpy.min, numpy.max):
+                    numpy.testing.assert_allclose(side(points, 0), side(position, 0), atol=0.08)
+                self.assertEqual(set(step['arrays']['fluid']), {0, 1})
+
+    def test_surfaces_as_ply(self):
+        self.make('--time', '0.1')
+        self.export('a.ply.series', '--surface', '--cell', '1')
+        self.assertEqual(sorted(os.listdir(self.path('a'))), [f'a-{k:04}.ply' for k in range(3)])
+        seen = self.read_with_paraview('a.ply.series')
+        self.assertEqual(len(seen), 3)
+        for k, step in enumerate(seen):
+            vertices, triangles = read_ply(self.read(f'a/a-{k:04}.ply'))
+            numpy.testing.assert_array_equal(numpy.float32(step['points']),
+                                             numpy.stack([vertices[axis] for axis in 'xyz'], 1))
+            numpy.testing.assert_array_equal(step['triangles'], triangles)
+            numpy.testing.assert_array_equal(numpy.float32(step['arrays']['Normals']),
+                                             numpy.stack([vertices[axis] for axis in ('nx', 'ny', 'nz')], 1))
+            with h5py.File(self.path('a.h5part'), 'r') as file:
+                self.assertEqual(step['time'], file[f'Step#{k}'].attrs['TimeValue'])
+
+
+class Surface(ExportTest):
+    def mesh(self, *more):
+        """Points, triangles and what the figures say."""
+        self.export('a.ply', '--surface', '--json', 'a.json', '--quiet', *more)
+        vertices, triangles = read_ply(self.read('a.ply'))
+        figures = json.loads(self.read('a.json'))['surface']
+        self.assertEqual((figures['vertices'], figures['triangles']), (len(vertices), len(triangles)))
+        return numpy.stack([vertices[axis] for axis in 'xyz'], 1), triangles, figures
+
+    def test_a_dam_break(self):
+        """From the block to the splash at the other wall, with each method: the fluid's volume at any cell."""
+        for method in ('mueller', 'wcsph'):
+            code, said = self.slosh('run', 'dam_break', '-o', 'a.h5part', '--time', '0.8', '--every', '0.4', '--quiet',
+                                    '--particles', '2000', '--method', method)
+            self.assertEqual(code, 0, said)
+            with h5py.File(self.path('a.h5part'), 'r') as file:
+                volume = len(file['Step#0']['x']) * file.attrs['spacing'] ** 3
+            for time in ('0', '0.4', '0.8'):
+                for cell in ('0.4', '1'):
+                    points, triangles, figures = self.mesh('--time', time, '--cell', cell)
+                    self.assertLess(abs(enclosed(points, triangles) / volume - 1), 0.005)
+                    self.assertLess(abs(figures['volume'] / volume - 1), 0.005)
+                    self.assertTrue(0.4 < figures['level'] < 0.62, figures)
+                points, triangles, figures = self.mesh('--time', time, '--level', '0.5')
+                self.assertEqual(figures['level'], 0.5)
+                self.assertLess(abs(enclosed(points, triangles) / volume - 1), 0.03 if time != '0.8' else 0.1)
+
+    def test_two_runs_give_the_same_bytes(self):
+        self.make('--time', '0.1')
+        self.export('a.vtp', '--surface')
+        self.export('b.vtp', '--surface')
+        self.assertEqual(self.read('a.vtp'), self.read('b.vtp'))
+
+    def test_fluids_and_their_colours(self):
+        self.make('--time', '0', '--set', 'fluids[0].color=[1, 0.5, 0]')
+        self.export('a.ply', '--surface')
+        vertices, _ = read_ply(self.read('a.ply'))
+        for side, fluid, density in ((vertices['x'] < -0.15, 0, 1000), (vertices['x'] > 0.15, 1, 900)):
+            self.assertTrue((vertices['fluid'][side] == fluid).all())
+            self.assertLess(abs(numpy.median(vertices['density'][side]) / density - 1), 0.1)
+        self.assertTrue((vertices['red'][vertices['fluid'] == 0] == 255).all())
+        self.assertLess(vertices['red'][vertices['fluid'] == 1].max(), 255)
+
+    def test_nothing_at_that_level(self):
+        self.make('--time', '0')
+        self.empty_the_last()
+        said = self.export('a.ply', '--surface')
+        self.assertIn('a.ply: warning: 1 of 1 snapshots have no fluid at that level, and no surface\n', said)
+        vertices, triangles = read_ply(self.read('a.ply'))
+        self.assertEqual((len(vertices), len(triangles)), (0, 0))
 
 
 class Ply(ExportTest):
@@ -327,6 +450,35 @@ class Bad(ExportTest):
         os.mkdir(self.path('b.vtp'))
         self.refused('a.h5part', 'b.vtp', words='is a folder; name a file', code=1)
 
+    def test_surface(self):
+        self.make('--time', '0')
+        for name in ('--level', '--cell'):
+            self.refused('a.h5part', 'a.ply', name, '0.5', words=f'{name} is of a surface; add --surface')
+        for level in ('0', '-1', '1', 'nan', 'high'):
+            self.refused('a.h5part', 'a.ply', '--surface', '--level', level, words='--level')
+        for cell in ('0', '0.01', '5'):
+            self.refused('a.h5part', 'a.ply', '--surface', '--cell', cell, words='--cell must be 0.05 to 4')
+        self.refused('a.h5part', 'a.ply.series', '--surface', '--time', '0', words='--time makes no sense')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            file.attrs['box_size'] = [1000., 1000., 1000.]
+        self.refused('a.h5part', 'a.ply', '--surface', words='more memory than this machine has .*; use a --cell of')
+        self.export('b.ply')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file.attrs['spacing']
+        self.refused('a.h5part', 'a.ply', '--surface', words="a.h5part: 'spacing' is missing")
+
+    def test_surface_of_a_plane(self):
+        code, said = self.slosh('run', 'drop_2d', '-o', 'a.h5part', '--time', '0', '--quiet')
+        self.assertEqual(code, 0, said)
+        self.refused('a.h5part', 'a.ply', '--surface', words='a scene of two dimensions has no surface')
+        self.export('a.ply')
+
+    def test_a_particle_far_away(self):
+        self.make('--time', '0.1')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            file['Step#1']['y'][3] = 1e20
+        self.refused('a.h5part', 'a.pvd', '--surface', '--quiet', words='particles are too far apart', code=1)
+
     def test_a_folder_of_others(self):
         self.make('--time', '0')
         os.mkdir(self.path('thesis'))
@@ -338,8 +490,8 @@ class Bad(ExportTest):
 
 
 class FullDisk(ExportTest):
-    def full(self, output, size):
-        code, said = self.slosh('export', 'a.h5part', '-o', output, '--quiet', before=limit_files(size))
+    def full(self, output, size, *more):
+        code, said = self.slosh('export', 'a.h5part', '-o', output, '--quiet', *more, before=limit_files(size))
         self.assertEqual(code, 1, said)
         self.assertIn(f'{output}: cannot be written: File too large', said)
 
@@ -348,6 +500,9 @@ class FullDisk(ExportTest):
         for output in ('b.pvd', 'b.vtp', 'b.ply'):
             for size in (100, 5000, 20000):
                 self.full(output, size)
+        for output in ('b.pvd', 'b.vtp', 'b.ply', 'b.ply.series'):
+            for size in (100, 20000, 50000):
+                self.full(output, size, '--surface')
         self.assertEqual(self.entries(), ['a.h5part'])
 
     def test_an_older_one_stays(self):
@@ -373,6 +528,9 @@ class TinyDisk(TinyDiskTest, ExportTest):
         self.make('--time', '0.4')
         for size, output in (('60k', 'a.pvd'), ('16k', 'a.vtp'), ('16k', 'a.ply')):
             left = self.full(size, f'export a.h5part -o disk/{output}')
+            self.assertEqual(left, ['a.h5part'])
+        for size, output in (('60k', 'a.pvd'), ('60k', 'a.ply.series'), ('16k', 'a.vtp'), ('16k', 'a.ply')):
+            left = self.full(size, f'export a.h5part --surface -o disk/{output}')
             self.assertEqual(left, ['a.h5part'])
 
 
