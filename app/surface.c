@@ -1,9 +1,9 @@
 #include "app/surface.h"
 
 #include "app/snapshot_frame.h"
-#include "sim/cpu/parallel.h"
 #include "sim/field.h"
 #include "sim/isosurface.h"
+#include "sim/world.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,11 +28,11 @@ static bool grid_around(const double low[3], const double high[3], const Snapsho
     for (int k = 0; k < 3; k++) {
         const double first = floor((low[k] - scene->support_radius) / cell) - 1;
         const double size = ceil((high[k] + scene->support_radius) / cell) + 1 - first;
-        cells *= size;
-        if (!(cells < INT32_MAX * 1024.0))
+        if (!(size < INT32_MAX))
             return false;
+        cells *= size;
         grid->corner[k] = first * cell;
-        grid->size[k] = (int)fmin(size, INT32_MAX);
+        grid->size[k] = (int)size;
     }
     return cells * 2 * sizeof(float) < physical_bytes();
 }
@@ -120,7 +120,7 @@ static bool take_particles(Work *work)
 static bool sum_weighted(Work *work, const float *scalar, Error *error)
 {
     work->particles.scalar = scalar;
-    return field_sum(&work->particles, &work->grid, parallel_processors(), &work->slabs, NULL, work->weighted,
+    return field_sum(&work->particles, &work->grid, world_processors(), &work->slabs, NULL, work->weighted,
                      error);
 }
 
@@ -248,8 +248,7 @@ static bool cross_level(Work *work, double level, Error *error)
     work->weighted = malloc(cells * sizeof *work->weighted);
     if (!work->field || !work->weighted)
         return error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
-    if (!field_sum(&work->particles, &work->grid, parallel_processors(), &work->slabs, work->field, NULL,
-                   error))
+    if (!field_sum(&work->particles, &work->grid, world_processors(), &work->slabs, work->field, NULL, error))
         return false;
     return level > 0 ? march(work, level, error) : march_to_volume(work, error);
 }
