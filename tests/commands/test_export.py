@@ -220,7 +220,7 @@ class ParaView(ExportTest):
 
     def test_surfaces(self):
         """A .vtp of each snapshot, closed, with normals and fields; the last one has no fluid."""
-        self.make('--time', '0.2')
+        self.make('--time', '0.2', '--set', 'motion=[{spin: {axis: [1, 2, 3], rate: 3}}]')
         self.empty_the_last()
         self.assertRegex(self.export('a.pvd', '--surface', '--frame', 'world'),
                          'a.pvd: warning: 1 of 5 snapshots have no fluid at that level, and no surface')
