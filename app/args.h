@@ -29,6 +29,15 @@ typedef enum Command {
 /* In the order of --clock's names, after none of them. */
 typedef enum ClockChoice { CLOCK_CHOICE_AUTO, CLOCK_CHOICE_GL, CLOCK_CHOICE_FINISH } ClockChoice;
 
+/* In the order of --color-by's names, after none of them. */
+typedef enum ColorChoice {
+    COLOR_CHOICE_AUTO,
+    COLOR_CHOICE_FLUID,
+    COLOR_CHOICE_SPEED,
+    COLOR_CHOICE_DENSITY,
+    COLOR_CHOICE_PRESSURE
+} ColorChoice;
+
 /* --sweep KEY=a,b,c: `key` is "particles" or the path of a scene key (backend, method, view and threads are
    written out: solver.backend, ...). */
 typedef struct Sweep {
@@ -57,13 +66,14 @@ typedef struct Args {
     int width, height; /* pixels, 1 to 16384; default 1280 x 720, of bench 512 x 512 */
     int gpu;           /* number of the EGL device; -1: not given */
     ClockChoice clock;
-    SnapshotFrame frame; /* export: that positions and velocities are in */
-    bool surface;        /* export: the fluid's surface instead of the particles */
-    double level, cell;  /* of it; 0: not given */
-    const char *table;   /* bench: NAME, or NULL */
-    bool play;           /* bench: the live window */
-    double seconds;      /* of it; more than 0; default 20 */
-    const char *record;  /* FILE, or NULL */
+    SnapshotFrame frame;  /* export: that positions and velocities are in */
+    bool surface;         /* export: the fluid's surface instead of the particles */
+    double level, cell;   /* of it; 0: not given */
+    ColorChoice color_by; /* export: of a .ply */
+    const char *table;    /* bench: NAME, or NULL */
+    bool play;            /* bench: the live window */
+    double seconds;       /* of it; more than 0; default 20 */
+    const char *record;   /* FILE, or NULL */
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
     size_t pool_used;

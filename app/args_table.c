@@ -57,6 +57,8 @@ const OptionRow option_rows[] = {
      .help = "of the field at the surface (the one at which it encloses the fluid's volume: about 0.5)"},
     {"--cell", "SPACINGS", EXPORT, OPTION_NUMBER, AT(cell), .min = 0.05, .max = 4,
      .help = "side of the cells that the surface is made from (0.5)"},
+    {"--color-by", "fluid|speed|density|pressure", EXPORT, OPTION_CHOICE, AT(color_by), .min = COLOR_CHOICE_FLUID,
+     .help = "colours of a .ply: of the fluids, or a colormap from the least to the greatest (fluid)"},
     {"--every", "S", RUN | REPLAY, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
      .help = "seconds from snapshot to snapshot (1/30)"},
     {"--resume", NULL, RUN, OPTION_FLAG, AT(resume), .help = "go on behind the last snapshot of OUT, to the same bits"},

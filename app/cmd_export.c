@@ -71,11 +71,26 @@ static void report(const Export *export, const Args *args)
     fprintf(stderr, "in the frame of the %s\n", snapshot_frame_name(export->frame));
 }
 
+/* Of a series one colormap for all snapshots. */
+static bool find_colors(Export *export, size_t index, const Args *args, Error *error)
+{
+    static const Scalar scalars[] = {[COLOR_CHOICE_AUTO] = SCALAR_FLUID,
+                                     [COLOR_CHOICE_FLUID] = SCALAR_FLUID,
+                                     [COLOR_CHOICE_SPEED] = SCALAR_SPEED,
+                                     [COLOR_CHOICE_DENSITY] = SCALAR_DENSITY,
+                                     [COLOR_CHOICE_PRESSURE] = SCALAR_PRESSURE};
+    const bool series = export_is_series(export->kind);
+    return export_colors(export, scalars[args->color_by], series ? 0 : index,
+                         series ? snapshot_count_steps(export->reader) : 1, error);
+}
+
 static int run(Export *export, size_t index, const Args *args, Error *error)
 {
     const double began_ms = wall_ms();
     Progress progress;
     if (args->json && !output_check(args->json, error))
+        return fail(EXIT_FAILED, error);
+    if (!find_colors(export, index, args, error))
         return fail(EXIT_FAILED, error);
     progress_begin(&progress, stderr, "export", args->quiet);
     const bool done = export_is_series(export->kind) ? export_series(export, &progress, error)
@@ -109,6 +124,9 @@ static bool understand(Export *export, SurfaceDef *surface, size_t *index, const
     if (export_is_series(export->kind) && args->time_given)
         return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vtp or a FILE.ply",
                          args->output);
+    if (args->color_by != COLOR_CHOICE_AUTO && (export->kind == EXPORT_PVD || export->kind == EXPORT_VTP))
+        return error_set(error,
+                         "--color-by is of a .ply; a .vtp has every scalar, and ParaView colours by any");
     export->reader = snapshot_open(args->scenes[0], error);
     if (!export->reader)
         return false;

@@ -4,10 +4,10 @@
 #include "app/interrupt.h"
 #include "app/output.h"
 #include "app/output_folder.h"
-#include "app/ply.h"
 #include "app/vtp.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,6 +60,40 @@ static bool is_ply(const Export *export)
     return export->kind == EXPORT_PLY || export->kind == EXPORT_PLY_SERIES;
 }
 
+/* ---- colours ---- */
+
+static bool widen_range(Export *export, size_t index, Error *error)
+{
+    PlyColors *colors = &export->colors;
+    SnapshotStep step;
+    if (!snapshot_read_step(export->reader, index, &step, error))
+        return false;
+    if (export->frame == FRAME_WORLD)
+        snapshot_step_to_world(&step);
+    for (size_t i = 0; i < step.count; i++) {
+        const double value = ply_scalar(&step, i, colors->scalar);
+        colors->low = fmin(colors->low, value);
+        colors->high = fmax(colors->high, value);
+    }
+    snapshot_step_free(&step);
+    return true;
+}
+
+bool export_colors(Export *export, Scalar by, size_t first, size_t count, Error *error)
+{
+    PlyColors *colors = &export->colors;
+    *colors = (PlyColors){.mapped = by != SCALAR_FLUID, .scalar = by, .low = INFINITY, .high = -INFINITY};
+    colors->count = snapshot_read_colors(export->reader, colors->color);
+    for (size_t k = 0; colors->mapped && k < count; k++)
+        if (!widen_range(export, first + k, error))
+            return false;
+    if (colors->low > colors->high) /* no particles */
+        colors->low = colors->high = 0;
+    return true;
+}
+
+/* ---- files ---- */
+
 /* Closes a stream that was written; `written` says how that went. */
 static bool close_file(const Export *export, FILE *file, bool written, Error *error)
 {
@@ -81,13 +115,6 @@ static FILE *open_file(const Export *export, const char *name, Error *error)
 
 /* ---- one snapshot ---- */
 
-static PlyColors read_colors(const Export *export)
-{
-    PlyColors colors;
-    colors.count = snapshot_read_colors(export->reader, colors.color);
-    return colors;
-}
-
 static bool write_particles(const Export *export, const char *name, SnapshotStep *step, Error *error)
 {
     if (export->frame == FRAME_WORLD)
@@ -97,9 +124,9 @@ static bool write_particles(const Export *export, const char *name, SnapshotStep
     FILE *file = open_file(export, name, error);
     if (!file)
         return false;
-    const PlyColors colors = read_colors(export);
-    const bool written = is_ply(export) ? ply_write(file, step, snapshot_frame_name(export->frame), &colors)
-                                        : vtp_write(file, step);
+    const bool written = is_ply(export)
+                             ? ply_write(file, step, snapshot_frame_name(export->frame), &export->colors)
+                             : vtp_write(file, step);
     return close_file(export, file, written, error);
 }
 
@@ -115,10 +142,9 @@ static bool write_mesh(Export *export, const char *name, Surface *surface, Error
     FILE *file = open_file(export, name, error);
     if (!file)
         return false;
-    const PlyColors colors = read_colors(export);
-    const bool written = is_ply(export)
-                             ? ply_write_surface(file, surface, snapshot_frame_name(export->frame), &colors)
-                             : vtp_write_surface(file, surface);
+    const bool written =
+        is_ply(export) ? ply_write_surface(file, surface, snapshot_frame_name(export->frame), &export->colors)
+                       : vtp_write_surface(file, surface);
     return close_file(export, file, written, error);
 }
 

@@ -2,9 +2,9 @@
 #ifndef SLOSH_EXPORT_H
 #define SLOSH_EXPORT_H
 
+#include "app/ply.h"
 #include "app/progress.h"
 #include "app/snapshot_frame.h"
-#include "app/surface.h"
 
 typedef enum ExportKind { EXPORT_PVD, EXPORT_VTP, EXPORT_PLY, EXPORT_PLY_SERIES } ExportKind;
 
@@ -25,6 +25,7 @@ typedef struct Export {
     SnapshotFrame frame;
     const SurfaceDef *surface;  /* instead of the particles; NULL: the particles */
     SnapshotScene scene;        /* with a surface: that the snapshots are of */
+    PlyColors colors;           /* of a .ply: see export_colors */
     size_t snapshots;           /* written */
     size_t particles;           /* of the last one */
     double time;                /* of the last one, s */
@@ -33,6 +34,12 @@ typedef struct Export {
     size_t empty;               /* surfaces without a triangle */
     bool interrupted;           /* by a signal, before the last snapshot of a series */
 } Export;
+
+/* Sets the colours of a .ply: those of the fluids, or for speed, density and pressure a colormap from the
+   least to the greatest that a particle has in the `count` snapshots from `first` on. False when one cannot
+   be read.
+ */
+bool export_colors(Export *export, Scalar by, size_t first, size_t count, Error *error);
 
 /* Writes snapshot `index` into one file. False with the reason: it cannot be read or written;
    then what had that name before stays. */

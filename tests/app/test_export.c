@@ -101,7 +101,7 @@ static void a_ply_is_read_back(void **state)
                                "property uint id\n";
     static const char color[] = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     /* of the third fluid nothing is known; a number that is none, or out of range, does no harm */
-    static const PlyColors colors = {2, {{0, 0.5, 1}, {-1, 2, NAN}}};
+    static const PlyColors colors = {.count = 2, .color = {{0, 0.5, 1}, {-1, 2, NAN}}};
     static const unsigned char bytes[3][3] = {{0, 128, 255}, {0, 255, 0}, {128, 128, 128}};
     SnapshotStep step = some_step(1000);
     for (int colored = 0; colored < 2; colored++) {
@@ -123,6 +123,31 @@ static void a_ply_is_read_back(void **state)
         }
         free(file);
     }
+    snapshot_step_free(&step);
+}
+
+/* Viridis from dark violet to yellow; beyond its ends, and where a number is none, its ends. */
+static void a_ply_is_coloured_by_a_scalar(void **state)
+{
+    (void)state;
+    static const unsigned char first[3] = {0x44, 0x01, 0x54}, last[3] = {0xfd, 0xe7, 0x25};
+    static const float density[4] = {950, 1000, 1100, NAN};
+    const PlyColors colors = {.mapped = true, .scalar = SCALAR_DENSITY, .low = 1000, .high = 1100};
+    size_t size;
+    SnapshotStep step = some_step(4);
+    memcpy(step.density, density, sizeof density);
+    write_ply(&step, &colors);
+    char *file = read_all("a.ply", &size);
+    assert_contains(file, "comment colours: viridis, density from 1000 to 1100 kg/m3\n");
+    assert_contains(file, "property uchar blue\nend_header\n");
+    for (size_t i = 0; i < 4; i++)
+        assert_memory_equal(file + size - 43 * (4 - i) + 40, i == 2 ? last : first, 3);
+    step.velocity[0][1] = 3;
+    step.velocity[1][1] = 0;
+    step.velocity[2][1] = -4;
+    assert_true(ply_scalar(&step, 1, SCALAR_SPEED) == 5);
+    assert_true(ply_scalar(&step, 2, SCALAR_PRESSURE) == -10 && ply_scalar(&step, 1, SCALAR_DENSITY) == 1000);
+    free(file);
     snapshot_step_free(&step);
 }
 
@@ -227,7 +252,7 @@ static void a_surface_as_ply_is_read_back(void **state)
                                "property float density\nproperty float pressure\nproperty int fluid\n"
                                "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
-    static const PlyColors colors = {1, {{0, 0.5, 1}}};
+    static const PlyColors colors = {.count = 1, .color = {{0, 0.5, 1}}};
     enum { VERTEX = 51, FACE = 13 };
     size_t size;
     Surface surface = some_surface();
@@ -380,6 +405,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(the_worlds_frame_by_hand),
         TEST(a_ply_is_read_back),
+        TEST(a_ply_is_coloured_by_a_scalar),
         TEST(an_id_that_ply_cannot_hold_is_refused),
         TEST(a_vtp_is_read_back),
         TEST(a_surface_as_ply_is_read_back),

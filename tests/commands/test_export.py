@@ -342,6 +342,27 @@ class Ply(ExportTest):
         self.assertNotIn('red', rows.dtype.names)
         self.assertEqual(len(rows), 500)
 
+    def test_colours_of_a_scalar(self):
+        """In a series the least and the greatest of all snapshots have the colormap's ends."""
+        self.make('--time', '0.2', '--set', 'motion=[{spin: {axis: [1, 2, 3], rate: 3}}]')
+        for frame, velocity in (('box', in_box), ('world', in_world)):
+            self.export('a.ply.series', '--color-by', 'speed', '--frame', frame)
+            with h5py.File(self.path('a.h5part'), 'r') as file:
+                speed = numpy.array([numpy.linalg.norm(velocity(file[f'Step#{k}'])[1], axis=1) for k in range(5)])
+            found = [read_ply(self.read(f'a/a-{k:04}.ply')) for k in range(5)]
+            green = numpy.array([rows['green'] for rows in found])  # rises all the way in viridis
+            low, high = (re.findall(rb'speed from (\S+) to (\S+) m/s', self.read(f'a/a-{k:04}.ply'))[0] for k in (0, 4))
+            self.assertEqual(low, high)
+            numpy.testing.assert_allclose([float(number) for number in low], [speed.min(), speed.max()], rtol=1e-5)
+            self.assertEqual((green.min(), green.max()), (0x01, 0xe7))
+            order = numpy.argsort(speed, axis=None)
+            self.assertGreaterEqual(numpy.diff(green.flatten()[order].astype(int)).min(), -1)
+        self.export('a.ply', '--color-by', 'pressure', '--surface', '--time', '0.1')
+        vertices, _ = read_ply(self.read('a.ply'))
+        order = numpy.argsort(vertices['pressure'])
+        self.assertGreaterEqual(numpy.diff(vertices['green'][order].astype(int)).min(), -1)
+        self.assertGreater(len(numpy.unique(vertices['green'])), 20)
+
     def test_a_large_id(self):
         self.make('--time', '0')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
@@ -433,6 +454,7 @@ class Bad(ExportTest):
             del file['Step#5']['pressure']
         self.refused('a.h5part', 'a.pvd', '--quiet', words=r"Step#5: 'pressure' is missing", code=1)
         self.refused('a.h5part', 'a.vtp', '--time', '0.25', words=r"Step#5: 'pressure' is missing", code=1)
+        self.refused('a.h5part', 'a.ply.series', '--color-by', 'speed', words=r"Step#5: 'pressure' is missing", code=1)
         content = self.read('a.h5part')
         self.write('a.h5part', content[:len(content) // 2])
         self.refused('a.h5part', 'a.pvd', words='a.h5part: is no file of snapshots')
@@ -459,6 +481,8 @@ class Bad(ExportTest):
         for cell in ('0', '0.01', '5'):
             self.refused('a.h5part', 'a.ply', '--surface', '--cell', cell, words='--cell must be 0.05 to 4')
         self.refused('a.h5part', 'a.ply.series', '--surface', '--time', '0', words='--time makes no sense')
+        self.refused('a.h5part', 'a.vtp', '--color-by', 'speed', words='--color-by is of a .ply')
+        self.refused('a.h5part', 'a.ply', '--color-by', 'mood', words='must be one of fluid|speed|density|pressure')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             file.attrs['box_size'] = [1000., 1000., 1000.]
         self.refused('a.h5part', 'a.ply', '--surface', words='more memory than this machine has .*; use a --cell of')
