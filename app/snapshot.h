@@ -101,10 +101,15 @@ typedef struct SnapshotScene {
     double box_size[3];             /* m */
     size_t fluid_count;
     double density[FLUIDS_MAX]; /* of each fluid at rest, kg/m3 */
+    double compression;         /* relative change of density over that of number density */
 } SnapshotScene;
 
 /* False with what is missing. */
 bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error);
+
+/* The volume of particle i, 1 / number density, m3: what the views have of it (ParticleArrays.position). At
+   most 20 spacings^3; not finite where the density is not or the fluid is unknown. */
+double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, size_t i);
 
 /* Reads step `index` into new arrays, that the caller frees. */
 bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);

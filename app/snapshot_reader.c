@@ -1,6 +1,7 @@
 #include "app/hdf5_error.h"
 #include "app/snapshot.h"
 #include "app/snapshot_file.h"
+#include "sim/lattice.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -105,6 +106,20 @@ size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_M
     return read_fluids(reader, SNAPSHOT_COLORS, 3, colors[0]);
 }
 
+/* As sim/lattice.h calibrates a density that is summed up; wcsph carries it instead. */
+static double read_compression(const SnapshotReader *reader, const SnapshotScene *scene)
+{
+    Lattice lattice = {.stiffness_scale = 1};
+    char name[NAME_SIZE] = "", *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
+    const char *kernel = settings ? strstr(settings, "\nsolver.density_kernel = ") : NULL;
+    if (kernel && !strstr(settings, "\nsolver.method = wcsph\n") &&
+        sscanf(kernel, "\nsolver.density_kernel = %31s", name) == 1 && density_kernel_find(name))
+        lattice_calibrate(scene->dimensions, scene->spacing, scene->support_radius, density_kernel_find(name),
+                          density_kernel_find(name), &lattice);
+    free(settings);
+    return lattice.stiffness_scale;
+}
+
 bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error)
 {
     const struct {
@@ -121,6 +136,7 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
             return error_set(error, "%s: '%s' is missing", reader->path, numbers[i].name);
     /* a box of two dimensions is a spacing deep: WorldDef */
     scene->dimensions = scene->box_size[2] > 1.001 * scene->spacing ? 3 : 2;
+    scene->compression = read_compression(reader, scene);
     scene->fluid_count = read_fluids(reader, "fluid_densities", 1, scene->density);
     return scene->fluid_count > 0 || error_set(error, "%s: 'fluid_densities' is missing", reader->path);
 }

@@ -1,6 +1,7 @@
 /* The arrays of one state in memory. */
 #include "app/snapshot.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 void snapshot_step_free(SnapshotStep *step)
@@ -24,4 +25,12 @@ bool snapshot_step_allocate(SnapshotStep *step, size_t count)
     if (!all)
         snapshot_step_free(step);
     return all;
+}
+
+double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, size_t i)
+{
+    const bool known = step->fluid[i] >= 0 && (size_t)step->fluid[i] < scene->fluid_count;
+    const double relative = known ? step->density[i] / scene->density[step->fluid[i]] : NAN;
+    const double number = 1 + (relative - 1) / scene->compression, s = scene->spacing;
+    return s * s * s / (number < 0.05 ? 0.05 : number);
 }

@@ -90,15 +90,6 @@ static void work_free(Work *work)
     free(work->scalar);
 }
 
-/* V = m / rho with m = rho0 spacing^3. The bound is far below what a lone particle has. */
-static float volume_of(const SnapshotScene *scene, const SnapshotStep *step, size_t i)
-{
-    const int32_t fluid = step->fluid[i];
-    const double rest = fluid >= 0 && (size_t)fluid < scene->fluid_count ? scene->density[fluid] : 0;
-    const double s = scene->spacing;
-    return (float)(s * s * s * rest / fmax(step->density[i], 0.05 * rest));
-}
-
 static bool take_particles(Work *work)
 {
     const SnapshotStep *step = work->step;
@@ -109,7 +100,7 @@ static bool take_particles(Work *work)
     for (size_t i = 0; i < step->count; i++) {
         for (int k = 0; k < 3; k++)
             work->position[4 * i + (size_t)k] = step->position[k][i];
-        work->position[4 * i + 3] = volume_of(work->scene, step, i);
+        work->position[4 * i + 3] = (float)snapshot_volume(work->scene, step, i);
     }
     work->particles = (FieldParticles){step->count, work->position, NULL, work->scene->support_radius};
     return true;

@@ -1,6 +1,6 @@
 /* The fluid's surface as a mesh, from the particles of a step: where the field F(r) = sum V_j W_poly6(r -
-   r_j), V_j = m_j / rho_j (sim/field.h; what view `volume` shows), crosses a level. Closed, with the normals
-   of the field's slope, and the particles' fields as means weighted by V W. */
+   r_j) of sim/field.h, which view `volume` shows, crosses a level. Closed, with the normals of the field's
+   slope, and the particles' fields as means weighted by V W. */
 #ifndef SLOSH_SURFACE_H
 #define SLOSH_SURFACE_H
 

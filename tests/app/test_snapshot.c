@@ -170,6 +170,50 @@ static void a_world_is_written_as_it_is(void **state)
     free(position), free(velocity), free(density), free(pressure), free(fluid), free(id);
 }
 
+/* By the densities in the file those that the views have: with sums by each kernel, and carried. */
+static void volumes_are_those_of_the_solver(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {{"mueller", "spiky"}, {"mueller", "poly6"}, {"wcsph", "spiky"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Scene scene = small_scene();
+        Error error = {{0}};
+        SnapshotScene read;
+        SnapshotStep step;
+        snprintf(scene.world.method, NAME_SIZE, "%s", cases[k][0]);
+        snprintf(scene.world.density_kernel, NAME_SIZE, "%s", cases[k][1]);
+        World *world = world_create(&scene.world, &error);
+        Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+        assert_true(world && file);
+        for (int i = 0; i < 5; i++)
+            assert_true(world_step(world, NULL, &error));
+        assert_true(snapshot_append(file, world, &error));
+        snapshot_close(file);
+        SnapshotReader *reader = snapshot_open("a.h5part", &error);
+        assert_true(reader && snapshot_read_scene(reader, &read, &error));
+        assert_true(read.dimensions == 3 && read.spacing == 0.1 && read.box_size[1] == 1);
+        assert_true(read.support_radius == scene.world.support * 0.1);
+        assert_true(read.fluid_count == 2 && read.density[0] == 1000 && read.density[1] == 900);
+        assert_true(snapshot_read_step(reader, 0, &step, &error));
+        float *position = calloc(4 * step.count, sizeof(float));
+        assert_true(world_read(world, &(ParticleArrays){.position = position}));
+        for (size_t i = 0; i < step.count; i++)
+            if (!(fabs(snapshot_volume(&read, &step, i) / position[4 * i + 3] - 1) < 1e-5))
+                fail_msg("%s, %s: particle %zu: %g, not %g", cases[k][0], cases[k][1], i,
+                         snapshot_volume(&read, &step, i), (double)position[4 * i + 3]);
+        step.density[0] = -1000;
+        step.density[1] = NAN;
+        step.fluid[2] = 2;
+        assert_true(fabs(snapshot_volume(&read, &step, 0) - 20e-3) < 1e-9);
+        assert_false(isfinite(snapshot_volume(&read, &step, 1)) ||
+                     isfinite(snapshot_volume(&read, &step, 2)));
+        free(position);
+        snapshot_step_free(&step);
+        snapshot_reader_close(reader);
+        world_destroy(world);
+    }
+}
+
 static void colors_are_as_in_the_scene_file(void **state)
 {
     (void)state;
@@ -337,6 +381,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(what_is_written_is_read),
         TEST(a_world_is_written_as_it_is),
+        TEST(volumes_are_those_of_the_solver),
         TEST(colors_are_as_in_the_scene_file),
         TEST(an_old_file_stays_until_the_first_step),
         TEST(an_incomplete_last_step_is_dropped),

@@ -285,7 +285,7 @@ class Surface(ExportTest):
                     self.assertTrue(0.4 < figures['level'] < 0.62, figures)
                 points, triangles, figures = self.mesh('--time', time, '--level', '0.5')
                 self.assertEqual(figures['level'], 0.5)
-                self.assertLess(abs(enclosed(points, triangles) / volume - 1), 0.03 if time != '0.8' else 0.1)
+                self.assertLess(abs(enclosed(points, triangles) / volume - 1), 0.03)
 
     def test_two_runs_give_the_same_bytes(self):
         self.make('--time', '0.1')
