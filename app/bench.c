@@ -245,23 +245,28 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
         snprintf(result->renderer, sizeof result->renderer, "%s", headless_renderer(setup->context));
 }
 
+/* All that a result says of frames that are measured. */
+static bool conclude(Stand *stand, const BenchSetup *setup, const Samples *samples, BenchResult *result,
+                     Error *error)
+{
+    describe(setup, stand->world, result);
+    result->substeps = (int)lround((double)samples->steps / samples->frames);
+    result->lost = samples->lost;
+    result->time = samples->began;
+    return figures(samples, gl_timer_clock_name(stand->timer), result, error) &&
+           (!stand->draws || studio_count(&stand->studio, stand->world, &result->counts, error));
+}
+
 bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part, BenchResult *result,
                    Error *error)
 {
     Stand stand;
     Samples samples = {0};
-    bool ok = stand_open(&stand, setup, error) &&
-              samples_create(&samples, setup->frames, stand.sim_on_gpu, error) &&
-              advance(&stand, setup->from, error) && warm_up(&stand, error) &&
-              measure(&stand, setup->frames, progress, done, part, &samples, error);
-    if (ok) {
-        describe(setup, stand.world, result);
-        result->substeps = (int)lround((double)samples.steps / samples.frames);
-        result->lost = samples.lost;
-        result->time = samples.began;
-        ok = figures(&samples, gl_timer_clock_name(stand.timer), result, error) &&
-             (!stand.draws || studio_count(&stand.studio, stand.world, &result->counts, error));
-    }
+    const bool ok = stand_open(&stand, setup, error) &&
+                    samples_create(&samples, setup->frames, stand.sim_on_gpu, error) &&
+                    advance(&stand, setup->from, error) && warm_up(&stand, error) &&
+                    measure(&stand, setup->frames, progress, done, part, &samples, error) &&
+                    conclude(&stand, setup, &samples, result, error);
     samples_destroy(&samples);
     stand_close(&stand);
     return ok;

@@ -112,6 +112,7 @@ static void session_close(Session *session, Desk *desk)
     panel_destroy(session->panel);
     desk_close(desk);
     free(desk);
+    glDisable(GL_RASTERIZER_DISCARD);
 }
 
 static void open_sections(Desk *desk)
@@ -183,9 +184,16 @@ static void click_for_change(Desk *desk, const Key *key, const char *path, float
         desk_click(desk, 395, 2695); /* closes it */
 }
 
+/* Thousands of frames of which nobody looks at one: the widgets work as ever. session_close ends it. */
+static void stop_drawing(void)
+{
+    glEnable(GL_RASTERIZER_DISCARD);
+}
+
 static void test_what_it_asks_for_is_accepted(void **state)
 {
     (void)state;
+    stop_drawing();
     int count;
     const Key *keys = scene_keys(&count);
     Session session;
@@ -227,6 +235,7 @@ static void test_typed_numbers_are_accepted(void **state)
     (void)state;
     static const char *const typed[] = {"-1e300", "0.333333333", "1e300"};
     int count, tried = 0;
+    stop_drawing();
     const Key *keys = scene_keys(&count);
     Session session;
     Desk *desk = all_open(&session, "two_oils");
