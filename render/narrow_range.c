@@ -87,6 +87,7 @@ SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Fr
     SplatMaps shown = *maps;
     follow(filter, frame->target);
     set_uniforms(filter, frame);
+    glViewport(0, 0, frame->width, frame->height);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(filter->screen);

@@ -107,6 +107,7 @@ void silhouette_draw(Silhouette *silhouette, const SplatMaps *blended, unsigned 
     glDepthMask(GL_TRUE);
     glClearNamedFramebufferfv(silhouette->edges_framebuffer, GL_COLOR, 0, (GLfloat[4]){0});
     glClearNamedFramebufferfv(silhouette->edges_framebuffer, GL_DEPTH, 0, (GLfloat[]){1});
+    glViewport(0, 0, frame->width, frame->height);
     glDisable(GL_BLEND);
     glBindVertexArray(silhouette->screen);
     glViewport(0, 0, frame->width, frame->height);

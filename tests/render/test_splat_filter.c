@@ -20,6 +20,21 @@ static SplatScene sheet(double angle)
     return scene;
 }
 
+/* A clear fluid's thickness, in a coarser map, comes before the filter and does not concern it. */
+static void the_same_with_each_shading(void **state)
+{
+    (void)state;
+    SplatScene scene = sheet(0.3);
+    const int count = scene.width * scene.height;
+    SplatPixel *opaque = splat_drawn(&scene);
+    scene.def.splat.shading = SPLAT_WATER;
+    SplatPixel *clear = splat_drawn(&scene);
+    assert_memory_equal(clear, opaque, (size_t)count * sizeof *clear);
+    free(clear);
+    free(opaque);
+    free(scene.particles);
+}
+
 typedef struct Flatness {
     double rms, turn; /* of the depth beside its plane, m; greatest angle to the mean normal, rad */
 } Flatness;
@@ -139,6 +154,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_flat_surface_becomes_flatter, no_gl_errors),
+        cmocka_unit_test_teardown(the_same_with_each_shading, no_gl_errors),
         cmocka_unit_test_teardown(outlines_stay, no_gl_errors),
         cmocka_unit_test_teardown(strange_pictures, no_gl_errors),
     };
