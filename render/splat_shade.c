@@ -8,11 +8,14 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A fifth of the longest side where the scene names no distance. */
+/* Where the scene names no distance a fifth of the longest side; in two dimensions the one layer's depth, for
+   one sees through no more. */
 static float attenuation_distance(const Frame *frame, const double box_size[3])
 {
-    const double named = frame->def->splat.attenuation;
-    return (float)(named > 0 ? named : fmax(box_size[0], fmax(box_size[1], box_size[2])) / 5);
+    const double named = frame->def->splat.attenuation,
+                 usual =
+                     frame->slab > 0 ? frame->slab : fmax(box_size[0], fmax(box_size[1], box_size[2])) / 5;
+    return (float)(named > 0 ? named : usual);
 }
 
 bool splat_shade_wants_thickness(const SplatDef *def)

@@ -40,7 +40,7 @@ typedef struct SplatDef {
     SplatShading shading;
     double ior;         /* index of refraction, of water and jelly */
     double attenuation; /* through which white light becomes the fluid's colour, m; 0: a fifth of the
-                                    box's longest side */
+                           box's longest side, in two dimensions the layer's depth */
     double level;       /* of the field that is the surface, 0 .. 1; 0: the union of the spheres */
     SplatFilter filter;
     double filter_size;    /* half the kernel's width, in radii */

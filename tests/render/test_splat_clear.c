@@ -349,6 +349,29 @@ static void absorption_by_beer_and_lambert(void **state)
     free(scene.particles);
 }
 
+/* One layer of particles, through which one sees a spacing, has the fluid's colour. */
+static void absorption_in_two_dimensions(void **state)
+{
+    (void)state;
+    static const float colour[3] = {0.2F, 0.5F, 0.9F};
+    const double spacing = 0.05;
+    SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 20, spacing);
+    scene.width = scene.height = SIDE;
+    scene.state.box_size[2] = spacing;
+    scene.def.splat.shading = SPLAT_WATER;
+    memcpy(scene.def.fluid_color[0], colour, sizeof colour);
+    for (int i = 0; i < 20 * 20; i++)
+        particles_add(scene.particles, spacing * (i % 20 - 9.5), spacing * (i / 20 + 0.5), 0, 1, 0);
+    SplatDrawing drawing = splat_open(&scene, lay_grey, true);
+    uint8_t *rgba = read_rgba(&drawing.target);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(linear_of(rgba[4 * (SIDE / 2 * SIDE + SIDE / 2) + k]) - linear_of(230) * colour[k]) <
+                    0.01);
+    free(rgba);
+    splat_close(&drawing);
+    free(scene.particles);
+}
+
 /* By the angles of incidence and refraction, Born and Wolf, 1.5.2 (20). */
 static double fresnel_at(double cosine, double ior)
 {
@@ -429,6 +452,7 @@ int main(void)
         cmocka_unit_test_teardown(refraction_bends_by_snell, no_gl_errors),
         cmocka_unit_test_teardown(reflection_by_fresnel, no_gl_errors),
         cmocka_unit_test_teardown(absorption_by_beer_and_lambert, no_gl_errors),
+        cmocka_unit_test_teardown(absorption_in_two_dimensions, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
