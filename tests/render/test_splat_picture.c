@@ -244,20 +244,10 @@ static void change(Renderer *renderer, Scene *scene, uint8_t rgb[3 * PIXELS])
     renderer_read(renderer, rgb);
 }
 
-/* Every setting changes the picture of a renderer that is drawing already, and back again. */
-static void settings_are_live(void **state)
+/* Numbers that only some pictures have stand behind the setting that makes one of these. */
+static void make_settings(SplatDef usual, SplatDef others[], int count)
 {
-    (void)state;
-    static uint8_t first[3 * PIXELS], other[3 * PIXELS];
-    enum { OTHERS = 16 };
-    SplatDef others[OTHERS];
-    Scene scene = splat_among_solids();
-    particles_add(scene.particles, -0.15, 0.7, 0, 1, 0);
-    particles_add(scene.particles, 0.15, 0.4, 0.1, 1, 1);
-    Renderer *renderer = drawn(&scene);
-    renderer_read(renderer, first);
-    const SplatDef usual = scene.def.splat;
-    for (int i = 0; i < OTHERS; i++)
+    for (int i = 0; i < count; i++)
         others[i] = usual;
     others[0].eps = 0.2;
     others[1].weights = SPLAT_NO_WEIGHTS;
@@ -267,22 +257,47 @@ static void settings_are_live(void **state)
     others[5].show = SPLAT_NORMALS;
     others[6].show = SPLAT_WEIGHT;
     others[7].show = SPLAT_THICKNESS;
-    for (int i = 8; i < 12; i++)
-        others[i].shading = i == 9 ? SPLAT_JELLY : SPLAT_WATER;
+    others[8].shading = SPLAT_JELLY;
+    others[9].shading = others[10].shading = others[11].shading = SPLAT_WATER;
     others[10].ior = 1.6;
     others[11].attenuation = 0.05;
     others[12].shape = SPLAT_ELLIPSOID;
     others[13].drops = true;
-    others[14].filter = SPLAT_NARROW_RANGE;
-    others[15].antialias = !usual.antialias;
+    others[14].antialias = !usual.antialias;
+    for (int i = 15; i < 19; i++)
+        others[i].filter = SPLAT_NARROW_RANGE;
+    others[16].filter_size = 1;
+    others[17].filter_range = 0.1;
+    others[18].filter_iterations = 8;
+    others[19].level = 0.1;
+    others[20].level = 0.15;
+}
+
+/* Every setting changes the picture of a renderer that is drawing already, and back again. */
+static void settings_are_live(void **state)
+{
+    (void)state;
+    static uint8_t first[3 * PIXELS], last[3 * PIXELS], other[3 * PIXELS];
+    enum { OTHERS = 21 };
+    SplatDef others[OTHERS];
+    Scene scene = splat_among_solids();
+    particles_add(scene.particles, -0.15, 0.7, 0, 1, 0);
+    particles_add(scene.particles, 0.15, 0.4, 0.1, 1, 1);
+    Renderer *renderer = drawn(&scene);
+    renderer_read(renderer, first);
+    const SplatDef usual = scene.def.splat;
+    memcpy(last, first, sizeof last);
+    make_settings(usual, others, OTHERS);
     for (int i = 0; i < OTHERS; i++) {
         scene.def.splat = others[i];
         change(renderer, &scene, other);
-        assert_memory_not_equal(other, first, sizeof first);
-        scene.def.splat = usual;
-        change(renderer, &scene, other);
-        assert_memory_equal(other, first, sizeof first);
+        if (memcmp(other, first, sizeof first) == 0 || memcmp(other, last, sizeof last) == 0)
+            fail_msg("setting %d changes nothing", i);
+        memcpy(last, other, sizeof last);
     }
+    scene.def.splat = usual;
+    change(renderer, &scene, other);
+    assert_memory_equal(other, first, sizeof first);
     renderer_destroy(renderer);
     free(scene.particles);
 }
