@@ -242,7 +242,8 @@ static const Key keys[] = {
     NUMBER("view.radius", L, "spacings", 0, 10, VIEW(radius), "of a particle; 0: the view's own"),
     MAPPING("view.splat", "of the view splat: the fluid as one surface, after Adams, Lenaerts and Dutré 2006"),
     NUMBER("view.splat.level", L, "", 0, 1, VIEW(splat.level),
-           "of the field that is the surface (0.1 and so on); 0: the spheres; above, radius 0 is the solver's support radius"),
+           "of the field that is the surface (0.1 and so on); 0: the spheres; above, radius 0 is the solver's support radius, "
+           "and eps, weights, drops and ellipsoids have no part in it"),
     NUMBER("view.splat.eps", L | O, "radii", 0, 10, VIEW(splat.eps), "how far below the surface spheres still blend"),
     CHOICE("view.splat.weights", L | KEY_INDEX, splat_weights_choice, VIEW(splat.weights),
            "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
@@ -255,7 +256,7 @@ static const Key keys[] = {
            "phong: opaque; water: clear, bends what is behind and mirrors the sky; jelly: both"),
     NUMBER("view.splat.ior", L, "", 1, 3, VIEW(splat.ior), "index of refraction, of water and jelly"),
     NUMBER("view.splat.attenuation", L, "m", 0, 1e5, VIEW(splat.attenuation),
-           "through which white light becomes the fluid's colour; 0: a fifth of the box's longest side"),
+           "through which white light becomes the fluid's colour; 0: a fifth of the box's longest side, in 2D a spacing"),
     BOOLEAN("view.splat.cull", L, VIEW(splat.cull), "leave out hidden spheres before they are drawn"),
     BOOLEAN("view.splat.drops", L, VIEW(splat.drops), "a particle with few neighbours shrinks to a drop of its own volume"),
     CHOICE("view.splat.filter", L | KEY_INDEX, splat_filter_choice, VIEW(splat.filter),
