@@ -1,5 +1,6 @@
 // Outlines by the rows of edges that a pixel is beside, for shaders/render/silhouette_blend.frag.
 const int MOST = 16; // pixels that a row is followed to each side
+const float MOST_SHARE = 0.5; // that others get of a pixel: the outlines on both sides of a thread may each take nearly as much
 
 float edge(ivec2 pixel, int axis)
 {
@@ -49,6 +50,7 @@ vec3 mixed_by_rows(ivec2 pixel, vec3 own, vec4 sides)
         share.z = beyond(pixel - right, 0, -1.0);
     if (sides.w > 0.0)
         share.w = beyond(pixel - up, 1, -1.0);
+    share *= MOST_SHARE / max(MOST_SHARE, dot(share, vec4(1.0)));
     return (1.0 - dot(share, vec4(1.0))) * own + share.x * color_of(pixel + right) + share.y * color_of(pixel + up) +
            share.z * color_of(pixel - right) + share.w * color_of(pixel - up);
 }
