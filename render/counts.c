@@ -18,7 +18,7 @@ void counts_end(ViewCounts *counts, Stage stage)
     glEndQuery(GL_SAMPLES_PASSED);
     glGetQueryObjectui64v(counts->query, GL_QUERY_RESULT, &samples);
     glDeleteQueries(1, &counts->query);
-    counts->fragments[stage] = (double)samples;
+    counts->fragments[stage] += (double)samples;
 }
 
 void counts_finish(ViewCounts *counts, uint64_t covered, uint64_t pixels)

@@ -17,8 +17,8 @@ typedef struct ViewCounts {
     unsigned query;                /* GL query while a stage is counted */
 } ViewCounts;
 
-/* Around the draw calls of a stage: once in a picture. NULL: nothing is counted, nothing done. counts_end
-   waits for the GPU. */
+/* Around draw calls of a stage, which add up. NULL: nothing is counted, nothing done. counts_end waits for
+   the GPU. */
 void counts_begin(ViewCounts *counts);
 void counts_end(ViewCounts *counts, Stage stage);
 

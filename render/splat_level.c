@@ -156,8 +156,10 @@ static void splat(const Search *search, GLuint program, GLuint framebuffer, GLen
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);
+    counts_begin(search->frame->counts);
     splat_sprites_draw(search->sprites, search->sprite, program, search->particles, search->frame,
                        splat_culls(&search->sprites->def) ? &list : NULL);
+    counts_end(search->frame->counts, STAGE_VISIBILITY);
 }
 
 static void list_to_limit(const Search *search)

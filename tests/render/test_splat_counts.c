@@ -4,18 +4,15 @@
 enum { WIDTH = 320, HEIGHT = 240 };
 static const double distance = 3, radius = 0.5, fov_deg = 30;
 
-static ViewCounts counts_of(const Particles *particles, const char *kind, bool cull)
+static ViewCounts counts_with(const Particles *particles, ViewDef def)
 {
     Error error = {0};
-    ViewDef def = bare_view();
-    text_set(def.kind, kind);
     def.color_by = SCALAR_FLUID;
     def.camera_auto = false;
     memcpy(def.camera.from, (double[]){0, 0, distance}, sizeof def.camera.from);
     memcpy(def.camera.to, (double[]){0, 0, 0}, sizeof def.camera.to);
     def.camera.fov_deg = fov_deg;
     def.radius = 1;
-    def.splat.cull = cull;
     ParticleBuffers state = box_state(particles->count, radius), buffers;
     ViewCounts counts;
     Upload *upload = upload_particles(particles, &state, &buffers);
@@ -26,6 +23,14 @@ static ViewCounts counts_of(const Particles *particles, const char *kind, bool c
     renderer_destroy(renderer);
     upload_destroy(upload);
     return counts;
+}
+
+static ViewCounts counts_of(const Particles *particles, const char *kind, bool cull)
+{
+    ViewDef def = bare_view();
+    text_set(def.kind, kind);
+    def.splat.cull = cull;
+    return counts_with(particles, def);
 }
 
 /* The silhouette in the middle of the picture is a circle: pi r^2 over the picture's area. */
@@ -75,6 +80,20 @@ static void hidden_spheres_are_not_blended(void **state)
     assert_true(fabs(all.coverage - culled.coverage) < 1e-9);
 }
 
+/* A level's search splats the sphere for its depth, for the field's samples and for the root. */
+static void each_splat_of_a_level_counts(void **state)
+{
+    (void)state;
+    ViewDef def = bare_view();
+    Particles particles = {0};
+    text_set(def.kind, "splat");
+    def.splat.level = 1e-3;
+    particles_add(&particles, 0, 0, 0, 1, 0);
+    const ViewCounts counts = counts_with(&particles, def);
+    assert_true(counts.fragments[STAGE_VISIBILITY] > 2.9);
+    assert_true(counts.fragments[STAGE_BLEND] > 0.995 && counts.fragments[STAGE_BLEND] < 1.5);
+}
+
 static void nothing_in_view_is_no_coverage(void **state)
 {
     (void)state;
@@ -98,6 +117,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(spheres_in_one_place, no_gl_errors),
         cmocka_unit_test_teardown(hidden_spheres_are_not_blended, no_gl_errors),
+        cmocka_unit_test_teardown(each_splat_of_a_level_counts, no_gl_errors),
         cmocka_unit_test_teardown(nothing_in_view_is_no_coverage, no_gl_errors),
         cmocka_unit_test_teardown(other_views_count_nothing, no_gl_errors),
     };
