@@ -1,6 +1,7 @@
 #include "render/cell_lists.h"
 
 #include "render/particle_bind.h"
+#include "render/work.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -43,24 +44,16 @@ void cell_lists_destroy(CellLists *lists)
     *lists = (CellLists){0};
 }
 
-static void remake(GLuint *buffer, size_t size, const char *label)
-{
-    glDeleteBuffers(1, buffer);
-    glCreateBuffers(1, buffer);
-    glObjectLabel(GL_BUFFER, *buffer, -1, label);
-    glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, 0);
-}
-
 static void reserve(CellLists *lists, size_t cells, size_t count, bool scalar)
 {
     if (cells > lists->cells) {
-        remake(&lists->starts, (cells + 1) * sizeof(GLuint), "cell starts");
+        work_buffer_remake(&lists->starts, (cells + 1) * sizeof(GLuint), "cell starts");
         lists->cells = cells;
     }
     if (count > lists->capacity || !lists->particles) {
-        remake(&lists->particles, (count + 1) * 4 * sizeof(GLfloat), "cell particles");
+        work_buffer_remake(&lists->particles, (count + 1) * 4 * sizeof(GLfloat), "cell particles");
         if (scalar)
-            remake(&lists->scalars, (count + 1) * sizeof(GLfloat), "cell scalars");
+            work_buffer_remake(&lists->scalars, (count + 1) * sizeof(GLfloat), "cell scalars");
         lists->capacity = count;
     }
 }
@@ -69,8 +62,7 @@ static void run(GLuint program, const VoxelizeJob *job, size_t invocations)
 {
     glUseProgram(program);
     particle_bind(program, job->particles, job->carried);
-    voxelize_dispatch(invocations);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    work_run(invocations);
 }
 
 void cell_lists_make(CellLists *lists, const VoxelizeJob *job)

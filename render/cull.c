@@ -1,6 +1,7 @@
 #include "render/cull.h"
 
 #include "render/particle_bind.h"
+#include "render/work.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -38,21 +39,13 @@ static bool create_programs(Cull *cull, const char *body, Error *error)
     return cull->list != 0;
 }
 
-static void remake(GLuint *buffer, size_t size, const char *label)
-{
-    glDeleteBuffers(1, buffer);
-    glCreateBuffers(1, buffer);
-    glObjectLabel(GL_BUFFER, *buffer, -1, label);
-    glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, 0);
-}
-
 bool cull_create(Cull *cull, const char *body, Error *error)
 {
     GLfloat range[2] = {0};
     *cull = (Cull){0};
     glGetFloatv(GL_POINT_SIZE_RANGE, range);
     cull->point_limit = range[1];
-    remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
+    work_buffer_remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
     return create_programs(cull, body, error);
 }
 
@@ -87,13 +80,13 @@ static void reserve(Cull *cull, size_t count, size_t cells)
 {
     if (cells > cull->cells) {
         for (int i = 0; i < 2; i++)
-            remake(&cull->map[i], cells * sizeof(GLuint), "cull map");
+            work_buffer_remake(&cull->map[i], cells * sizeof(GLuint), "cull map");
         cull->cells = cells;
     }
     if (count > cull->capacity) {
-        remake(&cull->kept, chunks_of(count) * 4 * sizeof(GLuint), "cull kept");
+        work_buffer_remake(&cull->kept, chunks_of(count) * 4 * sizeof(GLuint), "cull kept");
         for (int i = 0; i < CULL_LISTS; i++)
-            remake(&cull->lists[i], count * sizeof(GLuint), "cull list");
+            work_buffer_remake(&cull->lists[i], count * sizeof(GLuint), "cull list");
         cull->capacity = count;
     }
 }
@@ -125,16 +118,6 @@ static void use(GLuint program, const Grid *grid, const ParticleBuffers *particl
     glUniform4fv(2, 1, grid->projection);
 }
 
-/* Rows of workgroups where one row would be too long; only cull_occlude.comp, which has one invocation a
- * particle, needs more. */
-static void run(size_t invocations)
-{
-    enum { ROW = 32768 };
-    const size_t groups = (invocations + 63) / 64, rows = (groups + ROW - 1) / ROW;
-    glDispatchCompute((GLuint)(rows > 1 ? ROW : groups), (GLuint)rows, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
 static void widen(const Cull *cull, const Grid *grid)
 {
     use(cull->widen, grid, NULL, NULL);
@@ -142,7 +125,7 @@ static void widen(const Cull *cull, const Grid *grid)
         glUniform1ui(3, upwards);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[upwards]);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cull->map[1 - upwards]);
-        run((size_t)grid->columns * grid->rows);
+        work_run((size_t)grid->columns * grid->rows);
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
 }
@@ -159,7 +142,7 @@ static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *partic
     use(cull->occlude[light], grid, particles, frame);
     glUniform1ui(3, (GLuint)particles->count);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
-    run(particles->count);
+    work_run(particles->count);
     widen(cull, grid);
 }
 
@@ -169,11 +152,11 @@ static void make_lists(Cull *cull, size_t count, unsigned vertices)
     glUniform1ui(1, chunks_of(count));
     glUniform1ui(2, vertices);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, cull->commands);
-    run(1);
+    work_run(1);
     glUseProgram(cull->list);
     glUniform1ui(1, chunks_of(count));
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 6, CULL_LISTS, cull->lists);
-    run(chunks_of(count));
+    work_run(chunks_of(count));
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
 
@@ -185,7 +168,7 @@ static void test(Cull *cull, const Grid *grid, const ParticleBuffers *particles,
     glUniform1f(4, eps);
     glUniform1ui(5, hidden);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cull->kept);
-    run(chunks_of(particles->count));
+    work_run(chunks_of(particles->count));
     make_lists(cull, particles->count, vertices);
 }
 
@@ -230,7 +213,7 @@ void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *fr
     use(cull->limit, &grid, NULL, NULL);
     glBindTextureUnit(7, limit);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
-    run((size_t)grid.columns * grid.rows);
+    work_run((size_t)grid.columns * grid.rows);
     widen(cull, &grid);
     test(cull, &grid, particles, frame, 0, 0, vertices, false);
 }

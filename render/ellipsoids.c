@@ -1,5 +1,6 @@
 #include "render/ellipsoids.h"
 
+#include "render/work.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -50,10 +51,7 @@ static void reserve(Ellipsoids *ellipsoids, size_t count)
     const size_t floats = ellipsoids_stretched(&ellipsoids->def) ? 12 : 1;
     if (count <= ellipsoids->capacity)
         return;
-    glDeleteBuffers(1, &ellipsoids->shapes);
-    glCreateBuffers(1, &ellipsoids->shapes);
-    glObjectLabel(GL_BUFFER, ellipsoids->shapes, -1, "splat shapes");
-    glNamedBufferStorage(ellipsoids->shapes, (GLsizeiptr)(count * floats * sizeof(GLfloat)), NULL, 0);
+    work_buffer_remake(&ellipsoids->shapes, count * floats * sizeof(GLfloat), "splat shapes");
     ellipsoids->capacity = count;
 }
 

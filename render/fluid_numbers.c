@@ -2,6 +2,7 @@
 
 #include "render/particle_bind.h"
 #include "render/voxelize.h"
+#include "render/work.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -42,7 +43,7 @@ ParticleBuffers fluid_numbers_add(FluidNumbers *numbers, const ParticleBuffers *
     particle_bind(numbers->program, particles, SCALAR_FLUID);
     glUniform1ui(1, (GLuint)particles->count);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, numbers->buffer);
-    voxelize_dispatch(particles->count);
+    work_run(particles->count);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
                     GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
     with.scalar[SCALAR_FLUID] = (ParticleAttribute){numbers->buffer, 0, sizeof(GLfloat)};

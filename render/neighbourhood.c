@@ -1,5 +1,6 @@
 #include "render/neighbourhood.h"
 
+#include "render/work.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -34,14 +35,6 @@ void neighbourhood_destroy(Neighbourhood *n)
     *n = (Neighbourhood){0};
 }
 
-static void remake(GLuint *buffer, size_t size, const char *label)
-{
-    glDeleteBuffers(1, buffer);
-    glCreateBuffers(1, buffer);
-    glObjectLabel(GL_BUFFER, *buffer, -1, label);
-    glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, 0);
-}
-
 static size_t blocks_of(size_t size)
 {
     return (size + SCAN_BLOCK - 1) / SCAN_BLOCK;
@@ -50,10 +43,10 @@ static size_t blocks_of(size_t size)
 static void reserve(Neighbourhood *n, size_t count, size_t cells)
 {
     if (count > n->capacity) {
-        remake(&n->cell, count * sizeof(GLuint), "neighbourhood cell");
-        remake(&n->rank, count * sizeof(GLuint), "neighbourhood rank");
-        remake(&n->order, count * sizeof(GLuint), "neighbourhood order");
-        remake(&n->sorted, count * 4 * sizeof(GLfloat), "neighbourhood sorted");
+        work_buffer_remake(&n->cell, count * sizeof(GLuint), "neighbourhood cell");
+        work_buffer_remake(&n->rank, count * sizeof(GLuint), "neighbourhood rank");
+        work_buffer_remake(&n->order, count * sizeof(GLuint), "neighbourhood order");
+        work_buffer_remake(&n->sorted, count * 4 * sizeof(GLfloat), "neighbourhood sorted");
         glDeleteTextures(1, &n->texels);
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &n->texels);
         glTextureBuffer(n->texels, GL_RGBA32UI, n->sorted);
@@ -61,9 +54,10 @@ static void reserve(Neighbourhood *n, size_t count, size_t cells)
     }
     if (cells > n->cells_capacity) {
         size_t blocks = cells + 2;
-        remake(&n->start, blocks * sizeof(GLuint), "neighbourhood start");
+        work_buffer_remake(&n->start, blocks * sizeof(GLuint), "neighbourhood start");
         for (int level = 0; level < NEIGHBOURHOOD_SCAN_LEVELS; level++)
-            remake(&n->totals[level], (blocks = blocks_of(blocks)) * sizeof(GLuint), "neighbourhood totals");
+            work_buffer_remake(&n->totals[level], (blocks = blocks_of(blocks)) * sizeof(GLuint),
+                               "neighbourhood totals");
         n->cells_capacity = cells;
     }
 }
@@ -93,21 +87,12 @@ static void bind(const unsigned *buffers, int count)
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 4, count, buffers);
 }
 
-/* Groups stand in rows, since a driver may allow 65,535 along an axis only. */
-static void dispatch(size_t groups)
-{
-    enum { ROW = 32768 };
-    const size_t rows = (groups + ROW - 1) / ROW;
-    glDispatchCompute((GLuint)(rows > 1 ? ROW : groups), (GLuint)rows, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
 static void run(const Neighbourhood *n, GLuint program)
 {
     glUseProgram(program);
     glUniform4uiv(1, 1, n->size);
     glUniform4fv(2, 1, n->place_of);
-    dispatch((n->size[3] + 63) / 64);
+    work_run(n->size[3]);
 }
 
 static void run_blocks(GLuint program, GLuint values, GLuint totals, size_t size)
@@ -115,7 +100,7 @@ static void run_blocks(GLuint program, GLuint values, GLuint totals, size_t size
     glUseProgram(program);
     glUniform1ui(0, (GLuint)size);
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, (GLuint[]){values, totals});
-    dispatch(blocks_of(size));
+    work_dispatch(blocks_of(size));
 }
 
 /* Exclusive prefix sums of `start`, in place. */

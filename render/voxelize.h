@@ -38,7 +38,4 @@ void voxelize_compute_bind(const void *state);
 /* A texture for a volume, 0 everywhere; the caller deletes it. 0 when memory is short. */
 unsigned volume_texture(const int size[3], unsigned format, const char *label);
 
-/* Dispatches workgroups of 64 for so many invocations, in rows where one would be too long. */
-void voxelize_dispatch(size_t invocations);
-
 #endif

@@ -3,6 +3,7 @@
 #include "render/cell_lists.h"
 #include "render/particle_bind.h"
 #include "render/voxelize.h"
+#include "render/work.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -90,7 +91,7 @@ static void scatter(ByCompute *own, const VoxelizeJob *job)
     glProgramUniform1ui(own->program, 1, (GLuint)discs);
     glUseProgram(own->program);
     bind_images(own, job->volume, !own->atomics, GL_READ_WRITE);
-    voxelize_dispatch(job->particles->count * discs);
+    work_run(job->particles->count * discs);
 }
 
 static void gather(ByCompute *own, const VoxelizeJob *job)

@@ -127,13 +127,6 @@ unsigned volume_texture(const int size[3], unsigned format, const char *label)
     return texture;
 }
 
-void voxelize_dispatch(size_t invocations)
-{
-    enum { ROW = 32768 };
-    const size_t groups = (invocations + 63) / 64, rows = (groups + ROW - 1) / ROW;
-    glDispatchCompute((GLuint)(rows > 1 ? ROW : groups), (GLuint)rows, 1);
-}
-
 static double bytes_of(const VolumeGrid *grid, bool scalar)
 {
     return 4.0 * grid->size[0] * grid->size[1] * grid->size[2] * (scalar ? 2 : 1);

@@ -1,0 +1,18 @@
+/* What views compute on the GPU before they draw: buffers that only shaders write, and rows of workgroups. */
+#ifndef SLOSH_WORK_H
+#define SLOSH_WORK_H
+
+#include <stddef.h>
+
+/* Replaces *buffer (0: none yet) by one of `size` bytes whose contents are not defined. */
+void work_buffer_remake(unsigned *buffer, size_t size, const char *label);
+
+/* Runs that many workgroups of the current program, and lets shaders read from buffers what it wrote. A
+   driver may allow 65,535 along an axis only: beyond 32,768 they stand in rows along y, the last of which may
+   be longer than needed. */
+void work_dispatch(size_t groups);
+
+/* The same for so many invocations, of which a workgroup has 64. */
+void work_run(size_t invocations);
+
+#endif
