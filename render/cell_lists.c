@@ -51,10 +51,10 @@ static void reserve(CellLists *lists, size_t cells, size_t count, bool scalar)
         lists->cells = cells;
     }
     if (count > lists->capacity || !lists->particles) {
-        work_buffer_remake(&lists->particles, (count + 1) * 4 * sizeof(GLfloat), "cell particles");
+        lists->capacity = work_capacity(lists->capacity, count);
+        work_buffer_remake(&lists->particles, (lists->capacity + 1) * 4 * sizeof(GLfloat), "cell particles");
         if (scalar)
-            work_buffer_remake(&lists->scalars, (count + 1) * sizeof(GLfloat), "cell scalars");
-        lists->capacity = count;
+            work_buffer_remake(&lists->scalars, (lists->capacity + 1) * sizeof(GLfloat), "cell scalars");
     }
 }
 

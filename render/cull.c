@@ -79,15 +79,15 @@ static GLuint chunks_of(size_t count)
 static void reserve(Cull *cull, size_t count, size_t cells)
 {
     if (cells > cull->cells) {
+        cull->cells = work_capacity(cull->cells, cells);
         for (int i = 0; i < 2; i++)
-            work_buffer_remake(&cull->map[i], cells * sizeof(GLuint), "cull map");
-        cull->cells = cells;
+            work_buffer_remake(&cull->map[i], cull->cells * sizeof(GLuint), "cull map");
     }
     if (count > cull->capacity) {
-        work_buffer_remake(&cull->kept, chunks_of(count) * 4 * sizeof(GLuint), "cull kept");
+        cull->capacity = work_capacity(cull->capacity, count);
+        work_buffer_remake(&cull->kept, chunks_of(cull->capacity) * 4 * sizeof(GLuint), "cull kept");
         for (int i = 0; i < CULL_LISTS; i++)
-            work_buffer_remake(&cull->lists[i], count * sizeof(GLuint), "cull list");
-        cull->capacity = count;
+            work_buffer_remake(&cull->lists[i], cull->capacity * sizeof(GLuint), "cull list");
     }
 }
 

@@ -51,8 +51,8 @@ static void reserve(Ellipsoids *ellipsoids, size_t count)
     const size_t floats = ellipsoids_stretched(&ellipsoids->def) ? 12 : 1;
     if (count <= ellipsoids->capacity)
         return;
-    work_buffer_remake(&ellipsoids->shapes, count * floats * sizeof(GLfloat), "splat shapes");
-    ellipsoids->capacity = count;
+    ellipsoids->capacity = work_capacity(ellipsoids->capacity, count);
+    work_buffer_remake(&ellipsoids->shapes, ellipsoids->capacity * floats * sizeof(GLfloat), "splat shapes");
 }
 
 /* The sum of weights from which on a particle belongs to the fluid: a quarter of what a lattice has, less

@@ -26,11 +26,8 @@ static void reserve(FluidNumbers *numbers, size_t count)
 {
     if (count <= numbers->capacity)
         return;
-    glDeleteBuffers(1, &numbers->buffer);
-    glCreateBuffers(1, &numbers->buffer);
-    glObjectLabel(GL_BUFFER, numbers->buffer, -1, "fluid numbers");
-    glNamedBufferStorage(numbers->buffer, (GLsizeiptr)(count * sizeof(GLfloat)), NULL, 0);
-    numbers->capacity = count;
+    numbers->capacity = work_capacity(numbers->capacity, count);
+    work_buffer_remake(&numbers->buffer, numbers->capacity * sizeof(GLfloat), "fluid numbers");
 }
 
 ParticleBuffers fluid_numbers_add(FluidNumbers *numbers, const ParticleBuffers *particles)

@@ -43,14 +43,14 @@ static size_t blocks_of(size_t size)
 static void reserve(Neighbourhood *n, size_t count, size_t cells)
 {
     if (count > n->capacity) {
-        work_buffer_remake(&n->cell, count * sizeof(GLuint), "neighbourhood cell");
-        work_buffer_remake(&n->rank, count * sizeof(GLuint), "neighbourhood rank");
-        work_buffer_remake(&n->order, count * sizeof(GLuint), "neighbourhood order");
-        work_buffer_remake(&n->sorted, count * 4 * sizeof(GLfloat), "neighbourhood sorted");
+        n->capacity = work_capacity(n->capacity, count);
+        work_buffer_remake(&n->cell, n->capacity * sizeof(GLuint), "neighbourhood cell");
+        work_buffer_remake(&n->rank, n->capacity * sizeof(GLuint), "neighbourhood rank");
+        work_buffer_remake(&n->order, n->capacity * sizeof(GLuint), "neighbourhood order");
+        work_buffer_remake(&n->sorted, n->capacity * 4 * sizeof(GLfloat), "neighbourhood sorted");
         glDeleteTextures(1, &n->texels);
         glCreateTextures(GL_TEXTURE_BUFFER, 1, &n->texels);
         glTextureBuffer(n->texels, GL_RGBA32UI, n->sorted);
-        n->capacity = count;
     }
     if (cells > n->cells_capacity) {
         size_t blocks = cells + 2;

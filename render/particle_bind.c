@@ -1,5 +1,6 @@
 #include "render/particle_bind.h"
 
+#include "render/work.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
@@ -73,7 +74,7 @@ static void reserve(QuadIndices *indices, size_t count)
 static bool prepare(QuadIndices *indices, size_t count)
 {
     if (count > indices->capacity)
-        reserve(indices, count);
+        reserve(indices, work_capacity(indices->capacity, count));
     glBindVertexArray(indices->vertex_array);
     return count && count <= indices->capacity;
 }

@@ -10,6 +10,12 @@ void work_buffer_remake(unsigned *buffer, size_t size, const char *label)
     glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, 0);
 }
 
+size_t work_capacity(size_t capacity, size_t count)
+{
+    const size_t more = capacity + capacity / 2;
+    return count > more ? count : more;
+}
+
 void work_dispatch(size_t groups)
 {
     enum { ROW = 32768 };

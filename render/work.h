@@ -7,6 +7,11 @@
 /* Replaces *buffer (0: none yet) by one of `size` bytes whose contents are not defined. */
 void work_buffer_remake(unsigned *buffer, size_t size, const char *label);
 
+/* How many buffers are to have room for that have it for `capacity` (0: none yet) and need it for `count`,
+   which is more: half as much again, so that where particles are poured in not every picture makes them anew.
+ */
+size_t work_capacity(size_t capacity, size_t count);
+
 /* Runs that many workgroups of the current program, and lets shaders read from buffers what it wrote. A
    driver may allow 65,535 along an axis only: beyond 32,768 they stand in rows along y, the last of which may
    be longer than needed. */

@@ -315,6 +315,36 @@ static void none_reaches_farther_than_said(void **state)
     free(scene.particles);
 }
 
+/* Where particles are poured in, not every picture makes all buffers anew. */
+static void room_grows_ahead(void **state)
+{
+    (void)state;
+    Error error = {0};
+    SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 20, 0.05);
+    Frame frame = {.particle_radius = 0.05F};
+    Ellipsoids drops;
+    ParticleBuffers buffers;
+    size_t capacity = 0;
+    int changes = 0;
+    scene.def.splat.drops = true;
+    for (int i = 0; i < 200; i++)
+        particles_add(scene.particles, 0.004 * i, 0.5, 0, 1, 0);
+    scene.state.count = scene.particles->count;
+    Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
+    assert_true(ellipsoids_create(&drops, &scene.def.splat, &error));
+    for (buffers.count = 100; buffers.count <= 200; buffers.count++) {
+        ellipsoids_make(&drops, &buffers, &frame);
+        assert_true(drops.capacity >= buffers.count && drops.neighbourhood.capacity >= buffers.count);
+        assert_true(buffers.count > 100 || drops.capacity == 100); /* no more where none is added */
+        changes += drops.capacity + drops.neighbourhood.capacity != capacity;
+        capacity = drops.capacity + drops.neighbourhood.capacity;
+    }
+    assert_int_equal(changes, 3); /* 100, 150, 225 */
+    ellipsoids_destroy(&drops);
+    upload_destroy(upload);
+    free(scene.particles);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -327,6 +357,7 @@ int main(void)
         cmocka_unit_test_teardown(a_line_gives_needles, no_gl_errors),
         cmocka_unit_test_teardown(the_bulk_gives_balls, no_gl_errors),
         cmocka_unit_test_teardown(none_reaches_farther_than_said, no_gl_errors),
+        cmocka_unit_test_teardown(room_grows_ahead, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
