@@ -525,7 +525,7 @@ class FullDisk(ExportTest):
             for size in (100, 5000, 20000):
                 self.full(output, size)
         for output in ('b.pvd', 'b.vtp', 'b.ply', 'b.ply.series'):
-            for size in (100, 20000, 50000):
+            for size in (2000, 20000, 50000):  # LLVM's OpenMP, in the sanitized build, makes a file of 1 kB
                 self.full(output, size, '--surface')
         self.assertEqual(self.entries(), ['a.h5part'])
 
