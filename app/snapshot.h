@@ -104,7 +104,7 @@ typedef struct SnapshotScene {
     double compression;         /* relative change of density over that of number density */
 } SnapshotScene;
 
-/* False with what is missing. */
+/* False with what is missing or cannot be: afterwards lengths and densities are more than 0. */
 bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error);
 
 /* The volume of particle i, 1 / number density, m3: what the views have of it (ParticleArrays.position). At

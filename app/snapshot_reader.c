@@ -4,10 +4,13 @@
 #include "sim/lattice.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+enum { SUPPORT_MOST = 10 }; /* spacings: a lattice is summed up within it; scenes have 1.5 to 4 */
 
 struct SnapshotReader {
     char path[1024];
@@ -120,6 +123,26 @@ static double read_compression(const SnapshotReader *reader, const SnapshotScene
     return lattice.stiffness_scale;
 }
 
+/* Numbers of a damaged file: other code takes them as they are. NaN is none of these. */
+static bool check_scene(const SnapshotReader *reader, const SnapshotScene *scene, Error *error)
+{
+    const double *box = scene->box_size, support = scene->support_radius / scene->spacing;
+    if (!(scene->spacing > 0 && scene->spacing < INFINITY))
+        return error_set(error, "%s: 'spacing' is %g; it must be more than 0", reader->path, scene->spacing);
+    if (!(support >= 1 && support <= SUPPORT_MOST))
+        return error_set(error, "%s: 'support_radius' is %g spacings; it must be 1 to %d", reader->path,
+                         support, SUPPORT_MOST);
+    for (int k = 0; k < 3; k++)
+        if (!(box[k] > 0 && box[k] < INFINITY))
+            return error_set(error, "%s: 'box_size' is %g along %c; it must be more than 0", reader->path,
+                             box[k], "xyz"[k]);
+    for (size_t k = 0; k < scene->fluid_count; k++)
+        if (!(scene->density[k] > 0 && scene->density[k] < INFINITY))
+            return error_set(error, "%s: 'fluid_densities' has %g; all must be more than 0", reader->path,
+                             scene->density[k]);
+    return scene->fluid_count > 0 || error_set(error, "%s: 'fluid_densities' is missing", reader->path);
+}
+
 bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error)
 {
     const struct {
@@ -134,11 +157,13 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
             !read_values(reader->file, numbers[i].name, H5T_NATIVE_DOUBLE, numbers[i].count,
                          numbers[i].values))
             return error_set(error, "%s: '%s' is missing", reader->path, numbers[i].name);
+    scene->fluid_count = read_fluids(reader, "fluid_densities", 1, scene->density);
+    if (!check_scene(reader, scene, error))
+        return false;
     /* a box of two dimensions is a spacing deep: WorldDef */
     scene->dimensions = scene->box_size[2] > 1.001 * scene->spacing ? 3 : 2;
     scene->compression = read_compression(reader, scene);
-    scene->fluid_count = read_fluids(reader, "fluid_densities", 1, scene->density);
-    return scene->fluid_count > 0 || error_set(error, "%s: 'fluid_densities' is missing", reader->path);
+    return true;
 }
 
 char *snapshot_root_text(const SnapshotReader *reader, const char *name)

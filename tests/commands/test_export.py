@@ -487,6 +487,16 @@ class Bad(ExportTest):
             file.attrs['box_size'] = [1000., 1000., 1000.]
         self.refused('a.h5part', 'a.ply', '--surface', words='more memory than this machine has .*; use a --cell of')
         self.export('b.ply')
+        for name, value, words in (('box_size', [1., float('nan'), 1.], "'box_size' is nan along y"),
+                                   ('spacing', 0., "'spacing' is 0"), ('spacing', float('nan'), "'spacing' is nan"),
+                                   ('support_radius', 1e3, "'support_radius' is .* spacings"),
+                                   ('fluid_densities', [0., 900.], "'fluid_densities' has 0")):
+            with h5py.File(self.path('a.h5part'), 'r+') as file:
+                usual = file.attrs[name]
+                file.attrs[name] = value
+            self.refused('a.h5part', 'a.ply', '--surface', words='a.h5part: ' + words)
+            with h5py.File(self.path('a.h5part'), 'r+') as file:
+                file.attrs[name] = usual
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             del file.attrs['spacing']
         self.refused('a.h5part', 'a.ply', '--surface', words="a.h5part: 'spacing' is missing")
