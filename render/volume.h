@@ -15,7 +15,6 @@
 #include "sim/gl/timer.h"
 
 #include <stdbool.h>
-#include <stddef.h>
 
 typedef struct Volume {
     VolumeGrid grid;
@@ -24,7 +23,6 @@ typedef struct Volume {
                         shaders/common/field.glsl sums at the sample */
     unsigned scalar; /* the same for sum V W scalar, whose mean is this by F; 0 where none is carried. A
                         texture of its own, since most samples need F alone */
-    size_t bytes;    /* of both textures, or of the lists */
 } Volume;
 
 /* The grid that covers the box and h around it: `cells` along the box's longest side or cells of `cell`
@@ -54,9 +52,6 @@ bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuf
 
 /* False when the driver or the memory has no room for such a volume, or the method cannot make it. */
 bool voxelizer_fits(const Voxelizer *voxelizer, const VolumeGrid *grid, double support, Error *error);
-
-/* The method in use: what VOLUME_AUTO became. */
-VolumeMethod voxelizer_method(const Voxelizer *voxelizer);
 
 /* Lines of defines that shaders/common/field.glsl needs for this voxelizer's volumes; a constant. */
 const char *voxelizer_defines(const Voxelizer *voxelizer);

@@ -17,13 +17,7 @@ typedef struct VolumeView {
     unsigned casting;     /* program: particles as the light sees them */
     unsigned casting_vao; /* without attributes */
     FluidNumbers numbers; /* where the volume carries fluids; else zero */
-    Volume volume;
 } VolumeView;
-
-const Volume *volume_view_volume(const void *state)
-{
-    return &((const VolumeView *)state)->volume;
-}
 
 static void destroy(void *state)
 {
@@ -109,19 +103,20 @@ static void cast(void *state, const ParticleBuffers *particles, const Frame *fra
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     VolumeView *view = state;
+    Volume volume;
     Error error;
     bool made = false;
     GL_STAGE(frame->timer, STAGE_VOXELIZE)
     {
         const ParticleBuffers carrying =
             view->numbers.program ? fluid_numbers_add(&view->numbers, particles) : *particles;
-        made = voxelizer_run(view->voxelizer, &frame->def->volume, &carrying, frame->def->color_by,
-                             &view->volume, &error);
+        made = voxelizer_run(view->voxelizer, &frame->def->volume, &carrying, frame->def->color_by, &volume,
+                             &error);
     }
     if (!made) /* memory that was there at the start is not there now */
         return;
     if (view->raycast) {
-        raycast_draw(view->raycast, &view->volume, view->voxelizer, particles, frame);
+        raycast_draw(view->raycast, &volume, view->voxelizer, particles, frame);
         return;
     }
     GL_STAGE(frame->timer, STAGE_SHADE)
@@ -131,16 +126,17 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     }
 }
 
-/* The field is 1 in a fluid at rest, more where it is compressed. */
+/* The field is 1 in a fluid at rest, more where it is compressed; of steps raycast.frag shows 64. */
 static void show(const ViewDef *def, Frame *frame)
 {
-    if (def->volume.show != VOLUME_SLICE)
+    const bool steps = def->volume.show == VOLUME_STEPS;
+    if (!steps && def->volume.show != VOLUME_SLICE)
         return;
     frame->by_fluid = false;
-    frame->shown = "field";
+    frame->shown = steps ? "steps" : "field";
     frame->shown_unit = "";
     frame->range[0] = 0;
-    frame->range[1] = 1.25;
+    frame->range[1] = steps ? 64 : 1.25;
 }
 
 const ViewKind view_volume = {

@@ -4,11 +4,7 @@
 #define SLOSH_VOLUME_VIEW_H
 
 #include "render/view.h"
-#include "render/volume.h"
 
 extern const ViewKind view_volume;
-
-/* The newest volume of a state that view_volume.create made; for tests. */
-const Volume *volume_view_volume(const void *state);
 
 #endif

@@ -92,11 +92,6 @@ void voxelizer_destroy(Voxelizer *voxelizer)
     free(voxelizer);
 }
 
-VolumeMethod voxelizer_method(const Voxelizer *voxelizer)
-{
-    return voxelizer->method;
-}
-
 const char *voxelizer_defines(const Voxelizer *voxelizer)
 {
     static const char *const lines[] = {"", "#define SCALAR 1\n", "#define FIELD_DIRECT 1\n",
@@ -272,7 +267,6 @@ static bool make_volume(Voxelizer *voxelizer, const VolumeDef *def, const Voxeli
         return false;
     voxelizer->volume.grid = grid;
     voxelizer->volume.support = job->particles->support_radius;
-    voxelizer->volume.bytes = voxelizer->volume.field ? (size_t)bytes_of(&grid, voxelizer->scalar) : 0;
     return voxelizer->by->run(voxelizer->state, job, error);
 }
 

@@ -2,6 +2,7 @@
 #include "tests/render/volume_fixture.h"
 
 #include "render/colormap.h"
+#include "render/volume_view.h"
 
 enum { SIZE = 96 };
 
@@ -153,12 +154,33 @@ static void methods_are_swapped_while_it_runs(void **state)
     volume_scene_free(&scene);
 }
 
+/* The legend is of what the colormap shows: of a slice the field, of steps their number, else the scalar. */
+static void a_legend_is_of_what_is_shown(void **state)
+{
+    (void)state;
+    static const struct {
+        VolumeShow show;
+        const char *shown;
+        double most;
+    } cases[] = {{VOLUME_SHADED, "speed", 3}, {VOLUME_SLICE, "field", 1.25}, {VOLUME_STEPS, "steps", 64}};
+    for (int i = 0; i < 3; i++) {
+        ViewDef def = bare_view();
+        Frame frame = {.shown = "speed", .shown_unit = "m/s", .range = {0, 3}, .by_fluid = i > 0};
+        def.volume.show = cases[i].show;
+        view_volume.show(&def, &frame);
+        assert_string_equal(frame.shown, cases[i].shown);
+        assert_string_equal(frame.shown_unit, i > 0 ? "" : "m/s");
+        assert_true(frame.range[0] == 0 && frame.range[1] == cases[i].most && !frame.by_fluid);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_slice_shows_the_field, no_gl_errors),
         cmocka_unit_test_teardown(from_wherever_one_looks, no_gl_errors),
         cmocka_unit_test_teardown(methods_are_swapped_while_it_runs, no_gl_errors),
+        cmocka_unit_test(a_legend_is_of_what_is_shown),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
