@@ -37,9 +37,9 @@ static bool check_older(const OutputFolder *folder, Error *error)
         ours = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0 ||
                is_ours(folder, entry->d_name) ||
                error_set(error,
-                         "%s: this folder would be replaced, but '%.200s' in it is not of an export; name "
+                         "%s: this folder would be replaced, but '%.200s' in it is no %s of an export; name "
                          "another output",
-                         folder->path, entry->d_name);
+                         folder->path, entry->d_name, folder->suffix);
     closedir(older);
     return ours;
 }

@@ -32,8 +32,8 @@ bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, Vol
     return all <= CELLS_MAX ||
            error_set(
                error,
-               "a volume of %d x %d x %d cells; at most %.0f will do: take fewer view.volume.cells, or a "
-               "larger view.volume.cell",
+               "a volume of %d x %d x %d cells; at most %.0f of them will do: take fewer view.volume.cells, "
+               "or a larger view.volume.cell",
                grid->size[0], grid->size[1], grid->size[2], CELLS_MAX);
 }
 

@@ -158,7 +158,7 @@ static void a_folder_of_others_is_refused(void **state)
     write_text(name, "new");
     write_text("a/late", "mine");
     assert_false(output_folder_commit(&folder, &error));
-    assert_contains(error.message, "'late' in it is not of an export");
+    assert_contains(error.message, "'late' in it is no .txt of an export");
     assert_text("a/late", "mine");
     assert_text("a/a-0000.txt", "old");
     assert_int_equal(count_files("."), 1);

@@ -517,8 +517,10 @@ class Bad(ExportTest):
         self.make('--time', '0')
         os.mkdir(self.path('thesis'))
         self.write('thesis/chapter.tex', 'much work')
-        self.refused('a.h5part', 'thesis.pvd', words="'chapter.tex' in it is not of an export", code=1)
+        self.refused('a.h5part', 'thesis.pvd', words="'chapter.tex' in it is no .vtp of an export", code=1)
         self.assertEqual(self.read('thesis/chapter.tex'), b'much work')
+        self.export('thesis2.pvd', '--quiet')
+        self.refused('a.h5part', 'thesis2.ply.series', words="'thesis2-0000.vtp' in it is no .ply of an export", code=1)
         self.write('file', '')
         self.refused('a.h5part', 'file.pvd', words='file: is to be a folder', code=1)
 

@@ -73,6 +73,7 @@ static void too_fine_a_grid_is_refused(void **state)
     assert_false(volume_grid_for(&fine, &box, &grid, &error));
     assert_non_null(strstr(error.message, "view.volume.cells"));
     assert_false(volume_grid_for(&huge, &box, &grid, &error));
+    assert_non_null(strstr(error.message, "at most 2147483648 of them"));
     assert_non_null(strstr(error.message, "view.volume.cells"));
     const VolumeDef endless = {.cell = 1e-9};
     assert_false(volume_grid_for(&endless, &box, &grid, &error));
