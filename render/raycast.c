@@ -18,7 +18,7 @@ typedef struct RaycastBlock {
 } RaycastBlock;
 
 /* GATE: a copy of what says which pixels have a ray at all, for the test of depth before the shader. */
-enum { ENTRY, EXIT, GATE, SOLID, DEPTHS };
+enum { ENTRY, EXIT, GATE, DEPTHS };
 enum { FACES_IN, FACES_OUT, MARCH, FRAMEBUFFERS };
 
 /* The longest step, in support radii: see step_from in shaders/common/raycast_ray.glsl. */
@@ -116,7 +116,7 @@ static void attach(Raycast *raycast, int framebuffer, int depth, const char *lab
 
 static void follow_target(Raycast *raycast, const Target *target)
 {
-    static const char *const labels[DEPTHS] = {"ray entry", "ray exit", "ray gate", "ray solids"};
+    static const char *const labels[DEPTHS] = {"ray entry", "ray exit", "ray gate"};
     static const GLenum both[2] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     if (raycast->target_number == target->number)
         return;
@@ -124,7 +124,7 @@ static void follow_target(Raycast *raycast, const Target *target)
     glDeleteTextures(1, &raycast->found);
     glDeleteFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
     memset(raycast->depths, 0, sizeof raycast->depths);
-    for (int i = 0; i < (raycast->solids ? DEPTHS : SOLID); i++)
+    for (int i = 0; i < DEPTHS; i++)
         raycast->depths[i] = create_map(target, GL_DEPTH_COMPONENT32F, labels[i]);
     raycast->found = create_map(target, GL_R32F, "ray found");
     glCreateFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
@@ -227,20 +227,25 @@ static void open_gate(const Raycast *raycast, const Target *target, bool inside)
     glDepthRange(inside, inside);
 }
 
-static void bind_maps(const Raycast *raycast)
+/* Solids stand in the target's depth, which is not written until all rays are cast. */
+static void bind_maps(const Raycast *raycast, const Target *target)
 {
     glBindTextureUnit(2, raycast->colormap);
     glBindTextureUnit(10, raycast->depths[ENTRY]);
     glBindTextureUnit(11, raycast->depths[EXIT]);
-    glBindTextureUnit(12, raycast->depths[SOLID]);
+    glBindTextureUnit(12, raycast->solids ? target->depth : 0);
 }
 
-/* A fifth of the longest side where the scene names no distance. */
+/* Without solids all that one looks through the fluid at is sky and floor, which need no copy. A fifth of the
+   longest side where the scene names no distance. */
 static void look_through(Raycast *raycast, const ParticleBuffers *particles, const Frame *frame)
 {
     const RaycastDef *cast = &frame->def->raycast;
     const double *box = particles->box_size, fifth = fmax(box[0], fmax(box[1], box[2])) / 5;
-    behind_take(&raycast->behind, frame);
+    if (raycast->solids)
+        behind_take(&raycast->behind, frame);
+    else
+        glBindTextureUnit(3, frame->floor_light);
     glProgramUniform2f(raycast->program, 2, (GLfloat)cast->ior,
                        (GLfloat)(cast->attenuation_distance > 0 ? cast->attenuation_distance : fifth));
 }
@@ -249,8 +254,6 @@ static void look_through(Raycast *raycast, const ParticleBuffers *particles, con
 static void march(Raycast *raycast, const Frame *frame, bool inside)
 {
     static const float nothing[4] = {0};
-    if (raycast->solids)
-        copy_depth(frame->target->depth, raycast->depths[SOLID], frame->target);
     glBindFramebuffer(GL_FRAMEBUFFER, raycast->framebuffers[MARCH]);
     glClearNamedFramebufferfv(raycast->framebuffers[MARCH], GL_COLOR, 1, nothing);
     open_gate(raycast, frame->target, inside);
@@ -258,7 +261,7 @@ static void march(Raycast *raycast, const Frame *frame, bool inside)
         glEnablei(GL_BLEND, 0);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    bind_maps(raycast);
+    bind_maps(raycast, frame->target);
     glUseProgram(raycast->program);
     glBindVertexArray(raycast->screen);
     glDrawArrays(GL_TRIANGLES, 0, 3);
