@@ -247,7 +247,7 @@ static void look_through(Raycast *raycast, const ParticleBuffers *particles, con
     else
         glBindTextureUnit(3, frame->floor_light);
     glProgramUniform2f(raycast->program, 2, (GLfloat)cast->ior,
-                       (GLfloat)(cast->attenuation_distance > 0 ? cast->attenuation_distance : fifth));
+                       (GLfloat)(cast->attenuation > 0 ? cast->attenuation : fifth));
 }
 
 /* Rays end at solids, so that what they find is always before them. */

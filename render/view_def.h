@@ -89,16 +89,17 @@ typedef struct RaycastDef {
     RaycastLook look;
     double level;     /* of the field, where the surface of opaque and water is */
     double step;      /* between two samples, cells */
-    double threshold; /* opacity at which a ray ends; 1: never */
-    double ramp[2];   /* the field at which opacity begins and where it is full; ramp[0] < ramp[1] */
-    double opacity;   /* full: of fluid one spacing deep, 0 .. 1 */
-    double skin;      /* opacity of the layer in which that begins: of each surface crossed, 0 .. 1 */
-    double by_scalar; /* how much of the opacity goes with the scalar shown, 0 .. 1 */
-    double ior;       /* index of refraction, of water */
-    double attenuation_distance; /* as SplatDef has it, of water */
-    bool shadows; /* of the fluid on itself, by marching toward the light; else by the shadow map */
-    bool jitter;  /* rays start at different parts of a step, so that no bands show */
-    bool skip;    /* empty bricks: else all between the faces of the volume is marched through */
+    double threshold; /* opacity at which a ray ends; more than 0, 1: never */
+    double
+        ramp[2]; /* the field at which opacity begins and where it is full; at once where that is not above */
+    double opacity;     /* full: of fluid one spacing deep, 0 .. 1 */
+    double skin;        /* opacity of the layer in which that begins: of each surface crossed, 0 .. 1 */
+    double by_scalar;   /* how much of the opacity goes with the scalar shown, 0 .. 1 */
+    double ior;         /* index of refraction, of water */
+    double attenuation; /* as SplatDef has it, of water */
+    bool shadows;       /* of the fluid on itself, by marching toward the light; else by the shadow map */
+    bool jitter;        /* rays start at different parts of a step, so that no bands show */
+    bool skip;          /* empty bricks: else all between the faces of the volume is marched through */
 } RaycastDef;
 
 typedef struct ViewDef {

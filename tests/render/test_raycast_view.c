@@ -134,10 +134,10 @@ static void water_of_index_one_is_not_seen(void **state)
     picture.def.raycast.look = RAYCAST_WATER;
     picture.def.color_by = SCALAR_FLUID;
     picture.def.raycast.ior = 1;
-    picture.def.raycast.attenuation_distance = 1e5;
+    picture.def.raycast.attenuation = 1e5;
     Image clear = drawn(&picture, true);
     picture.def.raycast.ior = 1.333;
-    picture.def.raycast.attenuation_distance = 0;
+    picture.def.raycast.attenuation = 0;
     Image water = drawn(&picture, false);
     text_set(picture.def.kind, "none");
     Image nothing = drawn(&picture, false);
