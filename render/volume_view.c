@@ -34,11 +34,13 @@ static void destroy(void *state)
 /* The box's volume: what the fluid's may become. */
 static bool accepts(void *state, const ViewDef *def, Error *error)
 {
-    const VolumeView *view = state;
+    VolumeView *view = state;
     ParticleBuffers space = {.spacing = def->spacing, .support_radius = def->support_radius};
     VolumeGrid grid;
     for (int k = 0; k < 3; k++)
         space.box_size[k] = def->box_size[k];
+    if (!voxelizer_prepare(view->voxelizer, &def->volume, error))
+        return false;
     if (!(def->spacing > 0))
         return true;
     return volume_grid_for(&def->volume, &space, &grid, error) &&

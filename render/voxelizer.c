@@ -204,16 +204,20 @@ static double ordered(GLuint value)
     return number;
 }
 
-/* Asks the GPU, which this waits for: the grid's size is known on this side. */
-static bool crop_to_fluid(Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *whole,
-                          VolumeGrid *grid, Error *error)
+bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, Error *error)
 {
     static const char *const stages[] = {"render/volume_bounds.comp", NULL};
+    if (def->bounds == VOLUME_FLUID && !voxelizer->find_bounds)
+        voxelizer->find_bounds = program_create("volume bounds", stages, NULL, error);
+    return def->bounds != VOLUME_FLUID || voxelizer->find_bounds;
+}
+
+/* Asks the GPU, which this waits for: the grid's size is known on this side. */
+static void crop_to_fluid(const Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *whole,
+                          VolumeGrid *grid)
+{
     GLuint found[6] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0, 0, 0};
     double low[3], high[3];
-    if (!voxelizer->find_bounds &&
-        !(voxelizer->find_bounds = program_create("volume bounds", stages, NULL, error)))
-        return false;
     glNamedBufferSubData(voxelizer->bounds, 0, sizeof found, found);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, voxelizer->bounds);
     glUseProgram(voxelizer->find_bounds);
@@ -226,7 +230,6 @@ static bool crop_to_fluid(Voxelizer *voxelizer, const VoxelizeJob *job, const Vo
         high[k] = ordered(found[3 + k]);
     }
     volume_grid_crop(whole, low, high, job->particles->support_radius, grid);
-    return true;
 }
 
 /* A scene of two dimensions is as deep as its particles; their volumes are areas, and the kernel is that of
@@ -259,8 +262,7 @@ static bool make_volume(Voxelizer *voxelizer, const VolumeDef *def, const Voxeli
     VolumeGrid grid = *whole;
     fill_block(voxelizer, job, &grid);
     if (def->bounds == VOLUME_FLUID) {
-        if (!crop_to_fluid(voxelizer, job, whole, &grid, error))
-            return false;
+        crop_to_fluid(voxelizer, job, whole, &grid);
         fill_block(voxelizer, job, &grid);
     }
     if (!follow_grid(voxelizer, &grid, error))
@@ -275,7 +277,7 @@ bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuf
 {
     VolumeGrid whole;
     *out = (Volume){0};
-    if (!volume_grid_for(def, particles, &whole, error))
+    if (!volume_grid_for(def, particles, &whole, error) || !voxelizer_prepare(voxelizer, def, error))
         return false;
     const VoxelizeJob job = make_job(voxelizer, particles, carried, &whole);
     if (!make_volume(voxelizer, def, &job, &whole, error))

@@ -2,6 +2,7 @@
 #include "tests/render/volume_fixture.h"
 
 #include "render/view.h"
+#include "sim/gl/program.h"
 #include "sim/gl/shader_source.h"
 
 static VolumeGrid grid_of(const VolumeDef *def, const ParticleBuffers *state)
@@ -125,6 +126,12 @@ static void a_view_refuses_what_does_not_fit(void **state)
     def.volume.cells = 4096;
     assert_false(renderer_set_def(renderer, &def, &error));
     def.volume.cells = 96;
+    assert_true(renderer_set_def(renderer, &def, &error));
+    def.volume.bounds = VOLUME_FLUID; /* whose shader was not wanted before */
+    program_set_directory("no/such/folder");
+    assert_false(renderer_set_def(renderer, &def, &error));
+    assert_non_null(strstr(error.message, "volume_bounds.comp"));
+    program_set_directory(NULL);
     assert_true(renderer_set_def(renderer, &def, &error));
     renderer_destroy(renderer);
 }
