@@ -43,14 +43,14 @@ typedef struct Voxelizer Voxelizer;
 Voxelizer *voxelizer_create(VolumeMethod method, bool scalar, Error *error);
 void voxelizer_destroy(Voxelizer *voxelizer); /* NULL is allowed */
 
-/* Makes beforehand what only some defs need, so that what does not compile is known before a picture is due.
-   False when a shader does not. */
-bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, Error *error);
+/* Takes beforehand what runs for that def need: the memory of the whole grid, or the shader that finds the
+   fluid's bounds; so that what is not there is known before a picture is due. False when it is not. */
+bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, const VolumeGrid *whole, Error *error);
 
 /* Makes the volume of these particles. The scalar carried is `carried`, where it is there, else 0. What `out`
    names belongs to the voxelizer and holds until its next run. Particles outside the whole
-   grid, and those whose position or volume is not finite, count for nothing. False when memory is short,
-   or a shader does not compile that was not prepared: `out` is then empty. */
+   grid, and those whose position or volume is not finite, count for nothing. False when memory is short
+   or a shader does not compile: `out` is then empty. */
 bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuffers *particles,
                    Scalar carried, Volume *out, Error *error);
 

@@ -39,12 +39,11 @@ static bool accepts(void *state, const ViewDef *def, Error *error)
     VolumeGrid grid;
     for (int k = 0; k < 3; k++)
         space.box_size[k] = def->box_size[k];
-    if (!voxelizer_prepare(view->voxelizer, &def->volume, error))
-        return false;
     if (!(def->spacing > 0))
         return true;
     return volume_grid_for(&def->volume, &space, &grid, error) &&
-           voxelizer_fits(view->voxelizer, &grid, def->support_radius, error);
+           voxelizer_fits(view->voxelizer, &grid, def->support_radius, error) &&
+           voxelizer_prepare(view->voxelizer, &def->volume, &grid, error);
 }
 
 static bool create_raycast(VolumeView *view, const ViewDef *def, Error *error)

@@ -20,6 +20,8 @@ typedef struct VoxelizeMethod {
     void *(*create)(VolumeMethod method, bool scalar, Error *error);
     void (*destroy)(void *state);
     bool (*fits)(const VolumeGrid *grid, double radius, Error *error); /* NULL: whatever a texture takes */
+    /* Takes the memory that such volumes need beside their textures. NULL: none. */
+    bool (*reserve)(void *state, const VolumeGrid *grid, Error *error);
     bool (*run)(void *state, const VoxelizeJob *job, Error *error);
 } VoxelizeMethod;
 

@@ -180,6 +180,12 @@ static bool follow_packed(ByPoints *own, const VolumeGrid *grid, Error *error)
     return true;
 }
 
+static bool points_reserve(void *state, const VolumeGrid *grid, Error *error)
+{
+    ByPoints *own = state;
+    return own->method != VOLUME_PLANES || follow_packed(own, grid, error);
+}
+
 static void unpack(const ByPoints *own, const GLuint textures[2], const int size[3])
 {
     glUseProgram(own->unpack);
@@ -244,5 +250,6 @@ const VoxelizeMethod voxelize_points = {
     .create = points_create,
     .destroy = points_destroy,
     .fits = points_fit,
+    .reserve = points_reserve,
     .run = points_run,
 };

@@ -54,21 +54,28 @@ static bool remake(float **values, size_t count)
     return *values != NULL;
 }
 
-static bool reserve(Slabs *own, size_t count, size_t cells)
+static bool reserve_cells(void *state, const VolumeGrid *grid, Error *error)
+{
+    Slabs *own = state;
+    const size_t cells = volume_grid_cells(grid);
+    if (cells == own->cells)
+        return true;
+    own->cells = 0;
+    if (!remake(&own->field, cells) || (own->scalar && !remake(&own->weighted, cells)))
+        return error_set(error, "no memory for the sums of a volume; take larger cells");
+    own->cells = cells;
+    return true;
+}
+
+static bool reserve(Slabs *own, size_t count, const VolumeGrid *grid, Error *error)
 {
     if (count > own->capacity || !own->position) {
         own->capacity = 0;
         if (!remake(&own->position, 4 * count + 4) || (own->scalar && !remake(&own->value, count + 1)))
-            return false;
+            return error_set(error, "no memory to read %zu particles", count);
         own->capacity = count;
     }
-    if (cells != own->cells) {
-        own->cells = 0;
-        if (!remake(&own->field, cells) || (own->scalar && !remake(&own->weighted, cells)))
-            return false;
-        own->cells = cells;
-    }
-    return true;
+    return reserve_cells(own, grid, error);
 }
 
 /* Into rows of `words` floats. */
@@ -186,9 +193,7 @@ static bool slabs_run(void *state, const VoxelizeJob *job, Error *error)
     Slabs *own = state;
     const VolumeGrid *grid = &job->volume->grid;
     FieldParticles particles = {0};
-    if (!reserve(own, job->particles->count, volume_grid_cells(grid)))
-        return error_set(error, "no memory for the sums of a volume; take larger cells");
-    if (!read_particles(own, job, &particles, error) ||
+    if (!reserve(own, job->particles->count, grid, error) || !read_particles(own, job, &particles, error) ||
         !field_sum(&particles, grid, parallel_processors(), &own->slabs, own->field, own->weighted, error))
         return false;
     const Region now = region_of(&particles, grid);
@@ -199,5 +204,6 @@ static bool slabs_run(void *state, const VoxelizeJob *job, Error *error)
 const VoxelizeMethod voxelize_slabs = {
     .create = slabs_create,
     .destroy = slabs_destroy,
+    .reserve = reserve_cells,
     .run = slabs_run,
 };

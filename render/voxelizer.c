@@ -170,6 +170,7 @@ static bool follow_grid(Voxelizer *voxelizer, const VolumeGrid *grid, Error *err
     volume->field = volume_texture(grid->size, GL_R32F, "volume field");
     if (volume->field && voxelizer->scalar)
         volume->scalar = volume_texture(grid->size, GL_R32F, "volume scalar");
+    volume->grid = *grid;
     if (volume->field && (volume->scalar || !voxelizer->scalar))
         return true;
     delete_textures(volume);
@@ -204,12 +205,20 @@ static double ordered(GLuint value)
     return number;
 }
 
-bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, Error *error)
+static bool prepare_bounds(Voxelizer *voxelizer, Error *error)
 {
     static const char *const stages[] = {"render/volume_bounds.comp", NULL};
-    if (def->bounds == VOLUME_FLUID && !voxelizer->find_bounds)
+    if (!voxelizer->find_bounds)
         voxelizer->find_bounds = program_create("volume bounds", stages, NULL, error);
-    return def->bounds != VOLUME_FLUID || voxelizer->find_bounds;
+    return voxelizer->find_bounds != 0;
+}
+
+bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, const VolumeGrid *whole, Error *error)
+{
+    if (def->bounds == VOLUME_FLUID)
+        return prepare_bounds(voxelizer, error);
+    return follow_grid(voxelizer, whole, error) &&
+           (!voxelizer->by->reserve || voxelizer->by->reserve(voxelizer->state, whole, error));
 }
 
 /* Asks the GPU, which this waits for: the grid's size is known on this side. */
@@ -277,7 +286,8 @@ bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuf
 {
     VolumeGrid whole;
     *out = (Volume){0};
-    if (!volume_grid_for(def, particles, &whole, error) || !voxelizer_prepare(voxelizer, def, error))
+    if (!volume_grid_for(def, particles, &whole, error) ||
+        (def->bounds == VOLUME_FLUID && !prepare_bounds(voxelizer, error)))
         return false;
     const VoxelizeJob job = make_job(voxelizer, particles, carried, &whole);
     if (!make_volume(voxelizer, def, &job, &whole, error))

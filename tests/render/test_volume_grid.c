@@ -5,6 +5,9 @@
 #include "sim/gl/program.h"
 #include "sim/gl/shader_source.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 static VolumeGrid grid_of(const VolumeDef *def, const ParticleBuffers *state)
 {
     VolumeGrid grid;
@@ -207,6 +210,52 @@ static void shaders_sample_the_field(void **state)
     }
 }
 
+/* Limits the address space to so many bytes more than there are; false where a sanitizer would end the
+ * program. */
+static bool leave_memory(rlim_t left, struct rlimit *usual)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(__clang__)
+    (void)left, (void)usual;
+    return false;
+#else
+    unsigned long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    assert_non_null(file);
+    assert_int_equal(fscanf(file, "%lu", &pages), 1);
+    fclose(file);
+    assert_int_equal(getrlimit(RLIMIT_AS, usual), 0);
+    const struct rlimit limit = {pages * (rlim_t)sysconf(_SC_PAGESIZE) + left, usual->rlim_max};
+    return gl_renderer_is_software() && setrlimit(RLIMIT_AS, &limit) == 0;
+#endif
+}
+
+/* Of the texture or of the sums beside it: when the view is made, not with a first picture, which would be
+ * empty. */
+static void memory_that_is_short_is_said_before_a_picture(void **state)
+{
+    (void)state;
+    int texture = 0, sums = 0;
+    View *view = NULL;
+    ViewDef def = bare_view();
+    text_set(def.kind, "volume");
+    memcpy(def.box_size, (double[3]){2, 1, 1}, sizeof def.box_size);
+    def.spacing = 0.05, def.support_radius = 0.105;
+    def.volume.cells = 250, def.volume.method = VOLUME_SLABS, def.color_by = SCALAR_FLUID; /* 25 MB */
+    for (rlim_t left = 10 << 20; !view && !sums && left < 300 << 20; left += 12 << 20) {
+        struct rlimit usual;
+        Error error = {0};
+        if (!leave_memory(left, &usual))
+            skip();
+        view = view_create(&def, &error);
+        assert_int_equal(setrlimit(RLIMIT_AS, &usual), 0);
+        texture += strstr(error.message, "no memory for a volume of") != NULL;
+        sums += strstr(error.message, "no memory for the sums of a volume") != NULL;
+    }
+    view_destroy(view);
+    assert_true(texture > 0 && sums > 0);
+    gl_debug_install(); /* forgets what the driver said of it */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -216,6 +265,7 @@ int main(void)
         cmocka_unit_test_teardown(too_wide_a_particle_is_refused, no_gl_errors),
         cmocka_unit_test_teardown(a_view_refuses_what_does_not_fit, no_gl_errors),
         cmocka_unit_test_teardown(shaders_sample_the_field, no_gl_errors),
+        cmocka_unit_test_teardown(memory_that_is_short_is_said_before_a_picture, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
