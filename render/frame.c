@@ -170,6 +170,12 @@ static void make_radii(Frame *frame, const ParticleBuffers *particles, double ra
     }
 }
 
+/* A fifth of the longest side; in two dimensions the one layer's depth, for one sees through no more. */
+static float usual_attenuation(const double size[3], double slab)
+{
+    return (float)(slab > 0 ? slab : fmax(size[0], fmax(size[1], size[2])) / 5);
+}
+
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
                 double radius, double covered_left)
 {
@@ -182,6 +188,7 @@ void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particl
     matrix_transform(frame->box_to_world, middle, center);
     make_light(frame, particles->box_size, center);
     frame->slab = flat_depth(particles);
+    frame->attenuation = usual_attenuation(particles->box_size, frame->slab);
     make_radii(frame, particles, radius);
     make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box, particles->time);

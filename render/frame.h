@@ -30,6 +30,8 @@ typedef struct Frame {
     float particle_reach;      /* how far from a particle it may be drawn, m */
     float shadow_radius;       /* of a particle as the light sees it, m */
     double slab;               /* depth of the box of a scene of two dimensions, m; 0 in three */
+    float attenuation;         /* through which white light gets a clear fluid's colour where the scene names
+                                  no distance, m */
     float bounds[4];           /* x0 x1 y0 y1 in -1..1 that hold all particles; the whole picture when some
                                   may be beside or behind the eye */
     float nearest;             /* least distance of a particle along the eye's axis, m; may be negative */

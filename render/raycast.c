@@ -236,18 +236,16 @@ static void bind_maps(const Raycast *raycast, const Target *target)
     glBindTextureUnit(12, raycast->solids ? target->depth : 0);
 }
 
-/* Without solids all that one looks through the fluid at is sky and floor, which need no copy. A fifth of the
-   longest side where the scene names no distance. */
-static void look_through(Raycast *raycast, const ParticleBuffers *particles, const Frame *frame)
+/* Without solids all that one looks through the fluid at is sky and floor, which need no copy. */
+static void look_through(Raycast *raycast, const Frame *frame)
 {
     const RaycastDef *cast = &frame->def->raycast;
-    const double *box = particles->box_size, fifth = fmax(box[0], fmax(box[1], box[2])) / 5;
     if (raycast->solids)
         behind_take(&raycast->behind, frame);
     else
         glBindTextureUnit(3, frame->floor_light);
     glProgramUniform2f(raycast->program, 2, (GLfloat)cast->ior,
-                       (GLfloat)(cast->attenuation > 0 ? cast->attenuation : fifth));
+                       cast->attenuation > 0 ? (GLfloat)cast->attenuation : frame->attenuation);
 }
 
 /* Rays end at solids, so that what they find is always before them. */
@@ -295,7 +293,7 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
     bricks_make(&raycast->bricks, volume);
     draw_faces(raycast, frame);
     if (raycast->look == RAYCAST_WATER)
-        look_through(raycast, particles, frame);
+        look_through(raycast, frame);
     march(raycast, frame, block.march[3] > 0);
     write_depth(raycast, frame);
 }

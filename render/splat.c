@@ -273,7 +273,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
             splat->shown = narrow_range_draw(&splat->filter, &splat->maps, frame);
         }
     GL_STAGE(frame->timer, STAGE_SHADE)
-    splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, frame, particles->box_size);
+    splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, frame);
     if (silhouette_wanted(&splat->def))
         GL_STAGE(frame->timer, STAGE_ANTIALIAS)
         {

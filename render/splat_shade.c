@@ -8,16 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Where the scene names no distance a fifth of the longest side; in two dimensions the one layer's depth, for
-   one sees through no more. */
-static float attenuation_distance(const Frame *frame, const double box_size[3])
-{
-    const double named = frame->def->splat.attenuation,
-                 usual =
-                     frame->slab > 0 ? frame->slab : fmax(box_size[0], fmax(box_size[1], box_size[2])) / 5;
-    return (float)(named > 0 ? named : usual);
-}
-
 bool splat_shade_wants_thickness(const SplatDef *def)
 {
     return def->show == SPLAT_THICKNESS || (def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG);
@@ -53,10 +43,12 @@ void splat_shade_destroy(SplatShade *shade)
 }
 
 /* What a clear fluid's shading reads besides. */
-static void look_through(SplatShade *shade, unsigned program, const Frame *frame, const double box_size[3])
+static void look_through(SplatShade *shade, unsigned program, const Frame *frame)
 {
+    const SplatDef *def = &frame->def->splat;
     behind_take(&shade->behind, frame);
-    glProgramUniform2f(program, 2, (float)frame->def->splat.ior, attenuation_distance(frame, box_size));
+    glProgramUniform2f(program, 2, (float)def->ior,
+                       def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);
 }
 
 /* Blends what the fluid covers of pixels with what is behind it. */
@@ -68,13 +60,12 @@ static void begin_mixing(const Frame *frame)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame,
-                      const double box_size[3])
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame)
 {
     const bool mixing = shade->mixing && splat_sprites_small(frame);
     const unsigned program = mixing ? shade->mixing : shade->program;
     if (shade->clear)
-        look_through(shade, program, frame, box_size);
+        look_through(shade, program, frame);
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
     glEnable(GL_DEPTH_TEST);

@@ -22,9 +22,8 @@ void splat_shade_destroy(SplatShade *shade);
 
 /* Writes colour and depth of the surface. Solids are in the target already: the test of depth says who hides
    whom. `thickness`: the texture of render/thickness.h where the shading reads it
-   (splat_shade_wants_thickness), else 0. `box_size` in m. */
-void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame,
-                      const double box_size[3]);
+   (splat_shade_wants_thickness), else 0. */
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame);
 
 bool splat_shade_wants_thickness(const SplatDef *def);
 
