@@ -175,6 +175,7 @@ void panel_key(Ui *ui, const PanelKey *row, PanelEvents *events)
         draw_range(ui, row, &field, events);
         break;
     case KEY_TEXT:
+    case KEY_AXES:
     case KEY_MAPPING:
     case KEY_VARIANT:
     case KEY_LIST:

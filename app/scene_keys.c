@@ -44,6 +44,10 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
         .path = PATH, .type = KEY_VEC3, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),             \
         .help = HELP                                                                                         \
     }
+#define AXES(PATH, AT, HELP)                                                                                 \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_AXES, .unit = "", PLACE(AT), .help = HELP                                  \
+    }
 #define INTEGER(PATH, FLAGS, LO, HI, AT, HELP)                                                               \
     {                                                                                                        \
         .path = PATH, .type = KEY_INTEGER, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), PLACE(AT),            \
@@ -132,11 +136,15 @@ static const Key keys[] = {
     VEC3("box.size", R, "m", 0.001, 1000, WORLD(box_size), "inner width (x), height (y), depth (z); [width, height] makes a scene of two dimensions, whose vectors may have two numbers"),
     CHOICE("box.slip", KEY_INDEX, slip_choice, WORLD(wall_slip),
            "how fluid passes the walls; none: they hold fluid that has a viscosity (no friction by solver.artificial_viscosity)"),
+    AXES("box.periodic", WORLD(periodic), "axes along which fluid that leaves the box comes in on the other side: [x], [x, y] and so on; not on backend fragment, and such a box does not turn"),
+    VEC3("box.lid", 0, "m/s", -1000, 1000, WORLD(lid), "velocity of the wall at the top, in its plane; with slip none"),
     VEC3("gravity", L, "m/s2", -1000, 1000, WORLD(gravity), "in the world's frame"),
 
     MAPPING("particles", "the resolution"),
     NUMBER("particles.spacing", R, "m", 1e-6, 100, WORLD(spacing), "distance of neighbours at rest"),
     NUMBER("particles.support", 0, "spacings", 1.5, 4, WORLD(support), "support radius h: how far a particle sees"),
+
+    NUMBER("particles.jitter", 0, "spacings", 0, 0.5, WORLD(jitter), "how far fills are off their lattice along each axis at most, the same way in each run"),
 
     LIST("fluids", R, 1, FLUIDS_MAX, WORLD(fluids), WORLD(fluid_count), FluidDef, fluid_init,
          "the fluids; where fills overlap, the first has the place"),
@@ -145,6 +153,7 @@ static const Key keys[] = {
     CURVE("fluids[].viscosity", L, "Pa s", 0, 1e6, FLUID(viscosity), FLUID(viscosity_table), "dynamic; water 0.001, olive oil 0.08, honey 10; or a table over time such as [[0, 50], [2, 50], [6, 0.1]]: seconds (ascending) and Pa s, at most 16 rows, straight lines between them, constant before and after"),
     NUMBER("fluids[].surface_tension", 0, "N/m", 0, 1000, FLUID(surface_tension), "where solver.surface_tension names a model; water 0.072"),
     VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
+    NUMBER("fluids[].taylor_green", 0, "m/s", 0, 1000, FLUID(taylor_green), "besides it at the start Taylor and Green's vortices of that speed, two by two in x and y, with their pressure"),
     COLOR("fluids[].color", L | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
     LIST("fluids[].fill", 0, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, fill_init,
          "what the fluid fills at the start: blocks, balls and cylinders; a fluid needs this or emitters"),
@@ -196,6 +205,8 @@ static const Key keys[] = {
     NUMBER("solver.artificial_viscosity", 0, "", 0, 1, WORLD(artificial_viscosity),
            "wcsph: alpha, for fluids without a viscosity; 0: none"),
     NUMBER("solver.delta_sph", 0, "", 0, 0.5, WORLD(delta_sph), "wcsph: diffusion of density, 0.1 as a rule; 0: none"),
+    NUMBER("solver.shifting", 0, "", 0, 1, WORLD(shifting),
+           "wcsph: keeps particles evenly spread, for flows without a surface, 0.05 as a rule; 0: none"),
     CHOICE("solver.backend", L, backend_choice, WORLD(backend), "what computes them"),
     INTEGER("solver.threads", 0, 0, 1024, WORLD(threads), "of the CPU; 0: one a processor"),
     INTEGER("solver.grid_layers", 0, 0, 63, WORLD(grid_layers),

@@ -17,6 +17,7 @@ typedef enum KeyType {
     KEY_TEXT,    /* char[NAME_SIZE] or larger */
     KEY_CHOICE,  /* a name of a list */
     KEY_VEC3,    /* double[3] */
+    KEY_AXES,    /* some of x, y, z: bool[3] */
     KEY_COLOR,   /* sRGB 0..1 in the file, linear in the Scene: float[3] or double[3] */
     KEY_CURVE,   /* a number or rows [s, number]: double, and a TimeTable at `aux` */
     KEY_RANGE    /* "auto" or [low, high]: double[2] and a bool */

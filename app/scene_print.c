@@ -30,6 +30,16 @@ static void curve_text(const TimeTable *table, double number, char *text, size_t
                          table->value[k], k + 1 < (int)table->rows ? "" : "]");
 }
 
+static void axes_text(const bool axes[3], char *text, size_t size)
+{
+    const char *names = "xyz";
+    int used = snprintf(text, size, "[");
+    for (int k = 0; k < 3; k++)
+        if (axes[k])
+            used += snprintf(text + used, size - (size_t)used, "%s%c", used > 1 ? ", " : "", names[k]);
+    snprintf(text + used, size - (size_t)used, "]");
+}
+
 void key_value_text(const Key *key, const void *base, char *text, size_t size)
 {
     *text = 0;
@@ -59,6 +69,9 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
         break;
     case KEY_VEC3:
         print_triple(text, size, "%.9g", (const double *)field);
+        break;
+    case KEY_AXES:
+        axes_text((const bool *)field, text, size);
         break;
     case KEY_COLOR:
         color_text(key, field, text, size);
@@ -157,6 +170,7 @@ void scene_keys_print(FILE *file)
         [KEY_TEXT] = "text",
         [KEY_CHOICE] = "name",
         [KEY_VEC3] = "[x, y, z]",
+        [KEY_AXES] = "list of axes",
         [KEY_COLOR] = "[r, g, b]",
         [KEY_RANGE] = "[low, high]",
     };

@@ -202,6 +202,22 @@ static bool read_vec3(const Value *value)
     return read_numbers(value, 3, flat ? "two numbers [x, y], or three" : "three numbers [x, y, z]", v);
 }
 
+static bool read_axes(const Value *value)
+{
+    static const char wanted[] = "a list of axes, such as [x] or [x, z]";
+    bool *axes = (bool *)value->field;
+    memset(axes, 0, 3 * sizeof *axes);
+    if (value->node->kind != NODE_SEQUENCE)
+        return wrong(value, value->node, wanted);
+    for (const Node *node = value->node->first; node; node = node->next) {
+        const bool one = node->kind == NODE_SCALAR && node->text && strlen(node->text) == 1;
+        if (!one || *node->text < 'x' || *node->text > 'z')
+            return wrong(value, node, wanted);
+        axes[*node->text - 'x'] = true;
+    }
+    return true;
+}
+
 static bool read_color(const Value *value)
 {
     double color[3] = {0};
@@ -243,6 +259,8 @@ bool value_read(const Tree *tree, const Key *key, const Node *node, const char *
         return read_choice(&value);
     case KEY_VEC3:
         return read_vec3(&value);
+    case KEY_AXES:
+        return read_axes(&value);
     case KEY_COLOR:
         return read_color(&value);
     case KEY_RANGE:

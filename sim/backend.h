@@ -43,6 +43,10 @@ typedef struct Backend {
     void (*continuity)(void *state, float dt);
     /* Acceleration by pressure, viscosity, walls and solids; eq. 10 and 14. */
     void (*force)(void *state, const ApparentGravity *gravity);
+    /* wcsph with shifting: moves particles down the gradient of their number density as it was at the last
+       `grid`, by a velocity of chi c h / 2 times that over n0: Lind 2012. The last of a step before `drift`.
+     */
+    void (*shift)(void *state, float dt);
     /* v += (acceleration + gravity) dt. */
     void (*kick)(void *state, const float gravity[3], float dt);
     /* What the kicks since the last call or `load` found; waits for them. */

@@ -138,7 +138,7 @@ static Phase motion_phase(const Motion *motion, double time)
     return phase;
 }
 
-static bool motion_translates(const Motion *motion)
+bool motion_translates(const Motion *motion)
 {
     return motion->kind == MOTION_SHAKE || motion->kind == MOTION_ACCELERATE;
 }
@@ -195,7 +195,5 @@ void box_state_at(const Motion list[], int count, double box_height, double time
 bool motion_in_plane(const Motion *motion)
 {
     const double *a = motion->axis;
-    const bool turns =
-        motion->kind == MOTION_ROCK || motion->kind == MOTION_TURN || motion->kind == MOTION_SPIN;
-    return turns ? a[0] == 0 && a[1] == 0 : a[2] == 0;
+    return !motion_translates(motion) ? a[0] == 0 && a[1] == 0 : a[2] == 0;
 }

@@ -74,6 +74,9 @@ void quat_rotate_inverse(const double q[4], const double v[3], double out[3]);
 void box_to_world(const BoxState *box, const double x[3], const double v[3], double x_world[3],
                   double v_world[3]);
 
+/* Whether it moves without turning. */
+bool motion_translates(const Motion *motion);
+
 /* Whether it keeps the plane z = 0 in itself. */
 bool motion_in_plane(const Motion *motion);
 

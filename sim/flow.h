@@ -3,6 +3,7 @@
 #define SLOSH_FLOW_H
 
 #include "sim/error.h"
+#include "sim/periodic.h"
 #include "sim/world_def.h"
 
 /* One layer on its way into a world. */
@@ -36,13 +37,14 @@ enum { GUIDES_MAX = FLUIDS_MAX * EMITS_MAX };
 int flow_guides(const WorldDef *def, double time, Guide guides[GUIDES_MAX]);
 
 /* Whether the guide holds a particle of that fluid at x. */
-static inline bool guide_holds(const Guide *guide, int fluid, const float x[3])
+static inline bool guide_holds(const Guide *guide, const Periodic *periodic, int fluid, const float x[3])
 {
     float along = 0, r2 = 0;
+    float d[3] = {x[0] - guide->centre[0], x[1] - guide->centre[1], x[2] - guide->centre[2]};
+    periodic_nearest(periodic, d);
     for (int k = 0; k < 3; k++) {
-        const float d = x[k] - guide->centre[k];
-        along += d * guide->direction[k];
-        r2 += d * d;
+        along += d[k] * guide->direction[k];
+        r2 += d[k] * d[k];
     }
     return fluid == guide->fluid && along >= 0 && along < guide->depth &&
            r2 - along * along < guide->radius * guide->radius;

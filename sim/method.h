@@ -11,6 +11,7 @@ typedef struct Substep {
     void *state;
     StageClock *clock; /* may be NULL */
     double dt;         /* s */
+    bool shifts;       /* particles, by Backend.shift */
     FrameStep first_half, second_half;
     int guide_count; /* of the emitters at work */
     Guide guides[GUIDES_MAX];

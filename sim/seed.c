@@ -104,20 +104,23 @@ static bool taken_before(const WorldDef *def, int fluid, int index, const double
     return false;
 }
 
-/* Range of lattice indices that a fill may cover; the point of index i lies at first + i * spacing. */
+/* Range of lattice indices that a fill may cover; the point of index i lies at first + i * step. */
 typedef struct Axis {
-    double first;
+    double first, step; /* m */
     long begin, end;
 } Axis;
 
 static Axis lattice_axis(const WorldDef *def, const Fill *fill, int k)
 {
     if (k >= def->dimensions)
-        return (Axis){.first = 0, .begin = 0, .end = 1};
-    const double s = def->spacing, points = floor(def->box_size[k] / s + slack);
+        return (Axis){.first = 0, .step = def->spacing, .begin = 0, .end = 1};
+    /* across a periodic side the lattice goes on without a seam */
+    const double size = def->box_size[k], whole = fmax(1, round(size / def->spacing));
+    const double s = def->periodic[k] ? size / whole : def->spacing;
+    const double points = def->periodic[k] ? whole : floor(size / s + slack);
     double low[3], high[3];
     fill_bounds(fill, low, high);
-    Axis axis = {.first = k == 1 ? 0.5 * s : -0.5 * (points - 1) * s};
+    Axis axis = {.step = s, .first = k == 1 ? 0.5 * s : -0.5 * (points - 1) * s};
     axis.begin = (long)fmax(0, floor((low[k] - axis.first) / s));
     axis.end = (long)fmin(points, ceil((high[k] - axis.first) / s) + 1);
     return axis;
@@ -127,15 +130,14 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
 {
     const WorldDef *def = stand->def;
     const Fill *fill = &def->fluids[fluid].fills[index];
-    const double s = def->spacing;
     const Axis ax = lattice_axis(def, fill, 0), ay = lattice_axis(def, fill, 1),
                az = lattice_axis(def, fill, 2);
     size_t count = 0;
     for (long iz = az.begin; iz < az.end; iz++)
         for (long iy = ay.begin; iy < ay.end; iy++)
             for (long ix = ax.begin; ix < ax.end; ix++) {
-                const double x[3] = {ax.first + (double)ix * s, ay.first + (double)iy * s,
-                                     az.first + (double)iz * s};
+                const double x[3] = {ax.first + (double)ix * ax.step, ay.first + (double)iy * ay.step,
+                                     az.first + (double)iz * az.step};
                 if (!fill_covers(def, fill, x) || taken_before(def, fluid, index, x) || !is_free(stand, x))
                     continue;
                 for (size_t k = 0; position && k < 3; k++)

@@ -1,7 +1,8 @@
 /* The initial state: the fills of a def become particles on one lattice.
 
    The lattice has a point half a spacing above the floor and is centred between the walls, half a spacing
-   from them where the box's width is a whole number of spacings; fluids that touch therefore never overlap.
+   from them where the box's width is a whole number of spacings; along a periodic axis its spacing is the
+   nearest of which the width is a whole number; fluids that touch therefore never overlap.
    Where fills overlap, the first fill of the first fluid has the point; none is within half a spacing of a
    solid. */
 #ifndef SLOSH_SEED_H

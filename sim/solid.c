@@ -128,3 +128,31 @@ double solid_reach(const SolidDef *solid)
         return solid->radius;
     }
 }
+
+/* How far its motions carry it along the axis, m. */
+static double way_along(const SolidDef *solid, int axis)
+{
+    double way = 0;
+    for (int i = 0; i < solid->motion_count; i++) {
+        const Motion *motion = &solid->motions[i];
+        const double along = fabs(motion->axis[axis]) / length(motion->axis);
+        if (motion->kind == MOTION_SHAKE)
+            way += motion->amplitude * along;
+        if (motion->kind == MOTION_ACCELERATE && along > 0)
+            way = INFINITY;
+    }
+    return way;
+}
+
+bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, double high)
+{
+    bool turned = solid->kind != SOLID_BOX || solid->angle_deg != 0;
+    for (int i = 0; i < solid->motion_count; i++)
+        turned |= !motion_translates(&solid->motions[i]);
+    SolidDef flat = *solid;
+    if (dimensions == 2)
+        flat.size[2] = 0;
+    const double half = turned ? solid_reach(&flat) : 0.5 * solid->size[axis];
+    const double reach = (1 - 1e-9) * half + way_along(solid, axis);
+    return solid->centre[axis] - reach >= low && solid->centre[axis] + reach <= high;
+}

@@ -57,6 +57,10 @@ double solid_distance(const SolidDef *solid, int dimensions, const double x[3]);
 /* Unit vector along which the distance grows fastest. */
 void solid_normal(const SolidDef *solid, int dimensions, const double x[3], double normal[3]);
 
+/* Whether it is always between `low` and `high` (m) along that axis of the box; false where that is not plain
+   to see, as for one that is accelerated along it. */
+bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, double high);
+
 /* Radius of a ball about the frame's origin that holds it, m. */
 double solid_reach(const SolidDef *solid);
 

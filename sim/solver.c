@@ -108,6 +108,36 @@ static bool fluids_check(const WorldDef *def, Error *error)
     return true;
 }
 
+/* Where the sides across an axis are one. */
+static bool periodic_check(const WorldDef *def, Error *error)
+{
+    const double h = def->support * def->spacing;
+    bool any = false;
+    for (int k = 0; k < 3; k++) {
+        any |= def->periodic[k];
+        if (def->periodic[k] && k >= def->dimensions)
+            return error_set(error, "a 2D scene has no sides in z that could be periodic");
+        if (def->periodic[k] && !(def->box_size[k] >= 2 * h))
+            return error_set(error,
+                             "along a periodic axis the box must be two support radii wide, %g m, not %g m; "
+                             "use a smaller spacing",
+                             2 * h, def->box_size[k]);
+    }
+    for (int i = 0; i < def->motion_count; i++)
+        if (any && !motion_translates(&def->motions[i]))
+            return error_set(error,
+                             "motion %d: a box with periodic sides does not turn; shake or accelerate it", i);
+    for (int i = 0; i < def->solid_count; i++)
+        for (int k = 0; k < 3; k++)
+            if (def->periodic[k] &&
+                !solid_between(&def->solids[i], def->dimensions, k, k == 1 ? 0 : -0.5 * def->box_size[k],
+                               k == 1 ? def->box_size[1] : 0.5 * def->box_size[k]))
+                return error_set(
+                    error, "solid %d reaches over a periodic side, or may come there; keep it inside the box",
+                    i);
+    return true;
+}
+
 static bool def_check(const WorldDef *def, Error *error)
 {
     if (def->dimensions != 2 && def->dimensions != 3)
@@ -123,19 +153,38 @@ static bool def_check(const WorldDef *def, Error *error)
         return error_set(error, "dt and sound_speed must be positive, substeps at least 1");
     if (def->wall_slip != SLIP_FREE && def->wall_slip != SLIP_NONE)
         return error_set(error, "the walls' slip is free or none");
+    if (!(def->shifting >= 0 && def->shifting <= 1) ||
+        (def->shifting > 0 && strcmp(def->method, "wcsph") != 0))
+        return error_set(error, "shifting is 0 to 1, and of method wcsph alone");
+    if (length2(def->lid) > 0 && (def->wall_slip != SLIP_NONE || def->lid[1] != 0 || def->periodic[1] ||
+                                  !isfinite(length2(def->lid)) || (def->dimensions == 2 && def->lid[2] != 0)))
+        return error_set(error,
+                         "a lid moves in its plane, the top of a box whose walls hold fluid: slip none");
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
     return fluids_check(def, error) &&
            motions_check(def->motions, def->motion_count, def->dimensions, error) && grid_check(def, error) &&
-           solids_check(def, error) && flow_check(def, error);
+           solids_check(def, error) && flow_check(def, error) && periodic_check(def, error);
 }
 
-static bool cells_set(CellGrid *cells, const double box_size[3], int dimensions, double h, Error *error)
+static void periodic_set(Periodic *periodic, const WorldDef *def)
+{
+    for (int k = 0; k < 3; k++) {
+        periodic->axis[k] = def->periodic[k];
+        periodic->any |= def->periodic[k];
+        periodic->size[k] = (float)def->box_size[k];
+        periodic->low[k] = k == 1 ? 0 : -0.5F * (float)def->box_size[k];
+    }
+}
+
+static bool cells_set(CellGrid *cells, const WorldDef *def, double h, Error *error)
 {
     double count = 1;
     for (int k = 0; k < 3; k++) {
-        const double size = k < dimensions ? box_size[k] : 0, low = k == 1 ? 0 : -0.5 * size;
-        const double first = floor(low / h) - 1, last = floor((low + size) / h) + 1;
+        const double size = k < def->dimensions ? def->box_size[k] : 0, low = k == 1 ? 0 : -0.5 * size;
+        const double whole = floor(size / h * (1 + 1e-6));
+        const double first = def->periodic[k] ? -1 : floor(low / h) - 1,
+                     last = def->periodic[k] ? whole : floor((low + size) / h) + 1;
         count *= last - first + 1;
         /* whole numbers up to 2^24 are exact in single precision */
         if (!(count < 0x1p31) || !(last - first < 0x1p24))
@@ -143,6 +192,8 @@ static bool cells_set(CellGrid *cells, const double box_size[3], int dimensions,
                 error,
                 "the box holds more than 2^31 cells of side %g m, or 2^24 along an axis; use a larger spacing",
                 h);
+        cells->origin[k] = def->periodic[k] ? (float)low : 0;
+        cells->inverse[k] = def->periodic[k] ? (float)(whole / size) : 1 / (float)h;
         cells->first[k] = (int)first;
         cells->size[k] = (int)(last - first) + 1;
     }
@@ -161,6 +212,8 @@ static void fluids_set(Solver *solver, const WorldDef *def)
     solver->viscous = solver->varies = false;
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     solver->diffusion = (float)(2 * def->delta_sph * c * reach);
+    solver->sound_speed = (float)c;
+    solver->shifting = (float)(def->shifting * c * reach);
     solver->artificial = false;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
@@ -177,6 +230,9 @@ static void fluids_set(Solver *solver, const WorldDef *def)
         solver->varies |= fluid->viscosity_table.rows > 0;
     }
     solver->no_slip = solver->viscous && def->wall_slip == SLIP_NONE;
+    solver->lid = solver->no_slip && length2(def->lid) > 0;
+    for (int k = 0; k < 3; k++)
+        solver->lid_velocity[k] = (float)def->lid[k];
 }
 
 /* The tables of what the walls do, as far as the def needs them and they are not there. */
@@ -186,8 +242,8 @@ static bool drag_set(Solver *solver, const WorldDef *def, Error *error)
     for (int f = 0; f < def->fluid_count; f++)
         needed |= def->wall_slip == SLIP_NONE && fluid_viscosity_most(&def->fluids[f]) > 0;
     if (!needed || solver->drag.table[0] ||
-        wall_drag_create(&solver->drag, def->box_size, def->spacing, def->support * def->spacing,
-                         &solver->lattice, solver->continuity))
+        wall_drag_create(&solver->drag, def->box_size, def->periodic, def->spacing,
+                         def->support * def->spacing, &solver->lattice, solver->continuity))
         return true;
     return error_set(error, "no memory for the friction of the walls");
 }
@@ -234,9 +290,10 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     if (!kernel)
         return error_set(error, "unknown kernel '%s'; `slosh info` lists them",
                          continuity ? def->kernel : def->density_kernel);
-    if (!def_check(def, error) || !cells_set(&solver->cells, def->box_size, def->dimensions, h, error))
+    if (!def_check(def, error) || !cells_set(&solver->cells, def, h, error))
         return false;
 
+    periodic_set(&solver->periodic, def);
     solver->first_row = def->dimensions == 2 ? 3 : 0;
     solver->last_row = def->dimensions == 2 ? 6 : 9;
     lattice_calibrate(def->dimensions, def->spacing, h, kernel,
@@ -253,7 +310,8 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     if (continuity)
         wcsph_set(solver, kernel, h);
     fluids_set(solver, def);
-    if (!walls_create(&solver->walls, def->box_size, def->spacing, h, kernel, &solver->lattice))
+    if (!walls_create(&solver->walls, def->box_size, def->periodic, def->spacing, h, kernel,
+                      &solver->lattice))
         return error_set(error, "no memory for the tables of the walls");
     solver->dimensions = def->dimensions;
     solver->emits = flow_emits(def);

@@ -6,14 +6,17 @@
 #include "sim/boundary.h"
 #include "sim/error.h"
 #include "sim/lattice.h"
+#include "sim/periodic.h"
 #include "sim/tension.h"
 #include "sim/wall.h"
 #include "sim/wall_drag.h"
 #include "sim/world_def.h"
 
 /* The grid of cells of side h: cell (i, j, k) holds floor(x / h) = first + (i, j, k), of one global lattice
-   whatever the box; one empty layer on each side saves the neighbour search its bounds. */
+   whatever the box; one empty layer on each side saves the neighbour search its bounds. Along a periodic axis
+   a whole number of cells, of side h at least, fills the box from its low side on. */
 typedef struct CellGrid {
+    float origin[3], inverse[3]; /* floor((x - origin) * inverse); m, 1/m */
     int first[3];
     int size[3]; /* the empty layers included; x runs fastest */
     size_t count;
@@ -44,15 +47,20 @@ typedef struct Solver {
     bool artificial;
     float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
     float diffusion;                        /* 2 delta c (h / 2), m2/s; 0: none */
+    float sound_speed;                      /* m/s */
+    float shifting;                         /* chi c h / 2, m2/s; 0: none: see sim/cpu/shift.c */
     TensionModel tension_model;             /* none where no fluid has a tension */
     float tension[FLUIDS_MAX];              /* sigma, N/m; of cohesion times its scale */
     float colour;                           /* colour_scale */
     CellGrid cells;
+    Periodic periodic;
     int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
     Lattice lattice;
     Walls walls;
-    bool no_slip;  /* walls hold fluid: the def says so and some fluid is viscous */
-    WallDrag drag; /* made once `no_slip` is first true */
+    bool no_slip;          /* walls hold fluid: the def says so and some fluid is viscous */
+    bool lid;              /* and the one at the top moves, */
+    float lid_velocity[3]; /* so, m/s */
+    WallDrag drag;         /* made once `no_slip` is first true */
     int dimensions;
     bool emits, drains; /* fluid may come; go */
     int grid_layers;    /* of backend fragment's grid: each holds four particles a cell */

@@ -135,8 +135,8 @@ static bool table_create(WallTable *table, const Behind *behind, double step, do
     return true;
 }
 
-bool walls_create(Walls *walls, const double box_size[3], double spacing, double support_radius,
-                  const Kernel *density_kernel, const Lattice *lattice)
+bool walls_create(Walls *walls, const double box_size[3], const bool open[3], double spacing,
+                  double support_radius, const Kernel *density_kernel, const Lattice *lattice)
 {
     /* Nodes a spacing, each a multiple of 4 so that half a spacing is a node: linear interpolation is then
      * good to 1e-3.
@@ -144,8 +144,10 @@ bool walls_create(Walls *walls, const double box_size[3], double spacing, double
     static const int nodes_per_spacing[3] = {64, 16, 8};
     memset(walls, 0, sizeof *walls);
     walls->dimensions = lattice->dimensions;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
         walls->half_size[k] = (float)(0.5 * box_size[k]);
+        walls->open[k] = open[k];
+    }
     const double range = support_radius - 0.5 * spacing;
     walls->range = (float)(range + 0.1 * spacing); /* u(d) falls behind d by less than that */
     walls->spacing = (float)spacing;
@@ -195,6 +197,8 @@ static int faces_near(const Walls *walls, const float x[3], Face faces[6])
 {
     int count = 0;
     for (int a = 0; a < walls->dimensions; a++) {
+        if (walls->open[a])
+            continue;
         const float centred = a == 1 ? x[1] - walls->half_size[1] : x[a];
         const float low = walls->half_size[a] + centred, high = walls->half_size[a] - centred;
         if (low < walls->range)
@@ -239,10 +243,12 @@ static bool table_place(const WallTable *table, float first, const Face *const f
     return true;
 }
 
+/* The sums wanted: all, the density alone, or all with pushes that leave u'(d) out. */
+typedef enum What { ALL, DENSITY, EVEN } What;
+
 /* Linear interpolation at the distances of 1, 2 or 3 faces; the sign of inclusion and exclusion goes along.
  */
-static void add_faces(const Walls *walls, const Face *const faces[], int count, bool density_only,
-                      WallSums *sums)
+static void add_faces(const Walls *walls, const Face *const faces[], int count, What what, WallSums *sums)
 {
     const WallTable *table = &walls->table[count - 1];
     Corner place;
@@ -254,7 +260,7 @@ static void add_faces(const Walls *walls, const Face *const faces[], int count, 
     for (; used < count; used++) {
         axis[used] = faces[used]->axis;
         sign[used] = faces[used]->sign;
-        slope[used] = faces[used]->slope;
+        slope[used] = what == EVEN ? 1 : faces[used]->slope;
     }
     if (count == 1 && walls->dimensions == 2) {
         axis[1] = 1 - axis[0]; /* in the plane, as in the table */
@@ -275,27 +281,27 @@ static void add_faces(const Walls *walls, const Face *const faces[], int count, 
             weight *= up ? place.fraction[f] : 1 - place.fraction[f];
             index = index * (size_t)table->nodes + (size_t)(place.node[f] + up);
         }
-        if (density_only)
+        if (what == DENSITY)
             sums->number_density += weight * table->sums[index].number_density;
         else
             add_entry(&table->sums[index], weight, axis, sign, slope, sums);
     }
 }
 
-static bool walls_add(const Walls *walls, const float x[3], bool density_only, WallSums *sums)
+static bool walls_add(const Walls *walls, const float x[3], What what, WallSums *sums)
 {
     Face face[6];
     const int count = faces_near(walls, x, face);
     *sums = (WallSums){0};
     for (int a = 0; a < count; a++) {
-        add_faces(walls, (const Face *[]){&face[a]}, 1, density_only, sums);
+        add_faces(walls, (const Face *[]){&face[a]}, 1, what, sums);
         for (int b = a + 1; b < count; b++) {
             if (face[b].axis == face[a].axis)
                 continue;
-            add_faces(walls, (const Face *[]){&face[a], &face[b]}, 2, density_only, sums);
+            add_faces(walls, (const Face *[]){&face[a], &face[b]}, 2, what, sums);
             for (int c = b + 1; c < count; c++)
                 if (face[c].axis != face[b].axis)
-                    add_faces(walls, (const Face *[]){&face[a], &face[b], &face[c]}, 3, density_only, sums);
+                    add_faces(walls, (const Face *[]){&face[a], &face[b], &face[c]}, 3, what, sums);
         }
     }
     return count > 0;
@@ -303,13 +309,20 @@ static bool walls_add(const Walls *walls, const float x[3], bool density_only, W
 
 bool walls_at(const Walls *walls, const float x[3], WallSums *sums)
 {
-    return walls_add(walls, x, false, sums);
+    return walls_add(walls, x, ALL, sums);
+}
+
+void walls_uneven(const Walls *walls, const float x[3], float out[3])
+{
+    WallSums sums;
+    walls_add(walls, x, EVEN, &sums);
+    memcpy(out, sums.push, sizeof sums.push);
 }
 
 float walls_number_density(const Walls *walls, const float x[3])
 {
     WallSums sums;
-    walls_add(walls, x, true, &sums);
+    walls_add(walls, x, DENSITY, &sums);
     return sums.number_density;
 }
 
@@ -317,7 +330,7 @@ float wall_face_density(const Walls *walls, float d)
 {
     const Face face = face_at(walls, 0, 1, d);
     WallSums sums = {0};
-    add_faces(walls, (const Face *[]){&face}, 1, true, &sums);
+    add_faces(walls, (const Face *[]){&face}, 1, DENSITY, &sums);
     return sums.number_density;
 }
 
@@ -337,6 +350,8 @@ bool walls_guard(const Walls *walls, float x[3], float v[3])
     for (int a = 0; a < walls->dimensions; a++) {
         const float low = a == 1 ? 0 : -walls->half_size[a];
         const float high = a == 1 ? 2 * walls->half_size[1] : walls->half_size[a];
+        if (walls->open[a])
+            continue;
         if (x[a] < low) {
             x[a] = low;
             v[a] = fmaxf(v[a], 0);

@@ -43,6 +43,7 @@ typedef struct WallTable {
 
 typedef struct Walls {
     int dimensions;     /* 2: no wall in z */
+    bool open[3];       /* periodic: no wall across this axis */
     float half_size[3]; /* of the box, m; the box's frame has its floor at y = 0 */
     float range;        /* beyond this distance a wall adds nothing, m */
     float spacing;      /* m */
@@ -53,13 +54,17 @@ typedef struct Walls {
 size_t walls_entries(const Walls *walls, int tables);
 
 /* False when memory is short. */
-bool walls_create(Walls *walls, const double box_size[3], double spacing, double support_radius,
-                  const Kernel *density_kernel, const Lattice *lattice);
+bool walls_create(Walls *walls, const double box_size[3], const bool open[3], double spacing,
+                  double support_radius, const Kernel *density_kernel, const Lattice *lattice);
 void walls_destroy(Walls *walls);
 
 /* Adds up what the walls give at x (box's frame, m, inside the box), in the box's axes; false, and zero, when
    no wall is within range. */
 bool walls_at(const Walls *walls, const float x[3], WallSums *sums);
+
+/* Sum of w x_a over the walls' particles as they stand, without u': what the neighbours' sum of F x_ij lacks
+   for a lattice at rest, 1/m4. */
+void walls_uneven(const Walls *walls, const float x[3], float out[3]);
 
 /* Only the number density of it. */
 float walls_number_density(const Walls *walls, const float x[3]);

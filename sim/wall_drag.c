@@ -60,14 +60,16 @@ static float *table_create(const Behind *b, int nodes, double step)
     return table;
 }
 
-bool wall_drag_create(WallDrag *drag, const double box_size[3], double spacing, double support_radius,
-                      const Lattice *lattice, bool morris)
+bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[3], double spacing,
+                      double support_radius, const Lattice *lattice, bool morris)
 {
     /* Nodes a spacing, even so that the layers of the lattice are nodes. */
     static const int nodes_per_spacing[3] = {64, 16, 8};
     *drag = (WallDrag){.dimensions = lattice->dimensions};
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
         drag->half_size[k] = (float)(0.5 * box_size[k]);
+        drag->open[k] = open[k];
+    }
     const double range = support_radius - 0.5 * spacing;
     drag->range = (float)range;
     for (int t = 0; t < 3 && t < drag->dimensions; t++) {
@@ -93,6 +95,7 @@ void wall_drag_destroy(WallDrag *drag)
 
 typedef struct Face {
     int axis;
+    bool lid;
     float distance;
 } Face;
 
@@ -100,11 +103,13 @@ static int faces_near(const WallDrag *drag, const float x[3], Face faces[6])
 {
     int count = 0;
     for (int a = 0; a < drag->dimensions; a++) {
+        if (drag->open[a])
+            continue;
         const float centred = a == 1 ? x[1] - drag->half_size[1] : x[a];
         const float distance[2] = {drag->half_size[a] + centred, drag->half_size[a] - centred};
         for (int side = 0; side < 2; side++)
             if (distance[side] < drag->range)
-                faces[count++] = (Face){a, fmaxf(distance[side], 0)};
+                faces[count++] = (Face){a, a == 1 && side == 1, fmaxf(distance[side], 0)};
     }
     return count;
 }
@@ -135,21 +140,34 @@ static float table_at(const WallDrag *drag, const Face *const faces[], int count
     return sum;
 }
 
-float wall_drag_at(const WallDrag *drag, const float x[3])
+/* Faces - edges + corners; all, or those that the lid is one of. */
+static float drag_sum(const WallDrag *drag, const float x[3], bool lid_only)
 {
     Face face[6];
     const int count = faces_near(drag, x, face);
     float sum = 0;
     for (int a = 0; a < count; a++) {
-        sum += table_at(drag, (const Face *[]){&face[a]}, 1);
+        if (!lid_only || face[a].lid)
+            sum += table_at(drag, (const Face *[]){&face[a]}, 1);
         for (int b = a + 1; b < count; b++) {
             if (face[b].axis == face[a].axis)
                 continue;
-            sum -= table_at(drag, (const Face *[]){&face[a], &face[b]}, 2);
+            if (!lid_only || face[a].lid || face[b].lid)
+                sum -= table_at(drag, (const Face *[]){&face[a], &face[b]}, 2);
             for (int c = b + 1; c < count; c++)
-                if (face[c].axis != face[b].axis)
+                if (face[c].axis != face[b].axis && (!lid_only || face[a].lid || face[b].lid || face[c].lid))
                     sum += table_at(drag, (const Face *[]){&face[a], &face[b], &face[c]}, 3);
         }
     }
     return sum;
+}
+
+float wall_drag_at(const WallDrag *drag, const float x[3])
+{
+    return drag_sum(drag, x, false);
+}
+
+float wall_drag_lid(const WallDrag *drag, const float x[3])
+{
+    return drag_sum(drag, x, true);
 }

@@ -23,6 +23,7 @@
 
 typedef struct WallDrag {
     int dimensions;        /* 2: no wall in z */
+    bool open[3];          /* periodic: no wall across this axis */
     float half_size[3];    /* of the box, m; the box's frame has its floor at y = 0 */
     float range;           /* beyond this distance a wall adds nothing, m */
     int nodes[3];          /* along a side of the tables of faces, edges, corners: at d = k / inverse_step */
@@ -34,11 +35,16 @@ typedef struct WallDrag {
 double wall_drag_weight(const Lattice *lattice, bool morris, double r, double support_radius);
 
 /* False when memory is short. */
-bool wall_drag_create(WallDrag *drag, const double box_size[3], double spacing, double support_radius,
-                      const Lattice *lattice, bool morris);
+bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[3], double spacing,
+                      double support_radius, const Lattice *lattice, bool morris);
 void wall_drag_destroy(WallDrag *drag);
 
 /* D at x (box's frame, m, inside the box), 1/m5. */
 float wall_drag_at(const WallDrag *drag, const float x[3]);
+
+/* The part of D that the wall at the top has of it: where it moves with the velocity V, and the mirrored
+   velocities about V, the friction is -mu_i V_i V0 (D v_i - D_top V). What stands behind it and a wall at
+   rest counts for the nearer one. */
+float wall_drag_lid(const WallDrag *drag, const float x[3]);
 
 #endif

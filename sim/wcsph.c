@@ -22,6 +22,9 @@ static void wcsph_substep(const Substep *step)
         substep_kick(step);
     STAGE (step->clock, STAGE_DENSITY)
         b->continuity(state, half);
+    if (step->shifts)
+        STAGE (step->clock, STAGE_FORCE)
+            b->shift(state, (float)step->dt);
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->second_half);
 }

@@ -163,6 +163,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->state = world->state;
     step->clock = clock;
     step->dt = dt;
+    step->shifts = world->def.shifting > 0;
     frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
     frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
@@ -287,6 +288,8 @@ static bool target_take(World *world, const BoxTarget *target)
         world->target.orientation[k] /= norm;
     if (world->def.dimensions == 2)
         target_into_plane(&world->target);
+    if (world->solver.periodic.any) /* such a box does not turn */
+        memcpy(world->target.orientation, (double[4]){0, 0, 0, 1}, sizeof world->target.orientation);
     return true;
 }
 

@@ -43,6 +43,7 @@ typedef struct FluidDef {
     TimeTable viscosity_table; /* mu over time; without rows it is `viscosity` at any time */
     double surface_tension;    /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
     double velocity[3];        /* at the start, in the box's frame, m/s */
+    double taylor_green;       /* with it the vortices of sim/vortices.h, of that speed, m/s; 0: none */
     float color[3];            /* linear RGB 0..1: for the views, no solver reads it */
     int fill_count;
     Fill fills[FILLS_MAX];
@@ -62,12 +63,15 @@ typedef struct InitialState {
 typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;
 
 typedef struct WorldDef {
-    int dimensions;          /* 3, or 2: all in the plane z = 0, a metre deep; the box's depth is then the
-                                spacing, whatever box_size says */
-    double box_size[3];      /* inner width, height, depth, m */
-    double gravity[3];       /* in the world's frame, m/s2 */
-    double spacing;          /* of the lattice at rest, m */
-    double support;          /* support radius h over spacing */
+    int dimensions;     /* 3, or 2: all in the plane z = 0, a metre deep; the box's depth is then the
+                           spacing, whatever box_size says */
+    double box_size[3]; /* inner width, height, depth, m */
+    bool periodic[3];   /* the sides across this axis are one: see sim/periodic.h; such a box does not turn */
+    double gravity[3];  /* in the world's frame, m/s2 */
+    double spacing;     /* of the lattice at rest, m */
+    double support;     /* support radius h over spacing */
+    double jitter; /* of the lattice that fills give: each point moves by up to so many spacings along each
+                      axis, the same way in each run */
     char method[NAME_SIZE];  /* see method_list */
     char backend[NAME_SIZE]; /* see backend_list */
     int threads;             /* 0: one a processor */
@@ -80,8 +84,10 @@ typedef struct WorldDef {
     char kernel[NAME_SIZE];         /* of wcsph: see wcsph_kernels in sim/kernel.h */
     double artificial_viscosity;    /* alpha of wcsph, for fluids without a viscosity */
     double delta_sph;               /* delta of wcsph's density diffusion; 0: none */
+    double shifting;                /* chi of wcsph's particle shifting (Backend.shift); 0: none */
     int tension_model;              /* a TensionModel of sim/tension.h */
     int wall_slip;                  /* a Slip of sim/solid.h: how viscous fluid passes the walls of the box */
+    double lid[3]; /* velocity of the wall at the top, in its plane, m/s: for walls without slip */
     StepMode step_mode;
     double dt;         /* simulated time of a frame, s; mode fixed */
     int substeps;      /* steps in a frame; mode fixed */

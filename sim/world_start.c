@@ -1,5 +1,6 @@
 /* How a world begins: its particles, from the fills or as they are given. */
 #include "sim/seed.h"
+#include "sim/vortices.h"
 #include "sim/world_struct.h"
 
 #include <math.h>
@@ -49,10 +50,43 @@ static void thin_at_solids(const Solver *solver, const WorldDef *def, const Seed
     }
 }
 
+/* A number in [-1, 1) that point and axis decide: M. Nobile's mix of 32 bits, "lowbias32". */
+static double scatter(uint32_t point, uint32_t axis)
+{
+    uint32_t bits = point * 3 + axis + 1;
+    bits = (bits ^ bits >> 16) * 0x7feb352dU;
+    bits = (bits ^ bits >> 15) * 0x846ca68bU;
+    return (double)((bits ^ bits >> 16) >> 8) * 0x1p-23 - 1;
+}
+
+/* Moved points stay within the walls, and come in across periodic sides. */
+static void jitter(const Solver *solver, const WorldDef *def, const Seeds *seeds, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        float *x = seeds->position + 3 * i, v[3] = {0};
+        for (uint32_t k = 0; k < (uint32_t)def->dimensions; k++)
+            x[k] += (float)(def->jitter * def->spacing * scatter((uint32_t)i, k));
+        walls_guard(&solver->walls, x, v);
+        periodic_wrap(&solver->periodic, x);
+    }
+}
+
+/* With the pressure that holds them, where particles carry their density: p = c^2 (rho - rho0). */
+static void add_vortices(const WorldDef *def, const Seeds *seeds, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const FluidDef *fluid = &def->fluids[seeds->fluid[i]];
+        const double p = vortices_add(def, fluid, seeds->position + 3 * i, seeds->velocity + 3 * i);
+        if (seeds->density && (p > 0 || def->negative_pressure))
+            seeds->density[i] += (float)(p / (def->sound_speed * def->sound_speed));
+    }
+}
+
 static bool seeds_make(const Solver *solver, const WorldDef *def, Seeds *seeds, InitialState *initial,
                        Error *error)
 {
-    const bool thins = solver->continuity && def->solid_count > 0;
+    const bool swirls = vortices_any(def);
+    const bool thins = solver->continuity && (def->solid_count > 0 || swirls);
     const size_t count = world_def_count(def, def->spacing);
     if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)
         return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
@@ -65,11 +99,15 @@ static bool seeds_make(const Solver *solver, const WorldDef *def, Seeds *seeds, 
         return error_set(error, "no memory for %zu particles; use a larger spacing", count);
 
     seed_lattice(def, seeds->position, seeds->fluid);
+    if (def->jitter > 0)
+        jitter(solver, def, seeds, count);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < 3; k++)
             seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
     if (thins)
         thin_at_solids(solver, def, seeds, count);
+    if (swirls)
+        add_vortices(def, seeds, count);
     *initial = (InitialState){count, seeds->position, seeds->velocity, seeds->fluid, seeds->density};
     return true;
 }

@@ -42,7 +42,8 @@ static void cpu_destroy(void *state)
     void *const all[] = {cpu->volume,     cpu->pressure, cpu->pressure_term, cpu->viscosity, cpu->artificial,
                          cpu->relative,   cpu->tension,  cpu->kind,          cpu->ax,        cpu->ay,
                          cpu->az,         cpu->cell,     cpu->spare_cell,    cpu->rank,      cpu->order,
-                         cpu->cell_start, cpu->slope[0], cpu->slope[1],      cpu->slope[2]};
+                         cpu->cell_start, cpu->full,     cpu->dense,         cpu->uneven[0], cpu->uneven[1],
+                         cpu->uneven[2],  cpu->slope[0], cpu->slope[1],      cpu->slope[2]};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     free(cpu->owned_at);
@@ -66,6 +67,11 @@ static bool cpu_adapt(void *state, Error *error)
         {&cpu->slope[0], s->continuity && s->diffusion > 0},
         {&cpu->slope[1], s->continuity && s->diffusion > 0},
         {&cpu->slope[2], s->continuity && s->diffusion > 0},
+        {&cpu->uneven[0], s->shifting > 0},
+        {&cpu->uneven[1], s->shifting > 0},
+        {&cpu->uneven[2], s->shifting > 0},
+        {&cpu->full, s->shifting > 0},
+        {&cpu->dense, s->shifting > 0},
         {&cpu->tension, s->tension_model != TENSION_NONE},
         {&cpu->kind, s->tension_model != TENSION_NONE || (s->continuity && s->diffusion > 0)},
     };
@@ -131,7 +137,7 @@ static void *cpu_create(const Solver *solver, const InitialState *initial, size_
     }
     cpu->solver = solver;
     cpu->watch.bounded = true;
-    cpu->pairs = pair_ops_choose();
+    cpu->pairs = pair_ops_choose(solver->periodic.any);
     cpu->threads = threads > 0 ? threads : parallel_processors();
     cpu->count = cpu->owned = initial->count;
     cpu->capacity = capacity + solver->boundary.count;
@@ -165,6 +171,9 @@ PairArgs cpu_pair_args(const Cpu *cpu)
         .artificial = cpu->artificial,
         .relative = cpu->relative,
         .slope = {cpu->slope[0], cpu->slope[1], cpu->slope[2]},
+        .uneven = {cpu->uneven[0], cpu->uneven[1], cpu->uneven[2]},
+        .full = cpu->full,
+        .dense = cpu->dense,
         .kind = cpu->kind,
         .tension = cpu->tension,
         .rate = cpu->ax,
@@ -252,6 +261,7 @@ const Backend backend_cpu = {
     .density = cpu_density,
     .continuity = cpu_continuity,
     .force = cpu_force,
+    .shift = cpu_shift,
     .kick = cpu_kick,
     .watch = cpu_watch,
     .sums = cpu_sums,

@@ -22,6 +22,8 @@ typedef struct Cpu {
     float *relative;             /* wcsph's, for the diffusion of density; NULL: none */
     float *slope[3];             /* and its gradient, by `continuity` */
     bool slopes_due;             /* since `grid` */
+    float *uneven[3];            /* by `force`: what shifting goes by, sim/cpu/shift.c; NULL: none */
+    float *full, *dense;         /* 0 to 1: how far from a surface; n / n0 - 1 */
     float *tension;              /* as PairArgs has it; NULL: none */
     float *kind;                 /* the fluid as a number, for these two; NULL: not needed */
     float *ax, *ay, *az;         /* by `force`, m/s2; `ax` also by `continuity` */
@@ -99,6 +101,10 @@ void cpu_continuity(void *state, float dt);
 void cpu_equation_of_state(Cpu *cpu);
 void cpu_force(void *state, const ApparentGravity *gravity);
 void cpu_drift(void *state, const FrameStep *step);
+void cpu_shift(void *state, float dt);
+
+/* Completes what the pair sums have found for `shift`. */
+void cpu_shift_walls(Cpu *cpu, size_t i, const WallSums *walls);
 
 /* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; moves them along; finds them
    after a sort; gives those at `i` no share in the fluids' terms; fills in what the forces need of them, and

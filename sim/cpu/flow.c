@@ -11,17 +11,20 @@ static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
 {
     const float least = ROOM * cpu->solver->spacing;
     const uint32_t cell = cpu_cell_of(cpu->solver, x);
-    for (int row = cpu->solver->first_row; row < cpu->solver->last_row; row++) {
-        uint32_t begin, end;
-        pair_row(args, cell, row, &begin, &end);
-        for (uint32_t j = begin; j < end; j++) {
-            const float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
+    PairRow rows[PAIR_ROWS];
+    const int row_count = pair_rows(args, cell, rows);
+    for (int row = 0; row < row_count; row++) {
+        const float *shift = rows[row].shift;
+        for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
+            const float d[3] = {x[0] + shift[0] - args->x[j], x[1] + shift[1] - args->y[j],
+                                x[2] + shift[2] - args->z[j]};
             if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < least * least)
                 return false;
         }
     }
     for (size_t j = cpu->gridded; j < cpu->count; j++) {
-        const float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
+        float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
+        periodic_nearest(&cpu->solver->periodic, d);
         if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < least * least)
             return false;
     }
@@ -75,7 +78,7 @@ static void guide_range(void *context, size_t begin, size_t end)
     for (size_t i = begin; i < end; i++) {
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
         for (int k = 0; k < pass->count; k++)
-            if (guide_holds(&pass->guides[k], p->fluid[i], x)) {
+            if (guide_holds(&pass->guides[k], &pass->cpu->solver->periodic, p->fluid[i], x)) {
                 const float *v = pass->guides[k].velocity;
                 p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
             }

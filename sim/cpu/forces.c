@@ -71,7 +71,10 @@ static void add_walls(const ForcePass *pass, size_t i)
     const CpuParticles *p = &cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]};
     WallSums sums;
-    if (!walls_at(&cpu->solver->walls, x, &sums))
+    const bool near = walls_at(&cpu->solver->walls, x, &sums);
+    if (cpu->full)
+        cpu_shift_walls(cpu, i, &sums);
+    if (!near)
         return;
     float g[3], force[3];
     apparent_gravity_at(pass->gravity, x, g);

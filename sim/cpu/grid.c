@@ -6,15 +6,17 @@
 #include <string.h>
 
 typedef struct CellMap {
-    float inverse_h, first[3], last[3]; /* of the inner cells */
+    float origin[3], inverse[3], first[3], last[3]; /* of the inner cells */
     int size[3];
 } CellMap;
 
 static CellMap cell_map(const Solver *solver)
 {
     const CellGrid *cells = &solver->cells;
-    CellMap map = {.inverse_h = 1 / solver->support_radius};
+    CellMap map;
     for (int k = 0; k < 3; k++) {
+        map.origin[k] = cells->origin[k];
+        map.inverse[k] = cells->inverse[k];
         map.first[k] = (float)(cells->first[k] + 1);
         map.last[k] = (float)(cells->first[k] + cells->size[k] - 2);
         map.size[k] = cells->size[k];
@@ -25,7 +27,8 @@ static CellMap cell_map(const Solver *solver)
 /* Clamped, so that a position that is not finite does no harm before it is reported. */
 static uint32_t cell_along(const CellMap *map, int k, float x)
 {
-    const float index = fminf(fmaxf(floorf(x * map->inverse_h), map->first[k]), map->last[k]);
+    const float index =
+        fminf(fmaxf(floorf((x - map->origin[k]) * map->inverse[k]), map->first[k]), map->last[k]);
     return (uint32_t)(index - map->first[k]) + 1;
 }
 

@@ -22,6 +22,8 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end)
         if (solids)
             held += cpu_guard_solids(cpu, solids, before, x, v);
         held += walls_guard(&cpu->solver->walls, x, v);
+        if (cpu->solver->periodic.any)
+            periodic_wrap(&cpu->solver->periodic, x);
         p->x[i] = x[0];
         p->y[i] = x[1];
         p->z[i] = x[2];
@@ -82,9 +84,10 @@ static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
             continue;
         const int fluid = p->fluid[i];
         const float k = s->viscosity[fluid] / s->mass[fluid] * cpu->volume[i] / s->rest_number_density * drag;
-        cpu->ax[i] = (cpu->ax[i] + g[0] - k * p->vx[i]) / (1 + k * dt) - g[0];
-        cpu->ay[i] = (cpu->ay[i] + g[1] - k * p->vy[i]) / (1 + k * dt) - g[1];
-        cpu->az[i] = (cpu->az[i] + g[2] - k * p->vz[i]) / (1 + k * dt) - g[2];
+        const float lid = s->lid ? k / drag * wall_drag_lid(&s->drag, x) : 0, *v = s->lid_velocity;
+        cpu->ax[i] = (cpu->ax[i] + g[0] - k * p->vx[i] + lid * v[0]) / (1 + k * dt) - g[0];
+        cpu->ay[i] = (cpu->ay[i] + g[1] - k * p->vy[i] + lid * v[1]) / (1 + k * dt) - g[1];
+        cpu->az[i] = (cpu->az[i] + g[2] - k * p->vz[i] + lid * v[2]) / (1 + k * dt) - g[2];
     }
 }
 

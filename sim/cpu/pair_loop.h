@@ -21,10 +21,27 @@ void PAIR_NAME(wcsph_force)(const PairArgs *args, size_t begin, size_t end);
 
 static const i8 lane_index = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/* Nine rows of three cells, cached while the cell stays the same. */
+/* The rows of cells next to one, cached while the cell stays the same: nine of three cells, more across
+   periodic sides, where a particle at x is as one at x + shift. */
+#ifdef PAIRS_PERIODIC
+enum { ROWS_MOST = PAIR_ROWS };
+#define ROW_SHIFT(rows, row, axis, x) ((x) + f8_splat((rows).shift[axis][row]))
+#else
+enum { ROWS_MOST = 9 };
+#define ROW_SHIFT(rows, row, axis, x) (x)
+#endif
+
+/* Where a row's particles see the one that sums stand: (xi, yi, zi), as (xr, yr, zr). */
+#define ROW_ORIGIN                                                                                           \
+    const f8 xr = ROW_SHIFT(rows, row, 0, xi), yr = ROW_SHIFT(rows, row, 1, yi),                             \
+             zr = ROW_SHIFT(rows, row, 2, zi)
+
 typedef struct Rows {
-    uint32_t cell, begin[9], end[9];
+    uint32_t cell, begin[ROWS_MOST], end[ROWS_MOST];
     int first, last;
+#ifdef PAIRS_PERIODIC
+    float shift[3][ROWS_MOST]; /* m */
+#endif
 } Rows;
 
 SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
@@ -32,10 +49,22 @@ SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
     if (rows->cell == cell)
         return;
     rows->cell = cell;
+#ifdef PAIRS_PERIODIC
+    PairRow row[PAIR_ROWS];
+    rows->first = 0;
+    rows->last = pair_rows(args, cell, row);
+    for (int k = 0; k < rows->last; k++) {
+        rows->begin[k] = row[k].begin;
+        rows->end[k] = row[k].end;
+        for (int a = 0; a < 3; a++)
+            rows->shift[a][k] = row[k].shift[a];
+    }
+#else
     rows->first = args->solver->first_row;
     rows->last = args->solver->last_row;
     for (int row = rows->first; row < rows->last; row++)
         pair_row(args, cell, row, &rows->begin[row], &rows->end[row]);
+#endif
 }
 
 typedef struct Separation {

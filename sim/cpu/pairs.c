@@ -16,16 +16,18 @@ SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, c
         const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
         f8 sum = zero;
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++)
+        for (int row = rows.first; row < rows.last; row++) {
+            ROW_ORIGIN;
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xi - f8_load(args->x + j);
-                const f8 dy = yi - f8_load(args->y + j);
-                const f8 dz = zi - f8_load(args->z + j);
+                const f8 dx = xr - f8_load(args->x + j);
+                const f8 dy = yr - f8_load(args->y + j);
+                const f8 dz = zr - f8_load(args->z + j);
                 const f8 q2 = (dx * dx + dy * dy + dz * dz) * inverse_h * inverse_h;
                 const f8 t = one - (poly6 ? q2 : f8_sqrt(q2));
                 const i8 near = (t > zero) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
                 sum += f8_masked(near, t * t * t);
             }
+        }
         args->number_density[i] = args->solver->kernel_scale * f8_sum(sum);
     }
 }
@@ -61,11 +63,12 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
         f8 fx = f8_splat(0), fy = fx, fz = fx;
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++)
+        for (int row = rows.first; row < rows.last; row++) {
+            ROW_ORIGIN;
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                Separation d = {.x = xi - f8_load(args->x + j),
-                                .y = yi - f8_load(args->y + j),
-                                .z = zi - f8_load(args->z + j)};
+                Separation d = {.x = xr - f8_load(args->x + j),
+                                .y = yr - f8_load(args->y + j),
+                                .z = zr - f8_load(args->z + j)};
                 d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
                 const i8 near = (d.r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j))) &
                                 (lane_index != i8_splat((int32_t)((uint32_t)i - j)));
@@ -91,6 +94,7 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
                     fz += drag * (f8_load(args->vz + j) - wi);
                 }
             }
+        }
         args->fx[i] = f8_sum(fx);
         args->fy[i] = f8_sum(fy);
         args->fz[i] = f8_sum(fz);

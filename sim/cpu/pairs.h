@@ -25,6 +25,8 @@ typedef struct PairArgs {
     float *rate;             /* out of `wcsph_rate`: of the number density, 1/(m3 s), no walls */
     float *number_density;   /* out of `density`, 1/m3: all pairs, self included, no walls */
     float *fx, *fy, *fz;     /* out of `force`, N */
+    float *uneven[3];        /* out of `wcsph_force` with shifting: sum of F x_ij, 1/m4; NULL without it */
+    float *full, *dense;     /* of F r^2 and of W, 1/m3 */
 } PairArgs;
 
 typedef struct PairOps {
@@ -37,11 +39,23 @@ typedef struct PairOps {
     void (*wcsph_force)(const PairArgs *args, size_t begin, size_t end);
 } PairOps;
 
-/* The widest that this processor has, or the one that the environment variable SLOSH_SIMD names, if it can.
- */
-const PairOps *pair_ops_choose(void);
+/* The widest that this processor has, or the one that the environment variable SLOSH_SIMD names, if it can;
+   those of a box with periodic sides have loops of their own. */
+const PairOps *pair_ops_choose(bool periodic);
 
-/* The particles [begin, end) that stand in the three cells of one row next to `cell`; row 0..8. */
+/* Particles [begin, end) next to a cell, as seen by who stands at x + shift; m. */
+typedef struct PairRow {
+    uint32_t begin, end;
+    float shift[3]; /* 0 but across a periodic side */
+} PairRow;
+
+enum { PAIR_ROWS = 18 };
+
+/* All that stand in the cells next to `cell`, itself included; returns how many rows it fills. */
+int pair_rows(const PairArgs *args, uint32_t cell, PairRow rows[PAIR_ROWS]);
+
+/* The particles [begin, end) that stand in the three cells of one row next to `cell`; row 0..8. Not in a box
+   with periodic sides. */
 static inline void pair_row(const PairArgs *args, uint32_t cell, int row, uint32_t *begin, uint32_t *end)
 {
     const int *size = args->solver->cells.size;

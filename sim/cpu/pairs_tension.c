@@ -21,10 +21,11 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
         const f8 ti = f8_splat(args->tension[i]), fi = f8_splat(args->kind[i]);
         f8 fx = f8_splat(0), fy = fx, fz = fx;
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++)
+        for (int row = rows.first; row < rows.last; row++) {
+            ROW_ORIGIN;
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
-                         dz = zi - f8_load(args->z + j);
+                const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
+                         dz = zr - f8_load(args->z + j);
                 const f8 r2 = dx * dx + dy * dy + dz * dz;
                 const i8 near = (r2 < h2) & (r2 >= least2) & (f8_load(args->kind + j) == fi) &
                                 (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
@@ -38,6 +39,7 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
                 fy -= pull * dy;
                 fz -= pull * dz;
             }
+        }
         const float scale = 0.5f * args->volume[i];
         args->fx[i] += scale * f8_sum(fx);
         args->fy[i] += scale * f8_sum(fy);
@@ -59,10 +61,11 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
         const f8 fi = f8_splat(args->kind[i]);
         f8 nx = f8_splat(0), ny = nx, nz = nx, bend = nx;
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++)
+        for (int row = rows.first; row < rows.last; row++) {
+            ROW_ORIGIN;
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
-                         dz = zi - f8_load(args->z + j);
+                const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
+                         dz = zr - f8_load(args->z + j);
                 const f8 r2 = dx * dx + dy * dy + dz * dz, t = h2 - r2;
                 const i8 near = (r2 < h2) & (f8_load(args->kind + j) == fi) &
                                 (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
@@ -72,6 +75,7 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
                 nz -= volume * t * dz;
                 bend -= volume * (inner - outer * r2);
             }
+        }
         const float n[3] = {s->colour * f8_sum(nx), s->colour * f8_sum(ny), s->colour * f8_sum(nz)};
         const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         if (length * h < 0.3f)

@@ -2,21 +2,7 @@
      d rho_i / dt = (rho0_i / n0) (-sum F v_ij . x_ij)      the rate of number density, so that an interface
                                                             between fluids is none for it; Monaghan 1992
      force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...      conserves the energy that goes with that rate */
-#include "sim/cpu/pair_loop.h"
-
-/* f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q); of the quintic's powers of
-   3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient` takes care of. */
-SIMD_INLINE f8 shape(f8 q, const WcsphKernel kernel)
-{
-    const f8 one = f8_splat(1), zero = f8_splat(0), t = one - q;
-    if (kernel == KERNEL_WENDLAND_C2)
-        return f8_splat(20) * (t * t * t);
-    if (kernel == KERNEL_CUBIC)
-        return f8_select(q < f8_splat(0.5f), f8_splat(12) - f8_splat(18) * q, f8_splat(6) * (t * t) / q);
-    const f8 a = f8_splat(3) * t, b = a - one, c = b - one;
-    const f8 a2 = a * a, b2 = f8_masked(b > zero, b * b), c2 = f8_masked(c > zero, c * c);
-    return (a2 * a2 - f8_splat(6) * (b2 * b2) + f8_splat(15) * (c2 * c2)) / q;
-}
+#include "sim/cpu/pair_kernel.h"
 
 /* m^-1 b of the symmetric m = xx yy zz xy yz zx; 0 where det (3 m / trace) is below a quarter, since
    neighbours hardly span the space then: all around it is 1, in the lattice's own corner 0.77. */
@@ -52,10 +38,11 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
         f8 xx = f8_splat(0), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx, bx = xx, by = xx, bz = xx;
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++)
+        for (int row = rows.first; row < rows.last; row++) {
+            ROW_ORIGIN;
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
-                         dz = zi - f8_load(args->z + j);
+                const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
+                         dz = zr - f8_load(args->z + j);
                 const f8 r2 = dx * dx + dy * dy + dz * dz;
                 const i8 seen = (r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
                 const f8 kind = f8_load(args->kind + j);
@@ -69,6 +56,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
                 xy += fx * dy, yz += fy * dz, zx += fz * dx;
                 bx += fx * de, by += fy * de, bz += fz * de;
             }
+        }
         float m[6] = {f8_sum(xx), f8_sum(yy), f8_sum(zz), f8_sum(xy), f8_sum(yz), f8_sum(zx)}, slope[3];
         const float b[3] = {scale * f8_sum(bx), scale * f8_sum(by), scale * f8_sum(bz)};
         for (int k = 0; k < 6; k++)
@@ -103,10 +91,11 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         f8 sum = f8_splat(0);
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++)
+        for (int row = rows.first; row < rows.last; row++) {
+            ROW_ORIGIN;
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xi - f8_load(args->x + j), dy = yi - f8_load(args->y + j),
-                         dz = zi - f8_load(args->z + j);
+                const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
+                         dz = zr - f8_load(args->z + j);
                 const f8 r2 = dx * dx + dy * dy + dz * dz;
                 const i8 near =
                     (r2 < h2) & (r2 >= least2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
@@ -124,14 +113,16 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
                 }
                 sum += f8_masked(near, f * flow);
             }
+        }
         args->rate[i] = -s->gradient * f8_sum(sum);
     }
 }
 
 /* Pressure; laminar viscosity (Morris 1997) or artificial one (Monaghan 1992, for pairs that part too):
-   V_i V_j (mu_i + mu_j) F v_ji and -V_i V_j (a_i + a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. */
+   V_i V_j (mu_i + mu_j) F v_ji and -V_i V_j (a_i + a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. With
+   `shifts` what sim/cpu/shift.c needs as well. */
 SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
-                             const bool viscous, const bool artificial)
+                             const bool viscous, const bool artificial, const bool shifts)
 {
     const Solver *s = args->solver;
     const float h = s->support_radius, least = 1e-6f * h;
@@ -145,14 +136,15 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
         const f8 pi = f8_splat(args->pressure_term[i]), volume = f8_splat(args->volume[i]);
         const f8 mi = f8_splat(viscous ? args->viscosity[i] : 0),
                  ai = f8_splat(artificial ? args->artificial[i] : 0);
-        f8 fx = f8_splat(0), fy = fx, fz = fx;
+        f8 fx = f8_splat(0), fy = fx, fz = fx, ex = fx, ey = fx, ez = fx, full = fx, dense = fx;
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++)
+        for (int row = rows.first; row < rows.last; row++) {
+            ROW_ORIGIN;
             for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                Separation d = {.x = xi - f8_load(args->x + j),
-                                .y = yi - f8_load(args->y + j),
-                                .z = zi - f8_load(args->z + j)};
+                Separation d = {.x = xr - f8_load(args->x + j),
+                                .y = yr - f8_load(args->y + j),
+                                .z = zr - f8_load(args->z + j)};
                 d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
                 const i8 near = (d.r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j))) &
                                 (lane_index != i8_splat((int32_t)((uint32_t)i - j)));
@@ -162,8 +154,14 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
                 if (__builtin_expect(coincident, 0))
                     separate(args, i, j, coincident, least, &d);
 
-                const f8 f = f8_masked(near, shape(f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h, kernel));
+                const f8 q = f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h;
+                const f8 f = f8_masked(near, shape(q, kernel));
                 f8 push = pi + f8_load(args->pressure_term + j);
+                if (shifts) {
+                    ex += f * d.x, ey += f * d.y, ez += f * d.z;
+                    full += f * d.r2;
+                    dense += f8_masked(near, height(q, kernel));
+                }
                 if (viscous || artificial) {
                     const f8 ux = f8_load(args->vx + j) - ui, uy = f8_load(args->vy + j) - vi,
                              uz = f8_load(args->vz + j) - wi;
@@ -183,9 +181,17 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
                 fy += push * d.y;
                 fz += push * d.z;
             }
+        }
         args->fx[i] = s->gradient * f8_sum(fx);
         args->fy[i] = s->gradient * f8_sum(fy);
         args->fz[i] = s->gradient * f8_sum(fz);
+        if (shifts) {
+            args->uneven[0][i] = s->gradient * f8_sum(ex);
+            args->uneven[1][i] = s->gradient * f8_sum(ey);
+            args->uneven[2][i] = s->gradient * f8_sum(ez);
+            args->full[i] = s->gradient * f8_sum(full);
+            args->dense[i] = s->kernel_scale * (1 + f8_sum(dense));
+        }
     }
 }
 
@@ -197,28 +203,26 @@ SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const W
         rate_range(args, begin, end, kernel, false);
 }
 
-SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+SIMD_INLINE void force_with(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
+                            const bool shifts)
 {
     if (args->viscosity && args->artificial)
-        wcsph_range(args, begin, end, kernel, true, true);
+        wcsph_range(args, begin, end, kernel, true, true, shifts);
     else if (args->viscosity)
-        wcsph_range(args, begin, end, kernel, true, false);
+        wcsph_range(args, begin, end, kernel, true, false, shifts);
     else if (args->artificial)
-        wcsph_range(args, begin, end, kernel, false, true);
+        wcsph_range(args, begin, end, kernel, false, true, shifts);
     else
-        wcsph_range(args, begin, end, kernel, false, false);
+        wcsph_range(args, begin, end, kernel, false, false, shifts);
 }
 
-/* `body(args, begin, end, kernel)` with the kernel as a constant, so that each has a loop of its own. */
-#define FOR_KERNEL(args, begin, end, body)                                                                   \
-    do {                                                                                                     \
-        if ((args)->solver->kernel == KERNEL_WENDLAND_C2)                                                    \
-            body(args, begin, end, KERNEL_WENDLAND_C2);                                                      \
-        else if ((args)->solver->kernel == KERNEL_QUINTIC)                                                   \
-            body(args, begin, end, KERNEL_QUINTIC);                                                          \
-        else                                                                                                 \
-            body(args, begin, end, KERNEL_CUBIC);                                                            \
-    } while (0)
+SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+{
+    if (args->full)
+        force_with(args, begin, end, kernel, true);
+    else
+        force_with(args, begin, end, kernel, false);
+}
 
 void PAIR_NAME(wcsph_slope)(const PairArgs *args, size_t begin, size_t end)
 {

@@ -80,12 +80,13 @@ static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
 {
     const float h2 = args->solver->support_radius * args->solver->support_radius;
     int count = -1; /* not itself */
-    for (int row = args->solver->first_row; row < args->solver->last_row; row++) {
-        uint32_t begin, end;
-        pair_row(args, args->cell[i], row, &begin, &end);
-        for (uint32_t j = begin; j < end; j++) {
-            const float dx = args->x[i] - args->x[j], dy = args->y[i] - args->y[j],
-                        dz = args->z[i] - args->z[j];
+    PairRow rows[PAIR_ROWS];
+    const int row_count = pair_rows(args, args->cell[i], rows);
+    for (int row = 0; row < row_count; row++) {
+        const float *shift = rows[row].shift, x = args->x[i] + shift[0], y = args->y[i] + shift[1],
+                    z = args->z[i] + shift[2];
+        for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
+            const float dx = x - args->x[j], dy = y - args->y[j], dz = z - args->z[j];
             count += dx * dx + dy * dy + dz * dz < h2 && cpu->now.fluid[j] < FLUIDS_MAX;
         }
     }

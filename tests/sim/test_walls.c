@@ -79,7 +79,8 @@ static Table make_walls(void)
 {
     Table t;
     lattice_calibrate(3, 0.1, 0.21, &density_kernels[0], &density_kernels[0], &t.lattice);
-    assert_true(walls_create(&t.walls, (double[3]){2, 2, 2}, 0.1, 0.21, &density_kernels[0], &t.lattice));
+    assert_true(walls_create(&t.walls, (double[3]){2, 2, 2}, (bool[3]){false}, 0.1, 0.21, &density_kernels[0],
+                             &t.lattice));
     return t;
 }
 

@@ -193,7 +193,8 @@ static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *
     lattice_calibrate(3, def->spacing, r->h, r->kernel, r->kernel, &lattice);
     r->n0 = lattice.number_density;
     r->gradient = lattice.gradient_scale;
-    assert_true(walls_create(&r->walls, def->box_size, def->spacing, r->h, r->kernel, &lattice));
+    assert_true(
+        walls_create(&r->walls, def->box_size, def->periodic, def->spacing, r->h, r->kernel, &lattice));
     for (int i = 0; i < COUNT; i++) {
         r->density[i] = cloud->density[i];
         for (int k = 0; k < 3; k++) {

@@ -40,6 +40,7 @@ static bool fragment_can(const WorldDef *def, Error *error)
         tense |= def->fluids[f].surface_tension > 0;
     }
     return !lacks("method wcsph", strcmp(def->method, "wcsph") == 0, error) &&
+           !lacks("periodic sides", def->periodic[0] || def->periodic[1] || def->periodic[2], error) &&
            !lacks("solids", def->solid_count > 0, error) && !lacks("emitters", flow_emits(def), error) &&
            !lacks("drains", def->drain_count > 0, error) &&
            !lacks("no-slip walls", viscous && def->wall_slip == SLIP_NONE, error) &&

@@ -1,0 +1,365 @@
+/* Periodic sides: neighbours against all pairs with the nearest image, flow through a side, momentum, what is
+   refused. */
+#include "fixture.h"
+
+#include "sim/tension.h"
+#include "sim/world_state.h"
+
+/* Scattered particles in a box that is periodic along the axes given; the others have walls. */
+typedef struct Cloud {
+    WorldDef def;
+    InitialState initial;
+    float *x, *v;
+} Cloud;
+
+static void cloud_make(Cloud *out, int dimensions, const char *axes, const char *method,
+                       const double shift[3])
+{
+    Cloud c = {.def = fixture_def(1.3, 1.1, 0.9)};
+    const size_t n = dimensions == 2 ? 150 : 1200;
+    uint32_t seed = 7;
+    c.def.dimensions = dimensions;
+    c.def.support = 2.6;
+    c.def.negative_pressure = true;
+    memset(c.def.gravity, 0, sizeof c.def.gravity);
+    snprintf(c.def.method, sizeof c.def.method, "%s", method);
+    c.def.fluids[0].viscosity = 1;
+    c.x = malloc(3 * n * sizeof *c.x);
+    c.v = malloc(3 * n * sizeof *c.v);
+    for (int k = 0; k < 3; k++)
+        c.def.periodic[k] = strchr(axes, "xyz"[k]) != NULL;
+    for (size_t i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++) {
+            const double size = c.def.box_size[k], low = k == 1 ? 0 : -0.5 * size;
+            double at = fixture_random(&seed);
+            at += c.def.periodic[k] ? shift[k] / size : 0;
+            c.x[3 * i + (size_t)k] = k < dimensions ? (float)(low + size * (at - floor(at))) : 0;
+            c.v[3 * i + (size_t)k] = k < dimensions ? (float)(fixture_random(&seed) - 0.5) : 0;
+        }
+    c.initial = (InitialState){.count = n, .position = c.x, .velocity = c.v};
+    *out = c;
+    out->def.initial = &out->initial;
+}
+
+static void cloud_free(Cloud *c)
+{
+    free(c->x);
+    free(c->v);
+}
+
+static const double nowhere[3] = {0};
+
+/* Others within the support radius of each, by all pairs. */
+static double brute_neighbours(const Cloud *c)
+{
+    const double h = c->def.support * c->def.spacing;
+    size_t pairs = 0;
+    for (size_t i = 0; i < c->initial.count; i++)
+        for (size_t j = 0; j < c->initial.count; j++) {
+            double r2 = 0;
+            for (size_t k = 0; k < 3; k++) {
+                double d = (double)c->x[3 * i + k] - (double)c->x[3 * j + k];
+                if (c->def.periodic[k])
+                    d -= c->def.box_size[k] * rint(d / c->def.box_size[k]);
+                r2 += d * d;
+            }
+            pairs += i != j && r2 < h * h;
+        }
+    return (double)pairs / (double)c->initial.count;
+}
+
+static const char *const sides[] = {"x", "y", "xy", "z", "xz", "xyz"};
+
+static void neighbours_are_those_of_all_pairs(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    for (int dimensions = 2; dimensions <= 3; dimensions++)
+        for (int k = 0; k < (dimensions == 2 ? 3 : 6); k++) {
+            Cloud c;
+            cloud_make(&c, dimensions, sides[k], "mueller", nowhere);
+            World *world = fixture_world(&c.def);
+            WorldSums sums;
+            world_sums(world, &sums);
+            const double pair = 1.01 / (double)c.initial.count; /* at the very edge of the radius */
+            assert_float_equal(sums.neighbours_mean, brute_neighbours(&c), 2 * pair);
+            world_destroy(world);
+            cloud_free(&c);
+        }
+}
+
+/* Densities against the sum over all pairs: 2D and all sides, so that no wall adds. */
+static void densities_are_sums_over_the_nearest_images(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    Cloud c;
+    cloud_make(&c, 2, "xy", "mueller", nowhere);
+    const double h = c.def.support * c.def.spacing;
+    World *world = fixture_world(&c.def);
+    State s = fixture_read(world);
+    double lattice = 0;
+    for (int i = -3; i <= 3; i++)
+        for (int j = -3; j <= 3; j++)
+            lattice += pow(fmax(1 - c.def.spacing * hypot(i, j) / h, 0), 3);
+    for (size_t i = 0; i < s.count; i++) {
+        double sum = 0;
+        for (size_t j = 0; j < s.count; j++) {
+            double dx = (double)c.x[3 * i] - (double)c.x[3 * j],
+                   dy = (double)c.x[3 * i + 1] - (double)c.x[3 * j + 1];
+            dx -= 1.3 * rint(dx / 1.3);
+            dy -= 1.1 * rint(dy / 1.1);
+            sum += pow(fmax(1 - hypot(dx, dy) / h, 0), 3);
+        }
+        assert_float_equal((double)s.position[4 * i + 3] * sum / lattice, c.def.spacing * c.def.spacing,
+                           2e-6 * c.def.spacing * c.def.spacing);
+    }
+    fixture_free(&s);
+    world_destroy(world);
+    cloud_free(&c);
+}
+
+/* Where the box's frame begins is no matter along a periodic axis: all forces, of both methods. */
+static void a_shifted_cloud_moves_the_same_way(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    static const char *const methods[] = {"mueller", "wcsph"};
+    const double shift[3] = {0.41, 0.63, 0.77};
+    for (int m = 0; m < 2; m++)
+        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+            const char *axes = dimensions == 2 ? "x" : "xz";
+            Cloud a, b;
+            cloud_make(&a, dimensions, axes, methods[m], nowhere);
+            cloud_make(&b, dimensions, axes, methods[m], shift);
+            a.def.dt = b.def.dt = 1e-4;
+            a.def.delta_sph = b.def.delta_sph = m == 1 ? 0.1 : 0;
+            a.def.shifting = b.def.shifting = m == 1 ? 0.1 : 0;
+            a.def.tension_model = b.def.tension_model = TENSION_COHESION;
+            a.def.fluids[0].surface_tension = b.def.fluids[0].surface_tension = 1;
+            World *one = fixture_world(&a.def), *other = fixture_world(&b.def);
+            fixture_step(one, 1);
+            fixture_step(other, 1);
+            State s = fixture_read(one), t = fixture_read(other);
+            double most = 0, worst = 0;
+            for (size_t i = 0; i < s.count; i++)
+                for (size_t k = 0; k < 3; k++) {
+                    const double change = (double)s.velocity[4 * i + k] - (double)a.v[3 * i + k];
+                    most = fmax(most, fabs(change));
+                    worst = fmax(worst, fabs((double)s.velocity[4 * i + k] - (double)t.velocity[4 * i + k]));
+                }
+            if (!(worst < 1e-3 * most))
+                fail_msg("%s, %dD: velocities differ by %g of a change by %g", methods[m], dimensions, worst,
+                         most);
+            fixture_free(&s);
+            fixture_free(&t);
+            world_destroy(one);
+            world_destroy(other);
+            cloud_free(&a);
+            cloud_free(&b);
+        }
+}
+
+/* A lattice that flows through the sides stays one, to the rounding of places. */
+static void a_lattice_flows_through_the_sides(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    for (int method = 0; method < 2; method++)
+        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+            WorldDef def = fixture_def(1, 0.8, 0.7);
+            def.dimensions = dimensions;
+            def.dt = 0.004;
+            snprintf(def.method, sizeof def.method, "%s", method ? "wcsph" : "mueller");
+            memset(def.gravity, 0, sizeof def.gravity);
+            def.periodic[0] = def.periodic[1] = true;
+            def.periodic[2] = dimensions == 3;
+            def.fluids[0].velocity[0] = 3;
+            def.fluids[0].velocity[1] = -2;
+            fixture_block(&def, 0, -0.5, 0, -0.35, 0.5, 0.8, 0.35);
+            World *world = fixture_world(&def);
+            State before = fixture_read(world);
+            assert_int_equal(before.count, dimensions == 2 ? 80 : 560);
+            fixture_step(world, 125); /* 0.5 s: 1.5 and 1.25 boxes */
+            State after = fixture_read(world);
+            for (size_t i = 0; i < after.count; i++) {
+                for (size_t k = 0; k < 3; k++) {
+                    const double size = def.box_size[k], way = 0.5 * def.fluids[0].velocity[k];
+                    double off = (double)after.position[4 * i + k] - (double)before.position[4 * i + k] - way;
+                    off -= size * rint(off / size);
+                    assert_float_equal(off, 0, 2e-5);
+                    assert_true(fabs((double)after.position[4 * i + k] - (k == 1 ? 0.4 : 0)) <=
+                                0.5 * size + 1e-6);
+                }
+                assert_float_equal(after.density[i], 1000, 0.05);
+            }
+            fixture_free(&before);
+            fixture_free(&after);
+            world_destroy(world);
+        }
+}
+
+static void momentum_is_conserved(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    for (int method = 0; method < 2; method++) {
+        Cloud c;
+        cloud_make(&c, 2, "xy", method ? "wcsph" : "mueller", nowhere);
+        c.def.dt = 2e-4;
+        c.def.shifting = method ? 0.1 : 0;
+        c.def.delta_sph = method ? 0.1 : 0;
+        World *world = fixture_world(&c.def);
+        WorldSums before, after;
+        world_sums(world, &before);
+        fixture_step(world, 100);
+        world_sums(world, &after);
+        for (int k = 0; k < 2; k++)
+            assert_float_equal((after.momentum[k] - before.momentum[k]) / after.momentum_scale, 0, 2e-6);
+        assert_true(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 0.01); /* something went on */
+        world_destroy(world);
+        cloud_free(&c);
+    }
+}
+
+/* In a box without walls the fluid goes its own way: seen from the box, against it. */
+static void a_box_that_shakes_passes_the_fluid(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    WorldDef def = fixture_def(1, 0.8, 0.7);
+    def.dimensions = 2;
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.periodic[0] = true;
+    fixture_block(&def, 0, -0.5, 0, 0, 0.5, 0.8, 0);
+    def.motions[def.motion_count++] =
+        (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.7, .frequency = 1};
+    def.fluids[0].velocity[0] = -0.7 * 2 * M_PI; /* at rest in the world */
+    World *world = fixture_world(&def);
+    State before = fixture_read(world);
+    fixture_step(world, 125); /* a quarter of a second: amplitude */
+    State after = fixture_read(world);
+    for (size_t i = 0; i < after.count; i++) {
+        double off = (double)after.position[4 * i] - (double)before.position[4 * i] + 0.7;
+        assert_float_equal(off - rint(off), 0, 2e-4);
+        assert_float_equal(after.velocity[4 * i], 0, 2e-3);
+    }
+    fixture_free(&before);
+    fixture_free(&after);
+    world_destroy(world);
+}
+
+static void a_hand_moves_it_and_does_not_turn_it(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    Cloud c;
+    cloud_make(&c, 2, "x", "mueller", nowhere);
+    World *world = fixture_world(&c.def);
+    const BoxTarget target = {.position = {0.3, 0, 0}, .orientation = {0, 0, sin(0.2), cos(0.2)}};
+    WorldInfo info;
+    world_carry(world, &target);
+    world_info(world, &info);
+    assert_float_equal(info.box.position[0], 0.3, 1e-12);
+    assert_float_equal(info.box.orientation[2], 0, 1e-12);
+    world_destroy(world);
+    cloud_free(&c);
+}
+
+static void a_saved_state_goes_on_to_the_bit(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    Cloud c;
+    cloud_make(&c, 2, "xy", "wcsph", nowhere);
+    c.def.dt = 2e-4;
+    c.def.shifting = c.def.delta_sph = 0.1;
+    World *one = fixture_world(&c.def), *other = fixture_world(&c.def);
+    WorldState saved = {.count = 0};
+    Error error;
+    fixture_step(one, 5);
+    assert_true(world_save(one, &saved, &error));
+    assert_true(world_load(other, &saved, &error));
+    fixture_step(one, 5);
+    fixture_step(other, 5);
+    assert_true(world_hash(one) == world_hash(other));
+    world_state_free(&saved);
+    world_destroy(one);
+    world_destroy(other);
+    cloud_free(&c);
+}
+
+/* A jet through a side comes in on the other, and the next layers find room. */
+static void a_jet_goes_through_a_side(void **state)
+{
+    (void)state;
+    fixture_needs("emitters");
+    WorldDef def = fixture_def(1, 0.8, 0.7);
+    def.dimensions = 2;
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.periodic[0] = true;
+    def.most = 400;
+    def.fluids[0].emit_count = 1;
+    def.fluids[0].emits[0] =
+        (Emit){.centre = {0.45, 0.4, 0}, .direction = {1, 0, 0}, .radius = 0.1, .speed = 2};
+    World *world = fixture_world(&def);
+    fixture_step(world, 150); /* 0.3 s: 0.6 m */
+    State s = fixture_read(world);
+    size_t beyond = 0;
+    for (size_t i = 0; i < s.count; i++)
+        beyond += s.position[4 * i] < 0.2F;
+    assert_in_range(s.count, 15, 18);
+    assert_true(beyond > 9);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+static void refused(WorldDef *def, const char *phrase)
+{
+    Error error = {0};
+    World *world = world_create(def, &error);
+    if (world || !strstr(error.message, phrase))
+        fail_msg("expected '%s', got '%s'", phrase, world ? "a world" : error.message);
+}
+
+static void what_cannot_be_is_refused(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1, 1);
+    def.periodic[0] = true;
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.5, 0.5);
+    WorldDef bad = def;
+    bad.box_size[0] = 0.4;
+    refused(&bad, "two support radii wide");
+    bad = def;
+    bad.dimensions = 2;
+    bad.periodic[2] = true;
+    refused(&bad, "no sides in z");
+    bad = def;
+    bad.motions[bad.motion_count++] = (Motion){.kind = MOTION_SPIN, .axis = {0, 1, 0}, .rate = 1};
+    refused(&bad, "does not turn");
+    bad = def;
+    bad.solids[bad.solid_count++] = (SolidDef){.kind = SOLID_SPHERE, .centre = {0.4, 0.5, 0}, .radius = 0.2};
+    refused(&bad, "over a periodic side");
+    bad = def;
+    snprintf(bad.backend, sizeof bad.backend, "fragment");
+    if (fixture_on_fragment())
+        refused(&bad, "has no periodic sides");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(neighbours_are_those_of_all_pairs),
+        cmocka_unit_test(densities_are_sums_over_the_nearest_images),
+        cmocka_unit_test(a_shifted_cloud_moves_the_same_way),
+        cmocka_unit_test(a_lattice_flows_through_the_sides),
+        cmocka_unit_test(momentum_is_conserved),
+        cmocka_unit_test(a_box_that_shakes_passes_the_fluid),
+        cmocka_unit_test(a_hand_moves_it_and_does_not_turn_it),
+        cmocka_unit_test(a_saved_state_goes_on_to_the_bit),
+        cmocka_unit_test(a_jet_goes_through_a_side),
+        cmocka_unit_test(what_cannot_be_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
