@@ -212,6 +212,56 @@ static bool check_motion(const Check *check, const char *list, int m, const Moti
     return true;
 }
 
+/* Periodic sides: wide enough, without turns, with solids clear of them. */
+static bool check_periodic(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    bool any = false;
+    char path[64];
+    for (int k = 0; k < 3; k++) {
+        const double size = world->box_size[k], low = k == 1 ? 0 : -0.5 * size;
+        if (!world->periodic[k])
+            continue;
+        any = true;
+        if (k >= world->dimensions)
+            return FAIL(check, "box.periodic", "a 2D scene has no sides in z; name x, y or both");
+        if (!(size >= 2 * world->support * world->spacing))
+            return FAIL(
+                check, "box.periodic",
+                "along %c the box is %g m wide, less than two support radii (%g m); use a smaller spacing",
+                axis_name[k], size, 2 * world->support * world->spacing);
+        for (int i = 0; i < world->solid_count; i++) {
+            snprintf(path, sizeof path, "solids[%d]", i);
+            if (!solid_between(&world->solids[i], world->dimensions, k, low, low + size))
+                return FAIL(check, path,
+                            "the solid reaches over a periodic side in %c, or may come there; keep it inside",
+                            axis_name[k]);
+        }
+    }
+    for (int m = 0; any && m < world->motion_count; m++) {
+        snprintf(path, sizeof path, "motion[%d]", m);
+        if (!motion_translates(&world->motions[m]))
+            return FAIL(check, path, "a box with periodic sides does not turn; shake or accelerate it");
+    }
+    return true;
+}
+
+static bool check_lid(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    const double *v = world->lid;
+    if (v[0] == 0 && v[1] == 0 && v[2] == 0)
+        return true;
+    if (world->wall_slip != SLIP_NONE)
+        return FAIL(check, "box.lid", "the lid drags no fluid that glides along it; add slip: none");
+    if (v[1] != 0)
+        return FAIL(check, "box.lid", "the lid moves in its plane; its velocity in y must be 0, not %g",
+                    v[1]);
+    if (world->periodic[1])
+        return FAIL(check, "box.lid", "a box that is periodic in y has no lid; leave one of them out");
+    return check_plane(check, "box.lid", v);
+}
+
 /* In two dimensions solids stay in the plane. */
 static bool check_solid_plane(const Check *check, const SolidDef *solid, const char *path)
 {
@@ -288,7 +338,7 @@ bool scene_check(const Tree *tree, const Scene *scene, Error *error)
         if (!check_solid(&check, k))
             return false;
     return check_plane(&check, "gravity", scene->world.gravity) && check_spacing(&check) &&
-           check_view(&check);
+           check_lid(&check) && check_view(&check);
 }
 
 double scene_fluid_volume(const Scene *scene)
@@ -432,7 +482,8 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
 {
     const Check check = {tree, scene, error};
     const double spacing = scene->world.spacing;
-    if (!check_widths(&check) || !check_boundary(&check, 0) || !check_volume(&check))
+    if (!check_widths(&check) || !check_periodic(&check) || !check_boundary(&check, 0) ||
+        !check_volume(&check))
         return false;
     if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
         return false;

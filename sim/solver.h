@@ -12,6 +12,10 @@
 #include "sim/wall_drag.h"
 #include "sim/world_def.h"
 
+/* Times in which sound crosses a support radius: after so many the density that shifted particles carry,
+   which does not know of shifts and would drift by a percent a second, comes back to that of their places. */
+#define SHIFT_RETURN 20.0F
+
 /* The grid of cells of side h: cell (i, j, k) holds floor(x / h) = first + (i, j, k), of one global lattice
    whatever the box; one empty layer on each side saves the neighbour search its bounds. Along a periodic axis
    a whole number of cells, of side h at least, fills the box from its low side on. */

@@ -1,3 +1,4 @@
+#include "sim/cells.glsl"
 // Boundary particles of solids (sim/boundary.h), sorted by cell in a grid of their own: the fluids' buffers hold fluid alone.
 layout(std430, binding = 12) BOUNDARY_ACCESS buffer BoundaryPositions { vec4 boundary_position[]; }; // w: volume in friction
 layout(std430, binding = 13) BOUNDARY_ACCESS buffer BoundaryVelocities { vec4 boundary_velocity[]; }; // w: viscosity
@@ -6,6 +7,6 @@ layout(std430, binding = 15) readonly buffer BoundaryStarts { uint boundary_star
 
 uvec2 boundary_row_of(ivec3 at, int row)
 {
-    int middle = ((at.z + row / 3 - 1) * cell_size.y + (at.y + row % 3 - 1)) * cell_size.x + at.x;
-    return uvec2(boundary_start[middle - 1], boundary_start[middle + 2]);
+    ivec2 cells = row_cells(at, row);
+    return uvec2(boundary_start[cells.x], boundary_start[cells.y]);
 }

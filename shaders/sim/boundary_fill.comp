@@ -19,10 +19,11 @@ void main()
     vec3 x = boundary_position[i].xyz, density_x = vec3(0), v = vec3(0);
     float weight = 0.0, seen = 0.0, viscosity = 0.0;
     ivec3 at = cell_of(x);
-    for (int row = rows.x; row < rows.y; row++) {
+    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
         uvec2 range = row_of(at, row);
+        vec3 seen_from = row_seen(x, at, row);
         for (uint j = range.x; j < range.y; j++) {
-            vec3 d = x - position[j].xyz;
+            vec3 d = seen_from - position[j].xyz;
             float t = 1.0 - dot(d, d) * kernel.y * kernel.y;
             if (t <= 0.0)
                 continue;

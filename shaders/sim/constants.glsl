@@ -6,12 +6,16 @@ layout(std140, binding = 1) uniform Constants {
     vec4 scales;         // of density, pressure, viscosity; relative compression
     ivec4 cell_first;    // of the grid; w: particles
     ivec4 cell_size;     // w: cells
-    ivec4 rows;          // first, after the last
+    ivec4 rows;          // first, after the last; the same of single cells, where sides are periodic
     vec4 half_size;      // of the box; w: range of the walls
     ivec4 wall_nodes;    // of the tables of one, two, three faces
     vec4 wall_steps;     // their inverse steps
     ivec4 wall_offset;   // where they begin, in entries
     vec4 fluids[FLUIDS_MAX]; // mass, rest density, stiffness, viscosity
+    vec4 cell_origin;    // with periodic sides: floor((x - origin) * inverse) is the cell
+    vec4 cell_inverse;
+    vec4 box_low;        // and where the box begins, how large it is
+    vec4 box_whole;
 };
 
 layout(std140, binding = 2) uniform Step {
@@ -32,6 +36,10 @@ layout(std140, binding = 4) uniform Watched { uvec4 watched[2]; };
 // None behind a step that blew up: all fluid in one cell would keep the rest of the frame for minutes.
 uint particle_count() { return watched[1].x != 0u ? 0u : uint(cell_first.w); }
 uint cell_count() { return watched[1].x != 0u ? 0u : uint(cell_size.w); }
+
+#ifdef PERIODIC
+const bvec3 periodic = PERIODIC; // across which axes its sides are one
+#endif
 
 layout(local_size_x = 64) in;
 

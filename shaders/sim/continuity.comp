@@ -29,10 +29,11 @@ void main()
 #ifdef DIFFUSION
     vec4 own = slope[i];
 #endif
-    for (int row = rows.x; row < rows.y; row++) {
+    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
         uvec2 range = row_of(at, row);
+        vec3 seen_from = row_seen(x, at, row);
         for (uint j = range.x; j < range.y; j++) {
-            vec3 d = x - position[j].xyz;
+            vec3 d = seen_from - position[j].xyz;
             float r2 = dot(d, d);
             if (r2 >= h * h || r2 < least * least)
                 continue;
@@ -48,7 +49,7 @@ void main()
 #ifdef SOLIDS
         range = boundary_row_of(at, row);
         for (uint j = range.x; j < range.y; j++) {
-            vec3 other = boundary_position[j].xyz, d = x - other;
+            vec3 other = boundary_position[j].xyz, d = seen_from - other;
             float r2 = dot(d, d);
             if (r2 >= h * h || r2 < least * least)
                 continue;

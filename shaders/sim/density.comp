@@ -30,14 +30,15 @@ void main()
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
     float sum = 0.0;
-    for (int row = rows.x; row < rows.y; row++) {
+    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
         uvec2 range = row_of(at, row);
+        vec3 seen_from = row_seen(x, at, row);
         for (uint j = range.x; j < range.y; j++)
-            sum += weight(x - position[j].xyz);
+            sum += weight(seen_from - position[j].xyz);
 #ifdef SOLIDS
         range = boundary_row_of(at, row);
         for (uint j = range.x; j < range.y; j++)
-            sum += weight(x - boundary_position[j].xyz);
+            sum += weight(seen_from - boundary_position[j].xyz);
 #endif
     }
     float n = scales.x * sum + walls_at(x, true).density;

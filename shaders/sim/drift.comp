@@ -33,6 +33,10 @@ void main()
     bool held = false;
     int axes = rows.x == 3 ? 2 : 3;
     for (int a = 0; a < axes; a++) {
+#ifdef PERIODIC
+        if (periodic[a])
+            continue;
+#endif
         float low = a == 1 ? 0.0 : -half_size[a], high = a == 1 ? 2.0 * half_size.y : half_size[a];
         if (x[a] < low) {
             x[a] = low;
@@ -46,6 +50,10 @@ void main()
     }
     if (held)
         atomicAdd(watch[3], 1u);
+#ifdef PERIODIC
+    vec3 from = x - box_low.xyz;
+    x -= mix(vec3(0), box_whole.xyz * floor(from / box_whole.xyz), periodic);
+#endif
     position[i].xyz = x;
     velocity[i].xyz = v;
 }

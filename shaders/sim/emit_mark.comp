@@ -22,20 +22,25 @@ bool is_near(vec3 x, vec3 other)
 bool has_room(vec3 x)
 {
     ivec3 at = cell_of(x);
-    for (int row = rows.x; row < rows.y; row++) {
+    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
         uvec2 range = row_of(at, row);
+        vec3 seen_from = row_seen(x, at, row);
         for (uint j = range.x; j < range.y; j++)
-            if (is_near(x, position[j].xyz))
+            if (is_near(seen_from, position[j].xyz))
                 return false;
 #ifdef SOLIDS
         range = boundary_row_of(at, row);
         for (uint j = range.x; j < range.y; j++)
-            if (is_near(x, boundary_position[j].xyz))
+            if (is_near(seen_from, boundary_position[j].xyz))
                 return false;
 #endif
     }
     for (uint j = uint(flow_counts.w); j < particle_count(); j++) // those that came since
+#ifdef PERIODIC
+        if (is_near(nearest(x - position[j].xyz), vec3(0)))
+#else
         if (is_near(x, position[j].xyz))
+#endif
             return false;
 #ifdef SOLIDS
     float half_spacing = 0.5 * kernel.w;

@@ -20,6 +20,13 @@ layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) readonly buffer Pressures { vec2 pressure[]; };
 layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = 5) writeonly buffer Accelerations { vec4 acceleration[]; };
+#ifdef SHIFTING
+layout(std430, binding = 6) writeonly buffer Unevens { vec4 uneven[]; }; // see shift.comp
+
+// What shifting goes by: sums of F x_ij, of F r^2, of W; wcsph_range of sim/cpu/pairs_wcsph.c.
+vec4 even_sum = vec4(0);
+float dense_sum = 1.0;
+#endif
 
 vec3 felt_at(vec3 x)
 {
@@ -48,6 +55,10 @@ Side side_of(uint i, float volume)
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
     float f = term_scales.x * shape(sqrt(r2) * kernel.y), push = own.pressure + other.pressure;
+#ifdef SHIFTING
+    even_sum += f * vec4(d, r2);
+    dense_sum += height(sqrt(r2) * kernel.y);
+#endif
     vec3 force = vec3(0), u = other.v - own.v;
     float both = own.volume * other.volume;
 #ifdef VISCOUS
@@ -111,11 +122,12 @@ void main()
     vec4 tension_sum = vec4(0);
     uint fluid = name[i].y;
 #endif
-    for (int row = rows.x; row < rows.y; row++) {
+    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
         uvec2 range = row_of(at, row);
+        vec3 seen_from = row_seen(x, at, row);
         for (uint j = range.x; j < range.y; j++) {
             vec4 other = position[j];
-            vec3 d = x - other.xyz;
+            vec3 d = seen_from - other.xyz;
             float r2 = dot(d, d);
             if (r2 >= kernel.x * kernel.x || j == i)
                 continue;
@@ -128,13 +140,21 @@ void main()
             force += pair_force(own, side_of(j, other.w), d, r2);
         }
 #ifdef SOLIDS
-        force += boundary_force(i, own, x, boundary_row_of(at, row));
+        force += boundary_force(i, own, seen_from, boundary_row_of(at, row));
 #endif
     }
 #ifdef TENSION
     force += tension_force(tension_sum, position[i].w, fluid_terms[name[i].y].z);
 #endif
     vec4 own_fluid = fluids[name[i].y];
-    force += wall_force(x, felt_at(x), own_fluid.y, position[i].w, pressure[i].x, pressure[i].y);
+    WallSums walls = walls_at(x, false);
+    force += wall_force(walls, felt_at(x), own_fluid.y, position[i].w, pressure[i].x, pressure[i].y);
     acceleration[i] = vec4(force / own_fluid.x, 0.0);
+#ifdef SHIFTING
+    // cpu_shift_walls of sim/cpu/shift.c
+    float trace = walls.diagonal.x + walls.diagonal.y + (rows.x == 3 ? 0.0 : walls.diagonal.z);
+    float share = clamp(((even_sum.w + trace) / (term_shift.z * kernel.z) - 0.8) / 0.15, 0.0, 1.0);
+    uneven[2u * i] = vec4(share * (even_sum.xyz + walls.uneven), share);
+    uneven[2u * i + 1u] = vec4((scales.x * dense_sum + walls.density) / kernel.z - 1.0, 0.0, 0.0, 0.0);
+#endif
 }

@@ -1,5 +1,6 @@
 // What emitters hold to its course: guide_holds of sim/flow.h.
 #include "sim/constants.glsl"
+#include "sim/cells.glsl"
 #include "sim/flow.glsl"
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
@@ -13,6 +14,9 @@ void main()
     for (int k = 0; k < flow_counts.y; k++) {
         Guide guide = guides[k];
         vec3 d = position[i].xyz - guide.centre.xyz;
+#ifdef PERIODIC
+        d = nearest(d);
+#endif
         float along = dot(d, guide.direction.xyz), across2 = dot(d, d) - along * along;
         if (name[i].y == uint(guide.velocity.w) && along >= 0.0 && along < guide.direction.w &&
             across2 < guide.centre.w * guide.centre.w)

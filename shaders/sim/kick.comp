@@ -23,7 +23,11 @@ void main()
 #ifdef NO_SLIP
         // Drag with the velocity at the end of the step: hold_by_walls in sim/cpu/integrate.c.
         uint fluid = name[i].y;
-        float k = fluids[fluid].w / fluids[fluid].x * position[i].w / kernel.z * wall_drag_at(position[i].xyz);
+        float scale = fluids[fluid].w / fluids[fluid].x * position[i].w / kernel.z;
+        float k = scale * wall_drag_at(position[i].xyz);
+#ifdef LID
+        a += scale * wall_drag_sum(position[i].xyz, true) * term_lid.xyz;
+#endif
         a = (a - k * velocity[i].xyz) / (1.0 + k * gravity.w);
 #endif
         vec3 v = velocity[i].xyz + a * gravity.w;

@@ -35,10 +35,11 @@ void main()
     uint fluid = name[i].y;
     ivec3 at = cell_of(x);
     bool next_to_solid = false; // there diffusion has to level the gaps that the fluid's order leaves
-    for (int row = rows.x; row < rows.y; row++) {
+    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
         uvec2 range = row_of(at, row);
+        vec3 seen_from = row_seen(x, at, row);
         for (uint j = range.x; j < range.y; j++) {
-            vec3 d = x - position[j].xyz;
+            vec3 d = seen_from - position[j].xyz;
             float r2 = dot(d, d);
             if (r2 >= h * h || r2 < least * least || name[j].y != fluid)
                 continue;
@@ -50,7 +51,7 @@ void main()
 #ifdef SOLIDS
         range = boundary_row_of(at, row);
         for (uint j = range.x; j < range.y; j++) {
-            vec3 d = x - boundary_position[j].xyz;
+            vec3 d = seen_from - boundary_position[j].xyz;
             next_to_solid = next_to_solid || dot(d, d) < h * h;
         }
 #endif

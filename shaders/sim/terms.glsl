@@ -5,4 +5,6 @@ layout(std140, binding = 3) uniform Terms {
     ivec4 drag_nodes;             // of the tables of one, two, three faces
     vec4 drag_steps;              // their inverse steps; w: range
     ivec4 drag_offset;            // where they begin
+    vec4 term_lid;                // velocity of the wall at the top
+    vec4 term_shift;              // chi c h / 2; of the return of density, 1/s; dimensions
 };

@@ -23,31 +23,41 @@ float drag_of_faces(vec3 distances, int count)
     return sum;
 }
 
-// D at x, 1/m5.
-float wall_drag_at(vec3 x)
+// Faces less edges plus corners, 1/m5; all, or those that the wall at the top is one of.
+float wall_drag_sum(vec3 x, bool lid_only)
 {
+    bool lid[6];
     int axis[6], count = 0, axes = rows.x == 3 ? 2 : 3;
     float near[6], sum = 0.0;
     for (int a = 0; a < axes; a++) {
+#ifdef PERIODIC
+        if (periodic[a])
+            continue;
+#endif
         float centred = a == 1 ? x.y - half_size.y : x[a];
         for (int side = 0; side < 2; side++) {
             float d = side == 0 ? half_size[a] + centred : half_size[a] - centred;
             if (d < drag_steps.w) {
                 axis[count] = a;
+                lid[count] = a == 1 && side == 1;
                 near[count++] = max(d, 0.0);
             }
         }
     }
     for (int a = 0; a < count; a++) {
-        sum += drag_of_faces(vec3(near[a]), 1);
+        if (!lid_only || lid[a])
+            sum += drag_of_faces(vec3(near[a]), 1);
         for (int b = a + 1; b < count; b++) {
             if (axis[b] == axis[a])
                 continue;
-            sum -= drag_of_faces(vec3(near[a], near[b], 0.0), 2);
+            if (!lid_only || lid[a] || lid[b])
+                sum -= drag_of_faces(vec3(near[a], near[b], 0.0), 2);
             for (int c = b + 1; c < count; c++)
-                if (axis[c] != axis[b])
+                if (axis[c] != axis[b] && (!lid_only || lid[a] || lid[b] || lid[c]))
                     sum += drag_of_faces(vec3(near[a], near[b], near[c]), 3);
         }
     }
     return sum;
 }
+
+float wall_drag_at(vec3 x) { return wall_drag_sum(x, false); }

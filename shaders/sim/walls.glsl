@@ -13,6 +13,9 @@ struct WallSums {
     vec3 push;
     vec3 diagonal; // xx yy zz
     vec3 mixed;    // xy yz zx
+#ifdef SHIFTING
+    vec3 uneven;   // the push without u'
+#endif
 };
 
 struct Face {
@@ -63,7 +66,12 @@ void add_faces(Face a, Face b, Face c, int count, bool density_only, inout WallS
     int second = count > 1 ? b.axis : rows.x == 3 ? 1 - a.axis : (a.axis + 1) % 3;
     ivec3 axis = ivec3(a.axis, second, 3 - a.axis - second);
     vec3 side = mix(vec3(1), vec3(a.side, b.side, c.side), used);
-    push *= side * mix(vec3(0), vec3(a.slope, b.slope, c.slope), used);
+    push *= mix(vec3(0), side, used);
+#ifdef SHIFTING
+    for (int k = 0; k < 3; k++)
+        sums.uneven[axis[k]] += push[k];
+#endif
+    push *= mix(vec3(0), vec3(a.slope, b.slope, c.slope), used);
     mixed *= side * side.yzx;
     for (int k = 0; k < 3; k++) {
         sums.push[axis[k]] += push[k];
@@ -77,8 +85,16 @@ WallSums walls_at(vec3 x, bool density_only)
 {
     Face face[6];
     int count = 0, axes = rows.x == 3 ? 2 : 3;
+#ifdef SHIFTING
+    WallSums sums = WallSums(0.0, vec3(0), vec3(0), vec3(0), vec3(0));
+#else
     WallSums sums = WallSums(0.0, vec3(0), vec3(0), vec3(0));
+#endif
     for (int a = 0; a < axes; a++) {
+#ifdef PERIODIC
+        if (periodic[a])
+            continue;
+#endif
         float centred = a == 1 ? x.y - half_size.y : x[a];
         float low = half_size[a] + centred, high = half_size[a] - centred;
         if (low < half_size.w)
@@ -97,11 +113,10 @@ WallSums walls_at(vec3 x, bool density_only)
     return sums;
 }
 
-// What they do to a particle at x of such a rest density, volume, pressure p and term p V^2, where it feels g: wall_force
+// What they do to a particle that finds those sums, of such a rest density, volume, pressure p and term p V^2, where it feels g: wall_force
 // in sim/cpu/forces.c.
-vec3 wall_force(vec3 x, vec3 g, float density, float volume, float p, float term)
+vec3 wall_force(WallSums sums, vec3 g, float density, float volume, float p, float term)
 {
-    WallSums sums = walls_at(x, false);
     float layer = density * kernel.w * length(g), fade = layer > 0.0 ? clamp(p / layer, 0.0, 1.0) : 0.0;
     float weight = fade * density * volume / kernel.z;
     vec3 d = sums.diagonal, m = sums.mixed;

@@ -17,6 +17,23 @@ float shape(float q)
 #endif
 }
 
+#ifdef SHIFTING
+// w(q) / w(0).
+float height(float q)
+{
+    float t = 1.0 - q;
+#if defined KERNEL_WENDLAND_C2
+    return t * t * t * t * (1.0 + 4.0 * q);
+#elif defined KERNEL_QUINTIC
+    vec3 base = max(vec3(3.0 * t, 3.0 * t - 1.0, 3.0 * t - 2.0), 0.0), powers = base * base;
+    powers *= powers * base;
+    return (powers.x - 6.0 * powers.y + 15.0 * powers.z) / 66.0;
+#else
+    return q < 0.5 ? 1.0 - 6.0 * q * q * t : 2.0 * t * t * t;
+#endif
+}
+#endif
+
 struct State {
     float volume;
     vec2 pressure; // p, p V^2

@@ -82,14 +82,12 @@ static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
     int count = -1; /* not itself */
     PairRow rows[PAIR_ROWS];
     const int row_count = pair_rows(args, args->cell[i], rows);
-    for (int row = 0; row < row_count; row++) {
-        const float *shift = rows[row].shift, x = args->x[i] + shift[0], y = args->y[i] + shift[1],
-                    z = args->z[i] + shift[2];
+    for (int row = 0; row < row_count; row++)
         for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
-            const float dx = x - args->x[j], dy = y - args->y[j], dz = z - args->z[j];
-            count += dx * dx + dy * dy + dz * dz < h2 && cpu->now.fluid[j] < FLUIDS_MAX;
+            float d[3] = {args->x[i] - args->x[j], args->y[i] - args->y[j], args->z[i] - args->z[j]};
+            periodic_nearest(&args->solver->periodic, d); /* who has gone through a side since the grid */
+            count += d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < h2 && cpu->now.fluid[j] < FLUIDS_MAX;
         }
-    }
     return count;
 }
 

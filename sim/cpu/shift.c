@@ -7,10 +7,6 @@
 
 #include <math.h>
 
-/* Times in which sound crosses a support radius: after so many the density that particles carry, which does
-   not know of shifts and would drift by a percent a second, comes back to that of their places. */
-static const float RETURN = 20;
-
 /* 0 where less than 0.8 of the space around is full, at a surface; 1 from 0.95 on. */
 static float share_of(float full)
 {
@@ -45,7 +41,7 @@ static void shift_range(void *context, size_t begin, size_t end)
     const CpuParticles *p = &cpu->now;
     float *const x[3] = {p->x, p->y, p->z};
     const float most = 0.1f * s->spacing, scale = s->shifting * pass->dt / s->rest_number_density;
-    const float part = fminf(pass->dt * s->sound_speed / (RETURN * s->support_radius), 1);
+    const float part = fminf(pass->dt * s->sound_speed / (SHIFT_RETURN * s->support_radius), 1);
     for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);)
         for (; i < stop; i++) {
             for (int k = 0; k < s->dimensions; k++)

@@ -56,6 +56,6 @@ void main()
 #endif
     meet_neighbours(self, here);
     vec3 g = felt_origin - cross(felt_alpha, here) - cross(felt_omega, cross(felt_omega, here));
-    force += wall_force(here, g, fluid.y, known.x, known.y, pressure_term);
+    force += wall_force(walls_at(here, false), g, fluid.y, known.x, known.y, pressure_term);
     acceleration = vec4(force / fluid.x, 0.0);
 }

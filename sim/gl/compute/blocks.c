@@ -13,6 +13,7 @@ typedef struct Constants {
     float wall_steps[4];
     int32_t wall_offset[4];
     float fluids[FLUIDS_MAX][4];
+    float cell_origin[4], cell_inverse[4], box_low[4], box_whole[4];
 } Constants;
 
 typedef struct Step {
@@ -51,11 +52,19 @@ void compute_constants(Compute *compute)
     for (int k = 0; k < 3; k++) {
         c.cell_first[k] = s->cells.first[k];
         c.cell_size[k] = s->cells.size[k];
+        c.cell_origin[k] = s->cells.origin[k];
+        c.cell_inverse[k] = s->cells.inverse[k];
+        c.box_low[k] = s->periodic.low[k];
+        c.box_whole[k] = s->periodic.size[k];
     }
     c.cell_first[3] = (int32_t)compute->count;
     c.cell_size[3] = (int32_t)s->cells.count;
     c.rows[0] = s->first_row;
     c.rows[1] = s->last_row;
+    if (s->periodic.any) { /* single cells: a row may go on across a side */
+        c.rows[2] = 3 * s->first_row;
+        c.rows[3] = 3 * s->last_row;
+    }
     walls_constants(&s->walls, &c);
     set_fluids(s, c.fluids);
     if (!compute->constants) {

@@ -30,9 +30,10 @@ static void particles_destroy(ComputeParticles *particles)
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,      c->rank,      c->order,    c->start,        c->totals[0],
-                              c->totals[1], c->totals[2], c->pressure, c->acceleration, c->walls,
-                              c->constants, c->step,      c->terms,    c->slope,        c->drag};
+    const GLuint buffers[] = {c->cell,         c->rank,      c->order,     c->start,
+                              c->totals[0],    c->totals[1], c->totals[2], c->pressure,
+                              c->acceleration, c->walls,     c->constants, c->step,
+                              c->terms,        c->slope,     c->drag,      c->uneven};
     particles_destroy(&c->now);
     particles_destroy(&c->spare);
     particles_destroy(&c->marked);
@@ -219,6 +220,7 @@ const Backend backend_compute = {
     .density = compute_density,
     .continuity = compute_continuity,
     .force = compute_force,
+    .shift = compute_shift,
     .kick = compute_kick,
     .guide = compute_guide,
     .emit = compute_emit,

@@ -40,6 +40,7 @@ typedef struct ComputeParticles {
     X(SLOPE, "slope")                                                                                        \
     X(CONTINUITY, "continuity")                                                                              \
     X(FORCE, "force")                                                                                        \
+    X(SHIFT, "shift")                                                                                        \
     X(KICK, "kick")                                                                                          \
     X(SHOW, "show")                                                                                          \
     X(BOUNDARY_BIN, "boundary_bin")                                                                          \
@@ -97,6 +98,7 @@ typedef struct Compute {
 
     unsigned slope;                    /* vec4: see slope.comp; 0: no diffusion of density */
     unsigned drag;                     /* tables; 0: walls let fluid slip */
+    unsigned uneven;                   /* vec4, vec4: see force.comp; 0: no shifting */
     unsigned terms;                    /* uniform block */
     bool slopes_due;                   /* since `grid` */
     char defines[COMPUTE_DEFINES_MAX]; /* that the programs were made with; 0 is one that the scene does not
@@ -166,6 +168,7 @@ void compute_density(void *state);
 void compute_continuity(void *state, float dt);
 void compute_force(void *state, const ApparentGravity *gravity);
 void compute_drift(void *state, const FrameStep *step);
+void compute_shift(void *state, float dt);
 void compute_kick(void *state, const float gravity[3], float dt);
 StepWatch compute_watch(void *state);
 bool compute_mark(void *state, Error *error);

@@ -81,9 +81,17 @@ void compute_force(void *state, const ApparentGravity *gravity)
     if (c->solver->solid_count > 0)
         compute_boundary_fill(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
-                                    c->acceleration, 0, c->walls},
+                                    c->acceleration, c->uneven, c->walls},
                  8);
     compute_run(c, COMPUTE_FORCE, c->count);
+}
+
+void compute_shift(void *state, float dt)
+{
+    Compute *c = state;
+    glProgramUniform1f(c->program[COMPUTE_SHIFT], 0, dt);
+    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->uneven}, 3);
+    compute_run(c, COMPUTE_SHIFT, c->count);
 }
 
 void compute_kick(void *state, const float gravity[3], float dt)

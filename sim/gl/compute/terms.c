@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 #include <stdio.h>
+#include <string.h>
 
 /* The uniform block of shaders/sim/terms.glsl; std140: all members are multiples of 16 bytes. */
 typedef struct Terms {
@@ -11,6 +12,7 @@ typedef struct Terms {
     int32_t drag_nodes[4];
     float drag_steps[4];
     int32_t drag_offset[4];
+    float lid[4], shift[4];
 } Terms;
 
 static bool diffusive(const Solver *s)
@@ -37,8 +39,13 @@ void compute_defines(const Solver *s, char out[COMPUTE_DEFINES_MAX])
         {s->tension_model != TENSION_NONE, "TENSION"},
         {s->tension_model == TENSION_COHESION, "COHESION"},
         {s->no_slip, "NO_SLIP"},
+        {s->lid, "LID"},
+        {s->shifting > 0, "SHIFTING"},
     };
     size_t used = 0;
+    if (s->periodic.any)
+        used += (size_t)snprintf(out, COMPUTE_DEFINES_MAX, "#define PERIODIC bvec3(%d, %d, %d)\n",
+                                 s->periodic.axis[0], s->periodic.axis[1], s->periodic.axis[2]);
 #define X(NAME, name, unit)                                                                                  \
     used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define SCALAR_" #NAME " %d\n",        \
                              SCALAR_##NAME);
@@ -60,6 +67,8 @@ bool compute_pass_named(const Solver *s, ComputePass pass)
     case COMPUTE_STATE:
     case COMPUTE_CONTINUITY:
         return s->continuity;
+    case COMPUTE_SHIFT:
+        return s->shifting > 0;
     case COMPUTE_SLOPE:
         return diffusive(s);
     case COMPUTE_BOUNDARY_BIN:
@@ -107,6 +116,8 @@ bool compute_term_buffers(Compute *c)
     const Solver *s = c->solver;
     if (diffusive(s) && !c->slope)
         c->slope = compute_buffer(c, "slopes of density", 16 * c->capacity);
+    if (s->shifting > 0 && !c->uneven)
+        c->uneven = compute_buffer(c, "unevenness", 32 * c->capacity);
     if (s->no_slip && !c->drag)
         drag_upload(c);
     if (!c->full)
@@ -139,6 +150,10 @@ void compute_term_constants(Compute *c)
     }
     if (s->no_slip)
         drag_constants(&s->drag, &terms);
+    memcpy(terms.lid, s->lid_velocity, sizeof s->lid_velocity);
+    terms.shift[0] = s->shifting;
+    terms.shift[1] = s->sound_speed / (SHIFT_RETURN * s->support_radius);
+    terms.shift[2] = (float)s->dimensions;
     if (!c->terms) {
         glCreateBuffers(1, &c->terms);
         glNamedBufferStorage(c->terms, sizeof terms, NULL, GL_DYNAMIC_STORAGE_BIT);

@@ -1,5 +1,6 @@
 /* Between the buffers and the plain arrays of sim/gl/transfer.h. */
 #include "sim/gl/transfer.h"
+#include "sim/cpu/pairs.h"
 #include "sim/gl/compute/compute.h"
 
 #include <epoxy/gl.h>
@@ -76,14 +77,16 @@ static size_t neighbours_of(const Solver *s, const Transfer *copy, const uint32_
 {
     const float *x = copy->position + 4 * i, h2 = s->support_radius * s->support_radius;
     size_t count = 0;
-    for (int row = s->first_row; row < s->last_row; row++) {
-        const long middle =
-            (long)cell + ((long)(row / 3 - 1) * s->cells.size[1] + (row % 3 - 1)) * s->cells.size[0];
-        for (size_t j = start[middle - 1]; j < start[middle + 2]; j++) {
-            const float *y = copy->position + 4 * j, dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
-            count += j != i && dx * dx + dy * dy + dz * dz < h2;
+    PairRow rows[PAIR_ROWS];
+    const PairArgs args = {.solver = s, .cell_start = start};
+    const int row_count = pair_rows(&args, (uint32_t)cell, rows);
+    for (int row = 0; row < row_count; row++)
+        for (size_t j = rows[row].begin; j < rows[row].end; j++) {
+            const float *y = copy->position + 4 * j;
+            float d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+            periodic_nearest(&s->periodic, d); /* who has gone through a side since */
+            count += j != i && d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < h2;
         }
-    }
     return count;
 }
 

@@ -1,0 +1,52 @@
+// Which cell is where, and which are next to it: sim/cpu/grid.c, sim/cpu/rows.c.
+ivec3 cell_of(vec3 x)
+{
+    ivec3 first = cell_first.xyz + 1, last = cell_first.xyz + cell_size.xyz - 2;
+#ifdef PERIODIC
+    return clamp(ivec3(floor((x - cell_origin.xyz) * cell_inverse.xyz)), first, last) - first + 1;
+#else
+    return clamp(ivec3(floor(x * kernel.y)), first, last) - first + 1;
+#endif
+}
+
+int cell_number(ivec3 at) { return (at.z * cell_size.y + at.y) * cell_size.x + at.x; }
+
+// A row's first cell and the one behind it. With periodic sides a row is a single cell, and what stands there sees a
+// particle at x as if it were at x + row_shift.
+#ifdef PERIODIC
+#define FIRST_ROW rows.z
+#define LAST_ROW rows.w
+
+ivec3 row_offset(int row) { return ivec3(row % 3, row / 3 % 3, row / 9) - 1; }
+
+vec3 row_shift(ivec3 at, int row)
+{
+    ivec3 cell = at + row_offset(row), cells = cell_size.xyz - 2;
+    vec3 side = vec3(lessThan(cell, ivec3(1))) - vec3(greaterThan(cell, cells));
+    return mix(vec3(0), side * box_whole.xyz, periodic);
+}
+
+ivec2 row_cells(ivec3 at, int row)
+{
+    ivec3 cell = at + row_offset(row), cells = cell_size.xyz - 2;
+    ivec3 inside = cell + cells * (ivec3(lessThan(cell, ivec3(1))) - ivec3(greaterThan(cell, cells)));
+    int number = cell_number(ivec3(mix(vec3(cell), vec3(inside), periodic)));
+    return ivec2(number, number + 1);
+}
+
+vec3 row_seen(vec3 x, ivec3 at, int row) { return x + row_shift(at, row); }
+
+// The nearest image of a difference of places.
+vec3 nearest(vec3 d) { return d - mix(vec3(0), box_whole.xyz * roundEven(d / box_whole.xyz), periodic); }
+#else
+#define FIRST_ROW rows.x
+#define LAST_ROW rows.y
+
+ivec2 row_cells(ivec3 at, int row)
+{
+    int middle = cell_number(at + ivec3(0, row % 3 - 1, row / 3 - 1));
+    return ivec2(middle - 1, middle + 2);
+}
+
+vec3 row_seen(vec3 x, ivec3 at, int row) { return x; }
+#endif
