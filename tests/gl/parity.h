@@ -60,10 +60,12 @@ static inline double scale_of(const Solver *s, const State *state, size_t i)
     double sum = 0;
     for (size_t j = 0; j < state->count; j++) {
         double r2 = 0;
-        for (size_t k = 0; k < 3; k++) {
-            const double d = (double)(state->position[4 * i + k] - state->position[4 * j + k]);
-            r2 += d * d;
-        }
+        float d[3];
+        for (size_t k = 0; k < 3; k++)
+            d[k] = state->position[4 * i + k] - state->position[4 * j + k];
+        periodic_nearest(&s->periodic, d);
+        for (size_t k = 0; k < 3; k++)
+            r2 += (double)(d[k] * d[k]);
         if (j != i && r2 < (double)(s->support_radius * s->support_radius))
             sum += pair_terms(s, state, i, j, sqrt(r2));
     }
@@ -116,10 +118,16 @@ static inline void compare_step(const char *label, World *cpu, World *gpu)
     fixture_step(cpu, 1);
     fixture_step(gpu, 1);
     State a = fixture_read(cpu), b = fixture_read(gpu);
-    Worst density = {0}, change = {0}, rate = {0};
+    Worst density = {0}, change = {0}, rate = {0}, place = {0};
     for (size_t i = 0; i < a.count; i++) {
         worst_take(&density, (double)(fabsf(a.density[i] - b.density[i]) / cpu->solver.density[a.fluid[i]]),
                    (uint32_t)i, a.position + 4 * i);
+        float off[3];
+        for (size_t k = 0; k < 3; k++)
+            off[k] = a.position[4 * i + k] - b.position[4 * i + k];
+        periodic_nearest(&cpu->solver.periodic, off);
+        worst_take(&place, hypot(hypot((double)off[0], (double)off[1]), (double)off[2]), (uint32_t)i,
+                   a.position + 4 * i);
         double velocity = 0;
         for (size_t k = 4 * i; k < 4 * i + 3; k++)
             velocity = hypot(velocity, (double)(a.velocity[k] - b.velocity[k]));
@@ -132,6 +140,7 @@ static inline void compare_step(const char *label, World *cpu, World *gpu)
     printf("%dD, %s: density off by %.1e of rest, its rate by %.1e, acceleration by %.1e of its terms\n",
            cpu->def.dimensions, label, density.off, rate.off, change.off);
     require("density", &density, 1e-5);
+    require("place, m,", &place, 1e-6);
     require("rate of density", &rate, 1e-3);
     require("acceleration", &change, 1e-4);
     free(before);

@@ -16,6 +16,8 @@ typedef struct Case {
     TensionModel tension;
     bool negative, no_slip;
     bool solids;
+    const char *sides; /* periodic ones */
+    double shifting, lid;
     bool runs; /* for 200 steps too */
 } Case;
 
@@ -68,6 +70,45 @@ static const Case cases[] = {
      .support = 2.1,
      .viscosity = {1, 3},
      .tension = TENSION_COHESION},
+    {.label = "wcsph, Wendland, laminar, periodic, lid, shifting",
+     .method = "wcsph",
+     .kernel = "wendland_c2",
+     .dimensions = 2,
+     .support = 3,
+     .viscosity = {1, 3},
+     .delta = 0.1,
+     .negative = true,
+     .no_slip = true,
+     .solids = true,
+     .sides = "x",
+     .shifting = 0.2,
+     .lid = 1},
+    {.label = "wcsph, quintic, periodic, shifting",
+     .method = "wcsph",
+     .kernel = "quintic",
+     .dimensions = 2,
+     .support = 3,
+     .viscosity = {1, 3},
+     .negative = true,
+     .sides = "xy",
+     .shifting = 0.2},
+    {.label = "wcsph, cubic, periodic, cohesion, shifting",
+     .method = "wcsph",
+     .kernel = "cubic",
+     .dimensions = 3,
+     .support = 2.1,
+     .delta = 0.1,
+     .artificial = 0.1,
+     .tension = TENSION_COHESION,
+     .sides = "xz",
+     .shifting = 0.1},
+    {.label = "mueller, periodic",
+     .method = "mueller",
+     .dimensions = 3,
+     .support = 2.1,
+     .viscosity = {1, 3},
+     .solids = true,
+     .sides = "x"},
 };
 enum { CASES = sizeof cases / sizeof *cases, SQUARE_WCSPH = 1, SQUARE_NO_SLIP = 2 };
 
@@ -100,6 +141,12 @@ static WorldDef def_of(const Case *c)
     def.negative_pressure = c->negative;
     if (c->solids)
         add_solids(&def);
+    for (int k = 0; c->sides && k < 3; k++)
+        def.periodic[k] = strchr(c->sides, "xyz"[k]) != NULL;
+    if (c->sides)
+        def.motion_count = 1; /* such a box does not turn */
+    def.shifting = c->shifting;
+    def.lid[0] = c->lid;
     def.wall_slip = c->no_slip ? SLIP_NONE : SLIP_FREE;
     for (int f = 0; f < 2; f++) {
         def.fluids[f].viscosity = c->viscosity[f];
