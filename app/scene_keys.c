@@ -206,7 +206,7 @@ static const Key keys[] = {
            "wcsph: alpha, for fluids without a viscosity; 0: none"),
     NUMBER("solver.delta_sph", 0, "", 0, 0.5, WORLD(delta_sph), "wcsph: diffusion of density, 0.1 as a rule; 0: none"),
     NUMBER("solver.shifting", 0, "", 0, 1, WORLD(shifting),
-           "wcsph: keeps particles evenly spread, for flows without a surface, 0.05 as a rule; 0: none"),
+           "wcsph: keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none"),
     CHOICE("solver.backend", L, backend_choice, WORLD(backend), "what computes them"),
     INTEGER("solver.threads", 0, 0, 1024, WORLD(threads), "of the CPU; 0: one a processor"),
     INTEGER("solver.grid_layers", 0, 0, 63, WORLD(grid_layers),

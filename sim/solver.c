@@ -153,9 +153,8 @@ static bool def_check(const WorldDef *def, Error *error)
         return error_set(error, "dt and sound_speed must be positive, substeps at least 1");
     if (def->wall_slip != SLIP_FREE && def->wall_slip != SLIP_NONE)
         return error_set(error, "the walls' slip is free or none");
-    if (!(def->shifting >= 0 && def->shifting <= 1) ||
-        (def->shifting > 0 && strcmp(def->method, "wcsph") != 0))
-        return error_set(error, "shifting is 0 to 1, and of method wcsph alone");
+    if (!(def->shifting >= 0 && def->shifting <= 1) || !(def->jitter >= 0 && def->jitter <= 0.5))
+        return error_set(error, "shifting is 0 to 1, jitter 0 to 0.5");
     if (length2(def->lid) > 0 && (def->wall_slip != SLIP_NONE || def->lid[1] != 0 || def->periodic[1] ||
                                   !isfinite(length2(def->lid)) || (def->dimensions == 2 && def->lid[2] != 0)))
         return error_set(error,
@@ -213,7 +212,7 @@ static void fluids_set(Solver *solver, const WorldDef *def)
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     solver->diffusion = (float)(2 * def->delta_sph * c * reach);
     solver->sound_speed = (float)c;
-    solver->shifting = (float)(def->shifting * c * reach);
+    solver->shifting = solver->continuity ? (float)(def->shifting * c * reach) : 0;
     solver->artificial = false;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];

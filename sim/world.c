@@ -163,7 +163,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->state = world->state;
     step->clock = clock;
     step->dt = dt;
-    step->shifts = world->def.shifting > 0;
+    step->shifts = world->solver.shifting > 0;
     frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
     frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
