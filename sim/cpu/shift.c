@@ -44,7 +44,7 @@ static void shift_range(void *context, size_t begin, size_t end)
     const float part = fminf(pass->dt * s->sound_speed / (SHIFT_RETURN * s->support_radius), 1);
     for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);)
         for (; i < stop; i++) {
-            for (int k = 0; k < s->dimensions; k++)
+            for (int k = 0; k < 3; k++)
                 x[k][i] += fminf(fmaxf(scale * cpu->uneven[k][i], -most), most);
             p->compression[i] += part * cpu->full[i] * (cpu->dense[i] - p->compression[i]);
         }
