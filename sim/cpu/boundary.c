@@ -161,8 +161,8 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
     const float x[3] = {p->x[i], p->y[i], p->z[i]}, volume = 1 / s->rest_number_density;
     const bool sticks = s->viscous && s->solids[solid].slip == SLIP_NONE;
     Seen seen = {0};
-    PairRow rows[PAIR_ROWS];
-    const int row_count = pair_rows(args, cpu->cell[i], rows);
+    CellRow rows[CELL_ROWS];
+    const int row_count = cell_rows(args->solver, args->cell_start, cpu->cell[i], rows);
     for (int row = 0; row < row_count; row++) {
         const float *shift = rows[row].shift, from[3] = {x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]};
         for (uint32_t k = cpu->owned_before[rows[row].begin]; k < cpu->owned_before[rows[row].end]; k++)

@@ -11,8 +11,8 @@ static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
 {
     const float least = ROOM * cpu->solver->spacing;
     const uint32_t cell = cpu_cell_of(cpu->solver, x);
-    PairRow rows[PAIR_ROWS];
-    const int row_count = pair_rows(args, cell, rows);
+    CellRow rows[CELL_ROWS];
+    const int row_count = cell_rows(args->solver, args->cell_start, cell, rows);
     for (int row = 0; row < row_count; row++) {
         const float *shift = rows[row].shift;
         for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {

@@ -24,7 +24,7 @@ static const i8 lane_index = {0, 1, 2, 3, 4, 5, 6, 7};
 /* The rows of cells next to one, cached while the cell stays the same: nine of three cells, more across
    periodic sides, where a particle at x is as one at x + shift. */
 #ifdef PAIRS_PERIODIC
-enum { ROWS_MOST = PAIR_ROWS };
+enum { ROWS_MOST = CELL_ROWS };
 #define ROW_SHIFT(rows, row, axis, x) ((x) + f8_splat((rows).shift[axis][row]))
 #else
 enum { ROWS_MOST = 9 };
@@ -50,9 +50,9 @@ SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
         return;
     rows->cell = cell;
 #ifdef PAIRS_PERIODIC
-    PairRow row[PAIR_ROWS];
+    CellRow row[CELL_ROWS];
     rows->first = 0;
-    rows->last = pair_rows(args, cell, row);
+    rows->last = cell_rows(args->solver, args->cell_start, cell, row);
     for (int k = 0; k < rows->last; k++) {
         rows->begin[k] = row[k].begin;
         rows->end[k] = row[k].end;

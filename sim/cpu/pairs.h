@@ -3,7 +3,7 @@
 #ifndef SLOSH_PAIRS_H
 #define SLOSH_PAIRS_H
 
-#include "sim/solver.h"
+#include "sim/cell_rows.h"
 
 enum { LANES = 8 }; /* see sim/cpu/simd.h */
 
@@ -42,17 +42,6 @@ typedef struct PairOps {
 /* The widest that this processor has, or the one that the environment variable SLOSH_SIMD names, if it can;
    those of a box with periodic sides have loops of their own. */
 const PairOps *pair_ops_choose(bool periodic);
-
-/* Particles [begin, end) next to a cell, as seen by who stands at x + shift; m. */
-typedef struct PairRow {
-    uint32_t begin, end;
-    float shift[3]; /* 0 but across a periodic side */
-} PairRow;
-
-enum { PAIR_ROWS = 18 };
-
-/* All that stand in the cells next to `cell`, itself included; returns how many rows it fills. */
-int pair_rows(const PairArgs *args, uint32_t cell, PairRow rows[PAIR_ROWS]);
 
 /* The particles [begin, end) that stand in the three cells of one row next to `cell`; row 0..8. Not in a box
    with periodic sides. */

@@ -80,8 +80,8 @@ static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
 {
     const float h2 = args->solver->support_radius * args->solver->support_radius;
     int count = -1; /* not itself */
-    PairRow rows[PAIR_ROWS];
-    const int row_count = pair_rows(args, args->cell[i], rows);
+    CellRow rows[CELL_ROWS];
+    const int row_count = cell_rows(args->solver, args->cell_start, args->cell[i], rows);
     for (int row = 0; row < row_count; row++)
         for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
             float d[3] = {args->x[i] - args->x[j], args->y[i] - args->y[j], args->z[i] - args->z[j]};

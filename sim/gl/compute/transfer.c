@@ -1,6 +1,6 @@
 /* Between the buffers and the plain arrays of sim/gl/transfer.h. */
 #include "sim/gl/transfer.h"
-#include "sim/cpu/pairs.h"
+#include "sim/cell_rows.h"
 #include "sim/gl/compute/compute.h"
 
 #include <epoxy/gl.h>
@@ -77,9 +77,8 @@ static size_t neighbours_of(const Solver *s, const Transfer *copy, const uint32_
 {
     const float *x = copy->position + 4 * i, h2 = s->support_radius * s->support_radius;
     size_t count = 0;
-    PairRow rows[PAIR_ROWS];
-    const PairArgs args = {.solver = s, .cell_start = start};
-    const int row_count = pair_rows(&args, (uint32_t)cell, rows);
+    CellRow rows[CELL_ROWS];
+    const int row_count = cell_rows(s, start, (uint32_t)cell, rows);
     for (int row = 0; row < row_count; row++)
         for (size_t j = rows[row].begin; j < rows[row].end; j++) {
             const float *y = copy->position + 4 * j;

@@ -1,5 +1,4 @@
-/* Which particles stand next to a cell. */
-#include "sim/cpu/pairs.h"
+#include "sim/cell_rows.h"
 
 /* The cell at `place` along one axis, where it is none of the box's own: across a periodic side. */
 static int across(const Solver *s, int k, int place, float *shift)
@@ -13,18 +12,17 @@ static int across(const Solver *s, int k, int place, float *shift)
 }
 
 /* `count` cells from `first` on along x. */
-static PairRow row_from(const PairArgs *args, int first, int count, const int at[3], const float shift[3])
+static CellRow row_from(const Solver *solver, const uint32_t *start, int first, int count, const int at[3],
+                        const float shift[3])
 {
-    const int *size = args->solver->cells.size;
+    const int *size = solver->cells.size;
     const size_t cell = ((size_t)at[2] * (size_t)size[1] + (size_t)at[1]) * (size_t)size[0] + (size_t)first;
-    return (PairRow){.begin = args->cell_start[cell],
-                     .end = args->cell_start[cell + (size_t)count],
-                     .shift = {shift[0], shift[1], shift[2]}};
+    return (CellRow){
+        .begin = start[cell], .end = start[cell + (size_t)count], .shift = {shift[0], shift[1], shift[2]}};
 }
 
-int pair_rows(const PairArgs *args, uint32_t cell, PairRow rows[PAIR_ROWS])
+int cell_rows(const Solver *s, const uint32_t *start, uint32_t cell, CellRow rows[CELL_ROWS])
 {
-    const Solver *s = args->solver;
     const int *size = s->cells.size, x = (int)(cell % (uint32_t)size[0]);
     const int y = (int)(cell / (uint32_t)size[0]) % size[1], z = (int)(cell / (uint32_t)size[0]) / size[1];
     const bool low = s->periodic.axis[0] && x == 1, high = s->periodic.axis[0] && x == size[0] - 2;
@@ -33,10 +31,10 @@ int pair_rows(const PairArgs *args, uint32_t cell, PairRow rows[PAIR_ROWS])
         float shift[3] = {0};
         const int at[3] = {x, across(s, 1, y + row % 3 - 1, &shift[1]),
                            across(s, 2, z + row / 3 - 1, &shift[2])};
-        rows[count++] = row_from(args, low ? x : x - 1, low || high ? 2 : 3, at, shift);
+        rows[count++] = row_from(s, start, low ? x : x - 1, low || high ? 2 : 3, at, shift);
         if (low || high) {
             const int far = across(s, 0, low ? x - 1 : x + 1, &shift[0]);
-            rows[count++] = row_from(args, far, 1, at, shift);
+            rows[count++] = row_from(s, start, far, 1, at, shift);
         }
     }
     return count;
