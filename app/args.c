@@ -248,9 +248,10 @@ static bool parse_option(Parser *parser, const char *argument)
 /* What the arguments of a command are. */
 static const char *takes(const CommandRow *row)
 {
-    return row->command == COMMAND_REPLAY   ? "recording"
-           : row->command == COMMAND_EXPORT ? "snapshot file"
-                                            : "scene";
+    return row->command == COMMAND_REPLAY     ? "recording"
+           : row->command == COMMAND_EXPORT   ? "snapshot file"
+           : row->command == COMMAND_VALIDATE ? "case"
+                                              : "scene";
 }
 
 static bool parse_scene(const Parser *parser, const char *name)

@@ -20,8 +20,9 @@ typedef enum Command {
     COMMAND_RENDER,
     COMMAND_RUN,
     COMMAND_BENCH,
-    COMMAND_REPLAY, /* `scenes` holds the recording */
-    COMMAND_EXPORT, /* `scenes` holds the snapshots */
+    COMMAND_VALIDATE, /* `scenes` holds the cases */
+    COMMAND_REPLAY,   /* `scenes` holds the recording */
+    COMMAND_EXPORT,   /* `scenes` holds the snapshots */
     COMMAND_INFO,
     COMMAND_COUNT
 } Command;
@@ -70,6 +71,7 @@ typedef struct Args {
     bool surface;         /* export: the fluid's surface instead of the particles */
     double level, cell;   /* of it; 0: not given */
     ColorChoice color_by; /* export: of a .ply */
+    bool full, coarse;    /* validate: finer or coarser than its default set */
     const char *table;    /* bench: NAME, or NULL */
     bool play;            /* bench: the live window */
     double seconds;       /* of it; more than 0; default 20 */

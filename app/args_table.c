@@ -7,10 +7,11 @@ enum {
     RENDER = 1 << COMMAND_RENDER,
     RUN = 1 << COMMAND_RUN,
     BENCH = 1 << COMMAND_BENCH,
+    VALIDATE = 1 << COMMAND_VALIDATE,
     REPLAY = 1 << COMMAND_REPLAY,
     EXPORT = 1 << COMMAND_EXPORT,
     INFO = 1 << COMMAND_INFO,
-    ALL = PLAY | RENDER | RUN | BENCH | INFO
+    ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | INFO
 };
 
 const CommandRow command_rows[] = {
@@ -23,6 +24,8 @@ const CommandRow command_rows[] = {
      "simulates a scene into snapshots that ParaView opens", 1, 1, "OUT.h5part", 1280, 720},
     {COMMAND_BENCH, "bench", "[SCENE...] [OPTIONS]", "measures how long each stage of a frame takes", 0,
      ARGS_SCENES_MAX, NULL, 512, 512},
+    {COMMAND_VALIDATE, "validate", "[CASE...] [OPTIONS]",
+     "known flows against their references; without a CASE, all", 0, ARGS_SCENES_MAX, NULL, 0, 0},
     {COMMAND_REPLAY, "replay", "FILE [OPTIONS]",
      "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
     {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply [OPTIONS]",
@@ -43,6 +46,9 @@ const CommandRow command_rows[] = {
 const OptionRow option_rows[] = {
     {"-o", "OUT", RENDER | RUN | REPLAY | EXPORT, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
     {"-o", "OUT", BENCH, OPTION_TEXT, AT(output), .help = "the chart of --table: OUT.svg or OUT.png"},
+    {"-o", "DIR", VALIDATE, OPTION_TEXT, AT(output), .help = "a folder for a plot a case, with the reference on it"},
+    {"--full", NULL, VALIDATE, OPTION_FLAG, AT(full), .help = "finer, for as long as it takes"},
+    {"--coarse", NULL, VALIDATE, OPTION_FLAG, AT(coarse), .help = "a glance: few particles, with tolerances of its own"},
     {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
      .help = "a published table again, beside its figures: paper003-spheres, paper003-raycast, paper003-substeps, paper002-passes"},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
@@ -81,10 +87,10 @@ const OptionRow option_rows[] = {
      .help = "the spacing that gives about N particles"},
     {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes"},
     {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations"},
-    {"--view", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn; none: not at all"},
+    {"--view", "NAME", ALL & ~VALIDATE, OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn; none: not at all"},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
-    {"--gpu", "N", RENDER | RUN | BENCH | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
-    {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
+    {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
+    {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
     {"--json", "FILE", ALL | REPLAY | EXPORT, OPTION_TEXT, AT(json), .help = "write the figures there too"},
     {"--quiet", NULL, ALL | REPLAY | EXPORT, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
     {"--help", NULL, ALL | REPLAY | EXPORT, OPTION_HELP, .help = "this text"},

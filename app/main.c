@@ -28,6 +28,8 @@ static int run_command(const Args *args)
         return cmd_run(args);
     case COMMAND_BENCH:
         return cmd_bench(args);
+    case COMMAND_VALIDATE:
+        return cmd_validate(args);
     case COMMAND_REPLAY:
         return cmd_replay(args);
     case COMMAND_EXPORT:

@@ -1,0 +1,49 @@
+#include "app/case.h"
+
+#include "app/case_all.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const Case *const case_list[] = {&case_hydrostatic, &case_hydrostatic_3d, &case_dam_break, NULL};
+
+/* Wendland's C2 at three spacings: no pairing, and 28 neighbours in the plane. */
+const char *const case_settings[] = {
+    "particles.support=3",
+    "solver.kernel=wendland_c2",
+    "solver.delta_sph=0.1",
+    "solver.artificial_viscosity=0.02",
+    "solver.step.mode=cfl",
+    "solver.step.number=0.3",
+    NULL,
+};
+
+const Case *case_find(const char *name, Error *error)
+{
+    char all[512] = "";
+    for (const Case *const *at = case_list; *at; at++) {
+        if (strcmp((*at)->name, name) == 0)
+            return *at;
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", *all ? ", " : "", (*at)->name);
+    }
+    error_set(error, "there is no case '%.60s'; these are there: %s", name, all);
+    return NULL;
+}
+
+Figure figure_scaled(double value, double reference, double scale)
+{
+    return (Figure){value, reference, fabs(value - reference) / fabs(scale)};
+}
+
+Figure figure_relative(double value, double reference)
+{
+    return figure_scaled(value, reference, reference);
+}
+
+double case_tolerance(const CaseMetric *metric, CaseLevel level, const char *method)
+{
+    if (level == CASE_COARSE)
+        return metric->coarse;
+    return metric->mueller > 0 && strcmp(method, "mueller") == 0 ? metric->mueller : metric->tolerance;
+}

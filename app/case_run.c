@@ -1,0 +1,144 @@
+#include "app/case_run.h"
+
+#include "app/interrupt.h"
+#include "sim/seed.h"
+#include "sim/stage.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool add_setting(SceneSettings *settings, const char *text, Error *error)
+{
+    if (settings->count == SCENE_SETTINGS_MAX)
+        return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
+    settings->set[settings->count++] = text;
+    return true;
+}
+
+bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
+{
+    char spacing[64], method[64], note[256];
+    SceneSettings all = {.particles = setup->settings->particles};
+    snprintf(spacing, sizeof spacing, "particles.spacing=%.9g", setup->of->spacing[setup->level]);
+    snprintf(method, sizeof method, "solver.method=%.32s", setup->method);
+    bool ok = true;
+    for (int i = 0; ok && case_settings[i]; i++)
+        ok = add_setting(&all, case_settings[i], error);
+    ok = ok && add_setting(&all, spacing, error) && add_setting(&all, method, error);
+    for (int i = 0; ok && i < setup->settings->count; i++)
+        ok = add_setting(&all, setup->settings->set[i], error);
+    return ok && scene_load(setup->of->scene, &all, scene, note, error);
+}
+
+/* The lattice of the fills, moved by the case's start. */
+static World *start_world(const Case *of, const WorldDef *def, Error *error)
+{
+    if (!of->start)
+        return world_create(def, error);
+    const size_t count = world_def_count(def, def->spacing);
+    WorldDef with = *def;
+    World *world = NULL;
+    float *position = malloc(count * 3 * sizeof *position + 1);
+    float *velocity = calloc(count * 3 + 1, sizeof *velocity);
+    float *density = malloc(count * sizeof *density + 1);
+    uint8_t *fluid = malloc(count + 1);
+    if (position && velocity && density && fluid) {
+        seed_lattice(def, position, fluid);
+        for (size_t i = 0; i < count; i++)
+            density[i] = (float)def->fluids[fluid[i]].density;
+        of->start(def, &(CaseStart){count, position, velocity, density, fluid});
+        with.initial = &(InitialState){count, position, velocity, fluid, density};
+        world = world_create(&with, error);
+    } else {
+        error_set(error, "no memory for %zu particles; use a larger spacing", count);
+    }
+    free(position);
+    free(velocity);
+    free(density);
+    free(fluid);
+    return world;
+}
+
+static bool sample(CaseRun *run, World *world, Error *error)
+{
+    if (!cloud_read(&run->cloud, world))
+        return error_set(error, "no memory to read %zu particles; use a larger spacing", run->info.count);
+    if (run->of->sample)
+        run->of->sample(run);
+    return true;
+}
+
+/* False when it broke, with the reason in the result. */
+static bool advance(CaseResult *result, World *world)
+{
+    Error broke = {{0}};
+    const double begin = wall_ms();
+    const bool ok = world_step(world, NULL, &broke);
+    result->step_seconds += (wall_ms() - begin) / 1000;
+    world_info(world, &result->run.info);
+    if (!ok)
+        snprintf(result->failure, sizeof result->failure, "%.250s", broke.message);
+    return ok;
+}
+
+static bool simulate(CaseResult *result, World *world, Progress *progress, double done, double part,
+                     Error *error)
+{
+    CaseRun *run = &result->run;
+    const Case *of = run->of;
+    double next = 0;
+    world_info(world, &run->info);
+    for (;;) {
+        const bool last = run->info.time >= of->time;
+        if ((last || run->info.time >= next) && !sample(run, world, error))
+            return false;
+        while (next <= run->info.time)
+            next += of->every;
+        if (last)
+            return of->judge(run, error);
+        if (!advance(result, world))
+            return true;
+        if (interrupted())
+            return error_set(error, "stopped");
+        progress_update(progress, done + part * fmin(run->info.time / of->time, 1));
+    }
+}
+
+bool case_run(const CaseSetup *setup, Progress *progress, double done, double part, CaseResult *result,
+              Error *error)
+{
+    const double begin = wall_ms();
+    *result = (CaseResult){.of = setup->of, .level = setup->level};
+    if (!case_scene(setup, &result->scene, error))
+        return false;
+    result->run = (CaseRun){.of = setup->of, .def = &result->scene.world, .level = setup->level};
+    for (int m = 0; m < CASE_METRICS; m++)
+        result->run.figures[m] = (Figure){(double)NAN, (double)NAN, (double)NAN};
+    World *world = start_world(setup->of, &result->scene.world, error);
+    if (!world)
+        return false;
+    const bool ok = simulate(result, world, progress, done, part, error);
+    result->particles = result->run.info.count;
+    world_destroy(world);
+    cloud_free(&result->run.cloud);
+    result->seconds = (wall_ms() - begin) / 1000;
+    return ok;
+}
+
+void case_result_free(CaseResult *result)
+{
+    for (int c = 0; c < CASE_COLUMNS; c++)
+        curve_free(&result->run.column[c]);
+    for (int c = 0; c < CASE_CURVES; c++) {
+        curve_free(&result->run.found[c]);
+        curve_free(&result->run.expected[c]);
+    }
+}
+
+bool case_passed(const CaseResult *result, int metric)
+{
+    const double tolerance =
+        case_tolerance(&result->of->metrics[metric], result->level, result->scene.world.method);
+    return result->run.figures[metric].error <= tolerance;
+}

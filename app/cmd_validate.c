@@ -1,0 +1,183 @@
+#include "app/case_run.h"
+#include "app/cmd.h"
+#include "app/headless.h"
+#include "app/interrupt.h"
+#include "app/output.h"
+#include "app/validate_report.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { RUNS_MAX = 128 };
+
+typedef struct Plan {
+    const Args *args;
+    CaseLevel level;
+    const char *method; /* the only one, or NULL */
+    int count;
+    CaseSetup setups[RUNS_MAX];
+} Plan;
+
+/* --method, which stands among the settings. */
+static const char *chosen_method(const SceneSettings *settings)
+{
+    static const char key[] = "solver.method=";
+    const char *method = NULL;
+    for (int i = 0; i < settings->count; i++)
+        if (strncmp(settings->set[i], key, sizeof key - 1) == 0)
+            method = settings->set[i] + sizeof key - 1;
+    return method;
+}
+
+static bool add_case(Plan *plan, const Case *of, Error *error)
+{
+    const char *const one[2] = {plan->method, NULL};
+    for (const char *const *method = plan->method ? one : of->methods; *method; method++) {
+        if (plan->count == RUNS_MAX)
+            return error_set(error, "slosh validate: more than %d runs; name fewer cases", RUNS_MAX);
+        plan->setups[plan->count++] = (CaseSetup){of, plan->level, *method, &plan->args->settings};
+    }
+    return true;
+}
+
+/* All scenes are read before the first runs: a mistake in the last one shows at once. */
+static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *error)
+{
+    static Scene scene;
+    bool ok = true;
+    *plan = (Plan){.args = args, .method = chosen_method(&args->settings)};
+    plan->level = args->full ? CASE_FULL : args->coarse ? CASE_COARSE : CASE_DEFAULT;
+    if (args->full && args->coarse)
+        return error_set(error, "slosh validate: --full and --coarse exclude each other; leave one out");
+    for (const Case *const *at = case_list; ok && args->scene_count == 0 && *at; at++)
+        ok = add_case(plan, *at, error);
+    for (int i = 0; ok && i < args->scene_count; i++) {
+        const Case *of = case_find(args->scenes[i], error);
+        ok = of && add_case(plan, of, error);
+    }
+    *wants_context = false;
+    for (int i = 0; ok && i < plan->count; i++) {
+        ok = case_scene(&plan->setups[i], &scene, error) && world_can(&scene.world, error);
+        *wants_context |= ok && world_on_gpu(&scene.world);
+    }
+    return ok;
+}
+
+static bool run_all(const Plan *plan, CaseResult *results, int *done, Error *error)
+{
+    const Args *args = plan->args;
+    Progress progress;
+    bool ok = true;
+    if (!args->quiet)
+        validate_print_head(stdout);
+    fflush(stdout);
+    progress_begin(&progress, stderr, "validate", args->quiet);
+    for (; ok && *done < plan->count && !interrupted(); ++*done) {
+        const double part = 1.0 / plan->count;
+        ok = case_run(&plan->setups[*done], &progress, *done * part, part, &results[*done], error);
+        if (!ok)
+            break;
+        progress_end(&progress);
+        if (!args->quiet)
+            validate_print(&results[*done], stdout);
+    }
+    progress_end(&progress);
+    return ok;
+}
+
+/* DIR/CASE.svg, the methods of a case in one. */
+static bool plot_all(const Args *args, const CaseResult *results, int count, Error *error)
+{
+    if (!args->output)
+        return true;
+    for (int i = 0, next; i < count; i = next) {
+        char path[1024];
+        for (next = i + 1; next < count && results[next].of == results[i].of;)
+            next++;
+        snprintf(path, sizeof path, "%.900s/%s.svg", args->output, results[i].of->name);
+        if (!validate_plot(&results[i], (size_t)(next - i), path, error))
+            return false;
+    }
+    return true;
+}
+
+static bool make_folder(const char *path, Error *error)
+{
+    struct stat status;
+    if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)))
+        return true;
+    return error_set(error, "%s: cannot be made (%s); name a folder for the plots", path, strerror(errno));
+}
+
+static int missed(const CaseResult *results, int count, FILE *file)
+{
+    int all = 0, misses = 0;
+    for (int i = 0; i < count; i++)
+        for (int m = 0; m < CASE_METRICS && results[i].of->metrics[m].name; m++) {
+            all++;
+            misses += !case_passed(&results[i], m);
+        }
+    if (file)
+        fprintf(file, "%d of %d figures keep their tolerance\n", all - misses, all);
+    return misses;
+}
+
+/* What is done is written, whatever ended it. */
+static int finish(const Plan *plan, const CaseResult *results, int done, bool ran, Error *error)
+{
+    const Args *args = plan->args;
+    Error late = {{0}};
+    const bool written = plot_all(args, results, done, &late) &&
+                         (!args->json || validate_write_json(results, (size_t)done, args->json, &late));
+    if (interrupted()) {
+        fprintf(stderr, "stopped after %d of %d runs\n", done, plan->count);
+        return EXIT_INTERRUPTED;
+    }
+    if (!ran || !written) {
+        fprintf(stderr, "%s\n", (ran ? &late : error)->message);
+        return EXIT_FAILED;
+    }
+    return missed(results, done, args->quiet ? NULL : stdout) ? EXIT_FAILED : 0;
+}
+
+static int validate(const Plan *plan, bool wants_context, Error *error)
+{
+    const Args *args = plan->args;
+    int done = 0;
+    Headless *context = NULL;
+    CaseResult *results = calloc((size_t)plan->count + 1, sizeof *results);
+    bool ok = results || error_set(error, "no memory for the results");
+    ok = ok && (!args->json || output_check(args->json, error)) &&
+         (!args->output || make_folder(args->output, error));
+    if (ok && wants_context)
+        ok = (context = headless_create(args->gpu, error)) != NULL;
+    if (context)
+        fprintf(stderr, "renderer: %s\n", headless_renderer(context));
+    int code = EXIT_FAILED;
+    if (ok) {
+        const bool ran = run_all(plan, results, &done, error);
+        code = finish(plan, results, done, ran, error);
+    } else {
+        fprintf(stderr, "%s\n", error->message);
+    }
+    for (int i = 0; results && i < plan->count; i++)
+        case_result_free(&results[i]);
+    headless_destroy(context);
+    free(results);
+    return code;
+}
+
+int cmd_validate(const Args *args)
+{
+    static Plan plan;
+    Error error = {{0}};
+    bool wants_context = false;
+    interrupt_install();
+    if (plan_make(args, &plan, &wants_context, &error))
+        return validate(&plan, wants_context, &error);
+    fprintf(stderr, "%s\n", error.message);
+    return EXIT_USAGE;
+}
