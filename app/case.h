@@ -66,6 +66,7 @@ struct Case {
     const char *scene;                 /* as scene_load takes it */
     const char *methods[CASE_METHODS]; /* ended by NULL */
     double spacing[CASE_LEVELS];       /* m */
+    double floor;                      /* y of the fluid's floor, which the metrics count from, m */
     double time, every;                /* simulated, and from sample to sample, s */
     CaseMetric metrics[CASE_METRICS];  /* ended by a NULL name */
     CasePlot plot;

@@ -5,6 +5,13 @@
 #include "app/case.h"
 
 extern const Case case_hydrostatic, case_hydrostatic_3d; /* case_hydrostatic.c */
-extern const Case case_dam_break;                        /* case_dam_break.c */
+extern const Case case_dam_break, case_dam_break_2d;     /* case_dam_break.c */
+extern const Case case_free_fall;                        /* case_free_fall.c */
+extern const Case case_bucket;                           /* case_bucket.c */
+extern const Case case_sloshing;                         /* case_sloshing.c */
+extern const Case case_wave;                             /* case_wave.c */
+extern const Case case_ellipse;                          /* case_ellipse.c */
+extern const Case case_collision;                        /* case_collision.c */
+extern const Case case_drop, case_laplace;               /* case_tension.c */
 
 #endif

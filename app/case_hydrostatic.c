@@ -43,7 +43,7 @@ static bool judge(CaseRun *run, Error *error)
 }
 
 #define COMMON                                                                                               \
-    .methods = {"wcsph", "mueller"}, .time = 2, .every = 0.02,                                               \
+    .methods = {"wcsph", "mueller"}, .time = 5, .every = 0.02,                                               \
     .metrics = {{"rms pressure over rho0 g H", "", .tolerance = 0.02, .coarse = 0.04, .mueller = 0.05},      \
                 {"drift of energy", "", .tolerance = 0.02, .coarse = 0.02}},                                 \
     .plot = {.x = "height, m",                                                                               \

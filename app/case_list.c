@@ -6,11 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
-const Case *const case_list[] = {&case_hydrostatic, &case_hydrostatic_3d, &case_dam_break, NULL};
+const Case *const case_list[] = {&case_hydrostatic, &case_hydrostatic_3d, &case_dam_break,
+    &case_dam_break_2d, &case_free_fall, &case_bucket, &case_sloshing, &case_wave, &case_ellipse,
+    &case_collision, &case_drop, &case_laplace, NULL};
 
-/* Wendland's C2 at three spacings: no pairing, and 28 neighbours in the plane. */
+/* Wendland's C2 pairs no particles; 20 neighbours in the plane. */
 const char *const case_settings[] = {
-    "particles.support=3",
+    "particles.support=2.6",
     "solver.kernel=wendland_c2",
     "solver.delta_sph=0.1",
     "solver.artificial_viscosity=0.02",
