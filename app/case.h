@@ -84,6 +84,9 @@ const Case *case_find(const char *name, Error *error);
 /* The solver parameters of all cases, as --set takes them; ended by NULL. */
 extern const char *const case_settings[];
 
+/* And the one that each method has for itself. */
+const char *case_support(const char *method);
+
 /* How a figure compares: |value - reference| / |reference|. */
 Figure figure_relative(double value, double reference);
 

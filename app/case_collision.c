@@ -43,7 +43,8 @@ static bool judge(CaseRun *run, Error *error)
         curve_add(&run->found[0], energy->at[i][0], energy->at[i][1] / energy->at[0][1]);
         curve_add(&run->expected[0], energy->at[i][0], 1);
     }
-    const double momentum = hypot(most_change(&run->column[MOMENTUM_X]), most_change(&run->column[MOMENTUM_Y]));
+    const double momentum =
+        hypot(most_change(&run->column[MOMENTUM_X]), most_change(&run->column[MOMENTUM_Y]));
     run->figures[0] = figure_scaled(momentum / scale, 0, 1);
     run->figures[1] = figure_scaled(most_change(&run->column[SPIN]) / (scale * reach), 0, 1);
     run->figures[2] = figure_scaled(gained / energy->at[0][1], 0, 1);

@@ -5,8 +5,6 @@
 #include "app/reference.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 enum { FRONT };
 
@@ -36,7 +34,6 @@ static bool judge(CaseRun *run, Error *error)
         const double t = reference_number(&published, k, "T"), z = reference_number(&published, k, "Z");
         const double miss = fabs(curve_at(&run->found[0], t) - z) / z;
         curve_add(&run->expected[0], t, z);
-        if (getenv("DBG")) fprintf(stderr,"%.2f:%+.1f ",t,100*(curve_at(&run->found[0], t)/z-1));
         mean += miss / published.rows;
         if (!(miss <= worst))
             worst = miss;
@@ -48,8 +45,8 @@ static bool judge(CaseRun *run, Error *error)
 
 #define COMMON                                                                                               \
     .methods = {"wcsph"}, .time = 0.182, .every = 0.0005, /* T = 3.37 */                                     \
-    .metrics = {{"front, mean error", "", .tolerance = 0.025, .coarse = 0.1},                                \
-                {"front, worst error", "", .tolerance = 0.05, .coarse = 0.15}},                              \
+        .metrics = {{"front, mean error", "", .tolerance = 0.025, .coarse = 0.1},                            \
+                    {"front, worst error", "", .tolerance = 0.05, .coarse = 0.15}},                          \
     .plot = {.x = "T = t sqrt(2 g / a)",                                                                     \
              .y = "front Z = x / a",                                                                         \
              .found = {"front"},                                                                             \

@@ -28,8 +28,8 @@ static bool judge(CaseRun *run, Error *error)
         curve_add(&run->found[0], height->at[i][0], moved / way);
         curve_add(&run->expected[0], height->at[i][0], 0);
     }
-    mass = run->def->fluids[0].density * pow(run->def->spacing, run->def->dimensions) *
-           (double)run->cloud.count;
+    mass =
+        run->def->fluids[0].density * pow(run->def->spacing, run->def->dimensions) * (double)run->cloud.count;
     run->figures[0] = figure_scaled(most, 0, way);
     run->figures[1] = figure_scaled(e.kinetic, 0, mass * g * way);
     return true;
@@ -45,7 +45,10 @@ const Case case_free_fall = {
     .every = 0.02,
     .metrics = {{"way of the centre", "m", .tolerance = 1e-4, .coarse = 1e-4},
                 {"kinetic energy", "J", .tolerance = 1e-4, .coarse = 1e-4}},
-    .plot = {.x = "time, s", .y = "way of the centre over g t^2 / 2", .found = {"centre"}, .expected = {"none"}},
+    .plot = {.x = "time, s",
+             .y = "way of the centre over g t^2 / 2",
+             .found = {"centre"},
+             .expected = {"none"}},
     .sample = sample,
     .judge = judge,
 };

@@ -57,6 +57,7 @@ const Case case_hydrostatic = {
     .name = "hydrostatic",
     .help = "a column at rest, in the plane",
     .scene = "scenes/cases/hydrostatic.yaml",
+    .floor = 0.2,
     .spacing = {0.05, 0.025, 0.0125},
     COMMON,
 };

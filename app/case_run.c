@@ -25,7 +25,8 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
     bool ok = true;
     for (int i = 0; ok && case_settings[i]; i++)
         ok = add_setting(&all, case_settings[i], error);
-    ok = ok && add_setting(&all, spacing, error) && add_setting(&all, method, error);
+    ok = ok && add_setting(&all, case_support(setup->method), error) && add_setting(&all, spacing, error) &&
+         add_setting(&all, method, error);
     for (int i = 0; ok && i < setup->settings->count; i++)
         ok = add_setting(&all, setup->settings->set[i], error);
     return ok && scene_load(setup->of->scene, &all, scene, note, error);

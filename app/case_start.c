@@ -36,7 +36,8 @@ void start_hydrostatic(const WorldDef *def, CaseStart *start)
  */
 void start_wave(const WorldDef *def, CaseStart *start, double height)
 {
-    const double g = -def->gravity[1], length = def->box_size[0], k = M_PI / length;
+    const Fill *fill = &def->fluids[0].fills[0];
+    const double g = -def->gravity[1], length = fill->max[0] - fill->min[0], k = M_PI / length;
     const double surface = surface_of(def, start), omega = sqrt(g * k * tanh(k * surface));
     const double scale = height * g / omega * k / cosh(k * surface);
     for (size_t i = 0; i < start->count; i++) {

@@ -8,8 +8,8 @@
    as the weight above it makes it, by the equation of state. */
 void start_hydrostatic(const WorldDef *def, CaseStart *start);
 
-/* Adds to it a standing wave of half a wavelength in the box's width, in linear potential flow with its
-   surface flat and its velocities greatest: `height` (m) is the amplitude at the walls. */
+/* Adds to it a standing wave of half a wavelength in the first fill's width, about x = 0, in linear potential
+   flow with its surface flat and its velocities greatest: `height` (m) is the amplitude at the walls. */
 void start_wave(const WorldDef *def, CaseStart *start, double height);
 
 #endif
