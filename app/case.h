@@ -64,6 +64,7 @@ typedef struct CaseStart {
 struct Case {
     const char *name, *help;
     const char *scene;                 /* as scene_load takes it */
+    const char *setting;               /* of the case itself, as --set takes it; or NULL */
     const char *methods[CASE_METHODS]; /* ended by NULL */
     double spacing[CASE_LEVELS];       /* m */
     double floor;                      /* y of the fluid's floor, which the metrics count from, m */

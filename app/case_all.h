@@ -13,5 +13,8 @@ extern const Case case_wave;                             /* case_wave.c */
 extern const Case case_ellipse;                          /* case_ellipse.c */
 extern const Case case_collision;                        /* case_collision.c */
 extern const Case case_drop, case_laplace;               /* case_tension.c */
+extern const Case case_vortices;                         /* case_vortices.c */
+extern const Case case_poiseuille, case_couette;         /* case_channel.c */
+extern const Case case_cavity, case_cavity_1000;         /* case_cavity.c */
 
 #endif

@@ -6,19 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
-const Case *const case_list[] = {&case_hydrostatic,
-                                 &case_hydrostatic_3d,
-                                 &case_dam_break,
-                                 &case_dam_break_2d,
-                                 &case_free_fall,
-                                 &case_bucket,
-                                 &case_sloshing,
-                                 &case_wave,
-                                 &case_ellipse,
-                                 &case_collision,
-                                 &case_drop,
-                                 &case_laplace,
-                                 NULL};
+const Case *const case_list[] = {&case_hydrostatic,  &case_hydrostatic_3d, &case_dam_break,
+                                 &case_dam_break_2d, &case_free_fall,      &case_bucket,
+                                 &case_sloshing,     &case_wave,           &case_ellipse,
+                                 &case_collision,    &case_drop,           &case_laplace,
+                                 &case_vortices,     &case_poiseuille,     &case_couette,
+                                 &case_cavity,       &case_cavity_1000,    NULL};
 
 /* Wendland's C2 pairs no particles. At 3.5 spacings a lattice under pressure hardly resists shear any more:
    at 2.6 that makes waves 5 % too fast, at any resolution. */

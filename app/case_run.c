@@ -27,6 +27,8 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
         ok = add_setting(&all, case_settings[i], error);
     ok = ok && add_setting(&all, case_support(setup->method), error) && add_setting(&all, spacing, error) &&
          add_setting(&all, method, error);
+    if (ok && setup->of->setting)
+        ok = add_setting(&all, setup->of->setting, error);
     for (int i = 0; ok && i < setup->settings->count; i++)
         ok = add_setting(&all, setup->settings->set[i], error);
     return ok && scene_load(setup->of->scene, &all, scene, note, error);

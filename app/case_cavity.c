@@ -1,0 +1,65 @@
+/* The lid-driven cavity: velocities on its centre lines, against Ghia, Ghia and Shin 1982. */
+#include "app/case_all.h"
+#include "app/metric.h"
+#include "app/reference.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* The greatest difference over the published points of both lines, over the lid's speed. In the plot v stands
+   beside u, at x and y. */
+static bool judge(CaseRun *run, Error *error)
+{
+    static Reference published;
+    const WorldDef *def = run->def;
+    const double side = def->box_size[0], lid = def->lid[0];
+    const double reynolds = lid * side * def->fluids[0].density / def->fluids[0].viscosity;
+    double worst = 0;
+    if (!reference_load("scenes/reference/ghia-1982.csv", &published, error))
+        return false;
+    for (int line = 0; line < 2; line++) {
+        char column[16];
+        snprintf(column, sizeof column, "%s%.0f", line ? "v" : "u", reynolds);
+        for (int k = 0; k < published.rows; k++) {
+            const double along = reference_number(&published, k, line ? "x" : "y");
+            const double right = reference_number(&published, k, column);
+            const double at[2] = {line ? (along - 0.5) * side : 0, line ? 0.5 * side : along * side};
+            double v[2] = {(double)NAN, (double)NAN};
+            metric_velocity(&run->cloud, at, v);
+            const double miss = fabs(v[line] / lid - right);
+            worst = miss <= worst ? worst : miss;
+            curve_add(&run->found[line], along, v[line] / lid);
+            curve_add(&run->expected[line], along, right);
+        }
+    }
+    run->figures[0] = figure_scaled(worst, 0, 1);
+    return true;
+}
+
+#define COMMON                                                                                               \
+    .scene = "scenes/cavity.yaml", .methods = {"wcsph"},                                                     \
+    .plot = {.x = "place on the line, of the side",                                                          \
+             .y = "velocity across it, of the lid's",                                                        \
+             .found = {"u", "v"},                                                                            \
+             .expected = {"u, Ghia 1982", "v, Ghia 1982"},                                                   \
+             .points = true},                                                                                \
+    .every = 1, .judge = judge
+
+const Case case_cavity = {
+    .name = "cavity",
+    .help = "lid-driven cavity, Re 100, Ghia 1982",
+    .spacing = {0.05, 0.02, 0.01},
+    .time = 20,
+    .metrics = {{"centre lines", "of the lid", .tolerance = 0.04, .coarse = 0.1}},
+    COMMON,
+};
+
+const Case case_cavity_1000 = {
+    .name = "cavity_1000",
+    .help = "lid-driven cavity, Re 1000, Ghia 1982",
+    .setting = "fluids[0].viscosity=1",
+    .spacing = {0.05, 0.02, 0.01},
+    .time = 60,
+    .metrics = {{"centre lines", "of the lid", .tolerance = 0.08, .coarse = 0.4}},
+    COMMON,
+};
