@@ -50,7 +50,7 @@ const Case case_cavity = {
     .help = "lid-driven cavity, Re 100, Ghia 1982",
     .spacing = {0.05, 0.02, 0.01},
     .time = 20,
-    .metrics = {{"centre lines", "of the lid", .tolerance = 0.04, .coarse = 0.1}},
+    .metrics = {{"centre lines", "of the lid", .tolerance = 0.04, .coarse = 0.06}},
     COMMON,
 };
 
@@ -60,6 +60,6 @@ const Case case_cavity_1000 = {
     .setting = "fluids[0].viscosity=1",
     .spacing = {0.05, 0.02, 0.01},
     .time = 60,
-    .metrics = {{"centre lines", "of the lid", .tolerance = 0.08, .coarse = 0.4}},
+    .metrics = {{"centre lines", "of the lid", .tolerance = 0.08, .coarse = 0.35}},
     COMMON,
 };

@@ -92,7 +92,7 @@ static bool judge_couette(CaseRun *run, Error *error)
 
 #define COMMON                                                                                               \
     .methods = {"wcsph"}, .spacing = {0.05, 0.02, 0.01}, .time = 2, .every = 0.05,                           \
-    .metrics = {{"rms velocity, worst", "m/s", .tolerance = 0.01, .coarse = 0.03}},                          \
+    .metrics = {{"rms velocity, worst", "m/s", .tolerance = 0.01, .coarse = 0.02}},                          \
     .plot = {                                                                                                \
         .x = "height, m", .y = "velocity, m/s", .found = {"particles"}, .expected = {"exact"}, .dots = true}
 

@@ -44,8 +44,6 @@ static bool judge(CaseRun *run, Error *error)
 
 #define COMMON                                                                                               \
     .methods = {"wcsph", "mueller"}, .time = 5, .every = 0.02,                                               \
-    .metrics = {{"rms pressure over rho0 g H", "", .tolerance = 0.02, .coarse = 0.04, .mueller = 0.05},      \
-                {"drift of energy", "", .tolerance = 0.02, .coarse = 0.02}},                                 \
     .plot = {.x = "height, m",                                                                               \
              .y = "pressure, Pa",                                                                            \
              .found = {"particles"},                                                                         \
@@ -58,6 +56,8 @@ const Case case_hydrostatic = {
     .help = "a column at rest, in the plane",
     .scene = "scenes/cases/hydrostatic.yaml",
     .floor = 0.2,
+    .metrics = {{"rms pressure over rho0 g H", "", .tolerance = 0.02, .coarse = 0.06, .mueller = 0.05},
+                {"drift of energy", "", .tolerance = 0.02, .coarse = 0.04}},
     .spacing = {0.05, 0.025, 0.0125},
     COMMON,
 };
@@ -66,6 +66,8 @@ const Case case_hydrostatic_3d = {
     .name = "hydrostatic_3d",
     .help = "a column at rest",
     .scene = "scenes/cases/hydrostatic_3d.yaml",
+    .metrics = {{"rms pressure over rho0 g H", "", .tolerance = 0.02, .coarse = 0.2, .mueller = 0.05},
+                {"drift of energy", "", .tolerance = 0.02, .coarse = 0.08}},
     .spacing = {0.1, 0.05, 0.025},
     COMMON,
 };

@@ -36,7 +36,7 @@ const Case case_vortices = {
     .spacing = {0.04, 0.01, 0.005},
     .time = 1.5,
     .every = 0.02,
-    .metrics = {{"slope of ln energy", "1/s", .tolerance = 0.03, .coarse = 0.15}},
+    .metrics = {{"slope of ln energy", "1/s", .tolerance = 0.03, .coarse = 0.05}},
     .plot = {.x = "time, s",
              .y = "ln of the kinetic energy over the start's",
              .found = {"energy"},

@@ -52,41 +52,32 @@ double curve_slope(const Curve *curve)
     return xx > 0 ? xy / xx : (double)NAN;
 }
 
-static double mean_of(const Curve *curve)
+/* Whether y passes 0 between points i - 1 and i. */
+static bool passes(const Curve *curve, size_t i)
 {
-    double mean = 0;
-    for (size_t i = 0; i < curve->count; i++)
-        mean += curve->at[i][1] / (double)curve->count;
-    return mean;
-}
-
-/* Whether y passes the mean between points i - 1 and i. */
-static bool passes(const Curve *curve, double mean, size_t i)
-{
-    return (curve->at[i - 1][1] < mean) != (curve->at[i][1] < mean);
+    return (curve->at[i - 1][1] < 0) != (curve->at[i][1] < 0);
 }
 
 double curve_period(const Curve *curve)
 {
-    const double mean = mean_of(curve);
     double first = 0, last = 0;
     int passings = 0;
     for (size_t i = 1; i < curve->count; i++) {
         const double *a = curve->at[i - 1], *b = curve->at[i];
-        if (!passes(curve, mean, i))
+        if (!passes(curve, i))
             continue;
-        last = a[0] + (b[0] - a[0]) * (mean - a[1]) / (b[1] - a[1]);
+        last = a[0] + (a[0] - b[0]) * a[1] / (b[1] - a[1]);
         if (passings++ == 0)
             first = last;
     }
     return passings > 2 ? 2 * (last - first) / (passings - 1) : (double)NAN;
 }
 
-/* The top of the parabola through points i - 1, i and i + 1, evenly spaced, of |y - mean|. */
-static void add_peak(const Curve *curve, double mean, size_t i, Curve *peaks)
+/* The top of the parabola through points i - 1, i and i + 1, evenly spaced, of |y|. */
+static void add_peak(const Curve *curve, size_t i, Curve *peaks)
 {
-    const double a = fabs(curve->at[i - 1][1] - mean), b = fabs(curve->at[i][1] - mean),
-                 c = fabs(curve->at[i + 1][1] - mean), bend = a - 2 * b + c;
+    const double a = fabs(curve->at[i - 1][1]), b = fabs(curve->at[i][1]),
+                 c = fabs(curve->at[i + 1][1]), bend = a - 2 * b + c;
     const double shift = bend < 0 ? 0.5 * (a - c) / bend : 0;
     const double step = 0.5 * (curve->at[i + 1][0] - curve->at[i - 1][0]);
     curve_add(peaks, curve->at[i][0] + shift * step, log(b - 0.25 * (a - c) * shift));
@@ -94,14 +85,13 @@ static void add_peak(const Curve *curve, double mean, size_t i, Curve *peaks)
 
 void curve_log_peaks(const Curve *curve, Curve *peaks)
 {
-    const double mean = mean_of(curve);
     size_t top = 0;
     for (size_t i = 1; i + 1 < curve->count; i++) {
-        if (passes(curve, mean, i)) {
+        if (passes(curve, i)) {
             if (top > 0)
-                add_peak(curve, mean, top, peaks);
+                add_peak(curve, top, peaks);
             top = i;
-        } else if (top > 0 && fabs(curve->at[i][1] - mean) > fabs(curve->at[top][1] - mean)) {
+        } else if (top > 0 && fabs(curve->at[i][1]) > fabs(curve->at[top][1])) {
             top = i;
         }
     }

@@ -20,11 +20,11 @@ double curve_at(const Curve *curve, double x);
 /* The slope of the least-squares line; NaN with less than two points. */
 double curve_slope(const Curve *curve);
 
-/* Where y passes its mean over all points, by straight lines between them: the mean time from one passing to
-   the next but one, in x. NaN with less than three passings. */
+/* Where y passes 0, by straight lines between the points: the mean way in x from one passing to the next but
+   one. NaN with less than three passings. */
 double curve_period(const Curve *curve);
 
-/* The peaks of |y - mean|, one between each two passings of the mean: x and the natural logarithm of the
+/* The peaks of |y|, one between each two passings of 0: x and the natural logarithm of the
    height, by a parabola through the highest point and its neighbours. The last one, which may be cut, is
    left out, and so is that before the first passing. */
 void curve_log_peaks(const Curve *curve, Curve *peaks);
