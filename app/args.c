@@ -251,6 +251,7 @@ static const char *takes(const CommandRow *row)
     return row->command == COMMAND_REPLAY     ? "recording"
            : row->command == COMMAND_EXPORT   ? "snapshot file"
            : row->command == COMMAND_VALIDATE ? "case"
+           : row->command == COMMAND_CHART    ? "scene or case"
                                               : "scene";
 }
 

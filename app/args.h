@@ -21,6 +21,7 @@ typedef enum Command {
     COMMAND_RUN,
     COMMAND_BENCH,
     COMMAND_VALIDATE, /* `scenes` holds the cases */
+    COMMAND_CHART,    /* `scenes` holds a scene or a case */
     COMMAND_REPLAY,   /* `scenes` holds the recording */
     COMMAND_EXPORT,   /* `scenes` holds the snapshots */
     COMMAND_INFO,

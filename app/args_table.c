@@ -8,10 +8,11 @@ enum {
     RUN = 1 << COMMAND_RUN,
     BENCH = 1 << COMMAND_BENCH,
     VALIDATE = 1 << COMMAND_VALIDATE,
+    CHART = 1 << COMMAND_CHART,
     REPLAY = 1 << COMMAND_REPLAY,
     EXPORT = 1 << COMMAND_EXPORT,
     INFO = 1 << COMMAND_INFO,
-    ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | INFO
+    ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | INFO
 };
 
 const CommandRow command_rows[] = {
@@ -26,6 +27,8 @@ const CommandRow command_rows[] = {
      ARGS_SCENES_MAX, NULL, 512, 512},
     {COMMAND_VALIDATE, "validate", "[CASE...] [OPTIONS]",
      "known flows against their references; without a CASE, all", 0, ARGS_SCENES_MAX, NULL, 0, 0},
+    {COMMAND_CHART, "chart", "SCENE|CASE -o OUT.svg|.png [OPTIONS]",
+     "speed against accuracy over methods, steps and resolutions", 1, 1, "OUT.svg or OUT.png", 0, 0},
     {COMMAND_REPLAY, "replay", "FILE [OPTIONS]",
      "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
     {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply [OPTIONS]",
@@ -49,6 +52,9 @@ const OptionRow option_rows[] = {
     {"-o", "DIR", VALIDATE, OPTION_TEXT, AT(output), .help = "a folder for a plot a case, with the reference on it"},
     {"--full", NULL, VALIDATE, OPTION_FLAG, AT(full), .help = "finer, for as long as it takes"},
     {"--coarse", NULL, VALIDATE, OPTION_FLAG, AT(coarse), .help = "a glance: few particles, with tolerances of its own"},
+    {"-o", "OUT", CHART, OPTION_TEXT, AT(output), .help = "the chart, OUT.svg or OUT.png; its figures in OUT.csv, which a later run goes on with"},
+    {"--time", "S", CHART, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a scene (2); a case has its own"},
+    {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods and the scene's backend"},
     {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
      .help = "a published table again, beside its figures: paper003-spheres, paper003-raycast, paper003-substeps, paper002-passes"},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
@@ -87,10 +93,10 @@ const OptionRow option_rows[] = {
      .help = "the spacing that gives about N particles"},
     {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes"},
     {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations"},
-    {"--view", "NAME", ALL & ~VALIDATE, OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn; none: not at all"},
+    {"--view", "NAME", ALL & ~(VALIDATE | CHART), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn; none: not at all"},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
-    {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
-    {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
+    {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
+    {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
     {"--json", "FILE", ALL | REPLAY | EXPORT, OPTION_TEXT, AT(json), .help = "write the figures there too"},
     {"--quiet", NULL, ALL | REPLAY | EXPORT, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
     {"--help", NULL, ALL | REPLAY | EXPORT, OPTION_HELP, .help = "this text"},

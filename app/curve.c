@@ -76,8 +76,8 @@ double curve_period(const Curve *curve)
 /* The top of the parabola through points i - 1, i and i + 1, evenly spaced, of |y|. */
 static void add_peak(const Curve *curve, size_t i, Curve *peaks)
 {
-    const double a = fabs(curve->at[i - 1][1]), b = fabs(curve->at[i][1]),
-                 c = fabs(curve->at[i + 1][1]), bend = a - 2 * b + c;
+    const double a = fabs(curve->at[i - 1][1]), b = fabs(curve->at[i][1]), c = fabs(curve->at[i + 1][1]),
+                 bend = a - 2 * b + c;
     const double shift = bend < 0 ? 0.5 * (a - c) / bend : 0;
     const double step = 0.5 * (curve->at[i + 1][0] - curve->at[i - 1][0]);
     curve_add(peaks, curve->at[i][0] + shift * step, log(b - 0.25 * (a - c) * shift));

@@ -30,6 +30,8 @@ static int run_command(const Args *args)
         return cmd_bench(args);
     case COMMAND_VALIDATE:
         return cmd_validate(args);
+    case COMMAND_CHART:
+        return cmd_chart(args);
     case COMMAND_REPLAY:
         return cmd_replay(args);
     case COMMAND_EXPORT:
