@@ -64,6 +64,7 @@ typedef struct CaseStart {
 struct Case {
     const char *name, *help;
     const char *scene;                 /* as scene_load takes it */
+    bool only_full;                    /* too long for the other levels: left out unless it is named */
     const char *setting;               /* of the case itself, as --set takes it; or NULL */
     const char *methods[CASE_METHODS]; /* ended by NULL */
     double spacing[CASE_LEVELS];       /* m */
@@ -85,8 +86,8 @@ const Case *case_find(const char *name, Error *error);
 /* The solver parameters of all cases, as --set takes them; ended by NULL. */
 extern const char *const case_settings[];
 
-/* And the one that each method has for itself. */
-const char *case_support(const char *method);
+/* And the one that depends on the method and the scene's dimensions. */
+const char *case_support(const char *method, int dimensions);
 
 /* How a figure compares: |value - reference| / |reference|. */
 Figure figure_relative(double value, double reference);

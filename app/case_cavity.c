@@ -57,6 +57,7 @@ const Case case_cavity = {
 const Case case_cavity_1000 = {
     .name = "cavity_1000",
     .help = "lid-driven cavity, Re 1000, Ghia 1982",
+    .only_full = true,
     .setting = "fluids[0].viscosity=1",
     .spacing = {0.05, 0.02, 0.01},
     .time = 60,

@@ -25,8 +25,9 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
     bool ok = true;
     for (int i = 0; ok && case_settings[i]; i++)
         ok = add_setting(&all, case_settings[i], error);
-    ok = ok && add_setting(&all, case_support(setup->method), error) && add_setting(&all, spacing, error) &&
-         add_setting(&all, method, error);
+    ok = ok && scene_load(setup->of->scene, NULL, scene, note, error) &&
+         add_setting(&all, case_support(setup->method, scene->world.dimensions), error) &&
+         add_setting(&all, spacing, error) && add_setting(&all, method, error);
     if (ok && setup->of->setting)
         ok = add_setting(&all, setup->of->setting, error);
     for (int i = 0; ok && i < setup->settings->count; i++)

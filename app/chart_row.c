@@ -51,9 +51,8 @@ void chart_rows_read(ChartRows *rows, const char *path)
 
 static void print_row(const ChartRow *row, FILE *file)
 {
-    fprintf(file, "%016" PRIx64 ",%d,%s,%s,%s,%d,%.9g,%zu,%.12g,%.12g,", row->key, (int)row->role,
-            row->method, row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds,
-            row->error);
+    fprintf(file, "%016" PRIx64 ",%d,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,", row->key, (int)row->role, row->method,
+            row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds, row->error);
     for (int i = 0; i < CHART_TIMES * CHART_QUANTITIES; i++)
         fprintf(file, "%s%.9g", i ? " " : "", row->series[i / CHART_QUANTITIES][i % CHART_QUANTITIES]);
     fputc('\n', file);

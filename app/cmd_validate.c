@@ -53,7 +53,7 @@ static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *
     if (args->full && args->coarse)
         return error_set(error, "slosh validate: --full and --coarse exclude each other; leave one out");
     for (const Case *const *at = case_list; ok && args->scene_count == 0 && *at; at++)
-        ok = add_case(plan, *at, error);
+        ok = ((*at)->only_full && !args->full) || add_case(plan, *at, error);
     for (int i = 0; ok && i < args->scene_count; i++) {
         const Case *of = case_find(args->scenes[i], error);
         ok = of && add_case(plan, of, error);
