@@ -73,8 +73,8 @@ static bool judge(CaseRun *run, Profile profile)
     run->figures[0] = figure_scaled(worst, 0, greatest(run->def));
     for (size_t i = 0; i < run->cloud.count; i++)
         curve_add(&run->found[0], run->cloud.position[4 * i + 1], run->cloud.velocity[4 * i]);
-    for (double y = 0; y <= height; y += height / 100)
-        curve_add(&run->expected[0], y, profile(run->def, y, run->info.time));
+    for (int i = 0; i <= 100; i++)
+        curve_add(&run->expected[0], height * i / 100, profile(run->def, height * i / 100, run->info.time));
     return true;
 }
 

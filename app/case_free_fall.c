@@ -48,7 +48,7 @@ const Case case_free_fall = {
     .plot = {.x = "time, s",
              .y = "way of the centre over g t^2 / 2",
              .found = {"centre"},
-             .expected = {"none"}},
+             .expected = {"exact"}},
     .sample = sample,
     .judge = judge,
 };

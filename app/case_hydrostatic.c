@@ -66,8 +66,8 @@ const Case case_hydrostatic_3d = {
     .name = "hydrostatic_3d",
     .help = "a column at rest",
     .scene = "scenes/cases/hydrostatic_3d.yaml",
-    .metrics = {{"rms pressure over rho0 g H", "", .tolerance = 0.02, .coarse = 0.2, .mueller = 0.05},
-                {"drift of energy", "", .tolerance = 0.02, .coarse = 0.08}},
+    .metrics = {{"rms pressure over rho0 g H", "", .tolerance = 0.02, .coarse = 0.06, .mueller = 0.05},
+                {"drift of energy", "", .tolerance = 0.02, .coarse = 0.02}},
     .spacing = {0.1, 0.05, 0.025},
     COMMON,
 };

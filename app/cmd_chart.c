@@ -116,7 +116,7 @@ static bool plan_make(const Args *args, Plan *plan, Error *error)
             return error_set(error, "slosh chart: --sweep takes method or backend here, not '%.60s'",
                              args->sweeps[s].key);
     snprintf(plan->csv, sizeof plan->csv, "%.1000s", args->output);
-    strcpy(strrchr(plan->csv, '.'), ".csv");
+    memcpy(strrchr(plan->csv, '.'), ".csv", sizeof ".csv");
     plan->subject = (ChartSubject){.scene = args->scenes[0],
                                    .time = args->time_given ? args->time : DEFAULT_TIME,
                                    .settings = &args->settings};

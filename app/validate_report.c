@@ -97,9 +97,24 @@ static int plot_found(const CaseResult *results, size_t count, FILE *gnuplot)
     return lines;
 }
 
+/* gnuplot warns of a range of nothing. */
+static bool is_flat(const CaseResult *results, size_t count)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < CASE_CURVES; c++)
+            for (size_t k = 0; k < results[i].run.found[c].count; k++) {
+                low = fmin(low, results[i].run.found[c].at[k][1]);
+                high = fmax(high, results[i].run.found[c].at[k][1]);
+            }
+    return !(high - low > 1e-12);
+}
+
 static void plot_all(const CaseResult *results, size_t count, FILE *gnuplot)
 {
     const CasePlot *plot = &results[0].of->plot;
+    if (is_flat(results, count))
+        fputs("set offsets 0,0,1,1\n", gnuplot);
     int lines = plot_found(results, count, gnuplot);
     for (int c = 0; c < CASE_CURVES && plot->expected[c]; c++) {
         if (!has_points(&results[0].run.expected[c]))
