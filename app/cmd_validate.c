@@ -43,10 +43,30 @@ static bool add_case(Plan *plan, const Case *of, Error *error)
     return true;
 }
 
-/* All scenes are read before the first runs: a mistake in the last one shows at once. */
-static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *error)
+/* All scenes are read before the first runs: a mistake in the last one shows at once. What the backend cannot
+   do is left out, and said. */
+static bool plan_keep(Plan *plan, bool *wants_context, Error *error)
 {
     static Scene scene;
+    int kept = 0;
+    *wants_context = false;
+    for (int i = 0; i < plan->count; i++) {
+        const CaseSetup setup = plan->setups[i];
+        if (!case_scene(&setup, &scene, error))
+            return false;
+        if (world_can(&scene.world, error)) {
+            *wants_context |= world_on_gpu(&scene.world);
+            plan->setups[kept++] = setup;
+        } else if (!plan->args->quiet) {
+            fprintf(stderr, "%s with %s is left out: %s\n", setup.of->name, setup.method, error->message);
+        }
+    }
+    plan->count = kept;
+    return kept > 0; /* else the last reason stands in `error` */
+}
+
+static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *error)
+{
     bool ok = true;
     *plan = (Plan){.args = args, .method = chosen_method(&args->settings)};
     plan->level = args->full ? CASE_FULL : args->coarse ? CASE_COARSE : CASE_DEFAULT;
@@ -58,12 +78,7 @@ static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *
         const Case *of = case_find(args->scenes[i], error);
         ok = of && add_case(plan, of, error);
     }
-    *wants_context = false;
-    for (int i = 0; ok && i < plan->count; i++) {
-        ok = case_scene(&plan->setups[i], &scene, error) && world_can(&scene.world, error);
-        *wants_context |= ok && world_on_gpu(&scene.world);
-    }
-    return ok;
+    return ok && plan_keep(plan, wants_context, error);
 }
 
 static bool run_all(const Plan *plan, CaseResult *results, int *done, Error *error)
