@@ -117,8 +117,8 @@ static void help_program(FILE *file)
 {
     fprintf(file, "slosh: a fluid of particles, simulated, shown and measured\n\n");
     for (const CommandRow *row = command_rows; row->name; row++)
-        fprintf(file, "  slosh %-6s %-42s %s\n", row->name, row->usage, row->help);
-    fprintf(file, "  slosh %-49s %s\n", "--version", "says which slosh this is");
+        fprintf(file, "  slosh %-8s %-42s %s\n", row->name, row->usage, row->help);
+    fprintf(file, "  slosh %-51s %s\n", "--version", "says which slosh this is");
     fprintf(
         file,
         "\n`slosh help COMMAND` lists its options. SCENE is a file, or the name of one that comes with slosh: "
