@@ -39,3 +39,11 @@ int cell_rows(const Solver *s, const uint32_t *start, uint32_t cell, CellRow row
     }
     return count;
 }
+
+bool cell_row_again(const Solver *s, const CellRow *row)
+{
+    for (int k = 0; k < 3; k++)
+        if (row->shift[k] != 0 && s->cells.size[k] - 2 == 2)
+            return true;
+    return false;
+}

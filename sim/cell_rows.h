@@ -16,4 +16,8 @@ enum { CELL_ROWS = 18 };
    first of each cell, and one more. Returns how many rows it fills. */
 int cell_rows(const Solver *solver, const uint32_t *start, uint32_t cell, CellRow rows[CELL_ROWS]);
 
+/* Whether another row has all that stand in this one: across a side of which the box is two cells wide, both
+   neighbours of a cell are the same. For who takes the nearest image of a pair, whatever the row's shift. */
+bool cell_row_again(const Solver *solver, const CellRow *row);
+
 #endif

@@ -82,12 +82,15 @@ static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
     int count = -1; /* not itself */
     CellRow rows[CELL_ROWS];
     const int row_count = cell_rows(args->solver, args->cell_start, args->cell[i], rows);
-    for (int row = 0; row < row_count; row++)
+    for (int row = 0; row < row_count; row++) {
+        if (cell_row_again(args->solver, &rows[row]))
+            continue;
         for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
             float d[3] = {args->x[i] - args->x[j], args->y[i] - args->y[j], args->z[i] - args->z[j]};
             periodic_nearest(&args->solver->periodic, d); /* who has gone through a side since the grid */
             count += d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < h2 && cpu->now.fluid[j] < FLUIDS_MAX;
         }
+    }
     return count;
 }
 

@@ -2,6 +2,7 @@
    refused. */
 #include "fixture.h"
 
+#include "sim/periodic.h"
 #include "sim/tension.h"
 #include "sim/world_state.h"
 
@@ -12,10 +13,12 @@ typedef struct Cloud {
     float *x, *v;
 } Cloud;
 
-static void cloud_make(Cloud *out, int dimensions, const char *axes, const char *method,
-                       const double shift[3])
+static const double wide[3] = {1.3, 1.1, 0.9};
+
+static void cloud_make_in(const double size[3], Cloud *out, int dimensions, const char *axes,
+                          const char *method, const double shift[3])
 {
-    Cloud c = {.def = fixture_def(1.3, 1.1, 0.9)};
+    Cloud c = {.def = fixture_def(size[0], size[1], size[2])};
     const size_t n = dimensions == 2 ? 150 : 1200;
     uint32_t seed = 7;
     c.def.dimensions = dimensions;
@@ -30,15 +33,21 @@ static void cloud_make(Cloud *out, int dimensions, const char *axes, const char 
         c.def.periodic[k] = strchr(axes, "xyz"[k]) != NULL;
     for (size_t i = 0; i < n; i++)
         for (int k = 0; k < 3; k++) {
-            const double size = c.def.box_size[k], low = k == 1 ? 0 : -0.5 * size;
+            const double low = k == 1 ? 0 : -0.5 * size[k];
             double at = fixture_random(&seed);
-            at += c.def.periodic[k] ? shift[k] / size : 0;
-            c.x[3 * i + (size_t)k] = k < dimensions ? (float)(low + size * (at - floor(at))) : 0;
+            at += c.def.periodic[k] ? shift[k] / size[k] : 0;
+            c.x[3 * i + (size_t)k] = k < dimensions ? (float)(low + size[k] * (at - floor(at))) : 0;
             c.v[3 * i + (size_t)k] = k < dimensions ? (float)(fixture_random(&seed) - 0.5) : 0;
         }
     c.initial = (InitialState){.count = n, .position = c.x, .velocity = c.v};
     *out = c;
     out->def.initial = &out->initial;
+}
+
+static void cloud_make(Cloud *out, int dimensions, const char *axes, const char *method,
+                       const double shift[3])
+{
+    cloud_make_in(wide, out, dimensions, axes, method, shift);
 }
 
 static void cloud_free(Cloud *c)
@@ -70,53 +79,105 @@ static double brute_neighbours(const Cloud *c)
 
 static const char *const sides[] = {"x", "y", "xy", "z", "xz", "xyz"};
 
+/* A row of cells each: wide, three cells along each axis, two and as few as may be. */
+static const double boxes[][3] = {{1.3, 1.1, 0.9}, {0.8, 0.78, 0.9}, {0.55, 0.6, 0.53}, {0.52, 0.52, 0.52}};
+enum { BOXES = sizeof boxes / sizeof *boxes };
+
 static void neighbours_are_those_of_all_pairs(void **state)
 {
     (void)state;
     fixture_needs("periodic sides");
-    for (int dimensions = 2; dimensions <= 3; dimensions++)
-        for (int k = 0; k < (dimensions == 2 ? 3 : 6); k++) {
-            Cloud c;
-            cloud_make(&c, dimensions, sides[k], "mueller", nowhere);
-            World *world = fixture_world(&c.def);
-            WorldSums sums;
-            world_sums(world, &sums);
-            const double pair = 1.01 / (double)c.initial.count; /* at the very edge of the radius */
-            assert_float_equal(sums.neighbours_mean, brute_neighbours(&c), 2 * pair);
-            world_destroy(world);
-            cloud_free(&c);
-        }
+    for (int box = 0; box < BOXES; box++)
+        for (int dimensions = 2; dimensions <= 3; dimensions++)
+            for (int k = 0; k < (dimensions == 2 ? 3 : 6); k++) {
+                Cloud c;
+                cloud_make_in(boxes[box], &c, dimensions, sides[k], "mueller", nowhere);
+                World *world = fixture_world(&c.def);
+                WorldSums sums;
+                world_sums(world, &sums);
+                const double pair = 1.01 / (double)c.initial.count; /* at the very edge of the radius */
+                const double right = brute_neighbours(&c);
+                if (!(fabs(sums.neighbours_mean - right) <= 2 * pair))
+                    fail_msg("box %d, %dD, periodic in %s: %g neighbours, not %g", box, dimensions, sides[k],
+                             sums.neighbours_mean, right);
+                world_destroy(world);
+                cloud_free(&c);
+            }
 }
 
-/* Densities against the sum over all pairs: 2D and all sides, so that no wall adds. */
-static void densities_are_sums_over_the_nearest_images(void **state)
+/* 2D and all sides, so that no wall adds. */
+static void check_densities(const Cloud *c)
 {
-    (void)state;
-    fixture_needs("periodic sides");
-    Cloud c;
-    cloud_make(&c, 2, "xy", "mueller", nowhere);
-    const double h = c.def.support * c.def.spacing;
-    World *world = fixture_world(&c.def);
+    const double h = c->def.support * c->def.spacing, *size = c->def.box_size;
+    World *world = fixture_world(&c->def);
     State s = fixture_read(world);
     double lattice = 0;
     for (int i = -3; i <= 3; i++)
         for (int j = -3; j <= 3; j++)
-            lattice += pow(fmax(1 - c.def.spacing * hypot(i, j) / h, 0), 3);
+            lattice += pow(fmax(1 - c->def.spacing * hypot(i, j) / h, 0), 3);
     for (size_t i = 0; i < s.count; i++) {
         double sum = 0;
         for (size_t j = 0; j < s.count; j++) {
-            double dx = (double)c.x[3 * i] - (double)c.x[3 * j],
-                   dy = (double)c.x[3 * i + 1] - (double)c.x[3 * j + 1];
-            dx -= 1.3 * rint(dx / 1.3);
-            dy -= 1.1 * rint(dy / 1.1);
+            double dx = (double)c->x[3 * i] - (double)c->x[3 * j],
+                   dy = (double)c->x[3 * i + 1] - (double)c->x[3 * j + 1];
+            dx -= size[0] * rint(dx / size[0]);
+            dy -= size[1] * rint(dy / size[1]);
             sum += pow(fmax(1 - hypot(dx, dy) / h, 0), 3);
         }
-        assert_float_equal((double)s.position[4 * i + 3] * sum / lattice, c.def.spacing * c.def.spacing,
-                           2e-6 * c.def.spacing * c.def.spacing);
+        assert_float_equal((double)s.position[4 * i + 3] * sum / lattice, c->def.spacing * c->def.spacing,
+                           2e-6 * c->def.spacing * c->def.spacing);
     }
     fixture_free(&s);
     world_destroy(world);
-    cloud_free(&c);
+}
+
+/* Densities against the sum over all pairs. */
+static void densities_are_sums_over_the_nearest_images(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    for (int box = 0; box < BOXES; box++) {
+        Cloud c;
+        cloud_make_in(boxes[box], &c, 2, "xy", "mueller", nowhere);
+        check_densities(&c);
+        cloud_free(&c);
+    }
+}
+
+/* All forces, of a cloud and of the same one moved through its sides. */
+static void check_shifted(const double size[3], int dimensions, const char *method)
+{
+    const double shift[3] = {0.41, 0.63, 0.77};
+    const char *axes = dimensions == 2 ? "x" : "xz";
+    const bool continuity = strcmp(method, "wcsph") == 0;
+    Cloud a, b;
+    cloud_make_in(size, &a, dimensions, axes, method, nowhere);
+    cloud_make_in(size, &b, dimensions, axes, method, shift);
+    a.def.dt = b.def.dt = 1e-4;
+    a.def.delta_sph = b.def.delta_sph = continuity ? 0.1 : 0;
+    a.def.shifting = b.def.shifting = continuity ? 0.1 : 0;
+    a.def.tension_model = b.def.tension_model = TENSION_COHESION;
+    a.def.fluids[0].surface_tension = b.def.fluids[0].surface_tension = 1;
+    World *one = fixture_world(&a.def), *other = fixture_world(&b.def);
+    fixture_step(one, 1);
+    fixture_step(other, 1);
+    State s = fixture_read(one), t = fixture_read(other);
+    double most = 0, worst = 0;
+    for (size_t i = 0; i < s.count; i++)
+        for (size_t k = 0; k < 3; k++) {
+            const double change = (double)s.velocity[4 * i + k] - (double)a.v[3 * i + k];
+            most = fmax(most, fabs(change));
+            worst = fmax(worst, fabs((double)s.velocity[4 * i + k] - (double)t.velocity[4 * i + k]));
+        }
+    if (!(worst < 1e-3 * most))
+        fail_msg("%s, %dD, %g m wide: velocities differ by %g of a change by %g", method, dimensions, size[0],
+                 worst, most);
+    fixture_free(&s);
+    fixture_free(&t);
+    world_destroy(one);
+    world_destroy(other);
+    cloud_free(&a);
+    cloud_free(&b);
 }
 
 /* Where the box's frame begins is no matter along a periodic axis: all forces, of both methods. */
@@ -124,40 +185,48 @@ static void a_shifted_cloud_moves_the_same_way(void **state)
 {
     (void)state;
     fixture_needs("periodic sides");
-    static const char *const methods[] = {"mueller", "wcsph"};
-    const double shift[3] = {0.41, 0.63, 0.77};
-    for (int m = 0; m < 2; m++)
-        for (int dimensions = 2; dimensions <= 3; dimensions++) {
-            const char *axes = dimensions == 2 ? "x" : "xz";
-            Cloud a, b;
-            cloud_make(&a, dimensions, axes, methods[m], nowhere);
-            cloud_make(&b, dimensions, axes, methods[m], shift);
-            a.def.dt = b.def.dt = 1e-4;
-            a.def.delta_sph = b.def.delta_sph = m == 1 ? 0.1 : 0;
-            a.def.shifting = b.def.shifting = m == 1 ? 0.1 : 0;
-            a.def.tension_model = b.def.tension_model = TENSION_COHESION;
-            a.def.fluids[0].surface_tension = b.def.fluids[0].surface_tension = 1;
-            World *one = fixture_world(&a.def), *other = fixture_world(&b.def);
-            fixture_step(one, 1);
-            fixture_step(other, 1);
-            State s = fixture_read(one), t = fixture_read(other);
-            double most = 0, worst = 0;
-            for (size_t i = 0; i < s.count; i++)
-                for (size_t k = 0; k < 3; k++) {
-                    const double change = (double)s.velocity[4 * i + k] - (double)a.v[3 * i + k];
-                    most = fmax(most, fabs(change));
-                    worst = fmax(worst, fabs((double)s.velocity[4 * i + k] - (double)t.velocity[4 * i + k]));
-                }
-            if (!(worst < 1e-3 * most))
-                fail_msg("%s, %dD: velocities differ by %g of a change by %g", methods[m], dimensions, worst,
-                         most);
-            fixture_free(&s);
-            fixture_free(&t);
-            world_destroy(one);
-            world_destroy(other);
-            cloud_free(&a);
-            cloud_free(&b);
+    for (int dimensions = 2; dimensions <= 3; dimensions++)
+        for (int box = 0; box < BOXES; box += BOXES - 1) {
+            check_shifted(boxes[box], dimensions, "mueller");
+            check_shifted(boxes[box], dimensions, "wcsph");
         }
+}
+
+static float wrapped(const Periodic *periodic, float at)
+{
+    float x[3] = {at, at, at};
+    periodic_wrap(periodic, x);
+    for (int k = 0; k < 2; k++) {
+        const float from = x[k] - periodic->low[k], rounding = 1e-7F * periodic->size[k];
+        assert_true(from >= -rounding && from <= periodic->size[k] + rounding);
+    }
+    assert_true(x[2] == at); /* has walls */
+    return x[0];
+}
+
+/* At the very sides, next to them, and many boxes away; twice is once. */
+static void places_are_wrapped_into_the_box(void **state)
+{
+    (void)state;
+    const float sizes[] = {1, 0.4F, 1.3F, 1.0F / 3, 24};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        const float size = sizes[k], half = 0.5F * size;
+        const Periodic p = {true, {true, true, false}, {-half, 0, -half}, {size, size, size}};
+        assert_true(wrapped(&p, half) == -half && wrapped(&p, -half) == -half);
+        const float beside[] = {nextafterf(half, 0), nextafterf(-half, -1e9F), nextafterf(half, 1e9F),
+                                -1e-30F, nextafterf(size, 1e9F)};
+        for (int i = 0; i < 5; i++) {
+            const float x = wrapped(&p, beside[i]), off = x - beside[i];
+            assert_float_equal(off, size * roundf(off / size), 2e-7F * size);
+            const float again = wrapped(&p, x) - x;
+            assert_float_equal(again, size * roundf(again / size), 2e-7F * size);
+        }
+        for (int boxes_away = -40; boxes_away <= 40; boxes_away++) {
+            const float x = wrapped(&p, 0.3F * half + (float)boxes_away * size);
+            assert_float_equal(x, 0.3F * half, 1e-5F * size);
+            assert_true(wrapped(&p, x) == x);
+        }
+    }
 }
 
 /* A lattice that flows through the sides stays one, to the rounding of places. */
@@ -353,6 +422,7 @@ int main(void)
         cmocka_unit_test(neighbours_are_those_of_all_pairs),
         cmocka_unit_test(densities_are_sums_over_the_nearest_images),
         cmocka_unit_test(a_shifted_cloud_moves_the_same_way),
+        cmocka_unit_test(places_are_wrapped_into_the_box),
         cmocka_unit_test(a_lattice_flows_through_the_sides),
         cmocka_unit_test(momentum_is_conserved),
         cmocka_unit_test(a_box_that_shakes_passes_the_fluid),

@@ -79,13 +79,16 @@ static size_t neighbours_of(const Solver *s, const Transfer *copy, const uint32_
     size_t count = 0;
     CellRow rows[CELL_ROWS];
     const int row_count = cell_rows(s, start, (uint32_t)cell, rows);
-    for (int row = 0; row < row_count; row++)
+    for (int row = 0; row < row_count; row++) {
+        if (cell_row_again(s, &rows[row]))
+            continue;
         for (size_t j = rows[row].begin; j < rows[row].end; j++) {
             const float *y = copy->position + 4 * j;
             float d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
             periodic_nearest(&s->periodic, d); /* who has gone through a side since */
             count += j != i && d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < h2;
         }
+    }
     return count;
 }
 
