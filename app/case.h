@@ -80,8 +80,12 @@ struct Case {
 /* Ended by NULL. */
 extern const Case *const case_list[];
 
-/* NULL with the reason, which lists them, when there is none of that name. */
+/* NULL with the reason, which names the one that may be meant, and lists them, when there is none of that
+ * name. */
 const Case *case_find(const char *name, Error *error);
+
+/* The name of a case that may have been meant by that word; NULL: none. */
+const char *case_near(const char *word);
 
 /* The solver parameters of all cases, as --set takes them; ended by NULL. */
 extern const char *const case_settings[];
@@ -94,6 +98,9 @@ Figure figure_relative(double value, double reference);
 
 /* The same over a scale: (value - reference) / scale, for a reference of 0. */
 Figure figure_scaled(double value, double reference, double scale);
+
+/* The worse of two misses; NaN, not measured, is the worst. */
+double figure_worse(double a, double b);
 
 double case_tolerance(const CaseMetric *metric, CaseLevel level, const char *method);
 

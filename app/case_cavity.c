@@ -18,16 +18,18 @@ static bool judge(CaseRun *run, Error *error)
     if (!reference_load("scenes/reference/ghia-1982.csv", &published, error))
         return false;
     for (int line = 0; line < 2; line++) {
-        char column[16];
+        char column[32];
         snprintf(column, sizeof column, "%s%.0f", line ? "v" : "u", reynolds);
+        if (!*reference_text(&published, 0, column))
+            return error_set(error, "%s: has no column %s; the Reynolds number is 100 or 1000",
+                             published.path, column);
         for (int k = 0; k < published.rows; k++) {
             const double along = reference_number(&published, k, line ? "x" : "y");
             const double right = reference_number(&published, k, column);
             const double at[2] = {line ? (along - 0.5) * side : 0, line ? 0.5 * side : along * side};
             double v[2] = {(double)NAN, (double)NAN};
             metric_velocity(&run->cloud, at, v);
-            const double miss = fabs(v[line] / lid - right);
-            worst = miss <= worst ? worst : miss;
+            worst = figure_worse(worst, fabs(v[line] / lid - right));
             curve_add(&run->found[line], along, v[line] / lid);
             curve_add(&run->expected[line], along, right);
         }

@@ -69,7 +69,7 @@ static bool judge(CaseRun *run, Profile profile)
     const double height = run->def->box_size[1];
     double worst = 0;
     for (size_t i = 0; i < run->column[ERROR].count; i++)
-        worst = fmax(worst, run->column[ERROR].at[i][1]);
+        worst = figure_worse(worst, run->column[ERROR].at[i][1]);
     run->figures[0] = figure_scaled(worst, 0, greatest(run->def));
     for (size_t i = 0; i < run->cloud.count; i++)
         curve_add(&run->found[0], run->cloud.position[4 * i + 1], run->cloud.velocity[4 * i]);

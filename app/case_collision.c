@@ -27,7 +27,7 @@ static double most_change(const Curve *curve)
 {
     double most = 0;
     for (size_t i = 0; i < curve->count; i++)
-        most = fmax(most, fabs(curve->at[i][1] - curve->at[0][1]));
+        most = figure_worse(most, fabs(curve->at[i][1] - curve->at[0][1]));
     return most;
 }
 
@@ -39,7 +39,7 @@ static bool judge(CaseRun *run, Error *error)
     const double reach = run->def->fluids[0].fills[0].radius;
     double gained = 0;
     for (size_t i = 0; i < energy->count; i++) {
-        gained = fmax(gained, energy->at[i][1] - energy->at[0][1]);
+        gained = figure_worse(gained, energy->at[i][1] - energy->at[0][1]);
         curve_add(&run->found[0], energy->at[i][0], energy->at[i][1] / energy->at[0][1]);
         curve_add(&run->expected[0], energy->at[i][0], 1);
     }

@@ -35,8 +35,7 @@ static bool judge(CaseRun *run, Error *error)
         const double miss = fabs(curve_at(&run->found[0], t) - z) / z;
         curve_add(&run->expected[0], t, z);
         mean += miss / published.rows;
-        if (!(miss <= worst))
-            worst = miss;
+        worst = figure_worse(worst, miss);
     }
     run->figures[0] = figure_scaled(mean, 0, 1);
     run->figures[1] = figure_scaled(worst, 0, 1);

@@ -24,7 +24,7 @@ static bool judge(CaseRun *run, Error *error)
     metric_energies(&run->cloud, run->def, &e);
     for (size_t i = 0; i < height->count; i++) {
         const double moved = height->at[i][1] - height->at[0][1];
-        most = fmax(most, fabs(moved));
+        most = figure_worse(most, fabs(moved));
         curve_add(&run->found[0], height->at[i][0], moved / way);
         curve_add(&run->expected[0], height->at[i][0], 0);
     }

@@ -27,7 +27,7 @@ static bool judge(CaseRun *run, Error *error)
     Energies e;
     metric_energies(&run->cloud, run->def, &e);
     for (size_t i = 0; i < energy->count; i++) {
-        drift = fmax(drift, fabs(energy->at[i][1] - energy->at[0][1]));
+        drift = figure_worse(drift, fabs(energy->at[i][1] - energy->at[0][1]));
         if (energy->at[i][0] >= 0.5 * run->info.time) {
             mean += pressure->at[i][1];
             count++;

@@ -1,6 +1,7 @@
 #include "app/case.h"
 
 #include "app/case_all.h"
+#include "app/scene_suggest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -28,6 +29,14 @@ const char *case_support(const char *method, int dimensions)
                                                            : "particles.support=2.6";
 }
 
+const char *case_near(const char *word)
+{
+    Suggestion near = suggest_for(word);
+    for (const Case *const *at = case_list; *at; at++)
+        suggest_offer(&near, (*at)->name);
+    return near.best;
+}
+
 const Case *case_find(const char *name, Error *error)
 {
     char all[512] = "";
@@ -36,7 +45,9 @@ const Case *case_find(const char *name, Error *error)
             return *at;
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", *all ? ", " : "", (*at)->name);
     }
-    error_set(error, "there is no case '%.60s'; these are there: %s", name, all);
+    const char *near = case_near(name);
+    error_set(error, "there is no case '%.60s'%s%s%s; these are there: %s", name,
+              near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", all);
     return NULL;
 }
 
@@ -48,6 +59,11 @@ Figure figure_scaled(double value, double reference, double scale)
 Figure figure_relative(double value, double reference)
 {
     return figure_scaled(value, reference, reference);
+}
+
+double figure_worse(double a, double b)
+{
+    return isnan(a) || a > b ? a : b;
 }
 
 double case_tolerance(const CaseMetric *metric, CaseLevel level, const char *method)

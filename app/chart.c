@@ -2,7 +2,7 @@
 
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
+#include <sys/wait.h>
 
 static bool has_ending(const char *path, const char *ending)
 {
@@ -46,16 +46,38 @@ bool chart_begin(Chart *chart, const char *path, int width, int height, Error *e
     return true;
 }
 
+/* gnuplot says nothing of a full disk: whether the file ends as one of its kind does. */
+static bool is_whole(const Chart *chart)
+{
+    static const char svg[] = "</svg>", png[] = "IEND\xae\x42\x60\x82";
+    const char *end = has_ending(chart->output.path, ".svg") ? svg : png;
+    char tail[16] = "";
+    FILE *file = fopen(chart->output.temp, "rb");
+    if (!file)
+        return false;
+    const bool read =
+        fseek(file, -(long)(sizeof tail - 1), SEEK_END) == 0 && fread(tail, 1, sizeof tail - 1, file) > 0;
+    fclose(file);
+    for (size_t i = 0; read && i + strlen(end) < sizeof tail; i++)
+        if (memcmp(tail + i, end, strlen(end)) == 0)
+            return true;
+    return false;
+}
+
 bool chart_end(Chart *chart, Error *error)
 {
-    struct stat status;
+    enum { NOT_FOUND = 127 }; /* says the shell */
     fputs("set output\n", chart->gnuplot);
     const int code = pclose(chart->gnuplot);
+    const char *path = chart->output.path;
     chart->gnuplot = NULL;
-    if (code == 0 && stat(chart->output.temp, &status) == 0 && status.st_size > 0)
+    if (code == 0 && is_whole(chart))
         return output_commit(&chart->output, error);
     output_discard(&chart->output);
-    return error_set(error,
-                     "%s: gnuplot could not draw it (status %d); is it installed? tools/setup does that",
-                     chart->output.path, code);
+    if (WIFEXITED(code) && WEXITSTATUS(code) == NOT_FOUND)
+        return error_set(error, "%s: gnuplot, which draws charts, is not installed; tools/setup does that",
+                         path);
+    if (code == 0)
+        return error_set(error, "%s: gnuplot could not write it whole; is the disk full?", path);
+    return error_set(error, "%s: gnuplot could not draw it (status %d)", path, code);
 }

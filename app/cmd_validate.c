@@ -11,7 +11,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { RUNS_MAX = 128 };
+enum { RUNS_MAX = 128, CASE_NAME_MAX = 32 };
+
+#define PLOT_NAME "%s/%s.svg"
 
 typedef struct Plan {
     const Args *args;
@@ -19,6 +21,7 @@ typedef struct Plan {
     const char *method; /* the only one, or NULL */
     int count;
     CaseSetup setups[RUNS_MAX];
+    double work[RUNS_MAX]; /* about how long each takes, up to a factor */
 } Plan;
 
 /* --method, which stands among the settings. */
@@ -32,6 +35,14 @@ static const char *chosen_method(const SceneSettings *settings)
     return method;
 }
 
+static bool is_planned(const Plan *plan, const Case *of)
+{
+    for (int i = 0; i < plan->count; i++)
+        if (plan->setups[i].of == of)
+            return true;
+    return false;
+}
+
 static bool add_case(Plan *plan, const Case *of, Error *error)
 {
     const char *const one[2] = {plan->method, NULL};
@@ -41,6 +52,13 @@ static bool add_case(Plan *plan, const Case *of, Error *error)
         plan->setups[plan->count++] = (CaseSetup){of, plan->level, *method, &plan->args->settings};
     }
     return true;
+}
+
+/* Particles, times pairs of each, times steps that sound sets. */
+static double work_of(const Case *of, const WorldDef *def)
+{
+    return (double)world_def_count(def, def->spacing) * pow(def->support, def->dimensions) * of->time *
+           def->sound_speed / def->spacing;
 }
 
 /* All scenes are read before the first runs: a mistake in the last one shows at once. What the backend cannot
@@ -56,8 +74,9 @@ static bool plan_keep(Plan *plan, bool *wants_context, Error *error)
             return false;
         if (world_can(&scene.world, error)) {
             *wants_context |= world_on_gpu(&scene.world);
+            plan->work[kept] = work_of(setup.of, &scene.world);
             plan->setups[kept++] = setup;
-        } else if (!plan->args->quiet) {
+        } else {
             fprintf(stderr, "%s with %s is left out: %s\n", setup.of->name, setup.method, error->message);
         }
     }
@@ -76,7 +95,7 @@ static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *
         ok = ((*at)->only_full && !args->full) || add_case(plan, *at, error);
     for (int i = 0; ok && i < args->scene_count; i++) {
         const Case *of = case_find(args->scenes[i], error);
-        ok = of && add_case(plan, of, error);
+        ok = of && (is_planned(plan, of) || add_case(plan, of, error));
     }
     return ok && plan_keep(plan, wants_context, error);
 }
@@ -85,16 +104,20 @@ static bool run_all(const Plan *plan, CaseResult *results, int *done, Error *err
 {
     const Args *args = plan->args;
     Progress progress;
+    double all = 0, before = 0;
     bool ok = true;
+    for (int i = 0; i < plan->count; i++)
+        all += plan->work[i];
     if (!args->quiet)
         validate_print_head(stdout);
     fflush(stdout);
     progress_begin(&progress, stderr, "validate", args->quiet);
     for (; ok && *done < plan->count && !interrupted(); ++*done) {
-        const double part = 1.0 / plan->count;
-        ok = case_run(&plan->setups[*done], &progress, *done * part, part, &results[*done], error);
+        const double part = plan->work[*done] / all;
+        ok = case_run(&plan->setups[*done], &progress, before, part, &results[*done], error);
         if (!ok)
             break;
+        before += part;
         progress_end(&progress);
         if (!args->quiet)
             validate_print(&results[*done], stdout);
@@ -112,22 +135,27 @@ static bool plot_all(const Args *args, const CaseResult *results, int count, Err
         char path[1024];
         for (next = i + 1; next < count && results[next].of == results[i].of;)
             next++;
-        snprintf(path, sizeof path, "%.900s/%s.svg", args->output, results[i].of->name);
+        snprintf(path, sizeof path, PLOT_NAME, args->output, results[i].of->name);
         if (!validate_plot(&results[i], (size_t)(next - i), path, error))
             return false;
     }
     return true;
 }
 
+/* Where plots can be written. */
 static bool make_folder(const char *path, Error *error)
 {
-    struct stat status;
-    if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)))
-        return true;
-    return error_set(error, "%s: cannot be made (%s); name a folder for the plots", path, strerror(errno));
+    char probe[1024];
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        return error_set(error, "%s: cannot be made (%s); name a folder for the plots", path,
+                         strerror(errno));
+    if (snprintf(probe, sizeof probe, PLOT_NAME, path, "plot") >= (int)sizeof probe - CASE_NAME_MAX)
+        return error_set(error, "the name of the folder has more than %zu bytes; name a shorter one",
+                         sizeof probe - CASE_NAME_MAX);
+    return output_check(probe, error);
 }
 
-static int missed(const CaseResult *results, int count, FILE *file)
+static int count_missed(const CaseResult *results, int count, FILE *file)
 {
     int all = 0, misses = 0;
     for (int i = 0; i < count; i++)
@@ -144,18 +172,21 @@ static int missed(const CaseResult *results, int count, FILE *file)
 static int finish(const Plan *plan, const CaseResult *results, int done, bool ran, Error *error)
 {
     const Args *args = plan->args;
-    Error late = {{0}};
-    const bool written = plot_all(args, results, done, &late) &&
-                         (!args->json || validate_write_json(results, (size_t)done, args->json, &late));
+    Error no_json, no_plot;
+    const bool written = !args->json || validate_write_json(results, (size_t)done, args->json, &no_json);
+    const bool drawn = plot_all(args, results, done, &no_plot);
+    if (!written)
+        fprintf(stderr, "%s\n", no_json.message);
+    if (!drawn)
+        fprintf(stderr, "%s\n", no_plot.message);
     if (interrupted()) {
         fprintf(stderr, "stopped after %d of %d runs\n", done, plan->count);
         return EXIT_INTERRUPTED;
     }
-    if (!ran || !written) {
-        fprintf(stderr, "%s\n", (ran ? &late : error)->message);
-        return EXIT_FAILED;
-    }
-    return missed(results, done, args->quiet ? NULL : stdout) ? EXIT_FAILED : 0;
+    if (!ran)
+        fprintf(stderr, "%s\n", error->message);
+    const bool missed = count_missed(results, done, args->quiet ? NULL : stdout) > 0;
+    return ran && written && drawn && !missed ? 0 : EXIT_FAILED;
 }
 
 static int validate(const Plan *plan, bool wants_context, Error *error)

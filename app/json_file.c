@@ -3,6 +3,7 @@
 #include "app/output.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -31,4 +32,9 @@ bool json_file_write(const json_t *json, const char *path, Error *error)
         error_set(error, "%s: cannot write the results: %s", path, strerror(errno));
     output_discard(&output);
     return false;
+}
+
+json_t *number_json(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
 }

@@ -11,4 +11,7 @@
    take the reference. */
 bool json_file_write(const json_t *json, const char *path, Error *error);
 
+/* A real, or null where the number is not finite: JSON has no other word for that. */
+json_t *number_json(double number);
+
 #endif

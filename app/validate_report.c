@@ -29,11 +29,6 @@ void validate_print(const CaseResult *result, FILE *file)
     fflush(file);
 }
 
-static json_t *number_json(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
-
 static json_t *figure_json(const CaseResult *result, int m)
 {
     const CaseMetric *metric = &result->of->metrics[m];
@@ -97,8 +92,8 @@ static int plot_found(const CaseResult *results, size_t count, FILE *gnuplot)
     return lines;
 }
 
-/* gnuplot warns of a range of nothing. */
-static bool is_flat(const CaseResult *results, size_t count)
+/* gnuplot warns of a range of nothing: one around what does not change. */
+static void put_range(const CaseResult *results, size_t count, FILE *gnuplot)
 {
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < count; i++)
@@ -107,14 +102,14 @@ static bool is_flat(const CaseResult *results, size_t count)
                 low = fmin(low, results[i].run.found[c].at[k][1]);
                 high = fmax(high, results[i].run.found[c].at[k][1]);
             }
-    return !(high - low > 1e-12);
+    if (high >= low && high - low <= 1e-12)
+        fprintf(gnuplot, "set yrange [%.9g:%.9g]\n", low - 1, high + 1);
 }
 
 static void plot_all(const CaseResult *results, size_t count, FILE *gnuplot)
 {
     const CasePlot *plot = &results[0].of->plot;
-    if (is_flat(results, count))
-        fputs("set offsets 0,0,1,1\n", gnuplot);
+    put_range(results, count, gnuplot);
     int lines = plot_found(results, count, gnuplot);
     for (int c = 0; c < CASE_CURVES && plot->expected[c]; c++) {
         if (!has_points(&results[0].run.expected[c]))

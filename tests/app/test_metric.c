@@ -168,6 +168,44 @@ static void swings_have_period_and_decay(void **state)
     curve_free(&peaks);
 }
 
+/* What could not be measured is never forgotten for what could. */
+static void not_measured_is_the_worst(void **state)
+{
+    (void)state;
+    const double nan = (double)NAN;
+    near(figure_worse(0.1, 0.2), 0.2, 0);
+    near(figure_worse(0.2, 0.1), 0.2, 0);
+    assert_true(isnan(figure_worse(nan, 0.1)) && isnan(figure_worse(0.1, nan)));
+}
+
+/* Particles only in the lower half of the cavity: half of Ghia's points cannot be measured, the last ones
+ * can. */
+static void a_cavity_half_empty_is_no_result(void **state)
+{
+    (void)state;
+    static WorldDef def;
+    static CaseRun run;
+    Error error = {{0}};
+    const Case *of = case_find("cavity", &error);
+    def = world_def_default();
+    def.box_size[0] = def.box_size[1] = 1;
+    def.lid[0] = 1;
+    def.fluids[0].density = 1000;
+    def.fluids[0].viscosity = 10;
+    run = (CaseRun){.of = of, .def = &def, .cloud = cloud_of(0.02)};
+    for (int i = 0; i < 50 * 25; i++)
+        add(&run.cloud, 0.02 * (i % 50) - 0.49, 0.02 * (i / 50) + 0.01, 0);
+    assert_true(of->judge(&run, &error));
+    assert_true(isnan(run.figures[0].error));
+    def.fluids[0].viscosity = 5;
+    assert_false(of->judge(&run, &error));
+    assert_non_null(strstr(error.message, "the Reynolds number is 100 or 1000"));
+    for (int c = 0; c < CASE_CURVES; c++) {
+        curve_free(&run.found[c]);
+        curve_free(&run.expected[c]);
+    }
+}
+
 /* Every case has a scene that loads, methods that are there, tolerances, and a reference that is read; names
    are each their own. */
 static void cases_are_whole(void **state)
@@ -187,6 +225,8 @@ static void cases_are_whole(void **state)
     }
     assert_null(case_find("no_such", &error));
     assert_non_null(strstr(error.message, "dam_break"));
+    assert_string_equal(case_near("dam_brake"), "dam_break");
+    assert_null(case_near("no_such"));
     near(figure_relative(1.1, 1).error, 0.1, 1e-9);
     near(figure_scaled(-0.5, 0, 2).error, 0.25, 1e-9);
     assert_true(case_tolerance(&case_list[0]->metrics[0], CASE_DEFAULT, "mueller") >
@@ -203,6 +243,8 @@ int main(void)
         cmocka_unit_test(energies_are_those_of_the_masses),
         cmocka_unit_test(velocities_are_linear_between_particles),
         cmocka_unit_test(swings_have_period_and_decay),
+        cmocka_unit_test(not_measured_is_the_worst),
+        cmocka_unit_test(a_cavity_half_empty_is_no_result),
         cmocka_unit_test(cases_are_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

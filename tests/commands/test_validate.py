@@ -9,9 +9,9 @@ import command
 
 
 class Validate(command.CommandTest):
-    def run_it(self, *words):
+    def run_it(self, *words, **how):
         return subprocess.run([command.PROGRAM, 'validate', *words], cwd=self.folder, capture_output=True,
-                              text=True, timeout=250, check=False)
+                              text=True, timeout=250, check=False, **how)
 
     def test_coarse_set_keeps_its_tolerances(self):
         done = self.run_it('--coarse', '--json', 'out.json', '-o', 'plots')
@@ -39,9 +39,51 @@ class Validate(command.CommandTest):
     def test_what_is_wrong_is_said(self):
         done = self.run_it('dam_brake')
         self.assertEqual(done.returncode, 2)
-        self.assertIn('dam_break', done.stderr)
+        self.assertIn("did you mean 'dam_break'?", done.stderr)
+        done = self.run_it('free_fall', 'taylor_green', '--coarse', '--quiet', '--method', 'mueller', '--backend', 'fragment')
+        self.assertEqual((done.returncode, done.stdout), (0, ''), done.stderr)
+        self.assertIn('taylor_green with mueller is left out', done.stderr)
         self.assertEqual(self.run_it('--full', '--coarse').returncode, 2)
         self.assertEqual(self.run_it('--set', 'no.key=1').returncode, 2)
+
+    def test_a_case_named_twice_is_one(self):
+        done = self.run_it('free_fall', 'collision', 'free_fall', '--coarse', '--quiet', '--json', 'out.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        cases = json.loads(self.read('out.json'))['cases']
+        self.assertEqual(len(cases), 2 * 2 + 2 * 3)
+        keys = {(c['case'], c['metric'], c['method'], c['backend']) for c in cases}
+        self.assertEqual(len(keys), len(cases))
+
+    def test_what_does_not_depend_on_plots_is_written(self):
+        os.mkdir(self.path('bin'))  # without gnuplot
+        done = self.run_it('free_fall', '--coarse', '--quiet', '-o', 'plots', '--json', 'out.json',
+                           env={**os.environ, 'PATH': self.path('bin')})
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('gnuplot, which draws charts, is not installed', done.stderr)
+        self.assertEqual(len(json.loads(self.read('out.json'))['cases']), 4)
+        self.assertEqual(os.listdir(self.path('plots')), [])
+
+    def test_a_full_disk_leaves_no_half_plot(self):
+        done = self.run_it('free_fall', '--coarse', '--quiet', '-o', 'plots', preexec_fn=command.limit_files(8192))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('is the disk full?', done.stderr)
+        self.assertEqual(os.listdir(self.path('plots')), [])
+
+    def test_a_folder_that_cannot_be_is_said_first(self):
+        self.write('file', '')
+        done = self.run_it('free_fall', '--coarse', '-o', 'file')
+        self.assertEqual((done.returncode, done.stdout), (1, ''))
+        self.assertIn('file', done.stderr)
+
+    def test_figures_are_the_same_with_any_threads(self):
+        figures = []
+        for threads in ('1', '2', '2'):
+            done = self.run_it('collision', 'taylor_green', '--coarse', '--quiet', '--threads', threads, '--json', 'out.json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            cases = json.loads(self.read('out.json'))['cases']
+            figures.append([(c['case'], c['metric'], c['method'], c['value'], c['error']) for c in cases])
+        self.assertEqual(figures[0], figures[1])
+        self.assertEqual(figures[1], figures[2])
 
     def test_interrupt_keeps_what_is_done(self):
         child = subprocess.Popen([command.PROGRAM, 'validate', 'free_fall', 'dam_break_2d', '--json', 'out.json'],
