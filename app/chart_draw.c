@@ -57,19 +57,24 @@ static int put_lines(const ChartRows *rows, FILE *gnuplot, int opener[LINES_MAX]
     return lines;
 }
 
-static void put_front(const ChartRows *rows, FILE *gnuplot)
+/* False without one that can be drawn: gnuplot has no plot of nothing. */
+static bool put_front(const ChartRows *rows, FILE *gnuplot)
 {
+    bool any = false;
     fputs("$front << EOD\n", gnuplot);
     for (int i = 0; i < rows->count; i++) {
         const ChartRow *row = &rows->row[i];
-        if (drawn(row) && chart_on_front(rows, i))
-            fprintf(gnuplot, "%.9g %.9g \"%s, %zu, %s\"\n", row->seconds, row->error, row->method,
-                    row->particles, row->step);
+        if (!drawn(row) || !chart_on_front(rows, i))
+            continue;
+        any = true;
+        fprintf(gnuplot, "%.9g %.9g \"%s, %zu, %s\"\n", row->seconds, row->error, row->method, row->particles,
+                row->step);
     }
     fputs("EOD\n", gnuplot);
+    return any;
 }
 
-static void plot_cost(const ChartRows *rows, const int opener[], int lines, FILE *gnuplot)
+static void plot_cost(const ChartRows *rows, const int opener[], int lines, bool front, FILE *gnuplot)
 {
     fputs("set xlabel 'computing time a simulated second, s'\nplot ", gnuplot);
     for (int l = 0; l < lines; l++) {
@@ -77,14 +82,15 @@ static void plot_cost(const ChartRows *rows, const int opener[], int lines, FILE
         const ChartRow *row = &rows->row[opener[l]];
         snprintf(title, sizeof title, "%s, %s, %s steps", row->method, row->backend,
                  row->fineness ? "fine" : "long");
-        fprintf(gnuplot, "$line%d using 1:2 with points pt %d ps 0.9 lt %d title ", l, row->fineness ? 6 : 7,
-                l + 1);
+        fprintf(gnuplot, "%s$line%d using 1:2 with points pt %d ps 0.9 lt %d title ", l ? ", " : "", l,
+                row->fineness ? 6 : 7, l + 1);
         chart_quote(gnuplot, title);
-        fputs(", ", gnuplot);
     }
-    fputs("$front using 1:2 smooth unique with lines lw 1.5 dt 2 lc '#2a3440' title 'best for its time', "
-          "$front using 1:2:3 with labels left offset 0.7,0.4 font ',8' notitle",
-          gnuplot);
+    if (front)
+        fputs(
+            ", $front using 1:2 smooth unique with lines lw 1.5 dt 2 lc '#2a3440' title 'best for its time', "
+            "$front using 1:2:3 with labels left offset 0.7,0.4 font ',8' notitle",
+            gnuplot);
 }
 
 static void plot_order(const ChartRows *rows, const int opener[], int lines, FILE *gnuplot)
@@ -119,8 +125,7 @@ bool chart_draw(const ChartRows *rows, const char *title, const char *error_name
         return false;
     FILE *gnuplot = chart.gnuplot;
     const int lines = put_lines(rows, gnuplot, opener);
-    if (lines > 0)
-        put_front(rows, gnuplot);
+    const bool front = lines > 0 && put_front(rows, gnuplot);
     fputs(
         "set logscale xy\nset key below noenhanced\nset format xy '%g'\nset mxtics 10\nset offsets graph 0.02,graph 0.15,graph 0.1,graph 0.1\nset multiplot layout 1,2 title ",
         gnuplot);
@@ -129,7 +134,7 @@ bool chart_draw(const ChartRows *rows, const char *title, const char *error_name
     chart_quote(gnuplot, error_name);
     fputs(" noenhanced\n", gnuplot);
     if (lines > 0) {
-        plot_cost(rows, opener, lines, gnuplot);
+        plot_cost(rows, opener, lines, front, gnuplot);
         plot_floor(floor, gnuplot);
         plot_order(rows, opener, lines, gnuplot);
         plot_floor(floor, gnuplot);

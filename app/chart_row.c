@@ -8,53 +8,126 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char HEAD[] = "key,role,method,backend,step,fineness,spacing,particles,seconds,error,series";
+static const char HEAD[] = "key,role,method,backend,step,fineness,spacing,particles,seconds,error,series\n";
 
+/* What every chart's file begins with, whatever else its rows hold. */
+static const char OURS[] = "key,role,method,backend,";
+
+static bool read_number(const char *text, double *number)
+{
+    char *end;
+    *number = strtod(text, &end);
+    return end != text && !*end;
+}
+
+static bool parse_series(char *text, ChartRow *row)
+{
+    int read = 0;
+    for (char *cell = strsep(&text, " "); cell; cell = strsep(&text, " "), read++)
+        if (read == CHART_TIMES * CHART_QUANTITIES ||
+            !read_number(cell, &row->series[read / CHART_QUANTITIES][read % CHART_QUANTITIES]))
+            return false;
+    return read == CHART_TIMES * CHART_QUANTITIES;
+}
+
+static bool copy_name(char name[NAME_SIZE], const char *cell)
+{
+    return snprintf(name, NAME_SIZE, "%s", cell) < NAME_SIZE && *cell;
+}
+
+/* False where anything of it is missing or no number: the run is made again. */
 static bool parse_row(char *line, ChartRow *row)
 {
-    char *cells[10], *at = line;
-    for (int c = 0; c < 10; c++) {
+    enum { CELLS = 10 };
+    char *cells[CELLS], *at = line, *end;
+    double role, fineness, particles;
+    if (!line[strcspn(line, "\n")])
+        return false;
+    line[strcspn(line, "\n")] = '\0';
+    for (int c = 0; c < CELLS; c++) {
         cells[c] = strsep(&at, ",");
-        if (!cells[c])
+        if (!at)
             return false;
     }
-    *row = (ChartRow){.key = strtoull(cells[0], NULL, 16),
-                      .role = (ChartRole)strtol(cells[1], NULL, 10),
-                      .fineness = (int)strtol(cells[5], NULL, 10),
-                      .spacing = strtod(cells[6], NULL),
-                      .particles = strtoul(cells[7], NULL, 10),
-                      .seconds = strtod(cells[8], NULL),
-                      .error = strtod(cells[9], NULL)};
-    snprintf(row->method, NAME_SIZE, "%.31s", cells[2]);
-    snprintf(row->backend, NAME_SIZE, "%.31s", cells[3]);
-    snprintf(row->step, NAME_SIZE, "%.31s", cells[4]);
-    for (int i = 0; i < CHART_TIMES * CHART_QUANTITIES && at; i++)
-        row->series[i / CHART_QUANTITIES][i % CHART_QUANTITIES] = strtod(strsep(&at, " "), NULL);
+    *row = (ChartRow){.key = strtoull(cells[0], &end, 16)};
+    const bool ok = end == cells[0] + 16 && !*end && read_number(cells[1], &role) &&
+                    copy_name(row->method, cells[2]) && copy_name(row->backend, cells[3]) &&
+                    copy_name(row->step, cells[4]) && read_number(cells[5], &fineness) &&
+                    read_number(cells[6], &row->spacing) && read_number(cells[7], &particles) &&
+                    read_number(cells[8], &row->seconds) && read_number(cells[9], &row->error) &&
+                    parse_series(at, row);
+    if (!ok || !(role >= CHART_POINT && role <= CHART_FLOOR) || !(fineness >= 0 && fineness < 100) ||
+        !(particles >= 0 && particles < 1e15))
+        return false;
+    row->role = (ChartRole)role;
+    row->fineness = (int)fineness;
+    row->particles = (size_t)particles;
     return true;
 }
 
-void chart_rows_read(ChartRows *rows, const char *path)
+static void read_rows(ChartRows *rows, FILE *file)
 {
     char *line = NULL;
+    size_t size = 0;
+    while (rows->count < CHART_ROWS_MAX && getline(&line, &size, file) > 0)
+        if (parse_row(line, &rows->row[rows->count]))
+            rows->count++;
+    free(line);
+}
+
+bool chart_rows_read(ChartRows *rows, const char *path, Error *error)
+{
+    char *head = NULL;
     size_t size = 0;
     FILE *file = fopen(path, "r");
     rows->count = 0;
     if (!file)
-        return;
-    bool ours = getline(&line, &size, file) > 0 && strncmp(line, HEAD, sizeof HEAD - 1) == 0;
-    while (ours && rows->count < CHART_ROWS_MAX && getline(&line, &size, file) > 0)
-        if (parse_row(line, &rows->row[rows->count]))
-            rows->count++;
-    free(line);
+        return true;
+    const bool empty = getline(&head, &size, file) <= 0;
+    const bool ours = empty || strncmp(head, OURS, sizeof OURS - 1) == 0;
+    if (!empty && ours && strcmp(head, HEAD) == 0)
+        read_rows(rows, file);
+    free(head);
     fclose(file);
+    return ours || error_set(error,
+                             "%s: is there already, and no chart wrote it; give the chart another name, or "
+                             "move that file",
+                             path);
 }
 
+void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan)
+{
+    int oldest = 0;
+    if (rows->count == CHART_ROWS_MAX) {
+        while (oldest < rows->count && chart_rows_find(plan, rows->row[oldest].key))
+            oldest++;
+        if (oldest == rows->count)
+            return;
+        rows->count--;
+        memmove(&rows->row[oldest], &rows->row[oldest + 1],
+                (size_t)(rows->count - oldest) * sizeof *rows->row);
+    }
+    rows->row[rows->count++] = *row;
+}
+
+void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan)
+{
+    static ChartRows others;
+    Error none;
+    if (!chart_rows_read(&others, path, &none))
+        return;
+    for (int i = 0; i < others.count && rows->count < CHART_ROWS_MAX; i++)
+        if (!chart_rows_find(rows, others.row[i].key))
+            chart_rows_add(rows, &others.row[i], plan);
+}
+
+/* The series to the last bit: the errors of a chart that goes on are the same. */
 static void print_row(const ChartRow *row, FILE *file)
 {
     fprintf(file, "%016" PRIx64 ",%d,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,", row->key, (int)row->role, row->method,
             row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds, row->error);
     for (int i = 0; i < CHART_TIMES * CHART_QUANTITIES; i++)
-        fprintf(file, "%s%.9g", i ? " " : "", row->series[i / CHART_QUANTITIES][i % CHART_QUANTITIES]);
+        fprintf(file, "%s%.17g", i ? " " : "", row->series[i / CHART_QUANTITIES][i % CHART_QUANTITIES]);
     fputc('\n', file);
 }
 
@@ -65,21 +138,30 @@ bool chart_rows_write(const ChartRows *rows, const char *path, Error *error)
         return false;
     FILE *file = fopen(output.temp, "w");
     if (file) {
-        fprintf(file, "%s\n", HEAD);
+        fputs(HEAD, file);
         for (int i = 0; i < rows->count; i++)
             print_row(&rows->row[i], file);
+        const bool whole = !ferror(file);
+        if (fclose(file) == 0 && whole)
+            return output_commit(&output, error);
     }
-    if (file && fclose(file) == 0)
-        return output_commit(&output, error);
     error_set(error, "%s: cannot be written (%s)", path, strerror(errno));
     output_discard(&output);
     return false;
 }
 
-ChartRow *chart_rows_find(ChartRows *rows, uint64_t key)
+const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key)
 {
     for (int i = 0; i < rows->count; i++)
         if (rows->row[i].key == key)
+            return &rows->row[i];
+    return NULL;
+}
+
+const ChartRow *chart_rows_reference(const ChartRows *rows)
+{
+    for (int i = 0; i < rows->count; i++)
+        if (rows->row[i].role == CHART_REFERENCE && isfinite(rows->row[i].seconds))
             return &rows->row[i];
     return NULL;
 }
@@ -105,21 +187,22 @@ double chart_distance(const ChartRow *row, const ChartRow *reference)
     return 0.5 * (distance_of(row, reference, 0, 2) + distance_of(row, reference, 3, 3));
 }
 
+static bool is_floor(const ChartRow *row)
+{
+    return row->role == CHART_FLOOR && isfinite(row->seconds);
+}
+
 double chart_rows_compare(ChartRows *rows)
 {
-    const ChartRow *reference = NULL;
+    const ChartRow *reference = chart_rows_reference(rows);
     double floor = (double)NAN;
-    for (int i = 0; i < rows->count; i++)
-        if (rows->row[i].role == CHART_REFERENCE && isfinite(rows->row[i].seconds))
-            reference = &rows->row[i];
     for (int i = 0; i < rows->count; i++) {
         ChartRow *row = &rows->row[i];
         if (reference)
             row->error = isfinite(row->seconds) ? chart_distance(row, reference) : (double)NAN;
-        for (int k = 0; k < i && row->role == CHART_FLOOR; k++)
-            if (rows->row[k].role == CHART_FLOOR)
-                floor = fmax(floor,
-                             chart_distance(row, &rows->row[k])); /* fmax takes the number of a NaN's two */
+        for (int k = 0; k < i && is_floor(row); k++)
+            if (is_floor(&rows->row[k])) /* fmax takes the number of a NaN's two */
+                floor = fmax(floor, chart_distance(row, &rows->row[k]));
     }
     return floor;
 }

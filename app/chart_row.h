@@ -25,8 +25,9 @@ typedef struct ChartRow {
     int fineness;         /* of the step: rows of the same one are one line of the convergence */
     double spacing;       /* m */
     size_t particles;
-    double seconds; /* of computing, a simulated second; NaN: it broke */
-    double error;   /* NaN: not known */
+    double seconds;    /* of computing, a simulated second; NaN: it broke */
+    double error;      /* NaN: not known */
+    char failure[128]; /* why it broke; "" where it did not, and in rows that were read */
     double series[CHART_TIMES]
                  [CHART_QUANTITIES]; /* of a scene: centre x y z, kinetic energy, at even times */
 } ChartRow;
@@ -36,14 +37,24 @@ typedef struct ChartRows {
     ChartRow row[CHART_ROWS_MAX];
 } ChartRows;
 
-/* The rows of an older run; none where there is no such file, or it is none of ours. */
-void chart_rows_read(ChartRows *rows, const char *path);
+/* The whole rows of an older run; none where there is no such file, or it is empty. False with the reason
+   where the file is no chart's: it is not to be replaced. */
+bool chart_rows_read(ChartRows *rows, const char *path, Error *error);
+
+/* Adds a row, in place of the oldest that is none of `plan` where there is no room. */
+void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan);
+
+/* Adds the rows that the file has got since it was read, from another chart under the same name. */
+void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan);
 
 /* Writes all rows, whole or not at all. */
 bool chart_rows_write(const ChartRows *rows, const char *path, Error *error);
 
 /* NULL where there is none. */
-ChartRow *chart_rows_find(ChartRows *rows, uint64_t key);
+const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key);
+
+/* The reference among them, or NULL: none, or it broke. */
+const ChartRow *chart_rows_reference(const ChartRows *rows);
 
 /* rms over time of the distance of two rows' series, each quantity over its range in `reference`, and the
    mean of the two quantities: centre of mass and kinetic energy. */

@@ -1,19 +1,35 @@
 #include "app/chart_run.h"
 
 #include "app/interrupt.h"
+#include "app/scene_keys.h"
 #include "sim/stage.h"
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { TEXTS = 6, TEXT_SIZE = 96 };
 
-static uint64_t hash(uint64_t h, const char *text)
+static uint64_t hash(uint64_t h, const char *text, size_t size)
 {
-    for (; *text; text++) /* FNV-1a */
-        h = (h ^ (uint8_t)*text) * 0x100000001b3ULL;
+    for (size_t i = 0; i < size; i++) /* FNV-1a */
+        h = (h ^ (uint8_t)text[i]) * 0x100000001b3ULL;
     return (h ^ 0xff) * 0x100000001b3ULL;
+}
+
+/* Of all settings as they were resolved, by whatever file or option, but for how it looks. */
+static bool hash_scene(const Scene *scene, uint64_t *h, Error *error)
+{
+    char *text = scene_print_text(scene);
+    for (const char *line = text; line && *line;) {
+        const size_t size = strcspn(line, "\n");
+        if (strncmp(line, "title ", 6) != 0 && strncmp(line, "view.", 5) != 0)
+            *h = hash(*h, line, size);
+        line += size + (line[size] == '\n');
+    }
+    free(text);
+    return text != NULL || error_set(error, "no memory for the settings of %.200s", scene->path);
 }
 
 /* The settings that the job adds to those of the command line; `texts` holds them. */
@@ -88,10 +104,9 @@ bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scen
     snprintf(row->method, NAME_SIZE, "%s", scene->world.method);
     snprintf(row->backend, NAME_SIZE, "%s", scene->world.backend);
     snprintf(rest, sizeof rest, "%s %d %.9g", SLOSH_VERSION, (int)job->role, subject->time);
-    row->key = hash(hash(row->key, rest), subject->of ? subject->of->name : scene->path);
-    for (int i = 0; i < settings.all.count; i++)
-        row->key = hash(row->key, settings.all.set[i]);
-    return true;
+    const char *name = subject->of ? subject->of->name : "";
+    row->key = hash(hash(row->key, rest, strlen(rest)), name, strlen(name));
+    return hash_scene(scene, &row->key, error);
 }
 
 static void note_state(World *world, double at[CHART_QUANTITIES])
@@ -128,6 +143,7 @@ static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress 
         const double begin = wall_ms();
         ok = world_step(world, NULL, &broke);
         spent += (wall_ms() - begin) / 1000;
+        snprintf(row->failure, sizeof row->failure, "%.127s", broke.message);
         from = info.time;
         memcpy(before, now, sizeof before);
         world_info(world, &info);
@@ -154,6 +170,7 @@ static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow 
     const CaseSetup setup = {subject->of, CASE_DEFAULT, job->method, &settings.all};
     const bool ok = case_run(&setup, progress, done, part, &result, error);
     row->particles = result.particles;
+    snprintf(row->failure, sizeof row->failure, "%.127s", result.failure);
     if (ok && !*result.failure) {
         row->seconds = result.step_seconds / subject->of->time;
         row->error = result.run.figures[0].error;

@@ -26,8 +26,8 @@ typedef struct ChartJob {
 bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scene, ChartRow *row,
                    Error *error);
 
-/* Runs it into `row`, which chart_prepare has filled. A simulation that breaks leaves seconds and error NaN;
-   false where something else fails, or a signal came. */
+/* Runs it into `row`, which chart_prepare has filled. A simulation that breaks leaves seconds and error NaN,
+   and its reason; false where something else fails, or a signal came. */
 bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
                double done, double part, Error *error);
 

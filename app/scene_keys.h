@@ -71,6 +71,9 @@ void scene_keys_print(FILE *file);
 /* "path = value unit" for every setting of the scene as it was resolved. */
 void scene_print(const Scene *scene, FILE *file);
 
+/* The same as text; the caller frees it. NULL when memory is short. */
+char *scene_print_text(const Scene *scene);
+
 /* Value at `base` + the key's offset as people write it, without its unit; "" when the key holds none. */
 void key_value_text(const Key *key, const void *base, char *text, size_t size);
 

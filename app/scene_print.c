@@ -2,6 +2,7 @@
 #include "app/scene_keys.h"
 
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void print_triple(char *text, size_t size, const char *format, const double v[3])
@@ -260,4 +261,18 @@ void scene_print(const Scene *scene, FILE *file)
 {
     const Walk walk = {.base = (const char *)scene};
     print_children(&walk, file);
+}
+
+char *scene_print_text(const Scene *scene)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return NULL;
+    scene_print(scene, file);
+    if (fclose(file) == 0)
+        return text;
+    free(text);
+    return NULL;
 }

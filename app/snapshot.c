@@ -82,7 +82,7 @@ static bool write_texts(hid_t at, const char *name, size_t count, size_t stride,
 
 static bool write_settings(hid_t file, const Scene *scene)
 {
-    char *text = snapshot_settings_text(scene);
+    char *text = scene_print_text(scene);
     const bool written = text && write_texts(file, SNAPSHOT_SETTINGS, SCALAR, strlen(text) + 1, text);
     free(text);
     return written;

@@ -46,9 +46,6 @@ static inline void snapshot_group_name(size_t index, char name[32])
    no locks still work. -1 on failure; the caller closes it. */
 hid_t snapshot_access(void);
 
-/* What scene_print prints; the caller frees it. NULL when memory is short. */
-char *snapshot_settings_text(const Scene *scene);
-
 /* A Snapshot that appends to a file that has so many whole steps. NULL with the reason. */
 Snapshot *snapshot_continue(const char *path, size_t steps, Error *error);
 

@@ -6,20 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-char *snapshot_settings_text(const Scene *scene)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    if (!file)
-        return NULL;
-    scene_print(scene, file);
-    if (fclose(file) == 0)
-        return text;
-    free(text);
-    return NULL;
-}
-
 /* Keys that change no bit of a run. */
 static bool is_idle(const char *line)
 {
@@ -60,7 +46,7 @@ static bool same_settings(const char *path, const char *file, const char *scene,
 
 static bool check_scene(const SnapshotReader *reader, const char *path, const Scene *scene, Error *error)
 {
-    char *file = snapshot_root_text(reader, SNAPSHOT_SETTINGS), *now = snapshot_settings_text(scene);
+    char *file = snapshot_root_text(reader, SNAPSHOT_SETTINGS), *now = scene_print_text(scene);
     bool same = false;
     if (!file)
         error_set(error, "%s: was made by a slosh that could not resume; name another file", path);

@@ -44,7 +44,10 @@ static void distances_are_over_the_range(void **state)
     assert_true(rows.row[2].error == 0);
     for (int i = 0; i < 3; i++)
         set_series(add(CHART_FLOOR, 0.1, 1, 0), 1e-3 * i * i);
+    set_series(add(CHART_FLOOR, 0.1, (double)NAN, 0), 9); /* broke on the way: its series ends anywhere */
     assert_true(fabs(chart_rows_compare(&rows) - 4e-3) < 1e-12);
+    rows.row[2].seconds = (double)NAN;
+    assert_null(chart_rows_reference(&rows));
 }
 
 static void nothing_on_the_front_is_beaten(void **state)
@@ -62,20 +65,32 @@ static void nothing_on_the_front_is_beaten(void **state)
         assert_true(chart_on_front(&rows, i) == front[i]);
 }
 
+static char path[32];
+
+static int make_file(void **state)
+{
+    (void)state;
+    snprintf(path, sizeof path, "/tmp/slosh_chart_XXXXXX");
+    const int file = mkstemp(path);
+    return file < 0 ? -1 : close(file);
+}
+
+static int remove_file(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
 static void a_file_keeps_them(void **state)
 {
     (void)state;
-    char path[] = "/tmp/slosh_chart_XXXXXX";
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
-    close(file);
-    chart_rows_read(&again, path); /* empty: none of ours */
+    assert_true(chart_rows_read(&again, path, &error)); /* empty */
     assert_int_equal(again.count, 0);
     rows.count = 0;
     set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5);
     add(CHART_FLOOR, 0.25, (double)NAN, (double)NAN);
     assert_true(chart_rows_write(&rows, path, &error));
-    chart_rows_read(&again, path);
+    assert_true(chart_rows_read(&again, path, &error));
     assert_int_equal(again.count, 2);
     const ChartRow *row = chart_rows_find(&again, 100);
     assert_non_null(row);
@@ -84,8 +99,87 @@ static void a_file_keeps_them(void **state)
     assert_true(fabs(row->series[CHART_TIMES - 1][3] - 12) < 1e-9);
     assert_true(isnan(again.row[1].seconds) && again.row[1].role == CHART_FLOOR);
     assert_null(chart_rows_find(&again, 7));
-    unlink(path);
     assert_false(chart_rows_write(&rows, "/no/such/folder/x.csv", &error));
+}
+
+static void write_text(const char *text, size_t size)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, size, file), size);
+    fclose(file);
+}
+
+/* Wherever the file is cut, and whatever letter of a row is spoilt, no row is read but those that were
+   written. */
+static void half_a_row_is_none(void **state)
+{
+    (void)state;
+    static char whole[16384];
+    rows.count = 0;
+    for (int i = 0; i < 2; i++)
+        set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5 + i);
+    assert_true(chart_rows_write(&rows, path, &error));
+    assert_true(chart_rows_read(&rows, path, &error)); /* as printed */
+    FILE *file = fopen(path, "r");
+    const size_t size = fread(whole, 1, sizeof whole, file);
+    fclose(file);
+    const size_t second = (size_t)(strstr(whole, "0000000000000065,") - whole);
+    for (size_t cut = second; cut < size; cut += cut < second + 200 || cut > size - 20 ? 1 : 97) {
+        write_text(whole, cut);
+        assert_true(chart_rows_read(&again, path, &error));
+        assert_int_equal(again.count, 1);
+        assert_memory_equal(again.row[0].series, rows.row[0].series, sizeof rows.row[0].series);
+    }
+    for (size_t at = second; at < size; at++)
+        if (strchr(", ", whole[at]) && strncmp(whole + at, " 0.3", 4) != 0) { /* that is in a name */
+            const char right = whole[at];
+            whole[at] = 'x';
+            write_text(whole, size);
+            assert_true(chart_rows_read(&again, path, &error));
+            assert_int_equal(again.count, 1);
+            whole[at] = right;
+        }
+}
+
+static void another_s_file_is_kept(void **state)
+{
+    (void)state;
+    static const char theirs[] = "day,rain\n1,0.5\n", older[] = "key,role,method,backend,more\n1,0,a,b,c\n";
+    write_text(theirs, sizeof theirs - 1);
+    assert_false(chart_rows_read(&again, path, &error));
+    assert_non_null(strstr(error.message, "no chart wrote it"));
+    write_text(older, sizeof older - 1);
+    assert_true(chart_rows_read(&again, path, &error));
+    assert_int_equal(again.count, 0);
+}
+
+/* Two charts under one name: neither loses what the other has written. A full file gives up its oldest. */
+static void others_rows_stay(void **state)
+{
+    (void)state;
+    static ChartRows mine, plan;
+    rows.count = mine.count = plan.count = 0;
+    add(CHART_POINT, 0.1, 1, 0);
+    add(CHART_POINT, 0.2, 1, 0);
+    assert_true(chart_rows_write(&rows, path, &error));
+    mine.row[mine.count++] = rows.row[1];
+    chart_rows_merge(&mine, path, &plan);
+    assert_int_equal(mine.count, 2);
+    assert_non_null(chart_rows_find(&mine, 100));
+
+    rows.count = 0;
+    while (rows.count < CHART_ROWS_MAX)
+        add(CHART_POINT, 0.1, 1, 0);
+    plan.row[plan.count++] = rows.row[0];
+    ChartRow next = rows.row[0];
+    next.key = 7;
+    chart_rows_add(&rows, &next, &plan);
+    assert_int_equal(rows.count, CHART_ROWS_MAX);
+    assert_non_null(chart_rows_find(&rows, 7));
+    assert_non_null(chart_rows_find(&rows, 100));
+    assert_null(chart_rows_find(&rows, 101));
+    assert_non_null(chart_rows_find(&rows, 102));
 }
 
 int main(void)
@@ -93,7 +187,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distances_are_over_the_range),
         cmocka_unit_test(nothing_on_the_front_is_beaten),
-        cmocka_unit_test(a_file_keeps_them),
+        cmocka_unit_test_setup_teardown(a_file_keeps_them, make_file, remove_file),
+        cmocka_unit_test_setup_teardown(half_a_row_is_none, make_file, remove_file),
+        cmocka_unit_test_setup_teardown(another_s_file_is_kept, make_file, remove_file),
+        cmocka_unit_test_setup_teardown(others_rows_stay, make_file, remove_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

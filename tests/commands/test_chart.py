@@ -1,10 +1,12 @@
 """slosh chart: draws, keeps its runs, does none of them twice."""
+import json
 import os
+import signal
 import subprocess
 
 import command
 
-SMALL = ['--set', 'particles.spacing=0.1', '--time', '0.1', '--method', 'mueller']
+SMALL = ['--set', 'particles.spacing=0.1', '--time', '0.05', '--method', 'mueller']
 
 
 class Chart(command.CommandTest):
@@ -12,29 +14,73 @@ class Chart(command.CommandTest):
         return subprocess.run([command.PROGRAM, 'chart', *words], cwd=self.folder, capture_output=True,
                               text=True, timeout=120, check=False)
 
-    def read(self, name):
-        with open(os.path.join(self.folder, name), encoding='utf-8') as file:
-            return file.read()
+    def text(self, name):
+        return self.read(name).decode()
 
     def test_a_scene_twice(self):
-        with open(os.path.join(self.folder, 'tank.yaml'), 'w', encoding='utf-8') as file:
-            file.write(command.SCENE)
+        self.write('tank.yaml', command.SCENE)
         first = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)
         self.assertEqual(first.returncode, 0, first.stderr)
-        self.assertTrue('the finest run is the reference' in self.read('out.svg'))
-        self.assertTrue('differ by 1e-6' in self.read('out.svg'))
-        rows = self.read('out.csv')
+        self.assertTrue('the finest run is the reference' in self.text('out.svg'))
+        self.assertTrue('differ by 1e-6' in self.text('out.svg'))
+        rows = self.text('out.csv')
         self.assertEqual(len(rows.splitlines()), 1 + 6 + 1 + 3)
         again = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)
         self.assertEqual(again.stdout, first.stdout)  # times and all: nothing ran again
-        self.assertEqual(self.read('out.csv'), rows)
+        self.assertEqual(self.text('out.csv'), rows)
         # one of them lost: only that one runs again
-        with open(os.path.join(self.folder, 'out.csv'), 'w', encoding='utf-8') as file:
-            file.writelines(line + '\n' for line in rows.splitlines()[:-1])
+        self.write('out.csv', ''.join(line + '\n' for line in rows.splitlines()[:-1]))
         self.assertEqual(self.run_it('tank.yaml', '-o', 'out.svg', *SMALL).returncode, 0)
-        kept = self.read('out.csv').splitlines()
+        kept = self.text('out.csv').splitlines()
         self.assertEqual(len(kept), len(rows.splitlines()))
         self.assertEqual(kept[:-1], rows.splitlines()[:-1])
+
+    def test_a_scene_that_changed_runs_again(self):
+        tank = command.SCENE
+        for text in (tank, tank.replace('sound_speed: 15', 'sound_speed: 20'), tank.replace('small', 'tiny')):
+            self.write('tank.yaml', text)
+            done = self.run_it('tank.yaml', '-o', 'out.svg', '--quiet', *SMALL)
+            self.assertEqual((done.returncode, done.stdout), (0, ''), done.stderr)
+        # the other sound has runs of its own; another title is the same flow
+        self.assertEqual(len(self.text('out.csv').splitlines()), 1 + 2 * 10)
+
+    def test_json(self):
+        done = self.run_it('scene.yaml', '-o', 'out.svg', '--json', 'out.json', *SMALL)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        figures = json.loads(self.read('out.json'))
+        self.assertEqual([run['role'] for run in figures['runs']], 6 * ['point'] + ['reference'] + 3 * ['floor'])
+        self.assertTrue(0 < figures['floor'] < 1e-3)
+        for run in figures['runs']:
+            self.assertTrue(run['error'] >= 0 and run['seconds_per_second'] > 0 and run['particles'] > 0, run)
+        self.assertTrue(any(run['front'] for run in figures['runs']))
+
+    def test_runs_that_break_are_a_failure(self):
+        # sound goes through many spacings a step
+        done = self.run_it('scene.yaml', '-o', 'out.svg', '--json', 'out.json', '--set', 'solver.sound_speed=3000', *SMALL)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('broke', done.stderr)
+        self.assertIn('broke', done.stdout)
+        figures = json.loads(self.read('out.json'))
+        self.assertTrue(all(run['error'] is None for run in figures['runs'] if run['role'] == 'point'))
+        self.assertIsNone(figures['floor'])
+
+    def test_interrupt_keeps_whole_rows(self):
+        process = self.start('chart', 'scene.yaml', '-o', 'out.svg', '--quiet', *SMALL, '--time', '20')
+        self.wait_for(lambda: 'out.csv' in self.entries(), process)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 130)
+        self.assertIn('the same command goes on', process.stderr.read())
+        self.assertEqual(self.entries(), ['out.csv'])
+        for row in self.text('out.csv').splitlines()[1:]:
+            self.assertEqual(len(row.split(',')[10].split(' ')), 160)
+
+    def test_another_s_file_is_kept(self):
+        self.write('out.csv', 'day,rain\n')
+        done = self.run_it('scene.yaml', '-o', 'out.svg', *SMALL)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('no chart wrote it', done.stderr)
+        self.assertEqual(self.text('out.csv'), 'day,rain\n')
+        self.assertEqual(self.entries(), ['out.csv'])
 
     def test_a_case(self):
         done = self.run_it('free_fall', '-o', 'out.png', '--method', 'mueller')
@@ -45,6 +91,9 @@ class Chart(command.CommandTest):
         self.assertEqual(self.run_it('dam_break', '-o', 'out.gif').returncode, 2)
         self.assertEqual(self.run_it('no_such_scene', '-o', 'out.svg').returncode, 2)
         self.assertEqual(self.run_it('dam_break', '-o', 'out.svg', '--sweep', 'view=none').returncode, 2)
+        self.assertEqual(self.run_it('scene.yaml', '-o', 'out.svg', '--sweep', 'method=mueller,none').returncode, 2)
+        self.assertEqual(self.run_it('dam_break', '-o', 'out.svg', '--time', '1').returncode, 2)
+        self.assertIn("did you mean the case 'dam_break'?", self.run_it('dam_brake', '-o', 'out.svg').stderr)
         self.assertEqual(os.listdir(self.folder), ['scene.yaml'])
 
 
