@@ -8,6 +8,7 @@
 #include "sim/solid_step.h"
 #include "sim/solver.h"
 #include "sim/step_control.h"
+#include "sim/world.h"
 #include "sim/world_state.h"
 
 struct ParticleBuffers; /* sim/gl/particle_buffers.h */
@@ -55,6 +56,10 @@ typedef struct Backend {
     void (*guide)(void *state, const Guide *guides, int count);
     void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
     bool (*read)(void *state, const ParticleArrays *out); /* false when memory is short */
+    /* Begins to gather what sim/gauge.h says, with the gravity in the box's frame, m/s2; false when it
+       cannot. Then whether it has come, without waiting: sums of the gauge, the mean divided. */
+    bool (*gauge)(void *state, const double gravity[3]);
+    bool (*gauged)(void *state, WorldGauge *gauge);
     /* Between steps: adds those particles of a layer that are in the box and not next to
        others, at most `most`, and returns how many; takes out what is in a region, and returns how many. */
     size_t (*emit)(void *state, const EmitLayer *layer, size_t most);

@@ -359,6 +359,10 @@ void world_info(const World *world, WorldInfo *info)
         .dt = world->stepping.dt,
         .limit = (StepLimit)world->stepping.limit,
         .trouble = world->trouble,
+        .courant = world->step > 0
+                       ? world->stepping.dt * (world->def.sound_speed + world->stepping.max_speed) /
+                             (world->def.support * world->def.spacing)
+                       : 0,
     };
     memcpy(info->limited, world->limited, sizeof info->limited);
     memcpy(info->box_size, world->def.box_size, sizeof info->box_size);

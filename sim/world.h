@@ -93,6 +93,8 @@ typedef struct WorldInfo {
     WorldTrouble trouble;
     size_t lost;    /* backend fragment: particles without a place in its grid, in the last step known */
     size_t guarded; /* times that the last guard of a wall held a particle back, since the start */
+    double courant; /* dt (c + greatest speed) / h of the last step, whatever bounded it; on a GPU the speed
+                       is that of the frame before */
 } WorldInfo;
 
 void world_info(const World *world, WorldInfo *info);
@@ -112,6 +114,27 @@ typedef struct WorldSums {
 } WorldSums;
 
 void world_sums(World *world, WorldSums *sums);
+
+/* What is plotted of a state while the world runs. The error of density is how far particles are pressed
+   above the rest density, rho / rho0 - 1 where that is more than 0 (Bender and Koschier 2015): what a
+   particle at a free surface lacks is no error. Energies as in WorldSums; that of compression is the integral
+   of p / rho^2 dm. */
+typedef struct WorldGauge {
+    double time;                                  /* of that state, s */
+    double density_error_mean, density_error_max; /* fractions of the rest density */
+    double kinetic_energy;                        /* J */
+    double potential_energy;                      /* in gravity, over the box's origin, J */
+    double compression_energy;                    /* J */
+    bool total_known; /* their sum is all of the energy; false with surface tension, whose is not known */
+} WorldGauge;
+
+/* Begins to gather the gauge of the present state: behind the steps in a GPU's queue, without waiting.
+   Nothing while an earlier one is on its way. A world that is never asked has no pass and no buffer for it.
+ */
+void world_gauge_ask(World *world);
+
+/* True once for each time that it was asked for, as soon as it has come; never waits. On the CPU at once. */
+bool world_gauge(World *world, WorldGauge *gauge);
 
 /* Where world_read writes; NULL where something is not wanted. All arrays hold `count` particles in one
    common order, which changes from step to step; `id` tells who is who. Density (calibrated, so that

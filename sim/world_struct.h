@@ -26,6 +26,8 @@ struct World {
     BoxTarget target;                   /* of the hand */
     BoxFilter filter;                   /* at the present time */
     BoxState box;                       /* at the present time, the hand's part included */
+    bool gauge_asked;                   /* and not answered yet, */
+    double gauge_time;                  /* of the state at this time, s */
 };
 
 /* Makes the backend's state from the def's initial state or fills, with a solver that is there. */

@@ -37,6 +37,7 @@ typedef struct Cpu {
     uint32_t *owned_before;      /* of each particle: how many of the fluids' stand before it; one more */
     SolidStep solid[SOLIDS_MAX]; /* the last that they did: they are at its end */
     WorldSums *partial;          /* by `sums`: one a range */
+    WorldGauge gauge;            /* by `gauge` */
     size_t bytes;                /* of all these */
     size_t guarded;              /* atomic */
     StepWatch watch;             /* by `kick`, atomic while it runs; until `watch` */
@@ -125,5 +126,16 @@ void cpu_kick(void *state, const float gravity[3], float dt);
 StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
+bool cpu_gauge(void *state, const double gravity[3]);
+bool cpu_gauged(void *state, WorldGauge *gauge);
+
+/* rho / rho0 - 1: carried, or calibrated so that p = c^2 (rho - rho0) holds. */
+static inline float cpu_compression(const Cpu *cpu, size_t i)
+{
+    const Solver *s = cpu->solver;
+    if (cpu->now.compression)
+        return cpu->now.compression[i];
+    return s->compression * (1 / (cpu->volume[i] * s->rest_number_density) - 1);
+}
 
 #endif

@@ -10,15 +10,6 @@ typedef struct Read {
     const ParticleArrays *out;
 } Read;
 
-/* rho / rho0 - 1: carried, or calibrated so that p = c^2 (rho - rho0) holds. */
-static float compression_of(const Cpu *cpu, size_t i)
-{
-    const Solver *s = cpu->solver;
-    if (cpu->now.compression)
-        return cpu->now.compression[i];
-    return s->compression * (1 / (cpu->volume[i] * s->rest_number_density) - 1);
-}
-
 static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
 {
     const CpuParticles *p = &cpu->now;
@@ -26,11 +17,11 @@ static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
     case SCALAR_SPEED:
         return sqrtf(p->vx[i] * p->vx[i] + p->vy[i] * p->vy[i] + p->vz[i] * p->vz[i]);
     case SCALAR_DENSITY:
-        return cpu->solver->density[p->fluid[i]] * (1 + compression_of(cpu, i));
+        return cpu->solver->density[p->fluid[i]] * (1 + cpu_compression(cpu, i));
     case SCALAR_PRESSURE:
         return cpu->pressure[i];
     case SCALAR_COMPRESSION:
-        return compression_of(cpu, i);
+        return cpu_compression(cpu, i);
     case SCALAR_FLUID:
         return (float)p->fluid[i];
     case SCALAR_ID:

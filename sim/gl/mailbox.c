@@ -46,6 +46,14 @@ const void *mailbox_wait(Mailbox *mailbox)
     return arrived == GL_WAIT_FAILED ? NULL : mailbox->mapped;
 }
 
+const void *mailbox_look(Mailbox *mailbox)
+{
+    if (!mailbox->fence ||
+        glClientWaitSync(mailbox->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0) == GL_TIMEOUT_EXPIRED)
+        return NULL;
+    return mailbox_wait(mailbox);
+}
+
 void mailbox_forget(Mailbox *mailbox)
 {
     glDeleteSync(mailbox->fence);

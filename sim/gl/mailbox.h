@@ -26,6 +26,9 @@ void mailbox_send(Mailbox *mailbox);
    then), or the context is lost. */
 const void *mailbox_wait(Mailbox *mailbox);
 
+/* The same without waiting: NULL as long as the copy has not arrived, too. */
+const void *mailbox_look(Mailbox *mailbox);
+
 /* Forgets a copy that was sent. */
 void mailbox_forget(Mailbox *mailbox);
 

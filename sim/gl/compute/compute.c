@@ -41,6 +41,7 @@ static void compute_destroy(void *state)
     glDeleteBuffers(COMPUTE_SHOWN, c->shown);
     mailbox_destroy(&c->watch);
     mailbox_destroy(&c->ranges);
+    mailbox_destroy(&c->gauge);
     compute_boundary_destroy(c);
     compute_flow_destroy(c);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
@@ -104,6 +105,19 @@ static void walls_upload(Compute *c)
     }
 }
 
+unsigned compute_program(ComputePass pass, const char *defines, Error *error)
+{
+    char path[64];
+    snprintf(path, sizeof path, "sim/%s.comp", pass_names[pass]);
+    return program_create(pass_names[pass], (const char *const[]){path, NULL}, defines, error);
+}
+
+/* Whether the programs are to have it: by the scene's terms, or since somebody asked for it. */
+static bool pass_wanted(const Compute *c, ComputePass pass)
+{
+    return pass == COMPUTE_GAUGE ? c->program[pass] != 0 : compute_pass_named(c->solver, pass);
+}
+
 /* Terms that the scene does not name are not compiled in. What was compiled stays where the new does not
  * compile. */
 static bool programs_create(Compute *c, Error *error)
@@ -112,13 +126,9 @@ static bool programs_create(Compute *c, Error *error)
     unsigned program[COMPUTE_PASS_COUNT] = {0};
     bool ok = true;
     compute_defines(c->solver, defines);
-    for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++) {
-        char path[64];
-        snprintf(path, sizeof path, "sim/%s.comp", pass_names[p]);
-        if (compute_pass_named(c->solver, (ComputePass)p))
-            ok = (program[p] =
-                      program_create(pass_names[p], (const char *const[]){path, NULL}, defines, error)) != 0;
-    }
+    for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++)
+        if (pass_wanted(c, (ComputePass)p))
+            ok = (program[p] = compute_program((ComputePass)p, defines, error)) != 0;
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
         glDeleteProgram(ok ? c->program[p] : program[p]);
     if (ok) {
@@ -231,6 +241,8 @@ const Backend backend_compute = {
     .share = compute_share,
     .sums = compute_sums,
     .read = compute_read,
+    .gauge = compute_gauge,
+    .gauged = compute_gauged,
     .save = compute_save,
     .load = compute_load,
     .info = compute_info,

@@ -13,6 +13,7 @@ enum {
     COMPUTE_SCAN_BLOCK = 1024,
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
+    COMPUTE_GAUGE_GROUPS = 64,
     COMPUTE_DEFINES_MAX = 1024
 };
 
@@ -42,6 +43,7 @@ typedef struct ComputeParticles {
     X(FORCE, "force")                                                                                        \
     X(SHIFT, "shift")                                                                                        \
     X(KICK, "kick")                                                                                          \
+    X(GAUGE, "gauge")                                                                                        \
     X(SHOW, "show")                                                                                          \
     X(BOUNDARY_BIN, "boundary_bin")                                                                          \
     X(BOUNDARY_PLACE, "boundary_place")                                                                      \
@@ -90,6 +92,8 @@ typedef struct Compute {
     Mailbox watch;                        /* 8 uint: constants.glsl; sent by each kick */
     float longest;                        /* dt of the kicks since the watch was read, s */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
+    Mailbox gauge;                        /* 8 float a group: see gauge.comp; none before the first `gauge` */
+    size_t gauged;                        /* particles then */
     unsigned shown[COMPUTE_SHOWN];        /* for the views: uint or float; 0 until it is asked for */
     unsigned constants, step;             /* uniform blocks */
     unsigned program[COMPUTE_PASS_COUNT];
@@ -104,6 +108,9 @@ typedef struct Compute {
     char defines[COMPUTE_DEFINES_MAX]; /* that the programs were made with; 0 is one that the scene does not
                                           need */
 } Compute;
+
+/* Compiles one pass with the lines that the others have; 0 with the reason. */
+unsigned compute_program(ComputePass pass, const char *defines, Error *error);
 
 /* A storage buffer of `bytes`, zeroed. */
 unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
@@ -176,6 +183,8 @@ void compute_back(void *state, size_t count, size_t guarded);
 void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);
 bool compute_read(void *state, const ParticleArrays *out);
+bool compute_gauge(void *state, const double gravity[3]);
+bool compute_gauged(void *state, WorldGauge *gauge);
 bool compute_save(void *state, const ParticleColumns *to);
 bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void compute_info(const void *state, WorldInfo *info);

@@ -33,7 +33,9 @@ enum {
     X(PLACE, "screen.vert", "place.frag", "")                                                                \
     X(SHOW, "screen.vert", "show.frag", "")                                                                  \
     X(RANGE_FIRST, "screen.vert", "range.frag", "#define FIRST 1\n")                                         \
-    X(RANGE_MORE, "screen.vert", "range.frag", "")
+    X(RANGE_MORE, "screen.vert", "range.frag", "")                                                           \
+    X(GAUGE_FIRST, "screen.vert", "gauge.frag", "#define FIRST 1\n")                                         \
+    X(GAUGE_MORE, "screen.vert", "gauge.frag", "")
 
 typedef enum FragmentPass {
 #define X(NAME, vertex, next, defines) FRAGMENT_##NAME,
@@ -96,6 +98,7 @@ typedef struct Fragment {
     unsigned word;      /* uint: a scalar's bits, fluid or id */
     unsigned shown_position, shown_velocity, shown[SCALAR_COUNT + 2]; /* buffers; 0 until asked for */
     Mailbox ranges;                                                   /* uvec4 a scalar: see range.frag */
+    Mailbox gauge;                                                    /* 5 float: see gauge.frag */
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
     unsigned program[FRAGMENT_PASS_COUNT];
     char constants[FRAGMENT_CONSTANTS_MAX]; /* with which they were compiled */
@@ -114,6 +117,9 @@ void fragment_constants(const Fragment *fragment, char text[FRAGMENT_CONSTANTS_M
 
 /* (Re)compiles all passes with the solver's terms. False with the reason: the old ones stay. */
 bool fragment_programs_create(Fragment *fragment, Error *error);
+
+/* Compiles the two passes of the gauge, which others have no need of. */
+bool fragment_gauge_programs(Fragment *fragment, Error *error);
 
 /* Gives the programs what may change of the fluids. */
 void fragment_set_fluids(const Fragment *fragment);
@@ -157,6 +163,8 @@ void fragment_back(void *state, size_t count, size_t guarded);
 void fragment_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void fragment_sums(void *state, WorldSums *sums);
 bool fragment_read(void *state, const ParticleArrays *out);
+bool fragment_gauge(void *state, const double gravity[3]);
+bool fragment_gauged(void *state, WorldGauge *gauge);
 bool fragment_save(void *state, const ParticleColumns *to);
 bool fragment_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void fragment_info(const void *state, WorldInfo *info);

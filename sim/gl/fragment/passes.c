@@ -60,18 +60,35 @@ void fragment_set_fluids(const Fragment *f)
         memcpy(fluids[k], (const float[]){s->mass[k], s->density[k], s->stiffness[k], s->viscosity[k]},
                sizeof fluids[k]);
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
-        const GLint at = fragment_uniform(f, (FragmentPass)p, "fluids");
+        const GLint at = f->program[p] ? fragment_uniform(f, (FragmentPass)p, "fluids") : -1;
         if (at >= 0)
             glProgramUniform4fv(f->program[p], at, s->fluid_count, fluids[0]);
     }
 }
 
+static bool is_gauge(int pass)
+{
+    return pass == FRAGMENT_GAUGE_FIRST || pass == FRAGMENT_GAUGE_MORE;
+}
+
+bool fragment_gauge_programs(Fragment *f, Error *error)
+{
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++)
+        if (is_gauge(p) && !f->program[p] &&
+            !(f->program[p] = pass_create((FragmentPass)p, f->constants, error)))
+            return false;
+    fragment_set_fluids(f);
+    return true;
+}
+
 bool fragment_programs_create(Fragment *f, Error *error)
 {
-    unsigned made[FRAGMENT_PASS_COUNT];
+    unsigned made[FRAGMENT_PASS_COUNT] = {0};
     char constants[FRAGMENT_CONSTANTS_MAX];
     fragment_constants(f, constants);
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        if (is_gauge(p) && !f->program[p]) /* nobody asks for it */
+            continue;
         made[p] = pass_create((FragmentPass)p, constants, error);
         if (made[p])
             continue;

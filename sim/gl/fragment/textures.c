@@ -193,4 +193,5 @@ void fragment_textures_destroy(Fragment *f)
     glDeleteBuffers(sizeof f->shown / sizeof *f->shown, f->shown);
     mailbox_destroy(&f->watched);
     mailbox_destroy(&f->ranges);
+    mailbox_destroy(&f->gauge);
 }

@@ -1,0 +1,43 @@
+// What is plotted of a state: each invocation adds up every 4096th particle, each group its invocations.
+#include "sim/constants.glsl"
+#include "sim/gauge.glsl"
+layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = 2) readonly buffer Names { uvec2 name[]; }; // id, fluid
+struct Part {
+    vec4 sum; // see gauge.glsl
+    vec4 greatest;
+};
+layout(std430, binding = 3) writeonly buffer Parts { Part part[]; };
+layout(location = 0) uniform vec4 gravity_c2; // in the box's frame; c^2
+shared vec4 sums[64];
+shared float greatest[64];
+
+#ifdef CONTINUITY
+float compression_of(uint i) { return velocity[i].w; }
+#else
+float compression_of(uint i) { return scales.w * (1.0 / (position[i].w * kernel.z) - 1.0); }
+#endif
+
+void main()
+{
+    uint own = gl_LocalInvocationID.x;
+    vec4 sum = vec4(0.0);
+    float most = 0.0;
+    for (uint i = invocation(); i < particle_count(); i += 64u * gl_NumWorkGroups.x) {
+        float compression = compression_of(i);
+        sum += gauge_of(fluids[name[i].y].x, compression, position[i].xyz, velocity[i].xyz, gravity_c2.xyz, gravity_c2.w);
+        most = max(most, compression);
+    }
+    sums[own] = sum;
+    greatest[own] = most;
+    for (uint half_count = 32u; half_count > 0u; half_count >>= 1u) {
+        barrier();
+        if (own < half_count) {
+            sums[own] += sums[own + half_count];
+            greatest[own] = max(greatest[own], greatest[own + half_count]);
+        }
+    }
+    if (own == 0u)
+        part[gl_WorkGroupID.x] = Part(sums[0], vec4(greatest[0]));
+}

@@ -1,0 +1,52 @@
+/* What is plotted of the state, where it is asked for. */
+#include "sim/gauge.h"
+#include "sim/cpu/cpu.h"
+
+typedef struct GaugePass {
+    const Cpu *cpu;
+    const double *gravity;
+    WorldGauge *partial; /* one a range */
+} GaugePass;
+
+static void gauge_range(void *context, size_t begin, size_t end)
+{
+    const GaugePass *pass = context;
+    const Cpu *cpu = pass->cpu;
+    const CpuParticles *p = &cpu->now;
+    WorldGauge *gauge = &pass->partial[begin / CPU_GRAIN];
+    *gauge = (WorldGauge){0};
+    for (size_t k = begin; k < end; k++) {
+        const size_t i = cpu_owned(cpu, k);
+        const float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
+        gauge_add(gauge, cpu->solver, pass->gravity, p->fluid[i], (double)cpu_compression(cpu, i), x, v);
+    }
+}
+
+/* Sums in an order that no thread count changes, in the memory that `sums` has for its own. */
+bool cpu_gauge(void *state, const double gravity[3])
+{
+    Cpu *cpu = state;
+    _Static_assert(sizeof(WorldGauge) <= sizeof(WorldSums), "their memory is shared");
+    GaugePass pass = {cpu, gravity, (WorldGauge *)(void *)cpu->partial};
+    parallel_ranges(cpu->threads, cpu->owned, CPU_GRAIN, gauge_range, &pass);
+    cpu->gauge = (WorldGauge){0};
+    for (size_t r = 0; r < (cpu->owned + CPU_GRAIN - 1) / CPU_GRAIN; r++) {
+        const WorldGauge *part = &pass.partial[r];
+        cpu->gauge.density_error_mean += part->density_error_mean;
+        cpu->gauge.density_error_max = fmax(cpu->gauge.density_error_max, part->density_error_max);
+        cpu->gauge.kinetic_energy += part->kinetic_energy;
+        cpu->gauge.potential_energy += part->potential_energy;
+        cpu->gauge.compression_energy += part->compression_energy;
+    }
+    cpu->gauge.density_error_mean /= cpu->owned > 0 ? (double)cpu->owned : 1;
+    return true;
+}
+
+bool cpu_gauged(void *state, WorldGauge *gauge)
+{
+    const Cpu *cpu = state;
+    const double time = gauge->time;
+    *gauge = cpu->gauge;
+    gauge->time = time;
+    return true;
+}

@@ -1,0 +1,64 @@
+/* What is plotted of the state: reduced by the targets that the watch has, and on its way back without a
+ * wait. */
+#include "sim/gl/fragment/fragment.h"
+#include "sim/gl/gl_state.h"
+
+#include <epoxy/gl.h>
+
+enum { NUMBERS = 5 };
+
+/* The first time. */
+static bool prepare(Fragment *f)
+{
+    Error error;
+    if (!f->gauge.buffer)
+        mailbox_create(&f->gauge, "gauge", NUMBERS * sizeof(float));
+    return f->gauge.mapped && fragment_gauge_programs(f, &error);
+}
+
+static void reduce(const Fragment *f)
+{
+    fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
+    fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
+    fragment_sample(FRAGMENT_SAMPLE_FIELDS, f->fields);
+    for (int level = 0; level < f->levels; level++) {
+        const unsigned targets[2] = {f->found[level], f->held_sum[level]};
+        fragment_draw(f, level == 0 ? FRAGMENT_GAUGE_FIRST : FRAGMENT_GAUGE_MORE, targets, 2,
+                      f->level_size[level][0], f->level_size[level][1]);
+        fragment_sample(FRAGMENT_SAMPLE_FINER, f->found[level]);
+        fragment_sample(FRAGMENT_SAMPLE_HELD, f->held_sum[level]);
+    }
+}
+
+bool fragment_gauge(void *state, const double gravity[3])
+{
+    Fragment *f = state;
+    GlState kept;
+    if (!prepare(f))
+        return false;
+    const float g[3] = {(float)gravity[0], (float)gravity[1], (float)gravity[2]};
+    fragment_set3(f, FRAGMENT_GAUGE_FIRST, "gravity", g);
+    fragment_set1(f, FRAGMENT_GAUGE_FIRST, "c2", f->solver->sound_speed * f->solver->sound_speed);
+    gl_state_keep(&kept);
+    reduce(f);
+    gl_state_restore(&kept);
+    fragment_pack(f->found[f->levels - 1], GL_RGBA_INTEGER, f->gauge.buffer, 0, 4 * sizeof(float));
+    fragment_pack(f->held_sum[f->levels - 1], GL_RED_INTEGER, f->gauge.buffer, 4 * sizeof(float),
+                  sizeof(float));
+    mailbox_send(&f->gauge);
+    return true;
+}
+
+bool fragment_gauged(void *state, WorldGauge *gauge)
+{
+    Fragment *f = state;
+    const float *found = mailbox_look(&f->gauge);
+    if (!found)
+        return false;
+    gauge->density_error_mean = (double)found[0] / (f->count > 0 ? (double)f->count : 1);
+    gauge->kinetic_energy = (double)found[1];
+    gauge->potential_energy = (double)found[2];
+    gauge->compression_energy = (double)found[3];
+    gauge->density_error_max = (double)found[4];
+    return true;
+}
