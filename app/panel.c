@@ -133,6 +133,7 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
         ui_gap(ui);
         draw_buttons(ui, data->paused, events);
         panel_stages(ui, data);
+        events->watches = panel_gauges(ui, data);
         panel_history(ui, data);
         panel_colors(ui, data, &panel->start, events);
         panel_scene(ui, data->scene, &panel->start, events);

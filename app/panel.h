@@ -6,6 +6,7 @@
 #define SLOSH_PANEL_H
 
 #include "app/scene.h"
+#include "app/simulator.h"
 #include "render/ui.h"
 #include "sim/stage.h"
 #include "sim/step_control.h"
@@ -25,6 +26,8 @@ typedef struct PanelData {
     const float *frame_history,
         *step_history;           /* ms, oldest first: picture to picture; a frame of the solver */
     int frame_count, step_count; /* of them */
+    const GaugeSample *gauges;   /* oldest first */
+    int gauge_count;
     size_t particles;
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
@@ -47,6 +50,7 @@ typedef struct PanelEvents {
     int setting_count;
     char settings[PANEL_SETTINGS_MAX][PANEL_SETTING_SIZE]; /* "path=value", as scene_set_live takes it */
     int command;                                           /* a PlayCommand, or PLAY_NONE */
+    bool watches;                                          /* the gauges are shown */
 } PanelEvents;
 
 /* NULL without memory. */

@@ -141,6 +141,8 @@ static void collect(Play *play, float pictures[METER_HISTORY], PanelData *data)
                         .step_history = status->history,
                         .frame_count = meter_history(&play->meter, pictures),
                         .step_count = status->history_count,
+                        .gauges = status->gauges,
+                        .gauge_count = status->gauge_count,
                         .particles = play->particles.count,
                         .time = play->particles.time,
                         .dt = status->dt,
@@ -196,6 +198,7 @@ void play_panel_draw(Play *play)
     PanelData data;
     const double began = thread_cpu_ms(), now = wall_ms();
     const int shown = play->panel + 2 * play->help;
+    simulator_watch(play->open.simulator, play->panel && ui->watches);
     if (!shown)
         return;
     ui->input.dt = 1e-3 * fmin(now - ui->drawn_ms, 1000);
@@ -206,6 +209,7 @@ void play_panel_draw(Play *play)
         collect(play, pictures, &data);
         if (play->panel)
             panel_draw(ui->panel, ui->ui, play->width, play->height, &data, &events);
+        ui->watches = events.watches;
         if (play->help)
             panel_help_draw(ui->ui, play->width, play->height);
         play->dirty |= input_seen(ui);

@@ -40,6 +40,7 @@ typedef struct PlayUi {
     unsigned keys_down;
     double drawn_ms; /* wall time of the last drawing */
     int shown;       /* what was drawn then */
+    bool watches;    /* with the gauges */
     const char *warnings[8];
     int warning_count;
     char lost[64]; /* one of them */

@@ -124,5 +124,6 @@ void simulator_status(Simulator *simulator, SimulatorStatus *status)
     for (int i = 0; i < count; i++)
         status->history[i] =
             simulator->status.history[(next - count + i + SIMULATOR_HISTORY) % SIMULATOR_HISTORY];
+    simulator_gauge_status(simulator, status);
     pthread_mutex_unlock(&simulator->lock);
 }

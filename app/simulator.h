@@ -86,7 +86,17 @@ uint64_t simulator_obeyed(Simulator *simulator, uint64_t step);
    what is done. False while an earlier one is not. */
 bool simulator_save(Simulator *simulator, const char *path);
 
-enum { SIMULATOR_HISTORY = 120 };
+/* Whether somebody looks at the gauges: then one is taken every 50 ms at most, else none. */
+void simulator_watch(Simulator *simulator, bool watched);
+
+enum { SIMULATOR_HISTORY = 120, SIMULATOR_GAUGES = 120 };
+
+/* A state's gauge, and the step before it. */
+typedef struct GaugeSample {
+    WorldGauge gauge;
+    double courant;  /* WorldInfo.courant */
+    StepLimit limit; /* what bounded that step */
+} GaugeSample;
 
 typedef struct SimulatorStatus {
     bool ready;  /* the world is there */
@@ -109,6 +119,8 @@ typedef struct SimulatorStatus {
     StageTimes stages;       /* of the last frame */
     int history_count;       /* of `history`: wall time of the last frames, ms, oldest first */
     float history[SIMULATOR_HISTORY];
+    int gauge_count; /* of `gauges`: the last ones since the scene's start, oldest first */
+    GaugeSample gauges[SIMULATOR_GAUGES];
     bool saving;             /* a simulator_save is not done yet */
     unsigned saves;          /* counts simulator_save that ended */
     bool saved;              /* whether the last one succeeded */

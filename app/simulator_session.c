@@ -63,6 +63,7 @@ void simulator_make_world(Simulator *simulator)
     simulator->troubles = 0;
     simulator->told_full = simulator->told_lost = false;
     simulator->world = world_create(&simulator->start.world, &error);
+    simulator_gauge_begin(simulator);
     if (!simulator->world || !simulator_publish(simulator, &error))
         simulator_tell(simulator, true, error.message);
     awaken(simulator);
@@ -214,6 +215,7 @@ void simulator_frame_end(Simulator *simulator)
     const FrameInHand *frame = &simulator->frame;
     count_frame(simulator, frame->spent_ms, info.time - frame->from_s, &frame->clock);
     simulator->frame.begun = false;
+    simulator_gauge(simulator);
     awaken(simulator);
 }
 

@@ -46,7 +46,8 @@ struct Simulator {
     double last_due;   /* wall time at which the last frame was to begin, ms */
     double frame_time; /* simulated by the last frame, s */
     SimulatorStatus status;
-    int history_next, obeyed_next;
+    int history_next, gauge_next, obeyed_next;
+    bool watched; /* the gauges are */
     Obeyed obeyed[OBEYED_MAX];
 
     /* of the thread that steps alone */
@@ -57,6 +58,8 @@ struct Simulator {
     Work *work;
     FrameInHand frame;
     uint64_t published, shown; /* states; with `here` */
+    GaugeSample gauge;         /* on its way; its gauge is not there yet */
+    double gauge_ms;           /* wall time at which it was asked for */
     Recording recording;
     unsigned troubles;   /* of the world, that were told */
     bool told_full;      /* that its emitters wait */
@@ -78,5 +81,10 @@ void simulator_save_session(Simulator *simulator, const char *path);
 void simulator_frame_begin(Simulator *simulator);
 void simulator_frame_step(Simulator *simulator); /* may end the frame */
 void simulator_frame_end(Simulator *simulator);
+
+/* simulator_gauge.c: after a frame, and where a new world begins. */
+void simulator_gauge(Simulator *simulator);
+void simulator_gauge_begin(Simulator *simulator);
+void simulator_gauge_status(const Simulator *simulator, SimulatorStatus *status); /* with the lock held */
 
 #endif

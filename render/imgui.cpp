@@ -867,3 +867,9 @@ float ui_words_width(const Ui *ui, const char *text)
 {
     return ui->font->CalcTextSizeA(ui->font->FontSize, FLT_MAX, 0, text).x;
 }
+
+bool ui_mouse_in(const Ui *ui, const float rect[4], float *x)
+{
+    *x = ui->input.mouse[0];
+    return *x >= rect[0] && *x < rect[2] && ui->input.mouse[1] >= rect[1] && ui->input.mouse[1] < rect[3];
+}

@@ -121,6 +121,7 @@ void ui_fill(Ui *ui, float x0, float y0, float x1, float y1, uint32_t rgba);
 void ui_words(Ui *ui, float x, float y, uint32_t rgba,
               const char *text); /* one line, from its upper left corner */
 float ui_words_width(const Ui *ui, const char *text);
+bool ui_mouse_in(const Ui *ui, const float rect[4], float *x); /* whether the mouse is there; and where */
 
 /* For tests: is called for each text and widget of a frame with its id (a text: itself), its place, and the
    width that its text needs in that place. NULL ends it. */

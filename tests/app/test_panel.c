@@ -22,7 +22,8 @@ typedef struct Session {
     Scene scene;
     PanelData data;
     float history[HISTORY];
-    bool help;
+    GaugeSample gauges[HISTORY];
+    bool help, watches;
     int settings, refused; /* in all */
     char last[PANEL_SETTING_SIZE];
     PlayCommand command; /* the last one */
@@ -48,6 +49,7 @@ static void draw_panel(void *user, Desk *desk)
     Session *session = user;
     PanelEvents events;
     panel_draw(session->panel, desk->ui, desk->target.width, desk->target.height, &session->data, &events);
+    session->watches = events.watches;
     take(session, &events);
     if (session->help)
         panel_help_draw(desk->ui, desk->target.width, desk->target.height);
@@ -65,8 +67,18 @@ static void fill(Session *session)
 {
     static const char *const warnings[] = {
         "The solver cannot keep up: 0.81 of real time. Fewer particles or fewer substeps would help."};
-    for (int i = 0; i < HISTORY; i++)
+    for (int i = 0; i < HISTORY; i++) {
         session->history[i] = 12 + 5 * sinf(0.3F * (float)i);
+        session->gauges[i] = (GaugeSample){.gauge = {.time = 1234 + 0.05 * i,
+                                                     .density_error_mean = 1.23e-3,
+                                                     .density_error_max = 0.0456,
+                                                     .kinetic_energy = 1230 + i,
+                                                     .potential_energy = -45600,
+                                                     .compression_energy = 0.0012,
+                                                     .total_known = true},
+                                           .courant = 0.789,
+                                           .limit = STEP_LIMIT_VISCOUS};
+    }
     session->data = (PanelData){.scene = &session->scene,
                                 .render_stages_known = true,
                                 .sim_ms = 11,
@@ -75,6 +87,8 @@ static void fill(Session *session)
                                 .step_history = session->history,
                                 .frame_count = HISTORY,
                                 .step_count = HISTORY,
+                                .gauges = session->gauges,
+                                .gauge_count = HISTORY,
                                 .particles = 1234567,
                                 .time = 1234.56,
                                 .real_time_factor = 0.81,
@@ -331,6 +345,45 @@ static void test_stages_as_they_are_known(void **state)
     session_close(&session, desk);
 }
 
+/* Numbers with units, ranges, what binds; under the mouse those of then. */
+static void test_gauges_are_plotted(void **state)
+{
+    (void)state;
+    static const char *const shown[] = {"0 % to 4.56 %, last 5.95 s",
+                                        "mean 0.123 %",
+                                        "max 4.56 %",
+                                        "-45.6 kJ to 1.35 kJ, last 5.95 s",
+                                        "kinetic 1.35 kJ",
+                                        "potential -45.6 kJ",
+                                        "total -44.3 kJ",
+                                        "0 to 0.789, last 5.95 s",
+                                        "0.789, bounded by viscous"};
+    Session session;
+    Desk *desk = session_open(&session, "box_slosh", 1280, 1000, 13);
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        if (!desk_find(desk, shown[i]))
+            fail_msg("%s is not shown", shown[i]);
+    assert_true(session.watches);
+    const Seen *kinetic = desk_find(desk, "kinetic 1.35 kJ"), *row = desk_find(desk, "energy");
+    desk_move(desk, kinetic->rect[0] + 1, (row->rect[3] + kinetic->rect[1]) / 2);
+    assert_non_null(desk_find(desk, "at 1234 s"));
+    assert_non_null(desk_find(desk, "kinetic 1.23 kJ"));
+    for (int i = 0; i < HISTORY; i++)
+        session.gauges[i].gauge.total_known = false;
+    desk_move(desk, 700, 500);
+    desk->input.changed = true;
+    desk_frames(desk, 30);
+    assert_non_null(desk_find(desk, "potential -45.6 kJ"));
+    assert_null(desk_find(desk, "total -44.3 kJ"));
+    session.data.gauge_count = 0;
+    desk_frames(desk, 30);
+    assert_non_null(desk_find(desk, "no values yet"));
+    desk_click_at(desk, "Accuracy", 0.3F);
+    assert_false(session.watches); /* nobody looks: nothing is measured */
+    assert_null(desk_find(desk, "energy"));
+    session_close(&session, desk);
+}
+
 static void assert_nothing_is_cut(const Desk *desk)
 {
     assert_true(desk->seen_count > 40);
@@ -407,6 +460,7 @@ int main(void)
         cmocka_unit_test_teardown(test_sliders_follow_another_scene, no_gl_errors),
         cmocka_unit_test_teardown(test_buttons_are_the_commands, no_gl_errors),
         cmocka_unit_test_teardown(test_stages_as_they_are_known, no_gl_errors),
+        cmocka_unit_test_teardown(test_gauges_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),
         cmocka_unit_test_teardown(test_small_windows_scroll, no_gl_errors),
         cmocka_unit_test_teardown(test_help_lists_every_row, no_gl_errors),

@@ -366,6 +366,42 @@ static void an_end_does_not_wait_for_ever(void **state)
     recording_destroy(&rig.recording);
 }
 
+static bool has_a_gauge_of_now(const Rig *rig)
+{
+    const int count = rig->status.gauge_count;
+    return count > 0 && rig->status.gauges[count - 1].gauge.time == rig->status.time;
+}
+
+/* Gauges are taken while somebody looks, after a frame, and begin anew with the scene. */
+static void gauges_are_for_who_looks(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, NULL, true);
+    simulator_single_step(rig.simulator);
+    do
+        wait_for(&rig, has_shown_all);
+    while (rig.status.step < 5);
+    assert_int_equal(rig.status.gauge_count, 0);
+    simulator_watch(rig.simulator, true);
+    for (int i = 2; i <= 4; i++) {
+        usleep(60000); /* more than there is between two */
+        simulator_single_step(rig.simulator);
+        do
+            wait_for(&rig, has_a_gauge_of_now);
+        while (rig.status.step < 5 * (uint64_t)i);
+        assert_int_equal(rig.status.gauge_count, i - 1);
+    }
+    const GaugeSample *samples = rig.status.gauges;
+    assert_true(samples[0].gauge.time < samples[1].gauge.time && samples[1].courant > 0);
+    assert_true(samples[1].gauge.potential_energy > 0 && samples[1].limit == STEP_LIMIT_DT);
+    simulator_reset(rig.simulator);
+    wait_for(&rig, is_back);
+    wait_for(&rig, has_a_gauge_of_now);
+    assert_int_equal(rig.status.gauge_count, 1);
+    rig_close(&rig);
+}
+
 static int setup(void **state)
 {
     context = headless_create(HEADLESS_GPU_AUTO, &error);
@@ -390,6 +426,7 @@ int main(void)
         cmocka_unit_test(a_saved_session_gives_the_same_bits),
         cmocka_unit_test(saving_may_fail),
         cmocka_unit_test(trouble_is_told),
+        cmocka_unit_test(gauges_are_for_who_looks),
         cmocka_unit_test(an_end_does_not_wait_for_ever),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

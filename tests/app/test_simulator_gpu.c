@@ -236,6 +236,24 @@ static void broken_shaders_leave_the_last_good_ones(void **state)
     rig_close(&rig);
 }
 
+/* A gauge is asked for behind the steps, and there some frames later. */
+static void gauges_come_late(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, false);
+    until_step(&rig, 10);
+    assert_int_equal(rig.status.gauge_count, 0);
+    simulator_watch(rig.simulator, true);
+    for (uint64_t step = 20; rig.status.gauge_count < 2 && step < 2000; step += 10)
+        until_step(&rig, step);
+    assert_true(rig.status.gauge_count >= 2);
+    const GaugeSample *samples = rig.status.gauges;
+    assert_true(samples[0].gauge.time < samples[1].gauge.time);
+    assert_true(samples[1].gauge.potential_energy > 0 && samples[1].courant > 0);
+    rig_close(&rig);
+}
+
 static int setup(void **state)
 {
     context = headless_create(HEADLESS_GPU_AUTO, &error);
@@ -257,6 +275,7 @@ int main(void)
         cmocka_unit_test(a_reset_stays_on_its_backend),
         cmocka_unit_test(a_backend_that_is_none_changes_nothing),
         cmocka_unit_test(a_failed_start_goes_on_elsewhere),
+        cmocka_unit_test(gauges_come_late),
         cmocka_unit_test(broken_shaders_leave_the_last_good_ones),
     };
     return cmocka_run_group_tests_name("app.simulator_gpu", tests, setup, teardown);
