@@ -1,5 +1,7 @@
-/* The motion devices that are plugged in, or a recording that stands in for them: one thread of its own reads
-   their reports, notices what comes and goes, and tells a listener. */
+/* The motion devices that are plugged in, or a recording that stands in for them: threads of their own read
+   their reports, notice what comes and goes, and tell a listener. A recording is played once, as fast as it
+   was recorded; at its end, what is still plugged in is unplugged, as if the cable were drawn: what it moved
+   stays where it is. */
 #ifndef SLOSH_DEVICES_H
 #define SLOSH_DEVICES_H
 
@@ -25,23 +27,36 @@ typedef struct DeviceEvent {
     const DeviceState *state; /* after the report */
 } DeviceEvent;
 
-/* Called on the thread of the devices, one call at a time; it must not block, nor call devices_stop. */
+/* Called on a thread of the devices, one call at a time; it must not block, nor call devices_stop. */
 typedef void (*DeviceListener)(void *user, const DeviceEvent *event);
 
-struct HidPort; /* device/hid_port.h: what reads bytes */
+struct HidPort;         /* device/hid_port.h: what reads bytes */
+struct ReportLogWriter; /* device/report_log.h */
 
 typedef struct DevicesSetup {
     const struct HidPort *port; /* NULL: hidapi */
     const char *source;         /* of --device: "file:PATH" replays a recording; NULL: what is plugged in */
     DeviceListener listener;
     void *user;
+    struct ReportLogWriter
+        *record; /* NULL, or where every raw report goes, valid or not, until devices_stop */
 } DevicesSetup;
 
 typedef struct Devices Devices;
 
+/* Whether devices_start could take `source`: before anything else is begun. False with the reason. */
+bool devices_check(const char *source, Error *error);
+
 /* NULL with the reason: the source is missing or no recording, no memory, no thread. Without any device it
-   succeeds and waits for one. */
+   succeeds and waits for one. It does not wait for the devices: each is told to the listener when it is
+   ready. */
 Devices *devices_start(const DevicesSetup *setup, Error *error);
-void devices_stop(Devices *devices); /* NULL is allowed; no call of the listener comes after it */
+
+/* Whether a recording has been played to its end, and all has been told. Any thread may ask. */
+bool devices_ended(const Devices *devices);
+
+/* NULL is allowed; no call of the listener comes after it. Takes 0.1 s as a rule, and at most half a second:
+   a thread that the system holds in a read is left to end by itself. */
+void devices_stop(Devices *devices);
 
 #endif

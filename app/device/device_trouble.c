@@ -1,0 +1,84 @@
+#include "app/device/device_trouble.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+const char *device_rules_command(void)
+{
+    return SLOSH_SOURCE_DIR "/tools/setup --devices";
+}
+
+const DeviceRow *device_match(const HidInfo *info)
+{
+    /* HID usage tables, page 1: joystick 4, gamepad 5, multi-axis controller 8 */
+    const bool motion = info->usage_page == 0 ||
+                        (info->usage_page == 1 && (info->usage == 4 || info->usage == 5 || info->usage == 8));
+    return motion ? device_row(info->vendor, info->product) : NULL;
+}
+
+/* Whether the file has that one line. */
+static bool has_line(const char *path, const char *line)
+{
+    char text[64] = "";
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return false;
+    const bool read = fgets(text, sizeof text, file) != NULL;
+    fclose(file);
+    text[strcspn(text, "\n")] = 0;
+    return read && strcmp(text, line) == 0;
+}
+
+long device_process(const char *folder, const char *name)
+{
+    long found = 0;
+    DIR *processes = opendir(folder);
+    for (struct dirent *entry; processes && !found && (entry = readdir(processes));) {
+        char path[512];
+        if (entry->d_name[strspn(entry->d_name, "0123456789")])
+            continue;
+        snprintf(path, sizeof path, "%s/%s/comm", folder, entry->d_name);
+        found = has_line(path, name) ? strtol(entry->d_name, NULL, 10) : 0;
+    }
+    if (processes)
+        closedir(processes);
+    return found;
+}
+
+long device_spacenavd(void)
+{
+    return access("/run/spnav.sock", F_OK) == 0 || access("/var/run/spnav.sock", F_OK) == 0
+               ? device_process("/proc", "spacenavd")
+               : 0;
+}
+
+static void busy(const DeviceRow *row, char problem[DEVICE_PROBLEM_SIZE])
+{
+    const long process = row->family == DEVICE_SPACEMOUSE ? device_spacenavd() : 0;
+    if (process)
+        snprintf(problem, DEVICE_PROBLEM_SIZE,
+                 "spacenavd (process %ld) holds it; `sudo systemctl stop spacenavd` frees it", process);
+    else
+        snprintf(problem, DEVICE_PROBLEM_SIZE, "another program holds it; end that program");
+}
+
+void device_trouble(const DeviceRow *row, HidRefusal why, const char *reason,
+                    char problem[DEVICE_PROBLEM_SIZE])
+{
+    switch (why) {
+    case HID_DENIED:
+        snprintf(problem, DEVICE_PROBLEM_SIZE, "this user may not open it; `%s` allows it for good",
+                 device_rules_command());
+        return;
+    case HID_BUSY:
+        busy(row, problem);
+        return;
+    case HID_FAILED:
+        break;
+    }
+    snprintf(problem, DEVICE_PROBLEM_SIZE, "it cannot be opened (%.200s); unplug it and plug it in again",
+             reason);
+}

@@ -1,0 +1,27 @@
+/* Why a device that is there may not be opened, in words, and what would help. */
+#ifndef SLOSH_DEVICE_TROUBLE_H
+#define SLOSH_DEVICE_TROUBLE_H
+
+#include "app/device/device_table.h"
+#include "app/device/hid_port.h"
+
+enum { DEVICE_PROBLEM_SIZE = 512 };
+
+/* The one command that lets the users of this machine open the devices: it installs tools/70-slosh.rules. */
+const char *device_rules_command(void);
+
+/* The row of what was found; NULL where it is no motion device. A controller may have several places where
+   reports come from: a mouse or a keyboard in it is none. */
+const DeviceRow *device_match(const HidInfo *info);
+
+/* The words for a device that was not opened. `reason`: the port's. */
+void device_trouble(const DeviceRow *row, HidRefusal why, const char *reason,
+                    char problem[DEVICE_PROBLEM_SIZE]);
+
+/* The process that reads every SpaceMouse for other programs, spacenavd: its number, or 0. */
+long device_spacenavd(void);
+
+/* The number of a process with that name in `folder` ("/proc"); 0: there is none. */
+long device_process(const char *folder, const char *name);
+
+#endif

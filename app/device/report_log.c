@@ -1,0 +1,237 @@
+#include "app/device/report_log.h"
+
+#include "app/read_file.h"
+#include "app/recording_reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A line in parts. */
+typedef struct Line {
+    Reader *reader;
+    const char *at, *end; /* what is not yet taken */
+} Line;
+
+enum { WORD_SIZE = 32 };
+
+/* The next word, up to a blank or the end; false when none is left, or it is longer than any. */
+static bool take_word(Line *line, char word[WORD_SIZE])
+{
+    const size_t left = (size_t)(line->end - line->at);
+    const char *blank = memchr(line->at, ' ', left);
+    const size_t length = blank ? (size_t)(blank - line->at) : left;
+    if (length == 0 || length >= WORD_SIZE)
+        return false;
+    memcpy(word, line->at, length);
+    word[length] = 0;
+    line->at += length + (blank != NULL);
+    return true;
+}
+
+static bool all_of(const char *word, const char *set)
+{
+    return *word && !word[strspn(word, set)];
+}
+
+/* Room for one more of `size` bytes each. */
+static bool grow(void **array, size_t count, size_t *capacity, size_t more, size_t size)
+{
+    if (count + more <= *capacity)
+        return true;
+    const size_t room = 2 * (count + more) + 64;
+    void *grown = realloc(*array, room * size);
+    if (!grown)
+        return false;
+    *array = grown;
+    *capacity = room;
+    return true;
+}
+
+static bool no_memory(const Reader *reader)
+{
+    return reader_fail(reader, "no memory to read it");
+}
+
+static bool take_time(Line *line, double before, double *time)
+{
+    char word[WORD_SIZE];
+    if (!take_word(line, word) || !all_of(word, "0123456789.") || strchr(word, '.') != strrchr(word, '.') ||
+        !strpbrk(word, "0123456789"))
+        return reader_fail(line->reader, "the line must begin with a time in s, such as 0.004");
+    *time = strtod(word, NULL);
+    if (*time > 1e6)
+        return reader_fail(line->reader, "%s s is later than any; at most 1000000 is", word);
+    return *time >= before ||
+           reader_fail(line->reader, "%s s is before the line above; put them in order", word);
+}
+
+/* The number of the device, which the file counts from 1 on. */
+static bool take_device(Line *line, int count, int *device)
+{
+    char word[WORD_SIZE];
+    if (!take_word(line, word) || !all_of(word, "0123456789") || strlen(word) > 4)
+        return reader_fail(line->reader, "after the time must stand the number of a device, such as 1");
+    *device = (int)strtol(word, NULL, 10) - 1;
+    return (*device >= 0 && *device <= count) ||
+           reader_fail(line->reader, "no device %s was plugged in; the next one is %d", word, count + 1);
+}
+
+static bool take_id(Line *line, const DeviceRow **row)
+{
+    char word[WORD_SIZE];
+    *row = NULL;
+    if (!take_word(line, word) || strlen(word) != 9 || word[4] != ':' ||
+        strspn(word, "0123456789abcdefABCDEF") != 4 || strspn(word + 5, "0123456789abcdefABCDEF") != 4)
+        return reader_fail(line->reader, "after the family must stand VENDOR:PRODUCT, such as 054c:0ce6");
+    *row = device_row((uint16_t)strtoul(word, NULL, 16), (uint16_t)strtoul(word + 5, NULL, 16));
+    return *row ||
+           reader_fail(line->reader,
+                       "%s is no motion device that this slosh knows; `slosh devices` lists them", word);
+}
+
+/* "dualsense 054c:0ce6 usb NAME" */
+static bool take_plugged(Line *line, ReportLog *out, int device)
+{
+    char family[WORD_SIZE], bus[WORD_SIZE];
+    const DeviceRow *row;
+    if (device != out->device_count)
+        return reader_fail(line->reader, "device %d was plugged in before; a new one is %d", device + 1,
+                           out->device_count + 1);
+    if (device == REPORT_LOG_DEVICES_MAX)
+        return reader_fail(line->reader, "more than %d devices; cut the recording here",
+                           REPORT_LOG_DEVICES_MAX);
+    if (!take_word(line, family))
+        return reader_fail(line->reader, "after 'plugged' must stand the family, such as dualsense");
+    if (!take_id(line, &row))
+        return false;
+    if (strcmp(family, device_family_word(row->family)) != 0)
+        return reader_fail(line->reader, "%04x:%04x is no '%s'; its family is %s", row->vendor, row->product,
+                           family, device_family_word(row->family));
+    if (!take_word(line, bus) || (strcmp(bus, "usb") != 0 && strcmp(bus, "bluetooth") != 0))
+        return reader_fail(line->reader, "after VENDOR:PRODUCT must stand usb or bluetooth");
+    out->devices[out->device_count++] =
+        (ReportLogDevice){.row = row, .bluetooth = strcmp(bus, "bluetooth") == 0, .plugged = true};
+    return true;
+}
+
+static int digit(char c)
+{
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+/* The rest of the line: a report in hexadecimal digits. */
+static bool take_bytes(Line *line, ReportLog *out, ReportLogEntry *entry)
+{
+    const size_t digits = (size_t)(line->end - line->at), size = digits / 2;
+    if (digits == 0 || digits % 2 || size > REPORT_LOG_REPORT_MAX)
+        return reader_fail(line->reader, "a report must stand here: 2 to %d hexadecimal digits, two a byte",
+                           2 * REPORT_LOG_REPORT_MAX);
+    if (!grow((void **)&out->bytes, out->byte_count, &out->byte_capacity, size, 1))
+        return no_memory(line->reader);
+    entry->offset = out->byte_count;
+    entry->size = (uint16_t)size;
+    for (size_t i = 0; i < size; i++) {
+        const int high = digit(line->at[2 * i]), low = digit(line->at[2 * i + 1]);
+        if (high < 0 || low < 0)
+            return reader_fail(line->reader, "'%.2s' is no byte; a report is hexadecimal digits, two a byte",
+                               line->at + 2 * i);
+        out->bytes[out->byte_count++] = (uint8_t)(high << 4 | low);
+    }
+    return true;
+}
+
+static bool take_kind(Line *line, ReportLogEntry *entry)
+{
+    static const char *const words[] = {"plugged", "calibration", "report", "unplugged"};
+    char word[WORD_SIZE] = "";
+    if (take_word(line, word))
+        for (int kind = REPORT_LOG_PLUGGED; kind <= REPORT_LOG_UNPLUGGED; kind++)
+            if (strcmp(word, words[kind]) == 0) {
+                entry->kind = (uint8_t)kind;
+                return true;
+            }
+    return reader_fail(line->reader,
+                       "'%s' is no event; after the device stands plugged, calibration, report or unplugged",
+                       word);
+}
+
+/* What follows the kind of event. */
+static bool take_rest(Line *line, ReportLog *out, ReportLogEntry *entry, int device)
+{
+    if (entry->kind == REPORT_LOG_PLUGGED)
+        return take_plugged(line, out, device);
+    if (device == out->device_count || !out->devices[device].plugged)
+        return reader_fail(line->reader,
+                           "device %d is not plugged in here; a line with 'plugged' must come before",
+                           device + 1);
+    if (entry->kind != REPORT_LOG_UNPLUGGED)
+        return take_bytes(line, out, entry);
+    out->devices[device].plugged = false;
+    return line->at == line->end || reader_fail(line->reader, "something follows 'unplugged'; leave it out");
+}
+
+static bool read_entry(Reader *reader, ReportLog *out)
+{
+    Line line = {.reader = reader, .at = reader->line, .end = reader->line + reader->length};
+    ReportLogEntry entry = {0};
+    int device = 0;
+    const double before = out->count > 0 ? out->entries[out->count - 1].time : 0;
+    if (!take_time(&line, before, &entry.time) || !take_device(&line, out->device_count, &device) ||
+        !take_kind(&line, &entry) || !take_rest(&line, out, &entry, device))
+        return false;
+    entry.device = (uint8_t)device;
+    if (!grow((void **)&out->entries, out->count, &out->capacity, 1, sizeof *out->entries))
+        return no_memory(reader);
+    out->entries[out->count++] = entry;
+    return true;
+}
+
+/* The two first lines. */
+static bool read_head(Reader *reader)
+{
+    reader->number = 1;
+    if (!reader_begins(reader, "slosh device recording "))
+        return reader_fail(reader,
+                           "this is no recording of devices; the first line of one is "
+                           "'slosh device recording 1', and `slosh devices --watch --record FILE` makes one");
+    reader->number = 0;
+    if (!reader_next(reader))
+        return reader_fail(reader, "the recording was cut in its first line; take a whole one");
+    if (!reader_is(reader, "slosh device recording 1"))
+        return reader_misplaced(reader, "'slosh device recording 1', the one format that this slosh reads,");
+    if (reader_begins(reader, "program "))
+        reader_next(reader);
+    return true;
+}
+
+bool report_log_parse(const char *path, const char *bytes, size_t size, ReportLog *out, Error *error)
+{
+    Reader reader = {.path = path, .at = bytes, .end = bytes + size, .error = error};
+    *out = (ReportLog){0};
+    bool ok = read_head(&reader);
+    while (ok && reader_next(&reader))
+        ok = read_entry(&reader, out);
+    if (!ok)
+        report_log_destroy(out);
+    return ok;
+}
+
+bool report_log_read(const char *path, ReportLog *out, Error *error)
+{
+    size_t size;
+    *out = (ReportLog){0};
+    char *bytes = read_file(path, REPORT_LOG_BYTES_MAX, "recording", &size, error);
+    const bool ok = bytes && report_log_parse(path, bytes, size, out, error);
+    free(bytes);
+    return ok;
+}
+
+void report_log_destroy(ReportLog *log)
+{
+    free(log->entries);
+    free(log->bytes);
+    *log = (ReportLog){0};
+}
