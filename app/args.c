@@ -167,6 +167,14 @@ static bool parse_sweep(const Parser *parser, const char *text)
     return true;
 }
 
+static bool parse_device(const Parser *parser, const OptionRow *option, const char *text)
+{
+    *(const char **)field(parser, option) = text;
+    return (strncmp(text, "file:", 5) == 0 && text[5]) ||
+           fail(parser, "%s must be file:PATH, with the path of a recording, not '%.60s'", option->name,
+                text);
+}
+
 static bool parse_value(const Parser *parser, const OptionRow *option, const char *text)
 {
     void *out = field(parser, option);
@@ -196,6 +204,8 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
         return parse_setting(parser, option, text);
     case OPTION_SWEEP:
         return parse_sweep(parser, text);
+    case OPTION_DEVICE:
+        return parse_device(parser, option, text);
     case OPTION_FLAG:
     case OPTION_HELP:
         break;

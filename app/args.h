@@ -24,6 +24,7 @@ typedef enum Command {
     COMMAND_CHART,    /* `scenes` holds a scene or a case */
     COMMAND_REPLAY,   /* `scenes` holds the recording */
     COMMAND_EXPORT,   /* `scenes` holds the snapshots */
+    COMMAND_DEVICES,
     COMMAND_INFO,
     COMMAND_COUNT
 } Command;
@@ -76,7 +77,9 @@ typedef struct Args {
     const char *table;    /* bench: NAME, or NULL */
     bool play;            /* bench: the live window */
     double seconds;       /* of it; more than 0; default 20 */
-    const char *record;   /* FILE, or NULL */
+    const char *record;   /* FILE, or NULL; of devices: raw reports */
+    const char *device;   /* "file:PATH", or NULL: what is plugged in */
+    bool watch;           /* devices: live values */
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
     size_t pool_used;

@@ -11,6 +11,7 @@ enum {
     CHART = 1 << COMMAND_CHART,
     REPLAY = 1 << COMMAND_REPLAY,
     EXPORT = 1 << COMMAND_EXPORT,
+    DEVICES = 1 << COMMAND_DEVICES,
     INFO = 1 << COMMAND_INFO,
     ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | INFO
 };
@@ -33,6 +34,8 @@ const CommandRow command_rows[] = {
      "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
     {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply [OPTIONS]",
      "writes snapshots in the formats of other programs", 1, 1, "OUT.pvd, OUT.vtp or OUT.ply", 0, 0},
+    {COMMAND_DEVICES, "devices", "[--watch] [--record FILE] [OPTIONS]",
+     "motion devices: which there are, what they say, and how to open them", 0, 0, NULL, 0, 0},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
      0, 1, NULL, 1280, 720},
     {COMMAND_HELP, "help", "[COMMAND]", "says what a command does and takes", 0, 0, NULL, 0, 0},
@@ -80,6 +83,7 @@ const OptionRow option_rows[] = {
     {"--size", "WxH", PLAY | RENDER | BENCH, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
      .help = "pixels (1280x720; bench 512x512)"},
     {"--record", "FILE", PLAY, OPTION_TEXT, AT(record), .help = "write the session there at the end, for slosh replay"},
+    {"--record", "FILE", DEVICES, OPTION_TEXT, AT(record), .help = "write all raw reports there, with their times, for --device file:FILE; until Ctrl-C"},
     {"--play", NULL, BENCH, OPTION_FLAG, AT(play), .help = "measure the live window, the box shaken by a script"},
     {"--seconds", "S", BENCH, OPTION_NUMBER, AT(seconds), .max = 1e5, .flags = OPTION_OPEN_LOW,
      .help = "how long, with --play (20)"},
@@ -97,9 +101,12 @@ const OptionRow option_rows[] = {
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
     {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
     {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
-    {"--json", "FILE", ALL | REPLAY | EXPORT, OPTION_TEXT, AT(json), .help = "write the figures there too"},
-    {"--quiet", NULL, ALL | REPLAY | EXPORT, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
-    {"--help", NULL, ALL | REPLAY | EXPORT, OPTION_HELP, .help = "this text"},
+    {"--device", "file:PATH", PLAY | DEVICES, OPTION_DEVICE, AT(device),
+     .help = "a recording of motion devices in place of those that are plugged in"},
+    {"--watch", NULL, DEVICES, OPTION_FLAG, AT(watch), .help = "show what they say, live, until Ctrl-C or the end of the recording"},
+    {"--json", "FILE", ALL | REPLAY | EXPORT | DEVICES, OPTION_TEXT, AT(json), .help = "write the figures there too"},
+    {"--quiet", NULL, ALL | REPLAY | EXPORT | DEVICES, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
+    {"--help", NULL, ALL | REPLAY | EXPORT | DEVICES, OPTION_HELP, .help = "this text"},
     {0},
 };
 /* clang-format on */

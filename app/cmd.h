@@ -15,6 +15,7 @@ int cmd_validate(const Args *args);
 int cmd_chart(const Args *args);
 int cmd_replay(const Args *args);
 int cmd_export(const Args *args);
+int cmd_devices(const Args *args);
 int cmd_info(const Args *args);
 
 #endif

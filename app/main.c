@@ -36,6 +36,8 @@ static int run_command(const Args *args)
         return cmd_replay(args);
     case COMMAND_EXPORT:
         return cmd_export(args);
+    case COMMAND_DEVICES:
+        return cmd_devices(args);
     case COMMAND_INFO:
         return cmd_info(args);
     case COMMAND_VERSION:

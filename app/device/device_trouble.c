@@ -82,3 +82,14 @@ void device_trouble(const DeviceRow *row, HidRefusal why, const char *reason,
     snprintf(problem, DEVICE_PROBLEM_SIZE, "it cannot be opened (%.200s); unplug it and plug it in again",
              reason);
 }
+
+void device_note(const DeviceRow *row, char note[DEVICE_PROBLEM_SIZE])
+{
+    const long process = row->family == DEVICE_SPACEMOUSE ? device_spacenavd() : 0;
+    note[0] = 0;
+    if (process)
+        snprintf(
+            note, DEVICE_PROBLEM_SIZE,
+            "spacenavd (process %ld) reads it too, for other programs; where nothing arrives here, `sudo systemctl stop spacenavd`",
+            process);
+}

@@ -21,6 +21,9 @@ void device_trouble(const DeviceRow *row, HidRefusal why, const char *reason,
 /* The process that reads every SpaceMouse for other programs, spacenavd: its number, or 0. */
 long device_spacenavd(void);
 
+/* What else a user should know of a device that may be opened: that spacenavd reads it too. "" as a rule. */
+void device_note(const DeviceRow *row, char note[DEVICE_PROBLEM_SIZE]);
+
 /* The number of a process with that name in `folder` ("/proc"); 0: there is none. */
 long device_process(const char *folder, const char *name);
 

@@ -77,6 +77,13 @@ static void every_option_reaches_its_field(void **state)
     assert_true(args.command == COMMAND_EXPORT && args.frame == FRAME_WORLD && args.time_given);
     accept("export a.h5part -o a.ply --frame=box");
     assert_true(args.frame == FRAME_BOX && !args.time_given);
+    accept("devices --watch --record r --device file:a/b.rec");
+    assert_true(args.command == COMMAND_DEVICES && args.watch);
+    assert_string_equal(args.record, "r");
+    assert_string_equal(args.device, "file:a/b.rec");
+    accept("--device=file:a");
+    assert_true(args.command == COMMAND_PLAY);
+    assert_string_equal(args.device, "file:a");
     accept("info -- -odd-name");
     assert_string_equal(args.scenes[0], "-odd-name");
 }
@@ -142,6 +149,11 @@ static void slips_are_named(void **state)
     refuse("export a.h5part -o a.ply --frame wor",
            "slosh export: --frame must be one of box|world, not 'wor'");
     refuse("export a.h5part -o a.ply --set a=1", "slosh export: unknown option '--set'");
+    refuse("play --device a.rec",
+           "slosh play: --device must be file:PATH, with the path of a recording, not 'a.rec'");
+    refuse("devices --device file:", "slosh devices: --device must be file:PATH");
+    refuse("devices --device=", "slosh devices: --device must be file:PATH");
+    refuse("devices a", "slosh devices: one argument too many: 'a'; it takes 0 scenes");
     refuse("bench --clock sun", "slosh bench: --clock must be one of gl|finish, not 'sun'");
 }
 

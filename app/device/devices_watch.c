@@ -1,0 +1,186 @@
+#include "app/device/devices_watch.h"
+
+#include "app/device/device_show.h"
+#include "app/device/device_trouble.h"
+#include "app/interrupt.h"
+#include "sim/stage.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { PICTURE_MS = 50, LINE_MS = 100, LINE_SIZE = 512 };
+
+/* What is shown of one device. */
+typedef struct Shown {
+    bool plugged, refused;
+    uint64_t reports;
+    double line_ms; /* when its last line was written */
+    char line[LINE_SIZE];
+} Shown;
+
+typedef struct Watcher {
+    pthread_mutex_t lock; /* of `now` and `count`: the listener's */
+    WatchedDevice now[WATCH_DEVICES_MAX];
+    int count;
+    Watch *watch;
+    Shown shown[WATCH_DEVICES_MAX];
+    double start; /* s; 0 on the clock of a recording */
+    int lines;    /* of bars, on the terminal */
+} Watcher;
+
+static WatchedDevice *find(Watcher *watcher, const DeviceEvent *event)
+{
+    for (int i = watcher->count - 1; i >= 0; i--)
+        if (watcher->now[i].number == event->number)
+            return &watcher->now[i];
+    if (watcher->count == WATCH_DEVICES_MAX)
+        return NULL;
+    WatchedDevice *device = &watcher->now[watcher->count++];
+    *device = (WatchedDevice){.number = event->number, .row = device_row(event->vendor, event->product)};
+    return device;
+}
+
+static void listen(void *user, const DeviceEvent *event)
+{
+    Watcher *watcher = user;
+    pthread_mutex_lock(&watcher->lock);
+    WatchedDevice *device = find(watcher, event);
+    if (device) {
+        device->state = *event->state;
+        device->plugged = event->kind == DEVICE_PLUGGED || event->kind == DEVICE_REPORTED;
+        snprintf(device->problem, sizeof device->problem, "%s", event->problem);
+    }
+    pthread_mutex_unlock(&watcher->lock);
+}
+
+static void copy_now(Watcher *watcher)
+{
+    pthread_mutex_lock(&watcher->lock);
+    watcher->watch->count = watcher->count;
+    memcpy(watcher->watch->devices, watcher->now, (size_t)watcher->count * sizeof *watcher->now);
+    pthread_mutex_unlock(&watcher->lock);
+}
+
+static void say_plugged(FILE *file, const WatchedDevice *device)
+{
+    char note[DEVICE_PROBLEM_SIZE];
+    device_note(device->row, note);
+    fprintf(file, "%d %s (%04x:%04x): plugged in%s%s\n", device->number, device->row->name,
+            device->row->vendor, device->row->product, note[0] ? "; " : "", note);
+}
+
+/* What has come and gone since the last look. */
+static void say_changes(const Watcher *watcher, const WatchedDevice *device, Shown *shown)
+{
+    FILE *file = watcher->watch->messages;
+    const bool refused = device->problem[0] != 0, was = shown->plugged;
+    /* one that came and went between two looks has reports, or nothing to be told */
+    const bool came = !was && (device->plugged || device->state.reports > shown->reports);
+    shown->plugged = device->plugged;
+    if (!file)
+        return;
+    if (refused && !shown->refused)
+        fprintf(file, "%d %s (%04x:%04x): %s\n", device->number, device->row->name, device->row->vendor,
+                device->row->product, device->problem);
+    shown->refused = refused;
+    if (came)
+        say_plugged(file, device);
+}
+
+static void say_gone(const Watcher *watcher, const WatchedDevice *device, bool was)
+{
+    if (watcher->watch->messages && was && !device->plugged)
+        fprintf(watcher->watch->messages, "%d %s: unplugged after %llu reports, %llu refused\n",
+                device->number, device->row->name, (unsigned long long)device->state.reports,
+                (unsigned long long)device->state.refused);
+}
+
+/* A line where it says something else than the last one, not too often; the last of all is never left out. */
+static void show_line(const Watcher *watcher, const WatchedDevice *device, Shown *shown, bool last)
+{
+    char line[LINE_SIZE] = "";
+    const double now = wall_ms();
+    if (device->state.reports == 0 || (!last && now - shown->line_ms < LINE_MS))
+        return;
+    FILE *text = fmemopen(line, sizeof line, "w");
+    if (!text)
+        return;
+    device_show_line(text, device->row, &device->state);
+    fclose(text);
+    line[sizeof line - 1] = 0;
+    if (strcmp(line, shown->line) == 0)
+        return;
+    memcpy(shown->line, line, sizeof line);
+    shown->line_ms = now;
+    fprintf(watcher->watch->out, "%.2f %d %s: %s\n", device->state.time - watcher->start, device->number,
+            device->row->name, line);
+}
+
+static void show_bars(Watcher *watcher)
+{
+    FILE *out = watcher->watch->out;
+    watcher->lines = 0;
+    for (int i = 0; i < watcher->watch->count; i++) {
+        const WatchedDevice *device = &watcher->watch->devices[i];
+        if (!device->plugged)
+            continue;
+        fprintf(out, "%d %s: %llu reports, %llu refused\033[K\n", device->number, device->row->name,
+                (unsigned long long)device->state.reports, (unsigned long long)device->state.refused);
+        watcher->lines += 1 + device_show_bars(out, device->row, &device->state, "\033[K\n");
+    }
+}
+
+static void show(Watcher *watcher, bool last)
+{
+    Watch *watch = watcher->watch;
+    copy_now(watcher);
+    if (watch->out && watch->bars && watcher->lines > 0)
+        fprintf(watch->out, "\033[%dA\033[J", watcher->lines);
+    for (int i = 0; i < watch->count; i++) {
+        const WatchedDevice *device = &watch->devices[i];
+        Shown *shown = &watcher->shown[i];
+        const bool was = shown->plugged || device->state.reports > shown->reports;
+        say_changes(watcher, device, shown);
+        if (watch->out && !watch->bars)
+            show_line(watcher, device, shown, last || (was && !device->plugged));
+        say_gone(watcher, device, was);
+        shown->reports = device->state.reports;
+    }
+    if (watch->out && watch->bars)
+        show_bars(watcher);
+    if (watch->out)
+        fflush(watch->out);
+}
+
+static bool goes_on(const Watcher *watcher, const Devices *devices)
+{
+    const Watch *watch = watcher->watch;
+    return !interrupted() && !devices_ended(devices) &&
+           !(watch->record && report_log_broken(watch->record)) && !(watch->out && ferror(watch->out));
+}
+
+bool devices_watch(Watch *watch, Error *error)
+{
+    const struct timespec pause = {.tv_nsec = PICTURE_MS * 1000000L};
+    Watcher *watcher = calloc(1, sizeof *watcher);
+    if (!watcher)
+        return error_set(error, "no memory for motion devices");
+    watcher->watch = watch;
+    watcher->start = watch->source ? 0 : wall_ms() / 1000;
+    pthread_mutex_init(&watcher->lock, NULL);
+    const DevicesSetup setup = {
+        .source = watch->source, .listener = listen, .user = watcher, .record = watch->record};
+    Devices *devices = devices_start(&setup, error);
+    while (devices && goes_on(watcher, devices)) {
+        show(watcher, false);
+        nanosleep(&pause, NULL);
+    }
+    devices_stop(devices);
+    if (devices)
+        show(watcher, true);
+    pthread_mutex_destroy(&watcher->lock);
+    free(watcher);
+    return devices != NULL;
+}
