@@ -197,10 +197,10 @@ static bool read_head(Reader *reader)
         return reader_fail(reader,
                            "this is no recording of devices; the first line of one is "
                            "'slosh device recording 1', and `slosh devices --watch --record FILE` makes one");
-    reader->number = 0;
-    if (!reader_next(reader))
+    if (!memchr(reader->at, '\n', (size_t)(reader->end - reader->at)))
         return reader_fail(reader, "the recording was cut in its first line; take a whole one");
-    if (!reader_is(reader, "slosh device recording 1"))
+    reader->number = 0;
+    if (!reader_next(reader) || !reader_is(reader, "slosh device recording 1"))
         return reader_misplaced(reader, "'slosh device recording 1', the one format that this slosh reads,");
     if (reader_begins(reader, "program "))
         reader_next(reader);

@@ -21,6 +21,11 @@ static double now(void)
     return wall_ms() / 1000;
 }
 
+bool report_log_broken(const ReportLogWriter *writer)
+{
+    return writer->number != 0;
+}
+
 static void keep_failure(ReportLogWriter *writer)
 {
     if (writer->number == 0)
@@ -28,13 +33,16 @@ static void keep_failure(ReportLogWriter *writer)
 }
 
 /* The time and the device, with which each line begins. Two devices are read side by side: a report may be
-   told after one that came later. */
-static void begin_line(ReportLogWriter *writer, int number, double time)
+   told after one that came later. False: a line before was not written whole, and nothing can follow it. */
+static bool begin_line(ReportLogWriter *writer, int number, double time)
 {
+    if (report_log_broken(writer))
+        return false;
     const double since = time - writer->start;
     writer->last = since > writer->last ? since : writer->last;
     errno = 0;
     fprintf(writer->file, "%.6f %d ", writer->last, number);
+    return true;
 }
 
 static void end_line(ReportLogWriter *writer)
@@ -78,7 +86,8 @@ int report_log_plugged(ReportLogWriter *writer, const DeviceRow *row, bool bluet
 {
     if (writer->devices == REPORT_LOG_DEVICES_MAX)
         return 0;
-    begin_line(writer, ++writer->devices, now());
+    if (!begin_line(writer, ++writer->devices, now()))
+        return writer->devices;
     fprintf(writer->file, "plugged %s %04x:%04x %s %s", device_family_word(row->family), row->vendor,
             row->product, bluetooth ? "bluetooth" : "usb", row->name);
     end_line(writer);
@@ -88,9 +97,8 @@ int report_log_plugged(ReportLogWriter *writer, const DeviceRow *row, bool bluet
 static void write_bytes(ReportLogWriter *writer, int number, double time, const char *word,
                         const uint8_t *bytes, size_t size)
 {
-    if (number == 0 || size == 0 || size > REPORT_LOG_REPORT_MAX)
+    if (number == 0 || size == 0 || size > REPORT_LOG_REPORT_MAX || !begin_line(writer, number, time))
         return;
-    begin_line(writer, number, time);
     fprintf(writer->file, "%s ", word);
     for (size_t i = 0; i < size; i++) {
         putc("0123456789abcdef"[bytes[i] >> 4], writer -> file);
@@ -111,16 +119,10 @@ void report_log_report(ReportLogWriter *writer, int number, double time, const u
 
 void report_log_unplugged(ReportLogWriter *writer, int number)
 {
-    if (number == 0)
+    if (number == 0 || !begin_line(writer, number, now()))
         return;
-    begin_line(writer, number, now());
     fputs("unplugged", writer->file);
     end_line(writer);
-}
-
-bool report_log_broken(const ReportLogWriter *writer)
-{
-    return writer->number != 0;
 }
 
 bool report_log_close(ReportLogWriter *writer, Error *error)
