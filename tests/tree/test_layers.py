@@ -16,7 +16,8 @@ MAY = {
     "sim/gl/compute": ["sim", "sim/gl", "sim/gl/compute"],
     "sim/gl/fragment": ["sim", "sim/gl", "sim/gl/fragment"],
     "render": ["sim", "sim/cpu/parallel.h", "sim/gl", "render"],
-    "app": ["sim", "sim/gl", "render", "app"],
+    "app/device": ["sim", "app/device", "app"],
+    "app": ["sim", "sim/gl", "render", "app/device", "app"],
 }
 
 
