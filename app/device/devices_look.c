@@ -7,7 +7,6 @@
 
 enum {
     INFOS_MAX = 256,
-    LOOK_MS = 1000,        /* from look to look: what is plugged in is noticed that soon */
     READ_MS = 100,         /* of a read without a report: so long a stop may take */
     NAP_MS = 10,           /* after a read that came back at once with nothing */
     CALIBRATION_TRIES = 3, /* over Bluetooth a report may be damaged */
@@ -202,7 +201,7 @@ void *devices_look(void *data)
         if (count >= 0 && count <= INFOS_MAX && !devices->stopping)
             take_look(devices, infos, count, first);
         first = false;
-        devices_wait(devices, wall_ms() + LOOK_MS);
+        devices_wait(devices, wall_ms() + devices->port.look_ms);
     }
     pthread_mutex_unlock(&devices->lock);
     free(infos);

@@ -25,7 +25,8 @@ typedef enum HidRefusal {
 } HidRefusal;
 
 typedef struct HidPort {
-    void *self; /* the first argument of `enumerate` and `open` */
+    void *self;  /* the first argument of `enumerate` and `open` */
+    int look_ms; /* from one `enumerate` to the next: what is plugged in is noticed that soon */
 
     /* What is plugged in, at most `max`; the same path may come more than once. Returns their number, or -1
        when that cannot be told now. */

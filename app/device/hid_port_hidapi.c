@@ -66,7 +66,8 @@ static void close_device(void *handle)
     hid_close(handle);
 }
 
-const HidPort hid_port_hidapi = {.enumerate = enumerate,
+const HidPort hid_port_hidapi = {.look_ms = 1000,
+                                 .enumerate = enumerate,
                                  .open = open_path,
                                  .read = read_report,
                                  .get_feature = get_feature,

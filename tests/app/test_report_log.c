@@ -94,7 +94,7 @@ static void what_is_wrong_is_said(void **state)
     refuse(HEAD PLUG "1 1 report\n", "a.rec:4: a report must stand here: 2 to 2048 hexadecimal digits");
     refuse(HEAD PLUG "1 1 report 011\n", "a.rec:4: a report must stand here");
     refuse(HEAD PLUG "1 1 report 01g0\n", "a.rec:4: 'g0' is no byte");
-    refuse(HEAD PLUG "1 1 report 01 00\n", "a.rec:4: ' 0' is no byte");
+    refuse(HEAD PLUG "1 1 report 01 000\n", "a.rec:4: ' 0' is no byte");
 }
 
 /* Sizes that a file may not have. */
