@@ -162,6 +162,10 @@ static int watch_devices(const Args *args, Error *error)
     const bool recorded = report_log_close(watch.record, began ? error : NULL);
     if (!began || !recorded || (args->json && !write_json(args->json, json_watched(&watch), error)))
         return fail(EXIT_FAILED, error);
+    if (watch.out_error) {
+        fprintf(stderr, "slosh: standard output: %s\n", strerror(watch.out_error));
+        return EXIT_FAILED;
+    }
     return args->device && interrupted() ? EXIT_INTERRUPTED : 0;
 }
 

@@ -5,6 +5,7 @@
 #include "app/interrupt.h"
 #include "sim/stage.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,8 +151,8 @@ static void show(Watcher *watcher, bool last)
     }
     if (watch->out && watch->bars)
         show_bars(watcher);
-    if (watch->out)
-        fflush(watch->out);
+    if (watch->out && fflush(watch->out) != 0 && watch->out_error == 0)
+        watch->out_error = errno;
 }
 
 static bool goes_on(const Watcher *watcher, const Devices *devices)

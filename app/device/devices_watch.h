@@ -25,6 +25,7 @@ typedef struct Watch {
     FILE *messages;          /* what comes and goes; NULL: nowhere */
     bool bars;               /* out is a terminal */
     /* set at the end */
+    int out_error; /* errno where out took no more; 0 */
     int count;
     WatchedDevice devices[WATCH_DEVICES_MAX];
 } Watch;

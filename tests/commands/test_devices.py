@@ -1,0 +1,173 @@
+"""slosh devices: what is known, recordings shown, recorded again, and refused."""
+import json
+import os
+import pty
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+import command
+from command import CommandTest, limit_files, obey_interrupts
+
+HEAD = 'slosh device recording 1\nprogram 0.1\n'
+
+
+def sense(turn=0, buttons=8):
+    """A DualSense's report over USB: degrees/s about x, the first byte of buttons."""
+    report = bytearray(64)
+    report[0] = 1
+    report[1:5] = bytes([128, 128, 255, 0])
+    report[8] = buttons
+    struct.pack_into('<6h', report, 16, 16 * turn, 0, 0, 0, 8192, 0)
+    return report.hex()
+
+
+def cap(x, y, z):
+    return (b'\x01' + struct.pack('<3h', x, y, z)).hex()
+
+
+def recording(seconds=0.4):
+    lines = [HEAD + '0.000000 1 plugged dualsense 054c:0ce6 usb DualSense\n'
+             '0.000000 2 plugged spacemouse 046d:c626 usb SpaceNavigator\n']
+    for i in range(int(seconds * 100)):
+        lines.append(f'{i / 100:.6f} 1 report {sense(100, 0x28)}\n')
+        lines.append(f'{i / 100:.6f} 2 report {cap(350, -175, 0)}\n')
+    lines.append(f'{seconds:.6f} 2 report ff\n')
+    return ''.join(lines)
+
+
+class Devices(CommandTest):
+    def run_devices(self, *arguments, code=0, before=obey_interrupts):
+        done = subprocess.run([command.PROGRAM, 'devices', *arguments], cwd=self.folder, capture_output=True, text=True,
+                              timeout=60, preexec_fn=before, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def test_lists_what_is_known(self):
+        """Whatever is plugged in where this runs."""
+        out = self.run_devices('--json', 'a.json').stdout
+        if 'no motion device is plugged in' in out:
+            for word in ['3Dconnexion SpaceMouse', '046d:c626  SpaceNavigator', '256f:c635', 'Sony DualShock 4', 'Sony DualSense',
+                         '054c:0df2']:
+                self.assertIn(word, out)
+        known = json.loads(self.read('a.json'))['known']
+        self.assertIn({'name': 'DualSense', 'family': 'dualsense', 'id': '054c:0ce6'}, known)
+        self.assertEqual(self.run_devices('--quiet').stdout, '')
+
+    def test_lists_a_recording(self):
+        self.write('a.rec', recording())
+        out = self.run_devices('--device', 'file:a.rec', '--json', 'a.json').stdout
+        self.assertEqual(out, '1 DualSense (054c:0ce6, USB): 40 reports\n2 SpaceNavigator (046d:c626, USB): 41 reports\n'
+                              '2 devices, 0.40 s\n')
+        devices = json.loads(self.read('a.json'))['devices']
+        self.assertEqual([(d['name'], d['reports']) for d in devices], [('DualSense', 40), ('SpaceNavigator', 41)])
+
+    def test_watch_says_a_line_a_change(self):
+        self.write('a.rec', recording())
+        began = time.monotonic()
+        out = self.run_devices('--watch', '--device', 'file:a.rec', '--json', 'a.json').stdout
+        self.assertGreaterEqual(time.monotonic() - began, 0.4)
+        lines = out.splitlines()
+        self.assertIn('1 DualSense (054c:0ce6): plugged in', lines)
+        self.assertIn('1 DualSense: unplugged after 40 reports, 0 refused', lines)
+        self.assertIn('2 SpaceNavigator: unplugged after 40 reports, 1 refused', lines)
+        pad = [line for line in lines if ' 1 DualSense: turn' in line]
+        self.assertEqual(len(pad), 1)  # it says the same all the time
+        self.assertRegex(pad[0], r'^0\.\d\d 1 DualSense: turn \+1\.75 \+0\.00 \+0\.00 rad/s, feel \+0\.00 \+9\.81 \+0\.00 m/s2, '
+                                 r'left \+0\.00 \+0\.00, right \+1\.00 -1\.00, pull \+0\.00 \+0\.00, buttons cross$')
+        mouse = [line for line in lines if ' 2 SpaceNavigator: move' in line]
+        self.assertRegex(mouse[0], r': move \+1\.00 \+0\.00 -0\.50, turn \+0\.00 \+0\.00 \+0\.00, buttons$')
+        self.assertEqual([(d['reports'], d['refused']) for d in json.loads(self.read('a.json'))['devices']], [(40, 0), (40, 1)])
+
+    def test_lines_are_bounded(self):
+        """Ten a second and device, and the last one always."""
+        self.write('a.rec', HEAD + '0 1 plugged dualsense 054c:0ce6 usb\n' +
+                   ''.join(f'{i / 1000:.6f} 1 report {sense(i)}\n' for i in range(1000)))
+        lines = [line for line in self.run_devices('--watch', '--device', 'file:a.rec').stdout.splitlines() if 'turn' in line]
+        self.assertTrue(3 <= len(lines) <= 12, lines)
+        self.assertIn('turn +17.44', lines[-1])  # 999 degrees/s
+
+    def test_watch_draws_bars_on_a_terminal(self):
+        self.write('a.rec', recording(0.2))
+        master, slave = pty.openpty()
+        process = subprocess.Popen([command.PROGRAM, 'devices', '--watch', '--device', 'file:a.rec'], cwd=self.folder, stdout=slave)
+        os.close(slave)
+        text = b''
+        while True:
+            try:
+                more = os.read(master, 65536)
+            except OSError:
+                break
+            if not more:
+                break
+            text += more
+        os.close(master)
+        self.assertEqual(process.wait(60), 0)
+        self.assertRegex(text.decode(), r'turn  x \[        \|###     \]  \+1\.75')
+        self.assertRegex(text.decode(), r'move  x \[        \|########\]  \+1\.00 y .* z \[    ####\|        \]  -0\.50')
+        self.assertRegex(text.decode(), r'\x1b\[\d+A')
+
+    def test_a_replay_is_recorded(self):
+        self.write('a.rec', recording())
+        self.run_devices('--watch', '--quiet', '--device', 'file:a.rec', '--record', 'b.rec')
+
+        def reports(name):
+            return [line.split()[1:] for line in self.read(name).decode().splitlines() if ' report ' in line]
+        self.assertEqual(reports('a.rec'), reports('b.rec'))
+
+    def wait_for_reports(self, name, process):
+        self.wait_for(lambda: os.path.exists(self.path(name)) and self.read(name).count(b' report ') > 5, process)
+
+    def test_ctrl_c_and_kill_leave_a_readable_recording(self):
+        self.write('a.rec', recording(20))
+        for number, code in [(signal.SIGINT, 130), (signal.SIGKILL, -signal.SIGKILL)]:
+            process = self.start('devices', '--record', 'b.rec', '--device', 'file:a.rec')
+            self.wait_for_reports('b.rec', process)
+            process.send_signal(number)
+            self.assertEqual(process.wait(30), code)
+            self.assertRegex(self.run_devices('--device', 'file:b.rec').stdout, r'1 DualSense .*: \d+ reports')
+            os.remove(self.path('b.rec'))
+
+    def test_ctrl_c_ends_the_watch_of_what_is_plugged_in(self):
+        process = self.start('devices', '--record', 'b.rec')
+        self.wait_for(lambda: os.path.exists(self.path('b.rec')), process)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(30), 0)
+        self.assertEqual(self.read('b.rec').decode().splitlines()[0], 'slosh device recording 1')
+
+    def test_a_full_disk_is_told(self):
+        self.write('a.rec', recording(20))
+        done = self.run_devices('--record', 'b.rec', '--device', 'file:a.rec', code=1, before=limit_files(1000))
+        self.assertIn('b.rec: cannot be written (File too large); what came before is whole', done.stderr)
+        self.run_devices('--device', 'file:b.rec')
+
+    def test_what_is_no_recording_is_refused_before_anything(self):
+        self.write('text', 'hello\n')
+        self.write('bad.rec', HEAD + '0 1 plugged dualsense 054c:0ce6 usb\n1 1 report 0\n')
+        for source, words in [('file:none.rec', 'none.rec: cannot be opened (No such file or directory)'),
+                              ('file:.', '.: a directory; name a recording in it'),
+                              ('file:text', 'text:1: this is no recording of devices; the first line of one is'),
+                              ('file:bad.rec', 'bad.rec:4: a report must stand here'),
+                              ('none.rec', "slosh devices: --device must be file:PATH, with the path of a recording, not 'none.rec'")]:
+            for more in [[], ['--watch'], ['--record', 'b.rec', '--json', 'b.json']]:
+                done = self.run_devices('--device', source, *more, code=2)
+                self.assertEqual(done.stdout, '')
+                self.assertTrue(done.stderr.startswith(words), done.stderr)
+                self.assertEqual(self.entries(), ['bad.rec', 'text'])
+
+    def test_a_closed_pipe_ends_it(self):
+        self.write('a.rec', HEAD + '0 1 plugged dualsense 054c:0ce6 usb\n' +
+                   ''.join(f'{i / 100:.6f} 1 report {sense(i % 999)}\n' for i in range(6000)))
+        process = subprocess.Popen([command.PROGRAM, 'devices', '--watch', '--device', 'file:a.rec'], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process.stdout.readline()
+        process.stdout.close()
+        process.stdout = None
+        _, said = process.communicate(timeout=30)
+        self.assertEqual((process.returncode, said), (1, b'slosh: standard output: Broken pipe\n'))
+
+
+if __name__ == '__main__':
+    command.main()
