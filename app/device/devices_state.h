@@ -57,7 +57,9 @@ void devices_wait(Devices *devices, double until_ms);
    the last of those that were left. */
 bool devices_spawn(Devices *devices, pthread_t *thread, void *(*run)(void *), void *data);
 void devices_finish(Devices *devices, bool *ended);
-void *devices_look(void *devices);
-void *devices_replay(void *devices);
+
+/* The threads that look for what is plugged in, or replay; `data` is the struct Devices. */
+void *devices_look(void *data);
+void *devices_replay(void *data);
 
 #endif
