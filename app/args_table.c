@@ -57,7 +57,7 @@ const OptionRow option_rows[] = {
     {"--coarse", NULL, VALIDATE, OPTION_FLAG, AT(coarse), .help = "a glance: few particles, with tolerances of its own"},
     {"-o", "OUT", CHART, OPTION_TEXT, AT(output), .help = "the chart, OUT.svg or OUT.png; its figures in OUT.csv, which a later run goes on with"},
     {"--time", "S", CHART, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a scene (2); a case has its own"},
-    {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods and the scene's backend"},
+    {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods, of the scene's backend and cpu, and of those on a GPU where there is one"},
     {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
      .help = "a published table again, beside its figures: paper003-spheres, paper003-raycast, paper003-substeps, paper002-passes"},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},

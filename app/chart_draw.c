@@ -67,8 +67,8 @@ static bool put_front(const ChartRows *rows, FILE *gnuplot)
         if (!drawn(row) || !chart_on_front(rows, i))
             continue;
         any = true;
-        fprintf(gnuplot, "%.9g %.9g \"%s, %zu, %s\"\n", row->seconds, row->error, row->method, row->particles,
-                row->step);
+        fprintf(gnuplot, "%.9g %.9g \"%s, %s, %zu, %s\"\n", row->seconds, row->error, row->method,
+                row->backend, row->particles, row->step);
     }
     fputs("EOD\n", gnuplot);
     return any;
@@ -99,7 +99,7 @@ static void plot_order(const ChartRows *rows, const int opener[], int lines, FIL
     for (int l = 0; l < lines; l++) {
         char title[128];
         const ChartRow *row = &rows->row[opener[l]];
-        snprintf(title, sizeof title, "%s, %s steps: order %.2f", row->method,
+        snprintf(title, sizeof title, "%s, %s, %s steps: order %.2f", row->method, row->backend,
                  row->fineness ? "fine" : "long", order_of(rows, opener[l]));
         fprintf(gnuplot, "%s$line%d using 3:2 with linespoints lw 1.5 pt %d lt %d title ", l ? ", " : "", l,
                 row->fineness ? 6 : 7, l + 1);
@@ -116,8 +116,36 @@ static void plot_floor(double floor, FILE *gnuplot)
     fputc('\n', gnuplot);
 }
 
-bool chart_draw(const ChartRows *rows, const char *title, const char *error_name, double floor,
-                const char *path, Error *error)
+/* The title, and below it smaller what is to be noted. */
+static void put_title(const ChartWords *words, FILE *gnuplot)
+{
+    fputs("set multiplot layout 1,2 title ", gnuplot);
+    chart_quote(gnuplot, words->title);
+    fputs(" noenhanced", gnuplot);
+    if (*words->note) {
+        fputs("\nset tmargin 2\nset label 99 ", gnuplot);
+        chart_quote(gnuplot, words->note);
+        fputs(" at screen 0.5,0.945 center noenhanced font ',8' textcolor '#5a6672'", gnuplot);
+    }
+    fputc('\n', gnuplot);
+}
+
+static void plot_both(const ChartRows *rows, const int opener[], int lines, bool front, double floor,
+                      FILE *gnuplot)
+{
+    if (lines == 0) {
+        fputs("unset logscale\nset label 1 'no error more than 0' at graph 0.1,0.5\nplot 0 notitle\n",
+              gnuplot);
+        return;
+    }
+    plot_cost(rows, opener, lines, front, gnuplot);
+    plot_floor(floor, gnuplot);
+    fputs("unset label 99\n", gnuplot);
+    plot_order(rows, opener, lines, gnuplot);
+    plot_floor(floor, gnuplot);
+}
+
+bool chart_draw(const ChartRows *rows, const ChartWords *words, double floor, const char *path, Error *error)
 {
     Chart chart = {.gnuplot = NULL};
     int opener[LINES_MAX];
@@ -126,22 +154,14 @@ bool chart_draw(const ChartRows *rows, const char *title, const char *error_name
     FILE *gnuplot = chart.gnuplot;
     const int lines = put_lines(rows, gnuplot, opener);
     const bool front = lines > 0 && put_front(rows, gnuplot);
-    fputs(
-        "set logscale xy\nset key below noenhanced\nset format xy '%g'\nset mxtics 10\nset offsets graph 0.02,graph 0.15,graph 0.1,graph 0.1\nset multiplot layout 1,2 title ",
-        gnuplot);
-    chart_quote(gnuplot, title);
-    fputs(" noenhanced\nset ylabel ", gnuplot);
-    chart_quote(gnuplot, error_name);
+    fputs("set logscale xy\nset key below noenhanced\nset format xy '%g'\nset mxtics 10\n"
+          "set offsets graph 0.02,graph 0.15,graph 0.1,graph 0.1\n",
+          gnuplot);
+    put_title(words, gnuplot);
+    fputs("set ylabel ", gnuplot);
+    chart_quote(gnuplot, words->error);
     fputs(" noenhanced\n", gnuplot);
-    if (lines > 0) {
-        plot_cost(rows, opener, lines, front, gnuplot);
-        plot_floor(floor, gnuplot);
-        plot_order(rows, opener, lines, gnuplot);
-        plot_floor(floor, gnuplot);
-    } else {
-        fputs("unset logscale\nset label 1 'no error more than 0' at graph 0.1,0.5\nplot 0 notitle\n",
-              gnuplot);
-    }
+    plot_both(rows, opener, lines, front, floor, gnuplot);
     fputs("unset multiplot\n", gnuplot);
     return chart_end(&chart, error);
 }

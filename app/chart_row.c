@@ -8,7 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char HEAD[] = "key,role,method,backend,step,fineness,spacing,particles,seconds,error,series\n";
+static const char HEAD[] =
+    "key,role,method,backend,step,fineness,spacing_m,particles,seconds_a_simulated_second,error,series\n";
+static const char *const roles[] = {"point", "reference", "floor"};
 
 /* What every chart's file begins with, whatever else its rows hold. */
 static const char OURS[] = "key,role,method,backend,";
@@ -20,14 +22,39 @@ static bool read_number(const char *text, double *number)
     return end != text && !*end;
 }
 
-static bool parse_series(char *text, ChartRow *row)
+/* "1 2 3": how many, or -1. */
+static int parse_numbers(char *text, double numbers[CHART_QUANTITIES])
 {
     int read = 0;
     for (char *cell = strsep(&text, " "); cell; cell = strsep(&text, " "), read++)
-        if (read == CHART_TIMES * CHART_QUANTITIES ||
-            !read_number(cell, &row->series[read / CHART_QUANTITIES][read % CHART_QUANTITIES]))
+        if (read == CHART_QUANTITIES || !read_number(cell, &numbers[read]))
+            return -1;
+    return read;
+}
+
+/* "1 2 3;1.1 2 3;...": as many times as there are, with as many numbers each; or nothing, of a case. */
+static bool parse_series(char *text, ChartRow *row)
+{
+    int times = 0;
+    if (!*text)
+        return true;
+    for (char *cell = strsep(&text, ";"); cell; cell = strsep(&text, ";"), times++) {
+        const int numbers = times < CHART_TIMES ? parse_numbers(cell, row->series[times]) : -1;
+        if (numbers < 1 || (times > 0 && numbers != row->quantities))
             return false;
-    return read == CHART_TIMES * CHART_QUANTITIES;
+        row->quantities = numbers;
+    }
+    return times == CHART_TIMES;
+}
+
+static bool parse_role(const char *name, ChartRole *role)
+{
+    for (int r = CHART_POINT; r <= CHART_FLOOR; r++)
+        if (strcmp(roles[r], name) == 0) {
+            *role = (ChartRole)r;
+            return true;
+        }
+    return false;
 }
 
 static bool copy_name(char name[NAME_SIZE], const char *cell)
@@ -40,7 +67,7 @@ static bool parse_row(char *line, ChartRow *row)
 {
     enum { CELLS = 10 };
     char *cells[CELLS], *at = line, *end;
-    double role, fineness, particles;
+    double fineness, particles;
     if (!line[strcspn(line, "\n")])
         return false;
     line[strcspn(line, "\n")] = '\0';
@@ -50,16 +77,14 @@ static bool parse_row(char *line, ChartRow *row)
             return false;
     }
     *row = (ChartRow){.key = strtoull(cells[0], &end, 16)};
-    const bool ok = end == cells[0] + 16 && !*end && read_number(cells[1], &role) &&
+    const bool ok = end == cells[0] + 16 && !*end && parse_role(cells[1], &row->role) &&
                     copy_name(row->method, cells[2]) && copy_name(row->backend, cells[3]) &&
                     copy_name(row->step, cells[4]) && read_number(cells[5], &fineness) &&
                     read_number(cells[6], &row->spacing) && read_number(cells[7], &particles) &&
                     read_number(cells[8], &row->seconds) && read_number(cells[9], &row->error) &&
                     parse_series(at, row);
-    if (!ok || !(role >= CHART_POINT && role <= CHART_FLOOR) || !(fineness >= 0 && fineness < 100) ||
-        !(particles >= 0 && particles < 1e15))
+    if (!ok || !(fineness >= 0 && fineness < 100) || !(particles >= 0 && particles < 1e15))
         return false;
-    row->role = (ChartRole)role;
     row->fineness = (int)fineness;
     row->particles = (size_t)particles;
     return true;
@@ -124,10 +149,12 @@ void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan)
 /* The series to the last bit: the errors of a chart that goes on are the same. */
 static void print_row(const ChartRow *row, FILE *file)
 {
-    fprintf(file, "%016" PRIx64 ",%d,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,", row->key, (int)row->role, row->method,
-            row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds, row->error);
-    for (int i = 0; i < CHART_TIMES * CHART_QUANTITIES; i++)
-        fprintf(file, "%s%.17g", i ? " " : "", row->series[i / CHART_QUANTITIES][i % CHART_QUANTITIES]);
+    fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,", row->key, roles[row->role],
+            row->method, row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds,
+            row->error);
+    for (int t = 0; t < CHART_TIMES && row->quantities > 0; t++)
+        for (int q = 0; q < row->quantities; q++)
+            fprintf(file, "%s%.17g", q ? " " : t ? ";" : "", row->series[t][q]);
     fputc('\n', file);
 }
 
@@ -166,25 +193,36 @@ const ChartRow *chart_rows_reference(const ChartRows *rows)
     return NULL;
 }
 
-/* Of a few quantities that belong together: rms distance over the greatest range of one of them. */
-static double distance_of(const ChartRow *row, const ChartRow *reference, int first, int last)
+/* Of the numbers of one metric: rms distance over the greatest range of one of them. */
+static double distance_of(const ChartRow *row, const ChartRow *reference, int first, int count)
 {
     double sum2 = 0, range = 0;
-    for (int q = first; q <= last; q++) {
+    int times = 0;
+    for (int q = first; q < first + count; q++) {
         double low = INFINITY, high = -INFINITY;
         for (int t = 0; t < CHART_TIMES; t++) {
-            sum2 += pow(row->series[t][q] - reference->series[t][q], 2) / CHART_TIMES;
-            low = fmin(low, reference->series[t][q]);
+            const double off = row->series[t][q] - reference->series[t][q];
+            sum2 += isfinite(off) ? off * off : 0;
+            times += isfinite(off);
+            low = fmin(low, reference->series[t][q]); /* which passes over NaN */
             high = fmax(high, reference->series[t][q]);
         }
         range = fmax(range, high - low);
     }
-    return range > 0 ? sqrt(sum2) / range : 0;
+    if (times == 0)
+        return (double)NAN;
+    return range > 0 ? sqrt(sum2 * count / times) / range : 0;
 }
 
-double chart_distance(const ChartRow *row, const ChartRow *reference)
+double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference)
 {
-    return 0.5 * (distance_of(row, reference, 0, 2) + distance_of(row, reference, 3, 3));
+    double sum = 0;
+    for (int m = 0, first = 0; m < rows->metric_count; m++) {
+        const int numbers = metric_kinds[rows->metrics[m]].numbers;
+        sum += distance_of(row, reference, first, numbers);
+        first += numbers;
+    }
+    return sum / rows->metric_count;
 }
 
 static bool is_floor(const ChartRow *row)
@@ -199,10 +237,10 @@ double chart_rows_compare(ChartRows *rows)
     for (int i = 0; i < rows->count; i++) {
         ChartRow *row = &rows->row[i];
         if (reference)
-            row->error = isfinite(row->seconds) ? chart_distance(row, reference) : (double)NAN;
+            row->error = isfinite(row->seconds) ? chart_distance(rows, row, reference) : (double)NAN;
         for (int k = 0; k < i && is_floor(row); k++)
             if (is_floor(&rows->row[k])) /* fmax takes the number of a NaN's two */
-                floor = fmax(floor, chart_distance(row, &rows->row[k]));
+                floor = fmax(floor, chart_distance(rows, row, &rows->row[k]));
     }
     return floor;
 }

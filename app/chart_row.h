@@ -1,14 +1,15 @@
 /* One run of `slosh chart`: with which settings, how long it took, how far off it was. Rows are kept in a CSV
-   file, so that a run already there is not repeated. */
+   file, so that a run already there is not repeated; its last column has, of a scene, the numbers of the
+   metrics at CHART_TIMES even times: numbers parted by blanks, times by semicolons. */
 #ifndef SLOSH_CHART_ROW_H
 #define SLOSH_CHART_ROW_H
 
-#include "sim/error.h"
-#include "sim/world_def.h"
+#include "app/metric_list.h"
+#include "app/scene.h"
 
 #include <stdio.h>
 
-enum { CHART_TIMES = 40, CHART_QUANTITIES = 4, CHART_ROWS_MAX = 256 };
+enum { CHART_TIMES = 40, CHART_QUANTITIES = SCENE_METRICS_MAX * METRIC_NUMBERS, CHART_ROWS_MAX = 256 };
 
 /* Why a run is made. */
 typedef enum ChartRole {
@@ -28,11 +29,12 @@ typedef struct ChartRow {
     double seconds;    /* of computing, a simulated second; NaN: it broke */
     double error;      /* NaN: not known */
     char failure[128]; /* why it broke; "" where it did not, and in rows that were read */
-    double series[CHART_TIMES]
-                 [CHART_QUANTITIES]; /* of a scene: centre x y z, kinetic energy, at even times */
+    int quantities; /* of a scene: the numbers of its metrics, one after the other, at even times; else 0 */
+    double series[CHART_TIMES][CHART_QUANTITIES];
 } ChartRow;
 
 typedef struct ChartRows {
+    int metric_count, metrics[SCENE_METRICS_MAX]; /* that a scene's runs are compared by, as Scene has them */
     int count;
     ChartRow row[CHART_ROWS_MAX];
 } ChartRows;
@@ -56,9 +58,9 @@ const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key);
 /* The reference among them, or NULL: none, or it broke. */
 const ChartRow *chart_rows_reference(const ChartRows *rows);
 
-/* rms over time of the distance of two rows' series, each quantity over its range in `reference`, and the
-   mean of the two quantities: centre of mass and kinetic energy. */
-double chart_distance(const ChartRow *row, const ChartRow *reference);
+/* How far a row is from the reference: the mean over the metrics of rms over time over the metric's range in
+   `reference`; times at which either has none are left out. NaN where a metric was at no time in both. */
+double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference);
 
 /* Fills the errors of the points from the one reference among them; the spread of the floor's, the greatest
    distance of two of them, or NaN. */
@@ -67,9 +69,13 @@ double chart_rows_compare(ChartRows *rows);
 /* Whether no other point is both cheaper and nearer. */
 bool chart_on_front(const ChartRows *rows, int row);
 
-/* The two charts: error over cost with the front, error over spacing with the order. `error_name` is what the
-   error is of, `floor` the spread (NaN: none). */
-bool chart_draw(const ChartRows *rows, const char *title, const char *error_name, double floor,
-                const char *path, Error *error);
+typedef struct ChartWords {
+    const char *title, *error; /* what the error is of */
+    const char *note;          /* below the title; "" */
+} ChartWords;
+
+/* The two charts: error over cost with the front, error over spacing with the order. `floor`: the spread
+   (NaN: none). */
+bool chart_draw(const ChartRows *rows, const ChartWords *words, double floor, const char *path, Error *error);
 
 #endif

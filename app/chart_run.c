@@ -24,7 +24,8 @@ static bool hash_scene(const Scene *scene, uint64_t *h, Error *error)
     char *text = scene_print_text(scene);
     for (const char *line = text; line && *line;) {
         const size_t size = strcspn(line, "\n");
-        if (strncmp(line, "title ", 6) != 0 && strncmp(line, "view.", 5) != 0)
+        if (strncmp(line, "title ", 6) != 0 && strncmp(line, "view.", 5) != 0 &&
+            strncmp(line, "hand.", 5) != 0)
             *h = hash(*h, line, size);
         line += size + (line[size] == '\n');
     }
@@ -68,7 +69,7 @@ static bool job_settings(const ChartSubject *subject, const ChartJob *job, JobSe
 {
     *settings = (JobSettings){.all = *subject->settings};
     bool ok = add(settings, error, "solver.method=%s", job->method) &&
-              (!job->backend || add(settings, error, "solver.backend=%s", job->backend)) &&
+              add(settings, error, "solver.backend=%s", job->backend) &&
               load(subject, job, settings, scene, error);
     if (!ok)
         return false;
@@ -109,54 +110,91 @@ bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scen
     return hash_scene(scene, &row->key, error);
 }
 
-static void note_state(World *world, double at[CHART_QUANTITIES])
+/* A scene on its way through time. */
+typedef struct SceneRun {
+    const Scene *scene;
+    World *world;
+    MetricState state;
+    WorldInfo info;
+    double before[CHART_QUANTITIES], now[CHART_QUANTITIES]; /* at `before_time` and at the present, s */
+    double before_time;
+    double spent;  /* s of computing */
+    Error failure; /* why it broke */
+} SceneRun;
+
+/* The metrics of the present state, one after the other; how many numbers, or -1 without memory. */
+static int note_state(SceneRun *run, double at[CHART_QUANTITIES])
 {
-    WorldSums sums;
-    world_sums(world, &sums);
-    memcpy(at, sums.centre, sizeof sums.centre);
-    at[3] = sums.kinetic_energy;
+    const Scene *scene = run->scene;
+    int used = 0;
+    if (!metric_state_read(&run->state, &scene->world, run->world, scene->metrics, scene->metric_count))
+        return -1;
+    for (int m = 0; m < scene->metric_count; m++) {
+        const MetricKind *metric = &metric_kinds[scene->metrics[m]];
+        metric->of(&run->state, at + used);
+        used += metric->numbers;
+    }
+    return used;
+}
+
+/* Steps until a state at or after `due`, and leaves the one before it in `before`: all of them need not be
+   measured, only what comes within a step and a half of it. False when it broke or a signal came. */
+static bool advance_to(SceneRun *run, double due, double until, Progress *progress, double done, double part)
+{
+    double length = 0;
+    while (run->info.time < due - 1e-9) {
+        const double from = run->info.time;
+        if (length == 0 || from + 1.5 * length >= due) {
+            run->before_time = from;
+            note_state(run, run->before);
+        }
+        const double begin = wall_ms();
+        const bool ok = world_step(run->world, NULL, &run->failure);
+        world_sound(run->world); /* waits for a GPU, which is what is timed */
+        run->spent += (wall_ms() - begin) / 1000;
+        world_info(run->world, &run->info);
+        length = run->info.time - from;
+        progress_update(progress, done + part * fmin(run->info.time / until, 1));
+        if (!ok || interrupted())
+            return false;
+    }
+    return true;
 }
 
 /* Samples at k time / (CHART_TIMES - 1), on straight lines between the states around them. */
+static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *progress, double done,
+                       double part, Error *error)
+{
+    for (int k = 0; k < CHART_TIMES; k++) {
+        const double due = until * k / (CHART_TIMES - 1);
+        if (!advance_to(run, due, until, progress, done, part))
+            return !interrupted() || error_set(error, "stopped");
+        row->quantities = note_state(run, run->now);
+        if (row->quantities < 0)
+            return error_set(error, "no memory to read the particles; use a larger spacing");
+        const double length = run->info.time - run->before_time;
+        const double w =
+            length > 0 && run->before_time < due ? fmin((due - run->before_time) / length, 1) : 1;
+        for (int q = 0; q < row->quantities; q++)
+            row->series[k][q] = w < 1 ? run->before[q] + w * (run->now[q] - run->before[q]) : run->now[q];
+    }
+    row->seconds = run->spent / until;
+    return true;
+}
+
 static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress *progress, double done,
                       double part, Error *error)
 {
-    World *world = world_create(&scene->world, error);
-    double before[CHART_QUANTITIES] = {0}, now[CHART_QUANTITIES], from = 0, spent = 0;
-    bool ok = true;
-    if (!world)
+    SceneRun run = {.scene = scene, .world = world_create(&scene->world, error)};
+    if (!run.world)
         return false;
-    WorldInfo info;
-    world_info(world, &info);
-    row->particles = info.count;
-    note_state(world, now);
-    for (int k = 0; ok && k < CHART_TIMES;) {
-        const double due = until * k / (CHART_TIMES - 1);
-        if (info.time >= due - 1e-9) {
-            const double w = info.time > from ? fmin((due - from) / (info.time - from), 1) : 1;
-            for (int q = 0; q < CHART_QUANTITIES; q++)
-                row->series[k][q] = k == 0 ? now[q] : before[q] + w * (now[q] - before[q]);
-            k++;
-            continue;
-        }
-        Error broke = {{0}};
-        const double begin = wall_ms();
-        ok = world_step(world, NULL, &broke);
-        spent += (wall_ms() - begin) / 1000;
-        snprintf(row->failure, sizeof row->failure, "%.127s", broke.message);
-        from = info.time;
-        memcpy(before, now, sizeof before);
-        world_info(world, &info);
-        note_state(world, now);
-        progress_update(progress, done + part * fmin(info.time / until, 1));
-        if (interrupted()) {
-            world_destroy(world);
-            return error_set(error, "stopped");
-        }
-    }
-    world_destroy(world);
-    row->seconds = ok ? spent / until : (double)NAN;
-    return true;
+    world_info(run.world, &run.info);
+    row->particles = run.info.count;
+    const bool ok = sample_all(&run, until, row, progress, done, part, error);
+    snprintf(row->failure, sizeof row->failure, "%.127s", run.failure.message);
+    metric_state_free(&run.state);
+    world_destroy(run.world);
+    return ok;
 }
 
 static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,

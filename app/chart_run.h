@@ -16,10 +16,10 @@ typedef struct ChartSubject {
 /* What differs from run to run. */
 typedef struct ChartJob {
     ChartRole role;
-    const char *method, *backend; /* backend NULL: the scene's own */
-    double coarsening;            /* times the scene's spacing */
-    int fineness;                 /* 0: steps as long as the scene's, or as its number says; 1: half of it */
-    double jitter;                /* spacings; 0: as the scene has it */
+    const char *method, *backend;
+    double coarsening; /* times the scene's spacing */
+    int fineness;      /* 0: steps as long as the scene's, or as its number says; 1: half of it */
+    double jitter;     /* spacings; 0: as the scene has it */
 } ChartJob;
 
 /* The scene of that job, with row's key, method, backend, step and spacing. */

@@ -1,6 +1,7 @@
 #include "app/cmd.h"
 #include "app/export.h"
 #include "app/headless.h"
+#include "app/metric_list.h"
 #include "app/scene_keys.h"
 #include "render/view.h"
 #include "sim/kernel.h"
@@ -82,6 +83,10 @@ static void print_lists(void)
     for (int s = 0; s < SCALAR_COUNT; s++)
         print_row(scalar_name((Scalar)s), scalar_unit((Scalar)s));
     print_named("exports", export_kinds());
+    printf("metrics of a scene, which chart compares\n");
+    for (const MetricKind *metric = metric_kinds; metric->name; metric++)
+        printf("  %-17s %s%s%s%s\n", metric->name, metric->help, *metric->unit ? " (" : "", metric->unit,
+               *metric->unit ? ")" : "");
     printf("motions of the box\n");
     for (int m = 0; m < MOTION_KIND_COUNT; m++)
         print_row(motion_name((MotionKind)m), motion_help((MotionKind)m));

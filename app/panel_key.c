@@ -176,6 +176,7 @@ void panel_key(Ui *ui, const PanelKey *row, PanelEvents *events)
         break;
     case KEY_TEXT:
     case KEY_AXES:
+    case KEY_NAMES:
     case KEY_MAPPING:
     case KEY_VARIANT:
     case KEY_LIST:

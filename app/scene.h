@@ -12,6 +12,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+enum { SCENE_METRICS_MAX = 8 };
+
 typedef struct Scene {
     char path[1024]; /* as found; what messages name */
     char title[128];
@@ -19,6 +21,9 @@ typedef struct Scene {
     ViewDef view;
     bool
         realtime; /* the window simulates as many frames as the wall clock asks for, else as many as it can */
+    int metric_count;
+    int metrics[SCENE_METRICS_MAX]; /* what `slosh chart` compares: places in metric_kinds (app/metric_list.h)
+                                     */
 } Scene;
 
 enum { SCENE_SETTINGS_MAX = 64, SCENE_BYTES_MAX = 1 << 20 };

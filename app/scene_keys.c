@@ -1,5 +1,6 @@
 #include "app/scene_keys.h"
 
+#include "app/metric_list.h"
 #include "app/scene_lists.h"
 
 #include <math.h>
@@ -47,6 +48,11 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
 #define AXES(PATH, AT, HELP)                                                                                 \
     {                                                                                                        \
         .path = PATH, .type = KEY_AXES, .unit = "", PLACE(AT), .help = HELP                                  \
+    }
+#define NAMES(PATH, LO, HI, CHOICES, AT, COUNT, HELP)                                                        \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_NAMES, .unit = "", BOUNDS(LO, HI), .choice = CHOICES, .offset = AT,        \
+        .aux = COUNT, .help = HELP                                                                           \
     }
 #define INTEGER(PATH, FLAGS, LO, HI, AT, HELP)                                                               \
     {                                                                                                        \
@@ -243,6 +249,9 @@ static const Key keys[] = {
     LIST("motion", 0, 0, MOTIONS_MAX, WORLD(motions), WORLD(motion_count), Motion, NULL,
          "how the box moves; all together, turns from the outermost to the innermost"),
     MOTION_LIST(MOTION_ROWS)
+
+    NAMES("metrics", 1, SCENE_METRICS_MAX, metric_choice, offsetof(Scene, metrics), offsetof(Scene, metric_count),
+          "what slosh chart compares of two runs of the scene, [front, kinetic_energy] and so on; slosh info explains them"),
 
     MAPPING("view", "the picture"),
     CHOICE("view.kind", L, view_choice, VIEW(kind), "how the fluid is drawn"),

@@ -18,6 +18,7 @@ typedef enum KeyType {
     KEY_CHOICE,  /* a name of a list */
     KEY_VEC3,    /* double[3] */
     KEY_AXES,    /* some of x, y, z: bool[3] */
+    KEY_NAMES,   /* some names of a list, each once: int[max], their places in it, and their count at `aux` */
     KEY_COLOR,   /* sRGB 0..1 in the file, linear in the Scene: float[3] or double[3] */
     KEY_CURVE,   /* a number or rows [s, number]: double, and a TimeTable at `aux` */
     KEY_RANGE    /* "auto" or [low, high]: double[2] and a bool */
@@ -38,14 +39,14 @@ typedef struct Key {
     KeyType type;
     unsigned flags;
     const char *unit; /* "" without */
-    double min, max;  /* of each component; of a text or a list: its length; equal: not bounded */
+    double min, max;  /* of each component; of a text, a list or names: its length; equal: not bounded */
     size_t offset;    /* of the field in the Scene or, under "[]", in the innermost list's element */
-    size_t aux;       /* offset of what goes with it: a list's count (int), a variant's kind (int), a range's
-                         "auto" (bool); a curve's TimeTable; a mapping's bool that is false once the mapping is
-                         there */
-    size_t size;      /* of a text's field, of a list's element: bytes */
-    int variant;      /* value of the kind */
-    const char *(*choice)(int index);       /* names of a KEY_CHOICE, NULL after the last */
+    size_t aux; /* offset of what goes with it: the count of a list or of names (int), a variant's kind (int),
+                   a range's "auto" (bool); a curve's TimeTable; a mapping's bool that is false once the
+                   mapping is there */
+    size_t size;                            /* of a text's field, of a list's element: bytes */
+    int variant;                            /* value of the kind */
+    const char *(*choice)(int index);       /* names of a KEY_CHOICE or KEY_NAMES, NULL after the last */
     void (*init)(void *element, int index); /* list: defaults of an element */
     const char *fallback; /* the default in words where it isn't one constant; NULL: as in scene_default() */
     const char *help;     /* one line */

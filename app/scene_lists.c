@@ -1,5 +1,7 @@
 #include "app/scene_lists.h"
 
+#include "app/metric_list.h"
+
 #include "app/scene_keys.h"
 #include "render/colormap.h"
 #include "render/raycast_names.h"
@@ -181,4 +183,5 @@ void solid_init(void *element, int index)
 void scene_default(Scene *scene)
 {
     *scene = (Scene){.world = world_def_default(), .view = view_def_default(), .realtime = true};
+    scene->metric_count = metric_defaults(scene->metrics);
 }

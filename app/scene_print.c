@@ -41,6 +41,15 @@ static void axes_text(const bool axes[3], char *text, size_t size)
     snprintf(text + used, size - (size_t)used, "]");
 }
 
+static void names_text(const Key *key, const int *places, int count, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "[");
+    for (int k = 0; k < count && used < size; k++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", k ? ", " : "", key->choice(places[k]));
+    if (used < size)
+        snprintf(text + used, size - used, "]");
+}
+
 void key_value_text(const Key *key, const void *base, char *text, size_t size)
 {
     *text = 0;
@@ -74,6 +83,10 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
     case KEY_AXES:
         axes_text((const bool *)field, text, size);
         break;
+    case KEY_NAMES:
+        names_text(key, (const int *)(const void *)field,
+                   *(const int *)(const void *)((const char *)base + key->aux), text, size);
+        break;
     case KEY_COLOR:
         color_text(key, field, text, size);
         break;
@@ -93,7 +106,7 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
 void key_range_text(const Key *key, char *text, size_t size)
 {
     *text = 0;
-    if (key->type == KEY_CHOICE) {
+    if (key->type == KEY_CHOICE || key->type == KEY_NAMES) {
         size_t used = 0;
         const char *name;
         for (int i = 0; (name = key->choice(i)) && used < size; i++)
@@ -172,6 +185,7 @@ void scene_keys_print(FILE *file)
         [KEY_CHOICE] = "name",
         [KEY_VEC3] = "[x, y, z]",
         [KEY_AXES] = "list of axes",
+        [KEY_NAMES] = "list of names",
         [KEY_COLOR] = "[r, g, b]",
         [KEY_RANGE] = "[low, high]",
     };

@@ -141,6 +141,50 @@ static bool read_choice(const Value *value)
                       near.best ? "'? " : "", names);
 }
 
+/* The place of a node's name in the list; -1 with the reason. */
+static int name_of(const Value *value, const Node *node, const char *names)
+{
+    const char *name, *word = node->kind == NODE_SCALAR && node->text ? node->text : "";
+    Suggestion near = suggest_for(word);
+    for (int i = 0; (name = value->key->choice(i)); i++) {
+        suggest_offer(&near, name);
+        if (strcmp(name, word) == 0)
+            return i;
+    }
+    tree_error(value->tree, node, value->error, "%s cannot have '%.60s'; %s%s%sits names are: %s",
+               value->shown, word, near.best ? "did you mean '" : "", near.best ? near.best : "",
+               near.best ? "'? " : "", names);
+    return -1;
+}
+
+static bool read_names(const Value *value, int *count)
+{
+    const Node *list = value->node;
+    char names[512];
+    int *places = (int *)value->field;
+    key_range_text(value->key, names, sizeof names);
+    if (list->kind != NODE_SEQUENCE)
+        return tree_error(value->tree, list, value->error,
+                          "%s must be a list, such as [%s]; its names are: %s", value->shown,
+                          value->key->choice(0), names);
+    const size_t entries = node_count(list);
+    if ((double)entries < value->key->min || (double)entries > value->key->max)
+        return tree_error(value->tree, list, value->error, "%s has %zu entries; it must have %g to %g",
+                          value->shown, entries, value->key->min, value->key->max);
+    *count = 0;
+    for (const Node *node = list->first; node; node = node->next) {
+        const int place = name_of(value, node, names);
+        if (place < 0)
+            return false;
+        for (int k = 0; k < *count; k++)
+            if (places[k] == place)
+                return tree_error(value->tree, node, value->error, "%s has '%s' twice; name it once",
+                                  value->shown, node->text);
+        places[(*count)++] = place;
+    }
+    return true;
+}
+
 static bool read_numbers(const Value *value, size_t count, const char *wanted, double out[])
 {
     if (value->node->kind != NODE_SEQUENCE || node_count(value->node) != count)
@@ -261,6 +305,8 @@ bool value_read(const Tree *tree, const Key *key, const Node *node, const char *
         return read_vec3(&value);
     case KEY_AXES:
         return read_axes(&value);
+    case KEY_NAMES:
+        return read_names(&value, (int *)(base + key->aux));
     case KEY_COLOR:
         return read_color(&value);
     case KEY_RANGE:

@@ -9,7 +9,8 @@
 /* Keys that change no bit of a run. */
 static bool is_idle(const char *line)
 {
-    static const char *const idle[] = {"title ", "view.", "solver.threads ", "solver.step.realtime "};
+    static const char *const idle[] = {"title ", "view.", "solver.threads ", "solver.step.realtime ",
+                                       "metrics "};
     for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
         if (strncmp(line, idle[i], strlen(idle[i])) == 0)
             return true;

@@ -16,6 +16,8 @@ static ChartRow *add(ChartRole role, double spacing, double seconds, double off)
     snprintf(row->method, NAME_SIZE, "wcsph");
     snprintf(row->backend, NAME_SIZE, "cpu");
     snprintf(row->step, NAME_SIZE, "number 0.3");
+    row->quantities = 4;
+    rows.metric_count = metric_defaults(rows.metrics);
     row->error = off;
     rows.count++;
     return row;
@@ -50,6 +52,30 @@ static void distances_are_over_the_range(void **state)
     assert_null(chart_rows_reference(&rows));
 }
 
+/* Metrics count alike, whatever their units; what a metric has at no time, or one run alone, is left out. */
+static void metrics_count_alike(void **state)
+{
+    (void)state;
+    rows.count = 0;
+    ChartRow *row = add(CHART_POINT, 0.1, 1, 0), *reference = add(CHART_REFERENCE, 0.02, 9, 0);
+    set_series(row, 0);
+    set_series(reference, 0);
+    for (int t = 0; t < CHART_TIMES; t++)
+        row->series[t][3] += 1; /* of 8 */
+    assert_true(fabs(chart_distance(&rows, row, reference) - 0.5 / 8) < 1e-12);
+    rows.metrics[0] = 1;
+    rows.metric_count = 1; /* kinetic energy alone: the first number */
+    for (int t = 0; t < CHART_TIMES; t++)
+        row->series[t][0] += 0.5; /* of 2 */
+    assert_true(fabs(chart_distance(&rows, row, reference) - 0.25) < 1e-12);
+    for (int t = 0; t < CHART_TIMES / 2; t++)
+        row->series[t][0] = (double)NAN;
+    assert_true(fabs(chart_distance(&rows, row, reference) - 0.25) < 1e-12);
+    for (int t = 0; t < CHART_TIMES; t++)
+        row->series[t][0] = (double)NAN;
+    assert_true(isnan(chart_distance(&rows, row, reference)));
+}
+
 static void nothing_on_the_front_is_beaten(void **state)
 {
     (void)state;
@@ -63,6 +89,43 @@ static void nothing_on_the_front_is_beaten(void **state)
     const bool front[] = {true, false, true, false, false, false};
     for (int i = 0; i < rows.count; i++)
         assert_true(chart_on_front(&rows, i) == front[i]);
+}
+
+/* Lines of error ~ spacing^2 and ~ spacing, what is best for its time with its settings, the floor, the
+ * words. */
+static void the_chart_says_its_orders(void **state)
+{
+    (void)state;
+    char file_path[] = "/tmp/slosh_chart_XXXXXX.svg";
+    static char svg[1 << 20];
+    const ChartWords words = {"A title", "error: front", "backend x left out: none here"};
+    const int file = mkstemps(file_path, 4);
+    assert_true(file >= 0);
+    close(file);
+    rows.count = 0;
+    for (int i = 0; i < 3; i++) {
+        const double spacing = 0.1 / (1 << i);
+        add(CHART_POINT, spacing, pow(8, i), spacing * spacing)->particles = 1000 + (size_t)i;
+        snprintf(add(CHART_POINT, spacing, pow(8, i), spacing)->method, NAME_SIZE, "mueller");
+    }
+    assert_true(chart_draw(&rows, &words, 1e-4, file_path, &error));
+    FILE *in = fopen(file_path, "r");
+    assert_non_null(in);
+    svg[fread(svg, 1, sizeof svg - 1, in)] = 0;
+    fclose(in);
+    unlink(file_path);
+    const char *const there[] = {"wcsph, cpu, long steps: order 2.00",
+                                 "mueller, cpu, long steps: order 1.00",
+                                 "wcsph, cpu, 1002, number 0.3",
+                                 "runs that differ by 1e-6",
+                                 "best for its time",
+                                 "A title",
+                                 "backend x left out: none here",
+                                 "error: front"};
+    for (size_t i = 0; i < sizeof there / sizeof *there; i++)
+        if (!strstr(svg, there[i]))
+            fail_msg("the chart does not say '%s'", there[i]);
+    assert_null(strstr(svg, "mueller, cpu, 0, number")); /* it is behind at every time: no label */
 }
 
 static char path[32];
@@ -132,7 +195,7 @@ static void half_a_row_is_none(void **state)
         assert_memory_equal(again.row[0].series, rows.row[0].series, sizeof rows.row[0].series);
     }
     for (size_t at = second; at < size; at++)
-        if (strchr(", ", whole[at]) && strncmp(whole + at, " 0.3", 4) != 0) { /* that is in a name */
+        if (strchr(", ;", whole[at]) && strncmp(whole + at, " 0.3", 4) != 0) { /* that is in a name */
             const char right = whole[at];
             whole[at] = 'x';
             write_text(whole, size);
@@ -186,6 +249,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distances_are_over_the_range),
+        cmocka_unit_test(metrics_count_alike),
+        cmocka_unit_test(the_chart_says_its_orders),
         cmocka_unit_test(nothing_on_the_front_is_beaten),
         cmocka_unit_test_setup_teardown(a_file_keeps_them, make_file, remove_file),
         cmocka_unit_test_setup_teardown(half_a_row_is_none, make_file, remove_file),

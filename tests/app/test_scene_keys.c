@@ -164,15 +164,17 @@ static void every_name_of_a_choice_is_taken(void **state)
     static Scene scene;
     Error error;
     for (int i = 0; i < count; i++)
-        for (int c = 0; keys[i].type == KEY_CHOICE && keys[i].choice(c); c++) {
-            char path[128], setting[256], text[128];
+        for (int c = 0; keys[i].choice && keys[i].choice(c); c++) {
+            const bool list = keys[i].type == KEY_NAMES;
+            char path[128], setting[256], text[128], name[64];
             path_in_scene(keys[i].path, path);
-            snprintf(setting, sizeof setting, "%s=%s", path, keys[i].choice(c));
+            snprintf(name, sizeof name, list ? "[%s]" : "%s", keys[i].choice(c));
+            snprintf(setting, sizeof setting, "%s=%s", path, name);
             if (!parse_set(everything, setting, &scene, &error))
                 fail_msg("%s", error.message);
             const bool of_solid = strncmp(path, "solids", 6) == 0;
             key_value_text(&keys[i], of_solid ? (void *)&scene.world.solids[0] : &scene, text, sizeof text);
-            assert_string_equal(text, keys[i].choice(c));
+            assert_string_equal(text, name);
             choices++;
         }
     assert_true(choices > 10);

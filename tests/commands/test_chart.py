@@ -23,6 +23,7 @@ class Chart(command.CommandTest):
         self.assertEqual(first.returncode, 0, first.stderr)
         self.assertTrue('the finest run is the reference' in self.text('out.svg'))
         self.assertTrue('differ by 1e-6' in self.text('out.svg'))
+        self.assertRegex(first.stderr, r'chart: +\d+ %  0:\d\d elapsed, about 0:\d\d left')
         rows = self.text('out.csv')
         self.assertEqual(len(rows.splitlines()), 1 + 6 + 1 + 3)
         again = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)
@@ -72,7 +73,7 @@ class Chart(command.CommandTest):
         self.assertIn('the same command goes on', process.stderr.read())
         self.assertEqual(self.entries(), ['out.csv'])
         for row in self.text('out.csv').splitlines()[1:]:
-            self.assertEqual(len(row.split(',')[10].split(' ')), 160)
+            self.assertEqual(len(row.replace(';', ' ').split(',')[10].split(' ')), 160)
 
     def test_another_s_file_is_kept(self):
         self.write('out.csv', 'day,rain\n')
@@ -81,6 +82,42 @@ class Chart(command.CommandTest):
         self.assertIn('no chart wrote it', done.stderr)
         self.assertEqual(self.text('out.csv'), 'day,rain\n')
         self.assertEqual(self.entries(), ['out.csv'])
+
+    def test_metrics_are_the_scenes(self):
+        self.write('tank.yaml', command.SCENE + 'metrics: [front, max_speed, height]\n')
+        done = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('error: front, max_speed and height, rms over range', self.text('out.svg'))
+        series = self.text('out.csv').splitlines()[1].split(',')[-1].split(';')
+        self.assertEqual([len(series), len(series[0].split(' '))], [40, 3])
+        # a change of the scene's file, and of what is compared, is another run
+        rows = len(self.text('out.csv').splitlines())
+        self.write('tank.yaml', command.SCENE + 'metrics: [front]\n')
+        self.assertEqual(self.run_it('tank.yaml', '-o', 'out.svg', *SMALL).returncode, 0)
+        self.assertEqual(len(self.text('out.csv').splitlines()), 2 * rows - 1)
+        # but one of the view is none
+        self.write('tank.yaml', command.SCENE + 'metrics: [front]\nview: {background: [0, 0, 0]}\n')
+        done = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)
+        self.assertIn('10 of 10 runs are in out.csv already', done.stderr)
+        self.assertEqual(len(self.text('out.csv').splitlines()), 2 * rows - 1)
+
+    def test_backends(self):
+        self.write('tank.yaml', command.SCENE)
+        done = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)
+        backends = {line.split(',')[3] for line in self.text('out.csv').splitlines()[1:]}
+        if 'compute' not in backends:  # a software renderer, or none
+            self.assertEqual(backends, {'cpu'})
+            for text in (done.stderr, self.text('out.svg')):
+                self.assertIn('backend compute, fragment left out: no ', text)
+        done = self.run_it('tank.yaml', '-o', 'two.svg', '--sweep', 'backend=cpu,compute', *SMALL)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = [line.split(',') for line in self.text('two.csv').splitlines()[1:]]
+        self.assertEqual([r[3] for r in rows if r[1] == 'point'].count('compute'), 6)
+        self.assertEqual({r[3] for r in rows if r[1] != 'point'}, {'cpu'})  # one reference for both
+        cpu, gpu = ([float(r[9]) for r in rows if r[3] == b and r[1] == 'point'] for b in ('cpu', 'compute'))
+        for a, b in zip(cpu, gpu):
+            self.assertAlmostEqual(a, b, delta=1e-3)  # the same simulation
+        self.assertIn('mueller, compute, long steps: order', self.text('two.svg'))
 
     def test_a_case(self):
         done = self.run_it('free_fall', '-o', 'out.png', '--method', 'mueller')
