@@ -5,6 +5,7 @@
 #include "app/scene_path.h"
 #include "app/scene_read.h"
 #include "app/scene_tree.h"
+#include "render/renderer.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,13 +32,36 @@ static void view_fluids(Scene *scene)
     }
 }
 
+static bool is_key(const Node *node, const char *name)
+{
+    return node->key && strcmp(node->key, name) == 0;
+}
+
+/* The file's scalar, or "" where it names none. */
+static void file_scalar(const Tree *tree, char name[NAME_SIZE])
+{
+    const Node *node = tree_near(tree, "view.color_by");
+    snprintf(name, NAME_SIZE, "%s", is_key(node, "color_by") && node->text ? node->text : "");
+}
+
+/* A range that the file gives is of the file's scalar, not of one that the command line names. */
+static void range_of_scalar(const Tree *tree, const char *scalar_of_file, ViewDef *view)
+{
+    const Node *color = tree_near(tree, "view.color_by"), *range = tree_near(tree, "view.range");
+    const bool own = is_key(range, "range") && range->setting;
+    const char *of_file = *scalar_of_file ? scalar_of_file : scalar_name(view_def_default().color_by);
+    if (!own && is_key(color, "color_by") && color->setting &&
+        strcmp(of_file, scalar_name(view->color_by)) != 0)
+        view->range_auto = true;
+}
+
 static bool apply_settings(Tree *tree, SceneSettings *settings, Error *error)
 {
     for (int i = 0; i < settings->count; i++)
         if (!tree_set(tree, settings->set[i], error))
             return false;
     const Node *dt = tree_near(tree, "solver.step.dt");
-    settings->dt_set = dt->setting && dt->key && strcmp(dt->key, "dt") == 0;
+    settings->dt_set = dt->setting && is_key(dt, "dt");
     return true;
 }
 
@@ -80,8 +104,11 @@ static void view_space(Scene *scene)
 
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char note[256], Error *error)
 {
+    char scalar[NAME_SIZE];
+    file_scalar(tree, scalar);
     if (!apply_settings(tree, settings, error) || !read_scene(tree, out, error))
         return false;
+    range_of_scalar(tree, scalar, &out->view);
     if (settings->particles > 0 && !scene_set_particles(tree, out, settings, note, error))
         return false;
     if (out->world.dimensions == 2)

@@ -96,6 +96,8 @@ static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_
     if (!value_read(tree, change->key, tree_near(tree, change->path), change->path, base, change->error) ||
         !scene_check(tree, &after, change->error))
         return false;
+    if (after.view.color_by != scene->view.color_by)
+        after.view.range_auto = true; /* a range is of one scalar */
     memcpy(after.view.fluid_color[change->fluid], after.world.fluids[change->fluid].color,
            sizeof after.view.fluid_color[change->fluid]);
     if (concerns_world)

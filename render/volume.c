@@ -14,7 +14,8 @@ static double longest(const double size[3])
 bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, VolumeGrid *grid, Error *error)
 {
     const double *box = particles->box_size, margin = particles->support_radius;
-    const double cell = def->cell > 0 ? def->cell * particles->spacing : longest(box) / def->cells;
+    const double asked = def->cell > 0 ? def->cell * particles->spacing : longest(box) / def->cells;
+    const double cell = margin > 0 ? fmin(asked, margin) : asked; /* between wider ones fluid would be lost */
     double all = 1;
     *grid = (VolumeGrid){.cell = cell};
     for (int k = 0; k < 3; k++) {

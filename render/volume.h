@@ -26,8 +26,9 @@ typedef struct Volume {
 } Volume;
 
 /* The grid that covers the box and h around it: `cells` along the box's longest side or cells of `cell`
-   spacings. Reads of the particles box, spacing and h only. False when a side has more than 4096 cells or all
-   together more than 2^31. */
+   spacings, but never wider than h: a particle reaches no farther, and would fall between the samples. Reads
+   of the particles box, spacing and h only. False when a side has more than 4096 cells or all together more
+   than 2^31. */
 bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, VolumeGrid *grid, Error *error);
 
 /* The part of `whole` that holds `low` .. `high` (m) and h around it, on the same lattice, its sides

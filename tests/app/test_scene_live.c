@@ -66,8 +66,13 @@ static void each_type_reaches_its_field(void **state)
     assert_true(scene.view.range_auto);
     assert_false(set("view.range=[-1, 5]"));
     assert_true(!scene.view.range_auto && scene.view.range[0] == -1 && scene.view.range[1] == 5);
+    char same[64];
+    snprintf(same, sizeof same, "view.color_by=%s", scalar_name(scene.view.color_by));
+    assert_false(set(same));
+    assert_false(scene.view.range_auto);
     assert_false(set("view.color_by=pressure"));
     assert_int_equal(scene.view.color_by, SCALAR_PRESSURE);
+    assert_true(scene.view.range_auto); /* the range was the other one's */
     assert_false(set("view.splat.weights=w1") || set("view.splat.eps=0.25"));
     assert_true(scene.view.splat.weights == SPLAT_W1 && scene.view.splat.eps == 0.25);
     assert_false(set("view.splat.shape=ellipsoid") || set("view.splat.drops=false"));

@@ -42,6 +42,30 @@ static void lists_grow_by_one(void **state)
     assert_set_refused("fluids[2].density=3", "[2] is beyond the list's end; use at most 1, which appends");
 }
 
+static bool range_is_auto(const char *view, const char *setting, const char *more)
+{
+    char text[1024];
+    SceneSettings settings = {.count = more ? 2 : 1, .set = {setting, more}};
+    snprintf(text, sizeof text, LEAST "view: {%s}\n", view);
+    if (!parse_text(text, &settings, &scene, &error))
+        fail_msg("%s", error.message);
+    return scene.view.range_auto;
+}
+
+/* A range in m/s says nothing of pressures. */
+static void a_range_is_of_one_scalar(void **state)
+{
+    (void)state;
+    assert_true(range_is_auto("color_by: speed, range: [0, 2]", "view.color_by=pressure", NULL));
+    assert_false(range_is_auto("color_by: speed, range: [0, 2]", "view.color_by=speed", NULL));
+    assert_true(range_is_auto("range: [0, 2]", "view.color_by=pressure", NULL));
+    assert_false(range_is_auto("range: [0, 2]", "view.color_by=speed", NULL)); /* what it is without */
+    assert_false(range_is_auto("color_by: speed, range: [0, 2]", "view.colormap=plasma", NULL));
+    assert_false(
+        range_is_auto("color_by: speed, range: [0, 2]", "view.color_by=pressure", "view.range=[0, 9]"));
+    assert_true(scene.view.range[1] == 9);
+}
+
 static void later_settings_win(void **state)
 {
     (void)state;
@@ -119,6 +143,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_replace_and_are_added),
         cmocka_unit_test(lists_grow_by_one),
+        cmocka_unit_test(a_range_is_of_one_scalar),
         cmocka_unit_test(later_settings_win),
         cmocka_unit_test(bad_settings_are_named),
         cmocka_unit_test(the_file_keeps_its_places),

@@ -39,6 +39,16 @@ static void a_grid_holds_the_box_and_a_margin(void **state)
     }
 }
 
+/* A particle must not fall between two samples: h is the widest that a cell gets. */
+static void cells_are_no_wider_than_a_particle_reaches(void **state)
+{
+    (void)state;
+    const ParticleBuffers box = box_state(0, 0.05);
+    const VolumeDef few = {.cells = 4}, wide = {.cells = 128, .cell = 10};
+    assert_true(grid_of(&few, &box).cell == box.support_radius);
+    assert_true(grid_of(&wide, &box).cell == box.support_radius);
+}
+
 static void a_crop_stays_inside(void **state)
 {
     (void)state;
@@ -260,6 +270,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_grid_holds_the_box_and_a_margin, no_gl_errors),
+        cmocka_unit_test_teardown(cells_are_no_wider_than_a_particle_reaches, no_gl_errors),
         cmocka_unit_test_teardown(a_crop_stays_inside, no_gl_errors),
         cmocka_unit_test_teardown(too_fine_a_grid_is_refused, no_gl_errors),
         cmocka_unit_test_teardown(too_wide_a_particle_is_refused, no_gl_errors),
