@@ -158,6 +158,8 @@ static int watch_devices(const Args *args, Error *error)
     watch.record = args->record ? report_log_create(args->record, error) : NULL;
     if (args->record && !watch.record)
         return fail(EXIT_FAILED, error);
+    if (!args->quiet && !args->device)
+        fprintf(stderr, "listening to motion devices; Ctrl-C ends it\n");
     const bool began = devices_watch(&watch, error);
     const bool recorded = report_log_close(watch.record, began ? error : NULL);
     if (!began || !recorded || (args->json && !write_json(args->json, json_watched(&watch), error)))

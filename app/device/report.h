@@ -4,7 +4,7 @@
 
 #include "app/device/calibration.h"
 
-/* More than any report that is known has; hidraw cuts none shorter. */
+/* More than any report of a layout has; longer ones, of audio, are cut to this and refused. */
 enum { REPORT_BYTES_MAX = 128 };
 
 /* What is needed to read the reports of one device. */

@@ -4,6 +4,7 @@
 #include "app/device/device_survey.h"
 #include "app/device/devices.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -23,11 +24,15 @@ typedef struct Told {
 static pthread_mutex_t told_lock = PTHREAD_MUTEX_INITIALIZER;
 static Told told[EVENTS_MAX];
 static int told_count;
+static atomic_int listening;
+static atomic_bool overlapped;
 
 static void listen(void *user, const DeviceEvent *event)
 {
     (void)user;
     const double now = wall_ms();
+    if (atomic_fetch_add(&listening, 1) > 0)
+        atomic_store(&overlapped, true);
     pthread_mutex_lock(&told_lock);
     if (told_count < EVENTS_MAX) {
         Told *next = &told[told_count++];
@@ -36,6 +41,7 @@ static void listen(void *user, const DeviceEvent *event)
         snprintf(next->problem, sizeof next->problem, "%s", event->problem);
     }
     pthread_mutex_unlock(&told_lock);
+    atomic_fetch_sub(&listening, 1);
 }
 
 static int count_told(DeviceEventKind kind, int number)
@@ -99,6 +105,7 @@ static void stop(Devices *devices)
     const double before = wall_ms();
     devices_stop(devices);
     assert_true(wall_ms() - before < 450);
+    assert_false(atomic_load(&overlapped)); /* one call at a time */
     for (int i = 0; i < STAND_IN_DEVICES; i++)
         assert_int_equal(stand_in.devices[i].opens, stand_in.devices[i].closes);
 }
