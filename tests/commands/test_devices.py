@@ -38,13 +38,15 @@ def recording(seconds=0.4):
     return ''.join(lines)
 
 
-class Devices(CommandTest):
+class Case(CommandTest):
     def run_devices(self, *arguments, code=0, before=obey_interrupts):
         done = subprocess.run([command.PROGRAM, 'devices', *arguments], cwd=self.folder, capture_output=True, text=True,
                               timeout=60, preexec_fn=before, check=False)
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 
+
+class Devices(Case):
     def test_lists_what_is_known(self):
         """Whatever is plugged in where this runs."""
         out = self.run_devices('--json', 'a.json').stdout
@@ -169,5 +171,64 @@ class Devices(CommandTest):
         self.assertEqual((process.returncode, said), (1, b'slosh: standard output: Broken pipe\n'))
 
 
+class PluggedIn(Case):
+    """With a stand-in for hidapi (hidapi_stand_in.c) in the program."""
+
+    def setUp(self):
+        super().setUp()
+        module = os.path.join(os.path.dirname(command.PROGRAM), 'tests', 'hidapi_stand_in.so')
+        self.assertTrue(os.path.exists(module))
+        os.environ.update(LD_PRELOAD=module, SLOSH_TEST_HID=self.path('plugged'))
+        self.addCleanup(os.environ.pop, 'LD_PRELOAD')
+        self.addCleanup(os.environ.pop, 'SLOSH_TEST_HID')
+
+    def plug(self, *lines):
+        """What is plugged in from now on."""
+        self.write('new', ''.join(line + '\n' for line in lines))
+        os.replace(self.path('new'), self.path('plugged'))
+
+    def test_lists_what_may_be_opened_and_what_not(self):
+        self.plug(f'054c 0ce6 usb /dev/stand-in0 ready {sense()}', '046d c626 usb /dev/stand-in1 denied 00',
+                  '054c 09cc bluetooth /dev/stand-in2 busy 00', '054c 05c4 usb /dev/stand-in3 broken 00',
+                  '256f c650 usb /dev/stand-in4 ready 00')
+        out = self.run_devices('--json', 'a.json').stdout
+        lines = out.splitlines()
+        self.assertEqual(len(lines), 4, out)
+        self.assertEqual(lines[0], 'DualSense (054c:0ce6, USB, /dev/stand-in0): ready')
+        self.assertRegex(lines[1], r'^SpaceNavigator \(046d:c626, USB, /dev/stand-in1\): this user may not open it; '
+                                   r'`/.*/tools/setup --devices` allows it for good$')
+        self.assertEqual(lines[2], 'DualShock 4 (second model) (054c:09cc, Bluetooth, /dev/stand-in2): another program holds it; '
+                                   'end that program')
+        self.assertIn('it cannot be opened (the stand-in does not open it); unplug it and plug it in again', lines[3])
+        devices = json.loads(self.read('a.json'))['devices']
+        self.assertEqual([(d['bus'], d['problem'] is None) for d in devices],
+                         [('usb', True), ('usb', False), ('bluetooth', False), ('usb', False)])
+        script = lines[1].split('`')[1].split()[0]
+        self.assertTrue(os.access(script, os.X_OK))
+
+    def test_watch_notices_what_comes_and_goes(self):
+        self.plug('046d c626 usb /dev/stand-in1 denied 00')
+        with open(self.path('out'), 'w') as out:
+            process = subprocess.Popen([command.PROGRAM, 'devices', '--watch', '--record', 'a.rec'], cwd=self.folder, stdout=out,
+                                       stderr=subprocess.DEVNULL, preexec_fn=obey_interrupts)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+
+        def said(words):
+            return lambda: words.encode() in self.read('out')
+        self.wait_for(said('1 SpaceNavigator (046d:c626): this user may not open it'), process)
+        self.plug(f'054c 0ce6 usb /dev/stand-in0 ready {sense(100, 0x28)}', f'046d c626 usb /dev/stand-in1 ready {cap(350, 0, 0)}')
+        self.wait_for(said('1 SpaceNavigator: move +1.00 +0.00 +0.00'), process)
+        self.wait_for(said('2 DualSense: turn +1.75 +0.00 +0.00 rad/s'), process)
+        self.plug(f'046d c626 usb /dev/stand-in1 ready {cap(0, 0, 350)}')
+        self.wait_for(said('2 DualSense: unplugged after'), process)
+        self.wait_for(said('1 SpaceNavigator: move +0.00 -1.00 +0.00'), process)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(30), 0)
+        recorded = self.run_devices('--device', 'file:a.rec').stdout
+        for name in ['SpaceNavigator', 'DualSense']:
+            self.assertRegex(recorded, name + r' \(.*\): \d+ reports\n')
+
+
 if __name__ == '__main__':
-    command.main()
+    command.main('Devices', 'PluggedIn')
