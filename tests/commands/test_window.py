@@ -448,8 +448,9 @@ class Panel(Window):
 
     def test_a_slider_changes_the_fluid(self):
         self.open('--record', 'a.rec')
-        self.drag(1, [(60, 452), (60, 452)])  # the heading World, closed at first
-        self.drag(1, [(248, 473), (255, 473), (262, 473)])
+        self.drag(1, [(60, 412), (60, 412)])  # the heading Accuracy, open at first
+        self.drag(1, [(60, 472), (60, 472)])  # the heading World, closed at first
+        self.drag(1, [(248, 493), (255, 493), (262, 493)])
         self.quit()
         self.assertRegex(self.read('a.rec').decode(), r'\d+ set gravity=\[')
         self.assertEqual(self.slosh('replay', 'a.rec', '--quiet'), (0, ''))
