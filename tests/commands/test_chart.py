@@ -101,6 +101,12 @@ class Chart(command.CommandTest):
         self.assertIn('10 of 10 runs are in out.csv already', done.stderr)
         self.assertEqual(len(self.text('out.csv').splitlines()), 2 * rows - 1)
 
+    def test_info_explains_the_metrics(self):
+        said = subprocess.run([command.PROGRAM, 'info', 'scene.yaml'], cwd=self.folder, capture_output=True,
+                              text=True, timeout=60, check=True).stdout
+        self.assertIn('kinetic_energy    of the motion in the box\'s frame (J)', said)
+        self.assertIn('metrics = [centre_of_mass, kinetic_energy]', said)
+
     def test_backends(self):
         self.write('tank.yaml', command.SCENE)
         done = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)

@@ -30,6 +30,19 @@ class Validate(command.CommandTest):
             with open(os.path.join(self.folder, 'plots', name + '.svg'), encoding='utf-8') as file:
                 self.assertIn('</svg>', file.read())
 
+    def test_the_same_on_compute(self):
+        # on a software renderer too, and the same figures each time
+        words = ['poiseuille', 'taylor_green', '--coarse', '--quiet', '--json', 'out.json']
+        figures = []
+        for backend in ('cpu', 'compute', 'compute'):
+            done = self.run_it(*words, '--backend', backend)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(os.path.join(self.folder, 'out.json'), encoding='utf-8') as file:
+                figures.append([c['value'] for c in json.load(file)['cases']])
+        self.assertEqual(figures[1], figures[2])
+        for cpu, compute in zip(figures[0], figures[1]):
+            self.assertAlmostEqual(cpu, compute, delta=2e-3)
+
     def test_a_miss_is_exit_code_1(self):
         # with sound as slow as the flow the drop is no longer incompressible
         done = self.run_it('elliptical_drop', '--coarse', '--set', 'solver.sound_speed=100')
