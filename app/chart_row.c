@@ -193,8 +193,10 @@ const ChartRow *chart_rows_reference(const ChartRows *rows)
     return NULL;
 }
 
-/* Of the numbers of one metric: rms distance over the greatest range of one of them. */
-static double distance_of(const ChartRow *row, const ChartRow *reference, int first, int count)
+/* Of the numbers of one metric: rms distance over the greatest range of one of them. False without a range:
+   what does not change in the reference has no scale. */
+static bool distance_of(const ChartRow *row, const ChartRow *reference, int first, int count,
+                        double *distance)
 {
     double sum2 = 0, range = 0;
     int times = 0;
@@ -209,20 +211,25 @@ static double distance_of(const ChartRow *row, const ChartRow *reference, int fi
         }
         range = fmax(range, high - low);
     }
-    if (times == 0)
-        return (double)NAN;
-    return range > 0 ? sqrt(sum2 * count / times) / range : 0;
+    *distance = times > 0 ? sqrt(sum2 * count / times) / range : (double)NAN;
+    return times == 0 || range > 0;
 }
 
 double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference)
 {
-    double sum = 0;
-    for (int m = 0, first = 0; m < rows->metric_count; m++) {
+    double sum = 0, distance;
+    int compared = 0, first = 0;
+    for (int m = 0; m < rows->metric_count; m++) {
         const int numbers = metric_kinds[rows->metrics[m]].numbers;
-        sum += distance_of(row, reference, first, numbers);
+        if (distance_of(row, reference, first, numbers, &distance)) {
+            sum += distance;
+            compared++;
+        }
         first += numbers;
     }
-    return sum / rows->metric_count;
+    if (row->quantities < first || reference->quantities < first)
+        return (double)NAN;
+    return compared > 0 ? sum / compared : 0;
 }
 
 static bool is_floor(const ChartRow *row)

@@ -59,7 +59,8 @@ const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key);
 const ChartRow *chart_rows_reference(const ChartRows *rows);
 
 /* How far a row is from the reference: the mean over the metrics of rms over time over the metric's range in
-   `reference`; times at which either has none are left out. NaN where a metric was at no time in both. */
+   `reference`; times at which either has none are left out, and a metric that does not change in the
+   reference. NaN where a metric was at no time in both, or a row has not the numbers of these metrics. */
 double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference);
 
 /* Fills the errors of the points from the one reference among them; the spread of the floor's, the greatest

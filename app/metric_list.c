@@ -5,9 +5,11 @@
 #include <math.h>
 #include <string.h>
 
+/* 0 along periodic axes: there the mean of places that are wrapped says nothing. */
 static void centre_of_mass(const MetricState *state, double out[])
 {
-    memcpy(out, state->sums.centre, sizeof state->sums.centre);
+    for (int k = 0; k < 3; k++)
+        out[k] = state->def->periodic[k] ? 0 : state->sums.centre[k];
 }
 
 static void kinetic_energy(const MetricState *state, double out[])
@@ -17,9 +19,11 @@ static void kinetic_energy(const MetricState *state, double out[])
 
 static void potential_energy(const MetricState *state, double out[])
 {
+    double centre[3];
+    centre_of_mass(state, centre);
     out[0] = 0;
     for (int k = 0; k < 3; k++)
-        out[0] -= state->sums.mass * state->info.gravity[k] * state->sums.centre[k];
+        out[0] -= state->sums.mass * state->info.gravity[k] * centre[k];
 }
 
 static void angular_momentum(const MetricState *state, double out[])
@@ -55,9 +59,11 @@ static void density_error(const MetricState *state, double out[])
 }
 
 const MetricKind metric_kinds[] = {
-    {"centre_of_mass", "m", "of all fluid, in the box's frame", 3, false, centre_of_mass},
+    {"centre_of_mass", "m", "of all fluid, in the box's frame, but for periodic axes", 3, false,
+     centre_of_mass},
     {"kinetic_energy", "J", "of the motion in the box's frame", 1, false, kinetic_energy},
-    {"potential_energy", "J", "in gravity, over the box's origin", 1, false, potential_energy},
+    {"potential_energy", "J", "in gravity, over the box's origin, but for periodic axes", 1, false,
+     potential_energy},
     {"angular_momentum", "kg m2/s", "about the box's origin", 3, false, angular_momentum},
     {"max_speed", "m/s", "of the fastest particle", 1, false, max_speed},
     {"front", "m", "greatest x of the fluid on the floor, of particles with neighbours", 1, true, front},

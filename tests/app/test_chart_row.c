@@ -52,6 +52,21 @@ static void distances_are_over_the_range(void **state)
     assert_null(chart_rows_reference(&rows));
 }
 
+/* A fluid that fills its box keeps its centre: only its energy tells two runs apart. */
+static void what_does_not_change_is_left_out(void **state)
+{
+    (void)state;
+    rows.count = 0;
+    ChartRow *row = add(CHART_POINT, 0.1, 1, 0), *reference = add(CHART_REFERENCE, 0.02, 9, 0);
+    set_series(row, 0.25);
+    set_series(reference, 0);
+    for (int t = 0; t < CHART_TIMES; t++)
+        row->series[t][0] = reference->series[t][0] = 0;
+    assert_true(fabs(chart_distance(&rows, row, reference) - 0.25) < 1e-12);
+    row->quantities = 0; /* of other metrics, or cut */
+    assert_true(isnan(chart_distance(&rows, row, reference)));
+}
+
 /* Metrics count alike, whatever their units; what a metric has at no time, or one run alone, is left out. */
 static void metrics_count_alike(void **state)
 {
@@ -251,6 +266,7 @@ int main(void)
         cmocka_unit_test(distances_are_over_the_range),
         cmocka_unit_test(metrics_count_alike),
         cmocka_unit_test(the_chart_says_its_orders),
+        cmocka_unit_test(what_does_not_change_is_left_out),
         cmocka_unit_test(nothing_on_the_front_is_beaten),
         cmocka_unit_test_setup_teardown(a_file_keeps_them, make_file, remove_file),
         cmocka_unit_test_setup_teardown(half_a_row_is_none, make_file, remove_file),

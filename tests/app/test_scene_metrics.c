@@ -95,6 +95,9 @@ static void numbers_are_right(void **state)
             fail_msg("%s: %.9g, not %.9g", rows[i].name, value, rows[i].right);
     }
     assert_true(value_of(world, "density_error", 0) < 0.01);
+    scene.world.periodic[0] = scene.world.periodic[1] = true; /* as if: places are wrapped there */
+    assert_true(value_of(world, "centre_of_mass", 0) == 0 && value_of(world, "potential_energy", 0) == 0);
+    scene.world.periodic[0] = scene.world.periodic[1] = false;
     fixture_step(world, 20);
     State read = fixture_read(world);
     double sum = 0;
