@@ -309,8 +309,10 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     if (continuity)
         wcsph_set(solver, kernel, h);
     fluids_set(solver, def);
-    if (!walls_create(&solver->walls, def->box_size, def->periodic, def->spacing, h, kernel,
-                      &solver->lattice))
+    if (continuity)
+        walls_place(&solver->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
+    else if (!walls_create(&solver->walls, def->box_size, def->periodic, def->spacing, h, kernel,
+                           &solver->lattice))
         return error_set(error, "no memory for the tables of the walls");
     solver->dimensions = def->dimensions;
     solver->emits = flow_emits(def);

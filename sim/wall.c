@@ -135,6 +135,17 @@ static bool table_create(WallTable *table, const Behind *behind, double step, do
     return true;
 }
 
+void walls_place(Walls *walls, int dimensions, const double box_size[3], const bool open[3], double spacing)
+{
+    memset(walls, 0, sizeof *walls);
+    walls->dimensions = dimensions;
+    walls->spacing = (float)spacing;
+    for (int k = 0; k < 3; k++) {
+        walls->half_size[k] = (float)(0.5 * box_size[k]);
+        walls->open[k] = open[k];
+    }
+}
+
 bool walls_create(Walls *walls, const double box_size[3], const bool open[3], double spacing,
                   double support_radius, const Kernel *density_kernel, const Lattice *lattice)
 {
@@ -142,15 +153,9 @@ bool walls_create(Walls *walls, const double box_size[3], const bool open[3], do
      * good to 1e-3.
      */
     static const int nodes_per_spacing[3] = {64, 16, 8};
-    memset(walls, 0, sizeof *walls);
-    walls->dimensions = lattice->dimensions;
-    for (int k = 0; k < 3; k++) {
-        walls->half_size[k] = (float)(0.5 * box_size[k]);
-        walls->open[k] = open[k];
-    }
+    walls_place(walls, lattice->dimensions, box_size, open, spacing);
     const double range = support_radius - 0.5 * spacing;
     walls->range = (float)(range + 0.1 * spacing); /* u(d) falls behind d by less than that */
-    walls->spacing = (float)spacing;
     for (int t = 0; t < 3 && t < walls->dimensions; t++) {
         const Behind behind = {t + 1, spacing, support_radius, density_kernel, lattice};
         if (!table_create(&walls->table[t], &behind, spacing / nodes_per_spacing[t], range)) {
@@ -243,12 +248,10 @@ static bool table_place(const WallTable *table, float first, const Face *const f
     return true;
 }
 
-/* The sums wanted: all, the density alone, or all with pushes that leave u'(d) out. */
-typedef enum What { ALL, DENSITY, EVEN } What;
-
 /* Linear interpolation at the distances of 1, 2 or 3 faces; the sign of inclusion and exclusion goes along.
  */
-static void add_faces(const Walls *walls, const Face *const faces[], int count, What what, WallSums *sums)
+static void add_faces(const Walls *walls, const Face *const faces[], int count, bool density_only,
+                      WallSums *sums)
 {
     const WallTable *table = &walls->table[count - 1];
     Corner place;
@@ -260,7 +263,7 @@ static void add_faces(const Walls *walls, const Face *const faces[], int count, 
     for (; used < count; used++) {
         axis[used] = faces[used]->axis;
         sign[used] = faces[used]->sign;
-        slope[used] = what == EVEN ? 1 : faces[used]->slope;
+        slope[used] = faces[used]->slope;
     }
     if (count == 1 && walls->dimensions == 2) {
         axis[1] = 1 - axis[0]; /* in the plane, as in the table */
@@ -281,27 +284,27 @@ static void add_faces(const Walls *walls, const Face *const faces[], int count, 
             weight *= up ? place.fraction[f] : 1 - place.fraction[f];
             index = index * (size_t)table->nodes + (size_t)(place.node[f] + up);
         }
-        if (what == DENSITY)
+        if (density_only)
             sums->number_density += weight * table->sums[index].number_density;
         else
             add_entry(&table->sums[index], weight, axis, sign, slope, sums);
     }
 }
 
-static bool walls_add(const Walls *walls, const float x[3], What what, WallSums *sums)
+static bool walls_add(const Walls *walls, const float x[3], bool density_only, WallSums *sums)
 {
     Face face[6];
     const int count = faces_near(walls, x, face);
     *sums = (WallSums){0};
     for (int a = 0; a < count; a++) {
-        add_faces(walls, (const Face *[]){&face[a]}, 1, what, sums);
+        add_faces(walls, (const Face *[]){&face[a]}, 1, density_only, sums);
         for (int b = a + 1; b < count; b++) {
             if (face[b].axis == face[a].axis)
                 continue;
-            add_faces(walls, (const Face *[]){&face[a], &face[b]}, 2, what, sums);
+            add_faces(walls, (const Face *[]){&face[a], &face[b]}, 2, density_only, sums);
             for (int c = b + 1; c < count; c++)
                 if (face[c].axis != face[b].axis)
-                    add_faces(walls, (const Face *[]){&face[a], &face[b], &face[c]}, 3, what, sums);
+                    add_faces(walls, (const Face *[]){&face[a], &face[b], &face[c]}, 3, density_only, sums);
         }
     }
     return count > 0;
@@ -309,20 +312,13 @@ static bool walls_add(const Walls *walls, const float x[3], What what, WallSums 
 
 bool walls_at(const Walls *walls, const float x[3], WallSums *sums)
 {
-    return walls_add(walls, x, ALL, sums);
-}
-
-void walls_uneven(const Walls *walls, const float x[3], float out[3])
-{
-    WallSums sums;
-    walls_add(walls, x, EVEN, &sums);
-    memcpy(out, sums.push, sizeof sums.push);
+    return walls_add(walls, x, false, sums);
 }
 
 float walls_number_density(const Walls *walls, const float x[3])
 {
     WallSums sums;
-    walls_add(walls, x, DENSITY, &sums);
+    walls_add(walls, x, true, &sums);
     return sums.number_density;
 }
 
@@ -330,7 +326,7 @@ float wall_face_density(const Walls *walls, float d)
 {
     const Face face = face_at(walls, 0, 1, d);
     WallSums sums = {0};
-    add_faces(walls, (const Face *[]){&face}, 1, DENSITY, &sums);
+    add_faces(walls, (const Face *[]){&face}, 1, true, &sums);
     return sums.number_density;
 }
 

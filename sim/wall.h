@@ -53,7 +53,10 @@ typedef struct Walls {
 /* Entries of the first so many tables together: that of t + 1 faces has nodes^(t + 1). */
 size_t walls_entries(const Walls *walls, int tables);
 
-/* False when memory is short. */
+/* The walls without tables, as wcsph has them: it goes by images, see sim/wall_images.h. */
+void walls_place(Walls *walls, int dimensions, const double box_size[3], const bool open[3], double spacing);
+
+/* With tables; false when memory is short. */
 bool walls_create(Walls *walls, const double box_size[3], const bool open[3], double spacing,
                   double support_radius, const Kernel *density_kernel, const Lattice *lattice);
 void walls_destroy(Walls *walls);
@@ -61,10 +64,6 @@ void walls_destroy(Walls *walls);
 /* Adds up what the walls give at x (box's frame, m, inside the box), in the box's axes; false, and zero, when
    no wall is within range. */
 bool walls_at(const Walls *walls, const float x[3], WallSums *sums);
-
-/* Sum of w x_a over the walls' particles as they stand, without u': what the neighbours' sum of F x_ij lacks
-   for a lattice at rest, 1/m4. */
-void walls_uneven(const Walls *walls, const float x[3], float out[3]);
 
 /* Only the number density of it. */
 float walls_number_density(const Walls *walls, const float x[3]);

@@ -1,11 +1,13 @@
-// Accelerations by pressure, viscosity and walls: sim/cpu/pairs.c and sim/cpu/forces.c.
+// Accelerations by pressure, viscosity and walls: sim/cpu/pairs.c, sim/cpu/pairs_images.c and sim/cpu/forces.c.
 #include "sim/constants.glsl"
 #include "sim/terms.glsl"
-#include "sim/walls.glsl"
 #include "sim/rows.glsl"
 #include "sim/pair_direction.glsl"
 #ifdef CONTINUITY
 #include "sim/wcsph.glsl"
+#include "sim/images.glsl"
+#else
+#include "sim/walls.glsl"
 #endif
 #ifdef TENSION
 #include "sim/tension.glsl"
@@ -110,6 +112,71 @@ vec3 boundary_force(uint i, Side own, vec3 x, uvec2 range)
 }
 #endif
 
+#ifdef CONTINUITY
+// p V0^2 of the image of a particle of such a term, d from the image of the one at x: rise_of and image_term of
+// sim/cpu/pairs_images.c.
+float image_term(float term, vec3 rise, float rise0, float inverse_layer, vec3 d)
+{
+    float share = clamp(term * inverse_layer, 0.0, 1.0);
+    return max(term + share * (rise0 + 2.0 * dot(rise, d)), min(term, 0.0));
+}
+
+// Pressure of the images behind the walls on the particle at x, in the cell `at`, of the fluid's rest density.
+vec3 images_force(vec3 x, ivec3 at, float density, float own_term)
+{
+    float h = kernel.x, weight = density / (kernel.z * kernel.z);
+    vec3 g = felt_at(x), force = vec3(0);
+    float layer = weight * kernel.w * length(g), inverse_layer = layer > 0.0 ? 1.0 / layer : 0.0;
+    int end = images_end(x);
+    Image image;
+    for (int walls = 1; walls < end; walls++) {
+        if (!image_of(x, walls, image))
+            continue;
+        vec3 rise = weight * mix(vec3(0), g, lessThan(image.sign, vec3(0))), push = vec3(0);
+        float rise0 = dot(rise, x - image.x);
+#ifdef SHIFTING
+        vec4 even = vec4(0);
+#endif
+        for (int row = FIRST_ROW; row < LAST_ROW; row++) {
+            uvec2 range = row_of(at, row);
+            vec3 seen_from = row_seen(image.x, at, row);
+            for (uint j = range.x; j < range.y; j++) {
+                vec3 d = seen_from - position[j].xyz;
+                float r2 = dot(d, d);
+                if (r2 >= h * h)
+                    continue;
+                float f = image_shape(sqrt(r2));
+                push += f * (own_term + image_term(pressure[j].y, rise, rise0, inverse_layer, d)) * d;
+#ifdef SHIFTING
+                even += f * vec4(d, r2);
+                dense_sum += height(sqrt(r2) * kernel.y);
+#endif
+            }
+#ifdef SOLIDS
+            range = boundary_row_of(at, row);
+            for (uint j = range.x; j < range.y; j++) {
+                vec3 d = seen_from - boundary_position[j].xyz;
+                float r2 = dot(d, d), term = uintBitsToFloat(boundary_state[j].x);
+                if (r2 >= h * h)
+                    continue;
+                float f = image_shape(sqrt(r2));
+                push += f * (own_term + image_term(term, rise, rise0, inverse_layer, d)) * d;
+#ifdef SHIFTING
+                even += f * vec4(d, r2);
+                dense_sum += height(sqrt(r2) * kernel.y);
+#endif
+            }
+#endif
+        }
+        force += image.sign * push;
+#ifdef SHIFTING
+        even_sum += term_scales.x * even * vec4(image.sign, 1.0);
+#endif
+    }
+    return term_scales.x * force;
+}
+#endif
+
 void main()
 {
     uint i = invocation();
@@ -147,14 +214,16 @@ void main()
     force += tension_force(tension_sum, position[i].w, fluid_terms[name[i].y].z);
 #endif
     vec4 own_fluid = fluids[name[i].y];
-    WallSums walls = walls_at(x, false);
-    force += wall_force(walls, felt_at(x), own_fluid.y, position[i].w, pressure[i].x, pressure[i].y);
+#ifdef CONTINUITY
+    force += images_force(x, at, own_fluid.y, own.pressure);
+#else
+    force += wall_force(walls_at(x, false), felt_at(x), own_fluid.y, position[i].w, pressure[i].x, pressure[i].y);
+#endif
     acceleration[i] = vec4(force / own_fluid.x, 0.0);
 #ifdef SHIFTING
-    // cpu_shift_walls of sim/cpu/shift.c
-    float trace = walls.diagonal.x + walls.diagonal.y + (rows.x == 3 ? 0.0 : walls.diagonal.z);
-    float share = clamp(((even_sum.w + trace) / (term_shift.z * kernel.z) - 0.8) / 0.15, 0.0, 1.0);
-    uneven[2u * i] = vec4(share * (even_sum.xyz + walls.uneven), share);
-    uneven[2u * i + 1u] = vec4((scales.x * dense_sum + walls.density) / kernel.z - 1.0, 0.0, 0.0, 0.0);
+    // cpu_shift_share of sim/cpu/shift.c
+    float share = clamp((even_sum.w / (term_shift.z * kernel.z) - 0.8) / 0.15, 0.0, 1.0);
+    uneven[2u * i] = vec4(share * even_sum.xyz, share);
+    uneven[2u * i + 1u] = vec4(scales.x * dense_sum / kernel.z - 1.0, 0.0, 0.0, 0.0);
 #endif
 }

@@ -13,9 +13,6 @@ struct WallSums {
     vec3 push;
     vec3 diagonal; // xx yy zz
     vec3 mixed;    // xy yz zx
-#ifdef SHIFTING
-    vec3 uneven;   // the push without u'
-#endif
 };
 
 struct Face {
@@ -67,10 +64,6 @@ void add_faces(Face a, Face b, Face c, int count, bool density_only, inout WallS
     ivec3 axis = ivec3(a.axis, second, 3 - a.axis - second);
     vec3 side = mix(vec3(1), vec3(a.side, b.side, c.side), used);
     push *= mix(vec3(0), side, used);
-#ifdef SHIFTING
-    for (int k = 0; k < 3; k++)
-        sums.uneven[axis[k]] += push[k];
-#endif
     push *= mix(vec3(0), vec3(a.slope, b.slope, c.slope), used);
     mixed *= side * side.yzx;
     for (int k = 0; k < 3; k++) {
@@ -85,11 +78,7 @@ WallSums walls_at(vec3 x, bool density_only)
 {
     Face face[6];
     int count = 0, axes = rows.x == 3 ? 2 : 3;
-#ifdef SHIFTING
-    WallSums sums = WallSums(0.0, vec3(0), vec3(0), vec3(0), vec3(0));
-#else
     WallSums sums = WallSums(0.0, vec3(0), vec3(0), vec3(0));
-#endif
     for (int a = 0; a < axes; a++) {
 #ifdef PERIODIC
         if (periodic[a])

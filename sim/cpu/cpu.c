@@ -159,6 +159,7 @@ PairArgs cpu_pair_args(const Cpu *cpu)
         .cell_start = cpu->cell_start,
         .cell = cpu->cell,
         .id = p->id,
+        .fluid = p->fluid,
         .x = p->x,
         .y = p->y,
         .z = p->z,

@@ -105,7 +105,7 @@ void cpu_drift(void *state, const FrameStep *step);
 void cpu_shift(void *state, float dt);
 
 /* Completes what the pair sums have found for `shift`. */
-void cpu_shift_walls(Cpu *cpu, size_t i, const WallSums *walls);
+void cpu_shift_share(Cpu *cpu, size_t i);
 
 /* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; moves them along; finds them
    after a sort; gives those at `i` no share in the fluids' terms; fills in what the forces need of them, and

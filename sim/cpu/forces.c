@@ -71,10 +71,7 @@ static void add_walls(const ForcePass *pass, size_t i)
     const CpuParticles *p = &cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]};
     WallSums sums;
-    const bool near = walls_at(&cpu->solver->walls, x, &sums);
-    if (cpu->full)
-        cpu_shift_walls(cpu, i, &sums);
-    if (!near)
+    if (!walls_at(&cpu->solver->walls, x, &sums))
         return;
     float g[3], force[3];
     apparent_gravity_at(pass->gravity, x, g);
@@ -84,19 +81,35 @@ static void add_walls(const ForcePass *pass, size_t i)
     cpu->az[i] += force[2];
 }
 
+/* Pairs, and walls: of mueller the tables', of wcsph the images in them. */
+static void force_run(const ForcePass *pass, const PairArgs *args, size_t begin, size_t end)
+{
+    const Cpu *cpu = pass->cpu;
+    if (cpu->solver->continuity) {
+        cpu->pairs->wcsph_force(args, begin, end);
+        cpu->pairs->images_force(args, begin, end);
+    } else {
+        cpu->pairs->force(args, begin, end);
+        for (size_t i = begin; i < end; i++)
+            add_walls(pass, i);
+    }
+    if (cpu->tension)
+        cpu->pairs->tension(args, begin, end);
+}
+
 static void force_range(void *context, size_t begin, size_t end)
 {
     const ForcePass *pass = context;
     Cpu *cpu = pass->cpu;
     const Solver *s = cpu->solver;
-    const PairArgs args = cpu_pair_args(cpu);
+    PairArgs args = cpu_pair_args(cpu);
+    args.gravity = pass->gravity;
     for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);) {
-        (s->continuity ? cpu->pairs->wcsph_force : cpu->pairs->force)(&args, i, stop);
-        if (cpu->tension)
-            cpu->pairs->tension(&args, i, stop);
+        force_run(pass, &args, i, stop);
         for (; i < stop; i++) {
-            add_walls(pass, i);
             const float inverse_mass = 1 / s->mass[cpu->now.fluid[i]];
+            if (cpu->full)
+                cpu_shift_share(cpu, i);
             cpu->ax[i] *= inverse_mass;
             cpu->ay[i] *= inverse_mass;
             cpu->az[i] *= inverse_mass;

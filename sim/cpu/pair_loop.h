@@ -18,6 +18,8 @@ void PAIR_NAME(tension)(const PairArgs *args, size_t begin, size_t end);
 void PAIR_NAME(wcsph_slope)(const PairArgs *args, size_t begin, size_t end);
 void PAIR_NAME(wcsph_rate)(const PairArgs *args, size_t begin, size_t end);
 void PAIR_NAME(wcsph_force)(const PairArgs *args, size_t begin, size_t end);
+void PAIR_NAME(images_rate)(const PairArgs *args, size_t begin, size_t end);
+void PAIR_NAME(images_force)(const PairArgs *args, size_t begin, size_t end);
 
 static const i8 lane_index = {0, 1, 2, 3, 4, 5, 6, 7};
 

@@ -120,4 +120,6 @@ const PairOps PAIR_NAME(pair_ops) = {
     PAIR_NAME(wcsph_slope),
     PAIR_NAME(wcsph_rate),
     PAIR_NAME(wcsph_force),
+    PAIR_NAME(images_rate),
+    PAIR_NAME(images_force),
 };

@@ -4,6 +4,7 @@
 #define SLOSH_PAIRS_H
 
 #include "sim/cell_rows.h"
+#include "sim/frame_step.h"
 
 enum { LANES = 8 }; /* see sim/cpu/simd.h */
 
@@ -13,20 +14,22 @@ typedef struct PairArgs {
     const uint32_t *cell_start; /* first particle of each cell; cells + 1 */
     const uint32_t *cell;       /* of each particle */
     const uint32_t *id;
+    const uint8_t *fluid;
     const float *x, *y, *z, *vx, *vy, *vz; /* m, m/s */
     const float *volume;                   /* m3: set before `force` */
     const float *pressure_term;            /* p V^2, J m3: set before `force` */
     const float *viscosity;                /* Pa s, of each particle; NULL with one fluid */
-    const float *artificial; /* Pa s, of each particle; NULL: none; wcsph's, like the next three */
-    const float *relative;   /* rho / rho0 - 1 of each; NULL: no diffusion */
-    const float *kind;       /* the fluid of each as a number; with `relative` */
-    const float *tension;    /* sigma of each, N/m (cohesion: scaled); NULL: none; with `kind` */
-    float *slope[3];         /* out of `wcsph_slope`: gradient of `relative`, 1/m; NULL without it */
-    float *rate;             /* out of `wcsph_rate`: of the number density, 1/(m3 s), no walls */
-    float *number_density;   /* out of `density`, 1/m3: all pairs, self included, no walls */
-    float *fx, *fy, *fz;     /* out of `force`, N */
-    float *uneven[3];        /* out of `wcsph_force` with shifting: sum of F x_ij, 1/m4; NULL without it */
-    float *full, *dense;     /* of F r^2 and of W, 1/m3 */
+    const float *artificial;        /* Pa s, of each particle; NULL: none; wcsph's, like the next three */
+    const float *relative;          /* rho / rho0 - 1 of each; NULL: no diffusion */
+    const float *kind;              /* the fluid of each as a number; with `relative` */
+    const float *tension;           /* sigma of each, N/m (cohesion: scaled); NULL: none; with `kind` */
+    const ApparentGravity *gravity; /* for `images_force` */
+    float *slope[3];                /* out of `wcsph_slope`: gradient of `relative`, 1/m; NULL without it */
+    float *rate;                    /* out of `wcsph_rate`: of the number density, 1/(m3 s), no walls */
+    float *number_density;          /* out of `density`, 1/m3: all pairs, self included, no walls */
+    float *fx, *fy, *fz;            /* out of `force`, N */
+    float *uneven[3];    /* out of `wcsph_force` with shifting: sum of F x_ij, 1/m4; NULL without it */
+    float *full, *dense; /* of F r^2 and of W, 1/m3 */
 } PairArgs;
 
 typedef struct PairOps {
@@ -37,6 +40,9 @@ typedef struct PairOps {
     void (*wcsph_slope)(const PairArgs *args, size_t begin, size_t end);
     void (*wcsph_rate)(const PairArgs *args, size_t begin, size_t end);
     void (*wcsph_force)(const PairArgs *args, size_t begin, size_t end);
+    void (*images_rate)(const PairArgs *args, size_t begin,
+                        size_t end); /* these two add to what those gave */
+    void (*images_force)(const PairArgs *args, size_t begin, size_t end);
 } PairOps;
 
 /* The widest that this processor has, or the one that the environment variable SLOSH_SIMD names, if it can;

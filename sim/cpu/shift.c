@@ -13,17 +13,13 @@ static float share_of(float full)
     return fminf(fmaxf((full - 0.8f) / 0.15f, 0), 1);
 }
 
-void cpu_shift_walls(Cpu *cpu, size_t i, const WallSums *walls)
+void cpu_shift_share(Cpu *cpu, size_t i)
 {
     const Solver *s = cpu->solver;
-    const float x[3] = {cpu->now.x[i], cpu->now.y[i], cpu->now.z[i]}, *m = walls->moment;
-    const float trace = m[0] + m[1] + (s->dimensions == 3 ? m[2] : 0);
-    const float share = share_of((cpu->full[i] + trace) / ((float)s->dimensions * s->rest_number_density));
-    float behind[3];
-    walls_uneven(&s->walls, x, behind);
+    const float share = share_of(cpu->full[i] / ((float)s->dimensions * s->rest_number_density));
     for (int k = 0; k < 3; k++)
-        cpu->uneven[k][i] = share * (cpu->uneven[k][i] + behind[k]);
-    cpu->dense[i] = (cpu->dense[i] + walls->number_density) / s->rest_number_density - 1;
+        cpu->uneven[k][i] *= share;
+    cpu->dense[i] = cpu->dense[i] / s->rest_number_density - 1;
     cpu->full[i] = share;
 }
 

@@ -39,17 +39,6 @@ typedef struct Continuity {
     float dt;
 } Continuity;
 
-/* The walls are at rest in the box's frame; their density has the gradient -push (sim/wall.h). */
-static float wall_rate(const Cpu *cpu, size_t i)
-{
-    const CpuParticles *p = &cpu->now;
-    const float x[3] = {p->x[i], p->y[i], p->z[i]};
-    WallSums sums;
-    if (!walls_at(&cpu->solver->walls, x, &sums))
-        return 0;
-    return -(sums.push[0] * p->vx[i] + sums.push[1] * p->vy[i] + sums.push[2] * p->vz[i]);
-}
-
 static void continuity_range(void *context, size_t begin, size_t end)
 {
     const Continuity *pass = context;
@@ -59,10 +48,9 @@ static void continuity_range(void *context, size_t begin, size_t end)
     const PairArgs args = cpu_pair_args(cpu);
     for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);) {
         cpu->pairs->wcsph_rate(&args, i, stop);
-        for (; i < stop; i++) {
-            const float rate = args.rate[i] + wall_rate(cpu, i);
-            p->compression[i] += rate / s->rest_number_density * pass->dt;
-        }
+        cpu->pairs->images_rate(&args, i, stop);
+        for (; i < stop; i++)
+            p->compression[i] += args.rate[i] / s->rest_number_density * pass->dt;
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include "sim/kernel.h"
 #include "sim/lattice.h"
-#include "sim/wall.h"
 #include "sim/world_state.h"
 
 enum { COUNT = 600 };
@@ -60,7 +59,6 @@ typedef struct Reference {
     double x[COUNT][3], v[COUNT][3], rate[COUNT], density[COUNT], scale[COUNT], slope[COUNT][3];
     double h, n0, gradient;
     const Kernel *kernel;
-    Walls walls;
 } Reference;
 
 static double dot(const double a[3], const double b[3])
@@ -106,6 +104,22 @@ static void reference_slopes(const WorldDef *def, const Cloud *cloud, Reference 
     }
 }
 
+/* x_i - x_j' and v_i - v_j' of j's image in those walls (base-three digits of each axis: none, lower, upper),
+   and F of such a pair: not less than that of a spacing over the distance; 0 beyond h. */
+static double image_of(const WorldDef *def, const Reference *r, int walls, int i, int j, double x[3],
+                       double v[3])
+{
+    for (int k = 0, rest = walls; k < 3; k++, rest /= 3) {
+        const double low = k == 1 ? 0 : -0.5 * def->box_size[k],
+                     wall = low + (rest % 3 - 1) * def->box_size[k];
+        const bool mirrored = rest % 3 > 0;
+        x[k] = r->x[i][k] - (mirrored ? 2 * wall - r->x[j][k] : r->x[j][k]);
+        v[k] = r->v[i][k] - (mirrored ? -1 : 1) * r->v[j][k];
+    }
+    const double d = sqrt(dot(x, x)), wide = fmax(d, def->spacing);
+    return d < r->h ? -r->gradient * r->kernel->derivative(wide, r->h) / d : 0;
+}
+
 static void reference_rate(const WorldDef *def, const Cloud *cloud, Reference *r)
 {
     const double reach = r->h / 2;
@@ -128,10 +142,12 @@ static void reference_rate(const WorldDef *def, const Cloud *cloud, Reference *r
             if (cloud->fluid[i] == cloud->fluid[j])
                 sum += 2 * delta * def->sound_speed * reach * f * (rj - ri - along); /* n0 sum V0 ... */
         }
-        const float at[3] = {(float)r->x[i][0], (float)r->x[i][1], (float)r->x[i][2]};
-        WallSums walls;
-        if (walls_at(&r->walls, at, &walls))
-            sum -= walls.push[0] * r->v[i][0] + walls.push[1] * r->v[i][1] + walls.push[2] * r->v[i][2];
+        for (int walls = 1; walls < 27; walls++)
+            for (int j = 0; j < COUNT; j++) {
+                double x[3], v[3];
+                const double f = image_of(def, r, walls, i, j, x, v);
+                sum -= f * dot(v, x);
+            }
         r->rate[i] = def->fluids[cloud->fluid[i]].density / r->n0 * sum;
     }
 }
@@ -173,14 +189,18 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
                 r->scale[i] += fabs(f * push * x[k]) + fabs(f * damping * x[k]) + fabs(f * drag);
             }
         }
-        const float at[3] = {(float)r->x[i][0], (float)r->x[i][1], (float)r->x[i][2]};
-        WallSums walls;
-        const bool near = walls_at(&r->walls, at, &walls);
-        for (int k = 0; k < 3; k++) {
-            const double push = near ? pressure[i] * volume[i] * volume[i] * walls.push[k] : 0;
-            a[i][k] = (force[k] + push) * r->n0 / fi->density;
-            r->scale[i] += fabs(push);
-        }
+        for (int walls = 1; walls < 27; walls++)
+            for (int j = 0; j < COUNT; j++) {
+                double x[3], v[3];
+                const double f = image_of(def, r, walls, i, j, x, v);
+                const double push = pressure[i] * volume[i] * volume[i] + pressure[j] * volume[j] * volume[j];
+                for (int k = 0; k < 3; k++) {
+                    force[k] += f * push * x[k];
+                    r->scale[i] += fabs(f * push * x[k]);
+                }
+            }
+        for (int k = 0; k < 3; k++)
+            a[i][k] = force[k] * r->n0 / fi->density;
         r->scale[i] *= r->n0 / fi->density;
     }
 }
@@ -193,8 +213,6 @@ static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *
     lattice_calibrate(3, def->spacing, r->h, r->kernel, r->kernel, &lattice);
     r->n0 = lattice.number_density;
     r->gradient = lattice.gradient_scale;
-    assert_true(
-        walls_create(&r->walls, def->box_size, def->periodic, def->spacing, r->h, r->kernel, &lattice));
     for (int i = 0; i < COUNT; i++) {
         r->density[i] = cloud->density[i];
         for (int k = 0; k < 3; k++) {
@@ -244,7 +262,6 @@ static void step_equals_brute_force(const char *kernel, double width, double mid
         change = fmax(change, fabs(density / rho0 - 1));
     }
     assert_true(change > 1e-3); /* something happened */
-    walls_destroy(&r.walls);
     fixture_free(&s);
     world_destroy(world);
 }

@@ -97,6 +97,8 @@ static bool buffers_create(Compute *c, Error *error)
 static void walls_upload(Compute *c)
 {
     const Walls *walls = &c->solver->walls;
+    if (c->solver->continuity) /* it has none */
+        return;
     c->walls = compute_buffer(c, "wall tables", walls_entries(walls, walls->dimensions) * sizeof(WallSums));
     for (int t = 0; t < walls->dimensions && !c->full; t++) {
         const size_t at = walls_entries(walls, t) * sizeof(WallSums),

@@ -1,0 +1,192 @@
+/* What the images of the fluid in the walls of the box add to the sums of wcsph: the rate of density and
+   pressure, with what shifting goes by. They have no friction and no part in diffusion. See
+   sim/wall_images.h. */
+#include "sim/cpu/pair_kernel.h"
+#include "sim/wall_images.h"
+
+SIMD_INLINE f8 lesser(f8 a, f8 b)
+{
+    return f8_select(a < b, a, b);
+}
+
+SIMD_INLINE f8 greater(f8 a, f8 b)
+{
+    return f8_select(a > b, a, b);
+}
+
+/* The kernel's gradient over q, not less than at a spacing `apart` for what is nearer: kernels let go of
+   pairs that are close, and fluid would stick to its images. */
+SIMD_INLINE f8 image_shape(f8 q, f8 apart, const WcsphKernel kernel)
+{
+    const f8 wide = greater(q, apart);
+    return shape(wide, kernel) * (wide / q);
+}
+
+/* Sum of F v_ij . x_ij over what the image of particle i finds. */
+SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Rows rows, const Image *image,
+                          const WcsphKernel kernel)
+{
+    const float h = args->solver->support_radius, least = 1e-6f * h;
+    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 apart = f8_splat(args->solver->spacing / h);
+    const f8 xi = f8_splat(image->x[0]), yi = f8_splat(image->x[1]), zi = f8_splat(image->x[2]);
+    const f8 ui = f8_splat(image->sign[0] * args->vx[i]), vi = f8_splat(image->sign[1] * args->vy[i]),
+             wi = f8_splat(image->sign[2] * args->vz[i]);
+    f8 sum = f8_splat(0);
+    for (int row = rows.first; row < rows.last; row++) {
+        ROW_ORIGIN;
+        for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+            const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
+                     dz = zr - f8_load(args->z + j);
+            const f8 r2 = dx * dx + dy * dy + dz * dz;
+            const i8 near = (r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+            if (!i8_bits(near))
+                continue;
+            const f8 f =
+                image_shape(f8_sqrt(greater(f8_select(near, r2, h2), least2)) * inverse_h, apart, kernel);
+            const f8 flow = (ui - f8_load(args->vx + j)) * dx + (vi - f8_load(args->vy + j)) * dy +
+                            (wi - f8_load(args->vz + j)) * dz;
+            sum += f8_masked(near, f * flow);
+        }
+    }
+    return sum;
+}
+
+/* How pressure goes on behind the walls: p V0^2 of the image of j is that of j and g0 + g.x_ij more, x_ij =
+   x_i' - x_j, since x_j' - x_j = 2 x_ij + x_i - x_i' along the axes in a mirror. It fades in over the
+   pressure of one layer, so that a drop on a wall falls freely. */
+typedef struct Rise {
+    f8 g0, gx, gy, gz, inverse_layer;
+} Rise;
+
+static void rise_of(const PairArgs *args, size_t i, const Image *image, const float g[3], Rise *rise)
+{
+    const Solver *s = args->solver;
+    const float x[3] = {args->x[i], args->y[i], args->z[i]};
+    const float weight =
+        s->density[args->fluid[i]] / (s->rest_number_density * s->rest_number_density); /* rho0 V0^2 */
+    const float layer = weight * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    float first = 0, along[3];
+    for (int k = 0; k < 3; k++) {
+        along[k] = image->sign[k] < 0 ? weight * g[k] : 0;
+        first += along[k] * (x[k] - image->x[k]);
+    }
+    *rise = (Rise){f8_splat(first), f8_splat(2 * along[0]), f8_splat(2 * along[1]), f8_splat(2 * along[2]),
+                   f8_splat(layer > 0 ? 1 / layer : 0)};
+}
+
+/* Of the image of j; it turns no push into a pull. */
+SIMD_INLINE f8 image_term(const Rise rise, f8 term, f8 dx, f8 dy, f8 dz)
+{
+    const f8 zero = f8_splat(0), share = lesser(greater(term * rise.inverse_layer, zero), f8_splat(1));
+    const f8 more = rise.g0 + rise.gx * dx + rise.gy * dy + rise.gz * dz;
+    return greater(term + share * more, lesser(term, zero));
+}
+
+/* Sums over what the image of particle i finds, in its mirror's axes. */
+typedef struct Found {
+    f8 fx, fy, fz, ex, ey, ez, full, dense;
+} Found;
+
+SIMD_INLINE Found image_push(const PairArgs *args, size_t i, const Rows rows, const Image *image,
+                             const Rise rise, const WcsphKernel kernel, const bool shifts)
+{
+    const float h = args->solver->support_radius, least = 1e-6f * h;
+    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 apart = f8_splat(args->solver->spacing / h);
+    const f8 xi = f8_splat(image->x[0]), yi = f8_splat(image->x[1]), zi = f8_splat(image->x[2]);
+    const f8 pi = f8_splat(args->pressure_term[i]);
+    Found sum = {f8_splat(0), f8_splat(0), f8_splat(0), f8_splat(0),
+                 f8_splat(0), f8_splat(0), f8_splat(0), f8_splat(0)};
+    for (int row = rows.first; row < rows.last; row++) {
+        ROW_ORIGIN;
+        for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
+            const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
+                     dz = zr - f8_load(args->z + j);
+            const f8 r2 = dx * dx + dy * dy + dz * dz;
+            const i8 near = (r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
+            if (!i8_bits(near))
+                continue;
+            const f8 q = f8_sqrt(greater(f8_select(near, r2, h2), least2)) * inverse_h;
+            const f8 f = f8_masked(near, image_shape(q, apart, kernel));
+            const f8 push = f * (pi + image_term(rise, f8_load(args->pressure_term + j), dx, dy, dz));
+            sum.fx += push * dx, sum.fy += push * dy, sum.fz += push * dz;
+            if (shifts) {
+                sum.ex += f * dx, sum.ey += f * dy, sum.ez += f * dz;
+                sum.full += f * r2;
+                sum.dense += f8_masked(near, height(q, kernel));
+            }
+        }
+    }
+    return sum;
+}
+
+SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, const Found found,
+                           const bool shifts)
+{
+    const Solver *s = args->solver;
+    const float *sign = image->sign;
+    args->fx[i] += sign[0] * s->gradient * f8_sum(found.fx);
+    args->fy[i] += sign[1] * s->gradient * f8_sum(found.fy);
+    args->fz[i] += sign[2] * s->gradient * f8_sum(found.fz);
+    if (!shifts)
+        return;
+    args->uneven[0][i] += sign[0] * s->gradient * f8_sum(found.ex);
+    args->uneven[1][i] += sign[1] * s->gradient * f8_sum(found.ey);
+    args->uneven[2][i] += sign[2] * s->gradient * f8_sum(found.ez);
+    args->full[i] += s->gradient * f8_sum(found.full);
+    args->dense[i] += s->kernel_scale * f8_sum(found.dense);
+}
+
+SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+{
+    const Solver *s = args->solver;
+    Rows rows = {.cell = UINT32_MAX};
+    Image image[IMAGES_MAX];
+    for (size_t i = begin; i < end; i++) {
+        const float x[3] = {args->x[i], args->y[i], args->z[i]};
+        const int images = wall_images(&s->walls, x, s->support_radius, image);
+        if (images == 1)
+            continue;
+        rows_of(args, args->cell[i], &rows);
+        f8 sum = f8_splat(0);
+        for (int k = 1; k < images; k++)
+            sum += image_flow(args, i, rows, &image[k], kernel);
+        args->rate[i] -= s->gradient * f8_sum(sum);
+    }
+}
+
+SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+{
+    const Solver *s = args->solver;
+    Rows rows = {.cell = UINT32_MAX};
+    Image image[IMAGES_MAX];
+    for (size_t i = begin; i < end; i++) {
+        const float x[3] = {args->x[i], args->y[i], args->z[i]};
+        const int images = wall_images(&s->walls, x, s->support_radius, image);
+        if (images == 1)
+            continue;
+        float g[3];
+        Rise rise;
+        apparent_gravity_at(args->gravity, x, g);
+        rows_of(args, args->cell[i], &rows);
+        for (int k = 1; k < images; k++) {
+            rise_of(args, i, &image[k], g, &rise);
+            if (args->full)
+                add_found(args, i, &image[k], image_push(args, i, rows, &image[k], rise, kernel, true), true);
+            else
+                add_found(args, i, &image[k], image_push(args, i, rows, &image[k], rise, kernel, false),
+                          false);
+        }
+    }
+}
+
+void PAIR_NAME(images_rate)(const PairArgs *args, size_t begin, size_t end)
+{
+    FOR_KERNEL(args, begin, end, rate_range);
+}
+
+void PAIR_NAME(images_force)(const PairArgs *args, size_t begin, size_t end)
+{
+    FOR_KERNEL(args, begin, end, force_range);
+}
