@@ -1,6 +1,7 @@
 #include "app/hand.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double radians = M_PI / 180;
 
@@ -66,6 +67,12 @@ static void turn(const double rotation[3], double orientation[4])
         quat_turn(rotation, orientation);
 }
 
+/* rotation += the rotation vector that takes the near face to the right by this angle */
+static void spin(double to_right, double rotation[3])
+{
+    rotation[1] += to_right;
+}
+
 /* What stays when the device is let go: drags, and rates over their time. */
 static void hold(const HandInput *input, double side, BoxTarget *held)
 {
@@ -86,20 +93,67 @@ static void hold(const HandInput *input, double side, BoxTarget *held)
                       input->right[k] * clamp(input->turn_drag[1], M_PI);
     const double angle = HAND_TURN_SPEED * radians * dt;
     lean(input, clamp(input->tilt_rate[0], 1) * angle, clamp(input->tilt_rate[1], 1) * angle, rotation);
+    spin(clamp(input->spin_rate, 1) * angle, rotation);
     turn(rotation, held->orientation);
 }
 
-/* What springs back, on top of what is held. */
+/* The rotation vector of offsets. */
+static void sway_turn(const HandInput *input, double rotation[3])
+{
+    const double angle = HAND_LEAN * radians;
+    memset(rotation, 0, 3 * sizeof *rotation);
+    lean(input, clamp(input->tilt_offset[0], 1) * angle, clamp(input->tilt_offset[1], 1) * angle, rotation);
+    spin(clamp(input->spin_offset, 1) * angle, rotation);
+}
+
+/* The way of offsets: `sign` 1, or back: -1. */
+static void sway_move(const HandInput *input, double side, double sign, double position[3])
+{
+    double way[3];
+    for (int k = 0; k < 3; k++)
+        way[k] = sign * clamp(input->move_offset[k], 1) * HAND_SWAY * side;
+    move(input, way, position);
+}
+
+/* The turn of the device in the world: its axes are right, up and what points out of the picture. False: it
+   is not turned. */
+static bool device_turn(const HandInput *input, double out[4])
+{
+    const double *q = input->turned;
+    const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (norm == 0)
+        return false;
+    for (int k = 0; k < 3; k++)
+        out[k] = (input->right[k] * q[0] - input->away[k] * q[2]) / norm;
+    out[1] += q[1] / norm;
+    out[3] = q[3] / norm;
+    return true;
+}
+
+/* What springs back, on top of what is held. The turn of a device is outermost: the box turns as it does. */
 static void sway(const HandInput *input, double side, BoxTarget *target)
 {
-    double way[3], rotation[3] = {0};
-    for (int k = 0; k < 3; k++)
-        way[k] = clamp(input->move_offset[k], 1) * HAND_SWAY * side;
-    move(input, way, target->position);
+    double rotation[3], device[4];
+    sway_move(input, side, 1, target->position);
     stay_within(target->position, HAND_REACH * side);
+    sway_turn(input, rotation);
+    turn(rotation, target->orientation);
+    if (device_turn(input, device))
+        quat_multiply(device, target->orientation, target->orientation);
+}
 
-    const double angle = HAND_LEAN * radians;
-    lean(input, clamp(input->tilt_offset[0], 1) * angle, clamp(input->tilt_offset[1], 1) * angle, rotation);
+/* What must be held so that `target` comes of it. */
+static void unsway(const HandInput *input, double side, BoxTarget *target)
+{
+    double rotation[3], device[4];
+    sway_move(input, side, -1, target->position);
+    if (device_turn(input, device)) {
+        const double back[4] = {-device[0], -device[1], -device[2], device[3]};
+        quat_multiply(back, target->orientation, target->orientation);
+    }
+    sway_turn(input, rotation);
+    for (int k = 0; k < 3; k++)
+        rotation[k] = -rotation[k];
     turn(rotation, target->orientation);
 }
 
@@ -132,10 +186,13 @@ bool hand_update(Hand *hand, const HandInput *input, const double box_size[3], B
     return true;
 }
 
-void hand_let_go(Hand *hand, const BoxTarget *now)
+void hand_let_go(Hand *hand, const BoxTarget *now, const HandInput *still, const double box_size[3])
 {
-    if (is_finite(now))
-        hand->held = *now;
+    BoxTarget held = *now;
+    if (still)
+        unsway(still, longest_side(box_size), &held);
+    if (is_finite(&held))
+        hand->held = held;
 }
 
 void hand_home(Hand *hand)

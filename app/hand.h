@@ -1,8 +1,8 @@
 /* The hand: from what input devices say to where the box shall be. Pure: no device, no window, no clock.
 
    Each device adds its part to a HandInput: drags and rates move the box for good; offsets (sticks) move it
-   for as long as they last. The hand sums them up in the frame of the picture; how fast the box follows is
-   the filter's affair (sim/box_filter.h). */
+   for as long as they last, and so does the turn of a device that is held like the box. The hand sums them up
+   in the frame of the picture; how fast the box follows is the filter's affair (sim/box_filter.h). */
 #ifndef SLOSH_HAND_H
 #define SLOSH_HAND_H
 
@@ -21,6 +21,10 @@ typedef struct HandInput {
     double tilt_rate[2];    /* -1 .. 1: the top goes to the right; away */
     double move_offset[3];  /* -1 .. 1 along right, the world's y, away, as long as the stick is held */
     double tilt_offset[2];  /* -1 .. 1: the top leans to the right; away */
+    double spin_rate;       /* -1 .. 1: about the world's y, the near face goes to the right */
+    double spin_offset;     /* -1 .. 1: the same, as long as it is held */
+    double turned[4]; /* quaternion x y z w: how a device is turned, in the user's frame: x to the right,
+                         y up, z towards him; of any length, 0: there is none */
 } HandInput;
 
 #define HAND_DT_MOST    0.25 /* s: after a stall a held key must not throw the box */
@@ -43,10 +47,11 @@ Hand hand_at_rest(void);
    what it was when last told. Input that is not finite is ignored as a whole. */
 bool hand_update(Hand *hand, const HandInput *input, const double box_size[3], BoxTarget *target);
 
-/* The focus is lost, or a drag is broken off: what is held becomes where the box is now (the pose of its
-   BoxFilter), so that it stops where it is. The next hand_update tells it. Without a finite pose nothing
-   changes. */
-void hand_let_go(Hand *hand, const BoxTarget *now);
+/* The focus is lost, a drag is broken off, a device is gone: what is held becomes where the box is now (the
+   pose of its BoxFilter, or what was told), so that it stops there. The next hand_update tells it. `still`
+   has the offsets and the turn that go on, on top of which it stays there; NULL: none. Without a finite pose
+   nothing changes. */
+void hand_let_go(Hand *hand, const BoxTarget *now, const HandInput *still, const double box_size[3]);
 
 /* The box shall go home, upright; the next hand_update tells it. */
 void hand_home(Hand *hand);

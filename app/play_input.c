@@ -143,7 +143,7 @@ static void let_go(Play *play)
     if (!held)
         return;
     simulator_status(play->open.simulator, &play->status);
-    hand_let_go(&play->hand, &play->status.hand);
+    hand_let_go(&play->hand, &play->status.hand, NULL, play->particles.box_size);
 }
 
 /* Before the first picture there is nothing that a mouse could take. */

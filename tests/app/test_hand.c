@@ -182,16 +182,85 @@ static void let_go_stops_where_the_box_is(void **state)
     HandInput input = level(), still = level();
     input.move_drag[0] = 0.3, input.move_offset[1] = 1;
     check_told(&hand, &input, &target);
-    hand_let_go(&hand, &now);
+    hand_let_go(&hand, &now, NULL, size);
     check_told(&hand, &still, &target);
     assert_memory_equal(&target, &now, sizeof now);
     assert_false(hand_update(&hand, &still, size, &target));
 
     BoxTarget broken = now;
     broken.orientation[2] = NAN;
-    hand_let_go(&hand, &broken);
+    hand_let_go(&hand, &broken, NULL, size);
     assert_false(hand_update(&hand, &still, size, &target));
     assert_memory_equal(&target, &now, sizeof now);
+}
+
+/* The user's frame, whatever the camera's: a device that is turned about his right turns the box about the
+   picture's. */
+static void the_box_turns_as_the_device_does(void **state)
+{
+    (void)state;
+    static const double c = 0.8660254037844386;
+    Hand hand = hand_at_rest();
+    BoxTarget target;
+    HandInput input = level(), still = level();
+    memcpy(input.turned, (double[]){0, 0, -0.5, c}, sizeof input.turned); /* to the right, by 60 degrees */
+    check_told(&hand, &input, &target);
+    check_turned(&target, (double[3]){0, 1, 0}, c, 0.5, 0);
+    assert_false(hand_update(&hand, &input, size, &target));                 /* it does not add up */
+    memcpy(input.turned, (double[]){-5, 0, 0, 10 * c}, sizeof input.turned); /* of any length: away */
+    check_told(&hand, &input, &target);
+    check_turned(&target, (double[3]){0, 1, 0}, 0, 0.5, -c);
+
+    /* Seen from +x right is -z and away is -x. */
+    input = (HandInput){.dt = 0.02, .right = {0, 0, -1}, .up = {0, 1, 0}, .away = {-1, 0, 0}};
+    memcpy(input.turned, (double[]){0, 0, 0.5, c}, sizeof input.turned); /* to the left */
+    check_told(&hand, &input, &target);
+    check_turned(&target, (double[3]){0, 1, 0}, 0, 0.5, c);
+    memcpy(input.turned, (double[]){0, 0.5, 0, c}, sizeof input.turned); /* its near side to the right */
+    check_told(&hand, &input, &target);
+    check_turned(&target, (double[3]){1, 0, 0}, 0.5, 0, -c);
+
+    /* On top of what was turned by hand; taken away, that is left. */
+    still.turn_drag[0] = M_PI / 2;
+    check_told(&hand, &still, &target);
+    check_turned(&target, (double[3]){0, 0, 1}, 1, 0, 0);
+}
+
+static void what_spins_takes_the_near_face_to_the_right(void **state)
+{
+    (void)state;
+    Hand hand = hand_at_rest();
+    BoxTarget target;
+    HandInput input = level();
+    input.dt = 0.1, input.spin_rate = 1;
+    check_told(&hand, &input, &target);
+    check_turned(&target, (double[3]){0, 0, 1}, sin(M_PI / 20), 0, cos(M_PI / 20));
+    hand_home(&hand);
+    input.spin_rate = 0, input.spin_offset = 1;
+    check_told(&hand, &input, &target);
+    check_turned(&target, (double[3]){0, 0, 1}, sqrt(0.5), 0, sqrt(0.5));
+}
+
+/* One of two devices is gone: what the other one says goes on, and the box stays where it is. */
+static void let_go_of_one_of_two(void **state)
+{
+    (void)state;
+    Hand hand = hand_at_rest();
+    BoxTarget before, target;
+    HandInput input = level();
+    input.move_drag[0] = 0.1, input.turn_drag[1] = 0.7;
+    input.move_offset[2] = 0.5, input.tilt_offset[0] = 0.3, input.spin_offset = -0.4;
+    memcpy(input.turned, (double[]){0.1, 0.2, 0.3, 0.9}, sizeof input.turned);
+    check_told(&hand, &input, &before);
+    HandInput still = level();
+    still.tilt_offset[0] = 0.3;
+    memcpy(still.turned, (double[]){0.3, -0.1, 0.1, 0.9}, sizeof still.turned);
+    hand_let_go(&hand, &before, &still, size);
+    hand_update(&hand, &still, size, &target);
+    check_vector(target.position, before.position[0], before.position[1], before.position[2], 1e-9,
+                 "position");
+    for (int k = 0; k < 4; k++)
+        check_near(target.orientation[k], before.orientation[k], 1e-5, "orientation");
 }
 
 static void home_is_upright(void **state)
@@ -275,6 +344,10 @@ static void random_input(HandInput *input)
         input->move_rate[k] = 2 * random_number();
         input->move_offset[k] = 2 * random_number();
     }
+    input->spin_rate = 2 * random_number();
+    input->spin_offset = 2 * random_number();
+    for (int k = 0; k < 4; k++)
+        input->turned[k] = reach * random_number();
 }
 
 static void any_input_gives_a_pose(void **state)
@@ -351,6 +424,9 @@ int main(void)
         cmocka_unit_test(a_stick_springs_back),
         cmocka_unit_test(a_stick_leans_a_turned_box),
         cmocka_unit_test(let_go_stops_where_the_box_is),
+        cmocka_unit_test(the_box_turns_as_the_device_does),
+        cmocka_unit_test(what_spins_takes_the_near_face_to_the_right),
+        cmocka_unit_test(let_go_of_one_of_two),
         cmocka_unit_test(home_is_upright),
         cmocka_unit_test(the_box_is_never_lost),
         cmocka_unit_test(what_is_not_finite_is_ignored),
