@@ -94,6 +94,12 @@ const PlayCommandRow play_command_rows[] = {
      .keys = {KEY(BACKSPACE), KEY(B)},
      .gamepad = "A",
      .flags = PLAY_BUTTON},
+    {.command = PLAY_NEUTRAL,
+     .name = "neutral",
+     .help = "make the pose of the motion device now its neutral one",
+     .keys = {KEY(L)},
+     .gamepad = "Y",
+     .flags = PLAY_BUTTON},
     {.command = PLAY_QUIT,
      .name = "quit",
      .help = "close the list of keys if it is open, else the window",
@@ -174,7 +180,8 @@ static const struct {
 static const struct {
     int button;
     const char *name;
-} gamepad_buttons[] = {{GLFW_GAMEPAD_BUTTON_A, "A"}, {GLFW_GAMEPAD_BUTTON_START, "Start"}};
+} gamepad_buttons[] = {
+    {GLFW_GAMEPAD_BUTTON_A, "A"}, {GLFW_GAMEPAD_BUTTON_Y, "Y"}, {GLFW_GAMEPAD_BUTTON_START, "Start"}};
 
 static int sign_of_key(int key)
 {

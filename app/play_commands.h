@@ -27,6 +27,7 @@ typedef enum PlayCommand {
     PLAY_HELP,
     PLAY_CAMERA_HOME,
     PLAY_BOX_HOME,
+    PLAY_NEUTRAL,
     PLAY_QUIT, /* Escape closes the help first when it is open: the window's affair */
     /* done for as long as it lasts: drags, the wheel, sticks, and the keys of play_held_keys */
     PLAY_ORBIT,

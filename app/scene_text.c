@@ -40,12 +40,12 @@ bool yaml_text_check(const Tree *tree, const char *setting, const char *bytes, s
     for (size_t i = 0; i < size;) {
         const Character character = character_at((const unsigned char *)bytes + i, size - i);
         if (character.length == 0)
-            return tree_error(tree, &place, error, "byte 0x%02x is no text; a scene is a YAML file in UTF-8",
+            return tree_error(tree, &place, error, "byte 0x%02x is no text; write YAML in UTF-8",
                               (unsigned char)bytes[i]);
         /* libfyaml 0.7 never returns from a directive that the text ends with. */
         if (character.code == '%' && begins_line(before))
             return tree_error(tree, &place, error,
-                              "a directive (%%NAME); scenes have none: leave the line out");
+                              "a directive (%%NAME), which means nothing here; leave the line out");
         place.column++;
         if (character.code == '\n') {
             place.line++;

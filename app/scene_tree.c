@@ -48,6 +48,9 @@ bool tree_read(Tree *tree, const char *path, const char *bytes, size_t size, Err
     *tree = (Tree){.path = path};
     if (!yaml_read(tree, NULL, bytes, size, &tree->root, error))
         return false;
+    if (!tree->root)
+        return error_set(error, "%s:1:1: the scene is empty; it needs at least box, particles and fluids",
+                         path);
     if (tree->root->kind != NODE_MAPPING)
         return tree_error(
             tree, tree->root, error,

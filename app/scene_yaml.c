@@ -56,7 +56,7 @@ static bool fail_tag(const Reader *reader, struct fy_token *tag)
 {
     const struct fy_mark *mark = fy_token_start_mark(tag);
     return fail_at(reader, mark ? mark->line + 1 : 1, mark ? mark->column + 1 : 1,
-                   "a tag (!name); scenes have none: write the value alone");
+                   "a tag (!name), which means nothing here; write the value alone");
 }
 
 /* libfyaml's own words, from the first error that it collected. */
@@ -66,11 +66,11 @@ static bool fail_syntax(const Reader *reader)
     for (struct fy_diag_error *found; (found = fy_diag_errors_iterate(reader->diag, &iterator));)
         if (found->type >= FYET_ERROR && found->msg) {
             char what[256];
-            snprintf(what, sizeof what, "not valid YAML: %.200s; a scene is `key: value` lines", found->msg);
+            snprintf(what, sizeof what, "not valid YAML: %.200s; write `key: value` lines", found->msg);
             return fail_at(reader, found->line > 0 ? found->line : 1, found->column > 0 ? found->column : 1,
                            what);
         }
-    return fail_at(reader, 1, 1, "not valid YAML; a scene is `key: value` lines");
+    return fail_at(reader, 1, 1, "not valid YAML; write `key: value` lines");
 }
 
 static void event_drop(Reader *reader)
@@ -195,7 +195,7 @@ static bool read_mapping(Reader *reader, int depth, Node *node)
         if (reader->event->type == FYET_MAPPING_END)
             return true;
         if (keys == MAPPING_KEYS_MAX)
-            return fail_here(reader, "more than 256 keys in one mapping; no scene needs so many");
+            return fail_here(reader, "more than 256 keys in one mapping; nothing needs so many");
         if (!read_pair(reader, depth, node, last))
             return false;
         last = &(*last)->next;
@@ -207,15 +207,15 @@ static bool read_mapping(Reader *reader, int depth, Node *node)
 static bool read_node(Reader *reader, int depth, int line, int column, Node **out)
 {
     if (depth > TREE_DEPTH_MAX)
-        return fail_here(reader, "nested too deeply; no scene needs more than 32 levels");
+        return fail_here(reader, "nested too deeply; nothing needs more than 32 levels");
     if (reader->event->type == FYET_ALIAS)
-        return fail_here(reader, "an alias (*name); scenes have none: write the value out");
+        return fail_here(reader, "an alias (*name), which means nothing here; write the value out");
     struct fy_token *tag = fy_event_get_tag_token(reader->event);
     if (tag)
         return fail_tag(reader, tag);
     Node *node = tree_alloc(reader->tree, sizeof *node);
     if (!node)
-        return fail_here(reader, "no memory for the scene");
+        return fail_here(reader, "no memory to read it");
     node->line = line;
     node->column = column;
     node->setting = reader->setting;
@@ -229,7 +229,7 @@ static bool read_node(Reader *reader, int depth, int line, int column, Node **ou
     case FYET_MAPPING_START:
         return read_mapping(reader, depth, node);
     default:
-        return fail_here(reader, "not valid YAML here; a scene is `key: value` lines");
+        return fail_here(reader, "not valid YAML here; write `key: value` lines");
     }
 }
 
@@ -237,16 +237,15 @@ static bool read_stream(Reader *reader, Node **root)
 {
     if (!events_skip(reader, 2)) /* the stream, then the document */
         return false;
+    *root = NULL;
     if (reader->event->type == FYET_STREAM_END)
-        return fail_at(reader, 1, 1,
-                       reader->setting ? "no value; write path=value"
-                                       : "the scene is empty; it needs at least box, particles and fluids");
+        return !reader->setting || fail_at(reader, 1, 1, "no value; write path=value");
     if (!event_next(reader) || !read_node(reader, 0, 1, 1, root))
         return false;
     if (!events_skip(reader, 2)) /* the document's end, then what follows */
         return false;
     if (reader->event->type != FYET_STREAM_END)
-        return fail_here(reader, "a second document; a scene is one");
+        return fail_here(reader, "a second document; write one");
     return true;
 }
 
@@ -260,14 +259,14 @@ bool yaml_read(Tree *tree, const char *setting, const char *bytes, size_t size, 
     quiet.fp = NULL;
     reader.diag = fy_diag_create(&quiet);
     if (!reader.diag)
-        return fail_at(&reader, 1, 1, "no memory for the scene");
+        return fail_at(&reader, 1, 1, "no memory to read it");
     fy_diag_set_collect_errors(reader.diag, true);
 
     const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_COLLECT_DIAG | FYPCF_JSON_NONE,
                                         .diag = reader.diag};
     reader.parser = fy_parser_create(&config);
     bool ok = reader.parser && fy_parser_set_string(reader.parser, bytes, size) == 0;
-    ok = ok ? read_stream(&reader, root) : fail_at(&reader, 1, 1, "no memory for the scene");
+    ok = ok ? read_stream(&reader, root) : fail_at(&reader, 1, 1, "no memory to read it");
     if (reader.parser) {
         event_drop(&reader);
         fy_parser_destroy(reader.parser);

@@ -9,8 +9,8 @@ typedef struct TreeBlock TreeBlock;
 /* Zeroed memory that lives as long as the tree; NULL when there is none left. */
 void *tree_alloc(Tree *tree, size_t size);
 
-/* Reads one YAML document into nodes of the tree; `setting` as in Node. False with a message that names the
- * place. */
+/* Reads one YAML document into nodes of the tree; `setting` as in Node. *root is NULL where nothing stands in
+   it. False with a message that names the place. */
 bool yaml_read(Tree *tree, const char *setting, const char *bytes, size_t size, Node **root, Error *error);
 
 /* Whether the bytes are UTF-8 text without control characters and directives; yaml_read asks this first. */

@@ -156,7 +156,7 @@ static void what_is_too_much_is_refused_at_once(void **state)
     memset(text, '[', size);
     assert_false(scene_parse("brackets.yaml", text, SCENE_BYTES_MAX, NULL, &scene, NULL, &error));
     assert_string_equal(error.message,
-                        "brackets.yaml:1:34: nested too deeply; no scene needs more than 32 levels");
+                        "brackets.yaml:1:34: nested too deeply; nothing needs more than 32 levels");
     size_t used = 0;
     for (int i = 0; used + 32 < SCENE_BYTES_MAX; i++)
         used += (size_t)sprintf(text + used, "k%d: 1\n", i);

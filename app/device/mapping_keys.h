@@ -1,0 +1,17 @@
+/* Inside the mapping file: what its reader and its writer share. */
+#ifndef SLOSH_MAPPING_KEYS_H
+#define SLOSH_MAPPING_KEYS_H
+
+#include "app/device/mapping.h"
+#include "app/scene_keys.h"
+
+/* The keys of a device, of one of its axes, and of its pose; each ended by a row without a path. */
+extern const Key mapping_device_keys[], mapping_axis_keys[], mapping_pose_keys[];
+
+const char *mapping_as_name(int as);           /* NULL after the last */
+const char *mapping_command_name(int command); /* of what a press can do; "" for the others, NULL after the
+                                                  last */
+const char *mapping_to_words(int to);          /* "moves the box to the right" */
+ButtonMap *device_map_button(DeviceMap *map, const char *name); /* NULL: the family has none of that name */
+
+#endif
