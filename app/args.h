@@ -69,17 +69,19 @@ typedef struct Args {
     int width, height; /* pixels, 1 to 16384; default 1280 x 720, of bench 512 x 512 */
     int gpu;           /* number of the EGL device; -1: not given */
     ClockChoice clock;
-    SnapshotFrame frame;  /* export: that positions and velocities are in */
-    bool surface;         /* export: the fluid's surface instead of the particles */
-    double level, cell;   /* of it; 0: not given */
-    ColorChoice color_by; /* export: of a .ply */
-    bool full, coarse;    /* validate: finer or coarser than its default set */
-    const char *table;    /* bench: NAME, or NULL */
-    bool play;            /* bench: the live window */
-    double seconds;       /* of it; more than 0; default 20 */
-    const char *record;   /* FILE, or NULL; of devices: raw reports */
-    const char *device;   /* "file:PATH", or NULL: what is plugged in */
-    bool watch;           /* devices: live values */
+    SnapshotFrame frame;       /* export: that positions and velocities are in */
+    bool surface;              /* export: the fluid's surface instead of the particles */
+    double level, cell;        /* of it; 0: not given */
+    ColorChoice color_by;      /* export: of a .ply */
+    bool full, coarse;         /* validate: finer or coarser than its default set */
+    const char *table;         /* bench: NAME, or NULL */
+    bool play;                 /* bench: the live window */
+    double seconds;            /* of it; more than 0; default 20 */
+    const char *record;        /* FILE, or NULL; of devices: raw reports */
+    const char *device;        /* "file:PATH", or NULL: what is plugged in */
+    bool watch;                /* devices: live values */
+    const char *mapping;       /* FILE, or NULL: the user's own, or what is built in */
+    const char *write_mapping; /* devices: FILE, or NULL */
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
     size_t pool_used;

@@ -1,6 +1,7 @@
 #include "app/cmd.h"
 #include "app/device/device_survey.h"
 #include "app/device/devices_watch.h"
+#include "app/device/mapping.h"
 #include "app/interrupt.h"
 #include "app/json_file.h"
 #include "app/output.h"
@@ -171,9 +172,24 @@ static int watch_devices(const Args *args, Error *error)
     return args->device && interrupted() ? EXIT_INTERRUPTED : 0;
 }
 
+/* Checks, explains and writes what devices do. */
+static int show_mapping(const Args *args, Error *error)
+{
+    Mapping mapping;
+    if (!mapping_load(args->mapping, &mapping, error))
+        return fail(EXIT_USAGE, error);
+    if (args->mapping && !args->quiet)
+        mapping_explain(&mapping, stdout);
+    if (args->write_mapping && !mapping_write_new(&mapping, args->write_mapping, error))
+        return fail(EXIT_FAILED, error);
+    return 0;
+}
+
 int cmd_devices(const Args *args)
 {
     Error error = {{0}};
+    if (args->mapping || args->write_mapping)
+        return show_mapping(args, &error);
     if (args->watch || args->record) {
         interrupt_install();
         return watch_devices(args, &error);

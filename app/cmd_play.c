@@ -1,4 +1,5 @@
 #include "app/cmd.h"
+#include "app/device/devices.h"
 #include "app/output.h"
 #include "app/play.h"
 #include "app/play_report.h"
@@ -16,17 +17,22 @@ static int fail(const Error *error, int code)
 int cmd_play(const Args *args)
 {
     const char *scene = args->scene_count ? args->scenes[0] : default_scene;
+    static Mapping mapping;
     const PlaySetup setup = {.scene = scene,
                              .settings = &args->settings,
                              .width = args->width,
                              .height = args->height,
                              .record = args->record,
+                             .mapping = &mapping,
+                             .device = args->device,
                              .quiet = args->quiet};
     static PlayFigures figures;
     static Scene checked;
     SceneSettings settings = args->settings;
     Error error = {{0}};
-    if (!scene_load(scene, &settings, &checked, NULL, &error))
+    if (!scene_load(scene, &settings, &checked, NULL, &error) ||
+        !mapping_load(args->mapping, &mapping, &error) ||
+        (args->device && !devices_check(args->device, &error)))
         return fail(&error, EXIT_USAGE);
     if ((args->record && !output_check(args->record, &error)) ||
         (args->json && !output_check(args->json, &error)))

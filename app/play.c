@@ -141,6 +141,31 @@ static void follow_shaders(Play *play)
         play_error(play, error.message);
 }
 
+/* A HandPost whose devices the window leaves to it. */
+static bool claimed(void *post, uint16_t vendor, uint16_t product)
+{
+    return hand_post_claims(post, vendor, product);
+}
+
+static bool start_devices(Play *play, Error *error)
+{
+    const PlaySetup *setup = play->setup;
+    const DevicesSetup devices = {.source = setup->device, .listener = hand_post_hear, .user = play->post};
+    window_leave_gamepads(play->window, claimed, play->post);
+    if (!setup->mapping)
+        return true;
+    play->devices = devices_start(&devices, error);
+    return play->devices != NULL;
+}
+
+static bool make_post(Play *play, Error *error)
+{
+    Mapping mapping;
+    mapping_default(&mapping);
+    play->post = hand_post_create(play->setup->mapping ? play->setup->mapping : &mapping, window_wake);
+    return play->post || error_set(error, "no memory for the hand");
+}
+
 static bool start(Play *play, Error *error)
 {
     const PlaySetup *setup = play->setup;
@@ -153,7 +178,8 @@ static bool start(Play *play, Error *error)
     window_size(play->window, &play->width, &play->height);
     if (!gl_renderer_is_software())
         play->timer = gl_timer_create(GL_CLOCK_QUERY);
-    if (!play_open(play, setup->scene, setup->settings, error))
+    if (!make_post(play, error) || !play_open(play, setup->scene, setup->settings, error) ||
+        !start_devices(play, error))
         return false;
     play->renderer =
         renderer_create(&play->open.scene.view, (int)fmax(play->width, 1), (int)fmax(play->height, 1), error);
@@ -266,6 +292,9 @@ static void describe(const Play *play, PlayFigures *figures)
         .latency_median_ms = meter_latency(&play->meter, 0.5),
         .latency_p95_ms = meter_latency(&play->meter, 0.95),
         .latency_events = play->meter.latencies,
+        .device_reports = hand_post_reports(play->post),
+        .report_median_ms = hand_post_latency(play->post, 0.5),
+        .report_p99_ms = hand_post_latency(play->post, 0.99),
         .panel_ms = play->panels ? play->panel_ms / (double)play->panels : 0,
         .display_scale = window_scale(play->window),
         .speed = play->speed,
@@ -296,9 +325,13 @@ static void describe(const Play *play, PlayFigures *figures)
 
 static void close_all(Play *play)
 {
+    devices_stop(play->devices);
+    if (play->post)
+        hand_post_close(play->post);
     play->stuck = !play_scene_close(&play->open, PATIENCE_MS) || !play_leave(play, PATIENCE_MS);
     if (play->stuck) /* in a frame that lasts seconds: the end of the process ends it */
         return;
+    hand_post_destroy(play->post);
     panel_destroy(play->ui.panel);
     ui_destroy(play->ui.ui);
     text_destroy(play->text);

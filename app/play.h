@@ -3,6 +3,7 @@
 #define SLOSH_PLAY_H
 
 #include "app/args.h"
+#include "app/device/mapping.h"
 #include "sim/error.h"
 
 #include <stdint.h>
@@ -12,6 +13,8 @@ typedef struct PlaySetup {
     const SceneSettings *settings; /* of that scene; others open as their files have them */
     int width, height;             /* of the window, in screen coordinates */
     const char *record;            /* the session is written there at the end; or NULL */
+    const Mapping *mapping;        /* of motion devices; NULL: they are left alone */
+    const char *device;            /* --device, or NULL: what is plugged in */
     double shake_seconds;          /* more than 0: the box is shaken by a script for so long, then all ends */
     bool quiet;
 } PlaySetup;
@@ -32,8 +35,10 @@ typedef struct PlayFigures {
     double sim_ms, render_ms; /* a frame of the solver, a picture: means */
     double latency_median_ms, latency_p95_ms;
     size_t latency_events;
-    double panel_ms;  /* CPU time of the panel in a picture, mean; 0 when never shown */
-    double cpus_busy; /* CPU time over wall time */
+    uint64_t device_reports;
+    double report_median_ms, report_p99_ms; /* from the report of a motion device to its command */
+    double panel_ms;                        /* CPU time of the panel in a picture, mean; 0 when never shown */
+    double cpus_busy;                       /* CPU time over wall time */
     double speed, display_scale;
     bool paused, fullscreen, camera_auto, panel, help;
     double box_position[3], box_orientation[4]; /* the hand's part of the pose */

@@ -138,7 +138,10 @@ void play_do(Play *play, PlayCommand command)
         camera_home(play);
         break;
     case PLAY_BOX_HOME:
-        hand_home(&play->hand);
+        hand_post_home(play->post);
+        break;
+    case PLAY_NEUTRAL:
+        hand_post_neutral(play->post);
         break;
     case PLAY_QUIT:
         quit_or_close(play);

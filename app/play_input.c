@@ -10,6 +10,7 @@
 #include <string.h>
 
 static const double DRAG_TURN = 2 * M_PI; /* radians that a drag over the picture's height turns by */
+static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians, steps in a second, at rate 1 */
 
 /* The camera as it is now, automatic or in the hand. */
 static Orbit present_orbit(const Play *play)
@@ -143,7 +144,7 @@ static void let_go(Play *play)
     if (!held)
         return;
     simulator_status(play->open.simulator, &play->status);
-    hand_let_go(&play->hand, &play->status.hand, NULL, play->particles.box_size);
+    hand_post_let_go(play->post, &play->status.hand);
 }
 
 /* Before the first picture there is nothing that a mouse could take. */
@@ -238,16 +239,40 @@ static void add_gamepad(Play *play, HandInput *hand)
             play_do(play, play_command_of_gamepad(button));
 }
 
-/* Sums up what all devices say, and tells the simulator when the box shall be elsewhere. */
+/* What motion devices ask of the camera. */
+static void move_camera(Play *play, const double rates[3])
+{
+    if (rates[0] == 0 && rates[1] == 0 && rates[2] == 0)
+        return;
+    take_camera(play);
+    orbit_turn(&play->orbit, CAMERA_TURN * rates[0], CAMERA_TURN * rates[1]);
+    orbit_zoom(&play->orbit, CAMERA_ZOOM * rates[2]);
+    camera_moved(play);
+}
+
+static void take_news(Play *play, const HandNews *news)
+{
+    for (int i = 0; i < news->words_count; i++)
+        if (news->words[i].wrong)
+            play_error(play, news->words[i].text);
+        else
+            play_tell(play, "%s", news->words[i].text);
+    for (int i = 0; i < news->sent_count && !play->paused; i++)
+        meter_event(&play->meter, news->sent[i].when_ms, news->sent[i].number);
+    move_camera(play, news->camera);
+    for (int i = 0; i < news->command_count; i++)
+        play_do(play, news->commands[i]);
+}
+
+/* Sums up what the window's devices say, and tells the simulator when the box shall be elsewhere. */
 void play_hand(Play *play)
 {
     PlayInput *input = &play->input;
-    const double now = wall_ms();
     const Orbit orbit = present_orbit(play);
     const ParticleBuffers *particles = &play->particles;
     const double metres = orbit_metres_per_pixel(&orbit, particles->box_size, &particles->box, play->height);
-    HandInput hand = {.dt = 1e-3 * (now - input->looked_ms)};
-    SimCommand command = {.kind = SIM_TARGET};
+    HandInput hand = {.dt = 0};
+    HandNews news;
     orbit_axes(&orbit, hand.right, hand.up, hand.away);
     for (int k = 0; k < 2; k++) {
         hand.move_drag[k] = metres * input->move_drag[k];
@@ -256,13 +281,12 @@ void play_hand(Play *play)
     }
     add_keys(input, &hand);
     add_gamepad(play, &hand);
-    input->looked_ms = now;
-    if (hand_update(&play->hand, &hand, particles->box_size, &command.target)) {
-        const uint64_t number = simulator_send(play->open.simulator, &command);
-        if (number && input->hand_event_ms > 0 && !play->paused)
-            meter_event(&play->meter, input->hand_event_ms, number);
-    }
+    const uint64_t number = hand_post_look(play->post, &hand, particles->box_size, &news);
+    const double event_ms = input->hand_event_ms;
     input->hand_event_ms = 0;
+    if (number && event_ms > 0 && !play->paused)
+        meter_event(&play->meter, event_ms, number);
+    take_news(play, &news);
 }
 
 void play_shake(Play *play)

@@ -8,14 +8,21 @@
 
 static const double LEAVE_MS = 200, SAVE_MS = 5000;
 
+/* A HandSend. */
+static uint64_t send_target(void *simulator, const BoxTarget *target)
+{
+    const SimCommand command = {.kind = SIM_TARGET, .target = *target};
+    return simulator_send(simulator, &command);
+}
+
 static void adopt(Play *play, const PlayScene *opened)
 {
     char title[192];
     play->open = *opened;
     play->file_scene = opened->scene;
     play->has_particles = play->orbiting = false;
-    play->hand = hand_at_rest();
-    play->input = (PlayInput){.drag = PLAY_NONE, .looked_ms = wall_ms()};
+    hand_post_open(play->post, send_target, play->open.simulator);
+    play->input = (PlayInput){.drag = PLAY_NONE};
     play->saves = play->messages = 0;
     play->scenes_opened++;
     play->dirty = true;
@@ -69,6 +76,7 @@ static void leave(Play *play)
     const double until = wall_ms() + SAVE_MS;
     if (!play->open.simulator)
         return;
+    hand_post_close(play->post);
     keep_session(play);
     while (play->status.saving && !play->status.ended && wall_ms() < until) {
         window_wait(play->window, 0.01);
@@ -108,6 +116,6 @@ bool play_open(Play *play, const char *scene, const SceneSettings *settings, Err
 void play_reset(Play *play)
 {
     keep_session(play);
-    play->hand = hand_at_rest();
     simulator_reset(play->open.simulator);
+    hand_post_open(play->post, send_target, play->open.simulator);
 }

@@ -24,6 +24,8 @@ static json_t *figures_json(const PlayFigures *f)
                   f->first_picture_ms, "latency_median_ms", f->latency_median_ms, "latency_p95_ms",
                   f->latency_p95_ms, "cpus_busy", f->cpus_busy, "wall_seconds", f->wall_s, "latency_events",
                   (json_int_t)f->latency_events);
+    json_t *devices = json_pack("{s:I, s:f, s:f}", "device_reports", (json_int_t)f->device_reports,
+                                "report_median_ms", f->report_median_ms, "report_p99_ms", f->report_p99_ms);
     json_t *state =
         json_pack("{s:I, s:f, s:f, s:I, s:I, s:s, s:s, s:f, s:f}", "steps", (json_int_t)f->step, "time",
                   f->time, "simulated_seconds", f->simulated_s, "pictures", (json_int_t)f->pictures,
@@ -35,11 +37,13 @@ static json_t *figures_json(const PlayFigures *f)
                               vector(f->box_orientation, 4), "camera_from", vector(f->camera_from, 3),
                               "camera_to", vector(f->camera_to, 3), "gl_errors", f->gl_errors);
     if (json)
-        json_object_update(json, times), json_object_update(json, state), json_object_update(json, hands);
-    const bool whole = json && times && state && hands;
+        json_object_update(json, times), json_object_update(json, state), json_object_update(json, hands),
+            json_object_update(json, devices);
+    const bool whole = json && times && state && hands && devices;
     json_decref(times);
     json_decref(state);
     json_decref(hands);
+    json_decref(devices);
     if (whole)
         return json;
     json_decref(json);

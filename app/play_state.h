@@ -2,7 +2,7 @@
 #ifndef SLOSH_PLAY_STATE_H
 #define SLOSH_PLAY_STATE_H
 
-#include "app/hand.h"
+#include "app/hand_post.h"
 #include "app/orbit.h"
 #include "app/panel.h"
 #include "app/play.h"
@@ -29,7 +29,6 @@ typedef struct PlayInput {
     double move_drag[2];  /* since the hand's last update: pixels to the right and up */
     double turn_drag[2];
     double hand_event_ms; /* the first event since then that concerns the box; 0: none */
-    double looked_ms;     /* wall time of that update */
 } PlayInput;
 
 typedef struct PlayUi {
@@ -69,7 +68,8 @@ typedef struct Play {
     bool has_particles;
     SimulatorStatus status;
     PlayInput input;
-    Hand hand;
+    HandPost *post;
+    Devices *devices; /* NULL: left alone */
     Orbit orbit;
     bool orbiting; /* the camera is in the hand */
     PlayMeter meter;
@@ -92,6 +92,7 @@ typedef struct Play {
     double render_ms, panel_ms; /* sums over all pictures */
     double last_render_ms;
     size_t rendered, panels;
+    uint64_t reports_shown; /* of motion devices, in the panel's last drawing */
     PlayScript script;
     uint64_t shaders_stamp; /* of the files of --shaders when they were read */
     double shaders_due_ms;  /* wall time of the next look at them */

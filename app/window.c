@@ -20,6 +20,8 @@ struct Window {
     WindowEvent events[EVENTS_MAX]; /* a ring */
     int place[4];                   /* x, y, width, height before full screen, in screen coordinates */
     bool full;
+    WindowClaimed *claimed; /* NULL: none is */
+    void *claimer;
     char renderer[256];
 };
 
@@ -323,12 +325,36 @@ const char *window_renderer(const Window *window)
     return window->renderer;
 }
 
+void window_leave_gamepads(Window *window, WindowClaimed *claimed, void *user)
+{
+    window->claimed = claimed;
+    window->claimer = user;
+}
+
+/* "03000000 4c05 0000 e60c 0000 11010000": bus, vendor, product and version, little-endian. */
+bool window_guid_ids(const char *guid, uint16_t *vendor, uint16_t *product)
+{
+    unsigned v[2], p[2];
+    if (!guid || strlen(guid) != 32 ||
+        sscanf(guid, "%*8c%2x%2x0000%2x%2x0000", &v[0], &v[1], &p[0], &p[1]) != 4)
+        return false;
+    *vendor = (uint16_t)(v[0] | v[1] << 8);
+    *product = (uint16_t)(p[0] | p[1] << 8);
+    return *vendor != 0;
+}
+
+static bool is_claimed(const Window *window, int joystick)
+{
+    uint16_t vendor, product;
+    return window->claimed && window_guid_ids(glfwGetJoystickGUID(joystick), &vendor, &product) &&
+           window->claimed(window->claimer, vendor, product);
+}
+
 bool window_gamepad(const Window *window, WindowGamepad *gamepad)
 {
-    (void)window;
     for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; joystick++) {
         GLFWgamepadstate state;
-        if (!glfwGetGamepadState(joystick, &state))
+        if (!glfwGetGamepadState(joystick, &state) || is_claimed(window, joystick))
             continue;
         *gamepad = (WindowGamepad){
             .left = {state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]},

@@ -8,6 +8,7 @@
 #include "sim/error.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct Window Window;
 
@@ -56,6 +57,13 @@ void window_size(const Window *window, int *width, int *height); /* of the frame
 double window_scale(const Window *window);                       /* of letters: 1 to 3 and more */
 double window_refresh(const Window *window); /* pictures that the display shows in a second */
 const char *window_renderer(const Window *window);
+
+/* Gamepads of which `claimed` says so are left out: something else has them. */
+typedef bool WindowClaimed(void *user, uint16_t vendor, uint16_t product);
+void window_leave_gamepads(Window *window, WindowClaimed *claimed, void *user);
+
+/* Vendor and product in a joystick's GUID as GLFW gives it, in SDL's layout; false where it has none. */
+bool window_guid_ids(const char *guid, uint16_t *vendor, uint16_t *product);
 
 /* The first gamepad: sticks -1..1 (right and down positive), pressed buttons as bits 1 <<
    GLFW_GAMEPAD_BUTTON_*. False without one. */

@@ -98,7 +98,7 @@ void mapping_default(Mapping *mapping)
         mapping->family[f] = family_default((DeviceFamily)f);
 }
 
-const DeviceMap *mapping_of(const Mapping *mapping, DeviceFamily family, uint16_t vendor, uint16_t product)
+DeviceMap *mapping_of(Mapping *mapping, DeviceFamily family, uint16_t vendor, uint16_t product)
 {
     for (int i = 0; i < mapping->own_count; i++)
         if (mapping->own[i].vendor == vendor && mapping->own[i].product == product)

@@ -76,7 +76,7 @@ typedef struct Mapping {
 void mapping_default(Mapping *mapping);
 
 /* The product's own entry, or its family's. */
-const DeviceMap *mapping_of(const Mapping *mapping, DeviceFamily family, uint16_t vendor, uint16_t product);
+DeviceMap *mapping_of(Mapping *mapping, DeviceFamily family, uint16_t vendor, uint16_t product);
 
 /* Names of the family's axes, and their values in a state: -1 .. 1. */
 const char *mapping_axis_name(DeviceFamily family, int axis);

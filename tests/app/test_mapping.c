@@ -321,7 +321,7 @@ static void a_pose_with_gain(void **state)
     check_near(out[3], 1, 0, "none");
 }
 
-static PlayCommand command_of(const Mapping *mapping, uint16_t product, const char *button)
+static PlayCommand command_of(Mapping *mapping, uint16_t product, const char *button)
 {
     const DeviceRow *row = device_row(product > 0xc000 ? 0x256f : 0x054c, product);
     assert_non_null(row);

@@ -1,0 +1,434 @@
+/* From a device's report to the command that it causes: at once, while the window draws, and in step with the
+   mouse and the keys. */
+#include "tests/app/near.h"
+
+#include "app/hand_post.h"
+#include "sim/stage.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <string.h>
+#include <time.h>
+
+static const double size[3] = {1, 1, 1};
+static const double g = 9.80665;
+enum { PAD = 1, CAP = 2 };
+
+/* What takes the commands. */
+typedef struct Sent {
+    uint64_t count;
+    BoxTarget last;
+} Sent;
+
+static uint64_t take(void *user, const BoxTarget *target)
+{
+    Sent *sent = user;
+    sent->last = *target;
+    return ++sent->count;
+}
+
+/* A window that looks along -z, and devices. */
+typedef struct Room {
+    HandPost *post;
+    Sent sent;
+    HandInput own;
+    HandNews news;
+    DeviceState pad, cap;
+} Room;
+
+static _Atomic int woken;
+
+static void wake(void)
+{
+    woken++;
+}
+
+static void look(Room *room)
+{
+    hand_post_look(room->post, &room->own, size, &room->news);
+}
+
+static void sleep_ms(double ms)
+{
+    const struct timespec time = {.tv_nsec = (long)(1e6 * ms)};
+    nanosleep(&time, NULL);
+}
+
+static void tell(Room *room, DeviceEventKind kind, int number, const char *problem)
+{
+    const bool pad = number == PAD;
+    const DeviceEvent event = {.kind = kind,
+                               .number = number,
+                               .family = pad ? DEVICE_DUALSENSE : DEVICE_SPACEMOUSE,
+                               .vendor = pad ? 0x054c : 0x256f,
+                               .product = pad ? 0x0ce6 : 0xc635,
+                               .name = pad ? "DualSense" : "SpaceMouse Compact",
+                               .problem = problem,
+                               .state = pad ? &room->pad : &room->cap};
+    hand_post_hear(room->post, &event);
+}
+
+static void report(Room *room, int number)
+{
+    DeviceState *state = number == PAD ? &room->pad : &room->cap;
+    state->reports++;
+    state->time += 0.004;
+    tell(room, DEVICE_REPORTED, number, "");
+}
+
+static Room room_open(void)
+{
+    Mapping mapping;
+    mapping_default(&mapping);
+    woken = 0;
+    Room room = {.post = hand_post_create(&mapping, wake)};
+    assert_non_null(room.post);
+    room.own.right[0] = 1, room.own.up[1] = 1, room.own.away[2] = -1;
+    room.pad.has_motion = true;
+    room.pad.acceleration[1] = g;
+    return room;
+}
+
+/* `room` stays where it is from now on: what is sent goes there. */
+static void room_begin(Room *room)
+{
+    hand_post_open(room->post, take, &room->sent);
+    look(room);
+}
+
+static void room_close(Room *room)
+{
+    hand_post_destroy(room->post);
+}
+
+/* The pad is turned about z by so many degrees, and says so in 0.1 s. */
+static void turn_pad(Room *room, double degrees)
+{
+    const double rate = degrees * M_PI / 180 / 0.1;
+    double angle = atan2(room->pad.acceleration[0], room->pad.acceleration[1]);
+    room->pad.angular_velocity[2] = rate;
+    for (int i = 0; i < 25; i++) {
+        angle += rate * 0.004;
+        room->pad.acceleration[0] = g * sin(angle);
+        room->pad.acceleration[1] = g * cos(angle);
+        report(room, PAD);
+    }
+    room->pad.angular_velocity[2] = 0;
+    for (int i = 0; i < 25; i++)
+        report(room, PAD);
+}
+
+static void check_tilt(const Room *room, double degrees)
+{
+    const double half = degrees * M_PI / 360;
+    check_vector(room->sent.last.orientation, 0, 0, sin(half), 0.004, "orientation"); /* half a degree */
+}
+
+static void a_report_is_a_command_at_once(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, CAP, "");
+    look(&room);
+    assert_string_equal(room.news.words[0].text, "SpaceMouse Compact is in your hand");
+    room.cap.cap[0] = 1;
+    sleep_ms(1);
+    report(&room, CAP);
+    assert_int_equal(room.sent.count, 1);
+    assert_true(room.sent.last.position[0] > 0);
+    assert_int_equal(woken, 1); /* for the words on the screen, not for a pose */
+    look(&room);
+    assert_int_equal(room.news.sent_count, 1);
+    assert_int_equal(room.news.sent[0].number, 1);
+    assert_int_equal(hand_post_reports(room.post), 1);
+    look(&room);
+    assert_int_equal(room.news.words_count + room.news.sent_count, 0);
+    room_close(&room);
+}
+
+static void the_box_is_tilted_as_the_pad_is(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, -30);
+    check_tilt(&room, -30);
+
+    /* Seen from +x the picture's right is -z: so is the way of its tilt. */
+    room.own = (HandInput){.right = {0, 0, -1}, .up = {0, 1, 0}, .away = {-1, 0, 0}};
+    look(&room);
+    check_vector(room.sent.last.orientation, -sin(M_PI / 12), 0, 0, 0.004, "orientation");
+    room_close(&room);
+}
+
+static void unplugged_the_box_stays(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.pad.left[0] = 1;
+    turn_pad(&room, 0);
+    turn_pad(&room, 20);
+    const Sent before = room.sent;
+    assert_true(before.last.position[0] > 0.4);
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    for (int i = 0; i < 10; i++)
+        look(&room);
+    assert_int_equal(room.sent.count, before.count);
+    report(&room, PAD); /* of one that is gone */
+    assert_int_equal(room.sent.count, before.count);
+    hand_post_home(room.post);
+    look(&room);
+    assert_int_equal(room.sent.count, before.count + 1);
+    check_vector(room.sent.last.position, 0, 0, 0, 0, "position");
+    check_tilt(&room, 0);
+    room_close(&room);
+}
+
+static void two_devices_at_once(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    tell(&room, DEVICE_PLUGGED, CAP, "");
+    turn_pad(&room, 0);
+    room.cap.cap[1] = 1;
+    turn_pad(&room, 20);
+    report(&room, CAP);
+    sleep_ms(2);
+    report(&room, CAP);
+    check_tilt(&room, 20);
+    const double up = room.sent.last.position[1];
+    assert_true(up > 0);
+    tell(&room, DEVICE_UNPLUGGED, CAP, ""); /* the pad goes on */
+    turn_pad(&room, 10);
+    check_tilt(&room, 30);
+    check_near(room.sent.last.position[1], up, 1e-9, "how far up");
+    room_close(&room);
+}
+
+static void buttons_are_commands_once(void **state)
+{
+    (void)state;
+    enum { TRIANGLE = 1 << 7, OPTIONS = 1 << 13 };
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.pad.buttons = TRIANGLE | OPTIONS;
+    report(&room, PAD);
+    report(&room, PAD);
+    look(&room);
+    assert_int_equal(room.news.command_count, 2);
+    assert_int_equal(room.news.commands[0], PLAY_NEUTRAL);
+    assert_int_equal(room.news.commands[1], PLAY_PAUSE);
+    look(&room);
+    assert_int_equal(room.news.command_count, 0);
+    assert_true(woken >= 2);
+    room_close(&room);
+}
+
+static void neutral_and_home(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, 25);
+    hand_post_neutral(room.post);
+    look(&room);
+    check_tilt(&room, 0);
+    turn_pad(&room, -10);
+    check_tilt(&room, -10);
+    room.own.turn_drag[0] = 1, room.own.move_drag[0] = 0.2;
+    look(&room);
+    hand_post_home(room.post);
+    room.own.turn_drag[0] = room.own.move_drag[0] = 0;
+    look(&room);
+    check_tilt(&room, 0);
+    check_vector(room.sent.last.position, 0, 0, 0, 1e-12, "position");
+    room_close(&room);
+}
+
+static void what_may_not_be_opened_is_told(void **state)
+{
+    (void)state;
+    HandDevice devices[HAND_POST_DEVICES_MAX];
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_REFUSED, PAD, "permission denied; install the rule");
+    look(&room);
+    assert_true(room.news.words[0].wrong);
+    assert_string_equal(room.news.words[0].text, "DualSense: permission denied; install the rule");
+    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    assert_string_equal(devices[0].problem, "permission denied; install the rule");
+    assert_false(hand_post_claims(room.post, 0x054c, 0x0ce6)); /* the window may have it */
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    assert_string_equal(devices[0].problem, "");
+    assert_true(hand_post_claims(room.post, 0x054c, 0x0ce6));
+    assert_false(hand_post_claims(room.post, 0x054c, 0x09cc));
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    assert_false(hand_post_claims(room.post, 0x054c, 0x0ce6));
+    assert_int_equal(hand_post_devices(room.post, devices), 0);
+    room_close(&room);
+}
+
+static void more_than_there_is_room_for(void **state)
+{
+    (void)state;
+    HandDevice devices[HAND_POST_DEVICES_MAX];
+    Room room = room_open();
+    room_begin(&room);
+    for (int number = 1; number < 30; number++)
+        tell(&room, DEVICE_PLUGGED, number, "");
+    assert_int_equal(hand_post_devices(room.post, devices), HAND_POST_DEVICES_MAX);
+    for (int number = 1; number < 30; number += 2)
+        tell(&room, DEVICE_UNPLUGGED, number, "");
+    assert_int_equal(hand_post_devices(room.post, devices), HAND_POST_DEVICES_MAX / 2);
+    for (int i = 0; i < HAND_POST_DEVICES_MAX / 2; i++)
+        assert_int_equal(devices[i].number, 2 * (i + 1)); /* in the order of coming */
+    room_close(&room);
+}
+
+static void tuned_in_the_panel(void **state)
+{
+    (void)state;
+    HandDevice devices[HAND_POST_DEVICES_MAX];
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    hand_post_tune(room.post, PAD, 0.5, 0.4);
+    turn_pad(&room, 0);
+    turn_pad(&room, 20);
+    check_tilt(&room, 10);
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    tell(&room, DEVICE_PLUGGED, PAD, ""); /* the same again */
+    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    check_near(devices[0].map.gain, 0.5, 0, "gain");
+    check_near(devices[0].map.dead_zone, 0.4, 0, "dead zone");
+    room_close(&room);
+}
+
+static void the_camera_is_the_windows(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.pad.right[0] = 1, room.pad.triggers[1] = 1;
+    for (int i = 0; i < 10; i++)
+        report(&room, PAD);
+    look(&room);
+    assert_true(room.news.camera[0] > 0 && room.news.camera[1] == 0);
+    check_near(room.news.camera[2], room.news.camera[0], 1e-12, "zoom");
+    assert_true(woken > 1 && room.sent.count == 0);
+    room_close(&room);
+}
+
+/* A key that is held moves the box by the clock, however many reports come in between. */
+static void keys_go_on_between_reports(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.own.move_rate[0] = 0.5;
+    const double began = wall_ms();
+    look(&room);
+    for (int i = 0; i < 50; i++) {
+        sleep_ms(1);
+        report(&room, PAD);
+    }
+    look(&room);
+    check_near(room.sent.last.position[0], 0.5e-3 * HAND_SPEED * (wall_ms() - began), 2e-3, "the way");
+    room_close(&room);
+}
+
+static void closed_it_sends_nothing(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    tell(&room, DEVICE_PLUGGED, CAP, "");
+    room.cap.cap[0] = 1;
+    report(&room, CAP); /* before any scene */
+    hand_post_open(room.post, take, &room.sent);
+    report(&room, CAP); /* before the first picture: nobody knows what is right */
+    assert_int_equal(room.sent.count, 0);
+    look(&room);
+    sleep_ms(1);
+    report(&room, CAP);
+    assert_true(room.sent.count > 0);
+    const uint64_t count = room.sent.count;
+    hand_post_close(room.post);
+    sleep_ms(1);
+    report(&room, CAP);
+    look(&room);
+    assert_int_equal(room.sent.count, count);
+    room_close(&room);
+}
+
+enum { REPORTS = 4000 };
+
+static void *report_on(void *user)
+{
+    Room *room = user;
+    for (int i = 0; i < REPORTS; i++) {
+        room->pad.angular_velocity[2] = i % 200 < 100 ? 1 : -1;
+        report(room, PAD);
+        if (i % 10 == 0)
+            sleep_ms(1);
+    }
+    return NULL;
+}
+
+/* Between two looks of the window lies a picture that keeps a processor busy. Half the bar, so that a machine
+   at its limits passes. */
+static void soon_though_the_window_draws(void **state)
+{
+    (void)state;
+    pthread_t thread;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    assert_int_equal(pthread_create(&thread, NULL, report_on, &room), 0);
+    while (hand_post_reports(room.post) < REPORTS) {
+        HandDevice devices[HAND_POST_DEVICES_MAX];
+        const double until = wall_ms() + 30;
+        while (wall_ms() < until && hand_post_reports(room.post) < REPORTS) {
+        }
+        look(&room);
+        hand_post_devices(room.post, devices);
+    }
+    pthread_join(thread, NULL);
+    const double median = hand_post_latency(room.post, 0.5), p99 = hand_post_latency(room.post, 0.99);
+    print_message("report to command: median %.4f ms, p99 %.4f ms, %d reports\n", median, p99, REPORTS);
+    assert_true(room.sent.count > REPORTS / 2);
+    assert_true(median > 0 && median < 1 && p99 < 2);
+    room_close(&room);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_report_is_a_command_at_once),
+        cmocka_unit_test(the_box_is_tilted_as_the_pad_is),
+        cmocka_unit_test(unplugged_the_box_stays),
+        cmocka_unit_test(two_devices_at_once),
+        cmocka_unit_test(buttons_are_commands_once),
+        cmocka_unit_test(neutral_and_home),
+        cmocka_unit_test(what_may_not_be_opened_is_told),
+        cmocka_unit_test(more_than_there_is_room_for),
+        cmocka_unit_test(tuned_in_the_panel),
+        cmocka_unit_test(the_camera_is_the_windows),
+        cmocka_unit_test(keys_go_on_between_reports),
+        cmocka_unit_test(closed_it_sends_nothing),
+        cmocka_unit_test(soon_though_the_window_draws),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
