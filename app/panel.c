@@ -132,6 +132,7 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
         draw_figures(ui, data);
         ui_gap(ui);
         draw_buttons(ui, data->paused, events);
+        panel_devices(ui, data, events);
         panel_stages(ui, data);
         events->watches = panel_gauges(ui, data);
         panel_history(ui, data);

@@ -5,6 +5,7 @@
 #ifndef SLOSH_PANEL_H
 #define SLOSH_PANEL_H
 
+#include "app/hand_post.h"
 #include "app/scene.h"
 #include "app/simulator.h"
 #include "render/ui.h"
@@ -40,6 +41,8 @@ typedef struct PanelData {
     const char *renderer;
     const char *const *warnings; /* plain words */
     int warning_count;
+    const HandDevice *devices; /* motion devices; none: the panel has no section for them */
+    int device_count;
     double panel_ms; /* CPU time of the panel in a picture, mean of the last ones */
 } PanelData;
 
@@ -51,6 +54,8 @@ typedef struct PanelEvents {
     char settings[PANEL_SETTINGS_MAX][PANEL_SETTING_SIZE]; /* "path=value", as scene_set_live takes it */
     int command;                                           /* a PlayCommand, or PLAY_NONE */
     bool watches;                                          /* the gauges are shown */
+    int tuned; /* number of a motion device, or 0: it shall have these two */
+    double gain, dead_zone;
 } PanelEvents;
 
 /* NULL without memory. */

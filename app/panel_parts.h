@@ -16,6 +16,9 @@ void panel_history(Ui *ui, const PanelData *data);
 /* panel_gauges.c: error of density, energy and Courant number over time; whether they are shown. */
 bool panel_gauges(Ui *ui, const PanelData *data);
 
+/* panel_device.c: motion devices, while there are any. */
+void panel_devices(Ui *ui, const PanelData *data, PanelEvents *events);
+
 /* panel_scene.c: what colours mean; then every other live key, by the first part of its path. `start` is the
    scene as it was opened: a slider reaches from a tenth to ten times the value there. */
 void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);

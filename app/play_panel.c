@@ -155,6 +155,8 @@ static void collect(Play *play, float pictures[METER_HISTORY], PanelData *data)
                         .renderer = window_renderer(play->window),
                         .warnings = play->ui.warnings,
                         .warning_count = play->ui.warning_count,
+                        .devices = play->ui.devices,
+                        .device_count = play->ui.device_count,
                         .panel_ms = play->panels ? play->panel_ms / (double)play->panels : 0};
     for (int s = 0; s < STAGE_COUNT; s++) {
         const bool render = stage_part((Stage)s) == PART_RENDER;
@@ -190,6 +192,15 @@ double play_covered_left(const Play *play)
     return part < 0.5 ? part : 0;
 }
 
+/* Bars of a motion device are live: each report is worth a drawing. */
+static void follow_devices(Play *play)
+{
+    const uint64_t reports = hand_post_reports(play->post);
+    play->ui.input.changed |= reports != play->reports_shown;
+    play->reports_shown = reports;
+    play->ui.device_count = hand_post_devices(play->post, play->ui.devices);
+}
+
 void play_panel_draw(Play *play)
 {
     PlayUi *ui = &play->ui;
@@ -201,6 +212,7 @@ void play_panel_draw(Play *play)
     simulator_watch(play->open.simulator, play->panel && ui->watches);
     if (!shown)
         return;
+    follow_devices(play);
     ui->input.dt = 1e-3 * fmin(now - ui->drawn_ms, 1000);
     ui->input.changed |= shown != ui->shown;
     ui->drawn_ms = now;
@@ -219,6 +231,8 @@ void play_panel_draw(Play *play)
     play->panels++;
     for (int i = 0; i < events.setting_count; i++)
         play_set(play, events.settings[i]);
+    if (events.tuned)
+        hand_post_tune(play->post, events.tuned, events.gain, events.dead_zone);
     if (events.command != PLAY_NONE)
         play_do(play, (PlayCommand)events.command);
 }

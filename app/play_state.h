@@ -43,6 +43,8 @@ typedef struct PlayUi {
     const char *warnings[8];
     int warning_count;
     char lost[64]; /* one of them */
+    HandDevice devices[HAND_POST_DEVICES_MAX];
+    int device_count;
 } PlayUi;
 
 typedef struct PlayMovie {

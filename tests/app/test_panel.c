@@ -27,12 +27,20 @@ typedef struct Session {
     int settings, refused; /* in all */
     char last[PANEL_SETTING_SIZE];
     PlayCommand command; /* the last one */
+    HandDevice devices[3];
+    int tuned; /* the last one */
+    double gain, dead_zone;
 } Session;
 
 static void take(Session *session, const PanelEvents *events)
 {
     if (events->command != PLAY_NONE)
         session->command = events->command;
+    if (events->tuned) {
+        session->tuned = events->tuned;
+        session->gain = events->gain;
+        session->dead_zone = events->dead_zone;
+    }
     for (int i = 0; i < events->setting_count; i++) {
         Error error = {{0}};
         session->settings++;
@@ -324,6 +332,54 @@ static void test_buttons_are_the_commands(void **state)
     session_close(&session, desk);
 }
 
+/* One of each kind, and one that may not be opened. */
+static void add_devices(Session *session)
+{
+    static const char *const names[] = {"SpaceMouse Pro Wireless (Bluetooth)", "DualSense Edge",
+                                        "DualShock 4"};
+    static const DeviceFamily families[] = {DEVICE_SPACEMOUSE, DEVICE_DUALSENSE, DEVICE_DUALSHOCK4};
+    Mapping mapping;
+    mapping_default(&mapping);
+    for (int i = 0; i < 3; i++) {
+        HandDevice *device = &session->devices[i];
+        *device = (HandDevice){.number = i + 1,
+                               .family = families[i],
+                               .map = mapping.family[families[i]],
+                               .has_pose = i > 0,
+                               .turned = {0.5, -0.5, 0, sqrt(0.5)},
+                               .axes = {0.5, -1, 0.02, 1, -0.7, 0.3}};
+        snprintf(device->name, sizeof device->name, "%s", names[i]);
+    }
+    snprintf(session->devices[2].problem, sizeof session->devices[2].problem,
+             "permission denied; sudo install -m 644 tools/70-slosh.rules /etc/udev/rules.d/");
+    session->data.devices = session->devices;
+    session->data.device_count = 3;
+}
+
+static void test_motion_devices(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = session_open(&session, "box_slosh", 400, 1600, 13);
+    assert_null(desk_find(desk, "Motion device"));
+    add_devices(&session);
+    desk->input.changed = true;
+    desk_frames(desk, 10);
+    assert_non_null(desk_find(desk, "Motion device"));
+    assert_non_null(desk_find(desk, "DualSense Edge"));
+    assert_non_null(desk_find(desk,
+                              "DualShock 4: permission denied; sudo install -m 644 tools/70-slosh.rules "
+                              "/etc/udev/rules.d/"));
+    assert_null(desk_find(desk, "device 3 gain"));
+    desk_click_at(desk, "device 2 gain", 0.5F);
+    assert_int_equal(session.tuned, 2);
+    assert_true(fabs(session.gain - 1.5) < 0.1 && session.dead_zone == 0.1);
+    desk_click_at(desk, "device 1 dead zone", 0.5F);
+    assert_int_equal(session.tuned, 1);
+    assert_true(fabs(session.dead_zone - 0.25) < 0.02 && session.gain == 1);
+    session_close(&session, desk);
+}
+
 static void test_stages_as_they_are_known(void **state)
 {
     (void)state;
@@ -405,6 +461,7 @@ static void test_nothing_is_cut_at_any_scale(void **state)
         Desk *desk = session_open(&session, "two_oils", (int)(700 * scales[i]), (int)(1800 * scales[i]),
                                   13 * scales[i]);
         open_sections(desk);
+        add_devices(&session);
         session.help = true;
         desk_frames(desk, 30);
         assert_nothing_is_cut(desk);
@@ -459,6 +516,7 @@ int main(void)
         cmocka_unit_test_teardown(test_one_click_one_value, no_gl_errors),
         cmocka_unit_test_teardown(test_sliders_follow_another_scene, no_gl_errors),
         cmocka_unit_test_teardown(test_buttons_are_the_commands, no_gl_errors),
+        cmocka_unit_test_teardown(test_motion_devices, no_gl_errors),
         cmocka_unit_test_teardown(test_stages_as_they_are_known, no_gl_errors),
         cmocka_unit_test_teardown(test_gauges_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),
