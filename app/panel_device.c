@@ -55,7 +55,7 @@ static void draw_axes(Ui *ui, const HandDevice *device)
     }
 }
 
-/* The turn since the neutral pose as a rotation vector; half a turn fills a bar. */
+/* The turn since the neutral pose as a rotation vector; a quarter turn fills a bar. */
 static void draw_pose(Ui *ui, const HandDevice *device)
 {
     const double *q = device->turned;
@@ -65,7 +65,7 @@ static void draw_pose(Ui *ui, const HandDevice *device)
         const double part = sine > 0 ? side * angle * q[k] / sine : 0;
         char name[32];
         snprintf(name, sizeof name, "turned, %c", "xyz"[k]);
-        draw_bar(ui, &(Bar){name, device->map.pose ? "→ box" : "", part / M_PI, 0});
+        draw_bar(ui, &(Bar){name, device->map.pose ? "→ box" : "", part / (M_PI / 2), 0});
     }
 }
 

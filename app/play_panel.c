@@ -133,6 +133,7 @@ static void collect(Play *play, float pictures[METER_HISTORY], PanelData *data)
     const ViewDef *view = &play->open.scene.view;
     const SimulatorStatus *status = &play->status;
     find_warnings(play);
+    play->ui.device_count = hand_post_devices(play->post, play->ui.devices);
     world_def_at(&play->open.scene.world, play->particles.time); /* what tables say now */
     *data = (PanelData){.scene = &play->open.scene,
                         .render_stages_known = play->timer != NULL,
@@ -192,13 +193,16 @@ double play_covered_left(const Play *play)
     return part < 0.5 ? part : 0;
 }
 
-/* Bars of a motion device are live: each report is worth a drawing. */
-static void follow_devices(Play *play)
+/* Bars of a motion device are live, as often as an eye can tell. */
+static void follow_devices(Play *play, double now)
 {
+    static const double BARS_MS = 50;
     const uint64_t reports = hand_post_reports(play->post);
-    play->ui.input.changed |= reports != play->reports_shown;
+    if (reports == play->reports_shown || now < play->bars_ms + BARS_MS)
+        return;
+    play->ui.input.changed = true;
     play->reports_shown = reports;
-    play->ui.device_count = hand_post_devices(play->post, play->ui.devices);
+    play->bars_ms = now;
 }
 
 void play_panel_draw(Play *play)
@@ -212,7 +216,7 @@ void play_panel_draw(Play *play)
     simulator_watch(play->open.simulator, play->panel && ui->watches);
     if (!shown)
         return;
-    follow_devices(play);
+    follow_devices(play, now);
     ui->input.dt = 1e-3 * fmin(now - ui->drawn_ms, 1000);
     ui->input.changed |= shown != ui->shown;
     ui->drawn_ms = now;

@@ -94,7 +94,8 @@ typedef struct Play {
     double render_ms, panel_ms; /* sums over all pictures */
     double last_render_ms;
     size_t rendered, panels;
-    uint64_t reports_shown; /* of motion devices, in the panel's last drawing */
+    uint64_t reports_shown; /* of motion devices, when their bars were last drawn anew */
+    double bars_ms;         /* wall time of that */
     PlayScript script;
     uint64_t shaders_stamp; /* of the files of --shaders when they were read */
     double shaders_due_ms;  /* wall time of the next look at them */
