@@ -66,12 +66,12 @@ void device_show_line(FILE *file, const DeviceRow *row, const DeviceState *state
 /* "[   ##|      ]": from the zero to the value. */
 static void show_bar(FILE *file, const Group *group, double value)
 {
-    enum { CELLS = 16 };
+    enum { CELLS = 10 }; /* three bars and their values fit into 80 columns */
     char bar[CELLS + 1];
     const double span = group->most - group->least;
     const int zero = (int)lround(-group->least / span * CELLS);
-    const int place =
-        (int)lround((fmin(fmax(value, group->least), group->most) - group->least) / span * CELLS);
+    const double shown = fmin(fmax(value, group->least), group->most);
+    const int place = zero + (int)lround(shown / span * CELLS);
     for (int i = 0; i < CELLS; i++)
         bar[i] = (i >= zero && i < place) || (i < zero && i >= place) ? '#' : ' ';
     bar[CELLS] = 0;
@@ -88,9 +88,9 @@ int device_show_bars(FILE *file, const DeviceRow *row, const DeviceState *state,
         fprintf(file, "  %-5s", group->label);
         for (int k = 0; k < group->count; k++) {
             const double value = value_of(group, state, k);
-            fprintf(file, " %c ", group->names[k]);
+            fprintf(file, " %c", group->names[k]);
             show_bar(file, group, value);
-            fprintf(file, " %+6.2f", value);
+            fprintf(file, "%+7.2f", value);
         }
         fprintf(file, "%s%s", group->unit, end);
     }

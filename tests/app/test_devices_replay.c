@@ -128,7 +128,7 @@ static void a_stop_does_not_wait_for_the_end(void **state)
     assert_false(devices_ended(devices));
     const double before = wall_ms();
     devices_stop(devices);
-    assert_true(wall_ms() - before < 300);
+    assert_true(wall_ms() - before < 3000);
     assert_int_equal(told_count, 1); /* the box stays where it is: nothing is told any more */
 }
 

@@ -2,6 +2,7 @@
 import json
 import os
 import pty
+import re
 import signal
 import struct
 import subprocess
@@ -107,9 +108,12 @@ class Devices(Case):
             text += more
         os.close(master)
         self.assertEqual(process.wait(60), 0)
-        self.assertRegex(text.decode(), r'turn  x \[        \|###     \]  \+1\.75')
-        self.assertRegex(text.decode(), r'move  x \[        \|########\]  \+1\.00 y .* z \[    ####\|        \]  -0\.50')
-        self.assertRegex(text.decode(), r'\x1b\[\d+A')
+        text = text.decode()
+        self.assertRegex(text, r'turn  x\[     \|##   \]  \+1\.75 y\[')
+        self.assertRegex(text, r'feel  x.* y\[     \|##   \]  \+9\.81 z')
+        self.assertRegex(text, r'move  x\[     \|#####\]  \+1\.00 y.* z\[  ###\|     \]  -0\.50')
+        self.assertLess(max(len(re.sub(r'\x1b\[\d*[A-Z]', '', line)) for line in text.splitlines()), 80)
+        self.assertRegex(text, r'\x1b\[\d+A')
 
     def test_a_replay_is_recorded(self):
         self.write('a.rec', recording())
