@@ -1,9 +1,10 @@
-/* Periodic sides: neighbours against all pairs with the nearest image, flow through a side, momentum, what is
-   refused. */
+/* Periodic sides: neighbours against all pairs with the nearest image, flow through a side, momentum, the
+   vortices that fill such a box, what is refused. */
 #include "fixture.h"
 
 #include "sim/periodic.h"
 #include "sim/tension.h"
+#include "sim/vortices.h"
 #include "sim/world_state.h"
 
 /* Scattered particles in a box that is periodic along the axes given; the others have walls. */
@@ -19,7 +20,8 @@ static void cloud_make_in(const double size[3], Cloud *out, int dimensions, cons
                           const char *method, const double shift[3])
 {
     Cloud c = {.def = fixture_def(size[0], size[1], size[2])};
-    const size_t n = dimensions == 2 ? 150 : 1200;
+    const double area = size[0] * size[1];
+    const size_t n = (size_t)(dimensions == 2 ? 105 * area : 930 * area * size[2]);
     uint32_t seed = 7;
     c.def.dimensions = dimensions;
     c.def.support = 2.6;
@@ -383,6 +385,81 @@ static void a_jet_goes_through_a_side(void **state)
     world_destroy(world);
 }
 
+/* 1.04 m hold ten particles: 0.104 m apart, across the side as well. */
+static void the_lattice_has_no_seam(void **state)
+{
+    (void)state;
+    fixture_needs("periodic sides");
+    WorldDef def = fixture_def(1.04, 0.8, 0.96);
+    def.periodic[0] = def.periodic[2] = true;
+    fixture_block(&def, 0, -0.52, 0, -0.48, 0.52, 0.8, 0.48);
+    World *world = fixture_world(&def);
+    State s = fixture_read(world);
+    assert_int_equal(s.count, 10 * 8 * 10);
+    const double step[3] = {0.104, 0.1, 0.096};
+    for (size_t i = 1; i < s.count; i++)
+        for (size_t k = 0; k < 3; k++) {
+            const double steps = ((double)s.position[4 * i + k] - (double)s.position[k]) / step[k];
+            assert_float_equal(steps, rint(steps), 1e-4);
+        }
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+/* Steady where nothing rubs: rho (v . grad) v = -grad p, div v = 0, the same at both sides; the density at
+   the start holds that pressure. */
+static void vortices_hold_each_other(void **state)
+{
+    (void)state;
+    fixture_needs("method wcsph");
+    WorldDef def = fixture_def(1.3, 0.8, 1);
+    const double e = 1e-3, c2 = 20.0 * 20.0;
+    def.dimensions = 2;
+    def.sound_speed = 20;
+    def.negative_pressure = true;
+    def.periodic[0] = def.periodic[1] = true;
+    def.fluids[0].taylor_green = 1.5;
+    memset(def.gravity, 0, sizeof def.gravity);
+    snprintf(def.method, sizeof def.method, "wcsph");
+    for (int i = 0; i < 40; i++) {
+        const double at[2] = {0.031 * i - 0.6, 0.019 * i};
+        double p[5], v[5][3];
+        for (int n = 0; n < 5; n++) { /* here, right, left, above, below */
+            const float x[3] = {(float)(at[0] + (n == 1   ? e
+                                                 : n == 2 ? -e
+                                                          : 0)),
+                                (float)(at[1] + (n == 3   ? e
+                                                 : n == 4 ? -e
+                                                          : 0)),
+                                0};
+            float flow[3] = {0};
+            p[n] = vortices_add(&def, &def.fluids[0], x, flow);
+            for (int k = 0; k < 3; k++)
+                v[n][k] = (double)flow[k];
+        }
+        const double ux = (v[1][0] - v[2][0]) / (2 * e), uy = (v[3][0] - v[4][0]) / (2 * e),
+                     vx = (v[1][1] - v[2][1]) / (2 * e), vy = (v[3][1] - v[4][1]) / (2 * e);
+        assert_float_equal(ux + vy, 0, 0.01);
+        assert_float_equal(1000 * (v[0][0] * ux + v[0][1] * uy) + (p[1] - p[2]) / (2 * e), 0, 40);
+        assert_float_equal(1000 * (v[0][0] * vx + v[0][1] * vy) + (p[3] - p[4]) / (2 * e), 0, 40);
+    }
+    fixture_block(&def, 0, -0.65, 0, 0, 0.65, 0.8, 0);
+    World *world = fixture_world(&def);
+    State s = fixture_read(world);
+    double most = 0;
+    for (size_t i = 0; i < s.count; i++) {
+        float flow[3] = {0};
+        const double p = vortices_add(&def, &def.fluids[0], s.position + 4 * i, flow);
+        most = fmax(most, fabs(p));
+        assert_float_equal(s.density[i], 1000 + p / c2, 1e-3);
+        assert_float_equal(s.velocity[4 * i], flow[0], 1e-5);
+        assert_float_equal(s.velocity[4 * i + 1], flow[1], 1e-5);
+    }
+    assert_true(most > 500); /* rho U^2 / 4 is 560 */
+    fixture_free(&s);
+    world_destroy(world);
+}
+
 static void refused(WorldDef *def, const char *phrase)
 {
     Error error = {0};
@@ -429,6 +506,8 @@ int main(void)
         cmocka_unit_test(a_hand_moves_it_and_does_not_turn_it),
         cmocka_unit_test(a_saved_state_goes_on_to_the_bit),
         cmocka_unit_test(a_jet_goes_through_a_side),
+        cmocka_unit_test(the_lattice_has_no_seam),
+        cmocka_unit_test(vortices_hold_each_other),
         cmocka_unit_test(what_cannot_be_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
