@@ -79,13 +79,14 @@ static bool sample(CaseRun *run, World *world, Error *error)
     return true;
 }
 
-/* False when it broke, with the reason in the result. */
-static bool advance(CaseResult *result, World *world)
+/* False when it broke, with the reason in the result. `sound`: whether the state stays; on a GPU trouble is
+   found behind the step, and the next one goes back. */
+static bool advance(CaseResult *result, World *world, bool *sound)
 {
     Error broke = {{0}};
     const double begin = wall_ms();
     const bool ok = world_step(world, NULL, &broke);
-    world_sound(world); /* waits for a GPU, which is what is timed */
+    *sound = world_sound(world); /* waits for a GPU, which is what is timed */
     result->step_seconds += (wall_ms() - begin) / 1000;
     world_info(world, &result->run.info);
     if (!ok)
@@ -99,16 +100,17 @@ static bool simulate(CaseResult *result, World *world, Progress *progress, doubl
     CaseRun *run = &result->run;
     const Case *of = run->of;
     double next = 0;
+    bool sound = true;
     world_info(world, &run->info);
     for (;;) {
-        const bool last = run->info.time >= of->time;
-        if ((last || run->info.time >= next) && !sample(run, world, error))
+        const bool last = sound && run->info.time >= of->time;
+        if (sound && (last || run->info.time >= next) && !sample(run, world, error))
             return false;
-        while (next <= run->info.time)
+        while (sound && next <= run->info.time)
             next += of->every;
         if (last)
             return of->judge(run, error);
-        if (!advance(result, world))
+        if (!advance(result, world, &sound))
             return true;
         if (interrupted())
             return error_set(error, "stopped");

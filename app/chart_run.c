@@ -137,20 +137,22 @@ static int note_state(SceneRun *run, double at[CHART_QUANTITIES])
     return used;
 }
 
-/* Steps until a state at or after `due`, and leaves the one before it in `before`: all of them need not be
-   measured, only what comes within a step and a half of it. False when it broke or a signal came. */
+/* Steps until a sound state at or after `due` (on a GPU trouble is found behind the step, and the next one
+   goes back), and leaves the one before it in `before`: all of them need not be measured, only what comes
+   within a step and a half of it. False when it broke or a signal came. */
 static bool advance_to(SceneRun *run, double due, double until, Progress *progress, double done, double part)
 {
     double length = 0;
-    while (run->info.time < due - 1e-9) {
+    bool sound = true;
+    while (!sound || run->info.time < due - 1e-9) {
         const double from = run->info.time;
-        if (length == 0 || from + 1.5 * length >= due) {
+        if (sound && (length <= 0 || from + 1.5 * length >= due)) {
             run->before_time = from;
             note_state(run, run->before);
         }
         const double begin = wall_ms();
         const bool ok = world_step(run->world, NULL, &run->failure);
-        world_sound(run->world); /* waits for a GPU, which is what is timed */
+        sound = world_sound(run->world); /* waits for a GPU, which is what is timed */
         run->spent += (wall_ms() - begin) / 1000;
         world_info(run->world, &run->info);
         length = run->info.time - from;
