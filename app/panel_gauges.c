@@ -23,7 +23,7 @@ typedef struct Gauges {
 /* 0.00123 kg as "1.23 g" would have it: at most four digits and a prefix. */
 static void si_text(double value, const char *unit, char out[48])
 {
-    static const char *const prefixes[] = {"n", "u", "m", "", "k", "M", "G", "T"};
+    static const char *const prefixes[] = {"n", "µ", "m", "", "k", "M", "G", "T"};
     const double size = fabs(value);
     int p = 3;
     if (size < 1e-9) {
