@@ -1,5 +1,6 @@
 /* From a device's report to the command that it causes: at once, while the window draws, and in step with the
    mouse and the keys. */
+#include "tests/app/hid_stand_in.h"
 #include "tests/app/near.h"
 
 #include "app/hand_post.h"
@@ -7,6 +8,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -413,6 +415,78 @@ static void soon_though_the_window_draws(void **state)
     room_close(&room);
 }
 
+enum { PUSHES = 500 };
+
+/* When the box was sent somewhere. */
+static _Atomic double sent_ms;
+
+static uint64_t take_time(void *user, const BoxTarget *target)
+{
+    (void)user, (void)target;
+    sent_ms = wall_ms();
+    return 1;
+}
+
+static _Atomic bool drawing;
+
+/* The window's thread: pictures of 30 ms, and a look between two. */
+static void *draw_on(void *user)
+{
+    Room *room = user;
+    while (drawing) {
+        const double until = wall_ms() + 30;
+        while (wall_ms() < until && drawing) {
+        }
+        look(room);
+    }
+    return NULL;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* From the bytes in the system's hands to the command: another thread has to wake up, to parse and to turn
+   the box, while one more draws. The median, since other programs may have the processors when it shall wake.
+ */
+static void soon_from_the_bytes_on(void **state)
+{
+    (void)state;
+    static double ms[PUSHES];
+    pthread_t window;
+    Error error = {{0}};
+    Room room = room_open();
+    hand_post_open(room.post, take_time, NULL);
+    look(&room);
+    StandInDevice *pad = plug(0, 0x054c, 0x0ce6, false);
+    const DevicesSetup setup = {.port = &stand_in_port, .listener = hand_post_hear, .user = room.post};
+    const Report turning = axes_report(LAYOUT_DUALSENSE_USB, (const int[6]){0, 640, 0, 0, 8192, 0}, false);
+    Devices *devices = devices_start(&setup, &error);
+    assert_non_null(devices);
+    drawing = true;
+    assert_int_equal(pthread_create(&window, NULL, draw_on, &room), 0);
+    for (int i = -2; i < PUSHES; i++) { /* the first one has no time before it to turn in */
+        const double until = wall_ms() + 2000, began = wall_ms();
+        sent_ms = 0;
+        push(pad, &turning);
+        while (sent_ms == 0 && wall_ms() < until && i >= 0)
+            sleep_ms(0.05);
+        if (i >= 0)
+            ms[i] = (sent_ms > 0 ? sent_ms : until) - began;
+        sleep_ms(i < 0 ? 100 : 1);
+    }
+    drawing = false;
+    pthread_join(window, NULL);
+    devices_stop(devices);
+    room_close(&room);
+    qsort(ms, PUSHES, sizeof *ms, ascending);
+    print_message("bytes to command: median %.3f ms, p90 %.3f ms, p99 %.3f ms\n", ms[PUSHES / 2],
+                  ms[PUSHES * 9 / 10], ms[PUSHES * 99 / 100]);
+    assert_true(ms[PUSHES / 2] < 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -429,6 +503,7 @@ int main(void)
         cmocka_unit_test(keys_go_on_between_reports),
         cmocka_unit_test(closed_it_sends_nothing),
         cmocka_unit_test(soon_though_the_window_draws),
+        cmocka_unit_test(soon_from_the_bytes_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
