@@ -223,20 +223,27 @@ static bool read_root(const Reading *reading, const Node *root, Mapping *mapping
     return true;
 }
 
-bool mapping_parse(const char *path, const char *bytes, size_t size, Mapping *mapping, Error *error)
+static bool read_text(Tree *tree, const char *bytes, size_t size, Mapping *mapping, Error *error)
 {
     static const char right[] = "write `dualsense:` or another family at the left margin; `slosh devices "
                                 "--write-mapping FILE` writes one to begin with";
+    const Reading reading = {tree, error};
+    Node *root = NULL;
+    if (!yaml_read(tree, NULL, bytes, size, &root, error))
+        return false;
+    if (!root)
+        return error_set(error, "%s:1:1: the mapping is empty; %s", tree->path, right);
+    tree->root = root;
+    return root->kind == NODE_MAPPING ? read_root(&reading, root, mapping)
+                                      : tree_error(tree, root, error, "no mapping; %s", right);
+}
+
+bool mapping_parse(const char *path, const char *bytes, size_t size, Mapping *mapping, Error *error)
+{
     Tree tree = {.path = path};
     Mapping read;
-    const Reading reading = {&tree, error};
     mapping_default(&read);
-    bool ok = yaml_read(&tree, NULL, bytes, size, &tree.root, error);
-    if (ok && !tree.root)
-        ok = error_set(error, "%s:1:1: the mapping is empty; %s", path, right);
-    else if (ok && tree.root->kind != NODE_MAPPING)
-        ok = tree_error(&tree, tree.root, error, "no mapping; %s", right);
-    ok = ok && read_root(&reading, tree.root, &read);
+    const bool ok = read_text(&tree, bytes, size, &read, error);
     tree_free(&tree);
     if (ok)
         *mapping = read;

@@ -22,7 +22,23 @@ static const char *command_name(int command)
     return command == PLAY_NONE ? "nothing" : mapping_command_name(command);
 }
 
-static void write_device(const DeviceMap *map, FILE *file)
+/* Those that do something, here or in what the reader begins with; the others by name. */
+static void write_buttons(const DeviceMap *map, const DeviceMap *begin, FILE *file)
+{
+    int others = 0;
+    fprintf(file, "  buttons:\n");
+    for (int i = 0; i < map->button_count; i++) {
+        const ButtonMap *button = &map->buttons[i];
+        if (button->command != PLAY_NONE || begin->buttons[i].command != PLAY_NONE)
+            fprintf(file, "    %s: %s\n", button->name, command_name(button->command));
+    }
+    for (int i = 0; i < map->button_count; i++)
+        if (map->buttons[i].command == PLAY_NONE)
+            fprintf(file, "%s%s", others++ ? ", " : "    # also ", map->buttons[i].name);
+    fprintf(file, others ? "\n" : "");
+}
+
+static void write_device(const DeviceMap *map, const DeviceMap *begin, FILE *file)
 {
     for (const Key *row = mapping_device_keys; row->path; row++) {
         char value[64];
@@ -40,9 +56,7 @@ static void write_device(const DeviceMap *map, FILE *file)
         write_rows(mapping_axis_keys, &map->axes[i], file);
         fputc('\n', file);
     }
-    fprintf(file, "  buttons:\n");
-    for (int i = 0; i < map->button_count; i++)
-        fprintf(file, "    %s: %s\n", map->buttons[i].name, command_name(map->buttons[i].command));
+    write_buttons(map, begin, file);
 }
 
 static void write_keys(const char *of, const Key *rows, FILE *file)
@@ -54,9 +68,19 @@ static void write_keys(const char *of, const Key *rows, FILE *file)
     }
 }
 
+static void write_commands(FILE *file)
+{
+    const char *name;
+    for (int i = 0; (name = mapping_command_name(i)); i++)
+        if (*name)
+            fprintf(file, "#     %-16s %s\n", name, play_command_rows[i].help);
+}
+
 void mapping_write(const Mapping *mapping, FILE *file)
 {
     char user[1024];
+    Mapping built_in;
+    mapping_default(&built_in);
     fprintf(file, "# What the axes, the buttons and the pose of motion devices do.");
     if (mapping_user_path(user))
         fprintf(file, " slosh reads it as\n# %s, or where `--mapping FILE` says.", user);
@@ -65,16 +89,17 @@ void mapping_write(const Mapping *mapping, FILE *file)
     write_keys("", mapping_device_keys, file);
     write_keys("pose.", mapping_pose_keys, file);
     write_keys("axes.NAME.", mapping_axis_keys, file);
-    fprintf(file, "#   buttons.NAME: a command of the window (H lists them by what they do), or nothing\n"
-                  "# A product may have an entry of its own, such as 256f:c635; it begins with its family's."
-                  "\n");
+    fprintf(file, "#   buttons.NAME: nothing, or a command of the window:\n");
+    write_commands(file);
+    fprintf(file,
+            "# A product may have an entry of its own, such as 256f:c635; it begins with its family's.\n");
     for (int f = 0; f < DEVICE_FAMILY_COUNT; f++) {
         fprintf(file, "\n%s:\n", device_family_word((DeviceFamily)f));
-        write_device(&mapping->family[f], file);
+        write_device(&mapping->family[f], &built_in.family[f], file);
     }
     for (int i = 0; i < mapping->own_count; i++) {
         fprintf(file, "\n%04x:%04x:\n", mapping->own[i].vendor, mapping->own[i].product);
-        write_device(&mapping->own[i].map, file);
+        write_device(&mapping->own[i].map, &mapping->family[mapping->own[i].map.family], file);
     }
 }
 
@@ -114,7 +139,7 @@ static void explain_device(const DeviceMap *map, FILE *file)
 {
     fprintf(file, "gain %g, dead zone %g, curve %g\n", map->gain, map->dead_zone, map->curve);
     if (map->pose)
-        fprintf(file, "  %-14s turns the box, %g degrees for one\n", "pose", map->gain * map->pose_gain);
+        fprintf(file, "  %-14s turns the box as the device is turned, %g-fold\n", "pose", map->pose_gain);
     for (int i = 0; i < MAPPING_AXES; i++)
         explain_axis(map, i, file);
     for (int i = 0; i < map->button_count; i++)

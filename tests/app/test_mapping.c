@@ -404,6 +404,29 @@ static void files(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
+/* A byte of it changed, or cut off there: taken or refused, and nothing else. */
+static void damaged_files(void **state)
+{
+    (void)state;
+    Mapping mapping;
+    Error error;
+    mapping_default(&mapping);
+    char *text = written(&mapping, mapping_write);
+    const size_t size = strlen(text);
+    unsigned seed = 1;
+    int refused = 0;
+    for (int i = 0; i < 400; i++) {
+        seed = seed * 1664525 + 1013904223;
+        const size_t at = (seed >> 8) % size;
+        const char was = text[at];
+        text[at] = (char)(seed >> 24);
+        refused += !mapping_parse("m.yaml", text, i % 4 ? size : at, &mapping, &error);
+        text[at] = was;
+    }
+    assert_in_range(refused, 50, 399);
+    free(text);
+}
+
 static void in_words(void **state)
 {
     (void)state;
@@ -416,7 +439,7 @@ static void in_words(void **state)
         "3Dconnexion SpaceMouse: gain 1, dead zone 0.05, curve 2\n",
         "  x              moves the box to the right, as a speed\n",
         "Sony DualSense: gain 0.5",
-        "  pose           turns the box, 0.5 degrees for one\n",
+        "  pose           turns the box as the device is turned, 1-fold\n",
         "  left_x         moves the box to the right, as a speed, 2-fold, the other way round\n",
         "  left_y         moves the box towards you, for as long as it is held\n",
         "  right_trigger  brings the camera nearer, as a speed\n",
@@ -445,6 +468,7 @@ int main(void)
         cmocka_unit_test(a_pose_with_gain),
         cmocka_unit_test(buttons_by_name_whatever_their_bit),
         cmocka_unit_test(files),
+        cmocka_unit_test(damaged_files),
         cmocka_unit_test(in_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
