@@ -404,6 +404,28 @@ static void files(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
+static void the_example_in_the_readme(void **state)
+{
+    (void)state;
+    char text[1 << 16];
+    Mapping mapping;
+    FILE *file = fopen(SLOSH_SOURCE_DIR "/app/README.md", "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = 0;
+    fclose(file);
+    char *example = strstr(text, "```yaml\ndualsense:");
+    assert_non_null(example);
+    example += strlen("```yaml\n");
+    *strstr(example, "```") = 0;
+    check_taken(example, &mapping);
+    BoxTarget target;
+    const DeviceState right = with_axis(DEVICE_DUALSENSE, 0, 1);
+    box_after(&mapping.family[DEVICE_DUALSENSE], &right, &target);
+    assert_true(target.orientation[2] < -0.1); /* to the right, as it says */
+    assert_int_equal(command_of(&mapping, 0x0ce6, "circle"), PLAY_NEUTRAL);
+    assert_int_equal(mapping.own_count, 1);
+}
+
 /* A byte of it changed, or cut off there: taken or refused, and nothing else. */
 static void damaged_files(void **state)
 {
@@ -468,6 +490,7 @@ int main(void)
         cmocka_unit_test(a_pose_with_gain),
         cmocka_unit_test(buttons_by_name_whatever_their_bit),
         cmocka_unit_test(files),
+        cmocka_unit_test(the_example_in_the_readme),
         cmocka_unit_test(damaged_files),
         cmocka_unit_test(in_words),
     };
