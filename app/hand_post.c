@@ -195,6 +195,7 @@ static void show_device(const PostDevice *device, HandDevice *out)
     memcpy(out->name, device->name, sizeof out->name);
     memcpy(out->problem, device->problem, sizeof out->problem);
     orientation_turned(&device->orientation, out->turned);
+    orientation_down(&device->orientation, out->down);
     mapping_axis_values(device->family, &device->state, out->axes);
 }
 

@@ -73,9 +73,10 @@ typedef struct HandDevice {
     char problem[NEWS_WORDS_SIZE]; /* it may not be opened: why, and what would help; "" */
     DeviceState state;
     DeviceMap map;
-    bool has_pose;    /* it has told how it is turned */
-    double turned[4]; /* since its neutral pose: unit quaternion */
-    bool resting;
+    bool has_pose;             /* it has told how it is turned */
+    double turned[4];          /* since its neutral pose: unit quaternion */
+    double down[3];            /* which way gravity points in its frame: a unit vector */
+    bool resting;              /* it lies still: its gyro is being calibrated */
     double axes[MAPPING_AXES]; /* -1 .. 1, as reported */
 } HandDevice;
 

@@ -69,6 +69,16 @@ static void draw_pose(Ui *ui, const HandDevice *device)
     }
 }
 
+/* By gravity alone, whatever the neutral pose. */
+static void draw_tilt(Ui *ui, const HandDevice *device)
+{
+    char text[64];
+    const double tilt = acos(fmax(fmin(-device->down[1], 1), -1)) * 180 / M_PI;
+    snprintf(text, sizeof text, "%.0f° from level%s", tilt, device->resting ? ", at rest" : "");
+    if (device->has_pose)
+        ui_row(ui, "tilt", text);
+}
+
 static void draw_sliders(Ui *ui, const HandDevice *device, PanelEvents *events)
 {
     static const UiScale gains = {.low = 0, .high = 3, .least = 0, .most = 10, .unit = ""};
@@ -99,6 +109,7 @@ static void draw_device(Ui *ui, const HandDevice *device, PanelEvents *events)
     ui_text(ui, device->name);
     draw_axes(ui, device);
     draw_pose(ui, device);
+    draw_tilt(ui, device);
     draw_sliders(ui, device, events);
 }
 

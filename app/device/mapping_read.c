@@ -1,16 +1,16 @@
 /* From a mapping file to what devices do. */
 #include "app/device/device_table.h"
 #include "app/device/mapping_keys.h"
+#include "app/read_file.h"
 #include "app/scene_suggest.h"
 #include "app/scene_value.h"
 #include "app/scene_yaml.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { FILE_BYTES_MAX = 1 << 16, NAMES_MAX = MAPPING_BUTTONS_MAX + 4, SHOWN_SIZE = 96 };
+enum { FILE_BYTES_MAX = 1 << 20, NAMES_MAX = MAPPING_BUTTONS_MAX + 4, SHOWN_SIZE = 96 };
 
 typedef struct Reading {
     const Tree *tree;
@@ -261,22 +261,11 @@ bool mapping_user_path(char path[1024])
     return length > 0 && length < 1024;
 }
 
-static bool read_file(const char *path, Mapping *mapping, Error *error)
+static bool read_mapping(const char *path, Mapping *mapping, Error *error)
 {
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return error_set(error, "%s: cannot be opened (%s); name a mapping file", path, strerror(errno));
-    char *bytes = malloc(FILE_BYTES_MAX + 1);
-    const size_t size = bytes ? fread(bytes, 1, FILE_BYTES_MAX + 1, file) : 0;
-    bool ok = true;
-    if (!bytes)
-        ok = error_set(error, "%s: no memory to read it", path);
-    else if (ferror(file))
-        ok = error_set(error, "%s: cannot be read (%s); name a mapping file", path, strerror(errno));
-    else if (size > FILE_BYTES_MAX)
-        ok = error_set(error, "%s: larger than 64 KiB; a mapping is a page of YAML", path);
-    fclose(file);
-    ok = ok && mapping_parse(path, bytes, size, mapping, error);
+    size_t size;
+    char *bytes = read_file(path, FILE_BYTES_MAX, "mapping", &size, error);
+    const bool ok = bytes && mapping_parse(path, bytes, size, mapping, error);
     free(bytes);
     return ok;
 }
@@ -287,5 +276,5 @@ bool mapping_load(const char *path, Mapping *mapping, Error *error)
     mapping_default(mapping);
     if (!path && mapping_user_path(own) && access(own, F_OK) == 0)
         path = own;
-    return !path || read_file(path, mapping, error);
+    return !path || read_mapping(path, mapping, error);
 }

@@ -347,6 +347,8 @@ static void add_devices(Session *session)
                                .map = mapping.family[families[i]],
                                .has_pose = i > 0,
                                .turned = {0.5, -0.5, 0, sqrt(0.5)},
+                               .down = {0.5, -sqrt(0.75), 0},
+                               .resting = true,
                                .axes = {0.5, -1, 0.02, 1, -0.7, 0.3}};
         snprintf(device->name, sizeof device->name, "%s", names[i]);
     }
@@ -371,6 +373,7 @@ static void test_motion_devices(void **state)
                               "DualShock 4: permission denied; sudo install -m 644 tools/70-slosh.rules "
                               "/etc/udev/rules.d/"));
     assert_null(desk_find(desk, "device 3 gain"));
+    assert_non_null(desk_find(desk, "30° from level, at rest"));
     desk_click_at(desk, "device 2 gain", 0.5F);
     assert_int_equal(session.tuned, 2);
     assert_true(fabs(session.gain - 1.5) < 0.1 && session.dead_zone == 0.1);
