@@ -6,6 +6,7 @@
 #include "render/view.h"
 #include "sim/kernel.h"
 #include "sim/tension.h"
+#include "sim/viscosity.h"
 #include "sim/world.h"
 
 #include <stdio.h>
@@ -74,6 +75,9 @@ static void print_lists(void)
         print_row(kernel->name, kernel->help);
     printf("models of surface tension\n");
     for (const TensionKind *kind = tension_kinds; kind->name; kind++)
+        print_row(kind->name, kind->help);
+    printf("forms of viscosity of wcsph\n");
+    for (const ViscosityKind *kind = viscosity_kinds; kind->name; kind++)
         print_row(kind->name, kind->help);
     printf("views\n");
     for (const ViewKind *const *view = view_list; *view; view++)

@@ -11,6 +11,7 @@
 #include "render/volume_names.h"
 #include "sim/kernel.h"
 #include "sim/tension.h"
+#include "sim/viscosity.h"
 #include "sim/world.h"
 
 #include <math.h>
@@ -47,6 +48,11 @@ const char *wcsph_kernel_choice(int index)
 const char *tension_choice(int index)
 {
     return index <= TENSION_COHESION ? tension_kinds[index].name : NULL;
+}
+
+const char *viscosity_choice(int index)
+{
+    return index <= VISCOSITY_RADIAL ? viscosity_kinds[index].name : NULL;
 }
 
 const char *backend_choice(int index)

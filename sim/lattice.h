@@ -17,6 +17,9 @@ typedef struct Lattice {
     double gradient_scale; /* factor on the derivative of the pressure kernel */
     const Kernel *pressure_kernel;
     double laplacian_scale; /* factor on the Laplacian of the viscosity kernel */
+    double radial_scale; /* R, 1/m2, in the radial form of friction of sim/viscosity.h: with sum V F x^2 = 1
+                            the force is mu (laplacian v + 2 grad div v) where R sum V F x^2 y^2 = 1, of all
+                            directions together R = d (d + 2) / sum V F r^4, F = -W' / r */
     double stiffness_scale; /* relative change of volume over that of n / n0 */
     int neighbours;         /* others with r < h */
 } Lattice;

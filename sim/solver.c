@@ -153,6 +153,8 @@ static bool def_check(const WorldDef *def, Error *error)
         return error_set(error, "dt and sound_speed must be positive, substeps at least 1");
     if (def->wall_slip != SLIP_FREE && def->wall_slip != SLIP_NONE)
         return error_set(error, "the walls' slip is free or none");
+    if (def->viscosity_form != VISCOSITY_MORRIS && def->viscosity_form != VISCOSITY_RADIAL)
+        return error_set(error, "the form of viscosity is morris or radial");
     if (!(def->shifting >= 0 && def->shifting <= 1) || !(def->jitter >= 0 && def->jitter <= 0.5))
         return error_set(error, "shifting is 0 to 1, jitter 0 to 0.5");
     if (length2(def->lid) > 0 && (def->wall_slip != SLIP_NONE || def->lid[1] != 0 || def->periodic[1] ||
@@ -234,6 +236,11 @@ static void fluids_set(Solver *solver, const WorldDef *def)
         solver->lid_velocity[k] = (float)def->lid[k];
 }
 
+static DragWeight drag_weight_of(const Solver *solver)
+{
+    return !solver->continuity ? DRAG_MUELLER : solver->radial > 0 ? DRAG_RADIAL : DRAG_MORRIS;
+}
+
 /* The tables of what the walls do, as far as the def needs them and they are not there. */
 static bool drag_set(Solver *solver, const WorldDef *def, Error *error)
 {
@@ -242,19 +249,21 @@ static bool drag_set(Solver *solver, const WorldDef *def, Error *error)
         needed |= def->wall_slip == SLIP_NONE && fluid_viscosity_most(&def->fluids[f]) > 0;
     if (!needed || solver->drag.table[0] ||
         wall_drag_create(&solver->drag, def->box_size, def->periodic, def->spacing,
-                         def->support * def->spacing, &solver->lattice, solver->continuity))
+                         def->support * def->spacing, &solver->lattice, drag_weight_of(solver)))
         return true;
     return error_set(error, "no memory for the friction of the walls");
 }
 
 /* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
-static void wcsph_set(Solver *solver, const Kernel *kernel, double h)
+static void wcsph_set(Solver *solver, const WorldDef *def, const Kernel *kernel, double h)
 {
     static const double f_half[] = {[KERNEL_CUBIC] = 3,
                                     [KERNEL_WENDLAND_C2] = 2.5,
                                     [KERNEL_QUINTIC] = (1.5 * 1.5 * 1.5 * 1.5 - 6 * 0.0625) / 0.5};
     const double r = 0.5 * h, scale = solver->lattice.gradient_scale;
     solver->kernel = (WcsphKernel)(kernel - wcsph_kernels);
+    if (def->viscosity_form == VISCOSITY_RADIAL)
+        solver->radial = (float)solver->lattice.radial_scale;
     solver->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[solver->kernel]);
 }
 
@@ -307,7 +316,7 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     solver->viscosity_scale = (float)(kernel_viscosity_laplacian(0, h) * solver->lattice.laplacian_scale);
     tension_set(solver, def);
     if (continuity)
-        wcsph_set(solver, kernel, h);
+        wcsph_set(solver, def, kernel, h);
     fluids_set(solver, def);
     if (continuity)
         walls_place(&solver->walls, def->dimensions, def->box_size, def->periodic, def->spacing);

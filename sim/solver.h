@@ -8,6 +8,7 @@
 #include "sim/lattice.h"
 #include "sim/periodic.h"
 #include "sim/tension.h"
+#include "sim/viscosity.h"
 #include "sim/wall.h"
 #include "sim/wall_drag.h"
 #include "sim/world_def.h"
@@ -44,8 +45,9 @@ typedef struct Solver {
     bool varies;                 /* some mu is a table over time */
     bool negative_pressure;
     bool reproducible;
-    bool continuity; /* wcsph: the particles carry their density; the next seven are its own */
+    bool continuity; /* wcsph: the particles carry their density; the next eight are its own */
     WcsphKernel kernel;
+    float radial;           /* R of sim/viscosity.h, 1/m2; 0: friction in the form of Morris */
     float gradient;         /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f in sim/cpu/pairs_wcsph.c */
     float tait[FLUIDS_MAX]; /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
     bool artificial;

@@ -1,5 +1,7 @@
 #include "sim/step_control.h"
 
+#include "sim/viscosity.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -49,8 +51,10 @@ double step_cfl(const WorldDef *def, double max_speed, double max_acceleration, 
     const double h = def->support * def->spacing, number = def->cfl_number;
     const double nu = greatest_kinematic_viscosity(def);
     /* The fastest decay on the lattice is 13 to 16 nu / h^2 with mueller's Laplacian; 24, 28 and 36 with
-       wcsph's cubic, Wendland and quintic kernel. Twice its inverse is what a step stands. */
-    const double decay = strcmp(def->method, "wcsph") == 0 ? 8 : 4;
+       wcsph's cubic, Wendland and quintic kernel, 39 to 67 in its radial form. Twice its inverse is what a
+       step stands. */
+    const double form = def->viscosity_form == VISCOSITY_RADIAL ? 16 : 8;
+    const double decay = strcmp(def->method, "wcsph") == 0 ? form : 4;
     const double courant = number * h / (def->sound_speed + max_speed);
     const double most[STEP_LIMIT_COUNT] = {
         [STEP_LIMIT_DT] = INFINITY,

@@ -4,32 +4,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-double wall_drag_weight(const Lattice *lattice, bool morris, double r, double support_radius)
+double wall_drag_weight(const Lattice *lattice, DragWeight weight, double r, double normal,
+                        double support_radius)
 {
-    return morris ? -2 * lattice->gradient_scale * lattice->pressure_kernel->derivative(r, support_radius) / r
-                  : lattice->laplacian_scale * kernel_viscosity_laplacian(r, support_radius);
+    if (weight == DRAG_MUELLER)
+        return lattice->laplacian_scale * kernel_viscosity_laplacian(r, support_radius);
+    const double morris =
+        -2 * lattice->gradient_scale * lattice->pressure_kernel->derivative(r, support_radius) / r;
+    if (weight == DRAG_MORRIS)
+        return morris;
+    return morris * lattice->radial_scale * (r * r - normal * normal) / (lattice->dimensions - 1);
 }
 
 typedef struct Behind {
     int faces; /* their normals are the first axes */
     double spacing, h;
     const Lattice *lattice;
-    bool morris;
+    DragWeight weight;
 } Behind;
 
 /* The term of the lattice particle with these indices behind the faces, from 0, and along them. */
 static double term(const Behind *b, const double d[3], const int index[3])
 {
-    double r2 = 0, least = INFINITY;
+    double r2 = 0, least = INFINITY, normal = 0;
     for (int a = 0; a < 3; a++) {
         const double depth = (index[a] + 0.5) * b->spacing;
         const double x = a < b->faces ? d[a] + depth : index[a] * b->spacing;
         r2 += x * x;
-        if (a < b->faces)
-            least = fmin(least, 1 + depth / fmax(d[a], 0.5 * b->spacing));
+        const double factor = a < b->faces ? 1 + depth / fmax(d[a], 0.5 * b->spacing) : INFINITY;
+        if (factor < least) {
+            least = factor;
+            normal = x;
+        }
     }
     const double r = sqrt(r2);
-    return r < b->h ? least * wall_drag_weight(b->lattice, b->morris, r, b->h) : 0;
+    return r < b->h ? least * wall_drag_weight(b->lattice, b->weight, r, normal, b->h) : 0;
 }
 
 static double sum_behind(const Behind *b, const double d[3])
@@ -61,7 +70,7 @@ static float *table_create(const Behind *b, int nodes, double step)
 }
 
 bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[3], double spacing,
-                      double support_radius, const Lattice *lattice, bool morris)
+                      double support_radius, const Lattice *lattice, DragWeight weight)
 {
     /* Nodes a spacing, even so that the layers of the lattice are nodes. */
     static const int nodes_per_spacing[3] = {64, 16, 8};
@@ -73,7 +82,7 @@ bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[
     const double range = support_radius - 0.5 * spacing;
     drag->range = (float)range;
     for (int t = 0; t < 3 && t < drag->dimensions; t++) {
-        const Behind behind = {t + 1, spacing, support_radius, lattice, morris};
+        const Behind behind = {t + 1, spacing, support_radius, lattice, weight};
         const double step = spacing / nodes_per_spacing[t];
         drag->nodes[t] = (int)ceil(range / step) + 2;
         drag->inverse_step[t] = (float)(1 / step);

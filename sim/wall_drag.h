@@ -31,12 +31,18 @@ typedef struct WallDrag {
     float *table[3];       /* owned; the last index runs fastest; NULL: not made, or no corners in 2D */
 } WallDrag;
 
-/* w(r), 1/m5: Müller's Laplacian, or 2 F = -2 W'(r) / r with the pressure kernel (`morris`). */
-double wall_drag_weight(const Lattice *lattice, bool morris, double r, double support_radius);
+typedef enum DragWeight { DRAG_MUELLER, DRAG_MORRIS, DRAG_RADIAL } DragWeight;
+
+/* w(r), 1/m5, of a wall particle at the distance `normal` from the fluid's along the wall's normal: Müller's
+   Laplacian; 2 F = -2 W'(r) / r with the pressure kernel; or what the radial form of sim/viscosity.h has of
+   it for velocities along the wall, 2 R F (r^2 - normal^2) / (dimensions - 1), taken for all velocities:
+   across the wall there are none. */
+double wall_drag_weight(const Lattice *lattice, DragWeight weight, double r, double normal,
+                        double support_radius);
 
 /* False when memory is short. */
 bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[3], double spacing,
-                      double support_radius, const Lattice *lattice, bool morris);
+                      double support_radius, const Lattice *lattice, DragWeight weight);
 void wall_drag_destroy(WallDrag *drag);
 
 /* D at x (box's frame, m, inside the box), 1/m5. */

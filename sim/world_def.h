@@ -83,6 +83,7 @@ typedef struct WorldDef {
     bool reproducible;              /* the same bits each time on compute too; the others always are */
     char kernel[NAME_SIZE];         /* of wcsph: see wcsph_kernels in sim/kernel.h */
     double artificial_viscosity;    /* alpha of wcsph, for fluids without a viscosity */
+    int viscosity_form;             /* a ViscosityForm of sim/viscosity.h, of wcsph */
     double delta_sph;               /* delta of wcsph's density diffusion; 0: none */
     double shifting;                /* chi of wcsph's particle shifting (Backend.shift); 0: none */
     int tension_model;              /* a TensionModel of sim/tension.h */

@@ -63,7 +63,9 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 #endif
     vec3 force = vec3(0), u = other.v - own.v;
     float both = own.volume * other.volume;
-#ifdef VISCOUS
+#if defined VISCOUS && defined RADIAL
+    push += both * (own.viscosity + other.viscosity) * term_scales.w * dot(u, d);
+#elif defined VISCOUS
     force += f * both * (own.viscosity + other.viscosity) * u;
 #endif
 #ifdef ARTIFICIAL

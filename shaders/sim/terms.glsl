@@ -1,6 +1,6 @@
 // What wcsph, surface tension and no-slip walls need beyond constants.glsl: mirrors sim/gl/compute/terms.c.
 layout(std140, binding = 3) uniform Terms {
-    vec4 term_scales;             // -W'(r) / r over f(r / h); diffusion of density; of the colour field
+    vec4 term_scales;             // -W'(r) / r over f(r / h); diffusion of density; of the colour field; R of radial friction
     vec4 fluid_terms[FLUIDS_MAX]; // Tait's B, artificial viscosity, tension
     ivec4 drag_nodes;             // of the tables of one, two, three faces
     vec4 drag_steps;              // their inverse steps; w: range

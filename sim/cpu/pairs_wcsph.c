@@ -118,16 +118,16 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     }
 }
 
-/* Pressure; laminar viscosity (Morris 1997) or artificial one (Monaghan 1992, for pairs that part too):
-   V_i V_j (mu_i + mu_j) F v_ji and -V_i V_j (a_i + a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. With
-   `shifts` what sim/cpu/shift.c needs as well. */
+/* Pressure; laminar viscosity (sim/viscosity.h) or artificial one (Monaghan 1992, for pairs that part too):
+   V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i V_j (a_i + a_j)
+   (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. With `shifts` what sim/cpu/shift.c needs as well. */
 SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
-                             const bool viscous, const bool artificial, const bool shifts)
+                             const bool viscous, const bool radial, const bool artificial, const bool shifts)
 {
     const Solver *s = args->solver;
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const f8 soft = f8_splat(h * h / 400);
+    const f8 soft = f8_splat(h * h / 400), scale = f8_splat(s->radial);
     Rows rows = {.cell = UINT32_MAX};
 
     for (size_t i = begin; i < end; i++) {
@@ -166,7 +166,10 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
                     const f8 ux = f8_load(args->vx + j) - ui, uy = f8_load(args->vy + j) - vi,
                              uz = f8_load(args->vz + j) - wi;
                     const f8 both = volume * f8_load(args->volume + j);
-                    if (viscous) {
+                    if (viscous && radial)
+                        push += both * (mi + f8_load(args->viscosity + j)) * scale *
+                                (ux * d.x + uy * d.y + uz * d.z);
+                    else if (viscous) {
                         const f8 drag = f * both * (mi + f8_load(args->viscosity + j));
                         fx += drag * ux;
                         fy += drag * uy;
@@ -203,17 +206,24 @@ SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const W
         rate_range(args, begin, end, kernel, false);
 }
 
+SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
+                              const bool artificial, const bool shifts)
+{
+    if (args->viscosity && args->solver->radial > 0)
+        wcsph_range(args, begin, end, kernel, true, true, artificial, shifts);
+    else if (args->viscosity)
+        wcsph_range(args, begin, end, kernel, true, false, artificial, shifts);
+    else
+        wcsph_range(args, begin, end, kernel, false, false, artificial, shifts);
+}
+
 SIMD_INLINE void force_with(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
                             const bool shifts)
 {
-    if (args->viscosity && args->artificial)
-        wcsph_range(args, begin, end, kernel, true, true, shifts);
-    else if (args->viscosity)
-        wcsph_range(args, begin, end, kernel, true, false, shifts);
-    else if (args->artificial)
-        wcsph_range(args, begin, end, kernel, false, true, shifts);
+    if (args->artificial)
+        viscous_with(args, begin, end, kernel, true, shifts);
     else
-        wcsph_range(args, begin, end, kernel, false, false, shifts);
+        viscous_with(args, begin, end, kernel, false, shifts);
 }
 
 SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)

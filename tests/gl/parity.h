@@ -43,7 +43,7 @@ static inline double pair_terms(const Solver *s, const State *state, size_t i, s
     double sum =
         gradient * (fabs((double)state->pressure[i]) * vi * vi + fabs((double)state->pressure[j]) * vj * vj);
     sum += vi * vj * u *
-           (s->continuity ? (mu + alpha) * gradient / r
+           (s->continuity ? ((s->radial > 0 ? mu * (double)s->radial * r * r : mu) + alpha) * gradient / r
                           : 0.5 * mu * s->lattice.laplacian_scale * kernel_viscosity_laplacian(r, h));
     if (fi != fj || !s->tension_model)
         return sum;

@@ -18,6 +18,7 @@ typedef struct Case {
     bool solids;
     const char *sides; /* periodic ones */
     double shifting, lid;
+    ViscosityForm form;
     bool runs; /* for 200 steps too */
 } Case;
 
@@ -47,6 +48,16 @@ static const Case cases[] = {
      .dimensions = 2,
      .support = 3,
      .viscosity = {1, 3},
+     .no_slip = true,
+     .solids = true},
+    {.label = "wcsph, Wendland, radial and artificial, no slip",
+     .method = "wcsph",
+     .kernel = "wendland_c2",
+     .dimensions = 3,
+     .support = 2.1,
+     .viscosity = {2, 0},
+     .artificial = 0.1,
+     .form = VISCOSITY_RADIAL,
      .no_slip = true,
      .solids = true},
     {.label = "mueller, colour field, no slip",
@@ -146,6 +157,7 @@ static WorldDef def_of(const Case *c)
     if (c->sides)
         def.motion_count = 1; /* such a box does not turn */
     def.shifting = c->shifting;
+    def.viscosity_form = (int)c->form;
     def.lid[0] = c->lid;
     def.wall_slip = c->no_slip ? SLIP_NONE : SLIP_FREE;
     for (int f = 0; f < 2; f++) {

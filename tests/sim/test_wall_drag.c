@@ -10,18 +10,21 @@ typedef struct Method {
     const char *name, *kernel;
     int dimensions;
     double support;
+    ViscosityForm form; /* of wcsph */
 } Method;
 
 static const Method methods[] = {
-    {"mueller", "cubic", 2, 2.6}, {"mueller", "cubic", 3, 2.1},     {"mueller", "cubic", 3, 3},
-    {"wcsph", "cubic", 2, 2.6},   {"wcsph", "wendland_c2", 3, 2.6}, {"wcsph", "quintic", 2, 3},
+    {"mueller", "cubic", 2, 2.6, VISCOSITY_MORRIS},     {"mueller", "cubic", 3, 2.1, VISCOSITY_MORRIS},
+    {"mueller", "cubic", 3, 3, VISCOSITY_MORRIS},       {"wcsph", "cubic", 2, 2.6, VISCOSITY_MORRIS},
+    {"wcsph", "wendland_c2", 3, 2.6, VISCOSITY_MORRIS}, {"wcsph", "quintic", 2, 3, VISCOSITY_MORRIS},
+    {"wcsph", "wendland_c2", 2, 3, VISCOSITY_RADIAL},   {"wcsph", "wendland_c2", 3, 2.6, VISCOSITY_RADIAL},
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
 /* All on the CPU; on a GPU, which has their tables, one in space and both in the plane. */
 static bool taken(int m)
 {
-    return fixture_on_cpu() || m == 0 || m == 1 || m == 3;
+    return fixture_on_cpu() || m == 0 || m == 1 || m == 3 || m == 6;
 }
 
 /* A closed box, full to the height `full`, without gravity; 1 m2/s. */
@@ -34,37 +37,43 @@ static WorldDef no_slip_box(const Method *method, double side, double full)
     strcpy(def.method, method->name);
     strcpy(def.kernel, method->kernel);
     def.wall_slip = SLIP_NONE;
+    def.viscosity_form = (int)method->form;
     def.fluids[0].viscosity = 1000;
     fixture_block(&def, 0, -side / 2, 0, -side / 2, side / 2, full, side / 2);
     return def;
 }
 
 /* D by adding up all lattice particles behind some face at once, with the greatest factor. */
-static double drag_brute(const Solver *s, bool morris, int faces, const double d[3], const double offset[3])
+static double drag_brute(const Solver *s, DragWeight weight, int faces, const double d[3],
+                         const double offset[3])
 {
     const double h = (double)s->support_radius, spacing = (double)s->spacing;
     double sum = 0;
     for (int n = 0; n < 11 * 11 * 11; n++) { /* h is at most three spacings, and d at most h */
         const int index[3] = {n % 11 - 4, n / 11 % 11 - 4, n / 121 - 4};
-        double r2 = 0, factor = 0;
+        double r2 = 0, factor = 0, normal = 0;
         if (s->lattice.dimensions == 2 && index[2] != 0)
             continue;
         for (int a = 0; a < 3; a++) {
             const double y = (index[a] + 0.5) * spacing; /* of the particle, in front of the face */
             const double along = s->lattice.dimensions == 2 && a == 2 ? 0 : index[a] + offset[a];
             r2 += a < faces ? (d[a] - y) * (d[a] - y) : along * along * spacing * spacing;
-            if (a < faces && y < 0)
-                factor = fmax(factor, 1 - y / fmax(d[a], 0.5 * spacing));
+            const double own = a < faces && y < 0 ? 1 - y / fmax(d[a], 0.5 * spacing) : 0;
+            if (own > factor) {
+                factor = own;
+                normal = d[a] - y;
+            }
         }
         if (r2 < h * h && factor > 0)
-            sum += factor * wall_drag_weight(&s->lattice, morris, sqrt(r2), h);
+            sum += factor * wall_drag_weight(&s->lattice, weight, sqrt(r2), normal, h);
     }
     return sum;
 }
 
 /* In front of faces, edges and corners, low and high ones: what the particle's own lattice gives within 0.2 %
-   at a face, and within 5 % at edges and corners, whose nodes are further apart; the mean over the lattice's
-   places along the walls within 6 %. */
+   at a face, and within 5 % at edges and corners, whose nodes are further apart (radial: 8 %, its weights
+   jump where the other face becomes the nearer one); the mean over the lattice's places along the walls
+   within 6 %. */
 static void tables_equal_sums(void **state)
 {
     (void)state;
@@ -75,8 +84,10 @@ static void tables_equal_sums(void **state)
         Solver solver;
         Error error = {0};
         assert_true(solver_create(&solver, &def, &error));
-        const bool morris = strcmp(def.method, "wcsph") == 0;
-        const double scale = drag_brute(&solver, morris, 1, (double[3]){0.05}, (double[3]){0});
+        const DragWeight weight = strcmp(def.method, "wcsph") != 0 ? DRAG_MUELLER
+                                  : def.viscosity_form             ? DRAG_RADIAL
+                                                                   : DRAG_MORRIS;
+        const double scale = drag_brute(&solver, weight, 1, (double[3]){0.05}, (double[3]){0});
         assert_true(scale > 0);
         for (int n = 0; n < 120; n++) {
             const int faces = 1 + n % def.dimensions, places = 200;
@@ -89,15 +100,16 @@ static void tables_equal_sums(void **state)
             for (int k = 0; k < 3; k++)
                 high[k] = k == 1 ? 2 - low[k] : -low[k];
             for (int i = 0; i < places; i++)
-                mean += drag_brute(&solver, morris, faces, d,
+                mean += drag_brute(&solver, weight, faces, d,
                                    (double[3]){fixture_random(&seed), fixture_random(&seed),
                                                fixture_random(&seed)}) /
                         places;
-            const double exact = drag_brute(&solver, morris, faces, d, (double[3]){0});
+            const double exact = drag_brute(&solver, weight, faces, d, (double[3]){0});
             const double at_low = (double)wall_drag_at(&solver.drag, low),
                          at_high = (double)wall_drag_at(&solver.drag, high);
             const double off = fmax(fabs(at_low - exact), fabs(at_high - exact));
-            if (off > (faces == 1 ? 0.002 : 0.05) * (scale + exact))
+            const double most = faces == 1 ? 0.002 : weight != DRAG_RADIAL ? 0.05 : faces == 2 ? 0.08 : 0.15;
+            if (off > most * (scale + exact))
                 fail_msg("%s, %d faces at %g %g %g: %g and %g of a face's, the sum is %g", def.method, faces,
                          d[0], d[1], d[2], at_low / scale, at_high / scale, exact / scale);
             if (fabs(at_low - mean) > 0.06 * (scale + exact))
@@ -181,7 +193,8 @@ static void a_parabola_is_slowed_by_its_curvature(void **state)
         printf("parabola, %s %dD %g: layers are slowed by %.3f %.3f %.3f %.3f of -nu u''\n", methods[m].name,
                methods[m].dimensions, methods[m].support, -a[0], -a[1], -a[2], -a[3]);
         assert_true(-a[0] > 0.65 && -a[0] < 0.75 && -a[1] > 0.92 && -a[1] < 1);
-        assert_true(fabs(-a[2] - 1) < 0.005 && fabs(-a[3] - 1) < 0.005);
+        const double most = methods[m].form == VISCOSITY_RADIAL ? 0.025 : 0.005;
+        assert_true(fabs(-a[2] - 1) < most && fabs(-a[3] - 1) < most);
     }
 }
 

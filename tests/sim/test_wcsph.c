@@ -4,6 +4,7 @@
 
 #include "sim/kernel.h"
 #include "sim/lattice.h"
+#include "sim/viscosity.h"
 #include "sim/world_state.h"
 
 enum { COUNT = 600 };
@@ -57,7 +58,7 @@ static WorldDef two_fluids(const char *kernel)
 /* The first step, particle by particle, in double. */
 typedef struct Reference {
     double x[COUNT][3], v[COUNT][3], rate[COUNT], density[COUNT], scale[COUNT], slope[COUNT][3];
-    double h, n0, gradient;
+    double h, n0, gradient, radial;
     const Kernel *kernel;
 } Reference;
 
@@ -184,7 +185,8 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
             const double aj = fj->viscosity > 0 ? 0 : 0.5 * alpha * def->sound_speed * r->h / 2 * fj->density;
             const double damping = both * (ai + aj) * dot(v, x) / (d * d + r->h * r->h / 400);
             for (int k = 0; k < 3; k++) {
-                const double drag = both * (fi->viscosity + fj->viscosity) * v[k];
+                const double friction = both * (fi->viscosity + fj->viscosity);
+                const double drag = friction * (def->viscosity_form ? r->radial * dot(v, x) * x[k] : v[k]);
                 force[k] += f * ((push - damping) * x[k] - drag);
                 r->scale[i] += fabs(f * push * x[k]) + fabs(f * damping * x[k]) + fabs(f * drag);
             }
@@ -213,6 +215,7 @@ static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *
     lattice_calibrate(3, def->spacing, r->h, r->kernel, r->kernel, &lattice);
     r->n0 = lattice.number_density;
     r->gradient = lattice.gradient_scale;
+    r->radial = lattice.radial_scale;
     for (int i = 0; i < COUNT; i++) {
         r->density[i] = cloud->density[i];
         for (int k = 0; k < 3; k++) {
@@ -222,12 +225,13 @@ static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *
     }
 }
 
-static void step_equals_brute_force(const char *kernel, double width, double middle)
+static void step_equals_brute_force(const char *kernel, ViscosityForm form, double width, double middle)
 {
     static Cloud cloud;
     static Reference r;
     static double a[COUNT][3];
     WorldDef def = two_fluids(kernel);
+    def.viscosity_form = (int)form;
     make_cloud(&cloud, width, middle);
     def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, cloud.density};
     World *world = fixture_world(&def);
@@ -270,8 +274,9 @@ static void sums_equal_brute_force(void **state)
 {
     (void)state;
     for (const Kernel *kernel = wcsph_kernels; kernel->name; kernel++) {
-        step_equals_brute_force(kernel->name, 0.9, 3);
-        step_equals_brute_force(kernel->name, 0.9, 0.46); /* on the floor */
+        step_equals_brute_force(kernel->name, VISCOSITY_MORRIS, 0.9, 3);
+        step_equals_brute_force(kernel->name, VISCOSITY_RADIAL, 0.9, 3);
+        step_equals_brute_force(kernel->name, VISCOSITY_MORRIS, 0.9, 0.46); /* on the floor */
     }
 }
 

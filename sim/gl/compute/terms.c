@@ -27,6 +27,7 @@ void compute_defines(const Solver *s, char out[COMPUTE_DEFINES_MAX])
         const char *name;
     } terms[] = {
         {s->solid_count > 0, "SOLIDS"},
+        {s->radial > 0, "RADIAL"},
         {s->reproducible, "REPRODUCIBLE"},
         {s->poly6, "POLY6"},
         {s->viscous, "VISCOUS"},
@@ -142,7 +143,7 @@ static void drag_constants(const WallDrag *drag, Terms *terms)
 void compute_term_constants(Compute *c)
 {
     const Solver *s = c->solver;
-    Terms terms = {.scales = {s->gradient, s->diffusion, s->colour}};
+    Terms terms = {.scales = {s->gradient, s->diffusion, s->colour, s->radial}};
     for (int f = 0; f < s->fluid_count; f++) {
         terms.fluids[f][0] = s->tait[f];
         terms.fluids[f][1] = s->artificial_viscosity[f];

@@ -1,0 +1,27 @@
+/* The forms of wcsph's laminar viscosity: what a pair's friction acts along.
+
+   morris: V_i V_j (mu_i + mu_j) F v_ji, after Morris 1997: mu times the Laplacian of the velocity. Exact for
+   shears, but it dissipates mu |grad v|^2: right inside a fluid without divergence, where that and 2 mu D : D
+   (D = (grad v + grad v^T) / 2) differ by what integrates to nothing, and half of the fluid's at the free
+   surface of a flow without rotation. It brakes a body that turns as a whole.
+
+   radial: V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, along the line between the two: keeps angular
+   momentum, and its work is 2 mu D : D whatever the surface; R is Lattice.radial_scale. After J. J. Monaghan,
+   R. A. Gingold, "Shock simulation by the particle method SPH", 1983, and for the surface A. Colagrossi, M.
+   Antuono, D. Le Touze, "Theoretical considerations on the free-surface role in the
+   smoothed-particle-hydrodynamics model", Phys. Rev. E 79, 056701, 2009. There the weight is R F h^2 / r^2,
+   with 2 (d + 2) for R h^2 and both viscosities: then particles on a lattice feel a shear along it by 6 to 30
+   % less and a stretch by as much more. Without the 1 / r^2, which leaves more of the weight to farther
+   neighbours, both are right within 2.5 %. */
+#ifndef SLOSH_VISCOSITY_H
+#define SLOSH_VISCOSITY_H
+
+typedef enum ViscosityForm { VISCOSITY_MORRIS, VISCOSITY_RADIAL } ViscosityForm;
+
+typedef struct ViscosityKind {
+    const char *name, *help;
+} ViscosityKind;
+
+extern const ViscosityKind viscosity_kinds[]; /* in the order of ViscosityForm, ended by a NULL name */
+
+#endif
