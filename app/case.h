@@ -17,10 +17,11 @@ typedef enum CaseLevel { CASE_COARSE, CASE_DEFAULT, CASE_FULL, CASE_LEVELS } Cas
 
 typedef struct CaseMetric {
     const char *name;
-    const char *unit; /* of value and reference; "" for pure numbers */
-    double tolerance; /* of the error, a fraction */
-    double coarse;    /* at CASE_COARSE */
-    double mueller;   /* for the method mueller, where it differs; 0: it doesn't */
+    const char *unit;    /* of value and reference; "" for pure numbers */
+    double tolerance;    /* of the error, a fraction */
+    double coarse;       /* at CASE_COARSE */
+    double mueller;      /* for the method mueller, where it differs; 0: it doesn't */
+    const char *without; /* what a run without a value means, in words; NULL: nothing in particular */
 } CaseMetric;
 
 /* What a metric gave. */

@@ -49,6 +49,7 @@ static World *start_world(const Case *of, const WorldDef *def, Error *error)
     uint8_t *fluid = malloc(count + 1);
     if (position && velocity && density && fluid) {
         seed_lattice(def, position, fluid);
+        seed_jitter(def, position, count);
         for (size_t i = 0; i < count; i++)
             density[i] = (float)def->fluids[fluid[i]].density;
         for (size_t i = 0; i < count; i++)

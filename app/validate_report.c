@@ -13,16 +13,38 @@ void validate_print_head(FILE *file)
             "value", "reference", "error", "tolerance", "seconds");
 }
 
+/* A number in the given form with its unit, or a dash where there is none. */
+static const char *cell(char out[32], const char *form, double number)
+{
+    if (!isfinite(number))
+        return "-";
+    snprintf(out, 32, form, number);
+    return out;
+}
+
+/* Why a figure did not pass, as the line's end. */
+static void print_miss(const CaseResult *result, int m, FILE *file)
+{
+    const char *without = result->of->metrics[m].without;
+    if (!isfinite(result->run.figures[m].error))
+        fprintf(file, "  missed: %s", without && !*result->failure ? without : "no value");
+    else if (!case_passed(result, m))
+        fputs("  missed", file);
+    fputc('\n', file);
+}
+
 void validate_print(const CaseResult *result, FILE *file)
 {
     const WorldDef *def = &result->scene.world;
     for (int m = 0; m < CASE_METRICS && result->of->metrics[m].name; m++) {
         const CaseMetric *metric = &result->of->metrics[m];
         const Figure *figure = &result->run.figures[m];
-        fprintf(file, "%-15s %-7s %-8s %-28s %11.5g %11.5g %7.3g %% %7.3g %% %8.1f%s\n", result->of->name,
-                def->method, def->backend, metric->name, figure->value, figure->reference,
-                100 * figure->error, 100 * case_tolerance(metric, result->level, def->method),
-                result->seconds, case_passed(result, m) ? "" : "  missed");
+        char value[32], reference[32], error[32];
+        fprintf(file, "%-15s %-7s %-8s %-28s %11s %11s %9s %7.3g %% %8.1f", result->of->name, def->method,
+                def->backend, metric->name, cell(value, "%.5g", figure->value),
+                cell(reference, "%.5g", figure->reference), cell(error, "%.3g %%", 100 * figure->error),
+                100 * case_tolerance(metric, result->level, def->method), result->seconds);
+        print_miss(result, m, file);
     }
     if (*result->failure)
         fprintf(file, "  %s\n", result->failure);
@@ -114,8 +136,10 @@ static void plot_all(const CaseResult *results, size_t count, FILE *gnuplot)
     for (int c = 0; c < CASE_CURVES && plot->expected[c]; c++) {
         if (!has_points(&results[0].run.expected[c]))
             continue;
-        fprintf(gnuplot, "%s$expected0_%d with %s title ", lines++ ? ", " : "plot ", c,
-                plot->points ? "points pt 6 ps 1 lw 2 lc '#2a3440'" : "lines lw 1.5 dt 2 lc '#2a3440'");
+        fprintf(gnuplot, "%s$expected0_%d with %s lc '#2a3440' title ", lines++ ? ", " : "plot ", c,
+                !plot->points ? "lines lw 1.5 dt 2"
+                : c == 0      ? "points pt 6 ps 1 lw 2"
+                              : "points pt 2 ps 0.7");
         chart_quote(gnuplot, plot->expected[c]);
     }
     fputs(lines ? "\n" : "plot 0 notitle\n", gnuplot);

@@ -162,3 +162,19 @@ size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
         }
     return count;
 }
+
+/* A number in [-1, 1) that point and axis decide: M. Nobile's mix of 32 bits, "lowbias32". */
+static double scatter(uint32_t point, uint32_t axis)
+{
+    uint32_t bits = point * 3 + axis + 1;
+    bits = (bits ^ bits >> 16) * 0x7feb352dU;
+    bits = (bits ^ bits >> 15) * 0x846ca68bU;
+    return (double)((bits ^ bits >> 16) >> 8) * 0x1p-23 - 1;
+}
+
+void seed_jitter(const WorldDef *def, float *position, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < (uint32_t)def->dimensions; k++)
+            position[3 * i + k] += (float)(def->jitter * def->spacing * scatter((uint32_t)i, k));
+}

@@ -24,4 +24,8 @@ void fill_bounds(const Fill *fill, double low[3], double high[3]);
 /* m3, or in two dimensions m2. */
 double fill_volume(const Fill *fill, int dimensions);
 
+/* Moves each of `count` points by up to WorldDef.jitter spacings along each axis, the same way in each run;
+   walls are no bounds to it. */
+void seed_jitter(const WorldDef *def, float *position, size_t count);
+
 #endif

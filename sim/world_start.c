@@ -50,22 +50,12 @@ static void thin_at_solids(const Solver *solver, const WorldDef *def, const Seed
     }
 }
 
-/* A number in [-1, 1) that point and axis decide: M. Nobile's mix of 32 bits, "lowbias32". */
-static double scatter(uint32_t point, uint32_t axis)
-{
-    uint32_t bits = point * 3 + axis + 1;
-    bits = (bits ^ bits >> 16) * 0x7feb352dU;
-    bits = (bits ^ bits >> 15) * 0x846ca68bU;
-    return (double)((bits ^ bits >> 16) >> 8) * 0x1p-23 - 1;
-}
-
 /* Moved points stay within the walls, and come in across periodic sides. */
 static void jitter(const Solver *solver, const WorldDef *def, const Seeds *seeds, size_t count)
 {
+    seed_jitter(def, seeds->position, count);
     for (size_t i = 0; i < count; i++) {
         float *x = seeds->position + 3 * i, v[3] = {0};
-        for (uint32_t k = 0; k < (uint32_t)def->dimensions; k++)
-            x[k] += (float)(def->jitter * def->spacing * scatter((uint32_t)i, k));
         walls_guard(&solver->walls, x, v);
         periodic_wrap(&solver->periodic, x);
     }

@@ -1,0 +1,290 @@
+/* The collapse of a column without viscosity, solved by boundary elements: what
+   scenes/reference/dam-break-potential.csv holds.
+
+   after: M. S. Longuet-Higgins, E. D. Cokelet, "The deformation of steep surface waves on water. I. A
+   numerical method of computation", 1976: the surface's points go with the fluid, D phi / D t = v^2 / 2 - g y
+   on them, and Laplace's equation gives the velocity across the surface from phi on it. The walls x = 0 and y
+   = 0 are mirrors, so that nothing but the surface has elements. Lengths over the column's width a, times
+   over sqrt(a / g).
+
+   SLOSH_POTENTIAL=FILE writes that file anew, with more elements. */
+#include "tests/sim/fixture.h"
+
+#include "app/reference.h"
+
+enum { MOST = 128 };
+
+/* From the top at the wall x = 0 to the toe on the floor y = 0; the fluid is on the right. */
+typedef struct Surface {
+    int elements; /* points: one more */
+    double x[MOST + 1], y[MOST + 1], phi[MOST + 1];
+} Surface;
+
+/* Integrals over the element from a to b of ln r and of its derivative along the left normal, seen from p. */
+static void integrals(const double p[2], const double a[2], const double b[2], double *single, double *normal)
+{
+    const double length = hypot(b[0] - a[0], b[1] - a[1]),
+                 t[2] = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
+    const double from = (a[0] - p[0]) * t[0] + (a[1] - p[1]) * t[1], to = from + length;
+    const double h = (a[1] - p[1]) * t[0] - (a[0] - p[0]) * t[1];
+    *normal = fabs(h) > 1e-14 ? atan2(h * length, h * h + from * to) : 0;
+    *single = 0.5 * (to * log(to * to + h * h) - from * log(from * from + h * h)) - length + h * *normal;
+}
+
+static void solve(int n, double a[MOST][MOST], double b[MOST], double out[MOST])
+{
+    for (int k = 0; k < n; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < n; i++)
+            if (fabs(a[i][k]) > fabs(a[pivot][k]))
+                pivot = i;
+        for (int j = 0; j < n; j++) {
+            const double swap = a[k][j];
+            a[k][j] = a[pivot][j];
+            a[pivot][j] = swap;
+        }
+        const double swap = b[k];
+        b[k] = b[pivot];
+        b[pivot] = swap;
+        for (int i = k + 1; i < n; i++) {
+            const double factor = a[i][k] / a[k][k];
+            for (int j = k; j < n; j++)
+                a[i][j] -= factor * a[k][j];
+            b[i] -= factor * b[k];
+        }
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        out[i] = b[i];
+        for (int j = i + 1; j < n; j++)
+            out[i] -= a[i][j] * out[j];
+        out[i] /= a[i][i];
+    }
+}
+
+/* The velocity across each element, outwards: Green's third identity at its middle. */
+static void fluxes(const Surface *s, double q[MOST])
+{
+    static double a[MOST][MOST], b[MOST];
+    for (int i = 0; i < s->elements; i++) {
+        b[i] = -0.5 * 3.14159265358979 * (s->phi[i] + s->phi[i + 1]);
+        for (int j = 0; j < s->elements; j++) {
+            a[i][j] = 0;
+            for (int mirror = 0; mirror < 4; mirror++) {
+                const double p[2] = {(mirror & 1 ? -0.5 : 0.5) * (s->x[i] + s->x[i + 1]),
+                                     (mirror & 2 ? -0.5 : 0.5) * (s->y[i] + s->y[i + 1])};
+                double single, normal;
+                integrals(p, (double[2]){s->x[j], s->y[j]}, (double[2]){s->x[j + 1], s->y[j + 1]}, &single,
+                          &normal);
+                a[i][j] += single;
+                b[i] += 0.5 * normal * (s->phi[j] + s->phi[j + 1]);
+            }
+        }
+    }
+    solve(s->elements, a, b, q);
+}
+
+/* Rates of a surface's points, as a surface. */
+static Surface rates(const Surface *s)
+{
+    double q[MOST], u[MOST], v[MOST], length[MOST];
+    const int n = s->elements;
+    Surface rate = {.elements = n};
+    fluxes(s, q);
+    for (int i = 0; i < n; i++) {
+        length[i] = hypot(s->x[i + 1] - s->x[i], s->y[i + 1] - s->y[i]);
+        const double t[2] = {(s->x[i + 1] - s->x[i]) / length[i], (s->y[i + 1] - s->y[i]) / length[i]};
+        const double along = (s->phi[i + 1] - s->phi[i]) / length[i];
+        u[i] = along * t[0] - q[i] * t[1];
+        v[i] = along * t[1] + q[i] * t[0];
+    }
+    for (int i = 0; i <= n; i++) { /* linear between the middles of elements, beyond the last ones too */
+        const int a = i == 0 ? 0 : i == n ? n - 2 : i - 1, b = a + 1;
+        const double at = i == 0 ? -length[0] : i == n ? length[a] + 2 * length[b] : length[a];
+        const double share = at / (length[a] + length[b]);
+        rate.x[i] = i > 0 ? u[a] + (u[b] - u[a]) * share : 0;
+        rate.y[i] = i < n ? v[a] + (v[b] - v[a]) * share : 0;
+        rate.phi[i] = 0.5 * (rate.x[i] * rate.x[i] + rate.y[i] * rate.y[i]) - s->y[i];
+    }
+    return rate;
+}
+
+static Surface moved(const Surface *s, const Surface *rate, double dt)
+{
+    Surface out = *s;
+    for (int i = 0; i <= s->elements; i++) {
+        out.x[i] += dt * rate->x[i];
+        out.y[i] += dt * rate->y[i];
+        out.phi[i] += dt * rate->phi[i];
+    }
+    return out;
+}
+
+/* The points anew along the surface, `finer` times closer at the toe, by cubics through four of them. */
+static Surface spread(const Surface *s, double finer)
+{
+    const int n = s->elements;
+    double at[MOST + 1] = {0};
+    Surface out = *s;
+    for (int i = 0; i < n; i++)
+        at[i + 1] = at[i] + hypot(s->x[i + 1] - s->x[i], s->y[i + 1] - s->y[i]);
+    for (int i = 1, k = 0; i < n; i++) {
+        const double place = at[n] * (1 - pow(finer, -(double)i / n)) / (1 - 1 / finer);
+        while (k < n - 1 && at[k + 1] < place)
+            k++;
+        const int first = k < 1 ? 0 : k > n - 2 ? n - 3 : k - 1;
+        out.x[i] = out.y[i] = out.phi[i] = 0;
+        for (int a = first; a < first + 4; a++) {
+            double weight = 1;
+            for (int b = first; b < first + 4; b++)
+                weight *= b == a ? 1 : (place - at[b]) / (at[a] - at[b]);
+            out.x[i] += weight * s->x[a];
+            out.y[i] += weight * s->y[a];
+            out.phi[i] += weight * s->phi[a];
+        }
+    }
+    return out;
+}
+
+/* Takes out what alternates from point to point and leaves cubics; Longuet-Higgins and Cokelet, eq. 3.8. */
+static void smooth(double *f, int n)
+{
+    double before[MOST + 1];
+    memcpy(before, f, sizeof(double) * (size_t)(n + 1));
+    for (int i = 2; i <= n - 2; i++)
+        f[i] = (-before[i - 2] + 4 * before[i - 1] + 10 * before[i] + 4 * before[i + 1] - before[i + 2]) / 16;
+}
+
+static Surface stepped(const Surface *s, double dt, bool smoothed)
+{
+    const Surface r1 = rates(s), s2 = moved(s, &r1, dt / 2), r2 = rates(&s2), s3 = moved(s, &r2, dt / 2),
+                  r3 = rates(&s3), s4 = moved(s, &r3, dt), r4 = rates(&s4);
+    Surface out = moved(s, &r1, dt / 6);
+    out = moved(&out, &r2, dt / 3);
+    out = moved(&out, &r3, dt / 3);
+    out = moved(&out, &r4, dt / 6);
+    out = spread(&out, 3);
+    if (smoothed) {
+        smooth(out.x, out.elements);
+        smooth(out.y, out.elements);
+        smooth(out.phi, out.elements);
+    }
+    return out;
+}
+
+/* At rest, twice as high as wide. */
+static Surface column(int elements)
+{
+    Surface s = {.elements = elements};
+    const int top = elements / 3;
+    for (int i = 0; i <= elements; i++) {
+        s.x[i] = i < top ? (double)i / top : 1;
+        s.y[i] = i < top ? 2 : 2 - 2.0 * (i - top) / (elements - top);
+    }
+    return s;
+}
+
+static double area(const Surface *s)
+{
+    double sum = 0;
+    for (int i = 0; i < s->elements; i++)
+        sum += 0.5 * (s->y[i] + s->y[i + 1]) * (s->x[i + 1] - s->x[i]);
+    return sum;
+}
+
+/* Kinetic and potential energy, over rho g a^3. */
+static double energy(const Surface *s)
+{
+    double q[MOST], sum = 0;
+    fluxes(s, q);
+    for (int i = 0; i < s->elements; i++) {
+        const double dx = s->x[i + 1] - s->x[i], y = s->y[i], dy = s->y[i + 1] - y;
+        sum += 0.25 * (s->phi[i] + s->phi[i + 1]) * q[i] * hypot(dx, dy);
+        sum += 0.5 * dx * (y * y + y * dy + dy * dy / 3);
+    }
+    return sum;
+}
+
+enum { ROWS = 17 };
+
+/* Z at T = 0.2, 0.4, ... 3.4, and at the last of them the surface. */
+static Surface fronts(int elements, double dt, double z[ROWS])
+{
+    Surface s = column(elements);
+    double last = 0, before = 1;
+    int row = 0;
+    for (int i = 1; row < ROWS; i++) {
+        s = stepped(&s, dt, i % 2 == 0);
+        const double time = sqrt(2) * dt * i, front = s.x[elements];
+        for (; row < ROWS && 0.2 * (row + 1) <= time + 1e-9; row++)
+            z[row] = before + (front - before) * (0.2 * (row + 1) - last) / (time - last);
+        last = time;
+        before = front;
+    }
+    return s;
+}
+
+/* phi = x^2 - y^2 has no velocity across the mirrors. */
+static void fluxes_are_those_of_a_known_flow(void **state)
+{
+    (void)state;
+    Surface s = {.elements = MOST};
+    double q[MOST];
+    for (int i = 0; i <= MOST; i++) {
+        const double angle = 0.5 * 3.14159265358979 * (1 - (double)i / MOST);
+        s.x[i] = 1.5 * cos(angle);
+        s.y[i] = sin(angle);
+        s.phi[i] = s.x[i] * s.x[i] - s.y[i] * s.y[i];
+    }
+    fluxes(&s, q);
+    for (int i = 0; i < MOST; i++) {
+        const double dx = s.x[i + 1] - s.x[i], dy = s.y[i + 1] - s.y[i], length = hypot(dx, dy);
+        const double exact = (-(s.x[i] + s.x[i + 1]) * dy - (s.y[i] + s.y[i + 1]) * dx) / length;
+        if (fabs(q[i] - exact) > 0.01)
+            fail_msg("across element %d: %g, not %g", i, q[i], exact);
+    }
+}
+
+static void the_file_is_this_flow(void **state)
+{
+    (void)state;
+    static Reference file;
+    Error error = {{0}};
+    double z[ROWS];
+    const Surface begin = column(60), end = fronts(60, 0.02, z);
+    assert_true(fabs(area(&end) / area(&begin) - 1) < 0.003);
+    assert_true(fabs(energy(&end) / energy(&begin) - 1) < 0.01);
+    assert_true(reference_load("scenes/reference/dam-break-potential.csv", &file, &error));
+    assert_int_equal(file.rows, ROWS);
+    for (int row = 0; row < ROWS; row++) {
+        assert_true(fabs(reference_number(&file, row, "T") - 0.2 * (row + 1)) < 1e-9);
+        if (fabs(reference_number(&file, row, "Z") / z[row] - 1) > 0.025)
+            fail_msg("at T = %g: %g, not %g", 0.2 * (row + 1), reference_number(&file, row, "Z"), z[row]);
+    }
+}
+
+static void write_file(const char *path)
+{
+    double z[ROWS];
+    FILE *file = fopen(path, "w");
+    const Surface end = fronts(120, 0.01, z);
+    fprintf(stderr, "area %g, energy %g at the end\n", area(&end), energy(&end));
+    fputs(
+        "# slosh, tests/app/test_dam_break_potential.c: SLOSH_POTENTIAL=FILE build/ci/tests/test_app_dam_break_potential\n"
+        "# The column of Martin and Moyce 1952 (n^2 = 2) without viscosity and walls' friction, let go at once: potential "
+        "flow by 120 boundary elements, within 1 %. T = t sqrt(2 g / a), Z = x / a of the front.\nT,Z\n",
+        file);
+    for (int row = 0; row < ROWS; row++)
+        fprintf(file, "%.1f,%.3f\n", 0.2 * (row + 1), z[row]);
+    fclose(file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fluxes_are_those_of_a_known_flow),
+        cmocka_unit_test(the_file_is_this_flow),
+    };
+    if (getenv("SLOSH_POTENTIAL"))
+        write_file(getenv("SLOSH_POTENTIAL"));
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

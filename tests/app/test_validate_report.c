@@ -1,0 +1,95 @@
+/* What validate says of a figure that has no value: words in the table, null in the JSON. */
+#include "tests/sim/fixture.h"
+
+#include "app/validate_report.h"
+
+#include <unistd.h>
+
+static const Case swing = {
+    .name = "swing",
+    .metrics = {{"frequency", "rad/s", .tolerance = 0.07, .without = "does not oscillate"},
+                {"width", "m", .tolerance = 0.05}},
+};
+
+static CaseResult *result_of(Figure frequency, Figure width)
+{
+    static CaseResult result;
+    result = (CaseResult){.of = &swing, .level = CASE_DEFAULT};
+    snprintf(result.scene.world.method, NAME_SIZE, "wcsph");
+    snprintf(result.scene.world.backend, NAME_SIZE, "cpu");
+    result.run.figures[0] = frequency;
+    result.run.figures[1] = width;
+    return &result;
+}
+
+static void all_of(FILE *file, char text[4096])
+{
+    rewind(file);
+    text[fread(text, 1, 4095, file)] = 0;
+    fclose(file);
+}
+
+static void printed(const CaseResult *result, char text[4096])
+{
+    FILE *file = tmpfile();
+    validate_print(result, file);
+    all_of(file, text);
+}
+
+static const Figure none = {(double)NAN, 20.9, (double)NAN}, good = {1.02, 1, 0.02}, bad = {1.2, 1, 0.2};
+
+static void a_figure_without_a_value_is_words(void **state)
+{
+    (void)state;
+    char text[4096];
+    printed(result_of(none, good), text);
+    assert_non_null(strstr(text, "20.9"));
+    assert_non_null(strstr(text, "  missed: does not oscillate\n"));
+    assert_null(strstr(text, "nan"));
+    printed(result_of(good, none), text);
+    assert_non_null(strstr(text, "  missed: no value\n"));
+    assert_null(strstr(text, "nan"));
+    printed(result_of(good, bad), text);
+    assert_non_null(strstr(text, "  missed\n"));
+    assert_null(strstr(text, "missed:"));
+    printed(result_of(good, good), text);
+    assert_null(strstr(text, "missed"));
+}
+
+/* Then the drop did not stand still: it is not there any more. */
+static void a_run_that_broke_says_so_itself(void **state)
+{
+    (void)state;
+    char text[4096];
+    CaseResult *result = result_of(none, none);
+    snprintf(result->failure, sizeof result->failure, "a particle moved too far");
+    printed(result, text);
+    assert_null(strstr(text, "oscillate"));
+    assert_non_null(strstr(text, "a particle moved too far"));
+}
+
+static void a_figure_without_a_value_is_null(void **state)
+{
+    (void)state;
+    char text[4096], path[] = "/tmp/validate_report_XXXXXX";
+    Error error = {{0}};
+    close(mkstemp(path));
+    assert_true(validate_write_json(result_of(none, good), 1, path, &error));
+    all_of(fopen(path, "r"), text);
+    unlink(path);
+    assert_non_null(strstr(text, "\"value\": null"));
+    assert_non_null(strstr(text, "\"error\": null"));
+    assert_non_null(strstr(text, "\"passed\": false"));
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "NaN"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_figure_without_a_value_is_words),
+        cmocka_unit_test(a_run_that_broke_says_so_itself),
+        cmocka_unit_test(a_figure_without_a_value_is_null),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
