@@ -14,8 +14,8 @@ const Case *const case_list[] = {&case_hydrostatic,  &case_hydrostatic_3d, &case
                                  &case_vortices,     &case_poiseuille,     &case_couette,
                                  &case_cavity,       &case_cavity_1000,    NULL};
 
-/* Wendland's C2 pairs no particles; friction in the radial form does the fluid's work at a free surface too; a
-   figure is the same each time on compute too. */
+/* Wendland's C2 pairs no particles; friction in the radial form does the fluid's work at a free surface too;
+   a figure is the same each time on compute too. */
 const char *const case_settings[] = {
     "solver.kernel=wendland_c2",
     "solver.delta_sph=0.1",
