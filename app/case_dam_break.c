@@ -59,7 +59,7 @@ static bool judge(CaseRun *run, Error *error)
     .methods = {"wcsph"}, .time = 0.184, .every = 0.0005, /* T = 3.41 */                                     \
         .metrics = {{"front, mean error", "", .tolerance = 0.025, .coarse = 0.12},                           \
                     {"front, worst error", "", .tolerance = 0.05, .coarse = 0.2},                            \
-                    {"off potential flow, mean", "", .tolerance = 0.05, .coarse = 0.04}},                    \
+                    {"off potential flow, mean", "", .tolerance = 0.03, .coarse = 0.04}},                    \
     .plot = {.x = "T = t sqrt(2 g / a)",                                                                     \
              .y = "front Z = x / a",                                                                         \
              .found = {"front"},                                                                             \

@@ -86,7 +86,7 @@ static void fluxes(const Surface *s, double q[MOST])
 /* Rates of a surface's points, as a surface. */
 static Surface rates(const Surface *s)
 {
-    double q[MOST], u[MOST], v[MOST], length[MOST];
+    double q[MOST], u[MOST] = {0}, v[MOST] = {0}, length[MOST] = {0};
     const int n = s->elements;
     Surface rate = {.elements = n};
     fluxes(s, q);

@@ -63,7 +63,7 @@ SCENES = {
     "viscous, two fluids": (TWO, VISCOUS + ["fluids[1].viscosity=1"]),
     "wcsph": (SCENE, WCSPH),
     "wcsph off": (SCENE, WCSPH + ["solver.surface_tension=colour_field", "fluids[0].viscosity=0", "box.slip=none",
-                                  "solver.delta_sph=0", "solver.shifting=0", "box.periodic=[]"]),
+                                  "solver.delta_sph=0", "solver.shifting=0", "box.periodic=[]", "solver.viscosity_form=radial"]),
     "wcsph, artificial": (SCENE, ["solver.method=wcsph"]),
     "wcsph, diffusion": (SCENE, WCSPH + ["solver.delta_sph=0.1"]),
     "wcsph, viscous": (SCENE, WCSPH + VISCOUS),

@@ -85,8 +85,9 @@ static double power(ViscosityForm form, double a, double b)
     def.fluids[0].viscosity = 100;
     def.dt = 1e-3;
     for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
-        const double at[2] = {((double)(i % SIDE) + 0.5 - SIDE / 2) * 0.1,
-                              ((double)(i / SIDE) + 0.5 - SIDE / 2) * 0.1};
+        const size_t row = i / SIDE;
+        const double at[2] = {((double)(i % SIDE) + 0.5 - 0.5 * SIDE) * 0.1,
+                              ((double)row + 0.5 - 0.5 * SIDE) * 0.1};
         x[3 * i] = (float)at[0];
         x[3 * i + 1] = (float)(3 + at[1]);
         v[3 * i] = (float)(a * at[0] + b * at[1]);
