@@ -207,6 +207,7 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
     case OPTION_DEVICE:
         return parse_device(parser, option, text);
     case OPTION_FLAG:
+    case OPTION_REFUSED:
     case OPTION_HELP:
         break;
     }
@@ -242,6 +243,8 @@ static bool parse_option(Parser *parser, const char *argument)
     const OptionRow *option = option_find(parser, strcmp(name, "-h") == 0 ? "--help" : name);
     if (!option)
         return unknown_option(parser, name);
+    if (option->kind == OPTION_REFUSED)
+        return fail(parser, "%s is %s", name, option->help);
     if (!option->value && equals)
         return fail(parser, "%s takes no value", name);
     if (option->kind == OPTION_FLAG)
@@ -366,6 +369,9 @@ static bool parse_rest(Parser *parser)
                     parser->row->usage);
     if (parser->row->output && !parser->args->output)
         return fail(parser, "-o is missing; add -o with %s", parser->row->output);
+    const bool listens = parser->args->command == COMMAND_PLAY || parser->args->command == COMMAND_DEVICES;
+    if (parser->args->mapping && !parser->args->device && !listens)
+        return fail(parser, "--mapping says what motion devices do; add --device file:PATH, or leave it out");
     return true;
 }
 

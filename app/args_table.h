@@ -23,6 +23,7 @@ typedef enum OptionKind {
     OPTION_SETTING,   /* path=value for the scene: all of it, or the value for the row's `path` */
     OPTION_SWEEP,     /* KEY=a,b,c */
     OPTION_DEVICE,    /* const char *: file:PATH */
+    OPTION_REFUSED,   /* not for these commands: `help` says why, after "--device is " */
     OPTION_HELP
 } OptionKind;
 

@@ -1,5 +1,6 @@
 #include "app/bench.h"
 
+#include "app/hand_replay.h"
 #include "app/interrupt.h"
 
 #include <math.h>
@@ -127,6 +128,7 @@ static bool figures(const Samples *samples, const char *gl_clock, BenchResult *r
 /* What a frame works on. */
 typedef struct Stand {
     World *world;
+    HandReplay *hand; /* or NULL */
     Studio studio;
     GlTimer *timer;
     bool draws, sim_on_gpu;
@@ -138,6 +140,9 @@ static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
                      .draws = setup->draws,
                      .sim_on_gpu = world_on_gpu(&setup->scene->world)};
     if (!stand->world)
+        return false;
+    if (setup->device &&
+        !(stand->hand = hand_replay_open(setup->device, setup->mapping, setup->scene, error)))
         return false;
     if (!stand->draws && !stand->sim_on_gpu)
         return true;
@@ -152,6 +157,7 @@ static void stand_close(Stand *stand)
 {
     gl_timer_destroy(stand->timer);
     studio_close(&stand->studio);
+    hand_replay_close(stand->hand);
     world_destroy(stand->world);
 }
 
@@ -159,6 +165,7 @@ static void stand_close(Stand *stand)
 static bool frame(Stand *stand, StageClock *clock, Error *error)
 {
     *clock = stand->sim_on_gpu ? gl_timer_stage_clock(stand->timer) : (StageClock){0};
+    hand_replay_move(stand->hand, stand->world);
     if (!world_step(stand->world, clock, error))
         return false;
     return !stand->draws || studio_draw(&stand->studio, stand->world, clock, stand->timer, error);
@@ -167,9 +174,12 @@ static bool frame(Stand *stand, StageClock *clock, Error *error)
 static bool advance(Stand *stand, double from, Error *error)
 {
     WorldInfo info;
-    for (world_info(stand->world, &info); info.time < from && !interrupted(); world_info(stand->world, &info))
+    for (world_info(stand->world, &info); info.time < from && !interrupted();
+         world_info(stand->world, &info)) {
+        hand_replay_move(stand->hand, stand->world);
         if (!world_step(stand->world, NULL, error))
             return false;
+    }
     return true;
 }
 

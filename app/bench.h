@@ -46,7 +46,8 @@ typedef struct BenchSetup {
     Headless *context; /* current; NULL: neither solver nor pictures need one */
     bool draws;
     int width, height, frames;
-    double from; /* simulated time at which to begin, s */
+    double from;                  /* simulated time at which to begin, s */
+    const char *device, *mapping; /* as hand_replay_open takes them; no device: the hand is at rest */
     GlClock clock;
 } BenchSetup;
 

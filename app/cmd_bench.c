@@ -2,6 +2,8 @@
 #include "app/bench_table.h"
 #include "app/chart.h"
 #include "app/cmd.h"
+#include "app/device/devices.h"
+#include "app/device/mapping.h"
 #include "app/interrupt.h"
 #include "app/output.h"
 #include "app/play.h"
@@ -152,6 +154,17 @@ static GlClock clock_of(ClockChoice choice)
                                            : GL_CLOCK_AUTO;
 }
 
+/* --device: a recording that can be played, and a mapping for it. */
+static bool device_check(const Args *args, Error *error)
+{
+    Mapping mapping;
+    if (args->device && args->play)
+        return error_set(error,
+                         "slosh bench: with --play a script shakes the box; leave --device out, or --play");
+    return !args->device ||
+           (devices_check(args->device, error) && mapping_load(args->mapping, &mapping, error));
+}
+
 /* All cases are read before the first runs: a mistake in the last one shows at once. */
 static bool cases_check(const Plan *plan, bool *context, Error *error)
 {
@@ -188,6 +201,8 @@ static bool measure_all(const Plan *plan, Headless *context, BenchResult *result
                                     : DEFAULT_FRAMES,
             .from = args->time_given ? args->time : 0,
             .clock = clock_of(args->clock),
+            .device = args->device,
+            .mapping = args->mapping,
         };
         progress_begin(&progress, stderr, "bench", args->quiet);
         const bool ok = bench_measure(&setup, &progress, (double)*done / (double)count, 1 / (double)count,
@@ -277,7 +292,8 @@ int cmd_bench(const Args *args)
     bool wants_context;
     static Plan plan;
     interrupt_install();
-    if (!plan_make(args, &plan, &error) || !cases_check(&plan, &wants_context, &error))
+    if (!plan_make(args, &plan, &error) || !device_check(args, &error) ||
+        !cases_check(&plan, &wants_context, &error))
         return fail(&error, EXIT_USAGE);
     if (args->play)
         return bench_play(args, &error);

@@ -1,6 +1,5 @@
 #include "app/hand_post.h"
 
-#include "sim/box_motion.h"
 #include "sim/stage.h"
 
 #include <math.h>
@@ -12,27 +11,14 @@
 
 enum { LATENCIES_MAX = 4096 };
 
-typedef struct PostDevice {
-    int number; /* 0: none is here */
-    DeviceFamily family;
-    uint16_t vendor, product;
-    char name[64], problem[NEWS_WORDS_SIZE];
-    DeviceState state;
-    DeviceMap map;
-    Orientation orientation;
-} PostDevice;
-
 struct HandPost {
     pthread_mutex_t lock;
-    Mapping mapping;
     void (*wake)(void);
     HandSend *send; /* NULL: closed */
     void *user;
-    Hand hand;
-    HandInput own;      /* of the window at its last look, without what counts once */
-    double box_size[3]; /* all 0: the window has not looked yet */
-    double looked_ms;   /* wall time of the last update */
-    PostDevice devices[HAND_POST_DEVICES_MAX];
+    HeldDevices held; /* `own`: of the window at its last look, without what counts once; a box_size of 0: it
+                         has not looked yet */
+    double looked_ms; /* wall time of the last update */
     HandNews news;
     uint64_t reports;
     size_t latencies;
@@ -44,9 +30,8 @@ HandPost *hand_post_create(const Mapping *mapping, void (*wake)(void))
     HandPost *post = calloc(1, sizeof *post);
     if (!post)
         return NULL;
-    post->mapping = *mapping;
     post->wake = wake;
-    post->hand = hand_at_rest();
+    held_devices_start(&post->held, mapping);
     pthread_mutex_init(&post->lock, NULL);
     return post;
 }
@@ -64,9 +49,9 @@ void hand_post_open(HandPost *post, HandSend *send, void *user)
     pthread_mutex_lock(&post->lock);
     post->send = send;
     post->user = user;
-    post->hand = hand_at_rest();
-    post->own = (HandInput){.dt = 0};
-    memset(post->box_size, 0, sizeof post->box_size);
+    post->held.hand = hand_at_rest();
+    post->held.own = (HandInput){.dt = 0};
+    memset(post->held.box_size, 0, sizeof post->held.box_size);
     post->news.sent_count = 0; /* numbers of the scene before */
     pthread_mutex_unlock(&post->lock);
 }
@@ -78,95 +63,51 @@ void hand_post_close(HandPost *post)
     pthread_mutex_unlock(&post->lock);
 }
 
-static bool in_use(const PostDevice *device)
-{
-    return device->number > 0 && !device->problem[0];
-}
-
-/* The devices' turns one on top of the other, in the order in which they came. */
-static void add_turn(const PostDevice *device, HandInput *sum)
-{
-    double turned[4], of_box[4];
-    if (!device->map.pose || !device->orientation.begun)
-        return;
-    orientation_turned(&device->orientation, turned);
-    mapping_pose(&device->map, turned, of_box);
-    if (sum->turned[3] == 0 && sum->turned[0] == 0 && sum->turned[1] == 0 && sum->turned[2] == 0)
-        memcpy(sum->turned, of_box, sizeof of_box);
-    else
-        quat_multiply(of_box, sum->turned, sum->turned);
-}
-
-/* What the window last said and the devices say, together. */
-static HandInput sum_up(const HandPost *post, double camera[3])
-{
-    HandInput sum = post->own;
-    for (int i = 0; i < HAND_POST_DEVICES_MAX; i++) {
-        if (!in_use(&post->devices[i]))
-            continue;
-        mapping_add(&post->devices[i].map, &post->devices[i].state, &sum, camera);
-        add_turn(&post->devices[i], &sum);
-    }
-    return sum;
-}
-
 /* Sends where the box shall be now; 0: nothing new, or nobody to send it to. */
 static uint64_t update(HandPost *post)
 {
     const double now = wall_ms(), dt = fmin(1e-3 * (now - post->looked_ms), HAND_DT_MOST);
-    double camera[3] = {0};
     BoxTarget target;
     post->looked_ms = now;
-    HandInput sum = sum_up(post, camera);
-    if (!post->send || post->box_size[0] == 0)
+    if (!post->send || post->held.box_size[0] == 0 ||
+        !held_devices_update(&post->held, dt, post->news.camera, &target))
         return 0;
-    sum.dt = dt;
-    for (int k = 0; k < 3; k++)
-        post->news.camera[k] += camera[k] * dt;
-    return hand_update(&post->hand, &sum, post->box_size, &target) ? post->send(post->user, &target) : 0;
+    return post->send(post->user, &target);
 }
 
 uint64_t hand_post_look(HandPost *post, const HandInput *input, const double box_size[3], HandNews *news)
 {
     pthread_mutex_lock(&post->lock);
-    post->own = *input;
-    memcpy(post->box_size, box_size, sizeof post->box_size);
+    HandInput *own = &post->held.own;
+    *own = *input;
+    memcpy(post->held.box_size, box_size, sizeof post->held.box_size);
     const uint64_t number = update(post);
-    memset(post->own.move_drag, 0, sizeof post->own.move_drag);
-    memset(post->own.turn_drag, 0, sizeof post->own.turn_drag);
+    memset(own->move_drag, 0, sizeof own->move_drag);
+    memset(own->turn_drag, 0, sizeof own->turn_drag);
     *news = post->news;
     post->news = (HandNews){.command_count = 0};
     pthread_mutex_unlock(&post->lock);
     return number;
 }
 
-static void level_devices(HandPost *post)
-{
-    for (int i = 0; i < HAND_POST_DEVICES_MAX; i++)
-        orientation_neutral(&post->devices[i].orientation);
-}
-
 void hand_post_neutral(HandPost *post)
 {
     pthread_mutex_lock(&post->lock);
-    level_devices(post);
+    held_devices_neutral(&post->held);
     pthread_mutex_unlock(&post->lock);
 }
 
 void hand_post_home(HandPost *post)
 {
     pthread_mutex_lock(&post->lock);
-    level_devices(post);
-    hand_home(&post->hand);
+    held_devices_home(&post->held);
     pthread_mutex_unlock(&post->lock);
 }
 
 void hand_post_let_go(HandPost *post, const BoxTarget *now)
 {
-    double camera[3];
     pthread_mutex_lock(&post->lock);
-    const HandInput still = sum_up(post, camera);
-    hand_let_go(&post->hand, now, &still, post->box_size);
+    held_devices_let_go(&post->held, now);
     pthread_mutex_unlock(&post->lock);
 }
 
@@ -175,14 +116,15 @@ bool hand_post_claims(HandPost *post, uint16_t vendor, uint16_t product)
     bool claims = false;
     pthread_mutex_lock(&post->lock);
     for (int i = 0; i < HAND_POST_DEVICES_MAX; i++) {
-        const PostDevice *device = &post->devices[i];
-        claims = claims || (in_use(device) && device->vendor == vendor && device->product == product);
+        const HeldDevice *device = &post->held.list[i];
+        claims =
+            claims || (held_device_in_use(device) && device->vendor == vendor && device->product == product);
     }
     pthread_mutex_unlock(&post->lock);
     return claims;
 }
 
-static void show_device(const PostDevice *device, HandDevice *out)
+static void show_device(const HeldDevice *device, HandDevice *out)
 {
     *out = (HandDevice){.number = device->number,
                         .family = device->family,
@@ -204,8 +146,8 @@ int hand_post_devices(HandPost *post, HandDevice devices[HAND_POST_DEVICES_MAX])
     int count = 0;
     pthread_mutex_lock(&post->lock);
     for (int i = 0; i < HAND_POST_DEVICES_MAX; i++)
-        if (post->devices[i].number > 0)
-            show_device(&post->devices[i], &devices[count++]);
+        if (post->held.list[i].number > 0)
+            show_device(&post->held.list[i], &devices[count++]);
     pthread_mutex_unlock(&post->lock);
     return count;
 }
@@ -214,12 +156,12 @@ void hand_post_tune(HandPost *post, int number, double gain, double dead_zone)
 {
     pthread_mutex_lock(&post->lock);
     for (int i = 0; i < HAND_POST_DEVICES_MAX; i++) {
-        PostDevice *device = &post->devices[i];
+        HeldDevice *device = &post->held.list[i];
         if (device->number != number || number <= 0)
             continue;
         device->map.gain = gain;
         device->map.dead_zone = dead_zone;
-        *mapping_of(&post->mapping, device->family, device->vendor, device->product) = device->map;
+        *mapping_of(&post->held.mapping, device->family, device->vendor, device->product) = device->map;
     }
     pthread_mutex_unlock(&post->lock);
 }
@@ -265,84 +207,36 @@ static void say(HandPost *post, bool wrong, const char *format, ...)
     va_end(arguments);
 }
 
-static PostDevice *find(HandPost *post, int number)
+static void add_device(HandPost *post, const DeviceEvent *event)
 {
-    for (int i = 0; i < HAND_POST_DEVICES_MAX; i++)
-        if (post->devices[i].number == number)
-            return &post->devices[i];
-    return NULL;
-}
-
-/* Closes the gap, so that the order stays that of coming. */
-static void forget(HandPost *post, const PostDevice *device)
-{
-    const size_t at = (size_t)(device - post->devices);
-    memmove(&post->devices[at], &post->devices[at + 1],
-            (HAND_POST_DEVICES_MAX - 1 - at) * sizeof *post->devices);
-    post->devices[HAND_POST_DEVICES_MAX - 1] = (PostDevice){.number = 0};
-}
-
-/* One that was refused and is plugged in again, or may be opened now, is no longer the refused one. */
-static void forget_refused(HandPost *post, const DeviceEvent *event)
-{
-    for (int i = HAND_POST_DEVICES_MAX - 1; i >= 0; i--) {
-        const PostDevice *device = &post->devices[i];
-        if (device->number > 0 && device->problem[0] && device->vendor == event->vendor &&
-            device->product == event->product)
-            forget(post, device);
-    }
-}
-
-static bool add_device(HandPost *post, const DeviceEvent *event)
-{
-    forget_refused(post, event);
-    PostDevice *device = find(post, 0);
-    if (!device) {
+    const bool refused = event->kind == DEVICE_REFUSED;
+    if (!held_devices_add(&post->held, event))
         say(post, true, "%s is one device too many; unplug another one", event->name);
+    else if (refused)
+        say(post, true, "%s: %s", event->name, event->problem);
+    else
+        say(post, false, "%s is in your hand", event->name);
+}
+
+static void remove_device(HandPost *post, int number)
+{
+    HeldDevice gone;
+    if (held_devices_remove(&post->held, number, &gone))
+        say(post, false, "%s is gone; the box stays where it is", gone.name);
+}
+
+/* False: of no device that is held. */
+static bool take_report(HandPost *post, const DeviceEvent *event)
+{
+    PlayCommand pressed[HELD_BUTTONS_MAX];
+    int count;
+    if (!held_devices_report(&post->held, event, pressed, &count))
         return false;
-    }
-    *device = (PostDevice){.number = event->number,
-                           .family = event->family,
-                           .vendor = event->vendor,
-                           .product = event->product,
-                           .map = *mapping_of(&post->mapping, event->family, event->vendor, event->product),
-                           .orientation = orientation_start()};
-    snprintf(device->name, sizeof device->name, "%s", event->name);
-    if (event->kind == DEVICE_REFUSED)
-        snprintf(device->problem, sizeof device->problem, "%s", event->problem);
-    return true;
-}
-
-/* The box stays where it was last sent, though nothing holds it there any more. */
-static void remove_device(HandPost *post, PostDevice *device)
-{
-    double camera[3];
-    say(post, false, "%s is gone; the box stays where it is", device->name);
-    forget(post, device);
-    const HandInput still = sum_up(post, camera);
-    const BoxTarget told = post->hand.told;
-    if (post->box_size[0] > 0)
-        hand_let_go(&post->hand, &told, &still, post->box_size);
-}
-
-static void press_buttons(HandPost *post, const PostDevice *device, uint32_t pressed)
-{
-    for (int bit = 0; bit < 32; bit++) {
-        const PlayCommand command = pressed >> bit & 1
-                                        ? mapping_button(&device->map, device->vendor, device->product, bit)
-                                        : PLAY_NONE;
-        if (command != PLAY_NONE && post->news.command_count < NEWS_COMMANDS_MAX)
-            post->news.commands[post->news.command_count++] = command;
-    }
-}
-
-static void take_report(HandPost *post, PostDevice *device, const DeviceState *state)
-{
-    press_buttons(post, device, state->buttons & ~device->state.buttons);
-    device->state = *state;
-    if (state->has_motion)
-        orientation_update(&device->orientation, state->time, state->angular_velocity, state->acceleration);
+    HandNews *news = &post->news;
+    for (int i = 0; i < count && news->command_count < NEWS_COMMANDS_MAX; i++)
+        news->commands[news->command_count++] = pressed[i];
     post->reports++;
+    return true;
 }
 
 static void sent(HandPost *post, double when_ms, uint64_t number)
@@ -357,25 +251,17 @@ static void sent(HandPost *post, double when_ms, uint64_t number)
 
 static void hear(HandPost *post, const DeviceEvent *event, double when_ms)
 {
-    PostDevice *device = find(post, event->number);
+    uint64_t number;
     switch (event->kind) {
     case DEVICE_PLUGGED:
-        if (add_device(post, event))
-            say(post, false, "%s is in your hand", event->name);
-        break;
     case DEVICE_REFUSED:
-        if (add_device(post, event))
-            say(post, true, "%s: %s", event->name, event->problem);
+        add_device(post, event);
         break;
     case DEVICE_UNPLUGGED:
-        if (device)
-            remove_device(post, device);
+        remove_device(post, event->number);
         break;
     case DEVICE_REPORTED:
-        if (!device)
-            break;
-        take_report(post, device, event->state);
-        const uint64_t number = update(post);
+        number = take_report(post, event) ? update(post) : 0;
         if (number)
             sent(post, when_ms, number);
         break;

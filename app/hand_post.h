@@ -5,10 +5,7 @@
 #ifndef SLOSH_HAND_POST_H
 #define SLOSH_HAND_POST_H
 
-#include "app/device/devices.h"
-#include "app/device/mapping.h"
-#include "app/device/orientation.h"
-#include "app/hand.h"
+#include "app/held_devices.h"
 
 typedef struct HandPost HandPost;
 
@@ -29,7 +26,7 @@ void hand_post_close(HandPost *post);
 /* The DeviceListener; `user` is the post. */
 void hand_post_hear(void *user, const DeviceEvent *event);
 
-enum { NEWS_COMMANDS_MAX = 16, NEWS_SENT_MAX = 64, NEWS_WORDS_MAX = 4, NEWS_WORDS_SIZE = 512 };
+enum { NEWS_COMMANDS_MAX = 16, NEWS_SENT_MAX = 64, NEWS_WORDS_MAX = 4, NEWS_WORDS_SIZE = HELD_PROBLEM_SIZE };
 
 /* What the devices want of the window. */
 typedef struct HandNews {
@@ -62,7 +59,7 @@ void hand_post_let_go(HandPost *post, const BoxTarget *now);
 /* Whether such a device is in use here: the window's gamepad of that kind is the same one. */
 bool hand_post_claims(HandPost *post, uint16_t vendor, uint16_t product);
 
-enum { HAND_POST_DEVICES_MAX = 8 };
+enum { HAND_POST_DEVICES_MAX = HELD_DEVICES_MAX };
 
 /* A device, for the panel. */
 typedef struct HandDevice {

@@ -20,6 +20,9 @@ int session_open(Session *session, const Args *args, bool draws, Error *error)
         return EXIT_USAGE;
     if (note[0] && !args->quiet)
         fprintf(stderr, "%s\n", note);
+    if (args->device &&
+        !(session->hand = hand_replay_open(args->device, args->mapping, &session->scene, error)))
+        return EXIT_USAGE;
     return session_start(session, args->gpu, draws, error);
 }
 
@@ -46,6 +49,8 @@ void session_close(Session *session)
 {
     world_destroy(session->world);
     headless_destroy(session->context);
+    hand_replay_close(session->hand);
+    session->hand = NULL;
     session->world = NULL;
     session->context = NULL;
 }
@@ -99,6 +104,7 @@ const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
 
 bool session_substep(Session *session, Error *error)
 {
+    hand_replay_move(session->hand, session->world);
     const bool stepped = world_substep(session->world, NULL, error);
     look(session);
     return stepped;

@@ -3,6 +3,7 @@
 #define SLOSH_SESSION_H
 
 #include "app/args.h"
+#include "app/hand_replay.h"
 #include "app/headless.h"
 #include "app/scene.h"
 #include "sim/error.h"
@@ -15,15 +16,17 @@ typedef struct Session {
     Scene scene;
     Headless *context; /* current; NULL where neither solver nor pictures need one */
     World *world;
-    WorldInfo info;  /* of the present state */
-    double began_ms; /* wall time of the start */
-    bool told_full;  /* that emitters wait */
-    bool told_lost;  /* that particles find no place in the grid */
+    HandReplay *hand; /* of --device: moves the box before each step; NULL: none */
+    WorldInfo info;   /* of the present state */
+    double began_ms;  /* wall time of the start */
+    bool told_full;   /* that emitters wait */
+    bool told_lost;   /* that particles find no place in the grid */
 } Session;
 
-/* Loads the only scene of the command line, says on standard error what --particles did to dt, makes the
-   world, and a context where its backend needs one or the command `draws`. Creates no file. 0 or the exit
-   code: EXIT_USAGE where the command line or the scene is wrong, EXIT_FAILED where the GPU can't. */
+/* Loads the only scene of the command line and the recording of --device, says on standard error what
+   --particles did to dt, makes the world, and a context where its backend needs one or the command `draws`.
+   Creates no file. 0 or the exit code: EXIT_USAGE where the command line or the scene is wrong, EXIT_FAILED
+   where the GPU can't. */
 int session_open(Session *session, const Args *args, bool draws, Error *error);
 
 /* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create;

@@ -107,6 +107,7 @@ static void free_devices(Devices *devices)
         free(device);
     }
     report_log_destroy(&devices->log);
+    free(devices->replayed);
     pthread_cond_destroy(&devices->wake);
     pthread_mutex_destroy(&devices->lock);
     free(devices);
@@ -150,15 +151,33 @@ static Devices *create(const DevicesSetup *setup, Error *error)
     return devices;
 }
 
-Devices *devices_start(const DevicesSetup *setup, Error *error)
+/* The recording that the setup names, at its start. */
+static bool load_recording(Devices *devices, Error *error)
+{
+    if (!read_source(devices->setup.source, &devices->log, error))
+        return false;
+    devices->replayed = calloc(REPORT_LOG_DEVICES_MAX, sizeof *devices->replayed);
+    if (!devices->replayed)
+        return error_set(error, "no memory for motion devices");
+    devices_rewind(devices);
+    return true;
+}
+
+Devices *devices_open(const DevicesSetup *setup, Error *error)
 {
     Devices *devices = create(setup, error);
-    if (!devices)
-        return NULL;
-    if (setup->source && !read_source(setup->source, &devices->log, error)) {
+    if (devices && setup->source && !load_recording(devices, error)) {
         free_devices(devices);
         return NULL;
     }
+    return devices;
+}
+
+Devices *devices_start(const DevicesSetup *setup, Error *error)
+{
+    Devices *devices = devices_open(setup, error);
+    if (!devices)
+        return NULL;
     pthread_mutex_lock(&devices->lock);
     devices->began =
         devices_spawn(devices, &devices->thread, setup->source ? devices_replay : devices_look, devices);

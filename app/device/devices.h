@@ -52,6 +52,17 @@ bool devices_check(const char *source, Error *error);
    ready. */
 Devices *devices_start(const DevicesSetup *setup, Error *error);
 
+/* The recording that setup->source names, in a time that the caller keeps: no thread and no clock. The
+   listener is called by devices_play_next. To be ended by devices_stop; NULL with the reason. */
+Devices *devices_open(const DevicesSetup *setup, Error *error);
+
+/* Of such: the time of the next event, s; INFINITY when all has been told. The last event, at the time of the
+   one before, unplugs what is still plugged in. */
+double devices_due(const Devices *devices);
+void devices_play_next(
+    Devices *devices);                 /* tells it, if there is one; a report that is not valid is not told */
+void devices_rewind(Devices *devices); /* to the start, without a word to the listener */
+
 /* Whether a recording has been played to its end, and all has been told. Any thread may ask. */
 bool devices_ended(const Devices *devices);
 

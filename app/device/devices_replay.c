@@ -2,7 +2,7 @@
 
 #include "sim/stage.h"
 
-#include <stdlib.h>
+#include <math.h>
 
 static void plug_in(Devices *devices, const ReportLogDevice *logged, Device *device)
 {
@@ -41,32 +41,51 @@ static void play(Devices *devices, const ReportLogEntry *entry, Device *device)
     }
 }
 
+double devices_due(const Devices *devices)
+{
+    const ReportLog *log = &devices->log;
+    if (devices->next > log->count)
+        return INFINITY;
+    const size_t at = devices->next < log->count ? devices->next : log->count - 1;
+    return log->count ? log->entries[at].time : 0;
+}
+
+void devices_play_next(Devices *devices)
+{
+    const ReportLog *log = &devices->log;
+    if (devices->next < log->count) {
+        const ReportLogEntry *entry = &log->entries[devices->next];
+        play(devices, entry, &devices->replayed[entry->device]);
+    }
+    for (int k = 0; k < log->device_count && devices->next == log->count; k++)
+        devices_unplugged(&devices->replayed[k]);
+    devices->next += devices->next <= log->count;
+}
+
+void devices_rewind(Devices *devices)
+{
+    devices->next = 0;
+    devices->numbers = 0;
+    for (int k = 0; k < REPORT_LOG_DEVICES_MAX; k++)
+        devices->replayed[k] = (Device){.devices = devices};
+}
+
 /* Each event at its time; one that is late is told as soon as can be, none is left out. */
-static void play_all(Devices *devices, Device *all)
+static void play_all(Devices *devices)
 {
     const double start = wall_ms();
-    const ReportLog *log = &devices->log;
-    for (size_t i = 0; i < log->count && !devices->stopping; i++) {
-        const ReportLogEntry *entry = &log->entries[i];
-        const double due = start + 1000 * entry->time;
-        devices_wait(devices, due);
-        play(devices, entry, &all[entry->device]);
+    for (double due; (due = devices_due(devices)) < INFINITY && !devices->stopping;) {
+        devices_wait(devices, start + 1000 * due);
+        devices_play_next(devices);
     }
-    for (int k = 0; k < log->device_count; k++)
-        devices_unplugged(&all[k]);
 }
 
 void *devices_replay(void *data)
 {
     Devices *devices = data;
-    Device *all = calloc(REPORT_LOG_DEVICES_MAX, sizeof *all);
     pthread_mutex_lock(&devices->lock);
-    for (int k = 0; all && k < REPORT_LOG_DEVICES_MAX; k++)
-        all[k].devices = devices;
-    if (all)
-        play_all(devices, all);
+    play_all(devices);
     pthread_mutex_unlock(&devices->lock);
-    free(all);
     atomic_store(&devices->played, true);
     devices_finish(devices, &devices->ended);
     return NULL;

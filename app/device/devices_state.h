@@ -33,6 +33,8 @@ struct Devices {
     DevicesSetup setup;
     HidPort port;
     ReportLog log;        /* what is replayed */
+    Device *replayed;     /* as many as a recording may have; NULL: it is no replay */
+    size_t next;          /* entry of `log`; its count: what is left is unplugged; more: all is told */
     pthread_mutex_t lock; /* of all below and of the devices' fields, held while the listener is called */
     pthread_cond_t wake;  /* stopping, or a thread has ended */
     bool stopping;
