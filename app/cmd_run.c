@@ -60,7 +60,8 @@ static int fail(const Args *args, const Snapshot *file, const Error *error)
 static Snapshot *resume(Session *session, const Args *args, Error *error)
 {
     WorldState state = {.count = 0};
-    Snapshot *file = snapshot_resume(args->output, &session->scene, &state, error);
+    Snapshot *file =
+        snapshot_resume(args->output, &session->scene, hand_replay_mark(session->hand), &state, error);
     Error why = {{0}};
     if (file && !world_load(session->world, &state, &why)) {
         error_set(error, "%.300s: cannot be resumed: %.600s", args->output, why.message);
@@ -75,6 +76,15 @@ static Snapshot *resume(Session *session, const Args *args, Error *error)
     return file;
 }
 
+static Snapshot *begin(const Session *session, const Args *args, Error *error)
+{
+    Snapshot *file = snapshot_create(args->output, &session->scene, error);
+    if (!file || snapshot_note_hand(file, hand_replay_mark(session->hand), error))
+        return file;
+    snapshot_close(file);
+    return NULL;
+}
+
 static int run(Session *session, const Args *args, Error *error)
 {
     Progress progress;
@@ -87,7 +97,7 @@ static int run(Session *session, const Args *args, Error *error)
             fprintf(stderr, "%s\n", error->message);
             return EXIT_USAGE;
         }
-    } else if (!(file = snapshot_create(args->output, &session->scene, error))) {
+    } else if (!(file = begin(session, args, error))) {
         return fail(args, NULL, error);
     }
     progress_begin(&progress, stderr, "run", args->quiet);

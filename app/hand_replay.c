@@ -1,5 +1,6 @@
 #include "app/hand_replay.h"
 
+#include "app/hand_mark.h"
 #include "app/held_devices.h"
 #include "app/orbit.h"
 
@@ -13,6 +14,7 @@ static const double LOOKS_A_SECOND = 60;
 
 struct HandReplay {
     Devices *devices;
+    char mark[HAND_MARK_SIZE];
     Mapping mapping;
     HandInput axes; /* of the camera */
     HeldDevices held;
@@ -84,19 +86,25 @@ static void begin(HandReplay *replay)
     replay->time = replay->now = replay->looks = 0;
 }
 
+static bool load(HandReplay *replay, const char *source, const char *mapping, Error *error)
+{
+    const DevicesSetup setup = {.source = source, .listener = hear, .user = replay};
+    if (!mapping_load(mapping, &replay->mapping, error) || !(replay->devices = devices_open(&setup, error)))
+        return false;
+    return hand_mark(devices_recording(replay->devices), &replay->mapping, &replay->axes, replay->mark) ||
+           error_set(error, "no memory for motion devices");
+}
+
 HandReplay *hand_replay_open(const char *source, const char *mapping, const Scene *scene, Error *error)
 {
     HandReplay *replay = calloc(1, sizeof *replay);
-    const DevicesSetup setup = {.source = source, .listener = hear, .user = replay};
     if (!replay) {
         error_set(error, "no memory for motion devices");
         return NULL;
     }
     replay->axes = camera_axes(scene);
-    if (mapping_load(mapping, &replay->mapping, error))
-        replay->devices = devices_open(&setup, error);
-    if (!replay->devices) {
-        free(replay);
+    if (!load(replay, source, mapping, error)) {
+        hand_replay_close(replay);
         return NULL;
     }
     begin(replay);
@@ -109,6 +117,11 @@ void hand_replay_close(HandReplay *replay)
         return;
     devices_stop(replay->devices);
     free(replay);
+}
+
+const char *hand_replay_mark(const HandReplay *replay)
+{
+    return replay ? replay->mark : "";
 }
 
 /* The next event or look, whichever is first, where it is not after `time`. */

@@ -17,6 +17,9 @@ typedef struct HandReplay HandReplay;
 HandReplay *hand_replay_open(const char *source, const char *mapping, const Scene *scene, Error *error);
 void hand_replay_close(HandReplay *replay); /* NULL is allowed */
 
+/* 16 digits that tell this recording, its mapping and the camera from others: app/hand_mark.h. NULL: "". */
+const char *hand_replay_mark(const HandReplay *replay);
+
 /* Where a box of that size (m) shall be at `time` (s). Before the first report it is at home, after the
    recording's end it stays where it is. A time before that of the last call begins again from the start. */
 BoxTarget hand_replay_at(HandReplay *replay, const double box_size[3], double time);

@@ -149,6 +149,12 @@ Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error)
     return snapshot;
 }
 
+bool snapshot_note_hand(Snapshot *snapshot, const char *mark, Error *error)
+{
+    return !*mark || write_texts(snapshot->file, SNAPSHOT_HAND, SCALAR, strlen(mark) + 1, mark) ||
+           hdf5_fail(error, snapshot->output.path, "cannot be written");
+}
+
 Snapshot *snapshot_continue(const char *path, size_t steps, Error *error)
 {
     Snapshot *snapshot = calloc(1, sizeof *snapshot);

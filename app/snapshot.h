@@ -59,6 +59,9 @@ typedef struct Snapshot Snapshot;
    with the reason: see output_begin. */
 Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error);
 
+/* Notes in a new file what moves the box beside the scene: a mark such as hand_replay_mark's; "": nothing. */
+bool snapshot_note_hand(Snapshot *snapshot, const char *mark, Error *error);
+
 /* Adds a state and brings it to the disk: a program that is killed afterwards leaves it whole. Room for all
    of it is reserved first, so that a full disk leaves the file with its whole steps. After a failure the file
    takes no more steps. */
@@ -74,8 +77,10 @@ void snapshot_close(Snapshot *snapshot);
 
 /* A file to go on with behind its last whole step; `state` becomes that step's. What a killed program left
    behind it is dropped. NULL with the reason: no such file, not HDF5, no whole step, a scene with other
-   settings (but for title, views and threads), a file too old to go on from. */
-Snapshot *snapshot_resume(const char *path, const Scene *scene, WorldState *state, Error *error);
+   settings (but for title, views and threads), a file too old to go on from, another `hand` than was noted.
+ */
+Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
+                          Error *error);
 
 /* ---- reading ---- */
 

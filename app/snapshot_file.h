@@ -23,6 +23,9 @@
 /* The settings of the scene, of the root: see scene_print. */
 #define SNAPSHOT_SETTINGS "settings"
 
+/* What moved the box, of the root: see snapshot_note_hand. */
+#define SNAPSHOT_HAND "hand"
+
 /* The colours of the fluids, of the root: red, green, blue of each as in the scene file, sRGB 0 to 1. */
 #define SNAPSHOT_COLORS "fluid_colors"
 

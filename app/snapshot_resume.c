@@ -58,6 +58,24 @@ static bool check_scene(const SnapshotReader *reader, const char *path, const Sc
     return same;
 }
 
+static bool check_hand(const SnapshotReader *reader, const char *path, const char *hand, Error *error)
+{
+    char *noted = snapshot_root_text(reader, SNAPSHOT_HAND);
+    const char *was = noted ? noted : "";
+    const bool same = strcmp(was, hand) == 0;
+    if (!same && !*hand)
+        error_set(error, "%s: --device moved its box; resume with the same one, or name another file", path);
+    else if (!same && !*was)
+        error_set(error, "%s: no --device moved its box; resume without one, or name another file", path);
+    else if (!same)
+        error_set(error,
+                  "%s: another recording, mapping or camera moved its box; resume with the same ones, or "
+                  "name another file",
+                  path);
+    free(noted);
+    return same;
+}
+
 static bool state_of(const SnapshotStep *step, WorldState *state)
 {
     if (!world_state_reserve(state, step->count))
@@ -93,12 +111,14 @@ static bool read_last(SnapshotReader *reader, const char *path, WorldState *stat
                              path);
 }
 
-Snapshot *snapshot_resume(const char *path, const Scene *scene, WorldState *state, Error *error)
+Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
+                          Error *error)
 {
     SnapshotReader *reader = snapshot_open(path, error);
     if (!reader)
         return NULL;
-    const bool good = check_scene(reader, path, scene, error) && read_last(reader, path, state, error);
+    const bool good = check_scene(reader, path, scene, error) && check_hand(reader, path, hand, error) &&
+                      read_last(reader, path, state, error);
     const size_t steps = snapshot_count_steps(reader);
     snapshot_reader_close(reader);
     return good ? snapshot_continue(path, steps, error) : NULL;

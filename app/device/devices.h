@@ -31,7 +31,8 @@ typedef struct DeviceEvent {
 typedef void (*DeviceListener)(void *user, const DeviceEvent *event);
 
 struct HidPort;         /* device/hid_port.h: what reads bytes */
-struct ReportLogWriter; /* device/report_log.h */
+struct ReportLog;       /* device/report_log.h */
+struct ReportLogWriter; /* the same */
 
 typedef struct DevicesSetup {
     const struct HidPort *port; /* NULL: hidapi */
@@ -60,7 +61,8 @@ Devices *devices_open(const DevicesSetup *setup, Error *error);
    one before, unplugs what is still plugged in. */
 double devices_due(const Devices *devices);
 void devices_play_next(
-    Devices *devices);                 /* tells it, if there is one; a report that is not valid is not told */
+    Devices *devices); /* tells it, if there is one; a report that is not valid is not told */
+const struct ReportLog *devices_recording(const Devices *devices);
 void devices_rewind(Devices *devices); /* to the start, without a word to the listener */
 
 /* Whether a recording has been played to its end, and all has been told. Any thread may ask. */

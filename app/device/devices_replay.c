@@ -62,6 +62,11 @@ void devices_play_next(Devices *devices)
     devices->next += devices->next <= log->count;
 }
 
+const ReportLog *devices_recording(const Devices *devices)
+{
+    return &devices->log;
+}
+
 void devices_rewind(Devices *devices)
 {
     devices->next = 0;

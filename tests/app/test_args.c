@@ -84,6 +84,14 @@ static void every_option_reaches_its_field(void **state)
     accept("--device=file:a");
     assert_true(args.command == COMMAND_PLAY);
     assert_string_equal(args.device, "file:a");
+    static const char *const moved[] = {"render s -o o", "run s -o o", "bench s"};
+    for (size_t i = 0; i < sizeof moved / sizeof *moved; i++) {
+        char line[128];
+        snprintf(line, sizeof line, "%s --device file:a --mapping m", moved[i]);
+        accept(line);
+        assert_string_equal(args.device, "file:a");
+        assert_string_equal(args.mapping, "m");
+    }
     accept("info -- -odd-name");
     assert_string_equal(args.scenes[0], "-odd-name");
 }
@@ -153,6 +161,12 @@ static void slips_are_named(void **state)
            "slosh play: --device must be file:PATH, with the path of a recording, not 'a.rec'");
     refuse("devices --device file:", "slosh devices: --device must be file:PATH");
     refuse("devices --device=", "slosh devices: --device must be file:PATH");
+    refuse("run s -o o --mapping m", "slosh run: --mapping says what motion devices do; add --device");
+    refuse("validate --device file:a", "slosh validate: --device is refused: what is compared moves");
+    refuse("chart s -o o.svg --device file:a", "slosh chart: --device is refused: what is compared moves");
+    refuse("replay r --device=file:a", "slosh replay: --device is refused: all that moved the box");
+    refuse("export a -o b --device file:a", "slosh export: --device is refused: nothing is simulated");
+    refuse("info --device file:a", "slosh info: --device is refused: nothing is simulated");
     refuse("devices a", "slosh devices: one argument too many: 'a'; it takes 0 scenes");
     refuse("bench --clock sun", "slosh bench: --clock must be one of gl|finish, not 'sun'");
 }
@@ -269,6 +283,8 @@ static void help_comes_from_the_table(void **state)
     assert_non_null(strstr(bench, "--clock gl|finish"));
     assert_non_null(strstr(run, "--every S"));
     assert_null(strstr(run, "--fps"));
+    assert_non_null(strstr(run, "--device file:PATH     a recording of motion devices"));
+    assert_non_null(strstr(bench, "--mapping FILE"));
     free(program);
     free(bench);
     free(run);

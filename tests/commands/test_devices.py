@@ -9,7 +9,10 @@ import subprocess
 import time
 import unittest
 
+import h5py
+
 import command
+import test_motion
 from command import CommandTest, limit_files, obey_interrupts
 
 HEAD = 'slosh device recording 1\nprogram 0.1\n'
@@ -234,5 +237,112 @@ class PluggedIn(Case):
             self.assertRegex(recorded, name + r' \(.*\): \d+ reports\n')
 
 
+# Still but for the device; a box that answers at once, and that one looks at from the front.
+STILL = """\
+box: {size: [1, 1, 1]}
+particles: {spacing: 0.1}
+fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}]
+solver: {sound_speed: 12, step: {dt: 0.01, substeps: 3}}
+hand: {response: 0.02}
+view: {camera: {from: [0, 0.5, 4], to: [0, 0.5, 0]}}
+"""
+
+
+class Simulated(Case):
+    """A recording in the place of a hand, in simulated time."""
+
+    def setUp(self):
+        super().setUp()
+        os.environ['XDG_CONFIG_HOME'] = self.folder  # no mapping of the user's own
+        self.addCleanup(os.environ.pop, 'XDG_CONFIG_HOME')
+        self.write('still.yaml', STILL)
+        self.tilt = test_motion.Recording()
+        self.tilt.still(0.1)
+        self.tilt.turn(0, 20)
+        self.tilt.turn(2, -30)
+        self.write('tilt.rec', test_motion.text(self.tilt))
+
+    def go(self, command_name, *arguments, code=0, device=('--device', 'file:tilt.rec')):
+        done, said = self.slosh(command_name, 'still.yaml', *device, *arguments)
+        self.assertEqual(done, code, said)
+        return said
+
+    def poses(self, name):
+        with h5py.File(self.path(name)) as file:
+            return [list(file[f'Step#{i}'].attrs['box_orientation']) for i in range(len(file))]
+
+    def test_the_box_turns_as_it_was_recorded(self):
+        self.go('run', '-o', 'a.h5part', '--time', '1.5', '--every', '0.1')
+        poses = self.poses('a.h5part')
+        for at, pose in [(0, (0, 0, 0, 1)), (-1, self.tilt.pose)]:  # and stays when it is unplugged
+            self.assertLess(test_motion.between(poses[at], pose), 1, poses[at])
+        self.assertGreater(test_motion.between(poses[4], poses[0]), 10)
+        self.write('no.yaml', 'dualsense: {pose: {to: nothing}}\n')
+        self.go('run', '-o', 'b.h5part', '--time', '1', '--mapping', 'no.yaml')
+        self.assertEqual(test_motion.between(self.poses('b.h5part')[-1], (0, 0, 0, 1)), 0)
+
+    def test_a_run_gives_the_same_bits_again(self):
+        self.go('run', '-o', 'a.h5part', '--time', '0.6', '--threads', '1')
+        self.go('run', '-o', 'b.h5part', '--time', '0.6', '--threads', '2')
+        self.assertEqual(self.bits('a.h5part'), self.bits('b.h5part'))
+        self.go('run', '-o', 'c.h5part', '--time', '0.3')
+        self.go('run', '-o', 'c.h5part', '--time', '0.6', '--resume')
+        self.assertEqual(self.bits('a.h5part'), self.bits('c.h5part'))
+        plain = ('run', '-o', 'd.h5part', '--time', '0.6')
+        self.go(*plain, device=())
+        self.assertNotEqual(self.bits('a.h5part'), self.bits('d.h5part'))
+
+    def bits(self, name):
+        with h5py.File(self.path(name)) as file:
+            steps = [file[f'Step#{i}'] for i in range(len(file))]
+            self.assertGreater(len(steps), 10)
+            return [[step.attrs['box_orientation'].tobytes()] + [step[key][:].tobytes() for key in ('id', 'x', 'y', 'velocity_1')]
+                    for step in steps]
+
+    def test_a_run_is_resumed_with_the_same_hand(self):
+        self.go('run', '-o', 'a.h5part', '--time', '0.1')
+        self.go('run', '-o', 'b.h5part', '--time', '0.1', device=())
+        before = self.read('a.h5part')
+        again = ('--time', '0.2', '--resume')
+        self.assertIn('a.h5part: --device moved its box; resume with the same one',
+                      self.go('run', '-o', 'a.h5part', *again, device=(), code=2))
+        self.assertIn('b.h5part: no --device moved its box; resume without one', self.go('run', '-o', 'b.h5part', *again, code=2))
+        self.write('gain.yaml', 'dualsense: {gain: 1.5}\n')
+        for other in [('--mapping', 'gain.yaml'), ('--set', 'view.camera.from=[4, 0.5, 0]')]:
+            self.assertIn('a.h5part: another recording, mapping or camera moved its box',
+                          self.go('run', '-o', 'a.h5part', *again, *other, code=2))
+        self.assertEqual(self.read('a.h5part'), before)
+
+    def test_a_film_of_it(self):
+        film = ('--time', '0.6', '--fps', '5', '--size', '96x64', '--quiet')
+        for name in 'a', 'b':
+            self.go('render', '-o', name, *film)
+        self.go('render', '-o', 'c', *film, device=())
+        frames = [f'frame_{i:05d}.png' for i in range(3)]
+        for frame in frames:
+            self.assertEqual(self.read(f'a/{frame}'), self.read(f'b/{frame}'))
+        self.assertEqual([self.read(f'a/{frame}') == self.read(f'c/{frame}') for frame in frames], [True, False, False])
+
+    def test_bench_moves_the_box(self):
+        self.go('bench', '--view', 'none', '--frames', '3', '--json', 'a.json')
+        self.assertEqual(json.loads(self.read('a.json'))[0]['frames'], 3)
+
+    def test_what_is_wrong_is_refused_before_anything(self):
+        self.write('bad.yaml', 'dualsense: {q: 1}\n')
+        files = self.entries()
+        for arguments, words in [(['--device', 'file:none.rec'], 'none.rec: cannot be opened (No such file or directory)'),
+                                 (['--device', 'file:still.yaml'], 'still.yaml:1: this is no recording of devices'),
+                                 (['--device', 'file:tilt.rec', '--mapping', 'bad.yaml'], 'bad.yaml:1:'),
+                                 (['--mapping', 'bad.yaml'], '--mapping says what motion devices do; add --device file:PATH')]:
+            for name, *more in [('render', '-o', 'a.png'), ('render', '-o', 'film'), ('run', '-o', 'a.h5part'),
+                                ('bench', '--json', 'a.json')]:
+                self.assertIn(words, self.go(name, *more, device=arguments, code=2))
+                self.assertEqual(self.entries(), files)
+        for name, *more in [('validate',), ('chart', '-o', 'a.svg'), ('replay',), ('export', '-o', 'a.vtp'), ('info',)]:
+            self.assertIn(f'slosh {name}: --device is refused: ', self.go(name, *more, code=2))
+        self.assertIn('with --play a script shakes the box', self.go('bench', '--play', code=2))
+        self.assertEqual(self.entries(), files)
+
+
 if __name__ == '__main__':
-    command.main('Devices', 'PluggedIn')
+    command.main('Devices', 'PluggedIn', 'Simulated')
