@@ -111,15 +111,16 @@ static int list_recorded(const Args *args, Error *error)
         const char *bus = log.devices[i].bluetooth ? "bluetooth" : "usb";
         const size_t reports = reports_of(&log, i);
         if (!args->quiet)
-            printf("%d %s (%04x:%04x, %s): %zu reports\n", i + 1, row->name, row->vendor, row->product,
-                   log.devices[i].bluetooth ? "Bluetooth" : "USB", reports);
+            printf("%d %s (%04x:%04x, %s): %zu report%s\n", i + 1, row->name, row->vendor, row->product,
+                   log.devices[i].bluetooth ? "Bluetooth" : "USB", reports, reports == 1 ? "" : "s");
         json_t *json = json_device(row);
         json_object_set_new(json, "bus", json_string(bus));
         json_object_set_new(json, "reports", json_integer((json_int_t)reports));
         json_array_append_new(devices, json);
     }
     if (!args->quiet)
-        printf("%d devices, %.2f s\n", log.device_count, log.count ? log.entries[log.count - 1].time : 0);
+        printf("%d device%s, %.2f s\n", log.device_count, log.device_count == 1 ? "" : "s",
+               log.count ? log.entries[log.count - 1].time : 0);
     report_log_destroy(&log);
     if (args->json && !write_json(args->json, devices, error))
         return fail(EXIT_FAILED, error);

@@ -11,7 +11,7 @@
 typedef enum DeviceEventKind {
     DEVICE_PLUGGED,   /* the state is all zero */
     DEVICE_REPORTED,  /* a valid report has come */
-    DEVICE_UNPLUGGED, /* or it no longer answers */
+    DEVICE_UNPLUGGED, /* or it no longer answers; a refused one too */
     DEVICE_REFUSED /* it is there and may not be opened: `problem` says why and what would help; once a plug
                     */
 } DeviceEventKind;

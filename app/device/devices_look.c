@@ -144,8 +144,10 @@ static void try_open(Device *device, bool first_look)
 /* Tells that it is gone, though its thread may not have noticed yet. */
 static void lose(Device *device)
 {
-    if (!device->gone)
+    if (!device->gone && device->plugged)
         devices_unplugged(device);
+    else if (!device->gone && device->denials >= DENIALS_TOLD)
+        devices_tell(device, DEVICE_UNPLUGGED, "");
     device->gone = true;
 }
 

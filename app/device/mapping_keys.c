@@ -82,7 +82,7 @@ const Key mapping_axis_keys[] = {
      .offset = offsetof(AxisMap, as),
      .choice = mapping_as_name,
      .help = "a speed, or a way for as long as it is held; the camera has speeds only"},
-    GAIN(AxisMap, gain, 10, "2: the full speed, or way, is reached half way"),
+    GAIN(AxisMap, gain, 10, "2: twice as much, though never more than the full speed, or way"),
     {.path = "invert",
      .type = KEY_BOOLEAN,
      .unit = "",

@@ -109,6 +109,10 @@ static bool read_axes(const Reading *reading, const Node *node, const char *show
 static bool read_command(const Reading *reading, const Node *node, const char *shown, int *command)
 {
     const char *word = node->kind == NODE_SCALAR && node->text ? node->text : "";
+    if (!*word)
+        return tree_error(reading->tree, node, reading->error,
+                          "%s must be a command of the window such as box-home, pause or neutral, or nothing",
+                          shown);
     Suggestion near = suggest_for(word);
     if (strcmp(word, "nothing") == 0) {
         *command = PLAY_NONE;
@@ -191,6 +195,10 @@ static bool read_own(const Reading *reading, const Node *node, unsigned vendor, 
         return tree_error_key(reading->tree, node, reading->error,
                               "more than %d products; write what they share under %s", MAPPING_OWN_MAX,
                               device_family_word(row->family));
+    for (int i = 0; i < mapping->own_count; i++) /* in other letters: 256F:C635 */
+        if (mapping->own[i].vendor == vendor && mapping->own[i].product == product)
+            return tree_error_key(reading->tree, node, reading->error,
+                                  "%.9s stands here twice; keep one of the two", node->key);
     struct OwnMap *own = &mapping->own[mapping->own_count++];
     *own = (struct OwnMap){(uint16_t)vendor, (uint16_t)product, mapping->family[row->family]};
     return read_device(reading, node, &own->map);

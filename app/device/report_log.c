@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* A line in parts. */
 typedef struct Line {
@@ -44,6 +45,15 @@ static bool grow(void **array, size_t count, size_t *capacity, size_t more, size
         return false;
     *array = grown;
     *capacity = room;
+    return true;
+}
+
+/* The next line, without the carriage return that a mail on its way may have got. */
+static bool next_line(Reader *reader)
+{
+    if (!reader_next(reader))
+        return false;
+    reader->length -= reader->length > 0 && reader->line[reader->length - 1] == '\r';
     return true;
 }
 
@@ -200,10 +210,10 @@ static bool read_head(Reader *reader)
     if (!memchr(reader->at, '\n', (size_t)(reader->end - reader->at)))
         return reader_fail(reader, "the recording was cut in its first line; take a whole one");
     reader->number = 0;
-    if (!reader_next(reader) || !reader_is(reader, "slosh device recording 1"))
+    if (!next_line(reader) || !reader_is(reader, "slosh device recording 1"))
         return reader_misplaced(reader, "'slosh device recording 1', the one format that this slosh reads,");
     if (reader_begins(reader, "program "))
-        reader_next(reader);
+        next_line(reader);
     return true;
 }
 
@@ -212,17 +222,27 @@ bool report_log_parse(const char *path, const char *bytes, size_t size, ReportLo
     Reader reader = {.path = path, .at = bytes, .end = bytes + size, .error = error};
     *out = (ReportLog){0};
     bool ok = read_head(&reader);
-    while (ok && reader_next(&reader))
+    while (ok && next_line(&reader))
         ok = read_entry(&reader, out);
     if (!ok)
         report_log_destroy(out);
     return ok;
 }
 
+/* It is read twice, to be checked and to be played: what flows by is none. */
+static bool stays_there(const char *path, Error *error)
+{
+    struct stat status;
+    return stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode) ||
+           error_set(error, "%s: not a plain file; save the recording as one and name that", path);
+}
+
 bool report_log_read(const char *path, ReportLog *out, Error *error)
 {
     size_t size;
     *out = (ReportLog){0};
+    if (!stays_there(path, error))
+        return false;
     char *bytes = read_file(path, REPORT_LOG_BYTES_MAX, "recording", &size, error);
     const bool ok = bytes && report_log_parse(path, bytes, size, out, error);
     free(bytes);

@@ -62,8 +62,8 @@ void report_log_destroy(ReportLog *log); /* a zeroed one is allowed */
 
 typedef struct ReportLogWriter ReportLogWriter;
 
-/* Begins a file, in place of an older one. Each line is handed to the system at once, so that a killed
-   program leaves all that came before. NULL with the reason. */
+/* Begins a new file; one that is there stays, for no hand does the same again. Each line is handed to the
+   system at once, so that a killed program leaves all that came before. NULL with the reason. */
 ReportLogWriter *report_log_create(const char *path, Error *error);
 
 /* The number of the device that is plugged in now; 0 when there are too many: its lines are left out. */

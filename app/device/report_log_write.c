@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct ReportLogWriter {
     FILE *file;
@@ -56,6 +57,10 @@ static void end_line(ReportLogWriter *writer)
 ReportLogWriter *report_log_create(const char *path, Error *error)
 {
     Output output = {0};
+    if (access(path, F_OK) == 0) {
+        error_set(error, "%s: is there already, and stays as it is; name a new file", path);
+        return NULL;
+    }
     ReportLogWriter *writer = calloc(1, sizeof *writer);
     if (!writer) {
         error_set(error, "%s: no memory to record", path);

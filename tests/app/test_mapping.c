@@ -161,8 +161,13 @@ static void mistakes_are_told_with_their_place(void **state)
                   "m.yaml:2:20: dualsense.buttons.cross cannot be 'puase'; did you mean 'pause'?");
     check_refused("dualsense:\n  buttons: {cross: orbit}\n", /* no press */
                   "m.yaml:2:20: dualsense.buttons.cross cannot be 'orbit'");
-    check_refused("dualsense:\n  buttons: {cross: [pause]}\n", "m.yaml:2:20: dualsense.buttons.cross cannot");
+    check_refused("dualsense:\n  buttons: {cross: [pause]}\n",
+                  "m.yaml:2:20: dualsense.buttons.cross must be a command");
     check_refused("1234:5678: {}\n", "m.yaml:1:1: slosh knows no device 1234:5678; `slosh devices`");
+    check_refused("256f:c635: {}\n256F:C635: {}\n",
+                  "m.yaml:2:1: 256F:C635 stands here twice; keep one of the two");
+    check_refused("dualsense: {buttons: {circle: [a]}}\n",
+                  "m.yaml:1:31: dualsense.buttons.circle must be a command of the window such as box-home");
     check_refused("256f:c6351: {}\n", "m.yaml:1:1: unknown key '256f:c6351'; known here");
     check_refused("046d:c603: {}\n046d:c605: {}\n046d:c606: {}\n046d:c621: {}\n046d:c623: {}\n046d:c625: {}\n"
                   "046d:c626: {}\n046d:c627: {}\n046d:c628: {}\n",

@@ -170,6 +170,44 @@ static void what_is_written_is_read(void **state)
     report_log_destroy(&log);
 }
 
+static void an_older_file_stays(void **state)
+{
+    (void)state;
+    write_text("a.rec", HEAD PLUG);
+    assert_null(report_log_create("a.rec", &error));
+    assert_string_equal(error.message, "a.rec: is there already, and stays as it is; name a new file");
+    FILE *file = fopen("a.rec", "r");
+    char text[sizeof HEAD PLUG] = "";
+    assert_non_null(file);
+    assert_int_equal(fread(text, 1, sizeof text, file), strlen(HEAD PLUG));
+    fclose(file);
+    assert_string_equal(text, HEAD PLUG);
+    assert_int_equal(count_files("."), 1);
+}
+
+/* It would be waited for, and the second time in vain. */
+static void a_pipe_is_no_recording(void **state)
+{
+    (void)state;
+    ReportLog log;
+    assert_int_equal(mkfifo("pipe", 0600), 0);
+    assert_false(report_log_read("pipe", &log, &error));
+    assert_string_equal(error.message, "pipe: not a plain file; save the recording as one and name that");
+}
+
+static void carriage_returns_do_not_count(void **state)
+{
+    (void)state;
+    ReportLog log;
+    if (!parse("slosh device recording 1\r\nprogram 0.1\r\n0 1 plugged dualsense 054c:0ce6 usb\r\n"
+               "0 1 report 01fe\r\n1 1 unplugged\r\n",
+               &log))
+        fail_msg("%s", error.message);
+    assert_int_equal(log.count, 3);
+    assert_int_equal(log.entries[1].size, 2);
+    report_log_destroy(&log);
+}
+
 static void files_are_refused_in_words(void **state)
 {
     ReportLog log;
@@ -218,6 +256,9 @@ int main(void)
         cmocka_unit_test(sizes_are_bounded),
         cmocka_unit_test(a_cut_file_is_read_as_far_as_it_is_whole),
         cmocka_unit_test_setup_teardown(what_is_written_is_read, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(an_older_file_stays, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(a_pipe_is_no_recording, folder_setup, folder_teardown),
+        cmocka_unit_test(carriage_returns_do_not_count),
         cmocka_unit_test_setup_teardown(files_are_refused_in_words, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(a_full_disk_is_told, folder_setup, folder_teardown),
     };

@@ -126,6 +126,16 @@ class Devices(Case):
             return [line.split()[1:] for line in self.read(name).decode().splitlines() if ' report ' in line]
         self.assertEqual(reports('a.rec'), reports('b.rec'))
 
+    def test_a_recording_is_never_written_over(self):
+        """Above all not the one that is being played."""
+        self.write('a.rec', recording())
+        before = self.read('a.rec')
+        for name in ['a.rec', './a.rec']:
+            done = self.run_devices('--device', 'file:a.rec', '--record', name, code=1)
+            self.assertEqual(done.stderr, f'{name}: is there already, and stays as it is; name a new file\n')
+        self.assertEqual(self.read('a.rec'), before)
+        self.assertEqual(self.entries(), ['a.rec'])
+
     def wait_for_reports(self, name, process):
         self.wait_for(lambda: os.path.exists(self.path(name)) and self.read(name).count(b' report ') > 5, process)
 
@@ -136,7 +146,7 @@ class Devices(Case):
             self.wait_for_reports('b.rec', process)
             process.send_signal(number)
             self.assertEqual(process.wait(30), code)
-            self.assertRegex(self.run_devices('--device', 'file:b.rec').stdout, r'1 DualSense .*: \d+ reports')
+            self.assertRegex(self.run_devices('--device', 'file:b.rec').stdout, r'1 DualSense .*: \d+ reports?')
             os.remove(self.path('b.rec'))
 
     def test_ctrl_c_ends_the_watch_of_what_is_plugged_in(self):
@@ -234,7 +244,7 @@ class PluggedIn(Case):
         self.assertEqual(process.wait(30), 0)
         recorded = self.run_devices('--device', 'file:a.rec').stdout
         for name in ['SpaceNavigator', 'DualSense']:
-            self.assertRegex(recorded, name + r' \(.*\): \d+ reports\n')
+            self.assertRegex(recorded, name + r' \(.*\): \d+ reports?\n')
 
 
 # Still but for the device; a box that answers at once, and that one looks at from the front.
