@@ -81,10 +81,9 @@ static void show_bar(FILE *file, const Group *group, double value)
         fprintf(file, "[%s]", bar);
 }
 
-int device_show_bars(FILE *file, const DeviceRow *row, const DeviceState *state, const char *end)
+void device_show_bars(FILE *file, const DeviceRow *row, const DeviceState *state)
 {
-    int lines = 1;
-    for (const Group *group = groups_of(row); group->label; group++, lines++) {
+    for (const Group *group = groups_of(row); group->label; group++) {
         fprintf(file, "  %-5s", group->label);
         for (int k = 0; k < group->count; k++) {
             const double value = value_of(group, state, k);
@@ -92,10 +91,9 @@ int device_show_bars(FILE *file, const DeviceRow *row, const DeviceState *state,
             show_bar(file, group, value);
             fprintf(file, "%+7.2f", value);
         }
-        fprintf(file, "%s%s", group->unit, end);
+        fprintf(file, "%s\n", group->unit);
     }
     fputs("  ", file);
     show_buttons(file, row, state->buttons);
-    fputs(end, file);
-    return lines;
+    fputc('\n', file);
 }

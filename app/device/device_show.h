@@ -9,8 +9,7 @@
 /* One line, without its newline: "turn +0.10 -0.02 +0.00 rad/s, ... , buttons cross l1". */
 void device_show_line(FILE *file, const DeviceRow *row, const DeviceState *state);
 
-/* A line a group of values, each value with a bar; the lines end as `end` says. Returns how many there are:
-   always the same number for a family. */
-int device_show_bars(FILE *file, const DeviceRow *row, const DeviceState *state, const char *end);
+/* A line a group of values, each value with a bar: always the same number of lines for a family. */
+void device_show_bars(FILE *file, const DeviceRow *row, const DeviceState *state);
 
 #endif

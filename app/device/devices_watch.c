@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 
 enum { PICTURE_MS = 50, LINE_MS = 100, LINE_SIZE = 512 };
@@ -119,18 +120,40 @@ static void show_line(const Watcher *watcher, const WatchedDevice *device, Shown
             device->row->name, line);
 }
 
-static void show_bars(Watcher *watcher)
+static void write_bars(const Watch *watch, FILE *text)
 {
-    FILE *out = watcher->watch->out;
-    watcher->lines = 0;
-    for (int i = 0; i < watcher->watch->count; i++) {
-        const WatchedDevice *device = &watcher->watch->devices[i];
+    for (int i = 0; i < watch->count; i++) {
+        const WatchedDevice *device = &watch->devices[i];
         if (!device->plugged)
             continue;
-        fprintf(out, "%d %s: %llu reports, %llu refused\033[K\n", device->number, device->row->name,
+        fprintf(text, "%d %s: %llu reports, %llu refused\n", device->number, device->row->name,
                 (unsigned long long)device->state.reports, (unsigned long long)device->state.refused);
-        watcher->lines += 1 + device_show_bars(out, device->row, &device->state, "\033[K\n");
+        device_show_bars(text, device->row, &device->state);
     }
+}
+
+/* As much as the terminal has room for: a line that is broken in two, or that has gone at the top, cannot be
+   taken back by the next picture. */
+static void show_bars(Watcher *watcher)
+{
+    char *text = NULL;
+    size_t size = 0;
+    struct winsize room = {0};
+    FILE *out = watcher->watch->out, *memory = open_memstream(&text, &size);
+    watcher->lines = 0;
+    if (!memory)
+        return;
+    write_bars(watcher->watch, memory);
+    fclose(memory);
+    const bool known = ioctl(fileno(out), TIOCGWINSZ, &room) == 0 && room.ws_col > 0 && room.ws_row > 0;
+    const size_t columns = known ? room.ws_col : 80;
+    const int rows = known ? room.ws_row : 24;
+    for (const char *line = text; line && *line && watcher->lines < rows - 1; watcher->lines++) {
+        const size_t length = strcspn(line, "\n");
+        fprintf(out, "%.*s\033[K\n", (int)(length < columns ? length : columns - 1), line);
+        line += length + 1;
+    }
+    free(text);
 }
 
 static void show(Watcher *watcher, bool last)

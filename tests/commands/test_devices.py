@@ -1,4 +1,5 @@
 """slosh devices: what is known, recordings shown, recorded again, and refused."""
+import fcntl
 import json
 import os
 import pty
@@ -6,6 +7,7 @@ import re
 import signal
 import struct
 import subprocess
+import termios
 import time
 import unittest
 
@@ -95,9 +97,10 @@ class Devices(Case):
         self.assertTrue(3 <= len(lines) <= 12, lines)
         self.assertIn('turn +17.44', lines[-1])  # 999 degrees/s
 
-    def test_watch_draws_bars_on_a_terminal(self):
-        self.write('a.rec', recording(0.2))
+    def watch_on_a_terminal(self, rows=0, columns=0):
+        """What the terminal is sent."""
         master, slave = pty.openpty()
+        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack('4H', rows, columns, 0, 0))
         process = subprocess.Popen([command.PROGRAM, 'devices', '--watch', '--device', 'file:a.rec'], cwd=self.folder, stdout=slave)
         os.close(slave)
         text = b''
@@ -111,12 +114,28 @@ class Devices(Case):
             text += more
         os.close(master)
         self.assertEqual(process.wait(60), 0)
-        text = text.decode()
+        return text.decode()
+
+    def widest(self, text):
+        """Of the lines of bars."""
+        return max(len(re.sub(r'\x1b\[\d*[A-Z]', '', line)) for line in text.splitlines() if '\x1b[K' in line)
+
+    def test_watch_draws_bars_on_a_terminal(self):
+        self.write('a.rec', recording(0.2))
+        text = self.watch_on_a_terminal()
         self.assertRegex(text, r'turn  x\[     \|##   \]  \+1\.75 y\[')
         self.assertRegex(text, r'feel  x.* y\[     \|##   \]  \+9\.81 z')
         self.assertRegex(text, r'move  x\[     \|#####\]  \+1\.00 y.* z\[  ###\|     \]  -0\.50')
-        self.assertLess(max(len(re.sub(r'\x1b\[\d*[A-Z]', '', line)) for line in text.splitlines()), 80)
+        self.assertLess(self.widest(text), 80)
         self.assertRegex(text, r'\x1b\[\d+A')
+
+    def test_bars_stay_within_a_small_terminal(self):
+        """What is broken in two, or has gone at the top, is not overwritten by the next picture."""
+        self.write('a.rec', recording(0.2))
+        text = self.watch_on_a_terminal(6, 50)
+        self.assertRegex(text, r'turn  x\[     \|##   \]  \+1\.75 y\[')
+        self.assertLess(self.widest(text), 50)
+        self.assertEqual(max(int(up) for up in re.findall(r'\x1b\[(\d+)A', text)), 5)
 
     def test_a_replay_is_recorded(self):
         self.write('a.rec', recording())
