@@ -55,10 +55,13 @@ static bool judge(CaseRun *run, Error *error)
     return true;
 }
 
+/* The coarse set judges by what a fluid without friction misses the experiment by
+   (tests/app/test_dam_break_potential.c): less than that is the solver's own friction. How near it is to that
+   fluid is the third figure. */
 #define COMMON                                                                                               \
     .methods = {"wcsph"}, .time = 0.184, .every = 0.0005, /* T = 3.41 */                                     \
-        .metrics = {{"front, mean error", "", .tolerance = 0.025, .coarse = 0.12},                           \
-                    {"front, worst error", "", .tolerance = 0.05, .coarse = 0.2},                            \
+        .metrics = {{"front, mean error", "", .tolerance = 0.025, .coarse = 0.14},                           \
+                    {"front, worst error", "", .tolerance = 0.05, .coarse = 0.21},                           \
                     {"off potential flow, mean", "", .tolerance = 0.03, .coarse = 0.04}},                    \
     .plot = {.x = "T = t sqrt(2 g / a)",                                                                     \
              .y = "front Z = x / a",                                                                         \
