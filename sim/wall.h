@@ -1,4 +1,5 @@
-/* The walls of the box, as fluid would see a lattice of particles at rest behind them.
+/* The walls of the box for mueller (wcsph: sim/wall_images.h), as fluid would see a lattice of particles at
+   rest behind them.
 
    Behind each wall stands a half-space of lattice particles, the first layer half a spacing away. What it
    adds to the sums of a particle in front of it depends on the distances alone and is tabulated at start: for

@@ -106,9 +106,9 @@ static void a_tank_at_rest_stays_at_rest(void **state)
 {
     (void)state;
     fixture_needs("wcsph");
-    rests(&(Tank){2, 20, 3, 0.1, "wendland_c2"}, fixture_coarse(4, 0.2));
-    rests(&(Tank){2, 20, 3.5, 0.1, "wendland_c2"}, fixture_coarse(4, 0.2));
-    rests(&(Tank){3, 9, 3, 0.1, "wendland_c2"}, fixture_coarse(1.5, 0.1));
+    rests(&(Tank){2, 20, 3, 0.1, "wendland_c2"}, fixture_coarse(3, 0.2));
+    rests(&(Tank){2, 20, 3.5, 0.1, "wendland_c2"}, fixture_coarse(3, 0.2));
+    rests(&(Tank){3, 9, 3, 0.1, "wendland_c2"}, fixture_coarse(1, 0.1));
 }
 
 /* Kernels that pair particles would have fluid stick to its images. */
@@ -116,7 +116,7 @@ static void any_kernel_holds(void **state)
 {
     (void)state;
     fixture_needs("wcsph");
-    rests(&(Tank){2, 20, 2.6, 0.1, "cubic"}, fixture_coarse(3, 0.2));
+    rests(&(Tank){2, 20, 2.6, 0.1, "cubic"}, fixture_coarse(2, 0.2));
     rests(&(Tank){2, 20, 3, 0.1, "quintic"}, fixture_coarse(2, 0.2));
 }
 
