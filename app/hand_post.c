@@ -222,7 +222,8 @@ static void remove_device(HandPost *post, int number)
 {
     HeldDevice gone;
     if (held_devices_remove(&post->held, number, &gone))
-        say(post, false, "%s is gone; the box stays where it is", gone.name);
+        say(post, false, "%s is gone%s", gone.name,
+            held_device_in_use(&gone) ? "; the box stays where it is" : "");
 }
 
 /* False: of no device that is held. */

@@ -29,6 +29,22 @@ static void add_turn(const HeldDevice *device, HandInput *sum)
         quat_multiply(of_box, sum->turned, sum->turned);
 }
 
+/* One that has fallen silent holds what it holds, and takes nothing further. */
+static void add_axes(const HeldDevice *device, HandInput *sum, double camera[3])
+{
+    HandInput all = *sum;
+    double rates[3] = {camera[0], camera[1], camera[2]};
+    mapping_add(&device->map, &device->state, &all, rates);
+    if (device->silent > HELD_SILENCE) {
+        memcpy(all.move_rate, sum->move_rate, sizeof all.move_rate);
+        memcpy(all.tilt_rate, sum->tilt_rate, sizeof all.tilt_rate);
+        all.spin_rate = sum->spin_rate;
+    } else {
+        memcpy(camera, rates, sizeof rates);
+    }
+    *sum = all;
+}
+
 /* What the devices and all else say, together. */
 static HandInput sum_up(const HeldDevices *held, double camera[3])
 {
@@ -36,7 +52,7 @@ static HandInput sum_up(const HeldDevices *held, double camera[3])
     for (int i = 0; i < HELD_DEVICES_MAX; i++) {
         if (!held_device_in_use(&held->list[i]))
             continue;
-        mapping_add(&held->list[i].map, &held->list[i].state, &sum, camera);
+        add_axes(&held->list[i], &sum, camera);
         add_turn(&held->list[i], &sum);
     }
     return sum;
@@ -45,6 +61,8 @@ static HandInput sum_up(const HeldDevices *held, double camera[3])
 bool held_devices_update(HeldDevices *held, double dt, double camera[3], BoxTarget *target)
 {
     double rates[3] = {0};
+    for (int i = 0; i < HELD_DEVICES_MAX; i++)
+        held->list[i].silent += dt;
     HandInput sum = sum_up(held, rates);
     sum.dt = dt;
     for (int k = 0; k < 3; k++)
@@ -145,6 +163,7 @@ bool held_devices_report(HeldDevices *held, const DeviceEvent *event, PlayComman
             pressed[(*pressed_count)++] = command;
     }
     device->state = *state;
+    device->silent = 0;
     if (state->has_motion)
         orientation_update(&device->orientation, state->time, state->angular_velocity, state->acceleration);
     return true;

@@ -11,6 +11,10 @@
 
 enum { HELD_DEVICES_MAX = 8, HELD_PROBLEM_SIZE = 512, HELD_BUTTONS_MAX = 32 };
 
+/* s without a report after which a device's rates count as none, as if it had been let go: one that is held
+   off its rest reports all the time, so its link is broken. 3Dconnexion's own example programs do so too. */
+#define HELD_SILENCE 0.5
+
 typedef struct HeldDevice {
     int number; /* of DeviceEvent; 0: none is here */
     DeviceFamily family;
@@ -20,6 +24,7 @@ typedef struct HeldDevice {
     DeviceState state;
     DeviceMap map;
     Orientation orientation;
+    double silent; /* s since its last report */
 } HeldDevice;
 
 typedef struct HeldDevices {

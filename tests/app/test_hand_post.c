@@ -270,6 +270,11 @@ static void what_may_not_be_opened_is_told(void **state)
     assert_int_equal(hand_post_devices(room.post, devices), 1);
     assert_string_equal(devices[0].problem, "permission denied; install the rule");
     assert_false(hand_post_claims(room.post, 0x054c, 0x0ce6)); /* the window may have it */
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    assert_int_equal(hand_post_devices(room.post, devices), 0);
+    look(&room);
+    assert_string_equal(room.news.words[0].text, "DualSense is gone");
+    tell(&room, DEVICE_REFUSED, PAD, "permission denied; install the rule");
     tell(&room, DEVICE_PLUGGED, PAD, "");
     assert_int_equal(hand_post_devices(room.post, devices), 1);
     assert_string_equal(devices[0].problem, "");
@@ -352,6 +357,40 @@ static void keys_go_on_between_reports(void **state)
     look(&room);
     const double way = room.sent.last.position[0], a_ms = 0.5e-3 * HAND_SPEED;
     assert_true(way >= a_ms * (ended - began) - 1e-6 && way <= a_ms * (wall_ms() - before) + 1e-6);
+    room_close(&room);
+}
+
+/* What the mouse did since the last picture is told with that picture, and not again with each report. */
+static void a_drag_counts_once(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.own.move_drag[0] = 0.25;
+    room.own.turn_drag[0] = 0.2;
+    look(&room);
+    const BoxTarget told = room.sent.last;
+    check_near(told.position[0], 0.25, 1e-9, "x");
+    check_near(told.orientation[1], sin(0.1), 1e-9, "turned");
+    for (int i = 0; i < 5; i++)
+        report(&room, PAD);
+    assert_memory_equal(&room.sent.last, &told, sizeof told);
+    room_close(&room);
+}
+
+/* The numbers of commands begin anew with a scene: its meter must not hear of those before. */
+static void a_new_scene_knows_no_older_commands(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 10);
+    assert_true(room.sent.count > 0);
+    hand_post_open(room.post, take, &room.sent);
+    look(&room);
+    assert_int_equal(room.news.sent_count, 0);
     room_close(&room);
 }
 
@@ -504,6 +543,8 @@ int main(void)
         cmocka_unit_test(tuned_in_the_panel),
         cmocka_unit_test(the_camera_is_the_windows),
         cmocka_unit_test(keys_go_on_between_reports),
+        cmocka_unit_test(a_drag_counts_once),
+        cmocka_unit_test(a_new_scene_knows_no_older_commands),
         cmocka_unit_test(closed_it_sends_nothing),
         cmocka_unit_test(soon_though_the_window_draws),
         cmocka_unit_test(soon_from_the_bytes_on),

@@ -6,6 +6,7 @@
 
 #include "app/hand.h"
 #include "app/hand_replay.h"
+#include "app/held_devices.h"
 #include "app/session.h"
 #include "sim/world_state.h"
 
@@ -54,7 +55,7 @@ static void write_tilt(const char *path, double end)
     fclose(file);
 }
 
-/* A cap that is pushed to the right once, and held there without a word for a second. */
+/* A cap that is pushed to the right once, and says nothing more for a second: its link is broken. */
 static void write_push(const char *path)
 {
     const Report report = axes_report(LAYOUT_SPACEMOUSE_W, (const int[6]){350, 0, 0, 0, 0, 0}, false);
@@ -139,15 +140,17 @@ static void the_pose_depends_on_the_time_alone(void **state)
     hand_replay_close(back);
 }
 
-/* A rate, as built in, goes on while nothing is reported. */
+/* A rate, as built in, goes on between two reports, but not without end. */
 static void what_is_held_goes_on(void **state)
 {
     (void)state;
     write_push("push");
     HandReplay *replay = open_replay("file:push", NULL, IN_FRONT);
     check_near(hand_replay_at(replay, SIZE, 0.4).position[0], 0, 0, "before");
-    check_near(hand_replay_at(replay, SIZE, 1).position[0], 0.5 * HAND_SPEED, 0.02, "after half a second");
-    check_near(hand_replay_at(replay, SIZE, 9).position[0], 1.0 * HAND_SPEED, 0.02, "unplugged");
+    check_near(hand_replay_at(replay, SIZE, 0.9).position[0], 0.4 * HAND_SPEED, 0.02, "a moment later");
+    const double way = hand_replay_at(replay, SIZE, 1.4).position[0];
+    check_near(way, HELD_SILENCE * HAND_SPEED, 0.02, "silent");
+    check_near(hand_replay_at(replay, SIZE, 9).position[0], way, 1e-6, "unplugged");
     hand_replay_close(replay);
 }
 

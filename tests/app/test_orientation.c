@@ -168,6 +168,18 @@ static void at_rest_it_does_not_drift(void **state)
 }
 
 /* As a device would be that has lost its calibration. */
+/* An accelerometer that reads too much of everything, which is hardly believed until the device has lain
+   still: what a g is to it is learned. */
+static void gravity_is_what_it_feels(void **state)
+{
+    (void)state;
+    static const double still[3] = {0}, felt[3] = {0, 1.14 * 9.80665, 0};
+    Orientation orientation = orientation_start();
+    for (int i = 1; i <= 500; i++)
+        assert_true(orientation_update(&orientation, i * DT, still, felt));
+    check_near(orientation.gravity, felt[Y], 1e-6, "m/s2");
+}
+
 static void a_large_bias_is_learned_too(void **state)
 {
     (void)state;
@@ -353,6 +365,7 @@ int main(void)
         cmocka_unit_test(a_turn_is_followed_from_the_first_report),
         cmocka_unit_test(the_first_report_gives_the_tilt),
         cmocka_unit_test(at_rest_it_does_not_drift),
+        cmocka_unit_test(gravity_is_what_it_feels),
         cmocka_unit_test(a_large_bias_is_learned_too),
         cmocka_unit_test(in_the_hand_it_hardly_drifts),
         cmocka_unit_test(shaken_it_stays_upright),
