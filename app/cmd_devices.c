@@ -177,6 +177,11 @@ static int watch_devices(const Args *args, Error *error)
 static int show_mapping(const Args *args, Error *error)
 {
     Mapping mapping;
+    if (args->watch || args->record || args->device || args->json) {
+        error_set(error, "slosh devices: --mapping and --write-mapping look at no device; leave --watch, "
+                         "--record, --device and --json out");
+        return fail(EXIT_USAGE, error);
+    }
     if (!mapping_load(args->mapping, &mapping, error))
         return fail(EXIT_USAGE, error);
     if (args->mapping && !args->quiet)

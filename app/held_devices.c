@@ -15,11 +15,16 @@ bool held_device_in_use(const HeldDevice *device)
     return device->number > 0 && !device->problem[0];
 }
 
+static bool turns_box(const HeldDevice *device)
+{
+    return device->map.pose && device->orientation.begun;
+}
+
 /* The devices' turns one on top of the other, in the order in which they came. */
 static void add_turn(const HeldDevice *device, HandInput *sum)
 {
     double turned[4], of_box[4];
-    if (!device->map.pose || !device->orientation.begun)
+    if (!turns_box(device))
         return;
     orientation_turned(&device->orientation, turned);
     mapping_pose(&device->map, turned, of_box);
@@ -134,6 +139,26 @@ bool held_devices_add(HeldDevices *held, const DeviceEvent *event)
     return true;
 }
 
+static bool is_as_left(const HeldDevices *held)
+{
+    bool same = true;
+    for (int k = 0; k < 4; k++)
+        same = same && held->hand.held.orientation[k] == held->left[k];
+    return same;
+}
+
+/* The box stays where it was last told to be. Where a device before has left it so, that turn is still to be
+   taken back too. */
+static void leave_box(HeldDevices *held, bool turned)
+{
+    const BoxTarget told = held->hand.told;
+    if (turned && !is_as_left(held))
+        memcpy(held->without, held->hand.held.orientation, sizeof held->without);
+    held_devices_let_go(held, &told);
+    if (turned)
+        memcpy(held->left, held->hand.held.orientation, sizeof held->left);
+}
+
 bool held_devices_remove(HeldDevices *held, int number, HeldDevice *gone)
 {
     const HeldDevice *device = find(held, number);
@@ -141,10 +166,18 @@ bool held_devices_remove(HeldDevices *held, int number, HeldDevice *gone)
         return false;
     *gone = *device;
     forget(held, device);
-    const BoxTarget told = held->hand.told;
     if (held->box_size[0] > 0)
-        held_devices_let_go(held, &told);
+        leave_box(held, turns_box(gone));
     return true;
+}
+
+static void take_motion(HeldDevices *held, HeldDevice *device)
+{
+    const DeviceState *state = &device->state;
+    const bool turned = turns_box(device);
+    orientation_update(&device->orientation, state->time, state->angular_velocity, state->acceleration);
+    if (!turned && turns_box(device) && is_as_left(held))
+        memcpy(held->hand.held.orientation, held->without, sizeof held->without);
 }
 
 bool held_devices_report(HeldDevices *held, const DeviceEvent *event, PlayCommand pressed[HELD_BUTTONS_MAX],
@@ -165,6 +198,6 @@ bool held_devices_report(HeldDevices *held, const DeviceEvent *event, PlayComman
     device->state = *state;
     device->silent = 0;
     if (state->has_motion)
-        orientation_update(&device->orientation, state->time, state->angular_velocity, state->acceleration);
+        take_motion(held, device);
     return true;
 }

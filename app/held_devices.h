@@ -33,6 +33,8 @@ typedef struct HeldDevices {
     HandInput own;      /* all else that moves the box, and the picture's axes; its dt does not count */
     double box_size[3]; /* m */
     HeldDevice list[HELD_DEVICES_MAX]; /* in the order in which they came, without gaps */
+    double left[4], without[4]; /* how the box was held when a device that turned it was last unplugged, by
+                                   that turn and without it */
 } HeldDevices;
 
 /* None is there, and the box is at home. */
@@ -46,7 +48,9 @@ bool held_devices_add(HeldDevices *held, const DeviceEvent *event);
    False, and *gone as it was: there is no such device. */
 bool held_devices_remove(HeldDevices *held, int number, HeldDevice *gone);
 
-/* DEVICE_REPORTED: takes the state over. False: there is no such device. `pressed` gets the commands of the
+/* DEVICE_REPORTED: takes the state over. The first pose of a device takes the place of one that was left by
+   an unplugged device, so that it doesn't count twice when the same is plugged in again. False: there is no
+   such device. `pressed` gets the commands of the
    buttons that went down. The pose follows with the next held_devices_update. */
 bool held_devices_report(HeldDevices *held, const DeviceEvent *event, PlayCommand pressed[HELD_BUTTONS_MAX],
                          int *pressed_count);

@@ -116,6 +116,7 @@ bool play_open(Play *play, const char *scene, const SceneSettings *settings, Err
 void play_reset(Play *play)
 {
     keep_session(play);
+    hand_post_close(play->post); /* no report comes in between: it would move the box, and be forgotten */
     simulator_reset(play->open.simulator);
     hand_post_open(play->post, send_target, play->open.simulator);
 }

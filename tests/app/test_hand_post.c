@@ -14,7 +14,7 @@
 
 static const double size[3] = {1, 1, 1};
 static const double g = 9.80665;
-enum { PAD = 1, CAP = 2 };
+enum { PAD = 1, CAP = 2, SECOND_PAD = 101 /* which says what the first one says */ };
 
 /* What takes the commands. */
 typedef struct Sent {
@@ -58,7 +58,7 @@ static void sleep_ms(double ms)
 
 static void tell(Room *room, DeviceEventKind kind, int number, const char *problem)
 {
-    const bool pad = number == PAD;
+    const bool pad = number == PAD || number == SECOND_PAD;
     const DeviceEvent event = {.kind = kind,
                                .number = number,
                                .family = pad ? DEVICE_DUALSENSE : DEVICE_SPACEMOUSE,
@@ -72,7 +72,7 @@ static void tell(Room *room, DeviceEventKind kind, int number, const char *probl
 
 static void report(Room *room, int number)
 {
-    DeviceState *state = number == PAD ? &room->pad : &room->cap;
+    DeviceState *state = number == CAP ? &room->cap : &room->pad;
     state->reports++;
     state->time += 0.004;
     tell(room, DEVICE_REPORTED, number, "");
@@ -188,6 +188,74 @@ static void unplugged_the_box_stays(void **state)
     assert_int_equal(room.sent.count, before.count + 1);
     check_vector(room.sent.last.position, 0, 0, 0, 0, "position");
     check_tilt(&room, 0);
+    room_close(&room);
+}
+
+/* A cable that comes loose: the pose that stayed and that of the device are one and the same. */
+static void plugged_in_again_it_does_not_count_twice(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, 20);
+    for (int i = 0; i < 2; i++) {
+        tell(&room, DEVICE_UNPLUGGED, PAD, "");
+        look(&room);
+        tell(&room, DEVICE_PLUGGED, PAD, "");
+        look(&room);
+        check_tilt(&room, 20); /* until it has said how it is turned */
+        turn_pad(&room, 0);
+        check_tilt(&room, 20);
+    }
+    turn_pad(&room, -20);
+    check_tilt(&room, 0);
+    room_close(&room);
+}
+
+static void of_two_one_is_back(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, 10);
+    tell(&room, DEVICE_PLUGGED, SECOND_PAD, "");
+    report(&room, SECOND_PAD);
+    check_tilt(&room, 20);
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    tell(&room, DEVICE_UNPLUGGED, SECOND_PAD, "");
+    look(&room);
+    check_tilt(&room, 20);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    report(&room, PAD);
+    check_tilt(&room, 10);
+    room_close(&room);
+}
+
+/* What the user has turned since then stays. */
+static void turned_meanwhile_it_stays_so(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, 10);
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    room.own.turn_drag[0] = 0.2;
+    look(&room);
+    room.own.turn_drag[0] = 0;
+    const BoxTarget left = room.sent.last;
+    assert_true(fabs(left.orientation[1]) > 0.09);
+    turn_pad(&room, -10); /* level, and unheard of */
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    look(&room);
+    check_vector(room.sent.last.orientation, left.orientation[0], left.orientation[1], left.orientation[2],
+                 0.004, "orientation");
     room_close(&room);
 }
 
@@ -535,6 +603,9 @@ int main(void)
         cmocka_unit_test(a_report_is_a_command_at_once),
         cmocka_unit_test(the_box_is_tilted_as_the_pad_is),
         cmocka_unit_test(unplugged_the_box_stays),
+        cmocka_unit_test(plugged_in_again_it_does_not_count_twice),
+        cmocka_unit_test(of_two_one_is_back),
+        cmocka_unit_test(turned_meanwhile_it_stays_so),
         cmocka_unit_test(two_devices_at_once),
         cmocka_unit_test(buttons_are_commands_once),
         cmocka_unit_test(neutral_and_home),

@@ -169,6 +169,10 @@ class Mapping(command.CommandTest):
         code, said = self.slosh('devices', '--write-mapping', 'my.yaml')
         self.assertEqual(code, 1)
         self.assertIn('stays as it is', said)
+        for more in [['--watch'], ['--record', 'a.rec'], ['--json', 'a.json']]:
+            code, said = self.slosh('devices', '--mapping', 'my.yaml', *more)
+            self.assertEqual(code, 2)
+            self.assertIn('look at no device; leave --watch, --record, --device and --json out', said)
         self.write('my.yaml', written.replace('dead_zone', 'deadzone'))
         code, said = self.slosh('devices', '--mapping', 'my.yaml')
         self.assertEqual(code, 2)
