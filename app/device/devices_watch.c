@@ -16,6 +16,7 @@ enum { PICTURE_MS = 50, LINE_MS = 100, LINE_SIZE = 512 };
 
 /* What is shown of one device. */
 typedef struct Shown {
+    int number;
     bool plugged, refused;
     uint64_t reports;
     double line_ms; /* when its last line was written */
@@ -32,15 +33,28 @@ typedef struct Watcher {
     int lines;    /* of bars, on the terminal */
 } Watcher;
 
+/* A new one, or that of the first which is no longer there: a loose cable plugs in often. */
+static WatchedDevice *place_for_one(Watcher *watcher)
+{
+    WatchedDevice *oldest = NULL;
+    if (watcher->count < WATCH_DEVICES_MAX)
+        return &watcher->now[watcher->count++];
+    for (int i = 0; i < WATCH_DEVICES_MAX; i++) {
+        WatchedDevice *device = &watcher->now[i];
+        if (!device->plugged && (!oldest || device->number < oldest->number))
+            oldest = device;
+    }
+    return oldest;
+}
+
 static WatchedDevice *find(Watcher *watcher, const DeviceEvent *event)
 {
     for (int i = watcher->count - 1; i >= 0; i--)
         if (watcher->now[i].number == event->number)
             return &watcher->now[i];
-    if (watcher->count == WATCH_DEVICES_MAX)
-        return NULL;
-    WatchedDevice *device = &watcher->now[watcher->count++];
-    *device = (WatchedDevice){.number = event->number, .row = device_row(event->vendor, event->product)};
+    WatchedDevice *device = place_for_one(watcher);
+    if (device)
+        *device = (WatchedDevice){.number = event->number, .row = device_row(event->vendor, event->product)};
     return device;
 }
 
@@ -165,6 +179,8 @@ static void show(Watcher *watcher, bool last)
     for (int i = 0; i < watch->count; i++) {
         const WatchedDevice *device = &watch->devices[i];
         Shown *shown = &watcher->shown[i];
+        if (shown->number != device->number)
+            *shown = (Shown){.number = device->number};
         const bool was = shown->plugged || device->state.reports > shown->reports;
         say_changes(watcher, device, shown);
         if (watch->out && !watch->bars)

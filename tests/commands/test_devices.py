@@ -89,6 +89,14 @@ class Devices(Case):
         self.assertRegex(mouse[0], r': move \+1\.00 \+0\.00 -0\.50, turn \+0\.00 \+0\.00 \+0\.00, buttons$')
         self.assertEqual([(d['reports'], d['refused']) for d in json.loads(self.read('a.json'))['devices']], [(40, 0), (40, 1)])
 
+    def test_a_loose_cable_is_watched_to_the_end(self):
+        """Each time it comes it is another device."""
+        self.write('a.rec', HEAD + ''.join(f'{n / 20} {n} plugged dualsense 054c:0ce6 usb\n{n / 20} {n} report {sense(n)}\n'
+                                           f'{n / 20 + 0.02:.2f} {n} unplugged\n' for n in range(1, 41)))
+        said = self.run_devices('--watch', '--device', 'file:a.rec').stdout
+        for n in range(1, 41):
+            self.assertIn(f'\n{n} DualSense: unplugged after 1 reports', '\n' + said)
+
     def test_lines_are_bounded(self):
         """Ten a second and device, and the last one always."""
         self.write('a.rec', HEAD + '0 1 plugged dualsense 054c:0ce6 usb\n' +
