@@ -115,11 +115,11 @@ typedef struct RestError {
     double fastest;          /* m/s */
 } RestError;
 
-static RestError rest_error(const WorldDef *def)
+static RestError rest_error(const WorldDef *def, int steps)
 {
     World *world = fixture_world(def);
     RestError error = {0};
-    fixture_step(world, 2000);
+    fixture_step(world, steps);
     WorldSums sums;
     world_sums(world, &sums);
     State s = fixture_read(world);
@@ -149,10 +149,12 @@ static void a_tank_with_solids_comes_to_rest(void **state)
     (void)state;
     fixture_needs_cpu("thousands of steps of thousands of particles; gl.compute_solids has each step of it");
     static const char *const methods[] = {"mueller", "wcsph"};
+    /* wcsph: the start's gaps next to round solids stay in the densities until diffusion has levelled them */
+    static const int steps[] = {2000, 5000};
     for (int m = 0; m < 2; m++) {
         WorldDef def = tank_with_solids(methods[m]);
-        def.delta_sph = 0.1; /* disorder next to round solids would stay in the densities */
-        const RestError error = rest_error(&def);
+        def.delta_sph = 0.1;
+        const RestError error = rest_error(&def, steps[m]);
         printf(
             "%s: tank with three solids: pressure off by %.2f %% of rho0 g H (rms), by %.2f %% next to them "
             "(mean), fastest %.3f m/s\n",
