@@ -175,7 +175,8 @@ static void take_motion(HeldDevices *held, HeldDevice *device)
 {
     const DeviceState *state = &device->state;
     const bool turned = turns_box(device);
-    orientation_update(&device->orientation, state->time, state->angular_velocity, state->acceleration);
+    orientation_update(&device->orientation, state->time - state->late, state->angular_velocity,
+                       state->acceleration);
     if (!turned && turns_box(device) && is_as_left(held))
         memcpy(held->hand.held.orientation, held->without, sizeof held->without);
 }

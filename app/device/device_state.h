@@ -3,6 +3,8 @@
 #ifndef SLOSH_DEVICE_STATE_H
 #define SLOSH_DEVICE_STATE_H
 
+#include "app/device/sensor_clock.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -26,6 +28,8 @@ typedef struct DeviceState {
     bool has_motion;            /* the two below were in the report */
     double angular_velocity[3]; /* rad/s about x y z, calibrated */
     double acceleration[3];     /* m/s2, what the accelerometer feels: +9.81 on y at rest */
+    double late;                /* s from their measurement to `time`, by the device's own clock */
+    SensorClock clock;          /* that */
 } DeviceState;
 
 #endif

@@ -66,12 +66,13 @@ void devices_plugged(Device *device)
 void devices_reported(Device *device, const uint8_t *bytes, size_t size, double time)
 {
     Devices *devices = device->devices;
+    const double now = wall_ms() / 1000;
     if (devices->stopping || !device->plugged)
         return;
     if (report_parse(&device->format, bytes, size, time, &device->state))
         devices_tell(device, DEVICE_REPORTED, "");
     if (devices->setup.record)
-        report_log_report(devices->setup.record, device->log_number, wall_ms() / 1000, bytes, size);
+        report_log_report(devices->setup.record, device->log_number, now, bytes, size);
 }
 
 void devices_unplugged(Device *device)

@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* A parser of one layout: false, and *state in any state, when the report is none of it. */
+/* A parser of one layout: false, and *state in any state, when the report is none of it. state->time is that
+   of this report. */
 typedef bool Parser(const ReportFormat *format, const uint8_t *bytes, size_t size, DeviceState *state);
 
 static double within(double value, double limit)
@@ -108,6 +109,7 @@ static void read_dualshock4(const ReportFormat *format, const uint8_t *payload, 
     state->triggers[1] = payload[8] / 255.0;
     state->buttons = buttons(payload + 4, 0x03); /* above them is a counter */
     read_sensors(format, payload + 12, state);
+    state->late = sensor_clock_late(&state->clock, state->time, little_u16(payload + 9), 16, 16e-6 / 3);
 }
 
 static void read_dualsense(const ReportFormat *format, const uint8_t *payload, DeviceState *state)
@@ -117,6 +119,7 @@ static void read_dualsense(const ReportFormat *format, const uint8_t *payload, D
     state->triggers[1] = payload[5] / 255.0;
     state->buttons = buttons(payload + 7, 0xf7); /* the Edge's are the upper half */
     read_sensors(format, payload + 15, state);
+    state->late = sensor_clock_late(&state->clock, state->time, little_u32(payload + 27), 32, 1e-6 / 3);
 }
 
 static bool parse_dualshock4_usb(const ReportFormat *format, const uint8_t *bytes, size_t size,
@@ -177,12 +180,12 @@ bool report_parse(const ReportFormat *format, const uint8_t *bytes, size_t size,
                   DeviceState *state)
 {
     DeviceState next = *state;
+    next.time = time;
     if (size == 0 || !parsers[format->layout](format, bytes, size, &next)) {
         state->refused++;
         return false;
     }
     next.reports++;
-    next.time = time;
     *state = next;
     return true;
 }

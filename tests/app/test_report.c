@@ -11,6 +11,7 @@ static DeviceState filled(void)
     DeviceState state;
     memset(&state, 0x5a, sizeof state); /* padding too: states are compared byte by byte */
     state.has_motion = true;
+    state.clock.runs = true;
     state.reports = 7;
     state.refused = 3;
     return state;
