@@ -69,7 +69,6 @@ struct Case {
     const char *setting;               /* of the case itself, as --set takes it; or NULL */
     const char *methods[CASE_METHODS]; /* ended by NULL */
     double spacing[CASE_LEVELS];       /* m */
-    double floor;                      /* y of the fluid's floor, which the metrics count from, m */
     double time, every;                /* simulated, and from sample to sample, s */
     CaseMetric metrics[CASE_METRICS];  /* ended by a NULL name */
     CasePlot plot;

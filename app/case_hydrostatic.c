@@ -55,7 +55,6 @@ const Case case_hydrostatic = {
     .name = "hydrostatic",
     .help = "a column at rest, in the plane",
     .scene = "scenes/cases/hydrostatic.yaml",
-    .floor = 0.2,
     .metrics = {{"rms pressure over rho0 g H", "", .tolerance = 0.02, .coarse = 0.06, .mueller = 0.05},
                 {"drift of energy", "", .tolerance = 0.02, .coarse = 0.04}},
     .spacing = {0.05, 0.025, 0.0125},

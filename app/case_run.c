@@ -52,11 +52,7 @@ static World *start_world(const Case *of, const WorldDef *def, Error *error)
         seed_jitter(def, position, count);
         for (size_t i = 0; i < count; i++)
             density[i] = (float)def->fluids[fluid[i]].density;
-        for (size_t i = 0; i < count; i++)
-            position[3 * i + 1] -= (float)of->floor;
         of->start(def, &(CaseStart){count, position, velocity, density, fluid});
-        for (size_t i = 0; i < count; i++)
-            position[3 * i + 1] += (float)of->floor;
         with.initial = &(InitialState){count, position, velocity, fluid, density};
         world = world_create(&with, error);
     } else {
@@ -73,8 +69,6 @@ static bool sample(CaseRun *run, World *world, Error *error)
 {
     if (!cloud_read(&run->cloud, world))
         return error_set(error, "no memory to read %zu particles; use a larger spacing", run->info.count);
-    for (size_t i = 0; i < run->cloud.count; i++)
-        run->cloud.position[4 * i + 1] -= (float)run->of->floor;
     if (run->of->sample)
         run->of->sample(run);
     return true;

@@ -50,7 +50,6 @@ const Case case_sloshing = {
     .help = "linear sloshing, forced by the moving box: its natural frequency",
     .scene = "scenes/cases/sloshing.yaml",
     .methods = {"wcsph"},
-    .floor = 0.2,
     .spacing = {0.05, 0.025, 0.0125},
     .time = 10,
     .every = 0.02,

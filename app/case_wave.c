@@ -69,7 +69,6 @@ const Case case_wave = {
     .help = "a standing wave: its viscous decay and its frequency",
     .scene = "scenes/cases/standing_wave.yaml",
     .methods = {"wcsph"},
-    .floor = 0.2,
     .spacing = {0.05, 0.025, 0.0125},
     .time = 5.5,
     .every = 0.02,
