@@ -166,6 +166,27 @@ static void the_box_is_tilted_as_the_pad_is(void **state)
     room_close(&room);
 }
 
+/* Nobody read for a fifth of a second, then all at once: a turn about the vertical, which only the gyro
+ * tells. */
+static void late_reports_turn_as_they_were_measured(void **state)
+{
+    (void)state;
+    enum { LATE = 50 };
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    room.pad.angular_velocity[1] = M_PI / 6 / (LATE * 0.004);
+    room.pad.time += LATE * 0.004;
+    for (int i = 1; i <= LATE; i++) {
+        room.pad.late = (LATE - i) * 0.004;
+        room.pad.reports++;
+        tell(&room, DEVICE_REPORTED, PAD, "");
+    }
+    check_vector(room.sent.last.orientation, 0, sin(M_PI / 12), 0, 0.004, "orientation");
+    room_close(&room);
+}
+
 static void unplugged_the_box_stays(void **state)
 {
     (void)state;
@@ -614,6 +635,7 @@ int main(void)
         cmocka_unit_test(tuned_in_the_panel),
         cmocka_unit_test(the_camera_is_the_windows),
         cmocka_unit_test(keys_go_on_between_reports),
+        cmocka_unit_test(late_reports_turn_as_they_were_measured),
         cmocka_unit_test(a_drag_counts_once),
         cmocka_unit_test(a_new_scene_knows_no_older_commands),
         cmocka_unit_test(closed_it_sends_nothing),
