@@ -42,7 +42,7 @@ const Case case_bucket = {
     .help = "a bucket that spins: the curvature of its surface",
     .scene = "scenes/cases/bucket.yaml",
     .methods = {"wcsph", "mueller"},
-    .spacing = {0.1, 0.05, 0.04},
+    .spacing = {0.1, 0.04, 0.032},
     .time = 3.5,
     .every = 0.05,
     .metrics = {{"curvature", "1/m", .tolerance = 0.03, .coarse = 0.2}},

@@ -49,20 +49,20 @@ static bool judge(CaseRun *run, Error *error)
     if (!compare(run, "scenes/reference/martin-moyce-1952.csv", 0, &mean[0], &worst[0], error) ||
         !compare(run, "scenes/reference/dam-break-potential.csv", 1, &mean[1], &worst[1], error))
         return false;
-    run->figures[0] = figure_scaled(mean[0], 0, 1);
-    run->figures[1] = figure_scaled(worst[0], 0, 1);
-    run->figures[2] = figure_scaled(mean[1], 0, 1);
+    run->figures[0] = figure_scaled(mean[1], 0, 1);
+    run->figures[1] = figure_scaled(mean[0], 0, 1);
+    run->figures[2] = figure_scaled(worst[0], 0, 1);
     return true;
 }
 
 /* The coarse set judges by what a fluid without friction misses the experiment by
    (tests/app/test_dam_break_potential.c): less than that is the solver's own friction. How near it is to that
-   fluid is the third figure. */
+   fluid is the first figure, which a chart goes by. */
 #define COMMON                                                                                               \
     .methods = {"wcsph"}, .time = 0.184, .every = 0.0005, /* T = 3.41 */                                     \
-        .metrics = {{"front, mean error", "", .tolerance = 0.025, .coarse = 0.14},                           \
-                    {"front, worst error", "", .tolerance = 0.05, .coarse = 0.21},                           \
-                    {"off potential flow, mean", "", .tolerance = 0.03, .coarse = 0.04}},                    \
+        .metrics = {{"off potential flow, mean", "", .tolerance = 0.03, .coarse = 0.04},                     \
+                    {"front, mean error", "", .tolerance = 0.025, .coarse = 0.14},                           \
+                    {"front, worst error", "", .tolerance = 0.05, .coarse = 0.21}},                          \
     .plot = {.x = "T = t sqrt(2 g / a)",                                                                     \
              .y = "front Z = x / a",                                                                         \
              .found = {"front"},                                                                             \

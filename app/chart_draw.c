@@ -89,7 +89,7 @@ static void plot_cost(const ChartRows *rows, const int opener[], int lines, bool
     if (front)
         fputs(
             ", $front using 1:2 smooth unique with lines lw 1.5 dt 2 lc '#2a3440' title 'best for its time', "
-            "$front using 1:2:3 with labels left offset 0.7,0.4 font ',8' notitle",
+            "$front using 1:2:3 with labels rotate by 30 left offset 0.5,0.5 font ',8' notitle",
             gnuplot);
 }
 
