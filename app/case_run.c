@@ -18,21 +18,21 @@ static bool add_setting(SceneSettings *settings, const char *text, Error *error)
 
 bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
 {
-    char spacing[64], method[64], note[256];
+    char spacing[64], method[64];
     SceneSettings all = {.particles = setup->settings->particles};
     snprintf(spacing, sizeof spacing, "particles.spacing=%.9g", setup->of->spacing[setup->level]);
     snprintf(method, sizeof method, "solver.method=%.32s", setup->method);
     bool ok = true;
     for (int i = 0; ok && case_settings[i]; i++)
         ok = add_setting(&all, case_settings[i], error);
-    ok = ok && scene_load(setup->of->scene, NULL, scene, note, error) &&
+    ok = ok && scene_load(setup->of->scene, NULL, scene, NULL, error) &&
          add_setting(&all, case_support(setup->method, scene->world.dimensions), error) &&
          add_setting(&all, spacing, error) && add_setting(&all, method, error);
     if (ok && setup->of->setting)
         ok = add_setting(&all, setup->of->setting, error);
     for (int i = 0; ok && i < setup->settings->count; i++)
         ok = add_setting(&all, setup->settings->set[i], error);
-    return ok && scene_load(setup->of->scene, &all, scene, note, error);
+    return ok && scene_load(setup->of->scene, &all, scene, NULL, error);
 }
 
 /* The lattice of the fills, moved by the case's start. */

@@ -161,7 +161,7 @@ static bool plan_jobs(ChartPlan *plan, Error *error)
 static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
 {
     static Scene scene;
-    char text[128], note[256];
+    char text[128];
     const ChartSubject *subject = &plan->subject;
     const bool of_method = strcmp(sweep->key, "solver.method") == 0;
     bool ok = of_method || strcmp(sweep->key, "solver.backend") == 0 ||
@@ -173,7 +173,7 @@ static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
         settings.set[settings.count < SCENE_SETTINGS_MAX ? settings.count++ : settings.count - 1] = text;
         const CaseSetup setup = {subject->of, CASE_DEFAULT, method, &settings};
         ok = subject->of ? case_scene(&setup, &scene, error)
-                         : scene_load(subject->scene, &settings, &scene, note, error);
+                         : scene_load(subject->scene, &settings, &scene, NULL, error);
     }
     return ok;
 }
@@ -198,7 +198,6 @@ static bool find_subject(ChartPlan *plan, Error *error)
     const Args *args = plan->args;
     SceneSettings settings = args->settings;
     Error no_case, no_scene;
-    char note[256];
     plan->subject = (ChartSubject){.scene = args->scenes[0],
                                    .time = args->time_given ? args->time : DEFAULT_TIME,
                                    .settings = &args->settings};
@@ -212,7 +211,7 @@ static bool find_subject(ChartPlan *plan, Error *error)
                              plan->subject.of ? plan->subject.of->methods[0] : NULL, &settings};
     if (plan->subject.of)
         return case_scene(&setup, &plan->scene, error);
-    if (scene_load(args->scenes[0], &settings, &plan->scene, note, &no_scene))
+    if (scene_load(args->scenes[0], &settings, &plan->scene, &plan->notes, &no_scene))
         return true;
     const char *near = case_near(args->scenes[0]);
     return near ? error_set(error, "%.700s; did you mean the case '%s'?", no_scene.message, near)

@@ -14,6 +14,7 @@ typedef struct ChartPlan {
     ChartSubject subject;
     Scene scene;       /* as the command line has it: of a case with its first method */
     char csv[1024];    /* where the runs are kept */
+    Notes notes;       /* of the scene */
     char note[256];    /* backends that were left out, and why; or "" */
     Headless *context; /* NULL as long as nobody needed one */
     bool wants_context;

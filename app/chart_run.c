@@ -55,9 +55,8 @@ __attribute__((format(printf, 3, 4))) static bool add(JobSettings *job, Error *e
 static bool load(const ChartSubject *subject, const ChartJob *job, JobSettings *settings, Scene *scene,
                  Error *error)
 {
-    char note[256];
     if (!subject->of)
-        return scene_load(subject->scene, &settings->all, scene, note, error);
+        return scene_load(subject->scene, &settings->all, scene, NULL, error);
     const CaseSetup setup = {subject->of, CASE_DEFAULT, job->method, &settings->all};
     return case_scene(&setup, scene, error);
 }

@@ -137,13 +137,14 @@ static void case_name(const Plan *plan, size_t combination, char *name, size_t s
 
 static bool case_load(const Plan *plan, size_t index, bool tell, Scene *scene, Error *error)
 {
-    char texts[TEXTS_BYTES], note[256] = "";
+    char texts[TEXTS_BYTES];
+    Notes notes;
     SceneSettings settings;
     if (!case_settings(plan, index % plan->combinations, texts, &settings, error) ||
-        !scene_load(plan->scenes[index / plan->combinations], &settings, scene, note, error))
+        !scene_load(plan->scenes[index / plan->combinations], &settings, scene, &notes, error))
         return false;
-    if (note[0] && tell && !plan->args->quiet)
-        fprintf(stderr, "%s\n", note);
+    if (tell)
+        notes_print(&notes, stderr);
     return true;
 }
 

@@ -158,6 +158,7 @@ static bool make_context(ChartPlan *plan, const Runs *runs, Error *error)
 static int chart(ChartPlan *plan, Error *error)
 {
     static Runs runs;
+    notes_print(&plan->notes, stderr);
     if (*plan->note)
         fprintf(stderr, "%s\n", plan->note);
     const bool ok = check_outputs(plan, &runs.kept, error) && make_rows(plan, &runs, error) &&

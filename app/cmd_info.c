@@ -99,10 +99,10 @@ static void print_lists(void)
 int cmd_info(const Args *args)
 {
     Error error = {{0}};
-    char note[256] = "";
+    Notes notes;
     SceneSettings settings = args->settings;
     Scene scene;
-    if (args->scene_count && !scene_load(args->scenes[0], &settings, &scene, note, &error)) {
+    if (args->scene_count && !scene_load(args->scenes[0], &settings, &scene, &notes, &error)) {
         fprintf(stderr, "%s\n", error.message);
         return EXIT_USAGE;
     }
@@ -112,8 +112,7 @@ int cmd_info(const Args *args)
     if (!args->scene_count)
         return 0;
     printf("%s: %zu particles\n", scene.path, world_def_count(&scene.world, scene.world.spacing));
-    if (note[0])
-        printf("%s\n", note);
+    notes_print(&notes, stderr);
     scene_print(&scene, stdout);
     return 0;
 }

@@ -91,14 +91,22 @@ static void leave(Play *play)
     play->open = (PlayScene){.upload = NULL};
 }
 
+/* On the terminal each with its place in the file, in the picture the first of them; the panel has all. */
+static void tell(Play *play, const Notes *notes)
+{
+    for (int i = notes->count - 1; i >= 0; i--)
+        play_tell(play, "%s", notes->line[i]);
+    play_scene_advise(&play->open, NULL);
+}
+
 /* On failure the scene that is open stays. */
 bool play_open(Play *play, const char *scene, const SceneSettings *settings, Error *error)
 {
     PlayScene opened;
-    char note[256] = "";
+    Notes notes;
     if (!play_leave(play, 0))
         return error_set(error, "the scene before the present one is still ending; try again in a moment");
-    const bool read = play_scene_read(&opened, scene, settings, note, error);
+    const bool read = play_scene_read(&opened, scene, settings, &notes, error);
     share_processors(&opened.scene.world);
     if (!read || !play_scene_start(&opened, window_wake, play->timer, play->paused, error)) {
         play_scene_close(&opened, SAVE_MS);
@@ -106,8 +114,7 @@ bool play_open(Play *play, const char *scene, const SceneSettings *settings, Err
     }
     leave(play);
     adopt(play, &opened);
-    if (note[0])
-        play_tell(play, "%s", note);
+    tell(play, &notes);
     if (play->renderer)
         play_view_changed(play);
     return true;

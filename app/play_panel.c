@@ -124,6 +124,8 @@ static void find_warnings(Play *play)
                  status->lost);
         warn(&play->ui, play->ui.lost);
     }
+    for (int i = 0; i < play->open.notes.count; i++)
+        warn(&play->ui, play->open.notes.line[i]);
     if (play->movie.video)
         warn(&play->ui, "A video is being recorded.");
 }

@@ -1,5 +1,6 @@
 #include "app/play_scene.h"
 
+#include "app/scene_advise.h"
 #include "app/scene_path.h"
 #include "sim/flow.h"
 #include "sim/scalar.h"
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, char note[256],
+bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
                      Error *error)
 {
     static const SceneSettings none;
@@ -20,10 +21,20 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
     if (!scene_path_find(name, path, error))
         return false;
     char *text = scene_file_read(path, &size, error);
-    const bool ok = text && scene_parse(path, text, size, &applied, &open->scene, note, error) &&
+    const bool ok = text && scene_parse(path, text, size, &applied, &open->scene, notes, error) &&
                     recording_create(&open->recording, path, text, size, settings ? settings : &none, error);
     free(text);
     return ok;
+}
+
+void play_scene_advise(PlayScene *open, Notes *fresh)
+{
+    const Notes before = open->notes;
+    open->notes.count = 0;
+    scene_advise(NULL, &open->scene, &open->notes);
+    for (int i = 0; fresh && i < open->notes.count; i++)
+        if (!notes_have(&before, open->notes.line[i]))
+            notes_add(fresh, "%s", open->notes.line[i]);
 }
 
 static bool make_upload(PlayScene *open, Error *error)

@@ -10,15 +10,20 @@
 
 typedef struct PlayScene {
     Scene scene;         /* as it stands now: the file's values, and what was changed since */
+    Notes notes;         /* what is to be said of it as it stands now */
     Recording recording; /* the file's text and the settings: where the session begins */
     Upload *upload;      /* carries every scalar, so that colours may change at once; NULL on a GPU */
     Simulator *simulator;
 } PlayScene;
 
 /* Reads a scene; starts nothing yet. `settings` are those of the command line, or NULL. False with the
-   loader's message; `note` as of scene_load. */
-bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, char note[256],
+   loader's message; `notes` as of scene_load. */
+bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
                      Error *error);
+
+/* Finds anew what is to be said of the scene as it stands; what was not there before goes into `fresh` (may
+   be NULL). */
+void play_scene_advise(PlayScene *open, Notes *fresh);
 
 /* Begins to simulate it; needs the context. `timer` as of SimulatorSetup. */
 bool play_scene_start(PlayScene *open, void (*wake)(void), GlTimer *timer, bool paused, Error *error);

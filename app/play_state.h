@@ -40,7 +40,7 @@ typedef struct PlayUi {
     double drawn_ms; /* wall time of the last drawing */
     int shown;       /* what was drawn then */
     bool watches;    /* with the gauges */
-    const char *warnings[8];
+    const char *warnings[8 + NOTES_MAX];
     int warning_count;
     char lost[64]; /* one of them */
     HandDevice devices[HAND_POST_DEVICES_MAX];

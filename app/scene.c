@@ -1,5 +1,6 @@
 #include "app/scene.h"
 
+#include "app/scene_advise.h"
 #include "app/scene_check.h"
 #include "app/scene_particles.h"
 #include "app/scene_path.h"
@@ -102,14 +103,14 @@ static void view_space(Scene *scene)
     scene->view.support_radius = world->support * world->spacing;
 }
 
-static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char note[256], Error *error)
+static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     char scalar[NAME_SIZE];
     file_scalar(tree, scalar);
     if (!apply_settings(tree, settings, error) || !read_scene(tree, out, error))
         return false;
     range_of_scalar(tree, scalar, &out->view);
-    if (settings->particles > 0 && !scene_set_particles(tree, out, settings, note, error))
+    if (settings->particles > 0 && !scene_set_particles(tree, out, settings, notes, error))
         return false;
     if (out->world.dimensions == 2)
         out->world.box_size[2] = out->world.spacing;
@@ -120,36 +121,37 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, char not
     title_default(out);
     view_fluids(out);
     view_space(out);
+    scene_advise(tree, out, notes);
     return true;
 }
 
 bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings *settings, Scene *out,
-                 char note[256], Error *error)
+                 Notes *notes, Error *error)
 {
     SceneSettings none = {0};
-    if (note)
-        *note = 0;
+    if (notes)
+        notes->count = 0;
     if (size > SCENE_BYTES_MAX)
         return error_set(error, "%s: larger than 1 MiB; a scene file is a page of YAML", path);
     Tree tree;
     const bool ok = tree_read(&tree, path, bytes, size, error) &&
-                    fill_scene(&tree, settings ? settings : &none, out, note, error);
+                    fill_scene(&tree, settings ? settings : &none, out, notes, error);
     tree_free(&tree);
     return ok;
 }
 
-bool scene_load(const char *name, SceneSettings *settings, Scene *out, char note[256], Error *error)
+bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     char path[SCENE_PATH_SIZE];
     size_t size;
-    if (note)
-        *note = 0;
+    if (notes)
+        notes->count = 0;
     if (!scene_path_find(name, path, error))
         return false;
     char *bytes = scene_file_read(path, &size, error);
     if (!bytes)
         return false;
-    const bool ok = scene_parse(path, bytes, size, settings, out, note, error);
+    const bool ok = scene_parse(path, bytes, size, settings, out, notes, error);
     free(bytes);
     return ok;
 }

@@ -5,6 +5,7 @@
 #ifndef SLOSH_SCENE_H
 #define SLOSH_SCENE_H
 
+#include "app/notes.h"
 #include "render/view_def.h"
 #include "sim/error.h"
 #include "sim/world_def.h"
@@ -41,12 +42,13 @@ typedef struct SceneSettings {
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what
    would be right", and "--set path=value: ..." where the command line is wrong. Creates nothing. `name` is a
    path, or the name of a file beside the sources that the program was built from (scenes/box_slosh.yaml,
-   box_slosh). When
-   --particles scaled dt, `note` (may be NULL) gets the sentence that says so, else "". */
-bool scene_load(const char *name, SceneSettings *settings, Scene *out, char note[256], Error *error);
+   box_slosh). `notes` (may be
+   NULL) is emptied, then gets what the user should know of the scene: that --particles scaled dt, and what
+   scene_advise has to say. */
+bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *notes, Error *error);
 
 /* The same from `size` bytes in memory; pure, for tests and the fuzz target. */
 bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings *settings, Scene *out,
-                 char note[256], Error *error);
+                 Notes *notes, Error *error);
 
 #endif

@@ -74,7 +74,7 @@ static double greatest_spacing(const Scene *scene)
     return 0.5 * (scene->world.dimensions == 3 ? fmin(width, size[2]) : width);
 }
 
-bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, char note[256],
+bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
                          Error *error)
 {
     const size_t wanted = settings->particles;
@@ -96,11 +96,10 @@ bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *se
     if (settings->dt_set)
         return true;
     scene->world.dt = dt * scale;
-    if (note)
-        snprintf(
-            note, 256,
-            "--particles %zu: a spacing of %.4g m gives %zu; solver.step.dt goes with it from %.4g to %.4g s "
-            "(--set solver.step.dt=... chooses it)",
-            wanted, best.spacing, best.count, dt, scene->world.dt);
+    notes_add(
+        notes,
+        "--particles %zu: a spacing of %.4g m gives %zu; solver.step.dt goes with it from %.4g to %.4g s "
+        "(--set solver.step.dt=... chooses it)",
+        wanted, best.spacing, best.count, dt, scene->world.dt);
     return true;
 }

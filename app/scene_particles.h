@@ -5,9 +5,9 @@
 #include "app/scene.h"
 #include "app/scene_tree.h"
 
-/* Sets the scene's spacing, and scales a fixed dt with it unless dt was given by --set; `note` gets the
+/* Sets the scene's spacing, and scales a fixed dt with it unless dt was given by --set; `notes` gets the
    sentence that says so. False when no spacing gives so many. */
-bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, char note[256],
+bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
                          Error *error);
 
 #endif

@@ -13,13 +13,12 @@ static const double ROUNDING = 1e-6;
 
 int session_open(Session *session, const Args *args, bool draws, Error *error)
 {
-    char note[256] = "";
+    Notes notes;
     SceneSettings settings = args->settings;
     *session = (Session){.began_ms = wall_ms()};
-    if (!scene_load(args->scenes[0], &settings, &session->scene, note, error))
+    if (!scene_load(args->scenes[0], &settings, &session->scene, &notes, error))
         return EXIT_USAGE;
-    if (note[0] && !args->quiet)
-        fprintf(stderr, "%s\n", note);
+    notes_print(&notes, stderr);
     if (args->device &&
         !(session->hand = hand_replay_open(args->device, args->mapping, &session->scene, error)))
         return EXIT_USAGE;

@@ -14,10 +14,9 @@ static CaseRun run;
 static CaseRun *open_case(const char *name)
 {
     static Scene scene;
-    char note[256];
     Error error = {{0}};
     const Case *of = case_find(name, &error);
-    if (!of || !scene_load(of->scene, NULL, &scene, note, &error)) {
+    if (!of || !scene_load(of->scene, NULL, &scene, NULL, &error)) {
         fail_msg("%s", error.message);
         exit(1); /* never: for who reads the code by program */
     }

@@ -13,8 +13,7 @@ static World *start(const char *name, const char *spacing, const char *dt)
 {
     SceneSettings settings = {.count = 2, .set = {spacing, dt}};
     Error error = {0};
-    char note[256];
-    if (!scene_load(name, &settings, &scene, note, &error))
+    if (!scene_load(name, &settings, &scene, NULL, &error))
         fail_msg("%s", error.message);
     scene.world.threads = 1; /* small */
     World *world = world_create(&scene.world, &error);

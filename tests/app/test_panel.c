@@ -67,8 +67,7 @@ static void load(Session *session, const char *name)
 {
     Error error = {{0}};
     SceneSettings settings = {.count = 0};
-    char note[256];
-    assert_true(scene_load(name, &settings, &session->scene, note, &error));
+    assert_true(scene_load(name, &settings, &session->scene, NULL, &error));
 }
 
 static void fill(Session *session)

@@ -111,20 +111,20 @@ static bool near_count(size_t wanted, double tolerance)
 static void particles_choose_the_spacing_and_scale_dt(void **state)
 {
     (void)state;
-    char note[256];
+    Notes notes;
     SceneSettings settings = {.particles = 4000};
-    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, note, &error));
+    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
     assert_true(near_count(4000, 0));
     assert_float_equal(scene.world.spacing, 0.05, 1e-4); /* 20 x 10 x 20: the widest that gives so many */
     assert_float_equal(scene.world.dt, world_def_default().dt * scene.world.spacing / 0.1, 1e-9);
     assert_int_equal(scene.world.substeps, world_def_default().substeps);
-    assert_non_null(
-        strstr(note, "--particles 4000: a spacing of 0.05 m gives 4000; solver.step.dt goes with it"));
+    assert_non_null(strstr(notes.line[0],
+                           "--particles 4000: a spacing of 0.05 m gives 4000; solver.step.dt goes with it"));
 
     settings.set[settings.count++] = "solver.step.dt=0.003";
-    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, note, &error));
+    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
     assert_true(scene.world.dt == 0.003);
-    assert_string_equal(note, "");
+    assert_int_equal(notes.count, 0);
 }
 
 static void particles_that_cannot_be_are_refused(void **state)

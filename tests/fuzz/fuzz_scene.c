@@ -21,7 +21,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static Scene scene;
     Error error = {""};
-    char note[256], setting[256];
+    char setting[256];
+    Notes notes;
     SceneSettings settings = {.particles = size > 0 && data[size - 1] == '#' ? 1000 : 0};
     const uint8_t *zero = size > 0 ? memchr(data, 0, size) : NULL;
     const size_t length = zero ? (size_t)(zero - data) : 0;
@@ -31,7 +32,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         data += length + 1;
         size -= length + 1;
     }
-    check(scene_parse("fuzz.yaml", (const char *)data, size, &settings, &scene, note, &error), &scene,
+    check(scene_parse("fuzz.yaml", (const char *)data, size, &settings, &scene, &notes, &error), &scene,
           &error);
     return 0;
 }

@@ -1,0 +1,19 @@
+/* What a scene says that has no effect or will not hold, though nothing in it is wrong: lines for the user.
+ */
+#ifndef SLOSH_SCENE_ADVISE_H
+#define SLOSH_SCENE_ADVISE_H
+
+#include "app/notes.h"
+#include "app/scene.h"
+#include "app/scene_tree.h"
+
+/* Adds a line to `notes` for each such setting of a scene that was read and checked. `tree` is what it was
+   read from, so that a line begins with "file:line:column: "; NULL, for a scene whose keys changed while it
+   runs: then lines begin with the key's path. */
+void scene_advise(const Tree *tree, const Scene *scene, Notes *notes);
+
+/* For the checks: a line about the setting at `path`, with its place where the tree has it. */
+void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+#endif
