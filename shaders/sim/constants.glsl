@@ -33,8 +33,10 @@ layout(std140, binding = 2) uniform Step {
 // What the kicks have found so far: greatest speed, acceleration, compression; guarded; whether a particle went too far.
 layout(std140, binding = 4) uniform Watched { uvec4 watched[2]; };
 
-// None behind a step that blew up: all fluid in one cell would keep the rest of the frame for minutes.
-uint particle_count() { return watched[1].x != 0u ? 0u : uint(cell_first.w); }
+// How many there are; how many a pass has to do with. None behind a step that blew up: all fluid in one cell would keep the
+// rest of the frame for minutes. What moves particles to other places, or counts them, goes by those that are there.
+uint particles_there() { return uint(cell_first.w); }
+uint particle_count() { return watched[1].x != 0u ? 0u : particles_there(); }
 uint cell_count() { return watched[1].x != 0u ? 0u : uint(cell_size.w); }
 
 #ifdef PERIODIC

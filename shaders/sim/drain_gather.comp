@@ -11,7 +11,7 @@ layout(std430, binding = 6) writeonly buffer Names { uvec2 name[]; };
 void main()
 {
     uint i = invocation();
-    if (i >= particle_count() || before[i] == before[i + 1u])
+    if (i >= particles_there() || before[i] == before[i + 1u])
         return;
     uint to = before[i];
     position[to] = old_position[i];

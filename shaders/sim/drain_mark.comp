@@ -19,6 +19,6 @@ bool drains_away(vec3 x)
 void main()
 {
     uint i = invocation();
-    if (i <= particle_count())
-        mark[i] = i < particle_count() && !drains_away(position[i].xyz) ? 1u : 0u;
+    if (i <= particles_there())
+        mark[i] = i < particles_there() && !drains_away(position[i].xyz) ? 1u : 0u;
 }

@@ -12,7 +12,7 @@ void main()
     uint k = invocation();
     if (k >= uint(flow_counts.z) || before[k] == before[k + 1u] || before[k] >= uint(flow_layer.z))
         return;
-    uint i = particle_count() + before[k];
+    uint i = particles_there() + before[k];
     position[i] = vec4(candidates[3u * k], candidates[3u * k + 1u], candidates[3u * k + 2u], 0.0);
     velocity[i] = vec4(layer_velocity.xyz, 0.0);
     name[i] = uvec2(uint(flow_layer.y) + before[k], uint(flow_layer.x));

@@ -1,4 +1,4 @@
-// Particles into the order of their cells.
+// Particles into the order of their cells; behind a step that blew up nobody has made it, and they stay where they are.
 #include "sim/constants.glsl"
 layout(std430, binding = 0) readonly buffer Orders { uint order[]; };
 layout(std430, binding = 1) readonly buffer OldPositions { vec4 old_position[]; };
@@ -11,9 +11,9 @@ layout(std430, binding = 6) writeonly buffer Names { uvec2 name[]; }; // id, flu
 void main()
 {
     uint i = invocation();
-    if (i >= particle_count())
+    if (i >= particles_there())
         return;
-    uint o = order[i];
+    uint o = particle_count() > 0u ? order[i] : i;
     position[i] = old_position[o];
     velocity[i] = old_velocity[o];
     name[i] = old_name[o];

@@ -8,10 +8,10 @@ shared uint part[256];
 void main()
 {
     uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint lane = gl_LocalInvocationID.x, base = block * 1024u + lane * 4u;
+    uint lane = gl_LocalInvocationID.x, base = block * 1024u + lane * 4u, end = min(size, uint(value.length()));
     uint own[4], sum = 0u;
     for (uint k = 0u; k < 4u; k++) {
-        own[k] = base + k < size ? value[base + k] : 0u;
+        own[k] = base + k < end ? value[base + k] : 0u;
         sum += own[k];
     }
     part[lane] = sum;
@@ -24,10 +24,10 @@ void main()
     }
     uint running = part[lane] - sum;
     for (uint k = 0u; k < 4u; k++) {
-        if (base + k < size)
+        if (base + k < end)
             value[base + k] = running;
         running += own[k];
     }
-    if (lane == 255u && block * 1024u < size)
+    if (lane == 255u && block * 1024u < end && block < uint(total.length()))
         total[block] = part[255];
 }

@@ -8,10 +8,11 @@ void main()
 {
     uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint base = block * 1024u + gl_LocalInvocationID.x * 4u;
-    if (base >= size)
+    uint end = min(size, uint(value.length()));
+    if (base >= end)
         return;
     uint more = before[block];
     for (uint k = 0u; k < 4u; k++)
-        if (base + k < size)
+        if (base + k < end)
             value[base + k] += more;
 }

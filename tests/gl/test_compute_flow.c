@@ -2,6 +2,7 @@
 #include "tests/gl/compare.h"
 
 #include "sim/flow.h"
+#include "sim/seed.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -270,6 +271,63 @@ static void going_back_takes_back_what_came(void **state)
     world_destroy(world);
 }
 
+/* A step far too long in a frame of many: the watch trips in its first ones, and the drains go on until the
+ * frame is over. */
+static WorldDef boiling_def(int retries)
+{
+    WorldDef def = fixture_def(1.2, 0.9, 0.8);
+    def.sound_speed = 20;
+    def.threads = 1;
+    def.retries = retries;
+    def.dt = 0.8;
+    def.substeps = 8;
+    fixture_block(&def, 0, -0.6, 0, -0.4, 0.6, 0.8, 0.4);
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
+    return def;
+}
+
+/* As many as there were, less those that went, each of them once. */
+static void assert_counted(World *world, size_t initial)
+{
+    const WorldInfo info = info_of(world);
+    assert_true(info.count <= initial && info.drained <= initial);
+    assert_int_equal(info.count + info.drained, initial);
+    Snapshot s = snapshot_read(world);
+    assert_true(s.count == 0 || s.who[s.count - 1].id < initial);
+    for (size_t k = 1; k < s.count; k++)
+        assert_true(s.who[k].id > s.who[k - 1].id);
+    for (size_t i = 0; info.trouble.count == 0 && i < s.count;
+         i++) { /* nothing moves after the last draining */
+        const float *x = s.position + 4 * i;
+        assert_false(fill_holds(&world->def.drains[0], 3, (const double[3]){x[0], x[1], x[2]}, 0));
+    }
+    snapshot_free(&s);
+}
+
+static void drains_count_behind_a_blow_up(void **state)
+{
+    (void)state;
+    for (int retries = 0; retries <= 2; retries++) {
+        const WorldDef def = boiling_def(retries);
+        const size_t initial = world_def_count(&def, def.spacing);
+        World *world = world_on(def, "compute");
+        Error error = {0};
+        bool good = true;
+        for (int i = 0; i < 4 << retries && good; i++) {
+            good = world_step(world, NULL, &error);
+            assert_counted(world, initial);
+        }
+        const WorldInfo info = info_of(world);
+        printf("%d retries: %zu particles of %zu, %lu drained; %d times back; %s\n", retries, info.count,
+               initial, (unsigned long)info.drained, (int)info.trouble.count,
+               good ? "goes on" : error.message);
+        assert_false(good);
+        assert_non_null(strstr(error.message, "blew up"));
+        assert_int_equal(info.trouble.count, retries);
+        world_destroy(world);
+    }
+}
+
 static size_t bytes_read;
 static PFNGLGETNAMEDBUFFERSUBDATAPROC read_buffer;
 
@@ -318,6 +376,7 @@ int main(void)
         cmocka_unit_test_teardown(a_wide_layer_comes_in_parts, no_gl_errors),
         cmocka_unit_test_teardown(the_state_goes_to_and_fro, no_gl_errors),
         cmocka_unit_test_teardown(going_back_takes_back_what_came, no_gl_errors),
+        cmocka_unit_test_teardown(drains_count_behind_a_blow_up, no_gl_errors),
         cmocka_unit_test_teardown(only_counts_are_read_back, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.compute_flow", tests, compare_setup, context_teardown);

@@ -42,13 +42,14 @@ static void bind_block(const Compute *c)
     glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK, c->flow.block);
 }
 
-/* What stands at the end of the prefix sums: the sum of all. */
-static size_t sum_of(unsigned buffer, size_t at)
+/* What stands at the end of the prefix sums of `count` marks: how many are set, which is `count` at most
+   whatever a driver hands back. */
+static size_t sum_of(unsigned buffer, size_t count)
 {
     uint32_t sum = 0;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(buffer, (GLintptr)(at * sizeof sum), sizeof sum, &sum);
-    return sum;
+    glGetNamedBufferSubData(buffer, (GLintptr)(count * sizeof sum), sizeof sum, &sum);
+    return sum < count ? sum : count;
 }
 
 static void layer_set(const Compute *c, const EmitLayer *layer, size_t most)
