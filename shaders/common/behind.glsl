@@ -1,5 +1,6 @@
 // What stands behind the fluid, bent by it; render/behind.c binds it. Wants common/frame.glsl and, with FLOOR_SHADOW,
 // common/environment.glsl.
+#include "common/nan.glsl"
 layout(binding = 14) uniform sampler2D behind_color;
 #ifdef SOLIDS
 layout(binding = 15) uniform sampler2D behind_depth; // reversed
@@ -16,7 +17,7 @@ vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame
 vec3 behind_at(vec3 place, float surface, vec2 straight)
 {
     vec2 at = 0.5 + 0.5 * place.xy / (-place.z * lens.xy);
-    if (!(place.z < -lens.z && all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, vec2(1.0)))))
+    if (is_nan(at.xyxy) || place.z >= -lens.z || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
         return environment(vec3(0.0), place);
 #ifdef SOLIDS
     if (texelFetch(behind_depth, ivec2(at * viewport.xy), 0).x > surface)

@@ -1,4 +1,5 @@
 // The grid of render/neighbourhood.c: cells along x lie side by side. The one after the last is for what is far beside all.
+#include "common/nan.glsl"
 layout(location = 1) uniform uvec4 grid_size;  // cells along each axis; particles
 layout(location = 2) uniform vec4 grid_place;  // least corner, m; cells a metre
 layout(local_size_x = 64) in;
@@ -15,7 +16,7 @@ uint invocation()
 bool beside_grid(vec3 x)
 {
     vec3 at = (x - grid_place.xyz) * grid_place.w;
-    return !(all(greaterThan(at, vec3(-8.0))) && all(lessThan(at, vec3(grid_size.xyz) + 8.0)));
+    return is_nan(at.xyzz) || any(lessThanEqual(at, vec3(-8.0))) || any(greaterThanEqual(at, vec3(grid_size.xyz) + 8.0));
 }
 
 // Beside the box those at its sides: what is near then stands near, too.

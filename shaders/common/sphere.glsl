@@ -5,17 +5,18 @@
 //   E = M^2 + (1 - u.u) >= 0,  M = (u.c + r) / sqrt(q),  q = c.c - r^2,
 // at the reversed depth near / t = near / s + near r / (s sqrt q) (M + sqrt E).
 // u and M are linear on the screen and of the size of 1 on the sphere, so nothing cancels when it is small and far.
+#include "common/nan.glsl"
 struct Sphere {
     vec3 centre;
     float radius;
     float scale;   // s
-    float inverse; // 1 / sqrt(q); 0 when the eye is inside: there is no outside to see
+    float inverse; // 1 / sqrt(q); 0 when the eye is inside, where there is no outside to see, and for NaN
 };
 
 Sphere sphere_at(vec3 centre, float radius)
 {
     float q = dot(centre, centre) - radius * radius;
-    return Sphere(centre, radius, max(-centre.z, 0.5 * radius), q > 0.0 ? inversesqrt(q) : 0.0);
+    return Sphere(centre, radius, max(-centre.z, 0.5 * radius), is_nan(q) || q <= 0.0 ? 0.0 : inversesqrt(q));
 }
 
 // u.x, u.y and M of a ray.

@@ -1,5 +1,6 @@
 // What stands for a particle in the view splat, in the eye's frame: a ball or with ELLIPSOID an ellipsoid. Wants
 // common/frame.glsl, common/particles.glsl, common/sphere.glsl and common/ball.glsl.
+#include "common/nan.glsl"
 #ifdef DISCS
 #include "common/splat_small.glsl"
 #else
@@ -49,7 +50,8 @@ vec4 body_bounds(Body body)
     float grown = drawn_radius(body.radius, c) / max(body.radius, 1e-30);
     x *= grown, y *= grown, z *= grown;
     float w = -c.z, szz = dot(z, z), around = sqrt(dot(x, x) + dot(y, y) + szz);
-    if (!(dot(within, within) > body.radius * body.radius && dot(c, c) < 1e30) || w + sqrt(szz) <= lens.z)
+    float within2 = dot(within, within), c2 = dot(c, c);
+    if (is_nan(within2 + c2) || within2 <= body.radius * body.radius || c2 >= 1e30 || w + sqrt(szz) <= lens.z)
         return vec4(0.0);
     vec4 bounds = vec4(ellipsoid_slopes(c.x, w, dot(x, x), dot(x, z), szz, around) / lens.x,
                        ellipsoid_slopes(c.y, w, dot(y, y), dot(y, z), szz, around) / lens.y);
@@ -72,7 +74,7 @@ vec4 body_bounds(Body body)
 #ifdef PAPER
     vec3 centre = body.centre;
     float w = -centre.z;
-    if (!(w > lens.z))
+    if (is_nan(centre.xyzz) || w <= lens.z)
         return vec4(0.0);
     return clamp((centre.xxyy + drawn_radius(body.radius, centre) * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * lens.xxyy), -1.0, 1.0);
 #else

@@ -1,14 +1,15 @@
 // A particle as voxelization needs it.
 #include "common/volume.glsl"
 #include "common/particles.glsl"
+#include "common/nan.glsl"
 
 // Centre in cells; what it adds at its centre, 0 where it counts for nothing.
 vec4 volume_particle(uint index)
 {
     vec3 at = particle_position(index);
     float volume = position_words[index * particle_strides.x + 3u];
-    bool counts = all(greaterThanEqual(at, volume_low.xyz)) && all(lessThanEqual(at, volume_high.xyz)) && volume > 0.0 &&
-                  volume < 1e30; // false for NaN
+    bool counts = !is_nan(vec4(at, volume)) && all(greaterThanEqual(at, volume_low.xyz)) && all(lessThanEqual(at, volume_high.xyz)) &&
+                  volume > 0.0 && volume < 1e30;
     return counts ? vec4(cells_of(at), volume * volume_scale.x) : vec4(0.0);
 }
 
@@ -16,7 +17,7 @@ vec4 volume_particle(uint index)
 float volume_scalar(uint index)
 {
     float value = particle_strides.y > 0u ? scalar_words[index * particle_strides.y] : 0.0;
-    return abs(value) < 1e30 ? value : 0.0;
+    return is_nan(value) || abs(value) >= 1e30 ? 0.0 : value;
 }
 #endif
 

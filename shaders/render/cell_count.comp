@@ -17,7 +17,7 @@ void main()
     if (index >= uint(volume_size.w))
         return;
     vec4 at = volume_particle(index);
-    if (!(at.w > 0.0))
+    if (at.w <= 0.0)
         return;
     ivec3 cell = clamp(ivec3(floor(at.xyz * volume_scale.y)), ivec3(0), list_size.xyz - 1);
     uint place = atomicAdd(list_starts[(cell.z * list_size.y + cell.y) * list_size.x + cell.x + 1], 1u);

@@ -65,7 +65,7 @@ void main()
     Disc disc = disc_of(index);
     float side = float(grid.z), margin = 0.5 * (side - 1.0); // from a cell's middle to its outermost pixels' centres
     vec2 reach = disc.radii - margin, per_radius = 1.0 / disc.radii;
-    if (!(min(reach.x, reach.y) > 0.0)) // nor for NaN
+    if (is_nan(vec4(disc.middle, disc.radii)) || min(reach.x, reach.y) <= 0.0)
         return;
     vec2 own = floor(disc.middle / side); // of large spheres those around the centre will do
     vec2 low = max(ceil((disc.middle - reach) / side - 0.5), max(own - 2.0, 0.0));

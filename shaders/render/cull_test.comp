@@ -37,7 +37,7 @@ uint seen(uint index)
 {
     float depth;
     vec4 sprite = sprite_of(index, depth);
-    if (!(sprite.x < sprite.y && sprite.z < sprite.w))
+    if (is_nan(sprite) || sprite.x >= sprite.y || sprite.z >= sprite.w)
         return 0u;
     ivec4 cells = clamp(ivec4(floor(sprite / float(grid.z))), ivec4(0), ivec4(grid.xxyy) - 1);
     ivec2 middle = (cells.xz + cells.yw) / 2, reach = cells.yw - middle; // the wider side

@@ -31,7 +31,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float z = texelFetch(depth_map, pixel, 0).x;
     vec2 slopes;
-    if (!(z < 1e29)) {
+    if (z >= 1e29) {
         normal = vec4(0.0);
     } else if (slope_along(pixel, z, ivec2(1, 0), slopes.x) && slope_along(pixel, z, ivec2(0, 1), slopes.y)) {
         slopes *= 0.5 * viewport.xy / lens.xy;

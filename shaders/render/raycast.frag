@@ -75,7 +75,7 @@ void show(Ray ray)
 void main()
 {
     Ray ray = eye_ray();
-    if (!(ray.begin < ray.end))
+    if (ray.begin >= ray.end)
         discard;
     show(ray);
 }

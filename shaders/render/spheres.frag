@@ -10,7 +10,7 @@ layout(location = 0) out uint seen;
 void main()
 {
     float e, depth = sphere_depth(offset, constants, e);
-    if (!(e >= 0.0 && depth > 0.0 && depth <= 1.0))
+    if (e < 0.0 || depth <= 0.0 || depth > 1.0)
         discard;
     gl_FragDepth = depth;
     seen = index;

@@ -4,6 +4,7 @@
 //   near / q (w + r / sqrt(Q) (|c.xy| x + sqrt(q) sqrt(1 - x^2 - y^2))).
 #include "common/frame.glsl"
 #include "common/particles.glsl"
+#include "common/nan.glsl"
 
 layout(location = 0) flat out vec3 along;  // x of a place in the point: constant, slopes
 layout(location = 1) flat out vec3 across; // the same of y
@@ -28,6 +29,6 @@ void main()
     along.x = -0.5 * (along.y + along.z);
     across.x = -0.5 * (across.y + across.z);
     depth = lens.z / q * vec3(w, r * slant * outwards, r * slant * root);
-    gl_Position = w > r + lens.z ? vec4(centre.xy * w / (q * lens.xy), 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
+    gl_Position = !is_nan(q + out2) && w > r + lens.z ? vec4(centre.xy * w / (q * lens.xy), 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
     gl_PointSize = size;
 }

@@ -49,7 +49,7 @@ void main()
 {
     Splat hit = splat_here();
     float nearest = texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x;
-    if (!(splat_seen(hit) && hit.depth < nearest + eps))
+    if (!splat_seen(hit) || hit.depth >= nearest + eps)
         discard;
     float weight = weight_of(hit, nearest);
     vec2 rim = vec2(0.0);

@@ -17,7 +17,7 @@ void main()
 {
     vec3 offset = splat_offset(splat_at(), scale, texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x);
     float a = 1.0 - dot(offset, offset);
-    if (!(a > 0.0 && splat_adds(splat_chord(splat_at(), scale))))
+    if (a <= 0.0 || !splat_adds(splat_chord(splat_at(), scale)))
         discard;
     float slope = gain * a * a;
     weight_sum = slope * a;

@@ -1,6 +1,7 @@
 // Looks for the first place where the field rises to the level, between samples of its value and slope: cubic Hermite
 // pieces. Where it does not, goes on behind: at once while the field is above zero, else from the next sphere.
 #include "common/frame.glsl"
+#include "common/nan.glsl"
 
 layout(binding = 1) uniform sampler2D start_map;
 layout(binding = 3) uniform sampler2D march_map; // end of what has been searched, m; value and slope per radius there; 1: found
@@ -33,10 +34,11 @@ float crossing(vec4 c, float value, float slope)
 {
     float low = 0.0, high = 1.0;
     if (value < field.z) {
-        if (!(c.y > 0.0 && slope < 0.0))
+        if (c.y <= 0.0 || slope >= 0.0)
             return 2.0;
         high = top_of(c);
-        if (!(at(c, high) >= 0.0))
+        float top = at(c, high);
+        if (is_nan(top) || top < 0.0)
             return 2.0;
     }
     for (int i = 0; i < 10; i++) {
@@ -68,7 +70,7 @@ void main()
         }
         a = value[i], b = slope[i];
     }
-    bool gap = !(a > 0.0);
+    bool gap = a <= 0.0;
     march = vec4(end, a, b / field.x, 0.0);
     start = gap ? 1e30 : end;
     gl_FragDepth = gap ? 0.0 : lens.z / (end + 4.0 * field.y * particle.x);

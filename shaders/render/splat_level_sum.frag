@@ -22,7 +22,7 @@ void main()
     float first = (texelFetch(start_map, ivec2(gl_FragCoord.xy), 0).x - chord.middle) / particle.x;
 #ifdef SINGLE
     float a = chord.inside2 - chord.length2 * first * first, b = -2.0 * chord.length2 * first;
-    if (!(a > 0.0))
+    if (a <= 0.0)
         discard;
     value_sum = vec4(a * a * a, 3.0 * a * a * b, 6.0 * a * (b * b - a * chord.length2), 6.0 * b * (b * b - 6.0 * a * chord.length2));
 #else

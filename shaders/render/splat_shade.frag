@@ -67,7 +67,7 @@ void main()
     float depth = texelFetch(nearest_map, pixel, 0).x, weight = texelFetch(weight_map, pixel, 0).x;
     vec3 normal = texelFetch(normal_map, pixel, 0).xyz;
     float length2 = dot(normal, normal);
-    if (!(depth < 1e29 && weight > 0.0 && length2 > 0.0)) // nothing, or just the rim of a lone sphere
+    if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0) // nothing, or just the rim of a lone sphere
         discard;
     gl_FragDepth = lens.z / depth;
     normal *= inversesqrt(length2);

@@ -32,7 +32,7 @@ void main()
     vec4 at = volume_particle(index);
     ivec2 slices = cells_within(at.z, volume_low.w, volume_size.z);
     int slice = slices.x + int(all % discs);
-    if (!(at.w > 0.0) || slice > slices.y)
+    if (at.w <= 0.0 || slice > slices.y)
         return;
 #ifdef SCALAR
     float carried = volume_scalar(index);

@@ -2,6 +2,7 @@
 // negative are in their order, and those of NaN are above all.
 #include "sim/constants.glsl"
 #include "sim/terms.glsl"
+#include "common/nan.glsl"
 #ifdef NO_SLIP
 #include "sim/wall_drag.glsl"
 layout(std430, binding = 4) readonly buffer Names { uvec2 name[]; };
@@ -32,10 +33,10 @@ void main()
 #endif
         vec3 v = velocity[i].xyz + a * gravity.w;
         velocity[i].xyz = v;
-        float fastest = kernel.x / gravity.w;
-        if (!(dot(v, v) <= fastest * fastest))
+        float fastest = kernel.x / gravity.w, speed2 = dot(v, v);
+        if (is_nan(speed2) || speed2 > fastest * fastest)
             watch[4] = 1u;
-        atomicMax(greatest[0], floatBitsToUint(abs(dot(v, v))));
+        atomicMax(greatest[0], floatBitsToUint(abs(speed2)));
         atomicMax(greatest[1], floatBitsToUint(abs(dot(a, a))));
         atomicMax(greatest[2], floatBitsToUint(abs(1.0 / (position[i].w * kernel.z))));
     }

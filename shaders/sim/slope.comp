@@ -3,6 +3,7 @@
 #include "sim/constants.glsl"
 #include "sim/wcsph.glsl"
 #include "sim/rows.glsl"
+#include "common/nan.glsl"
 #ifdef SOLIDS
 #define BOUNDARY_ACCESS readonly
 #include "sim/boundary.glsl"
@@ -19,7 +20,7 @@ vec3 renormalise(vec3 diagonal, vec3 mixed, vec3 b)
     vec3 c = vec3(yy * zz - yz * yz, xx * zz - zx * zx, xx * yy - xy * xy);
     float cxy = yz * zx - xy * zz, cyz = xy * zx - yz * xx, czx = xy * yz - zx * yy;
     float det = xx * c.x + xy * cxy + zx * czx, mean = (xx + yy + zz) / 3.0;
-    if (!(det > 0.25 * (mean * mean * mean)))
+    if (is_nan(det) || det <= 0.25 * (mean * mean * mean))
         return vec3(0);
     return vec3(c.x * b.x + cxy * b.y + czx * b.z, cxy * b.x + c.y * b.y + cyz * b.z,
                 czx * b.x + cyz * b.y + c.z * b.z) / det;
