@@ -99,6 +99,7 @@ void bricks_make(Bricks *bricks, const Volume *volume)
 {
     static const GLuint none[5] = {0, 1, 0, 0, 0};
     follow_size(bricks, &volume->grid);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     fill_map(bricks, volume);
     glNamedBufferSubData(bricks->commands, 0, sizeof none, none);
     glBindTextureUnit(12, bricks->map);

@@ -72,8 +72,8 @@ void cell_lists_make(CellLists *lists, const VoxelizeJob *job)
     cell_lists_size(&job->volume->grid, job->radius, size);
     reserve(lists, (size_t)size[0] * size[1] * size[2], count, job->scalar);
     cell_lists_bind(lists);
-    glClearNamedBufferData(lists->starts, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glClearNamedBufferData(lists->starts, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     run(lists->count, job, count);
     glUseProgram(lists->scan);
     glDispatchCompute(1, 1, 1);

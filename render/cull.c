@@ -136,9 +136,9 @@ static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *partic
     static const GLfloat nothing = INFINITY;
     const size_t cells = (size_t)grid->columns * grid->rows;
     reserve(cull, particles->count, cells);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferSubData(cull->map[0], GL_R32F, 0, (GLsizeiptr)(cells * sizeof nothing), GL_RED,
                               GL_FLOAT, &nothing);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     use(cull->occlude[light], grid, particles, frame);
     glUniform1ui(3, (GLuint)particles->count);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);

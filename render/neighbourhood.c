@@ -134,8 +134,8 @@ void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
     if (particles->count == 0)
         return;
     reserve(n, particles->count, cells);
-    glClearNamedBufferData(n->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glClearNamedBufferData(n->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     bind_positions(n, particles);
     bind((const unsigned[]){n->cell, n->rank, n->start}, 3);
     run(n, n->bin);

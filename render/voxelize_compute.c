@@ -83,10 +83,10 @@ static void scatter(ByCompute *own, const VoxelizeJob *job)
 {
     static const GLfloat none = 0;
     const size_t discs = (size_t)ceil(2 * job->radius) + 1;
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     glClearTexImage(job->volume->field, 0, GL_RED, GL_FLOAT, &none);
     if (own->scalar)
         glClearTexImage(job->volume->scalar, 0, GL_RED, GL_FLOAT, &none);
-    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     particle_bind(own->program, job->particles, job->carried);
     glProgramUniform1ui(own->program, 1, (GLuint)discs);
     glUseProgram(own->program);

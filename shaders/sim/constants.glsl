@@ -30,14 +30,21 @@ layout(std140, binding = 2) uniform Step {
     vec4 felt_omega;
 };
 
-// What the kicks have found so far: greatest speed, acceleration, compression; guarded; whether a particle went too far.
+// What the kicks have found so far: greatest speed, acceleration, compression; guarded; whether a particle went too far. A
+// pass that writes there reads there, too: it has no second block of the same buffer.
+#ifdef WRITES_WATCH
+layout(std430, binding = 2) buffer Watch { uint watch[8]; };
+bool went_too_far() { return watch[4] != 0u; }
+#else
 layout(std140, binding = 4) uniform Watched { uvec4 watched[2]; };
+bool went_too_far() { return watched[1].x != 0u; }
+#endif
 
 // How many there are; how many a pass has to do with. None behind a step that blew up: all fluid in one cell would keep the
 // rest of the frame for minutes. What moves particles to other places, or counts them, goes by those that are there.
 uint particles_there() { return uint(cell_first.w); }
-uint particle_count() { return watched[1].x != 0u ? 0u : particles_there(); }
-uint cell_count() { return watched[1].x != 0u ? 0u : uint(cell_size.w); }
+uint particle_count() { return went_too_far() ? 0u : particles_there(); }
+uint cell_count() { return went_too_far() ? 0u : uint(cell_size.w); }
 
 #ifdef PERIODIC
 const bvec3 periodic = PERIODIC; // across which axes its sides are one

@@ -14,7 +14,9 @@ layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
 layout(std430, binding = 4) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone
+#ifdef DIFFUSION
 layout(std430, binding = 5) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1 before this pass
+#endif
 layout(location = 0) uniform float dt;
 
 // Sum of F v_ij . x_ij over what the images of the particle at x, in the cell `at`, find.

@@ -1,11 +1,11 @@
 // Free flight from one pose of the box into the next (sim/frame_step.h), then the last guard of solids and walls.
+#define WRITES_WATCH
 #include "sim/constants.glsl"
 #ifdef SOLIDS
 #include "sim/solid_guard.glsl"
 #endif
 layout(std430, binding = 0) buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = 2) buffer Watch { uint watch[8]; }; // as `watched`
 
 void main()
 {

@@ -1,5 +1,6 @@
 // v += (acceleration + gravity) dt, and the greatest of what the sentinel wants to know: bits of floats that are not
 // negative are in their order, and those of NaN are above all.
+#define WRITES_WATCH
 #include "sim/constants.glsl"
 #include "sim/terms.glsl"
 #include "common/nan.glsl"
@@ -9,7 +10,6 @@ layout(std430, binding = 4) readonly buffer Names { uvec2 name[]; };
 #endif
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = 2) buffer Watch { uint watch[8]; }; // as `watched`
 layout(std430, binding = 3) readonly buffer Accelerations { vec4 acceleration[]; };
 shared uint greatest[3];
 
@@ -19,7 +19,7 @@ void main()
     if (gl_LocalInvocationID.x < 3u)
         greatest[gl_LocalInvocationID.x] = 0u;
     barrier();
-    if (i < particle_count()) {
+    if (i < particles_there()) { // whatever others of this pass find
         vec3 a = acceleration[i].xyz + gravity.xyz;
 #ifdef NO_SLIP
         // Drag with the velocity at the end of the step: hold_by_walls in sim/cpu/integrate.c.

@@ -6,7 +6,9 @@ layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; };     // p, p V^2
 layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; };     // w: rho / rho0 - 1
+#ifdef DIFFUSION
 layout(std430, binding = 5) buffer Slopes { vec4 slope[]; };
+#endif
 
 void main()
 {

@@ -10,5 +10,5 @@ void main()
     ivec2 texel = bucket_of(cell_index(cell_of(of_particle(position, int(listed) - 1).xyz)));
     vec2 at = (2.0 * vec2(texel) + 1.0) / vec2(1 << bucket_bits, bucket_height) - 1.0;
     number = listed;
-    gl_Position = vec4(at, float(listed) * exp2(-24.0), 1.0);
+    gl_Position = vec4(at, float(listed) / 16777216.0, 1.0);
 }

@@ -141,8 +141,8 @@ void compute_boundary_grid(Compute *c)
     if (!b->due)
         return;
     b->due = false;
-    glClearNamedBufferData(b->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glClearNamedBufferData(b->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     compute_boundary_bind(c);
     compute_bind((const unsigned[]){b->rest, b->cell, 0, b->rank, b->start}, 5);
     compute_run(c, COMPUTE_BOUNDARY_BIN, n);

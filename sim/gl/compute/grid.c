@@ -48,8 +48,8 @@ void compute_grid(void *state)
     Compute *c = state;
     const size_t cells = c->solver->cells.count;
     unsigned order = c->order;
-    glClearNamedBufferData(c->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glClearNamedBufferData(c->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     compute_bind((const unsigned[]){c->now.position, c->cell, c->rank, c->start}, 4);
     compute_run(c, COMPUTE_BIN, c->count);
     compute_scan(c, c->start, cells + 1);

@@ -1,0 +1,508 @@
+/* One small world and one small picture for each form that the shaders take. Every source that reaches the
+   driver is proven by glslangValidator; what dispatches write and the context's own commands then clear, fill
+   or copy is behind a barrier for that; no program has one buffer in two blocks, and none of the solver's has
+   a block without a buffer. */
+#include "tests/gl/compare.h"
+
+#include "render/renderer.h"
+#include "sim/tension.h"
+#include "sim/viscosity.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+/* What the program calls goes through these pointers; libepoxy's are no such before their first call. */
+#define ENTRIES(X)                                                                                           \
+    X(glShaderSource)                                                                                        \
+    X(glDispatchCompute)                                                                                     \
+    X(glMemoryBarrier)                                                                                       \
+    X(glBindImageTexture)                                                                                    \
+    X(glClearNamedBufferData)                                                                                \
+    X(glClearNamedBufferSubData)                                                                             \
+    X(glNamedBufferSubData)                                                                                  \
+    X(glGetNamedBufferSubData)                                                                               \
+    X(glCopyNamedBufferSubData)                                                                              \
+    X(glClearTexImage)
+#define X(name) static __typeof__(epoxy_##name) real_##name;
+ENTRIES(X)
+#undef X
+
+/* Sources: one file each, named by their stage for the validator. */
+static char folder[64];
+static size_t sources;
+
+static const char *ending_of(GLuint shader)
+{
+    GLint kind = 0;
+    glGetShaderiv(shader, GL_SHADER_TYPE, &kind);
+    switch ((GLenum)kind) {
+    case GL_VERTEX_SHADER:
+        return "vert";
+    case GL_GEOMETRY_SHADER:
+        return "geom";
+    case GL_FRAGMENT_SHADER:
+        return "frag";
+    default:
+        return "comp";
+    }
+}
+
+static uint64_t hash_of(const char *text)
+{
+    uint64_t hash = 14695981039346656037U;
+    for (; *text; text++)
+        hash = (hash ^ (unsigned char)*text) * 1099511628211U;
+    return hash;
+}
+
+/* The validator knows the same functions by their newer name only. */
+static void write_source(FILE *file, const char *text)
+{
+    static const char known[] = "GL_NV_shader_atomic_float";
+    const char *at = strstr(text, known);
+    if (at)
+        fprintf(file, "%.*sGL_EXT_shader_atomic_float%s", (int)(at - text), text, at + strlen(known));
+    else
+        fputs(text, file);
+}
+
+static void APIENTRY keep_source(GLuint shader, GLsizei count, const GLchar *const *text, const GLint *length)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%s/%016lx.%s", folder, (unsigned long)hash_of(text[0]), ending_of(shader));
+    FILE *file = fopen(name, "wx"); /* the same source is kept once */
+    if (file) {
+        sources++;
+        write_source(file, text[0]);
+        assert_int_equal(fclose(file), 0);
+    }
+    real_glShaderSource(shader, count, text, length);
+}
+
+/* By GL name: what dispatches may have written since the last barrier for such commands. */
+enum { NAMES_MAX = 4096, UNITS_MAX = 8, BLOCKS_MAX = 32 };
+static bool buffer_written[NAMES_MAX], texture_written[NAMES_MAX];
+static GLuint image_at[UNITS_MAX];
+static int dispatches, commands, violations, unbound;
+static bool worlds_only;
+
+/* A buffer that stands in two blocks of one program, which a compiler may take for two. */
+static void check_alone(GLuint buffer, GLuint seen[], int *count)
+{
+    char label[64] = "", program[64] = "";
+    GLint used = 0;
+    for (int k = 0; k < *count; k++)
+        if (seen[k] == buffer) {
+            glGetIntegerv(GL_CURRENT_PROGRAM, &used);
+            glGetObjectLabel(GL_PROGRAM, (GLuint)used, sizeof program, NULL, program);
+            glGetObjectLabel(GL_BUFFER, buffer, sizeof label, NULL, label);
+            printf("%s: \"%s\" stands in two blocks\n", program, label);
+            violations++;
+        }
+    assert_true(*count < BLOCKS_MAX);
+    seen[(*count)++] = buffer;
+}
+
+static void note_unbound(GLuint program, GLint binding)
+{
+    char label[64] = "";
+    unbound++;
+    if (!worlds_only)
+        return;
+    glGetObjectLabel(GL_PROGRAM, program, sizeof label, NULL, label);
+    printf("%s: no buffer at binding %d\n", label, binding);
+}
+
+/* The buffers behind the program's blocks of that kind. */
+static void note_blocks(GLuint program, GLenum kind, GLenum bound, GLuint seen[], int *seen_count)
+{
+    GLint count = 0;
+    glGetProgramInterfaceiv(program, kind, GL_ACTIVE_RESOURCES, &count);
+    for (GLint block = 0; block < count; block++) {
+        const GLenum what = GL_BUFFER_BINDING;
+        GLint binding = 0, buffer = 0;
+        glGetProgramResourceiv(program, kind, (GLuint)block, 1, &what, 1, NULL, &binding);
+        glGetIntegeri_v(bound, (GLuint)binding, &buffer);
+        assert_true(buffer >= 0 && buffer < NAMES_MAX);
+        if (buffer == 0) {
+            note_unbound(program, binding);
+            continue;
+        }
+        check_alone((GLuint)buffer, seen, seen_count);
+        if (kind == GL_SHADER_STORAGE_BLOCK)
+            buffer_written[buffer] = true;
+    }
+}
+
+static void note_images(GLuint program)
+{
+    GLint count = 0;
+    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLint k = 0; k < count; k++) {
+        GLchar name[64];
+        GLint size = 0, unit = 0;
+        GLenum type = 0;
+        glGetActiveUniform(program, (GLuint)k, sizeof name, NULL, &size, &type, name);
+        if (type != GL_IMAGE_3D && type != GL_UNSIGNED_INT_IMAGE_3D)
+            continue;
+        glGetUniformiv(program, glGetUniformLocation(program, name), &unit);
+        assert_true(unit >= 0 && unit < UNITS_MAX);
+        texture_written[image_at[unit]] = image_at[unit] != 0;
+    }
+}
+
+static void APIENTRY note_dispatch(GLuint x, GLuint y, GLuint z)
+{
+    GLint program = 0;
+    GLuint seen[BLOCKS_MAX];
+    int count = 0;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+    note_blocks((GLuint)program, GL_UNIFORM_BLOCK, GL_UNIFORM_BUFFER_BINDING, seen, &count);
+    note_blocks((GLuint)program, GL_SHADER_STORAGE_BLOCK, GL_SHADER_STORAGE_BUFFER_BINDING, seen, &count);
+    note_images((GLuint)program);
+    dispatches++;
+    real_glDispatchCompute(x, y, z);
+}
+
+static void APIENTRY note_barrier(GLbitfield bits)
+{
+    if (bits & GL_BUFFER_UPDATE_BARRIER_BIT)
+        memset(buffer_written, 0, sizeof buffer_written);
+    if (bits & GL_TEXTURE_UPDATE_BARRIER_BIT)
+        memset(texture_written, 0, sizeof texture_written);
+    real_glMemoryBarrier(bits);
+}
+
+static void APIENTRY note_image(GLuint unit, GLuint texture, GLint level, GLboolean layered, GLint layer,
+                                GLenum access, GLenum format)
+{
+    assert_true(unit < UNITS_MAX && texture < NAMES_MAX);
+    image_at[unit] = access == GL_READ_ONLY ? 0 : texture;
+    real_glBindImageTexture(unit, texture, level, layered, layer, access, format);
+}
+
+static void check(const bool *written, GLenum kind, GLuint name, const char *what)
+{
+    char label[64] = "";
+    commands++;
+    if (name >= NAMES_MAX || !written[name])
+        return;
+    glGetObjectLabel(kind, name, sizeof label, NULL, label);
+    printf("%s of \"%s\" behind a dispatch without a barrier\n", what, label);
+    violations++;
+}
+
+static void APIENTRY note_clear(GLuint buffer, GLenum internal, GLenum format, GLenum type, const void *data)
+{
+    check(buffer_written, GL_BUFFER, buffer, "glClearNamedBufferData");
+    real_glClearNamedBufferData(buffer, internal, format, type, data);
+}
+
+static void APIENTRY note_clear_part(GLuint buffer, GLenum internal, GLintptr at, GLsizeiptr size,
+                                     GLenum format, GLenum type, const void *data)
+{
+    check(buffer_written, GL_BUFFER, buffer, "glClearNamedBufferSubData");
+    real_glClearNamedBufferSubData(buffer, internal, at, size, format, type, data);
+}
+
+static void APIENTRY note_put(GLuint buffer, GLintptr at, GLsizeiptr size, const void *data)
+{
+    check(buffer_written, GL_BUFFER, buffer, "glNamedBufferSubData");
+    real_glNamedBufferSubData(buffer, at, size, data);
+}
+
+static void APIENTRY note_get(GLuint buffer, GLintptr at, GLsizeiptr size, void *data)
+{
+    check(buffer_written, GL_BUFFER, buffer, "glGetNamedBufferSubData");
+    real_glGetNamedBufferSubData(buffer, at, size, data);
+}
+
+static void APIENTRY note_copy(GLuint from, GLuint to, GLintptr at, GLintptr where, GLsizeiptr size)
+{
+    check(buffer_written, GL_BUFFER, from, "glCopyNamedBufferSubData");
+    check(buffer_written, GL_BUFFER, to, "glCopyNamedBufferSubData");
+    real_glCopyNamedBufferSubData(from, to, at, where, size);
+}
+
+static void APIENTRY note_clear_texture(GLuint texture, GLint level, GLenum format, GLenum type,
+                                        const void *data)
+{
+    check(texture_written, GL_TEXTURE, texture, "glClearTexImage");
+    real_glClearTexImage(texture, level, format, type, data);
+}
+
+static void watch_entries(void)
+{
+#define X(name) real_##name = (__typeof__(real_##name))eglGetProcAddress(#name);
+    ENTRIES(X)
+#undef X
+    epoxy_glShaderSource = keep_source;
+    epoxy_glDispatchCompute = note_dispatch;
+    epoxy_glMemoryBarrier = note_barrier;
+    epoxy_glBindImageTexture = note_image;
+    epoxy_glClearNamedBufferData = note_clear;
+    epoxy_glClearNamedBufferSubData = note_clear_part;
+    epoxy_glNamedBufferSubData = note_put;
+    epoxy_glGetNamedBufferSubData = note_get;
+    epoxy_glCopyNamedBufferSubData = note_copy;
+    epoxy_glClearTexImage = note_clear_texture;
+}
+
+/* Names are given anew. */
+static void forget(void)
+{
+    memset(buffer_written, 0, sizeof buffer_written);
+    memset(texture_written, 0, sizeof texture_written);
+    memset(image_at, 0, sizeof image_at);
+}
+
+static WorldDef pool_def(const char *backend)
+{
+    WorldDef def = fixture_def(0.8, 0.6, 0.5);
+    def.sound_speed = 20;
+    def.threads = 1;
+    def.retries = 1;
+    def.reproducible = false;
+    def.fluids[0].viscosity = 1;
+    snprintf(def.backend, sizeof def.backend, "%s", backend);
+    fixture_block(&def, 0, -0.4, 0, -0.25, 0.2, 0.3, 0.25);
+    return def;
+}
+
+static void with_a_ball(SolidDef solids[], int *count)
+{
+    solids[(*count)++] = (SolidDef){
+        .kind = SOLID_SPHERE, .centre = {0.2, 0.3, 0}, .radius = 0.12, .axis = {0, 1, 0}, .slip = SLIP_NONE};
+}
+
+static void add_flow(WorldDef *def)
+{
+    def->most = 1000;
+    def->fluids[0].emits[def->fluids[0].emit_count++] =
+        (Emit){.centre = {-0.2, 0.45, 0}, .direction = {0, -1, 0}, .radius = 0.12, .speed = 1};
+    def->drains[def->drain_count++] =
+        (Fill){.kind = FILL_BLOCK, .min = {0.1, 0, -0.25}, .max = {0.4, 0.1, 0.25}};
+}
+
+/* Two steps, what views may ask of them, what is saved. */
+static void live(const WorldDef *def)
+{
+    World *world = fixture_world(def);
+    ParticleBuffers shared;
+    const double still[3] = {0};
+    fixture_step(world, 2);
+    world_share(world, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID | PARTICLE_RANGES, &shared);
+    world->backend->gauge(world->state, still);
+    fixture_step(world, 1);
+    Snapshot read = snapshot_read(world);
+    snapshot_free(&read);
+    world_destroy(world);
+    forget();
+}
+
+#define LIVE(def, ...)                                                                                       \
+    do {                                                                                                     \
+        WorldDef d = def;                                                                                    \
+        __VA_ARGS__;                                                                                         \
+        live(&d);                                                                                            \
+    } while (0)
+
+static void set_name(char name[NAME_SIZE], const char *value)
+{
+    snprintf(name, NAME_SIZE, "%s", value);
+}
+
+static void mueller_lives(const char *backend)
+{
+    const WorldDef base = pool_def(backend);
+    LIVE(base, d.reproducible = true, d.fluids[0].viscosity = 0);
+    LIVE(base, d.dimensions = 2, set_name(d.density_kernel, "poly6"), d.negative_pressure = true);
+}
+
+static void mueller_has_more_on_compute(void)
+{
+    const WorldDef base = pool_def("compute");
+    LIVE(base, d.periodic[0] = true);
+    LIVE(base, d.tension_model = TENSION_COLOUR_FIELD, d.fluids[0].surface_tension = 0.1);
+    LIVE(base, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
+    LIVE(base, d.wall_slip = SLIP_NONE, d.lid[0] = 0.1);
+    LIVE(base, d.wall_slip = SLIP_NONE, d.periodic[2] = true, d.reproducible = true);
+    LIVE(base, with_a_ball(d.solids, &d.solid_count), d.reproducible = true);
+    LIVE(base, with_a_ball(d.solids, &d.solid_count), d.periodic[2] = true, add_flow(&d));
+    LIVE(base, add_flow(&d));
+}
+
+static void wcsph_lives(void)
+{
+    WorldDef base = pool_def("compute");
+    set_name(base.method, "wcsph");
+    base.dt = 0.0005;
+    LIVE(base, d.viscosity_form = VISCOSITY_RADIAL, d.negative_pressure = true);
+    LIVE(base, d.delta_sph = 0.1, set_name(d.kernel, "wendland_c2"));
+    LIVE(base, d.delta_sph = 0.1, d.shifting = 0.1, set_name(d.kernel, "wendland_c2"), d.reproducible = true);
+    LIVE(base, d.delta_sph = 0.1, d.shifting = 0.1, set_name(d.kernel, "quintic"), d.periodic[0] = true);
+    LIVE(base, d.fluids[0].viscosity = 0, d.artificial_viscosity = 0.1);
+    LIVE(base, with_a_ball(d.solids, &d.solid_count), d.shifting = 0.1, d.delta_sph = 0.1, add_flow(&d));
+    LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
+}
+
+enum { VIEWS_MAX = 100 };
+
+/* Every view once, and what makes other shaders of it. */
+static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
+{
+    int count = 0;
+#define VIEW(name, ...)                                                                                      \
+    do {                                                                                                     \
+        ViewDef v = base;                                                                                    \
+        set_name(v.kind, name);                                                                              \
+        __VA_ARGS__;                                                                                         \
+        assert_true(count < VIEWS_MAX);                                                                      \
+        views[count++] = v;                                                                                  \
+    } while (0)
+    VIEW("spheres", v.floor = true);
+    VIEW("spheres", v.color_by = SCALAR_FLUID);
+    for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape++) {
+        VIEW("splat", v.splat.shape = (SplatShape)shape);
+        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.cull = true, v.splat.sprite = SPLAT_QUAD);
+        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.sprite = SPLAT_POINT,
+             v.splat.antialias = true);
+        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.drops = true, v.splat.sprite = SPLAT_POINT);
+        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.drops = true, v.splat.sprite = SPLAT_QUAD);
+        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.filter = SPLAT_NARROW_RANGE,
+             v.splat.antialias = true, v.splat.cull = true);
+    }
+    for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++) {
+        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.level = 0.3, v.splat.sprite = SPLAT_POINT);
+        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.level = 0.3, v.splat.sprite = SPLAT_QUAD,
+             v.color_by = SCALAR_FLUID);
+    }
+    for (int weights = SPLAT_NO_WEIGHTS; weights <= SPLAT_W1; weights++)
+        VIEW("splat", v.splat.weights = (SplatWeights)weights);
+    for (int shading = SPLAT_WATER; shading <= SPLAT_JELLY; shading++) {
+        VIEW("splat", v.splat.shading = (SplatShading)shading, v.floor = true);
+        VIEW("splat", v.splat.shading = (SplatShading)shading, v.splat.antialias = true, v.floor = false);
+    }
+    for (int show = SPLAT_DEPTH; show <= SPLAT_CULLED; show++)
+        VIEW("splat", v.splat.show = (SplatShow)show, v.splat.cull = show == SPLAT_CULLED);
+    VIEW("splat", v.splat.shape = SPLAT_ELLIPSOID, v.splat.shading = SPLAT_WATER, v.splat.drops = true);
+    for (int method = VOLUME_GEOMETRY; method <= VOLUME_DIRECT; method++) {
+        VIEW("volume", v.volume.method = (VolumeMethod)method);
+        VIEW("volume", v.volume.method = (VolumeMethod)method, v.raycast.look = RAYCAST_TRANSLUCENT,
+             v.volume.bounds = VOLUME_FLUID);
+    }
+    for (int look = RAYCAST_OPAQUE; look <= RAYCAST_TRANSLUCENT; look++) {
+        VIEW("volume", v.raycast.look = (RaycastLook)look, v.raycast.shadows = !v.raycast.shadows,
+             v.floor = true);
+        VIEW("volume", v.raycast.look = (RaycastLook)look, v.raycast.jitter = !v.raycast.jitter,
+             v.raycast.skip = !v.raycast.skip, v.raycast.by_scalar = 0.5);
+    }
+    for (int show = VOLUME_SLICE; show <= VOLUME_NORMALS; show++)
+        VIEW("volume", v.volume.show = (VolumeShow)show);
+    return count;
+#undef VIEW
+}
+
+static void draw_views(const WorldDef *def, bool solids)
+{
+    static ViewDef views[VIEWS_MAX];
+    ViewDef base = view_def_default();
+    Error error = {0};
+    base.spacing = def->spacing;
+    base.support_radius = def->spacing * def->support;
+    memcpy(base.box_size, def->box_size, sizeof base.box_size);
+    base.fluid_count = 1;
+    base.volume.cells = 16;
+    if (solids)
+        with_a_ball(base.solids, &base.solid_count);
+    const int count = views_of(base, views);
+    World *world = fixture_world(def);
+    fixture_step(world, 1);
+    Renderer *renderer = renderer_create(&base, 48, 32, &error);
+    assert_non_null(renderer);
+    for (int k = 0; k < count; k++) {
+        ParticleBuffers particles;
+        if (!renderer_set_def(renderer, &views[k], &error))
+            fail_msg("%s %d: %s", views[k].kind, k, error.message);
+        world_share(world, particle_attributes_for(views[k].color_by) | PARTICLE_RANGES, &particles);
+        for (int frame = 0; frame < 2; frame++) /* nobody else's barriers in between */
+            renderer_draw(renderer, &particles, NULL);
+    }
+    renderer_destroy(renderer);
+    world_destroy(world);
+    forget();
+}
+
+static void worlds_live(void **state)
+{
+    (void)state;
+    worlds_only = true;
+    mueller_lives("compute");
+    mueller_lives("fragment");
+    mueller_has_more_on_compute();
+    wcsph_lives();
+    worlds_only = false;
+    assert_int_equal(unbound, 0);
+}
+
+static void views_draw(void **state)
+{
+    (void)state;
+    WorldDef def = pool_def("compute");
+    draw_views(&def, false);
+    with_a_ball(def.solids, &def.solid_count);
+    draw_views(&def, true);
+}
+
+static void blocks_and_barriers_are_right(void **state)
+{
+    (void)state;
+    printf("%d dispatches, %d commands that read or write what they may have written\n", dispatches,
+           commands);
+    assert_true(dispatches > 500 && commands > 500);
+    assert_int_equal(violations, 0);
+}
+
+static void every_source_is_glsl(void **state)
+{
+    (void)state;
+    char command[256];
+    if (system("command -v glslangValidator > /dev/null") != 0) {
+        printf("skipped: no glslangValidator; it is in Debian's glslang-tools\n");
+        skip();
+    }
+    snprintf(command, sizeof command, "glslangValidator %s/* > %s.log 2>&1 || { cat %s.log; false; }", folder,
+             folder, folder);
+    printf("%zu sources\n", sources);
+    assert_true(sources > 150);
+    assert_int_equal(system(command), 0);
+}
+
+static int variants_setup(void **state)
+{
+    if (compare_setup(state) != 0)
+        return 1;
+    snprintf(folder, sizeof folder, "/tmp/slosh-shaders-XXXXXX");
+    if (!mkdtemp(folder))
+        return 1;
+    watch_entries();
+    return 0;
+}
+
+static int variants_teardown(void **state)
+{
+    char command[160];
+    snprintf(command, sizeof command, "rm -r %s %s.log", folder, folder);
+    return context_teardown(state) != 0 || system(command) != 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(worlds_live, no_gl_errors),
+        cmocka_unit_test_teardown(views_draw, no_gl_errors),
+        cmocka_unit_test(blocks_and_barriers_are_right),
+        cmocka_unit_test(every_source_is_glsl),
+    };
+    return cmocka_run_group_tests_name("gl.variants", tests, variants_setup, variants_teardown);
+}
