@@ -7,21 +7,23 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-static void bind_attribute(GLuint binding, const ParticleAttribute *attribute, size_t count)
+/* A block that a program declares has a buffer, whether it is read or not: without one some drivers spoil
+   others. Positions stand in for what is not there. */
+static void bind_attribute(GLuint binding, const ParticleAttribute *attribute,
+                           const ParticleBuffers *particles)
 {
-    if (attribute->buffer && count)
-        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, attribute->buffer, (GLintptr)attribute->offset,
-                          (GLsizeiptr)(count * attribute->stride));
-    else
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, 0);
+    const ParticleAttribute *bound = attribute->buffer ? attribute : &particles->position;
+    if (bound->buffer && particles->count)
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, bound->buffer, (GLintptr)bound->offset,
+                          (GLsizeiptr)(particles->count * bound->stride));
 }
 
 void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar)
 {
     const ParticleAttribute *shown = &particles->scalar[scalar];
-    bind_attribute(0, &particles->position, particles->count);
-    bind_attribute(1, shown, particles->count);
-    bind_attribute(2, &particles->fluid, particles->count);
+    bind_attribute(0, &particles->position, particles);
+    bind_attribute(1, shown, particles);
+    bind_attribute(2, &particles->fluid, particles);
     glProgramUniform4ui(program, 0, (GLuint)(particles->position.stride / 4), (GLuint)(shown->stride / 4),
                         (GLuint)(particles->fluid.stride / 4), 0);
 }

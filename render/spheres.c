@@ -160,7 +160,8 @@ static void spheres_draw(void *state, const ParticleBuffers *particles, const Fr
     GL_STAGE(frame->timer, STAGE_VISIBILITY)
     find_visible(spheres, particles, frame);
     GL_STAGE(frame->timer, STAGE_SHADE)
-    shade_visible(spheres, particles, frame);
+    if (particles->count > 0)
+        shade_visible(spheres, particles, frame);
 }
 
 const ViewKind view_spheres = {

@@ -71,7 +71,8 @@ bool splat_level_create(SplatLevel *level, SplatSprites *sprites, Error *error)
         level->open ? compile_screen("render/splat_level_open.frag", "#define FOUND 1\n", error) : 0;
     level->step = level->open_found ? compile_screen("render/splat_level_step.frag", NULL, error) : 0;
     level->root = level->step ? compile_screen("render/splat_level_root.frag", NULL, error) : 0;
-    return level->root != 0;
+    level->asking = level->root ? compile_screen("render/depth_only.frag", NULL, error) : 0;
+    return level->asking != 0;
 }
 
 static void delete_maps(SplatLevel *level)
@@ -92,6 +93,7 @@ void splat_level_destroy(SplatLevel *level)
     glDeleteProgram(level->open_found);
     glDeleteProgram(level->step);
     glDeleteProgram(level->root);
+    glDeleteProgram(level->asking);
     glDeleteQueries(SPLAT_LEVEL_ROUNDS, level->queries);
     delete_maps(level);
     *level = (SplatLevel){0};
@@ -162,14 +164,17 @@ static void splat(const Search *search, GLuint program, GLuint framebuffer, GLen
     counts_end(search->frame->counts, STAGE_VISIBILITY);
 }
 
+/* No shader reads what is attached: some drivers keep that in another form until it is let go. */
 static void list_to_limit(const Search *search)
 {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
     if (splat_culls(&search->sprites->def))
         cull_to_limit(&search->sprites->cull, search->particles, search->frame, search->maps->limit,
                       search->sprite == SPLAT_POINT ? 1 : 6);
 }
 
-/* Whether the limit lets anything through: a triangle at the near plane, which no fragment shader sees. */
+/* Whether the limit lets anything through: a triangle at the near plane, of which only the depth test sees
+   anything. */
 static void ask(const Search *search, GLuint query)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, search->level->next_framebuffer);
@@ -179,7 +184,7 @@ static void ask(const Search *search, GLuint query)
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_FALSE);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glUseProgram(search->level->root);
+    glUseProgram(search->level->asking);
     glBindVertexArray(search->sprites->screen);
     frame_cut_to_bounds(search->frame);
     glBeginQuery(GL_ANY_SAMPLES_PASSED, query);

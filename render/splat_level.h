@@ -18,7 +18,7 @@ enum { SPLAT_LEVEL_ROUNDS = 24 };
 
 typedef struct SplatLevel {
     unsigned next[SPLAT_POINT + 1], sum[SPLAT_POINT + 1], single[SPLAT_POINT + 1]; /* programs, by sprite */
-    unsigned open, step, open_found, root;                                         /* programs */
+    unsigned open, step, open_found, root, asking;                                 /* programs */
     unsigned queries[SPLAT_LEVEL_ROUNDS]; /* is some pixel still searched? the first is not used */
     unsigned target_number;               /* of the target that the maps were made for */
     unsigned march, value, slope;         /* RGBA32F: see splat_level_step.frag */

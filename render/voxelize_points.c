@@ -241,6 +241,7 @@ static bool points_run(void *state, const VoxelizeJob *job, Error *error)
     else
         draw(job, own->method == VOLUME_LAYERS ? (GLsizei)ceil(2 * job->radius) + 1 : 1);
     glDisable(GL_BLEND);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0); /* what reads the volume must not find it attached */
     if (planes)
         unpack(own, volume, job->volume->grid.size);
     return true;

@@ -222,18 +222,25 @@ bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, const VolumeG
 }
 
 /* Asks the GPU, which this waits for: the grid's size is known on this side. */
-static void crop_to_fluid(const Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *whole,
-                          VolumeGrid *grid)
+static void find_bounds(const Voxelizer *voxelizer, const VoxelizeJob *job, GLuint found[6])
 {
-    GLuint found[6] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0, 0, 0};
-    double low[3], high[3];
-    glNamedBufferSubData(voxelizer->bounds, 0, sizeof found, found);
+    const GLsizeiptr size = 6 * sizeof *found;
+    glNamedBufferSubData(voxelizer->bounds, 0, size, found);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, voxelizer->bounds);
     glUseProgram(voxelizer->find_bounds);
     particle_bind(voxelizer->find_bounds, job->particles, job->carried);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(voxelizer->bounds, 0, sizeof found, found);
+    glGetNamedBufferSubData(voxelizer->bounds, 0, size, found);
+}
+
+static void crop_to_fluid(const Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *whole,
+                          VolumeGrid *grid)
+{
+    GLuint found[6] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0, 0, 0};
+    double low[3], high[3];
+    if (job->particles->count > 0)
+        find_bounds(voxelizer, job, found);
     for (int k = 0; k < 3; k++) {
         low[k] = ordered(found[k]);
         high[k] = ordered(found[3 + k]);

@@ -1,5 +1,7 @@
 // The colour of a particle: its fluid's, or its scalar's in the colormap; linear light. Wants common/frame.glsl and
 // common/particles.glsl.
+#include "common/particle_scalars.glsl"
+#include "common/particle_fluids.glsl"
 layout(binding = 2) uniform sampler2D colormap;
 
 vec3 particle_color(uint index)

@@ -1,7 +1,7 @@
-// The particles, as render/particle_bind.c binds them; strides are in words since the owner of the buffers chose them.
+// The particles, as render/particle_bind.c binds them; strides are in words since the owner of the buffers chose them. What else
+// is known of them stands in blocks of their own, so that a shader declares what it reads: common/particle_scalars.glsl,
+// common/particle_fluids.glsl.
 layout(std430, binding = 0) readonly buffer Positions { float position_words[]; };
-layout(std430, binding = 1) readonly buffer Scalars { float scalar_words[]; };
-layout(std430, binding = 2) readonly buffer Fluids { uint fluid_words[]; };
 layout(location = 0) uniform uvec4 particle_strides; // position, scalar, fluid; -
 
 vec3 particle_position(uint particle_index)

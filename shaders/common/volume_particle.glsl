@@ -14,6 +14,8 @@ vec4 volume_particle(uint index)
 }
 
 #ifdef SCALAR
+#include "common/particle_scalars.glsl"
+
 float volume_scalar(uint index)
 {
     float value = particle_strides.y > 0u ? scalar_words[index * particle_strides.y] : 0.0;

@@ -1,6 +1,5 @@
 // The coarse map from a depth map behind which nothing is wanted: the farthest of each cell's pixels.
 #include "common/frame.glsl"
-#include "common/particles.glsl"
 #include "common/cull.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,6 +1,5 @@
 // Maxima over the cells around, along one axis.
 #include "common/frame.glsl"
-#include "common/particles.glsl"
 #include "common/cull.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,5 +1,6 @@
 // Fluids as numbers that can be averaged (render/fluid_numbers.h).
 #include "common/particles.glsl"
+#include "common/particle_fluids.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 4) writeonly buffer Numbers { float numbers[]; };

@@ -13,7 +13,9 @@
 #include "render/renderer.h"
 #include "render/upload.h"
 #include "sim/gl/debug.h"
+#include "tests/gl/draw_check.h"
 
+#include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,6 +33,7 @@ static inline int context_setup(void **state)
         return 1;
     }
     gl_debug_install();
+    draw_check_install();
     return 0;
 }
 
@@ -45,7 +48,36 @@ static inline int context_teardown(void **state)
 static inline int no_gl_errors(void **state)
 {
     (void)state;
-    return gl_debug_errors();
+    return gl_debug_errors() + draw_check_complaints;
+}
+
+static inline unsigned texel(unsigned format, unsigned unit)
+{
+    unsigned texture;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, format, 1, 1);
+    glBindTextureUnit(unit, texture);
+    return texture;
+}
+
+/* What the renderer binds for a view, where a test draws one without it: shadows that nothing casts. Returns
+   the light on the floor, of which there is none. */
+static inline unsigned no_shadows(void)
+{
+    static unsigned fluid, solid, floor_light;
+    static const float nothing = 0;
+    if (!fluid) {
+        fluid = texel(GL_DEPTH_COMPONENT32F, 0), solid = texel(GL_DEPTH_COMPONENT32F, 4);
+        floor_light = texel(GL_R32F, 3);
+        glClearTexImage(fluid, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
+        glClearTexImage(solid, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
+        glClearTexImage(floor_light, 0, GL_RED, GL_FLOAT, &nothing);
+        glTextureParameteri(solid, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        glTextureParameteri(solid, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+    }
+    glBindTextureUnit(0, fluid);
+    glBindTextureUnit(4, solid);
+    return floor_light;
 }
 
 enum { PARTICLES_MAX = 20000 };

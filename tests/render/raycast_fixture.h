@@ -132,6 +132,7 @@ static inline RayPixel *ray_drawn(RayScene *scene, bool plain)
     Raycast *raycast = ray_caster(&scene->def);
     frame_make(&scene->frame, &scene->def, &scene->state, &target, 1, 0);
     scene->frame.plain = plain;
+    scene->frame.floor_light = no_shadows();
     unsigned uniforms = frame_uniforms_create();
     frame_uniforms_update(uniforms, &scene->frame, scene->state.box_size, scene->state.spacing);
     target_begin(&target);

@@ -124,6 +124,7 @@ static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bo
     buffers.count = scene->empty ? 0 : buffers.count;
     frame_make(&scene->frame, &scene->def, &buffers, &drawing.target, 1, 0);
     scene->frame.plain = plain;
+    scene->frame.floor_light = no_shadows();
     drawing.uniforms = frame_uniforms_create();
     frame_uniforms_update(drawing.uniforms, &scene->frame, buffers.box_size, buffers.spacing);
     target_begin(&drawing.target);
