@@ -1,10 +1,11 @@
-// A direction that only the two ids decide, opposite for (a, b) and (b, a): sim/cpu/pair_loop.h.
+// A direction that only the two ids decide, opposite for (a, b) and (b, a), of two dimensions in the plane:
+// sim/cpu/pair_loop.h.
 vec3 direction_of_ids(uint a, uint b)
 {
     uint low = min(a, b), high = max(a, b);
     uint hash = low * 0x9e3779b1u ^ (high * 0x85ebca77u + 0x165667b1u);
-    vec3 d;
-    for (int k = 0; k < 3; k++) {
+    vec3 d = vec3(0);
+    for (int k = 0; k < (rows.x == 3 ? 2 : 3); k++) {
         hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
         hash ^= hash >> 13;
         d[k] = float(hash >> 8) * exp2(-23.0) - 1.0 + exp2(-24.0);

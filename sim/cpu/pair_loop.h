@@ -73,20 +73,21 @@ typedef struct Separation {
     f8 x, y, z, r2;
 } Separation;
 
-/* A direction that only the two ids decide, opposite for (a, b) and (b, a). */
-static void direction_of_ids(uint32_t a, uint32_t b, float out[3])
+/* A direction that only the two ids decide, opposite for (a, b) and (b, a); of two dimensions in the plane.
+ */
+static void direction_of_ids(uint32_t a, uint32_t b, int dimensions, float out[3])
 {
     const uint32_t low = a < b ? a : b, high = a < b ? b : a;
     uint32_t hash = low * 0x9e3779b1u ^ (high * 0x85ebca77u + 0x165667b1u);
     float length2 = 0;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < dimensions; k++) {
         hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
         hash ^= hash >> 13;
         out[k] = (float)(hash >> 8) * 0x1p-23f - 1 + 0x1p-24f; /* never 0 */
         length2 += out[k] * out[k];
     }
     const float scale = (a < b ? 1.0f : -1.0f) / sqrtf(length2);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < dimensions; k++)
         out[k] *= scale;
 }
 
@@ -96,8 +97,8 @@ static __attribute__((noinline, unused)) void separate(const PairArgs *args, siz
 {
     for (int k = 0; k < LANES; k++)
         if (bits >> k & 1) {
-            float direction[3];
-            direction_of_ids(args->id[i], args->id[j + (uint32_t)k], direction);
+            float direction[3] = {0};
+            direction_of_ids(args->id[i], args->id[j + (uint32_t)k], args->solver->dimensions, direction);
             d->x[k] = direction[0] * least;
             d->y[k] = direction[1] * least;
             d->z[k] = direction[2] * least;
