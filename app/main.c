@@ -1,4 +1,5 @@
 #include "app/cmd.h"
+#include "app/file_clash.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/shader_source.h"
 
@@ -57,7 +58,7 @@ int main(int argc, char *argv[])
     Error error = {{0}};
     bound_spinning(argv);
     backends_add();
-    if (!args_parse(argc, argv, &args, &error)) {
+    if (!args_parse(argc, argv, &args, &error) || !file_clash_check(&args, &error)) {
         fprintf(stderr, "%s\n", error.message);
         return EXIT_USAGE;
     }

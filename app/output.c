@@ -1,5 +1,6 @@
 #include "app/output.h"
 
+#include "app/file_place.h"
 #include "app/output_pending.h"
 
 #include <errno.h>
@@ -26,11 +27,11 @@ static void folder_of(const char *path, char folder[1024])
         snprintf(folder, 1024, "%.*s", slash == path ? 1 : (int)(slash - path), path);
 }
 
-static bool refuse(const char *path, int reason, Error *error)
+static bool refuse(const char *path, const char *target, int reason, Error *error)
 {
     char folder[1024];
     struct stat status;
-    folder_of(path, folder);
+    folder_of(target, folder);
     if (stat(folder, &status) != 0)
         return error_set(error, "%s: cannot be written: the folder %s: %s; create it first", path, folder,
                          strerror(errno));
@@ -54,20 +55,34 @@ static bool path_is_file_or_free(const char *path, Error *error)
     return true;
 }
 
+bool output_target(const char *path, char target[1024], Error *error)
+{
+    char place[PATH_MAX];
+    struct stat status;
+    if (strlen(path) >= 1024)
+        return error_set(error, "the name of the output has more than %d bytes; name a shorter one", 1023);
+    const bool link = lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
+    if (link && !file_place(path, place))
+        return error_set(error, "%s: is a link that leads nowhere: %s; name a file", path, strerror(errno));
+    if (snprintf(target, 1024, "%s", link ? place : path) < 1024)
+        return true;
+    return error_set(error, "%s: is a link to a name of more than %d bytes; name a file", path, 1023);
+}
+
 bool output_begin(Output *output, const char *path, Error *error)
 {
     output->temp[0] = '\0';
     if (!path_is_file_or_free(path, error))
         return false;
-    if ((size_t)snprintf(output->path, sizeof output->path, "%s", path) >= sizeof output->path)
-        return error_set(error, "the name of the output has more than %zu bytes; name a shorter one",
-                         sizeof output->path - 1);
-    snprintf(output->temp, sizeof output->temp, "%s.%ld.tmp", path, (long)getpid());
+    if (!output_target(path, output->target, error))
+        return false;
+    snprintf(output->path, sizeof output->path, "%s", path);
+    snprintf(output->temp, sizeof output->temp, "%s.%ld.tmp", output->target, (long)getpid());
     int file = open(output->temp, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) {
         int reason = errno;
         output->temp[0] = '\0';
-        return refuse(path, reason, error);
+        return refuse(path, output->target, reason, error);
     }
     close(file);
     output_pending_add(output->temp);
@@ -76,7 +91,7 @@ bool output_begin(Output *output, const char *path, Error *error)
 
 bool output_commit(Output *output, Error *error)
 {
-    if (rename(output->temp, output->path) != 0) {
+    if (rename(output->temp, output->target) != 0) {
         error_set(error, "%s: cannot be given its name: %s", output->path, strerror(errno));
         output_discard(output);
         return false;

@@ -8,8 +8,9 @@
 
 /* One file in the making. Zero-initialise it. */
 typedef struct Output {
-    char path[1024]; /* the name that was asked for */
-    char temp[1056]; /* path.PID.tmp, in the same folder: write here until the commit; empty: none */
+    char path[1024];   /* the name that was asked for */
+    char target[1024]; /* the file that gets replaced: where `path` leads when it is a link, which stays */
+    char temp[1056];   /* target.PID.tmp, in the same folder: write here until the commit; empty: none */
 } Output;
 
 /* Creates the empty temporary file, and so finds out at once whether the file can be written. False with the
@@ -19,6 +20,10 @@ bool output_begin(Output *output, const char *path, Error *error);
 
 /* Gives the file its name, in place of an older one. On failure the temporary file is removed. */
 bool output_commit(Output *output, Error *error);
+
+/* `path` itself, or, when it is a link, where it leads; false with the reason, also for a path that is too
+   long. Of the other kind of output, output_folder, too. */
+bool output_target(const char *path, char target[1024], Error *error);
 
 /* Removes the temporary file; does nothing before begin, after commit or a second time. */
 void output_discard(Output *output);

@@ -1,6 +1,7 @@
 #define _GNU_SOURCE /* renameat2 */
 #include "app/output_folder.h"
 
+#include "app/output.h"
 #include "app/output_pending.h"
 
 #include <dirent.h>
@@ -47,12 +48,12 @@ static bool check_older(const OutputFolder *folder, Error *error)
 bool output_folder_begin(OutputFolder *folder, const char *path, const char *suffix, Error *error)
 {
     *folder = (OutputFolder){.suffix = suffix};
-    if ((size_t)snprintf(folder->path, sizeof folder->path, "%s", path) >= sizeof folder->path)
-        return error_set(error, "the name of the output has more than %zu bytes; name a shorter one",
-                         sizeof folder->path - 1);
+    if (!output_target(path, folder->target, error))
+        return false;
+    snprintf(folder->path, sizeof folder->path, "%s", path);
     if (!check_older(folder, error))
         return false;
-    snprintf(folder->temp, sizeof folder->temp, "%s.%ld.tmp", path, (long)getpid());
+    snprintf(folder->temp, sizeof folder->temp, "%s.%ld.tmp", folder->target, (long)getpid());
     output_remove_folder(folder->temp); /* of a killed program that had the same number */
     if (mkdir(folder->temp, 0777) != 0) {
         folder->temp[0] = '\0';
@@ -66,15 +67,15 @@ bool output_folder_begin(OutputFolder *folder, const char *path, const char *suf
 static bool replace_older(const OutputFolder *folder)
 {
     char aside[sizeof folder->temp + 4];
-    if (renameat2(AT_FDCWD, folder->temp, AT_FDCWD, folder->path, RENAME_EXCHANGE) == 0) {
+    if (renameat2(AT_FDCWD, folder->temp, AT_FDCWD, folder->target, RENAME_EXCHANGE) == 0) {
         output_remove_folder(folder->temp);
         return true;
     }
     snprintf(aside, sizeof aside, "%s.old", folder->temp);
-    if ((errno != EINVAL && errno != ENOSYS) || rename(folder->path, aside) != 0)
+    if ((errno != EINVAL && errno != ENOSYS) || rename(folder->target, aside) != 0)
         return false;
-    if (rename(folder->temp, folder->path) != 0) {
-        rename(aside, folder->path);
+    if (rename(folder->temp, folder->target) != 0) {
+        rename(aside, folder->target);
         return false;
     }
     output_remove_folder(aside);
@@ -84,7 +85,7 @@ static bool replace_older(const OutputFolder *folder)
 bool output_folder_commit(OutputFolder *folder, Error *error)
 {
     bool named = check_older(folder, error);
-    if (named && rename(folder->temp, folder->path) != 0) /* works if there is none, or an empty one */
+    if (named && rename(folder->temp, folder->target) != 0) /* works if there is none, or an empty one */
         named = ((errno == ENOTEMPTY || errno == EEXIST) && replace_older(folder)) ||
                 error_set(error, "%s: cannot be given its name: %s", folder->path, strerror(errno));
     if (!named) {

@@ -8,7 +8,8 @@
    an older one is known to be ours and can be replaced. */
 typedef struct OutputFolder {
     char path[1024];    /* the name that was asked for */
-    char temp[1056];    /* path.PID.tmp: fill this one until the commit; empty: none */
+    char target[1024];  /* where it leads when it is a link, which stays */
+    char temp[1056];    /* target.PID.tmp: fill this one until the commit; empty: none */
     const char *suffix; /* ".vtp" */
 } OutputFolder;
 

@@ -461,7 +461,7 @@ class Bad(ExportTest):
 
     def test_output(self):
         self.make('--time', '0')
-        for name in ('a.h5part', 'a.obj', 'a', 'a.pvd/', '.ply'):
+        for name in ('b.h5part', 'a.obj', 'a', 'a.pvd/', '.ply'):
             self.refused('a.h5part', name, words='name a FILE.pvd, a FILE.vtp or a FILE.ply')
         self.refused('a.h5part', 'no/a.vtp', words='No such file or directory; create it first', code=1)
         self.refused('a.h5part', 'no/a.pvd', words='No such file or directory; create it first', code=1)

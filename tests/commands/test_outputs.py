@@ -201,6 +201,122 @@ class Usage(CommandTest):
         self.refused('render', 'scene.yaml', '-o', 'a.png', '--frames', '3', reason='--frames')
 
 
+class Clashes(CommandTest):
+    """Outputs that are each other, or something that is read: refused before anything is done."""
+
+    def refused(self, *arguments, reason):
+        before = {name: self.read(name) for name in os.listdir(self.folder) if os.path.isfile(self.path(name))}
+        code, said = self.slosh(*arguments)
+        self.assertEqual(code, 2, said)
+        self.assertIn(reason + '; name another file\n', said)
+        self.assertEqual(said.count('\n'), 1, said)
+        self.assertEqual({name: self.read(name) for name in before}, before)
+
+    def test_each_other(self):
+        run = ('run', 'scene.yaml', '-o')
+        self.refused(*run, 'k.h5part', '--json', 'k.h5part',
+                     reason='slosh run: -o k.h5part and --json k.h5part would replace each other')
+        self.refused(*run, 'k.h5part', '--json', './/k.h5part', reason='would replace each other')
+        os.symlink('.', self.path('here'))
+        self.refused(*run, 'k.h5part', '--json', 'here/k.h5part', reason='would replace each other')
+        self.refused(*run, 'no/k.h5part', '--json', self.path('no/k.h5part'), reason='would replace each other')
+        os.symlink('later.h5part', self.path('link.h5part'))  # leads to what is not there yet
+        self.refused(*run, 'link.h5part', '--json', 'later.h5part', reason='would replace each other')
+        self.write('one.h5part', 'old')
+        os.link(self.path('one.h5part'), self.path('other.h5part'))
+        self.refused(*run, 'one.h5part', '--json', 'other.h5part', reason='would replace each other')
+        self.refused('bench', '--table', 'paper003-substeps', '-o', 'a.svg', '--json', 'a.svg', reason='each other')
+        self.refused('play', 'scene.yaml', '--record', 'a', '--json', 'a', reason='--json a and --record a would replace '
+                     'each other')
+        self.refused('devices', '--record', 'a', '--json', 'a', reason='would replace each other')
+
+    def test_what_comes_with_an_output(self):
+        self.refused('chart', 'scene.yaml', '-o', 'a.b.svg', '--json', 'a.b.csv',
+                     reason='the figures of -o a.b.csv and --json a.b.csv would replace each other')
+        self.refused('export', 'x.h5part', '-o', 'a.pvd', '--json', 'a/a-0000.vtp',
+                     reason='the folder of -o a and --json a/a-0000.vtp would replace each other')
+        self.refused('export', 'a/x.h5part', '-o', 'a.ply.series',
+                     reason='the folder of -o a would replace the file of snapshots a/x.h5part')
+        self.refused('render', 'scene.yaml', '-o', 'frames', '--json', 'frames/frame_00003.png', reason='each other')
+        self.refused('render', 'scene.yaml', '-o', 'frames/', '--json', 'frames', reason='each other')
+        self.refused('validate', 'free_fall', '-o', 'plots', '--json', 'plots/free_fall.svg', reason='each other')
+
+    def test_what_is_read(self):
+        would = '{} would replace {}'.format
+        self.refused('run', 'scene.yaml', '-o', 'a.h5part', '--json', 'scene.yaml',
+                     reason='slosh run: ' + would('--json scene.yaml', 'the scene scene.yaml'))
+        self.refused('info', 'scene.yaml', '--json', './scene.yaml', reason=would('--json ./scene.yaml', 'the scene scene.yaml'))
+        self.write('two.yaml', command.SCENE)
+        os.link(self.path('two.yaml'), self.path('hard.yaml'))
+        self.refused('bench', 'scene.yaml', 'two.yaml', '--json', 'hard.yaml',
+                     reason=would('--json hard.yaml', 'the scene two.yaml'))
+        self.refused('play', 'scene.yaml', '--record', 'scene.yaml', reason=would('--record scene.yaml', 'the scene'
+                                                                                  ' scene.yaml'))
+        self.refused('export', 'two.yaml', '-o', 'a.vtp', '--json', 'two.yaml',
+                     reason=would('--json two.yaml', 'the file of snapshots two.yaml'))
+        self.refused('replay', 'two.yaml', '--json', 'two.yaml', reason=would('--json two.yaml', 'the recording two.yaml'))
+        self.refused('run', 'scene.yaml', '-o', 'a.h5part', '--device', 'file:two.yaml', '--json', 'hard.yaml',
+                     reason=would('--json hard.yaml', '--device two.yaml'))
+        self.refused('devices', '--device', 'file:two.yaml', '--json', 'two.yaml',
+                     reason=would('--json two.yaml', '--device two.yaml'))
+        self.refused('run', 'scene.yaml', '-o', 'a.h5part', '--device', 'file:x', '--mapping', 'two.yaml',
+                     '--json', 'two.yaml', reason=would('--json two.yaml', '--mapping two.yaml'))
+        os.mkdir(self.path('shaders'))
+        self.refused('run', 'scene.yaml', '-o', 'a.h5part', '--shaders', 'shaders', '--json', 'shaders/a.frag',
+                     reason=would('--json shaders/a.frag', '--shaders shaders'))
+
+    def test_scenes_that_are_read_unasked(self):
+        os.mkdir(self.path('scenes'))
+        self.refused('play', '--json', 'scenes/box_slosh.yaml',
+                     reason='--json scenes/box_slosh.yaml would replace the folder of scenes scenes')
+
+    def test_files_beside_are_no_clash(self):
+        os.mkdir(self.path('frames'))
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'frames', '--json', 'frames/figures.json', '--frames', '1',
+                                *SMALL)
+        self.assertEqual(code, 0, said)
+        self.assertEqual(sorted(os.listdir(self.path('frames'))), ['figures.json', 'frame_00000.png'])
+
+
+class Links(CommandTest):
+    """An output that is a link is written through: the link stays, and its target gets the content."""
+
+    def test_write_through(self):
+        os.mkdir(self.path('far'))
+        for name in ('a.h5part', 'a.json', 'a.png', 'a.mp4'):
+            os.symlink('far/' + name, self.path(name))
+        self.write('far/a.png', 'old')
+        commands = (('run', '-o', 'a.h5part', '--json', 'a.json', '--quiet'),
+                    ('run', '-o', 'a.h5part', '--resume', '--quiet', '--time', '0.1'),
+                    ('render', '-o', 'a.png', *SMALL), ('render', '-o', 'a.mp4', '--frames', '2', *SMALL))
+        for name, *rest in commands:
+            code, said = self.slosh(name, 'scene.yaml', '--time', '0', *rest)
+            self.assertEqual(code, 0, said)
+        self.assertEqual(sorted(os.listdir(self.path('far'))), ['a.h5part', 'a.json', 'a.mp4', 'a.png'])
+        self.assertTrue(all(os.path.islink(self.path(name)) for name in self.entries() if name != 'far'))
+        self.assertGreater(len(whole_steps(self.path('far/a.h5part'))), 1)
+        self.assertIn(b'IEND', self.read('far/a.png')[-12:])
+
+    def test_folder(self):
+        self.assertEqual(self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet')[0], 0)
+        os.mkdir(self.path('far'))
+        os.symlink('far', self.path('out'))
+        for _ in range(2):
+            code, said = self.slosh('export', 'a.h5part', '-o', 'out.pvd', '--quiet')
+            self.assertEqual(code, 0, said)
+            self.assertTrue(os.path.islink(self.path('out')))
+            self.assertEqual(os.listdir(self.path('far')), ['out-0000.vtp'])
+        self.assertEqual(self.entries(), ['a.h5part', 'far', 'out', 'out.pvd'])
+
+    def test_circle(self):
+        os.symlink('b.json', self.path('a.json'))
+        os.symlink('a.json', self.path('b.json'))
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'k.h5part', '--time', '0', '--json', 'a.json')
+        self.assertEqual(code, 1, said)
+        self.assertIn('a.json: is a link that leads nowhere: Too many levels of symbolic links; name a file', said)
+        self.assertEqual(self.entries(), ['a.json', 'b.json'])
+
+
 class Signals(CommandTest):
     LONG = ['--time', '100000', '--size', '160x120']
 
