@@ -57,11 +57,11 @@ static int fail(const Args *args, const Snapshot *file, const Error *error)
 }
 
 /* --resume: the file to go on with, and the world as it was at its end. */
-static Snapshot *resume(Session *session, const Args *args, Error *error)
+static Snapshot *resume(Session *session, const Args *args, bool *busy, Error *error)
 {
     WorldState state = {.count = 0};
     Snapshot *file =
-        snapshot_resume(args->output, &session->scene, hand_replay_mark(session->hand), &state, error);
+        snapshot_resume(args->output, &session->scene, hand_replay_mark(session->hand), &state, busy, error);
     Error why = {{0}};
     if (file && !world_load(session->world, &state, &why)) {
         error_set(error, "%.300s: cannot be resumed: %.600s", args->output, why.message);
@@ -89,13 +89,14 @@ static int run(Session *session, const Args *args, Error *error)
 {
     Progress progress;
     Snapshot *file;
+    bool busy = false;
     if (args->json && !output_check(args->json, error))
         return fail(args, NULL, error);
     if (args->resume && access(args->output, F_OK) == 0) {
-        file = resume(session, args, error);
+        file = resume(session, args, &busy, error);
         if (!file) {
             fprintf(stderr, "%s\n", error->message);
-            return EXIT_USAGE;
+            return busy ? EXIT_FAILED : EXIT_USAGE;
         }
     } else if (!(file = begin(session, args, error))) {
         return fail(args, NULL, error);

@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* renameat2 */
 #include "app/output.h"
 
 #include "app/file_place.h"
@@ -89,15 +90,32 @@ bool output_begin(Output *output, const char *path, Error *error)
     return true;
 }
 
-bool output_commit(Output *output, Error *error)
+static bool named(Output *output, bool renamed, Error *error)
 {
-    if (rename(output->temp, output->target) != 0) {
+    if (!renamed) {
         error_set(error, "%s: cannot be given its name: %s", output->path, strerror(errno));
         output_discard(output);
         return false;
     }
     forget(output);
     return true;
+}
+
+bool output_commit(Output *output, Error *error)
+{
+    return named(output, rename(output->temp, output->target) == 0, error);
+}
+
+/* Where the file system can't, a file that comes in this moment is replaced. */
+bool output_commit_new(Output *output, bool *there, Error *error)
+{
+    bool renamed = renameat2(AT_FDCWD, output->temp, AT_FDCWD, output->target, RENAME_NOREPLACE) == 0;
+    *there = !renamed && errno == EEXIST;
+    if (*there)
+        return false;
+    if (!renamed && (errno == EINVAL || errno == ENOSYS))
+        renamed = rename(output->temp, output->target) == 0;
+    return named(output, renamed, error);
 }
 
 void output_discard(Output *output)

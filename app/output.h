@@ -21,6 +21,10 @@ bool output_begin(Output *output, const char *path, Error *error);
 /* Gives the file its name, in place of an older one. On failure the temporary file is removed. */
 bool output_commit(Output *output, Error *error);
 
+/* The same where no file has that name; where one has, *there is true, it stays, and the output is still to
+   be committed or discarded. */
+bool output_commit_new(Output *output, bool *there, Error *error);
+
 /* `path` itself, or, when it is a link, where it leads; false with the reason, also for a path that is too
    long. Of the other kind of output, output_folder, too. */
 bool output_target(const char *path, char target[1024], Error *error);

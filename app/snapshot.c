@@ -4,7 +4,7 @@
 #include "app/snapshot.h"
 
 #include "app/hdf5_error.h"
-#include "app/output.h"
+#include "app/output_lock.h"
 #include "app/scene_keys.h"
 #include "app/snapshot_file.h"
 
@@ -24,6 +24,7 @@ enum { STEP_OVERHEAD_BYTES = 64 << 10, CHUNK_VALUES = 1 << 16 };
 
 struct Snapshot {
     Output output;
+    OutputLock lock, older; /* on the file; on the one that it will replace */
     hid_t file;
     size_t steps;
     double time; /* of the last one written */
@@ -129,20 +130,28 @@ static hid_t create_file(const char *path)
     return file;
 }
 
+static bool begin(Snapshot *snapshot, const char *path, const Scene *scene, Error *error)
+{
+    Output *output = &snapshot->output;
+    if (!output_begin(output, path, error) || !output_lock(&snapshot->older, output->path, error))
+        return false;
+    hdf5_listen();
+    snapshot->file = create_file(output->temp);
+    if (snapshot->file < 0 || !write_root(snapshot->file, scene))
+        return hdf5_fail(error, path, "cannot be written");
+    return output_lock(&snapshot->lock, output->temp, error);
+}
+
 Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error)
 {
     Snapshot *snapshot = calloc(1, sizeof *snapshot);
-    if (!snapshot || !output_begin(&snapshot->output, path, error)) {
-        if (!snapshot)
-            error_set(error, "%s: out of memory", path);
-        free(snapshot);
+    if (!snapshot) {
+        error_set(error, "%s: out of memory", path);
         return NULL;
     }
-    hdf5_listen();
     snapshot->time = -1;
-    snapshot->file = create_file(snapshot->output.temp);
-    if (snapshot->file < 0 || !write_root(snapshot->file, scene)) {
-        hdf5_fail(error, path, "cannot be written");
+    snapshot->file = -1;
+    if (!begin(snapshot, path, scene, error)) {
         snapshot_close(snapshot);
         snapshot = NULL;
     }
@@ -155,7 +164,7 @@ bool snapshot_note_hand(Snapshot *snapshot, const char *mark, Error *error)
            hdf5_fail(error, snapshot->output.path, "cannot be written");
 }
 
-Snapshot *snapshot_continue(const char *path, size_t steps, Error *error)
+Snapshot *snapshot_continue(const char *path, size_t steps, OutputLock *lock, Error *error)
 {
     Snapshot *snapshot = calloc(1, sizeof *snapshot);
     char name[32];
@@ -164,6 +173,8 @@ Snapshot *snapshot_continue(const char *path, size_t steps, Error *error)
         return NULL;
     }
     const hid_t access = snapshot_access();
+    snapshot->lock = *lock;
+    lock->state = OUTPUT_UNLOCKED;
     snapshot->steps = steps;
     snapshot->time = -1;
     snprintf(snapshot->output.path, sizeof snapshot->output.path, "%s", path);
@@ -208,6 +219,8 @@ void snapshot_close(Snapshot *snapshot)
     if (snapshot->steps > 0)
         trim(snapshot->output.path);
     output_discard(&snapshot->output);
+    output_unlock(&snapshot->older);
+    output_unlock(&snapshot->lock);
     free_buffers(snapshot);
     free(snapshot);
 }
@@ -325,7 +338,7 @@ bool snapshot_append_step(Snapshot *snapshot, const SnapshotStep *step, Error *e
         return false;
     if (!write_step(snapshot, step))
         return hdf5_fail(error, snapshot->output.path, "cannot be written");
-    if (snapshot->steps == 0 && !output_commit(&snapshot->output, error))
+    if (snapshot->steps == 0 && !output_lock_commit(&snapshot->older, &snapshot->output, error))
         return false;
     snapshot->steps++;
     snapshot->time = step->time;

@@ -56,7 +56,7 @@ void snapshot_step_free(SnapshotStep *step); /* a zeroed one is allowed */
 typedef struct Snapshot Snapshot;
 
 /* A new file. Until its first step is whole it has a temporary name and an older file stays as it is. NULL
-   with the reason: see output_begin. */
+   with the reason: see output_begin; or another program is writing a file of that name. */
 Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error);
 
 /* Notes in a new file what moves the box beside the scene: a mark such as hand_replay_mark's; "": nothing. */
@@ -77,10 +77,10 @@ void snapshot_close(Snapshot *snapshot);
 
 /* A file to go on with behind its last whole step; `state` becomes that step's. What a killed program left
    behind it is dropped. NULL with the reason: no such file, not HDF5, no whole step, a scene with other
-   settings (but for title, views and threads), a file too old to go on from, another `hand` than was noted.
- */
+   settings (but for title, views and threads), a file too old to go on from, another `hand` than was noted;
+   or, and then *busy is true, another program is writing it. */
 Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
-                          Error *error);
+                          bool *busy, Error *error);
 
 /* ---- reading ---- */
 

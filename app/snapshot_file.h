@@ -2,6 +2,7 @@
 #ifndef SLOSH_SNAPSHOT_FILE_H
 #define SLOSH_SNAPSHOT_FILE_H
 
+#include "app/output_lock.h"
 #include "app/snapshot.h"
 
 #include <hdf5.h>
@@ -49,8 +50,9 @@ static inline void snapshot_group_name(size_t index, char name[32])
    no locks still work. -1 on failure; the caller closes it. */
 hid_t snapshot_access(void);
 
-/* A Snapshot that appends to a file that has so many whole steps. NULL with the reason. */
-Snapshot *snapshot_continue(const char *path, size_t steps, Error *error);
+/* A Snapshot that appends to a file that has so many whole steps, and takes over its lock, which is
+   then no longer the caller's. NULL with the reason. */
+Snapshot *snapshot_continue(const char *path, size_t steps, OutputLock *lock, Error *error);
 
 /* The text attribute of the root in new memory; NULL when there is none. */
 char *snapshot_root_text(const SnapshotReader *reader, const char *name);

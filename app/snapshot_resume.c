@@ -111,15 +111,27 @@ static bool read_last(SnapshotReader *reader, const char *path, WorldState *stat
                              path);
 }
 
-Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
-                          Error *error)
+/* How many whole steps there are, 0 with the reason. */
+static size_t read_end(const char *path, const Scene *scene, const char *hand, WorldState *state,
+                       Error *error)
 {
     SnapshotReader *reader = snapshot_open(path, error);
     if (!reader)
-        return NULL;
+        return 0;
     const bool good = check_scene(reader, path, scene, error) && check_hand(reader, path, hand, error) &&
                       read_last(reader, path, state, error);
     const size_t steps = snapshot_count_steps(reader);
     snapshot_reader_close(reader);
-    return good ? snapshot_continue(path, steps, error) : NULL;
+    return good ? steps : 0;
+}
+
+Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
+                          bool *busy, Error *error)
+{
+    OutputLock lock = {.state = OUTPUT_UNLOCKED};
+    *busy = !output_lock(&lock, path, error);
+    const size_t steps = *busy ? 0 : read_end(path, scene, hand, state, error);
+    Snapshot *snapshot = steps > 0 ? snapshot_continue(path, steps, &lock, error) : NULL;
+    output_unlock(&lock);
+    return snapshot;
 }

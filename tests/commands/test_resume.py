@@ -1,4 +1,5 @@
 """slosh run --resume: whatever ended a run, the rest of it comes out with the same bits."""
+import contextlib
 import os
 import random
 import shutil
@@ -86,6 +87,36 @@ class Resume(CommandTest):
         self.assertEqual(process.wait(), 130)
         self.go('--resume')
         self.same('whole.h5part', 'a.h5part')
+
+    def test_one_writer_at_a_time(self):
+        """A second one is refused at once, by whatever name and command; readers are not, h5py with its own locks neither."""
+        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000', '--every', EVERY, '--quiet')
+        self.wait_for(lambda: os.path.exists(self.path('a.h5part')), process)
+        os.symlink('a.h5part', self.path('b.h5part'))
+        os.link(self.path('a.h5part'), self.path('c.h5part'))
+        text = ''.join(f'| {line}\n' for line in SCENE.splitlines())
+        self.write('a.rec', f'slosh recording 1\nprogram 0.1\nscene scene.yaml\ntext\n{text}commands\nend 9 {"0" * 16}\n')
+        more = ('--time', '100000', '--quiet')
+        for command_ in (('run', 'scene.yaml', '-o', 'a.h5part', '--resume', *more),
+                         ('run', 'scene.yaml', '-o', 'a.h5part', *more),
+                         ('run', 'scene.yaml', '-o', 'b.h5part', *more),
+                         ('run', 'scene.yaml', '-o', 'c.h5part', '--resume', *more),
+                         ('replay', 'a.rec', '-o', 'a.h5part', '--quiet')):
+            code, said = self.slosh(*command_, timeout=60)
+            self.assertEqual(code, 1, said)
+            self.assertIn(command_[3] + ': is being written by another slosh; wait for its end, or name another file\n',
+                          said)
+        self.assertEqual(sorted(self.entries()), ['a.h5part', 'a.rec', 'b.h5part', 'c.h5part'])
+        for _ in range(200):  # in between two of its writes
+            with contextlib.suppress(OSError, KeyError), h5py.File(self.path('a.h5part'), 'r') as file:
+                self.assertGreater(len(file), 0)
+                break
+        else:
+            self.fail('cannot be read while it is being written')
+        process.kill()
+        process.wait()
+        self.assertGreater(len(whole_steps(self.path('a.h5part'))), 0)
+        self.go('--resume', '--time', '0.001')
 
     def test_longer_and_anew(self):
         self.whole()
