@@ -116,6 +116,14 @@ static bool understand_surface(Export *export, SurfaceDef *surface, const Args *
            surface_check(surface, &export->scene, error);
 }
 
+static void tell_gap(const SnapshotReader *reader, const char *path)
+{
+    char words[256];
+    if (snapshot_gap(reader, words))
+        fprintf(stderr, "%s: warning: %s; only the %zu before it can be exported\n", path, words,
+                snapshot_count_steps(reader));
+}
+
 /* What is to be done, before anything is: false is a mistake of the command line or of the input. */
 static bool understand(Export *export, SurfaceDef *surface, size_t *index, const Args *args, Error *error)
 {
@@ -130,6 +138,7 @@ static bool understand(Export *export, SurfaceDef *surface, size_t *index, const
     export->reader = snapshot_open(args->scenes[0], error);
     if (!export->reader)
         return false;
+    tell_gap(export->reader, args->scenes[0]);
     if (snapshot_count_steps(export->reader) == 0)
         return error_set(error, "%s: has no whole snapshot; make some with slosh run", args->scenes[0]);
     return understand_surface(export, surface, args, error) && choose(args, export->reader, index, error);

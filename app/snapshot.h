@@ -77,8 +77,8 @@ void snapshot_close(Snapshot *snapshot);
 
 /* A file to go on with behind its last whole step; `state` becomes that step's. What a killed program left
    behind it is dropped. NULL with the reason: no such file, not HDF5, no whole step, a scene with other
-   settings (but for title, views and threads), a file too old to go on from, another `hand` than was noted;
-   or, and then *busy is true, another program is writing it. */
+   settings (but for title, views and threads), steps with a gap, a file too old to go on from, another `hand`
+   than was noted; or, and then *busy is true, another program is writing it. */
 Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
                           bool *busy, Error *error);
 
@@ -91,6 +91,9 @@ SnapshotReader *snapshot_open(const char *path, Error *error);
 
 /* Whole steps; what a killed program left half-written at the end does not count. */
 size_t snapshot_count_steps(const SnapshotReader *reader);
+
+/* Whether steps stand behind the first that is missing or not whole, where nothing reads them: in words. */
+bool snapshot_gap(const SnapshotReader *reader, char words[256]);
 
 /* The time of step `index`, s; cheaper than the step. */
 bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Error *error);

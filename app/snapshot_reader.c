@@ -85,6 +85,42 @@ size_t snapshot_count_steps(const SnapshotReader *reader)
     return reader->steps;
 }
 
+/* What stands where no step can be read. */
+typedef struct Stray {
+    size_t steps, count; /* whole ones before; those behind */
+    char first[64];      /* the first of them by name */
+} Stray;
+
+static herr_t look_at_link(hid_t file, const char *name, const H5L_info_t *info, void *user)
+{
+    Stray *stray = user;
+    char own[32];
+    (void)file, (void)info;
+    if (strncmp(name, "Step#", 5) != 0)
+        return 0;
+    const size_t index = strtoul(name + 5, NULL, 10);
+    snapshot_group_name(index, own);
+    if (index <= stray->steps && strcmp(name, own) == 0) /* the last: being written, or left by a kill */
+        return 0;
+    if (stray->count++ == 0)
+        snprintf(stray->first, sizeof stray->first, "%s", name);
+    return 0;
+}
+
+bool snapshot_gap(const SnapshotReader *reader, char words[256])
+{
+    Stray stray = {.steps = reader->steps};
+    char next[32];
+    H5Literate(reader->file, H5_INDEX_NAME, H5_ITER_INC, NULL, look_at_link, &stray);
+    snapshot_group_name(reader->steps, next);
+    if (stray.count == 1)
+        snprintf(words, 256, "%s is missing or not whole, but there is '%s'", next, stray.first);
+    else
+        snprintf(words, 256, "%s is missing or not whole, but there are %zu behind it, such as '%s'", next,
+                 stray.count, stray.first);
+    return stray.count > 0;
+}
+
 bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Error *error)
 {
     const hid_t group = index < reader->steps ? open_step(reader->file, index) : -1;

@@ -6,43 +6,86 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A line of settings, "key = value", within its text. */
+typedef struct Line {
+    const char *text;
+    int size;
+} Line;
+
 /* Keys that change no bit of a run. */
-static bool is_idle(const char *line)
+static bool is_idle(Line line)
 {
     static const char *const idle[] = {"title ", "view.", "solver.threads ", "solver.step.realtime ",
                                        "metrics "};
     for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
-        if (strncmp(line, idle[i], strlen(idle[i])) == 0)
+        if (strncmp(line.text, idle[i], strlen(idle[i])) == 0)
             return true;
     return false;
 }
 
-/* The next line of `*text` that counts, cut into `line`; false at the end. */
-static bool next_line(const char **text, char line[160])
+/* The next line of `*text` that counts; false at the end. */
+static bool next_line(const char **text, Line *line)
 {
     while (**text) {
-        const size_t size = strcspn(*text, "\n");
-        snprintf(line, 160, "%.*s", (int)size, *text);
-        *text += size + ((*text)[size] == '\n');
-        if (!is_idle(line))
+        *line = (Line){*text, (int)strcspn(*text, "\n")};
+        *text += line->size + ((*text)[line->size] == '\n');
+        if (!is_idle(*line))
             return true;
     }
+    *line = (Line){"nothing more", (int)strlen("nothing more")};
     return false;
+}
+
+/* The line, or where it is long its key and what stands about place `at`. */
+static void line_words(Line line, int at, char words[256])
+{
+    enum { WHOLE = 160, BEFORE = 50, SHOWN = 110 };
+    const int key = (int)strcspn(line.text, "=") + 1, from = at - BEFORE;
+    if (line.size <= WHOLE || from <= key)
+        snprintf(words, 256, "%.*s%s", line.size < WHOLE ? line.size : WHOLE, line.text,
+                 line.size > WHOLE ? "..." : "");
+    else
+        snprintf(words, 256, "%.*s ...%.*s%s", key < 120 ? key : 120, line.text,
+                 line.size - from < SHOWN ? line.size - from : SHOWN, line.text + from,
+                 line.size - from > SHOWN ? "..." : "");
+}
+
+static bool fail_at(const char *path, Line was, Line is, Error *error)
+{
+    char before[256], now[256];
+    int at = 0;
+    while (at < was.size && at < is.size && was.text[at] == is.text[at])
+        at++;
+    line_words(was, at, before);
+    line_words(is, at, now);
+    return error_set(
+        error,
+        "%.300s: was made with '%s', and this is '%s'; resume with the same scene and settings, or "
+        "name another file",
+        path, before, now);
 }
 
 static bool same_settings(const char *path, const char *file, const char *scene, Error *error)
 {
-    char was[160], is[160];
+    Line was, is;
     for (;;) {
-        const bool more = next_line(&file, was), also = next_line(&scene, is);
+        const bool more = next_line(&file, &was), also = next_line(&scene, &is);
         if (!more && !also)
             return true;
-        if (!more || !also || strcmp(was, is) != 0)
-            return error_set(
-                error,
-                "%.300s: was made with '%s', and this is '%s'; resume with the same scene and settings, or name another file",
-                path, more ? was : "nothing more", also ? is : "nothing more");
+        if (was.size != is.size || memcmp(was.text, is.text, (size_t)is.size) != 0)
+            return fail_at(path, was, is, error);
     }
+}
+
+/* The next step would meet one that has its name. */
+static bool check_steps(const SnapshotReader *reader, const char *path, Error *error)
+{
+    char words[256];
+    return !snapshot_gap(reader, words) ||
+           error_set(
+               error,
+               "%.300s: %s; give the steps names without a gap, remove those behind it, or name another file",
+               path, words);
 }
 
 static bool check_scene(const SnapshotReader *reader, const char *path, const Scene *scene, Error *error)
@@ -118,8 +161,8 @@ static size_t read_end(const char *path, const Scene *scene, const char *hand, W
     SnapshotReader *reader = snapshot_open(path, error);
     if (!reader)
         return 0;
-    const bool good = check_scene(reader, path, scene, error) && check_hand(reader, path, hand, error) &&
-                      read_last(reader, path, state, error);
+    const bool good = check_steps(reader, path, error) && check_scene(reader, path, scene, error) &&
+                      check_hand(reader, path, hand, error) && read_last(reader, path, state, error);
     const size_t steps = snapshot_count_steps(reader);
     snapshot_reader_close(reader);
     return good ? steps : 0;

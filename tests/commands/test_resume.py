@@ -174,6 +174,43 @@ class Resume(CommandTest):
         self.assertIn('b.h5part: is no file of snapshots', said)
         self.assertEqual(self.read('b.h5part'), b'no snapshots')
 
+    def test_all_of_a_long_setting_is_compared(self):
+        rows = [[k, round(k + 0.1, 1)] for k in range(16)]
+        self.go('--set', f'fluids[0].viscosity={rows}')
+        before = self.read('a.h5part')
+        other = rows[:-1] + [[15, 15.2]]
+        said = self.go('--resume', '--set', f'fluids[0].viscosity={other}', code=2)
+        self.assertRegex(said, r"a\.h5part: was made with 'fluids\[0\]\.viscosity = \.\.\..*\[15, 15\.1\]\] Pa s', and this is "
+                               r"'fluids\[0\]\.viscosity = \.\.\..*\[15, 15\.2\]\] Pa s'; resume with the same scene")
+        self.go('--resume', '--set', f'fluids[0].viscosity={rows[:-1]}', code=2)
+        self.go('--resume', '--set', 'fluids[0].viscosity=1', code=2)
+        self.assertEqual(self.read('a.h5part'), before)
+        self.go('--resume', '--set', f'fluids[0].viscosity={rows}')
+
+    def test_steps_with_a_gap_are_refused(self):
+        """Said when the file is opened, not when a name is there already, after who knows how many hours."""
+        self.go('--time', '0.04')
+        for change, said in ((lambda file: file.pop('Step#3'), "Step#3 is missing or not whole, but there are 7 behind it, "
+                                                               "such as 'Step#10'"),
+                             (lambda file: file.move('Step#10', 'Step#12'), "Step#10 is missing or not whole, but there is "
+                                                                            "'Step#12'"),
+                             (lambda file: file.move('Step#10', 'Step#010'), "there is 'Step#010'"),
+                             (lambda file: file['Step#5'].attrs.pop('complete'), 'Step#5 is missing or not whole')):
+            shutil.copy(self.path('a.h5part'), self.path('b.h5part'))
+            with h5py.File(self.path('b.h5part'), 'r+') as file:
+                change(file)
+            before = self.read('b.h5part')
+            answer = self.go('--resume', name='b.h5part', code=2)
+            self.assertIn('b.h5part: ', answer)
+            self.assertIn(said, answer)
+            self.assertIn('; give the steps names without a gap, remove those behind it, or name another file\n', answer)
+            self.assertEqual(self.read('b.h5part'), before)
+            code, answer = self.slosh('export', 'b.h5part', '-o', 'b.vtp', '--quiet')
+            self.assertEqual(code, 0, answer)
+            self.assertIn('b.h5part: warning: ', answer)
+            self.assertIn(said, answer)
+            self.assertRegex(answer, r'; only the \d+ before it can be exported\n')
+
     def test_other_particles_are_refused(self):
         self.go()
         with h5py.File(self.path('a.h5part'), 'r+') as file:
