@@ -47,6 +47,14 @@ static char *keep(Args *args, const char *text, size_t length)
     return copy;
 }
 
+/* "--backend cuda" */
+static const char *keep_said(Args *args, const char *option, const char *value)
+{
+    char said[512];
+    const int length = snprintf(said, sizeof said, "%s %s", option, value);
+    return length < (int)sizeof said ? keep(args, said, (size_t)length) : NULL;
+}
+
 static bool number_parse(const char *text, double *out)
 {
     char *end;
@@ -114,8 +122,10 @@ static bool parse_setting(const Parser *parser, const OptionRow *option, const c
     const int length = option->path ? snprintf(whole, sizeof whole, "%s=%s", option->path, text)
                                     : snprintf(whole, sizeof whole, "%s", text);
     const char *kept = length < (int)sizeof whole ? keep(parser->args, whole, (size_t)length) : NULL;
-    if (!kept)
+    const char *said = kept && option->path ? keep_said(parser->args, option->name, text) : NULL;
+    if (!kept || (option->path && !said))
         return fail(parser, "%s: too long; write it into the scene file", option->name);
+    settings->said[settings->count] = said;
     settings->set[settings->count++] = kept;
     return true;
 }

@@ -1,5 +1,8 @@
 #include "app/args_table.h"
 
+#include "app/bench_table.h"
+#include "app/scene_lists.h"
+
 #include <stddef.h>
 
 enum {
@@ -59,7 +62,7 @@ const OptionRow option_rows[] = {
     {"--time", "S", CHART, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a scene (2); a case has its own"},
     {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods, of the scene's backend and cpu, and of those on a GPU where there is one"},
     {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
-     .help = "a published table again, beside its figures: paper003-spheres, paper003-raycast, paper003-substeps, paper002-passes"},
+     .help = "a published table again, beside its figures", .names = table_choice},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
     {"--time", "S", BENCH, OPTION_NUMBER, AT(time), .max = 1e6,
      .help = "measure from the first frame at or after that time on (0)"},
@@ -81,7 +84,7 @@ const OptionRow option_rows[] = {
     {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .max = 1000, .flags = OPTION_OPEN_LOW,
      .help = "frames in a second (30)"},
     {"--size", "WxH", PLAY | RENDER | BENCH, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
-     .help = "pixels (1280x720; bench 512x512)"},
+     .help = "pixels"},
     {"--record", "FILE", PLAY, OPTION_TEXT, AT(record), .help = "write the session there at the end, for slosh replay"},
     {"--record", "FILE", DEVICES, OPTION_TEXT, AT(record), .help = "write all raw reports there, with their times, for --device file:FILE; until Ctrl-C"},
     {"--play", NULL, BENCH, OPTION_FLAG, AT(play), .help = "measure the live window, the box shaken by a script"},
@@ -95,9 +98,9 @@ const OptionRow option_rows[] = {
      .help = "any key of the scene, such as solver.step.dt=0.01; repeat for more"},
     {"--particles", "N", ALL, OPTION_PARTICLES, AT(settings.particles), .min = 1, .max = 2147483647,
      .help = "the spacing that gives about N particles"},
-    {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes"},
-    {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations"},
-    {"--view", "NAME", ALL & ~(VALIDATE | CHART), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn; none: not at all"},
+    {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes", .names = backend_choice},
+    {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations", .names = method_choice},
+    {"--view", "NAME", ALL & ~(VALIDATE | CHART), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn", .names = view_choice},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
     {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
     {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
@@ -152,9 +155,14 @@ void args_help(Command command, FILE *file)
     fprintf(file, "slosh %s %s\n%s\n\n", row->name, row->usage, row->help);
     for (const OptionRow *option = option_rows; option->name; option++) {
         char left[64];
-        if (!(option->commands & 1u << command))
+        if (!(option->commands & 1u << command) || option->kind == OPTION_REFUSED)
             continue;
         snprintf(left, sizeof left, "%s %s", option->name, option->value ? option->value : "");
-        fprintf(file, "  %-22s %s\n", left, option->help);
+        fprintf(file, "  %-22s %s", left, option->help);
+        for (int i = 0; option->names && option->names(i); i++)
+            fprintf(file, "%s%s", i ? ", " : ": ", option->names(i));
+        if (option->kind == OPTION_SIZE)
+            fprintf(file, " (%dx%d)", row->width, row->height);
+        fputc('\n', file);
     }
 }

@@ -39,6 +39,7 @@ typedef struct OptionRow {
     unsigned flags;
     const char *path; /* of a setting; short name of it: the option without its dashes */
     const char *help;
+    const char *(*names)(int index); /* what the value may be, for the help: NULL after the last */
 } OptionRow;
 
 /* Each ended by a row without a name. */

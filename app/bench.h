@@ -57,6 +57,11 @@ typedef struct BenchSetup {
 bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part, BenchResult *result,
                    Error *error);
 
+/* What measured times are of: the processor's name as the system has it, "" where it has none; the compiler
+   with its version, and the options that the program was built with. */
+const char *bench_processor(void);
+extern const char bench_compiler[], bench_options[];
+
 /* The table for people. */
 void bench_print(const BenchResult *result, FILE *file);
 

@@ -2,6 +2,23 @@
 #include "app/json_file.h"
 
 #include <jansson.h>
+#include <string.h>
+
+const char bench_compiler[] = SLOSH_COMPILER, bench_options[] = SLOSH_OPTIONS;
+
+const char *bench_processor(void)
+{
+    static char name[128];
+    char line[256];
+    FILE *file = *name ? NULL : fopen("/proc/cpuinfo", "r");
+    while (file && !*name && fgets(line, sizeof line, file))
+        if (strncmp(line, "model name", strlen("model name")) == 0 && strstr(line, ": "))
+            snprintf(name, sizeof name, "%.*s", (int)strcspn(strstr(line, ": ") + 2, "\n"),
+                     strstr(line, ": ") + 2);
+    if (file)
+        fclose(file);
+    return name;
+}
 
 static void print_parts(const BenchResult *r, FILE *file)
 {
@@ -9,9 +26,9 @@ static void print_parts(const BenchResult *r, FILE *file)
         fprintf(
             file,
             "  the sentinel went back %u time%s and halved the step: the figures are those of more steps\n",
-            r->troubles, r->troubles == 1 ? "" : "s");
+            r->troubles, plural(r->troubles));
     if (r->lost > 0)
-        fprintf(file, "  %zu particles found no place in the grid\n", r->lost);
+        fprintf(file, "  %zu particle%s found no place in the grid\n", r->lost, plural(r->lost));
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
             r->render_ms, r->frame_ms);
     fprintf(file, "  %.3g million particle-steps/s, real-time factor %.2f, %.0f bytes a particle\n\n",
@@ -22,9 +39,10 @@ void bench_print(const BenchResult *r, FILE *file)
 {
     char threads[32] = "";
     if (r->threads > 0)
-        snprintf(threads, sizeof threads, "%d thread%s, ", r->threads, r->threads == 1 ? "" : "s");
-    fprintf(file, "%s: %zu particles, %.1f neighbours, %s on %s, %s%d x %g s\n", r->scene, r->particles,
-            r->neighbours_mean, r->method, r->backend, threads, r->substeps, r->dt_substep);
+        snprintf(threads, sizeof threads, "%d thread%s, ", r->threads, plural((size_t)r->threads));
+    fprintf(file, "%s: %zu particle%s, %.1f neighbours, %s on %s, %s%d x %g s\n", r->scene, r->particles,
+            plural(r->particles), r->neighbours_mean, r->method, r->backend, threads, r->substeps,
+            r->dt_substep);
     if (r->renderer[0])
         fprintf(file, "view %s, %d x %d, on %s\n", r->view, r->width, r->height, r->renderer);
     if (r->swept[0])
@@ -66,9 +84,11 @@ static json_t *stages_json(const BenchResult *r)
 
 static json_t *result_json(const BenchResult *r)
 {
-    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i]}", "scene", r->scene, "backend",
-                             r->backend, "method", r->method, "view", r->view, "threads", r->threads,
-                             "renderer", r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height);
+    json_t *json =
+        json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i], s:s, s:s, s:s}", "scene", r->scene, "backend",
+                  r->backend, "method", r->method, "view", r->view, "threads", r->threads, "renderer",
+                  r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height, "processor",
+                  bench_processor(), "compiler", bench_compiler, "options", bench_options);
     json_t *more =
         json_pack("{s:I, s:i, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles,
                   "troubles", (int)r->troubles, "lost", (json_int_t)r->lost, "time", r->time,

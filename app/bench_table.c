@@ -65,9 +65,14 @@ static const Table tables[] = {
      .columns = {{"voxelize", BIT(STAGE_VOXELIZE)}, {"slice", BIT(STAGE_SHADE)}}},
 };
 
+const char *table_choice(int index)
+{
+    return index < (int)(sizeof tables / sizeof *tables) ? tables[index].name : NULL;
+}
+
 const Table *table_find(const char *name, Error *error)
 {
-    char all[512] = "";
+    char all[sizeof error->message] = "";
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
         if (strcmp(tables[i].name, name) == 0)
             return &tables[i];
@@ -221,9 +226,10 @@ bool table_print(const Table *table, const BenchResult *results, size_t count, F
     if (table->reference)
         fprintf(file, "published: %s\n", reference.notes);
     if (count > 0)
-        fprintf(file, "here: %s, cpu with %d threads, %d x %d; medians of %d frames, ms\n\n",
-                results[0].renderer, results[0].threads, results[0].width, results[0].height,
-                results[0].frames);
+        fprintf(file, "here: %s; %s with %d thread%s; %d x %d; medians of %d frame%s, ms\n\n",
+                results[0].renderer, bench_processor(), results[0].threads,
+                plural((size_t)results[0].threads), results[0].width, results[0].height, results[0].frames,
+                plural((size_t)results[0].frames));
     fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view",
             table->sweep ? strrchr(table->sweep, '.') + 1 : "backend");
     for (int c = 0; table->columns[c].title; c++)

@@ -33,6 +33,9 @@ typedef struct Table {
 /* NULL with the reason, which lists them, when there is none of that name. */
 const Table *table_find(const char *name, Error *error);
 
+/* The name at `index`, NULL from the end of the list on. */
+const char *table_choice(int index);
+
 /* The sweeps that make up its cases, views and backends as this program has them; how many. */
 int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1]);
 

@@ -8,10 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool add_setting(SceneSettings *settings, const char *text, Error *error)
+static bool add_setting(SceneSettings *settings, const char *text, const char *said, Error *error)
 {
     if (settings->count == SCENE_SETTINGS_MAX)
         return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
+    settings->said[settings->count] = said;
     settings->set[settings->count++] = text;
     return true;
 }
@@ -24,14 +25,14 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
     snprintf(method, sizeof method, "solver.method=%.32s", setup->method);
     bool ok = true;
     for (int i = 0; ok && case_settings[i]; i++)
-        ok = add_setting(&all, case_settings[i], error);
+        ok = add_setting(&all, case_settings[i], NULL, error);
     ok = ok && scene_load(setup->of->scene, NULL, scene, NULL, error) &&
-         add_setting(&all, case_support(setup->method, scene->world.dimensions), error) &&
-         add_setting(&all, spacing, error) && add_setting(&all, method, error);
+         add_setting(&all, case_support(setup->method, scene->world.dimensions), NULL, error) &&
+         add_setting(&all, spacing, NULL, error) && add_setting(&all, method, NULL, error);
     if (ok && setup->of->setting)
-        ok = add_setting(&all, setup->of->setting, error);
+        ok = add_setting(&all, setup->of->setting, NULL, error);
     for (int i = 0; ok && i < setup->settings->count; i++)
-        ok = add_setting(&all, setup->settings->set[i], error);
+        ok = add_setting(&all, setup->settings->set[i], setup->settings->said[i], error);
     return ok && scene_load(setup->of->scene, &all, scene, NULL, error);
 }
 

@@ -161,7 +161,7 @@ static bool plan_jobs(ChartPlan *plan, Error *error)
 static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
 {
     static Scene scene;
-    char text[128];
+    char text[160];
     const ChartSubject *subject = &plan->subject;
     const bool of_method = strcmp(sweep->key, "solver.method") == 0;
     bool ok = of_method || strcmp(sweep->key, "solver.backend") == 0 ||
@@ -169,8 +169,10 @@ static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
     for (int v = 0; ok && v < sweep->count; v++) {
         SceneSettings settings = *subject->settings;
         const char *method = of_method || !subject->of ? sweep->values[v] : subject->of->methods[0];
-        snprintf(text, sizeof text, "%.60s=%.60s", sweep->key, sweep->values[v]);
-        settings.set[settings.count < SCENE_SETTINGS_MAX ? settings.count++ : settings.count - 1] = text;
+        snprintf(text, sizeof text, "--sweep %.60s=%.60s", sweep->key, sweep->values[v]);
+        const int last = settings.count < SCENE_SETTINGS_MAX ? settings.count++ : settings.count - 1;
+        settings.set[last] = text + strlen("--sweep ");
+        settings.said[last] = text;
         const CaseSetup setup = {subject->of, CASE_DEFAULT, method, &settings};
         ok = subject->of ? case_scene(&setup, &scene, error)
                          : scene_load(subject->scene, &settings, &scene, NULL, error);

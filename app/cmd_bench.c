@@ -25,12 +25,13 @@ typedef struct Plan {
     SceneSettings settings;
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
+    const char *narrowed[ARGS_SWEEPS_MAX]; /* of a table: what said the one value, as SceneSettings has it */
 } Plan;
 
 _Static_assert(TABLE_SWEEPS + 1 <= ARGS_SWEEPS_MAX, "a table's sweeps have room");
 
 /* A setting of what a table sweeps: that one value. */
-static bool narrow(Plan *plan, const char *setting)
+static bool narrow(Plan *plan, const char *setting, const char *said)
 {
     for (int i = 0; i < plan->sweep_count; i++) {
         Sweep *sweep = &plan->sweeps[i];
@@ -38,6 +39,7 @@ static bool narrow(Plan *plan, const char *setting)
         if (strncmp(setting, sweep->key, key) == 0 && setting[key] == '=') {
             sweep->count = 1;
             sweep->values[0] = setting + key + 1;
+            plan->narrowed[i] = said;
             return true;
         }
     }
@@ -60,14 +62,17 @@ static bool plan_table(Plan *plan, Error *error)
     plan->scenes = &plan->table->scene;
     plan->scene_count = 1;
     plan->sweep_count = table_sweeps(plan->table, plan->sweeps);
+    memset(plan->settings.said, 0, sizeof plan->settings.said);
     for (int i = 0; i < TABLE_SETTINGS && plan->table->settings[i]; i++)
         plan->settings.set[count++] = plan->table->settings[i];
     for (int i = 0; i < args->settings.count; i++) {
         if (count == SCENE_SETTINGS_MAX)
             return error_set(error, "more than %d settings; write them into the scene file",
                              SCENE_SETTINGS_MAX);
-        if (!narrow(plan, args->settings.set[i]))
-            plan->settings.set[count++] = args->settings.set[i];
+        if (narrow(plan, args->settings.set[i], args->settings.said[i]))
+            continue;
+        plan->settings.said[count] = args->settings.said[i];
+        plan->settings.set[count++] = args->settings.set[i];
     }
     plan->settings.count = count;
     return true;
@@ -95,11 +100,11 @@ static bool plan_make(const Args *args, Plan *plan, Error *error)
     return true;
 }
 
-enum { TEXTS_BYTES = ARGS_SWEEPS_MAX * 512 };
+/* Words for the swept settings of one case: what messages call them, with the setting itself behind. */
+typedef char SweptTexts[ARGS_SWEEPS_MAX][512];
 
-/* The settings of one case; `texts` holds the swept ones. */
-static bool case_settings(const Plan *plan, size_t combination, char texts[TEXTS_BYTES],
-                          SceneSettings *settings, Error *error)
+static bool case_settings(const Plan *plan, size_t combination, SweptTexts texts, SceneSettings *settings,
+                          Error *error)
 {
     *settings = plan->settings;
     for (int i = plan->sweep_count - 1; i >= 0; i--) {
@@ -115,9 +120,9 @@ static bool case_settings(const Plan *plan, size_t combination, char texts[TEXTS
         if (settings->count == SCENE_SETTINGS_MAX)
             return error_set(error, "more than %d settings; write them into the scene file",
                              SCENE_SETTINGS_MAX);
-        char *text = texts + (ptrdiff_t)i * 512;
-        snprintf(text, 512, "%s=%s", sweep->key, value);
-        settings->set[settings->count++] = text;
+        snprintf(texts[i], sizeof texts[i], "--sweep %s=%s", sweep->key, value);
+        settings->said[settings->count] = plan->table ? plan->narrowed[i] : texts[i];
+        settings->set[settings->count++] = texts[i] + strlen("--sweep ");
     }
     return true;
 }
@@ -137,7 +142,7 @@ static void case_name(const Plan *plan, size_t combination, char *name, size_t s
 
 static bool case_load(const Plan *plan, size_t index, bool tell, Scene *scene, Error *error)
 {
-    char texts[TEXTS_BYTES];
+    SweptTexts texts;
     Notes notes;
     SceneSettings settings;
     if (!case_settings(plan, index % plan->combinations, texts, &settings, error) ||

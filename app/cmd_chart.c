@@ -32,7 +32,8 @@ static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
             rows->row[i] = *old;
     }
     if (!plan->args->quiet && runs->there > 0)
-        fprintf(stderr, "%d of %d runs are in %s already\n", runs->there, plan->count, plan->csv);
+        fprintf(stderr, "%d of %d runs %s in %s already\n", runs->there, plan->count,
+                runs->there == 1 ? "is" : "are", plan->csv);
     return true;
 }
 

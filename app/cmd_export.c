@@ -59,12 +59,13 @@ static void report(const Export *export, const Args *args)
     if (export->interrupted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->time, args->output);
     if (export->empty > 0)
-        fprintf(stderr, "%s: warning: %zu of %zu snapshots have no fluid at that level, and no surface\n",
-                args->output, export->empty, export->snapshots);
+        fprintf(stderr, "%s: warning: %zu of %zu snapshots %s no fluid at that level, and no surface\n",
+                args->output, export->empty, export->snapshots, export->empty == 1 ? "has" : "have");
     if (args->quiet)
         return;
-    fprintf(stderr, "%s: %zu snapshot%s t = %.4g s, %zu particles, ", args->output, export->snapshots,
-            export->snapshots == 1 ? " of" : "s up to", export->time, export->particles);
+    fprintf(stderr, "%s: %zu snapshot%s t = %.4g s, %zu particle%s, ", args->output, export->snapshots,
+            export->snapshots == 1 ? " of" : "s up to", export->time, export->particles,
+            plural(export->particles));
     if (export->surface)
         fprintf(stderr, "a surface of %zu triangles around %.4g m3 at level %.3g, ", export->triangles,
                 export->volume, export->level);

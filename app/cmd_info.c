@@ -111,7 +111,8 @@ int cmd_info(const Args *args)
     printf("threads\n  %d\n", world_processors());
     if (!args->scene_count)
         return 0;
-    printf("%s: %zu particles\n", scene.path, world_def_count(&scene.world, scene.world.spacing));
+    const size_t count = world_def_count(&scene.world, scene.world.spacing);
+    printf("%s: %zu particle%s\n", scene.path, count, plural(count));
     notes_print(&notes, stderr);
     scene_print(&scene, stdout);
     return 0;

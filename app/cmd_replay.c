@@ -82,8 +82,9 @@ static int judge(const Replay *replay)
     if (recording->cut) {
         fprintf(stderr,
                 "%s:%zu: the recording was cut here, its last line 'end STEPS HASH' is missing; %" PRIu64
-                " steps were replayed, hash %016" PRIx64 ", and nothing is proven\n",
-                replay->path, recording_line(recording, recording->count), step, replay->hash);
+                " step%s replayed, hash %016" PRIx64 ", and nothing is proven\n",
+                replay->path, recording_line(recording, recording->count), step,
+                step == 1 ? " was" : "s were", replay->hash);
         return EXIT_FAILED;
     }
     if (!same_bits(replay)) {
@@ -126,7 +127,8 @@ static int finish(Replay *replay, Error *error)
 {
     replay->hash = world_hash(replay->session.world);
     if (replay->series.file && !replay->args->quiet)
-        fprintf(stderr, "%s: %zu snapshots\n", replay->args->output, snapshot_steps(replay->series.file));
+        fprintf(stderr, "%s: %zu snapshot%s\n", replay->args->output, snapshot_steps(replay->series.file),
+                plural(snapshot_steps(replay->series.file)));
     if (replay->broke)
         fprintf(stderr, "%s\n", error->message);
     const int code = judge(replay);

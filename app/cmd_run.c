@@ -71,8 +71,8 @@ static Snapshot *resume(Session *session, const Args *args, bool *busy, Error *e
     world_state_free(&state);
     world_info(session->world, &session->info);
     if (file && !args->quiet)
-        fprintf(stderr, "%s: goes on from %.4g s, behind %zu snapshots\n", args->output, session->info.time,
-                snapshot_steps(file));
+        fprintf(stderr, "%s: goes on from %.4g s, behind %zu snapshot%s\n", args->output, session->info.time,
+                snapshot_steps(file), plural(snapshot_steps(file)));
     return file;
 }
 

@@ -164,7 +164,7 @@ static int count_missed(const CaseResult *results, int count, FILE *file)
             misses += !case_passed(&results[i], m);
         }
     if (file)
-        fprintf(file, "%d of %d figures keep their tolerance\n", all - misses, all);
+        fprintf(file, "%d of %d figure%s within tolerance\n", all - misses, all, plural((size_t)all));
     return misses;
 }
 

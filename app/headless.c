@@ -98,7 +98,8 @@ Headless *headless_create(int gpu, Error *error)
     EGLDeviceEXT devices[HEADLESS_GPUS_MAX];
     int count = list_devices(devices);
     if (gpu >= count || gpu < HEADLESS_GPU_AUTO) {
-        error_set(error, "there is no GPU %d; this machine has %d EGL devices, counted from 0", gpu, count);
+        error_set(error, "there is no GPU %d; this machine has %d EGL device%s, counted from 0", gpu, count,
+                  plural((size_t)count));
         return NULL;
     }
     Headless *headless = NULL;

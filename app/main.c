@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 /* The OpenMP library reads this when it is loaded. Its idle threads spin, some hundred milliseconds where
@@ -12,6 +13,7 @@
    10,000 of them double the time of a frame where a picture is drawn beside it. */
 static void bound_spinning(char *argv[])
 {
+    prctl(PR_SET_NAME, "slosh"); /* else `ps` shows "exe", the link that is run below */
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT"))
         return;
     setenv("GOMP_SPINCOUNT", "1000", 1);

@@ -120,8 +120,8 @@ static void find_warnings(Play *play)
     if (runs && play->meter.pictures > 60 && play->meter.pictures_per_second < 20)
         warn(&play->ui, "Pictures are slow: a smaller window or fewer particles.");
     if (status->lost > 0) {
-        snprintf(play->ui.lost, sizeof play->ui.lost, "%zu particles find no place in the grid.",
-                 status->lost);
+        snprintf(play->ui.lost, sizeof play->ui.lost, "%zu particle%s no place in the grid.", status->lost,
+                 status->lost == 1 ? " finds" : "s find");
         warn(&play->ui, play->ui.lost);
     }
     for (int i = 0; i < play->open.notes.count; i++)

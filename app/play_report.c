@@ -1,5 +1,6 @@
 #include "app/play_report.h"
 
+#include "app/bench.h"
 #include "app/json_file.h"
 #include "sim/world.h"
 
@@ -27,10 +28,11 @@ static json_t *figures_json(const PlayFigures *f)
     json_t *devices = json_pack("{s:I, s:f, s:f}", "device_reports", (json_int_t)f->device_reports,
                                 "report_median_ms", f->report_median_ms, "report_p99_ms", f->report_p99_ms);
     json_t *state =
-        json_pack("{s:I, s:f, s:f, s:I, s:I, s:s, s:s, s:f, s:f}", "steps", (json_int_t)f->step, "time",
-                  f->time, "simulated_seconds", f->simulated_s, "pictures", (json_int_t)f->pictures,
-                  "scenes_opened", (json_int_t)f->scenes_opened, "color_by", f->color_by, "colormap",
-                  f->colormap, "speed", f->speed, "display_scale", f->display_scale);
+        json_pack("{s:I, s:f, s:f, s:I, s:I, s:s, s:s, s:f, s:f, s:s, s:s, s:s}", "steps",
+                  (json_int_t)f->step, "time", f->time, "simulated_seconds", f->simulated_s, "pictures",
+                  (json_int_t)f->pictures, "scenes_opened", (json_int_t)f->scenes_opened, "color_by",
+                  f->color_by, "colormap", f->colormap, "speed", f->speed, "display_scale", f->display_scale,
+                  "processor", bench_processor(), "compiler", bench_compiler, "options", bench_options);
     json_t *hands = json_pack("{s:b, s:b, s:b, s:b, s:b, s:o, s:o, s:o, s:o, s:i}", "paused", f->paused,
                               "fullscreen", f->fullscreen, "camera_auto", f->camera_auto, "panel", f->panel,
                               "help", f->help, "box_position", vector(f->box_position, 3), "box_orientation",
@@ -86,9 +88,9 @@ void play_print(const PlayFigures *f, FILE *file)
 {
     char threads[32] = "";
     if (f->threads > 0)
-        snprintf(threads, sizeof threads, "%d threads, ", f->threads);
-    fprintf(file, "%s: %zu particles, %s on %s, %slive for %.1f s\n", f->scene, f->particles, f->method,
-            f->backend, threads, f->wall_s);
+        snprintf(threads, sizeof threads, "%d thread%s, ", f->threads, plural((size_t)f->threads));
+    fprintf(file, "%s: %zu particle%s, %s on %s, %slive for %.1f s\n", f->scene, f->particles,
+            plural(f->particles), f->method, f->backend, threads, f->wall_s);
     fprintf(file, "view %s, %d x %d, on %s\n", f->view, f->width, f->height, f->renderer);
     fprintf(file, "  real-time factor      %8.3f\n", f->real_time_factor);
     fprintf(file, "  pictures a second     %8.1f\n", f->pictures_per_second);

@@ -9,6 +9,7 @@ static bool load_scene(const RecordingPlay *play, const SceneSettings *more, Sce
     for (int i = 0; more && i < more->count; i++) {
         if (settings.count == SCENE_SETTINGS_MAX)
             return error_set(error, "more than %d settings; leave --threads out", SCENE_SETTINGS_MAX);
+        settings.said[settings.count] = more->said[i];
         settings.set[settings.count++] = more->set[i];
     }
     return scene_parse(recording->path, recording->text, recording->size, &settings, scene, NULL, error);

@@ -47,8 +47,8 @@ static bool add_line(Reference *reference, char *line, int number, Error *error)
     if (head)
         reference->columns = count;
     else if (count != reference->columns)
-        return error_set(error, "%s:%d: %d cells; the columns are %d", reference->path, number, count,
-                         reference->columns);
+        return error_set(error, "%s:%d: %d cell%s; the columns are %d", reference->path, number, count,
+                         plural((size_t)count), reference->columns);
     else
         reference->rows++;
     return true;

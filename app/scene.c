@@ -49,20 +49,19 @@ static void file_scalar(const Tree *tree, char name[NAME_SIZE])
 static void range_of_scalar(const Tree *tree, const char *scalar_of_file, ViewDef *view)
 {
     const Node *color = tree_near(tree, "view.color_by"), *range = tree_near(tree, "view.range");
-    const bool own = is_key(range, "range") && range->setting;
+    const bool own = is_key(range, "range") && range->said;
     const char *of_file = *scalar_of_file ? scalar_of_file : scalar_name(view_def_default().color_by);
-    if (!own && is_key(color, "color_by") && color->setting &&
-        strcmp(of_file, scalar_name(view->color_by)) != 0)
+    if (!own && is_key(color, "color_by") && color->said && strcmp(of_file, scalar_name(view->color_by)) != 0)
         view->range_auto = true;
 }
 
 static bool apply_settings(Tree *tree, SceneSettings *settings, Error *error)
 {
     for (int i = 0; i < settings->count; i++)
-        if (!tree_set(tree, settings->set[i], error))
+        if (!tree_set(tree, settings->set[i], settings->said[i], error))
             return false;
     const Node *dt = tree_near(tree, "solver.step.dt");
-    settings->dt_set = dt->setting && is_key(dt, "dt");
+    settings->dt_set = dt->said && is_key(dt, "dt");
     return true;
 }
 

@@ -35,8 +35,10 @@ typedef struct SceneSettings {
     const char
         *set[SCENE_SETTINGS_MAX]; /* "path=value", in the order given; also what --backend, --method, --view,
                                      --threads stand for */
-    size_t particles;             /* --particles; 0: the scene's own spacing */
-    bool dt_set;                  /* filled: dt was among `set`, so --particles does not scale it */
+    const char
+        *said[SCENE_SETTINGS_MAX]; /* what messages call it: "--backend cuda"; NULL: --set and the setting */
+    size_t particles;              /* --particles; 0: the scene's own spacing */
+    bool dt_set;                   /* filled: dt was among `set`, so --particles does not scale it */
 } SceneSettings;
 
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what

@@ -24,8 +24,8 @@ void advise(const Tree *tree, const char *path, Notes *notes, const char *format
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
     const Node *node = tree ? tree_near(tree, path) : NULL;
-    if (node && node->setting)
-        notes_add(notes, "--set %s: %s", node->setting, what);
+    if (node && node->said)
+        notes_add(notes, "%s: %s", node->said, what);
     else if (node && stands_at(node, path))
         notes_add(notes, "%s:%d:%d: %s", tree->path, node->key_line, node->key_column, what);
     else

@@ -150,7 +150,8 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
         return FAIL(&check, "particles.most", "%d particles are more than this machine can hold; use fewer",
                     scene->world.most);
     return before <= (size_t)scene->world.most ||
-           FAIL(&check, "particles.most",
-                "the fills alone hold %zu particles, more than the %d that emitters may fill up to; raise it",
-                before, scene->world.most);
+           FAIL(
+               &check, "particles.most",
+               "the fills alone hold %zu particle%s, more than the %d that emitters may fill up to; raise it",
+               before, plural(before), scene->world.most);
 }

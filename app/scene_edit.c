@@ -1,25 +1,28 @@
 /* `--set path=value`: edits of the scene tree. */
 #include "app/scene_yaml.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* An edit on its way down the path. */
 typedef struct Edit {
     Tree *tree;
-    const char *setting;
+    const char *said; /* as in Node */
+    const char *path;
+    int done; /* letters of the path that were gone down */
     Error *error;
 } Edit;
 
 static bool fail(const Edit *edit, const char *what)
 {
-    return error_set(edit->error, "--set %s: %s", edit->setting, what);
+    return error_set(edit->error, "%s: %s", edit->said, what);
 }
 
 static Node *node_new(const Edit *edit, NodeKind kind)
 {
     Node *node = tree_alloc(edit->tree, sizeof *node);
     if (node)
-        *node = (Node){.kind = kind, .plain = true, .setting = edit->setting, .line = 1, .column = 1};
+        *node = (Node){.kind = kind, .plain = true, .said = edit->said, .line = 1, .column = 1};
     return node;
 }
 
@@ -36,16 +39,28 @@ static bool become(const Edit *edit, Node *node, NodeKind kind)
 {
     if (node->kind == NODE_SCALAR && node->plain && !node->text) {
         node->kind = kind;
-        node->setting = edit->setting;
+        node->said = edit->said;
     }
     return node->kind == kind;
+}
+
+/* In a list of mappings the index is what lacks. */
+static bool no_mapping(const Edit *edit, const Node *node, const char *key)
+{
+    const Node *first = node->kind == NODE_SEQUENCE ? node->first : NULL;
+    const char *rest = edit->path + edit->done;
+    const int above = edit->done - (edit->done > 0 && rest[-1] == '.');
+    if (first && first->kind == NODE_MAPPING)
+        return error_set(edit->error, "%s: %.*s is a list of %zu; did you mean '%.*s[0].%s'?", edit->said,
+                         above, edit->path, node_count(node), above, edit->path, rest);
+    return error_set(edit->error, "%s: '%s' stands in no mapping; use an index [0] for lists", edit->said,
+                     key);
 }
 
 static bool step_key(const Edit *edit, Node *node, const char *key, Node **child)
 {
     if (!become(edit, node, NODE_MAPPING))
-        return error_set(edit->error, "--set %s: '%s' stands in no mapping; use an index [0] for lists",
-                         edit->setting, key);
+        return no_mapping(edit, node, key);
     *child = (Node *)node_child(node, key);
     if (*child)
         return true;
@@ -62,13 +77,12 @@ static bool step_key(const Edit *edit, Node *node, const char *key, Node **child
 static bool step_index(const Edit *edit, Node *node, size_t index, Node **child)
 {
     if (!become(edit, node, NODE_SEQUENCE))
-        return error_set(edit->error, "--set %s: [%zu] follows something that is no list; use a key",
-                         edit->setting, index);
+        return error_set(edit->error, "%s: [%zu] follows something that is no list; use a key", edit->said,
+                         index);
     const size_t count = node_count(node);
     if (index > count)
-        return error_set(edit->error,
-                         "--set %s: [%zu] is beyond the list's end; use at most %zu, which appends",
-                         edit->setting, index, count);
+        return error_set(edit->error, "%s: [%zu] is beyond the list's end; use at most %zu, which appends",
+                         edit->said, index, count);
     *child = (Node *)node_element(node, index);
     if (*child)
         return true;
@@ -93,16 +107,28 @@ static void node_replace(Node *place, const Node *value)
 static bool read_value(const Edit *edit, const char *text, Node **value)
 {
     if (text[strspn(text, " \t")])
-        return yaml_read(edit->tree, edit->setting, text, strlen(text), value, edit->error);
+        return yaml_read(edit->tree, edit->said, text, strlen(text), value, edit->error);
     *value = node_new(edit, NODE_SCALAR);
     return *value || fail(edit, "no memory");
 }
 
-bool tree_set(Tree *tree, const char *setting, Error *error)
+/* "--set path=value", for as long as the tree lives. */
+static const char *said_by_set(Tree *tree, const char *setting)
 {
-    const Edit edit = {tree, setting, error};
+    const size_t size = sizeof "--set " + strlen(setting);
+    char *said = tree_alloc(tree, size);
+    if (!said)
+        return "--set";
+    snprintf(said, size, "--set %s", setting);
+    return said;
+}
+
+bool tree_set(Tree *tree, const char *setting, const char *said, Error *error)
+{
+    char path[256] = "";
+    Edit edit = {
+        .tree = tree, .said = said ? said : said_by_set(tree, setting), .path = path, .error = error};
     const char *equals = strchr(setting, '=');
-    char path[256];
     if (!equals || equals == setting || (size_t)(equals - setting) >= sizeof path)
         return fail(&edit, "no setting; write path=value, such as solver.step.dt=0.01");
     memcpy(path, setting, (size_t)(equals - setting));
@@ -114,6 +140,7 @@ bool tree_set(Tree *tree, const char *setting, Error *error)
     int depth = 0;
     for (const char *at = path; *at;) {
         PathPart part;
+        edit.done = (int)(at - path);
         if (!path_next(&at, &part) || ++depth > TREE_DEPTH_MAX)
             return fail(&edit, "no path before the '='; write it like fluids[0].density");
         if (!(part.index < 0 ? step_key(&edit, node, part.key, &node)

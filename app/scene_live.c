@@ -31,10 +31,10 @@ static bool tree_make(Tree *tree, const Scene *scene, const char *setting, Error
         return false;
     for (int f = 0; f < scene->world.fluid_count; f++) {
         snprintf(fluid[f], sizeof fluid[f], "fluids[%d]=", f);
-        if (!tree_set(tree, fluid[f], error))
+        if (!tree_set(tree, fluid[f], NULL, error))
             return false;
     }
-    return tree_set(tree, setting, error);
+    return tree_set(tree, setting, NULL, error);
 }
 
 static bool unknown_key(const Change *change)

@@ -127,8 +127,8 @@ static bool read_list(const Place *place, const Key *key, const Node *node, cons
                           shown);
     const size_t elements = node_count(node);
     if ((double)elements < key->min || (double)elements > key->max)
-        return tree_error(place->tree, node, place->error, "%s has %zu entries; it must have %g to %g", shown,
-                          elements, key->min, key->max);
+        return tree_error(place->tree, node, place->error, "%s has %zu %s; it must have %g to %g", shown,
+                          elements, elements == 1 ? "entry" : "entries", key->min, key->max);
     char parent[PATH_SIZE];
     snprintf(parent, sizeof parent, "%.120s[]", key->path);
     int index = 0;

@@ -33,9 +33,9 @@ static bool begins_line(unsigned code)
     return code == '\n' || code == '\r' || code == 0x85 || code == 0x2028 || code == 0x2029 || code == 0xfeff;
 }
 
-bool yaml_text_check(const Tree *tree, const char *setting, const char *bytes, size_t size, Error *error)
+bool yaml_text_check(const Tree *tree, const char *said, const char *bytes, size_t size, Error *error)
 {
-    Node place = {.line = 1, .column = 1, .setting = setting};
+    Node place = {.line = 1, .column = 1, .said = said};
     unsigned before = '\n';
     for (size_t i = 0; i < size;) {
         const Character character = character_at((const unsigned char *)bytes + i, size - i);

@@ -119,13 +119,13 @@ const Node *tree_near(const Tree *tree, const char *path)
     return node;
 }
 
-static bool error_at(const Tree *tree, const char *setting, int line, int column, Error *error,
+static bool error_at(const Tree *tree, const char *said, int line, int column, Error *error,
                      const char *format, va_list arguments)
 {
     char what[sizeof error->message];
     vsnprintf(what, sizeof what, format, arguments);
-    if (setting)
-        return error_set(error, "--set %s: %s", setting, what);
+    if (said)
+        return error_set(error, "%s: %s", said, what);
     return error_set(error, "%s:%d:%d: %s", tree->path, line, column, what);
 }
 
@@ -133,7 +133,7 @@ bool tree_error(const Tree *tree, const Node *node, Error *error, const char *fo
 {
     va_list arguments;
     va_start(arguments, format);
-    error_at(tree, node->setting, node->line, node->column, error, format, arguments);
+    error_at(tree, node->said, node->line, node->column, error, format, arguments);
     va_end(arguments);
     return false;
 }
@@ -142,7 +142,7 @@ bool tree_error_key(const Tree *tree, const Node *node, Error *error, const char
 {
     va_list arguments;
     va_start(arguments, format);
-    error_at(tree, node->setting, node->key ? node->key_line : node->line,
+    error_at(tree, node->said, node->key ? node->key_line : node->line,
              node->key ? node->key_column : node->column, error, format, arguments);
     va_end(arguments);
     return false;

@@ -18,11 +18,12 @@ typedef enum NodeKind { NODE_SCALAR, NODE_MAPPING, NODE_SEQUENCE } NodeKind;
 typedef struct Node Node;
 struct Node {
     NodeKind kind;
-    bool plain;          /* scalar without quotes: may be a number, a boolean or nothing at all */
-    int line, column;    /* counted from 1 */
-    const char *setting; /* the "path=value" that it came from; NULL: the file */
-    const char *text;    /* scalar; NULL: nothing stands there */
-    const char *key;     /* as a child of a mapping */
+    bool plain;       /* scalar without quotes: may be a number, a boolean or nothing at all */
+    int line, column; /* counted from 1 */
+    const char
+        *said; /* where the command line said it: "--set path=value", "--backend cpu"; NULL: the file */
+    const char *text; /* scalar; NULL: nothing stands there */
+    const char *key;  /* as a child of a mapping */
     int key_line, key_column;
     Node *first, *next; /* children; siblings, in the order of the text */
 };
@@ -39,10 +40,10 @@ bool tree_read(Tree *tree, const char *path, const char *bytes, size_t size, Err
 void tree_free(Tree *tree);
 
 /* Puts the value of "path=value" at its place, which is a path like `fluids[0].density`: mappings that are
-   missing on the way are made, and an index one past the end of a list appends. `setting` must outlive the
-   tree. False with
-   "--set path=value: ...". */
-bool tree_set(Tree *tree, const char *setting, Error *error);
+   missing on the way are made, and an index one past the end of a list appends. `said` is
+   what messages call it, such as "--backend cpu", and must outlive the tree; NULL: "--set path=value". False
+   with "--set path=value: ...". */
+bool tree_set(Tree *tree, const char *setting, const char *said, Error *error);
 
 /* The child of a mapping by key, of a sequence by index; NULL when there is none. */
 const Node *node_child(const Node *mapping, const char *key);

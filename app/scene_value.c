@@ -169,8 +169,9 @@ static bool read_names(const Value *value, int *count)
                           value->key->choice(0), names);
     const size_t entries = node_count(list);
     if ((double)entries < value->key->min || (double)entries > value->key->max)
-        return tree_error(value->tree, list, value->error, "%s has %zu entries; it must have %g to %g",
-                          value->shown, entries, value->key->min, value->key->max);
+        return tree_error(value->tree, list, value->error, "%s has %zu %s; it must have %g to %g",
+                          value->shown, entries, entries == 1 ? "entry" : "entries", value->key->min,
+                          value->key->max);
     *count = 0;
     for (const Node *node = list->first; node; node = node->next) {
         const int place = name_of(value, node, names);

@@ -10,7 +10,7 @@ enum { MAPPING_KEYS_MAX = 256 };
 
 typedef struct Reader {
     Tree *tree;
-    const char *setting;
+    const char *said;
     struct fy_diag *diag;
     struct fy_parser *parser;
     struct fy_event *event; /* the present one */
@@ -19,7 +19,7 @@ typedef struct Reader {
 
 static bool fail_at(const Reader *reader, int line, int column, const char *what)
 {
-    const Node place = {.line = line, .column = column, .setting = reader->setting};
+    const Node place = {.line = line, .column = column, .said = reader->said};
     return tree_error(reader->tree, &place, reader->error, "%s", what);
 }
 
@@ -218,7 +218,7 @@ static bool read_node(Reader *reader, int depth, int line, int column, Node **ou
         return fail_here(reader, "no memory to read it");
     node->line = line;
     node->column = column;
-    node->setting = reader->setting;
+    node->said = reader->said;
     event_place(reader, &node->line, &node->column);
     *out = node;
     switch (reader->event->type) {
@@ -239,7 +239,7 @@ static bool read_stream(Reader *reader, Node **root)
         return false;
     *root = NULL;
     if (reader->event->type == FYET_STREAM_END)
-        return !reader->setting || fail_at(reader, 1, 1, "no value; write path=value");
+        return !reader->said || fail_at(reader, 1, 1, "no value; write path=value");
     if (!event_next(reader) || !read_node(reader, 0, 1, 1, root))
         return false;
     if (!events_skip(reader, 2)) /* the document's end, then what follows */
@@ -249,10 +249,10 @@ static bool read_stream(Reader *reader, Node **root)
     return true;
 }
 
-bool yaml_read(Tree *tree, const char *setting, const char *bytes, size_t size, Node **root, Error *error)
+bool yaml_read(Tree *tree, const char *said, const char *bytes, size_t size, Node **root, Error *error)
 {
-    Reader reader = {.tree = tree, .setting = setting, .error = error};
-    if (!yaml_text_check(tree, setting, bytes, size, error))
+    Reader reader = {.tree = tree, .said = said, .error = error};
+    if (!yaml_text_check(tree, said, bytes, size, error))
         return false;
     struct fy_diag_cfg quiet;
     fy_diag_cfg_default(&quiet);

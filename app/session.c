@@ -78,9 +78,10 @@ static void look(Session *session)
 const char *session_lost_text(const WorldInfo *info, char words[256])
 {
     snprintf(words, 256,
-             "t = %.4g s: %zu of %zu particles find no place in the grid, and no neighbour sees them; "
+             "t = %.4g s: %zu of %zu particles %s no place in the grid, and no neighbour sees %s; "
              "solver.grid_layers 0 has room for a fluid at rest",
-             info->time, info->lost, info->count);
+             info->time, info->lost, info->count, info->lost == 1 ? "finds" : "find",
+             info->lost == 1 ? "it" : "them");
     return words;
 }
 
@@ -88,8 +89,8 @@ const char *session_full_text(const WorldInfo *info, char words[256])
 {
     snprintf(
         words, 256,
-        "t = %.4g s: there are %zu particles, as many as particles.most allows: emitters wait until some drain",
-        info->time, info->count);
+        "t = %.4g s: there %s %zu particle%s, as many as particles.most allows: emitters wait until some drain",
+        info->time, info->count == 1 ? "is" : "are", info->count, plural(info->count));
     return words;
 }
 
@@ -150,9 +151,10 @@ void session_report(const Session *session, const Args *args, const Summary *sum
     if (summary->stopped)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", info->time, args->output);
     if (!args->quiet)
-        fprintf(stderr, "%zu particles, %.3g s simulated in %.3g s (%.3g times real time): %s, %zu %.*s\n",
-                info->count, info->time, wall, info->time / wall, args->output, summary->products,
-                (int)strlen(summary->product) - (summary->products == 1), summary->product);
+        fprintf(stderr, "%zu particle%s, %.3g s simulated in %.3g s (%.3g times real time): %s, %zu %.*s\n",
+                info->count, plural(info->count), info->time, wall, info->time / wall, args->output,
+                summary->products, (int)strlen(summary->product) - (summary->products == 1),
+                summary->product);
     if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
         print_limits(info);
 }

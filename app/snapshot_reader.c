@@ -276,8 +276,8 @@ bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step
     size_t count = 0;
     *step = (SnapshotStep){0};
     if (index >= reader->steps)
-        return error_set(error, "%s: has no step %zu; it has %zu whole steps", reader->path, index,
-                         reader->steps);
+        return error_set(error, "%s: has no step %zu; it has %zu whole step%s", reader->path, index,
+                         reader->steps, plural(reader->steps));
     hid_t group = open_step(reader->file, index);
     const char *missing = group >= 0 && field_length(group, "x", &count) ? NULL : "x";
     if (!missing && !snapshot_step_allocate(step, count)) {

@@ -23,7 +23,8 @@ bool snapshot_series_add(SnapshotSeries *series, const Session *session, Error *
 void snapshot_series_left(const Snapshot *file, const char *path)
 {
     if (file && snapshot_steps(file) > 0)
-        fprintf(stderr, "%s: holds the %zu whole snapshots before that\n", path, snapshot_steps(file));
+        fprintf(stderr, "%s: holds the %zu whole snapshot%s before that\n", path, snapshot_steps(file),
+                plural(snapshot_steps(file)));
 }
 
 bool snapshot_series_name(const char *path, Error *error)

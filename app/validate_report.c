@@ -157,7 +157,8 @@ bool validate_plot(const CaseResult *results, size_t count, const char *path, Er
             put_curve(chart.gnuplot, "found", i, c, &results[i].run.found[c]);
             put_curve(chart.gnuplot, "expected", i, c, &results[i].run.expected[c]);
         }
-    snprintf(title, sizeof title, "%s: %zu particles", of->help, results[0].particles);
+    snprintf(title, sizeof title, "%s: %zu particle%s", of->help, results[0].particles,
+             plural(results[0].particles));
     fputs("set title ", chart.gnuplot);
     chart_quote(chart.gnuplot, title);
     fputs("\nset xlabel ", chart.gnuplot);

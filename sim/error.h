@@ -3,6 +3,7 @@
 #define SLOSH_ERROR_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct Error {
     char message[1024]; /* no newline at the end; empty while nothing is wrong */
@@ -11,5 +12,11 @@ typedef struct Error {
 /* Writes the message (cut at the buffer's size) and returns false, so that a function can `return
    error_set(...)`. error may be NULL: then only false is returned. */
 bool error_set(Error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* What a word that is counted ends with: "%zu particle%s", count, plural(count). */
+static inline const char *plural(size_t count)
+{
+    return count == 1 ? "" : "s";
+}
 
 #endif

@@ -108,9 +108,9 @@ static void say_changes(const Watcher *watcher, const WatchedDevice *device, Sho
 static void say_gone(const Watcher *watcher, const WatchedDevice *device, bool was)
 {
     if (watcher->watch->messages && was && !device->plugged)
-        fprintf(watcher->watch->messages, "%d %s: unplugged after %llu reports, %llu refused\n",
+        fprintf(watcher->watch->messages, "%d %s: unplugged after %llu report%s, %llu refused\n",
                 device->number, device->row->name, (unsigned long long)device->state.reports,
-                (unsigned long long)device->state.refused);
+                plural((size_t)device->state.reports), (unsigned long long)device->state.refused);
 }
 
 /* A line where it says something else than the last one, not too often; the last of all is never left out. */
@@ -140,8 +140,9 @@ static void write_bars(const Watch *watch, FILE *text)
         const WatchedDevice *device = &watch->devices[i];
         if (!device->plugged)
             continue;
-        fprintf(text, "%d %s: %llu reports, %llu refused\n", device->number, device->row->name,
-                (unsigned long long)device->state.reports, (unsigned long long)device->state.refused);
+        fprintf(text, "%d %s: %llu report%s, %llu refused\n", device->number, device->row->name,
+                (unsigned long long)device->state.reports, plural((size_t)device->state.reports),
+                (unsigned long long)device->state.refused);
         device_show_bars(text, device->row, &device->state);
     }
 }

@@ -1,7 +1,9 @@
 /* The command line: what it becomes, and the words for what it cannot be. */
 #include "tests/app/scene_text.h"
 
-#include "app/args.h"
+#include "app/args_table.h"
+#include "app/bench_table.h"
+#include "sim/gl/backends.h"
 
 #include <stdlib.h>
 
@@ -290,8 +292,96 @@ static void help_comes_from_the_table(void **state)
     free(run);
 }
 
+/* A value that each option takes by its kind, or by its name; NULL: none is needed. */
+static const char *value_for(const OptionRow *option)
+{
+    static const char *const named[][2] = {{"--cell", "1"}, {"--level", "0.5"}, {"--device", "file:a"}};
+    static char choice[32];
+    for (size_t i = 0; i < sizeof named / sizeof *named; i++)
+        if (strcmp(option->name, named[i][0]) == 0)
+            return named[i][1];
+    switch (option->kind) {
+    case OPTION_SIZE:
+        return "64x64";
+    case OPTION_CHOICE:
+        snprintf(choice, sizeof choice, "%.*s", (int)strcspn(option->value, "|"), option->value);
+        return choice;
+    case OPTION_SETTING:
+        return option->path ? "cpu" : "a=1";
+    case OPTION_SWEEP:
+        return "a=1";
+    default:
+        return option->value ? "1" : NULL;
+    }
+}
+
+/* Whether the command takes the option, in a line that has all else that it needs. */
+static bool takes(const CommandRow *row, const OptionRow *option)
+{
+    char line[256];
+    const char *value = value_for(option);
+    const bool wants_output = row->output && strcmp(option->name, "-o") != 0;
+    const bool wants_device = strcmp(option->name, "--mapping") == 0 && row->command != COMMAND_DEVICES;
+    snprintf(line, sizeof line, "%s %s %s %s %s %s", row->name, row->scenes_min ? "s" : "",
+             wants_output ? "-o o" : "", wants_device ? "--device file:a" : "", option->name,
+             value ? value : "");
+    if (parse(line))
+        return true;
+    if (!strstr(error.message, "unknown option") && !strstr(error.message, "is refused"))
+        fail_msg("%s: %s", line, error.message);
+    return false;
+}
+
+static void help_lists_what_is_taken_and_nothing_else(void **state)
+{
+    (void)state;
+    int taken = 0, refused = 0;
+    for (const CommandRow *row = command_rows; row->name; row++) {
+        if (row->command == COMMAND_HELP)
+            continue;
+        char *help = help_of(row->command);
+        for (const OptionRow *option = option_rows; option->name; option++) {
+            char listed[64];
+            snprintf(listed, sizeof listed, "\n  %s ", option->name);
+            if (takes(row, option) != (strstr(help, listed) != NULL))
+                fail_msg("slosh %s %s is %s", row->name, option->name,
+                         strstr(help, listed) ? "listed and refused" : "taken and not listed");
+            taken += strstr(help, listed) != NULL;
+            refused += strstr(help, listed) == NULL;
+        }
+        assert_null(strstr(help, "refused"));
+        free(help);
+    }
+    assert_true(taken > 100 && refused > 50);
+}
+
+/* The names that --backend and its like may have come from the lists that the scene's keys have. */
+static void help_names_what_there_is(void **state)
+{
+    (void)state;
+    char *bench = help_of(COMMAND_BENCH), *play = help_of(COMMAND_PLAY);
+    for (int i = 0; table_choice(i); i++)
+        assert_non_null(strstr(bench, table_choice(i)));
+    assert_non_null(strstr(play, "which equations: mueller, wcsph\n"));
+    assert_non_null(strstr(play, "pixels (1280x720)\n"));
+    assert_non_null(strstr(bench, "pixels (512x512)\n"));
+    free(bench);
+    free(play);
+}
+
+/* Messages name the option, not the key that it stands for. */
+static void options_keep_their_words(void **state)
+{
+    (void)state;
+    accept("info s --backend cuda --set a=1 --threads=many");
+    assert_string_equal(args.settings.said[0], "--backend cuda");
+    assert_null(args.settings.said[1]);
+    assert_string_equal(args.settings.said[2], "--threads many");
+}
+
 int main(void)
 {
+    backends_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults),
         cmocka_unit_test(every_option_reaches_its_field),
@@ -303,6 +393,9 @@ int main(void)
         cmocka_unit_test(too_many_are_refused),
         cmocka_unit_test(play_is_what_is_meant_without_a_command),
         cmocka_unit_test(help_comes_from_the_table),
+        cmocka_unit_test(help_lists_what_is_taken_and_nothing_else),
+        cmocka_unit_test(help_names_what_there_is),
+        cmocka_unit_test(options_keep_their_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

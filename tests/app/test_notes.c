@@ -42,7 +42,7 @@ static void a_line_has_its_place(void **state)
     Error error = {{0}};
     Tree tree;
     assert_true(tree_read(&tree, "s.yaml", text, strlen(text), &error));
-    assert_true(tree_set(&tree, "gravity=[0, -1, 0]", &error));
+    assert_true(tree_set(&tree, "gravity=[0, -1, 0]", NULL, &error));
     advise(&tree, "solver.sound_speed", &notes, "%d is low", 3);
     advise(&tree, "gravity", &notes, "weak");
     advise(&tree, "solver.step.dt", &notes, "long");

@@ -1,6 +1,7 @@
 """Bad scenes and settings: exit code 2, a message with the place, no file."""
 import os
 import random
+import re
 import time
 
 import command
@@ -105,11 +106,22 @@ class BadInput(CommandTest):
         for setting, words in (('particles.spacing=-1', r'-1'), ('solver.method=magic', r'magic.*mueller'),
                                ('partcles.spacing=1', r'partcles.*particles'), ('particles.spacing', r'=')):
             self.refused('scene.yaml', '', words, '--set', setting)
+        for setting, meant in (('fluids.viscosity=3', 'fluids[0].viscosity'),
+                               ('fluids[1].fill.block.min=[0,0,0]', 'fluids[1].fill[0].block.min'),
+                               ('motion.rock.angle=3', 'motion[0].rock.angle')):
+            self.refused('scene.yaml', f'--set {setting}: ', re.escape(f"did you mean '{meant}'?"), '--set', setting,
+                         commands=COMMANDS[:1])
 
     def test_command_line(self):
         for arguments, words in ((['--tme', '1'], '--tme'), (['--threads'], '--threads'),
                                  (['--threads', 'many'], 'many'), (['--backend', 'abacus'], 'abacus.*cpu')):
             self.refused('scene.yaml', '', words, *arguments)
+        for option, value in (('--backend', 'cuda'), ('--method', 'sph'), ('--view', 'x'), ('--threads', 'many')):
+            self.refused('scene.yaml', f'{option} {value}: ', value, option, value, commands=[COMMANDS[0], COMMANDS[4]])
+        for option in ('--sweep', '--set'):  # what they stand for, said by the one or the other
+            self.refused('scene.yaml', f'{option} solver.backend=cuda: ', 'cuda', option, 'solver.backend=cuda',
+                         commands=[['bench']])
+        self.refused('--backend=cuda', '--backend cuda: ', 'cuda', '--table', 'paper003-spheres', commands=[['bench']])
         for command_ in COMMANDS[:4]:
             self.refused('scene.yaml', '', '--time', '--time', '-1', commands=[command_])
         code, said = self.slosh('rnder', 'scene.yaml')

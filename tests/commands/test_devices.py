@@ -95,7 +95,7 @@ class Devices(Case):
                                            f'{n / 20 + 0.02:.2f} {n} unplugged\n' for n in range(1, 41)))
         said = self.run_devices('--watch', '--device', 'file:a.rec').stdout
         for n in range(1, 41):
-            self.assertIn(f'\n{n} DualSense: unplugged after 1 reports', '\n' + said)
+            self.assertIn(f'\n{n} DualSense: unplugged after 1 report', '\n' + said)
 
     def test_lines_are_bounded(self):
         """Ten a second and device, and the last one always."""

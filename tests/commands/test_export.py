@@ -307,7 +307,7 @@ class Surface(ExportTest):
         self.make('--time', '0')
         self.empty_the_last()
         said = self.export('a.ply', '--surface')
-        self.assertIn('a.ply: warning: 1 of 1 snapshots have no fluid at that level, and no surface\n', said)
+        self.assertIn('a.ply: warning: 1 of 1 snapshots has no fluid at that level, and no surface\n', said)
         vertices, triangles = read_ply(self.read('a.ply'))
         self.assertEqual((len(vertices), len(triangles)), (0, 0))
 
