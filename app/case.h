@@ -1,8 +1,8 @@
 /* Known flows: a case of `slosh validate` is a scene, what is measured of it, and a reference.
 
-   All cases run with the same solver parameters (case_settings); a case's scene has its geometry, its fluids
-   and a sound speed of ten times max(U, sqrt(g H)). Each stands in a file of its own, app/case_*.c, as one
-   const Case; case_list has them all. */
+   All cases run with the same solver parameters: their scenes have `solver.preset: accurate`, besides
+   geometry, fluids and a sound speed of ten times max(U, sqrt(g H)). Each stands in a file of its own,
+   app/case_*.c, as one const Case; case_list has them all. */
 #ifndef SLOSH_CASE_H
 #define SLOSH_CASE_H
 
@@ -86,12 +86,6 @@ const Case *case_find(const char *name, Error *error);
 
 /* The name of a case that may have been meant by that word; NULL: none. */
 const char *case_near(const char *word);
-
-/* The solver parameters of all cases, as --set takes them; ended by NULL. */
-extern const char *const case_settings[];
-
-/* And the one that depends on the method and the scene's dimensions. */
-const char *case_support(const char *method, int dimensions);
 
 /* How a figure compares: |value - reference| / |reference|. */
 Figure figure_relative(double value, double reference);

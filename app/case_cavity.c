@@ -77,7 +77,7 @@ static bool judge(CaseRun *run, Error *error)
 }
 
 #define COMMON                                                                                               \
-    .scene = "scenes/cavity.yaml", .methods = {"wcsph"},                                                     \
+    .scene = "scenes/cases/cavity.yaml", .methods = {"wcsph"},                                               \
     .plot = {.x = "place on the line, of the side",                                                          \
              .y = "velocity across it, of the lid's",                                                        \
              .found = {"u", "v"},                                                                            \

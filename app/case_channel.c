@@ -99,7 +99,7 @@ static bool judge_couette(CaseRun *run, Error *error)
 const Case case_poiseuille = {
     .name = "poiseuille",
     .help = "Poiseuille's flow from rest",
-    .scene = "scenes/poiseuille.yaml",
+    .scene = "scenes/cases/poiseuille.yaml",
     COMMON,
     .sample = sample_poiseuille,
     .judge = judge_poiseuille,
@@ -108,7 +108,7 @@ const Case case_poiseuille = {
 const Case case_couette = {
     .name = "couette",
     .help = "Couette's flow from rest",
-    .scene = "scenes/couette.yaml",
+    .scene = "scenes/cases/couette.yaml",
     COMMON,
     .sample = sample_couette,
     .judge = judge_couette,

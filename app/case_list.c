@@ -14,28 +14,6 @@ const Case *const case_list[] = {&case_hydrostatic,  &case_hydrostatic_3d, &case
                                  &case_vortices,     &case_poiseuille,     &case_couette,
                                  &case_cavity,       &case_cavity_1000,    NULL};
 
-/* Wendland's C2 pairs no particles; friction in the radial form does the fluid's work at a free surface too;
-   a figure is the same each time on compute too. */
-const char *const case_settings[] = {
-    "solver.kernel=wendland_c2",
-    "solver.delta_sph=0.1",
-    "solver.artificial_viscosity=0.02",
-    "solver.viscosity_form=radial",
-    "solver.step.mode=cfl",
-    "solver.step.number=0.3",
-    "solver.reproducible=true",
-    NULL,
-};
-
-/* wcsph in the plane: at 3.5 spacings a lattice under pressure hardly resists shear any more; at 2.6 that
-   makes waves 5 % too fast, at any resolution. In three dimensions, where 2.6 means 74 neighbours, and for
-   mueller's spiky kernel more does not pay. */
-const char *case_support(const char *method, int dimensions)
-{
-    return dimensions == 2 && strcmp(method, "wcsph") == 0 ? "particles.support=3.5"
-                                                           : "particles.support=2.6";
-}
-
 const char *case_near(const char *word)
 {
     Suggestion near = suggest_for(word);

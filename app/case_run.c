@@ -23,12 +23,7 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
     SceneSettings all = {.particles = setup->settings->particles};
     snprintf(spacing, sizeof spacing, "particles.spacing=%.9g", setup->of->spacing[setup->level]);
     snprintf(method, sizeof method, "solver.method=%.32s", setup->method);
-    bool ok = true;
-    for (int i = 0; ok && case_settings[i]; i++)
-        ok = add_setting(&all, case_settings[i], NULL, error);
-    ok = ok && scene_load(setup->of->scene, NULL, scene, NULL, error) &&
-         add_setting(&all, case_support(setup->method, scene->world.dimensions), NULL, error) &&
-         add_setting(&all, spacing, NULL, error) && add_setting(&all, method, NULL, error);
+    bool ok = add_setting(&all, spacing, NULL, error) && add_setting(&all, method, NULL, error);
     if (ok && setup->of->setting)
         ok = add_setting(&all, setup->of->setting, NULL, error);
     for (int i = 0; ok && i < setup->settings->count; i++)

@@ -24,7 +24,7 @@ typedef struct CaseResult {
     char failure[256];   /* why there are no figures; "": there are */
 } CaseResult;
 
-/* The case's scene with the common solver parameters, the level's spacing, the method and the settings. */
+/* The case's scene with the level's spacing, the method and the settings. */
 bool case_scene(const CaseSetup *setup, Scene *scene, Error *error);
 
 /* `progress` goes from `done` to `done + part`. A simulation that breaks is a result too, with the failure;

@@ -31,7 +31,7 @@ static bool judge(CaseRun *run, Error *error)
 const Case case_vortices = {
     .name = "taylor_green",
     .help = "Taylor and Green's vortices, Re 100: the decay of their energy",
-    .scene = "scenes/taylor_green.yaml",
+    .scene = "scenes/cases/taylor_green.yaml",
     .methods = {"wcsph"},
     .spacing = {0.04, 0.01, 0.005},
     .time = 1.5,

@@ -3,6 +3,7 @@
 #include "app/headless.h"
 #include "app/metric_list.h"
 #include "app/scene_keys.h"
+#include "app/scene_preset.h"
 #include "render/view.h"
 #include "sim/kernel.h"
 #include "sim/tension.h"
@@ -67,6 +68,9 @@ static void print_backends(const WorldDef *scene, int gpu)
 static void print_lists(void)
 {
     print_named("methods", world_methods());
+    printf("presets\n");
+    for (const Preset *preset = preset_list; preset->name; preset++)
+        print_row(preset->name, preset->help);
     printf("density kernels\n");
     for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
         print_row(kernel->name, kernel->help);
@@ -114,6 +118,7 @@ int cmd_info(const Args *args)
     const size_t count = world_def_count(&scene.world, scene.world.spacing);
     printf("%s: %zu particle%s\n", scene.path, count, plural(count));
     notes_print(&notes, stderr);
+    preset_print(&scene, stdout);
     scene_print(&scene, stdout);
     return 0;
 }

@@ -20,6 +20,8 @@ typedef struct Scene {
     char title[128];
     WorldDef world;
     ViewDef view;
+    char preset[NAME_SIZE]; /* what filled in the keys that the scene does not name (app/scene_preset.h) */
+    unsigned preset_filled; /* which of the preset's settings, a bit each */
     bool
         realtime; /* the window simulates as many frames as the wall clock asks for, else as many as it can */
     int metric_count;

@@ -206,6 +206,8 @@ static const Key keys[] = {
 
     MAPPING("solver", "how the fluid is computed"),
     CHOICE("solver.method", 0, method_choice, WORLD(method), "the equations"),
+    CHOICE("solver.preset", 0, preset_choice, offsetof(Scene, preset),
+           "fills in what the scene does not name; accurate: wcsph with the settings that slosh validate measures"),
     CHOICE("solver.density_kernel", 0, density_kernel_choice, WORLD(density_kernel), "mueller: the kernel that density is summed by"),
     CHOICE("solver.kernel", 0, wcsph_kernel_choice, WORLD(kernel), "wcsph: its kernel"),
     NUMBER("solver.artificial_viscosity", 0, "", 0, 1, WORLD(artificial_viscosity),

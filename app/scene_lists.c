@@ -3,6 +3,7 @@
 #include "app/metric_list.h"
 
 #include "app/scene_keys.h"
+#include "app/scene_preset.h"
 #include "render/colormap.h"
 #include "render/raycast_names.h"
 #include "render/renderer.h"
@@ -22,6 +23,14 @@ static const char *named(const Named *list, int index)
     for (int i = 0; i < index && list->name; i++)
         list++;
     return list->name;
+}
+
+const char *preset_choice(int index)
+{
+    const Preset *preset = preset_list;
+    for (int i = 0; i < index && preset->name; i++)
+        preset++;
+    return preset->name;
 }
 
 const char *method_choice(int index)
@@ -189,5 +198,6 @@ void solid_init(void *element, int index)
 void scene_default(Scene *scene)
 {
     *scene = (Scene){.world = world_def_default(), .view = view_def_default(), .realtime = true};
+    snprintf(scene->preset, sizeof scene->preset, "%s", preset_list[0].name);
     scene->metric_count = metric_defaults(scene->metrics);
 }

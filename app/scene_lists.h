@@ -3,6 +3,7 @@
 #define SLOSH_SCENE_LISTS_H
 
 /* The name at `index`, NULL from the end of the list on. */
+const char *preset_choice(int index);
 const char *method_choice(int index);
 const char *density_kernel_choice(int index);
 const char *wcsph_kernel_choice(int index);

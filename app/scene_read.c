@@ -1,6 +1,7 @@
 #include "app/scene_read.h"
 
 #include "app/scene_keys.h"
+#include "app/scene_preset.h"
 #include "app/scene_suggest.h"
 #include "app/scene_value.h"
 
@@ -217,6 +218,8 @@ static bool read_mapping(const Place *place)
 bool scene_read(const Tree *tree, Scene *scene, Error *error)
 {
     scene_default(scene);
+    if (!preset_apply(tree, scene, error))
+        return false;
     const Place place = {
         .tree = tree, .node = tree->root, .parent = "", .base = (char *)scene, .error = error};
     return read_mapping(&place);

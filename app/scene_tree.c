@@ -119,6 +119,13 @@ const Node *tree_near(const Tree *tree, const char *path)
     return node;
 }
 
+const Node *tree_at(const Tree *tree, const char *path)
+{
+    const Node *node = tree_near(tree, path);
+    const char *dot = strrchr(path, '.');
+    return node->key && strcmp(node->key, dot ? dot + 1 : path) == 0 ? node : NULL;
+}
+
 static bool error_at(const Tree *tree, const char *said, int line, int column, Error *error,
                      const char *format, va_list arguments)
 {

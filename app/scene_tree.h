@@ -54,6 +54,9 @@ size_t node_count(const Node *node);
  * at. */
 const Node *tree_near(const Tree *tree, const char *path);
 
+/* The node at the path itself; NULL when nothing stands there. The path ends in a key. */
+const Node *tree_at(const Tree *tree, const char *path);
+
 /* Writes "place: message" and returns false. */
 bool tree_error(const Tree *tree, const Node *node, Error *error, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
