@@ -7,6 +7,7 @@
 #include "app/scene_read.h"
 #include "app/scene_tree.h"
 #include "render/renderer.h"
+#include "sim/flow.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -100,6 +101,7 @@ static void view_space(Scene *scene)
     memcpy(scene->view.box_size, world->box_size, sizeof scene->view.box_size);
     scene->view.spacing = world->spacing;
     scene->view.support_radius = world->support * world->spacing;
+    scene->view.particles = flow_capacity(world, world_def_count(world, world->spacing));
 }
 
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)

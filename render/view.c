@@ -3,6 +3,7 @@
 #include "render/spheres.h"
 #include "render/splat.h"
 #include "render/volume_view.h"
+#include "sim/gl/limits.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,6 +33,22 @@ static void unknown_view(const char *name, Error *error)
     error_set(error, "unknown view \"%s\"; known are: %s", name, known);
 }
 
+/* Particles are drawn from storage blocks; common/particles.glsl, listed.glsl and ball.glsl have five. The
+   largest is the ellipsoids', three vec4 each. */
+static bool drawable(const ViewDef *def, Error *error)
+{
+    const bool ellipsoids = strcmp(def->kind, "splat") == 0 && def->splat.shape == SPLAT_ELLIPSOID;
+    char who[NAME_SIZE + 32];
+    snprintf(who, sizeof who, "view %s%s", def->kind, ellipsoids ? " of ellipsoids" : "");
+    const GlLimits have = gl_limits();
+    const GlNeeds needs = {.who = who,
+                           .instead = "use another GPU or driver",
+                           .least = {.vertex_blocks = 5,
+                                     .bindings = 11,
+                                     .block_bytes = (int64_t)def->particles * (ellipsoids ? 48 : 16)}};
+    return gl_limits_allow(&have, &needs, error);
+}
+
 View *view_create(const ViewDef *def, Error *error)
 {
     const ViewKind *kind = view_find(def->kind);
@@ -39,6 +56,8 @@ View *view_create(const ViewDef *def, Error *error)
         unknown_view(def->kind, error);
         return NULL;
     }
+    if (!drawable(def, error))
+        return NULL;
     View *view = malloc(sizeof *view);
     void *state = view ? kind->create(def, error) : NULL;
     if (!state) {

@@ -6,6 +6,7 @@
 #include "sim/world_def.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct CameraDef {
     double from[3]; /* eye, m, world's frame */
@@ -125,6 +126,7 @@ typedef struct ViewDef {
     /* Filled from the scene by the loader: what a view may need to know before the first state. 0: not known.
      */
     double box_size[3], spacing, support_radius; /* m */
+    size_t particles;                            /* as many as there may be */
     /* Filled from the scene's solids by the loader. */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];

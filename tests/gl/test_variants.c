@@ -5,6 +5,7 @@
 #include "tests/gl/compare.h"
 
 #include "render/renderer.h"
+#include "sim/gl/limits.h"
 #include "sim/tension.h"
 #include "sim/viscosity.h"
 
@@ -13,6 +14,7 @@
 
 /* What the program calls goes through these pointers; libepoxy's are no such before their first call. */
 #define ENTRIES(X)                                                                                           \
+    X(glLinkProgram)                                                                                         \
     X(glShaderSource)                                                                                        \
     X(glDispatchCompute)                                                                                     \
     X(glMemoryBarrier)                                                                                       \
@@ -77,6 +79,33 @@ static void APIENTRY keep_source(GLuint shader, GLsizei count, const GLchar *con
         assert_int_equal(fclose(file), 0);
     }
     real_glShaderSource(shader, count, text, length);
+}
+
+/* The most that a program has: render/view.c and sim/gl/compute/compute.c ask drivers for as many. Mesa does
+   not say which stage has a block: of pictures all that the program has. */
+static GlLimits most;
+
+static void note_most(int *most_so_far, int value)
+{
+    if (value > *most_so_far)
+        *most_so_far = value;
+}
+
+static void APIENTRY note_program(GLuint program)
+{
+    const GLenum what = GL_BUFFER_BINDING;
+    GLuint first = 0;
+    GLsizei stages = 0;
+    GLint count = 0, kind = 0, binding = 0;
+    real_glLinkProgram(program);
+    glGetAttachedShaders(program, 1, &stages, &first);
+    glGetShaderiv(first, GL_SHADER_TYPE, &kind);
+    glGetProgramInterfaceiv(program, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    note_most(kind == GL_COMPUTE_SHADER ? &most.compute_blocks : &most.vertex_blocks, count);
+    for (GLint block = 0; block < count; block++) {
+        glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, (GLuint)block, 1, &what, 1, NULL, &binding);
+        note_most(&most.bindings, binding + 1);
+    }
 }
 
 /* By GL name: what dispatches may have written since the last barrier for such commands. */
@@ -236,6 +265,7 @@ static void watch_entries(void)
 #define X(name) real_##name = (__typeof__(real_##name))eglGetProcAddress(#name);
     ENTRIES(X)
 #undef X
+    epoxy_glLinkProgram = note_program;
     epoxy_glShaderSource = keep_source;
     epoxy_glDispatchCompute = note_dispatch;
     epoxy_glMemoryBarrier = note_barrier;
@@ -418,6 +448,7 @@ static void draw_views(const WorldDef *def, bool solids)
     const int count = views_of(base, views);
     World *world = fixture_world(def);
     fixture_step(world, 1);
+    most = (GlLimits){0};
     Renderer *renderer = renderer_create(&base, 48, 32, &error);
     assert_non_null(renderer);
     for (int k = 0; k < count; k++) {
@@ -428,6 +459,9 @@ static void draw_views(const WorldDef *def, bool solids)
         for (int frame = 0; frame < 2; frame++) /* nobody else's barriers in between */
             renderer_draw(renderer, &particles, NULL);
     }
+    printf("views have up to %d storage blocks in a vertex shader, %d in a compute shader, %d bindings\n",
+           most.vertex_blocks, most.compute_blocks, most.bindings);
+    assert_true(most.vertex_blocks == 5 && most.compute_blocks <= 8 && most.bindings == 11);
     renderer_destroy(renderer);
     world_destroy(world);
     forget();
@@ -443,6 +477,10 @@ static void worlds_live(void **state)
     wcsph_lives();
     worlds_only = false;
     assert_int_equal(unbound, 0);
+    printf("worlds have up to %d storage blocks in a compute shader, %d bindings\n", most.compute_blocks,
+           most.bindings);
+    assert_true(most.compute_blocks == 11 && most.bindings == 16);
+    most = (GlLimits){0};
 }
 
 static void views_draw(void **state)

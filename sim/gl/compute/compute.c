@@ -1,6 +1,7 @@
 #include "sim/gl/compute/compute.h"
 
 #include "sim/gl/backends.h"
+#include "sim/gl/limits.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -140,25 +141,30 @@ static bool programs_create(Compute *c, Error *error)
     return ok;
 }
 
+static size_t larger(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Of the largest array: two vec4 a particle where there is shifting, else one; start of cells; walls. */
+static size_t most_bytes(const Solver *s, size_t capacity)
+{
+    const size_t particles = (s->shifting > 0 ? 32 : 16) * capacity, cells = 4 * (s->cells.count + 2);
+    const size_t walls = s->continuity ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
+    return larger(larger(particles, 16 * s->boundary.count), larger(cells, walls));
+}
+
+/* Solids stand at the bindings 12 to 15, beside those of the pass that binds most. */
 static bool supported(const Solver *s, size_t capacity, Error *error)
 {
-    GLint64 most = 0;
-    GLint blocks = 0, bindings = 0;
-    const int wanted = s->solid_count > 0 ? 12 : 8; /* of the pass that binds most */
-    const size_t larger = capacity > s->boundary.count ? capacity : s->boundary.count;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &blocks);
-    glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
-    if (blocks < wanted || bindings < (s->solid_count > 0 ? 16 : 8))
-        return error_set(error, "backend compute needs %d storage blocks in a shader, and this driver has %d",
-                         wanted, blocks);
-    if (16 * larger > (size_t)most || 4 * (s->cells.count + 2) > (size_t)most)
-        return error_set(
-            error,
-            "%zu particles and %zu cells need buffers larger than the %lld bytes that this driver "
-            "allows; use a larger spacing",
-            larger, s->cells.count, (long long)most);
-    return true;
+    const bool solids = s->solid_count > 0;
+    const GlLimits have = gl_limits();
+    const GlNeeds needs = {.who = solids ? "backend compute with solids" : "backend compute",
+                           .instead = "use backend cpu",
+                           .least = {.compute_blocks = solids ? 11 : 8,
+                                     .bindings = solids ? 16 : 8,
+                                     .block_bytes = (int64_t)most_bytes(s, capacity)}};
+    return gl_limits_allow(&have, &needs, error);
 }
 
 static void *compute_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,

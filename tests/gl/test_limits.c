@@ -1,0 +1,147 @@
+/* Limits of drivers: the sentence for each, and that worlds and views ask. */
+#include "tests/gl/compare.h"
+
+#include "render/renderer.h"
+#include "sim/gl/limits.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+static const GlLimits promised = {
+    .compute_blocks = 8, .vertex_blocks = 0, .bindings = 8, .block_bytes = 1 << 27};
+
+static void assert_refused(GlLimits least, const char *sentence)
+{
+    const GlNeeds needs = {.who = "this", .instead = "use that", .least = least};
+    Error error = {0};
+    assert_false(gl_limits_allow(&promised, &needs, &error));
+    assert_string_equal(error.message, sentence);
+}
+
+static void each_limit_has_its_sentence(void **state)
+{
+    (void)state;
+    const GlNeeds none = {.who = "this", .instead = "use that"}, all = {.least = promised};
+    Error error = {0};
+    assert_true(gl_limits_allow(&promised, &none, &error) && gl_limits_allow(&promised, &all, &error));
+    assert_string_equal(error.message, "");
+    assert_refused((GlLimits){.compute_blocks = 12},
+                   "this needs 12 storage blocks in a compute shader, and this driver has 8; use that");
+    assert_refused((GlLimits){.vertex_blocks = 5},
+                   "this needs 5 storage blocks in a vertex shader, and this driver has 0; use that");
+    assert_refused((GlLimits){.bindings = 16},
+                   "this needs 16 bindings of storage buffers, and this driver has 8; use that");
+    assert_refused((GlLimits){.block_bytes = (1 << 27) + 16},
+                   "this needs a buffer of 134217744 bytes for this scene, and this driver allows shaders "
+                   "134217728; use a larger particles.spacing");
+}
+
+static GLenum limited;
+static GLint allowed;
+static PFNGLGETINTEGERVPROC get_integer;
+static PFNGLGETINTEGER64VPROC get_integer64;
+
+static void APIENTRY limited_integer(GLenum name, GLint *value)
+{
+    if (name == limited)
+        *value = allowed;
+    else
+        get_integer(name, value);
+}
+
+static void APIENTRY limited_integer64(GLenum name, GLint64 *value)
+{
+    if (name == limited)
+        *value = allowed;
+    else
+        get_integer64(name, value);
+}
+
+/* The driver says from now on that it has so little of it; 0: what it has. */
+static void limit(GLenum name, GLint value)
+{
+    get_integer = (PFNGLGETINTEGERVPROC)eglGetProcAddress("glGetIntegerv");
+    get_integer64 = (PFNGLGETINTEGER64VPROC)eglGetProcAddress("glGetInteger64v");
+    epoxy_glGetIntegerv = limited_integer;
+    epoxy_glGetInteger64v = limited_integer64;
+    limited = name;
+    allowed = value;
+}
+
+static void assert_no_world(const WorldDef *def, const char *sentence)
+{
+    Error error = {0};
+    assert_null(world_create(def, &error));
+    if (!strstr(error.message, sentence))
+        fail_msg("%s", error.message);
+}
+
+/* 1,000 particles of 16 bytes, with shifting of 32. */
+static void worlds_ask(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1.2, 1);
+    snprintf(def.backend, sizeof def.backend, "compute");
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
+    limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, 7);
+    assert_no_world(&def,
+                    "backend compute needs 8 storage blocks in a compute shader, and this driver has 7; use");
+    def.solids[def.solid_count++] =
+        (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 1, 0}, .radius = 0.1, .axis = {0, 1, 0}};
+    limit(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, 15);
+    assert_no_world(
+        &def, "backend compute with solids needs 16 bindings of storage buffers, and this driver has 15");
+    limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, 10);
+    assert_no_world(&def, "with solids needs 11 storage blocks in a compute shader, and this driver has 10");
+    def.solid_count = 0;
+    snprintf(def.method, sizeof def.method, "wcsph");
+    limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 16000);
+    world_destroy(fixture_world(&def));
+    def.shifting = 0.1;
+    assert_no_world(&def,
+                    "needs a buffer of 32000 bytes for this scene, and this driver allows shaders 16000");
+    limit(0, 0);
+    world_destroy(fixture_world(&def));
+}
+
+static void assert_no_view(const ViewDef *def, const char *sentence)
+{
+    Error error = {0};
+    assert_null(renderer_create(def, 16, 16, &error));
+    if (!strstr(error.message, sentence))
+        fail_msg("%s", error.message);
+}
+
+static void views_ask(void **state)
+{
+    (void)state;
+    ViewDef def = view_def_default();
+    Error error = {0};
+    limit(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0);
+    assert_no_view(&def, "view spheres needs 5 storage blocks in a vertex shader, and this driver has 0");
+    limit(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, 8);
+    assert_no_view(&def, "bindings of storage buffers, and this driver has 8");
+    limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 40000);
+    snprintf(def.kind, sizeof def.kind, "splat");
+    def.particles = 1000;
+    Renderer *renderer = renderer_create(&def, 16, 16, &error);
+    assert_non_null(renderer);
+    def.splat.shape = SPLAT_ELLIPSOID; /* live */
+    assert_false(renderer_set_def(renderer, &def, &error));
+    assert_non_null(strstr(error.message, "view splat of ellipsoids needs a buffer of 48000 bytes"));
+    renderer_destroy(renderer);
+    snprintf(def.kind, sizeof def.kind, "none");
+    limit(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0);
+    renderer_destroy(renderer_create(&def, 16, 16, &error));
+    limit(0, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_limit_has_its_sentence),
+        cmocka_unit_test_teardown(worlds_ask, no_gl_errors),
+        cmocka_unit_test_teardown(views_ask, no_gl_errors),
+    };
+    return cmocka_run_group_tests_name("gl.limits", tests, compare_setup, context_teardown);
+}
