@@ -227,7 +227,7 @@ static const Key keys[] = {
            "stiffness: 3 to 10 times the greatest speed of the flow; more is stiffer and needs smaller steps"),
     BOOLEAN("solver.negative_pressure", L, WORLD(negative_pressure), "whether fluid may pull as well as push"),
     BOOLEAN("solver.reproducible", 0, WORLD(reproducible),
-            "compute: the same bits each time, for a sort by id in each step; the others give them anyway"),
+            "compute: the same bits each time, for a sort by id in each step and solids in double precision; the others give them anyway"),
     CHOICE("solver.surface_tension", KEY_INDEX, tension_choice, WORLD(tension_model), "its model, for fluids that have one; walls do not attract"),
     MAPPING("solver.step", "the time step"),
     CHOICE("solver.step.mode", KEY_INDEX, step_mode_choice, WORLD(step_mode),

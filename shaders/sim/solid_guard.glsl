@@ -3,11 +3,11 @@
 
 // The first part of the way, 0 .. 1, where it meets the surface; more than 1: it does not. Goes forward by the distance
 // to the surface, which it can't meet sooner.
-double meeting(int k, dvec3 from, dvec3 to, double way, double slack)
+real meeting(int k, rvec3 from, rvec3 to, real way, real slack)
 {
-    double t = 0.0;
+    real t = 0.0;
     for (int i = 0; i < 64 && t <= 1.0; i++) {
-        double d = solid_distance(k, from + t * (to - from));
+        real d = solid_distance(k, from + t * (to - from));
         if (d <= slack)
             return t;
         t += d / way;
@@ -17,18 +17,18 @@ double meeting(int k, dvec3 from, dvec3 to, double way, double slack)
 
 // Puts `to` a little above the plane that touches the surface where the way meets it, unless it is there. False when the
 // way keeps clear of the solid.
-bool hold(int k, dvec3 from, inout dvec3 to, out dvec3 normal)
+bool hold(int k, rvec3 from, inout rvec3 to, out rvec3 normal)
 {
-    double slack = 1e-6lf * solids[k].wall.y, way = length(to - from), at_end = solid_distance(k, to);
-    normal = dvec3(0.0, 1.0, 0.0);
+    real slack = slack_share * solids[k].WALL.y, way = length(to - from), at_end = solid_distance(k, to);
+    normal = rvec3(0.0, 1.0, 0.0);
     if (at_end >= 0.0 && solid_distance(k, from) + at_end >= way)
         return false;
-    double t = way > 0.0 ? meeting(k, from, to, way, slack) : 0.0;
+    real t = way > 0.0 ? meeting(k, from, to, way, slack) : 0.0;
     if (t > 1.0)
         return false;
-    dvec3 entry = from + t * (to - from);
+    rvec3 entry = from + t * (to - from);
     normal = solid_normal(k, entry);
-    double depth = dot(entry - to, normal) + slack - solid_distance(k, entry);
+    real depth = dot(entry - to, normal) + slack - solid_distance(k, entry);
     if (depth <= 0.0 && at_end >= 0.0) // it was at the surface and leaves it
         return false;
     if (depth <= 0.0) {
@@ -57,7 +57,7 @@ bool solids_guard(vec3 before, inout vec3 x, inout vec3 v)
     for (int k = 0; k < solid_counts.x; k++) {
         if (out_of_reach(k, before, x))
             continue;
-        dvec3 from = dvec3(solid_from_box(solids[k].begin, before)), to = dvec3(solid_from_box(solids[k].end, x)), normal;
+        rvec3 from = rvec3(solid_from_box(solids[k].begin, before)), to = rvec3(solid_from_box(solids[k].end, x)), normal;
         for (int i = 0; i < 3 && hold(k, from, to, normal); i++) { // again: an inner edge has two sides
             x = solid_to_box(solids[k].end, vec3(to));
             vec3 n = solid_to_box(Pose(vec4(0), solids[k].end.r), vec3(normal));

@@ -1,6 +1,22 @@
 // Solids: where they are over half a step, their shapes and distances. Mirrors sim/solid_step.c and sim/solid.c, the block
-// SolidsBlock in sim/gl/compute/boundary.c. Distances are in double precision as there: what lies on a surface is held or
-// not by the last bit, and that should be the same bit.
+// SolidsBlock in sim/gl/compute/boundary.c. Distances are in single precision, of which most GPUs have 32 to 64 times as much as
+// of double. With REPRODUCIBLE they are in double precision as there: what lies on a surface is held or not by the last bit, and
+// that is the same bit then.
+#ifdef REPRODUCIBLE
+#define real double
+#define rvec2 dvec2
+#define rvec3 dvec3
+#define SIZE exact_size
+#define WALL exact_wall
+const real slack_share = 1e-6lf; // of the reach: how far above a surface a particle is put
+#else
+#define real float
+#define rvec2 vec2
+#define rvec3 vec3
+#define SIZE size
+#define WALL wall
+const real slack_share = 4e-6;
+#endif
 #define SOLIDS_MAX 16
 #define SOLID_BOX 1
 #define SOLID_CYLINDER 2
@@ -17,12 +33,18 @@ struct Solid {
     vec4 spin;     // w: kind
     vec4 change;   // rates of velocity and spin over the step
     vec4 alpha;
-    dvec4 size;    // half the edges of a box; half the height of a cylinder in y; w: radius
-    dvec4 wall;    // of a bowl: thickness; y: reach
+    vec4 size;     // half the edges of a box; half the height of a cylinder in y; w: radius
+    vec4 wall;     // of a bowl: thickness; y: reach
+#ifdef REPRODUCIBLE
+    dvec4 exact_size, exact_wall;
+#else
+    vec4 unused[4];
+#endif
 };
 
 layout(std140, binding = 6) uniform Solids {
     ivec4 solid_counts; // solids, boundary particles
+    ivec4 solids_begin; // at a multiple of 32 bytes
     Solid solids[SOLIDS_MAX];
 };
 
@@ -52,27 +74,27 @@ vec3 solid_acceleration_at(int k, vec3 x)
     return solids[k].change.xyz + cross(solids[k].alpha.xyz, arm) + cross(spin, cross(spin, arm));
 }
 
-float solid_reach(int k) { return float(solids[k].wall.y); }
+float solid_reach(int k) { return solids[k].wall.y; }
 
 // From the nearest point of the surface to x, outside; less than 0 inside.
-double solid_distance(int k, dvec3 x)
+real solid_distance(int k, rvec3 x)
 {
-    double radius = solids[k].size.w;
+    real radius = solids[k].SIZE.w;
     switch (int(solids[k].spin.w)) {
     case SOLID_BOX: {
-        dvec3 d = abs(x) - solids[k].size.xyz;
-        double inside = max(max(d.x, d.y), d.z);
-        return inside > 0.0 ? length(max(d, 0.0)) : inside;
+        rvec3 d = abs(x) - solids[k].SIZE.xyz;
+        real inside = max(max(d.x, d.y), d.z);
+        return inside > 0.0 ? length(max(d, rvec3(0.0))) : inside;
     }
     case SOLID_CYLINDER: {
-        dvec2 d = dvec2(length(x.xz) - radius, abs(x.y) - solids[k].size.y);
+        rvec2 d = rvec2(length(x.xz) - radius, abs(x.y) - solids[k].SIZE.y);
         return d.x > 0.0 && d.y > 0.0 ? length(d) : max(d.x, d.y);
     }
     case SOLID_BOWL: {
-        double thickness = solids[k].wall.x, across = length(x.xz);
+        real thickness = solids[k].WALL.x, across = length(x.xz);
         if (x.y > 0.0)
-            return length(dvec2(across - clamp(across, radius, radius + thickness), x.y));
-        double wall = abs(length(x) - (radius + 0.5 * thickness)) - 0.5 * thickness;
+            return length(rvec2(across - clamp(across, radius, radius + thickness), x.y));
+        real wall = abs(length(x) - (radius + 0.5 * thickness)) - 0.5 * thickness;
         return wall > 0.0 ? wall : max(wall, x.y);
     }
     default:
@@ -80,10 +102,11 @@ double solid_distance(int k, dvec3 x)
     }
 }
 
+#ifdef REPRODUCIBLE
 // Along which the distance grows fastest, by differences.
 dvec3 solid_normal(int k, dvec3 x)
 {
-    double step = 1e-6lf * solids[k].wall.y;
+    double step = 1e-6lf * solids[k].exact_wall.y;
     dvec3 normal = dvec3(0.0);
     for (int a = 0; a < (rows.x == 3 ? 2 : 3); a++) {
         dvec3 aside = dvec3(0.0);
@@ -93,10 +116,49 @@ dvec3 solid_normal(int k, dvec3 x)
     double norm = length(normal);
     return norm > 0.0 ? normal / norm : dvec3(0.0, 1.0, 0.0);
 }
+#else
+vec3 box_slope(vec3 size, vec3 x)
+{
+    vec3 d = abs(x) - size, side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(x, vec3(0.0)));
+    float nearest = max(max(d.x, d.y), d.z);
+    return side * (nearest > 0.0 ? max(d, 0.0) : vec3(greaterThanEqual(d, vec3(nearest))));
+}
+
+vec3 cylinder_slope(float radius, float half_height, vec3 x)
+{
+    float across = length(x.xz);
+    vec2 d = vec2(across - radius, abs(x.y) - half_height);
+    vec3 out_of = vec3(x.x, 0.0, x.z) / max(across, 1e-30), up = vec3(0.0, x.y < 0.0 ? -1.0 : 1.0, 0.0);
+    return d.x > 0.0 && d.y > 0.0 ? d.x * out_of + d.y * up : d.x > d.y ? out_of : up;
+}
+
+vec3 bowl_slope(float radius, float thickness, vec3 x)
+{
+    if (x.y > 0.0) {
+        float across = length(x.xz), ring = clamp(across, radius, radius + thickness);
+        return vec3(x.xz * ((across - ring) / max(across, 1e-30)), x.y).xzy;
+    }
+    float off = length(x) - (radius + 0.5 * thickness);
+    return abs(off) - 0.5 * thickness <= x.y ? vec3(0.0, 1.0, 0.0) : off < 0.0 ? -x : x; // the rim is nearer, or the wall
+}
+
+// Along which the distance grows fastest: a difference of two distances would have but a few digits.
+vec3 solid_normal(int k, vec3 x)
+{
+    vec4 size = solids[k].size;
+    int kind = int(solids[k].spin.w);
+    vec3 slope = kind == SOLID_BOX        ? box_slope(size.xyz, x)
+                 : kind == SOLID_CYLINDER ? cylinder_slope(size.w, size.y, x)
+                 : kind == SOLID_BOWL     ? bowl_slope(size.w, solids[k].wall.x, x)
+                                          : x;
+    float norm = length(slope);
+    return norm > 0.0 ? slope / norm : vec3(0.0, 1.0, 0.0);
+}
+#endif
 
 // Of x in the box's frame, or `far` and more where it is further away than that.
 float solid_clearance(int k, vec3 x, float far)
 {
     float reach = solid_reach(k) + far, r = distance(x, solids[k].end.x.xyz);
-    return r > reach ? r - reach + far : float(solid_distance(k, dvec3(solid_from_box(solids[k].end, x))));
+    return r > reach ? r - reach + far : float(solid_distance(k, rvec3(solid_from_box(solids[k].end, x))));
 }

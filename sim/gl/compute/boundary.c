@@ -14,7 +14,8 @@ typedef struct Pose {
 typedef struct Solid {
     Pose begin, end;
     float velocity[4], spin[4], change[4], alpha[4];
-    double size[4], wall[4];
+    float size[4], wall[4];
+    double exact_size[4], exact_wall[4]; /* the same, for who asks for the CPU's bits */
 } Solid;
 
 typedef struct SolidsBlock {
@@ -39,13 +40,17 @@ static void shape_set(const Solver *s, const SolidDef *solid, Solid *out)
     const double endless = 1e30; /* half the depth of a box in the plane */
     out->velocity[3] = solid->slip == SLIP_NONE;
     out->spin[3] = (float)solid->kind;
-    out->size[3] = solid->radius;
-    out->wall[0] = solid->thickness;
-    out->wall[1] = solid_reach(solid);
+    out->exact_size[3] = solid->radius;
+    out->exact_wall[0] = solid->thickness;
+    out->exact_wall[1] = solid_reach(solid);
     for (int k = 0; k < 3; k++)
-        out->size[k] = k < s->dimensions ? 0.5 * solid->size[k] : endless;
+        out->exact_size[k] = k < s->dimensions ? 0.5 * solid->size[k] : endless;
     if (solid->kind == SOLID_CYLINDER)
-        out->size[1] = 0.5 * solid->height;
+        out->exact_size[1] = 0.5 * solid->height;
+    for (int k = 0; k < 4; k++) {
+        out->size[k] = (float)out->exact_size[k];
+        out->wall[k] = (float)out->exact_wall[k];
+    }
 }
 
 static void steps_set(Compute *c, const SolidStep *steps)
