@@ -40,6 +40,7 @@ void splat_maps_follow(SplatMaps *maps, const Target *target, bool covers)
     if (maps->target_number == target->number)
         return;
     splat_maps_delete(maps);
+    static const GLfloat none = 0;
     const GLenum sums = gl_renderer_is_software() ? GL_RGBA32F : GL_RGBA16F; /* no halves in its hardware */
     maps->nearest = splat_map_create(GL_R32F, target, "splat nearest");
     maps->color = splat_map_create(sums, target, "splat color");
@@ -49,6 +50,7 @@ void splat_maps_follow(SplatMaps *maps, const Target *target, bool covers)
     maps->blend_framebuffer =
         splat_framebuffer_create((GLuint[]){maps->color, maps->normal, maps->weight}, 3, "splat blend");
     maps->limit = splat_map_create(GL_DEPTH_COMPONENT32F, target, "splat limit");
+    glClearTexImage(maps->limit, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &none); /* beside the box nothing sets it */
     glNamedFramebufferTexture(maps->blend_framebuffer, GL_DEPTH_ATTACHMENT, maps->limit, 0);
     maps->target_number = target->number;
 }

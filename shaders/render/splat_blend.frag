@@ -19,6 +19,9 @@ layout(location = 2) out vec2 weight_sum; // and what is covered of the pixel, i
 layout(location = 2) out float weight_sum;
 #endif
 
+// Of half precision, as hardware has the sums, a colour times less has too few bits left to be divided by it again.
+const float least_weight = 1e-4;
+
 float weight_of(Splat hit, float nearest)
 {
 #if WEIGHTS == 0
@@ -26,9 +29,9 @@ float weight_of(Splat hit, float nearest)
 #else
     float w1 = 1.0 - sqrt(max(1.0 - hit.inside2, 0.0)); // eq. 6
 #if WEIGHTS == 1
-    return w1;
+    return max(w1, least_weight);
 #else
-    return w1 * (nearest + eps - hit.depth) / eps; // eq. 7
+    return max(w1 * (nearest + eps - hit.depth) / eps, least_weight); // eq. 7
 #endif
 #endif
 }

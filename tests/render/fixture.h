@@ -23,11 +23,24 @@
 
 static __attribute__((unused)) Headless *test_context;
 
+/* Where the environment wants another renderer than the one that is there, nothing is tested (ctest:
+ * skipped). */
+static inline void expect_renderer(void)
+{
+    const char *wanted = getenv("SLOSH_TEST_RENDERER"),
+               *name = test_context ? headless_renderer(test_context) : "none";
+    if (!wanted || strstr(name, wanted))
+        return;
+    printf("skipped: this is for the renderer %s, which does not start here; there is %s\n", wanted, name);
+    exit(77);
+}
+
 static inline int context_setup(void **state)
 {
     (void)state;
     Error error = {0};
     test_context = headless_create(HEADLESS_GPU_AUTO, &error);
+    expect_renderer();
     if (!test_context) {
         fprintf(stderr, "%s\n", error.message);
         return 1;

@@ -150,9 +150,10 @@ static inline int level_compare(SplatScene *scene, int stride)
             fail_msg("pixel %d %d: depth %.9g, by marching %.9g", x, y, drawn[i].depth, wanted.depth);
         if (fabs(drawn[i].weight - wanted.weight) > 1e-3 * scene->def.splat.level)
             fail_msg("pixel %d %d: field %g, wanted %g", x, y, drawn[i].weight, wanted.weight);
-        const double most = 3e-3 * sqrt(dot3(wanted.normal, wanted.normal));
+        const double rounding = 3e-3 * splat_rounding();
+        const double most = rounding * sqrt(dot3(wanted.normal, wanted.normal));
         for (int k = 0; k < 3; k++)
-            if (fabs(drawn[i].color[k] - wanted.color[k]) > 3e-3 * wanted.weight ||
+            if (fabs(drawn[i].color[k] - wanted.color[k]) > rounding * wanted.weight ||
                 fabs(drawn[i].normal[k] - wanted.normal[k]) > most)
                 fail_msg("pixel %d %d, component %d: colour %g, eq. 2 %g; normal %g, eq. 4 %g", x, y, k,
                          drawn[i].color[k], wanted.color[k], drawn[i].normal[k], wanted.normal[k]);

@@ -78,6 +78,29 @@ static void a_heap(void **state)
     compare_all(&scene, 4000, false);
 }
 
+/* Sums over weights are the colour also at the rim, where weights end: in halves, as hardware has the sums,
+ * too. */
+static void a_colour_holds_to_the_rim(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 25, 0.5);
+        scene.width = 400, scene.height = 300;
+        particles_add(scene.particles, 0.011 * i, 0.5 + 0.007 * i, 0, 1, 0);
+        SplatPixel *pixels = splat_drawn(&scene);
+        int covered = 0;
+        for (int k = 0; k < scene.width * scene.height; k++)
+            for (int c = 0; pixels[k].weight > 0 && c < 3; c++, covered++)
+                if (fabs(pixels[k].color[c] / pixels[k].weight - scene.def.fluid_color[0][c]) > 1e-3)
+                    fail_msg("colour %g, not %g, where the weight is %g",
+                             pixels[k].color[c] / pixels[k].weight, scene.def.fluid_color[0][c],
+                             pixels[k].weight);
+        assert_true(covered > 3 * 30000);
+        free(pixels);
+        free(scene.particles);
+    }
+}
+
 /* Figure 3: two spheres a radius apart, eps a quarter of it. The greatest turn of the unit normal from a
    pixel to its neighbour, away from silhouettes and from the jump of depth, where even the paper's weights
    cannot help. */
@@ -118,6 +141,7 @@ int main(void)
         cmocka_unit_test_teardown(small_and_far, no_gl_errors),
         cmocka_unit_test_teardown(two_spheres_and_more, no_gl_errors),
         cmocka_unit_test_teardown(a_heap, no_gl_errors),
+        cmocka_unit_test_teardown(a_colour_holds_to_the_rim, no_gl_errors),
         cmocka_unit_test_teardown(weights_leave_no_seam, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
