@@ -81,7 +81,7 @@ const OptionRow option_rows[] = {
      .help = "seconds from snapshot to snapshot (1/30)"},
     {"--resume", NULL, RUN, OPTION_FLAG, AT(resume), .help = "go on behind the last snapshot of OUT, to the same bits"},
     {"--frames", "N", RENDER | BENCH, OPTION_COUNT, AT(frames), .min = 1, .max = 1e7, .help = "how many frames"},
-    {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .max = 1000, .flags = OPTION_OPEN_LOW,
+    {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .min = 0.001, .max = 1000,
      .help = "frames in a second (30)"},
     {"--size", "WxH", PLAY | RENDER | BENCH, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
      .help = "pixels"},

@@ -62,19 +62,34 @@ static bool copy_name(char name[NAME_SIZE], const char *cell)
     return snprintf(name, NAME_SIZE, "%s", cell) < NAME_SIZE && *cell;
 }
 
-/* False where anything of it is missing or no number: the run is made again. */
-static bool parse_row(char *line, ChartRow *row)
+/* What no run has, or NULL. Of one that broke the seconds are NaN, of one without a reference the error. */
+static const char *impossible(const ChartRow *row, double fineness, double particles)
+{
+    if (!(fineness >= 0 && fineness < 100))
+        return "fineness";
+    if (!(row->spacing > 0 && isfinite(row->spacing)))
+        return "spacing_m";
+    if (!(particles >= 0 && particles < 1e15))
+        return "particles";
+    if (row->seconds <= 0 || isinf(row->seconds))
+        return "seconds_a_simulated_second";
+    return row->error < 0 || isinf(row->error) ? "error" : NULL;
+}
+
+/* NULL, or what is wrong: the run is made again. */
+static const char *parse_row(char *line, ChartRow *row)
 {
     enum { CELLS = 10 };
+    static const char unreadable[] = "row";
     char *cells[CELLS], *at = line, *end;
     double fineness, particles;
     if (!line[strcspn(line, "\n")])
-        return false;
+        return unreadable;
     line[strcspn(line, "\n")] = '\0';
     for (int c = 0; c < CELLS; c++) {
         cells[c] = strsep(&at, ",");
         if (!at)
-            return false;
+            return unreadable;
     }
     *row = (ChartRow){.key = strtoull(cells[0], &end, 16)};
     const bool ok = end == cells[0] + 16 && !*end && parse_role(cells[1], &row->role) &&
@@ -83,24 +98,31 @@ static bool parse_row(char *line, ChartRow *row)
                     read_number(cells[6], &row->spacing) && read_number(cells[7], &particles) &&
                     read_number(cells[8], &row->seconds) && read_number(cells[9], &row->error) &&
                     parse_series(at, row);
-    if (!ok || !(fineness >= 0 && fineness < 100) || !(particles >= 0 && particles < 1e15))
-        return false;
+    const char *wrong = ok ? impossible(row, fineness, particles) : unreadable;
+    if (wrong)
+        return wrong;
     row->fineness = (int)fineness;
     row->particles = (size_t)particles;
-    return true;
+    return NULL;
 }
 
-static void read_rows(ChartRows *rows, FILE *file)
+static void read_rows(ChartRows *rows, FILE *file, const char *path, FILE *warnings)
 {
     char *line = NULL;
     size_t size = 0;
-    while (rows->count < CHART_ROWS_MAX && getline(&line, &size, file) > 0)
-        if (parse_row(line, &rows->row[rows->count]))
+    for (int number = 2; rows->count < CHART_ROWS_MAX && getline(&line, &size, file) > 0; number++) {
+        const char *wrong = parse_row(line, &rows->row[rows->count]);
+        if (!wrong)
             rows->count++;
+        else if (warnings)
+            fprintf(warnings,
+                    "%s:%d: this %s is none that a chart writes; the row is left out, its run made again\n",
+                    path, number, wrong);
+    }
     free(line);
 }
 
-bool chart_rows_read(ChartRows *rows, const char *path, Error *error)
+bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error)
 {
     char *head = NULL;
     size_t size = 0;
@@ -111,7 +133,7 @@ bool chart_rows_read(ChartRows *rows, const char *path, Error *error)
     const bool empty = getline(&head, &size, file) <= 0;
     const bool ours = empty || strncmp(head, OURS, sizeof OURS - 1) == 0;
     if (!empty && ours && strcmp(head, HEAD) == 0)
-        read_rows(rows, file);
+        read_rows(rows, file, path, warnings);
     free(head);
     fclose(file);
     return ours || error_set(error,
@@ -139,7 +161,7 @@ void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan)
 {
     static ChartRows others;
     Error none;
-    if (!chart_rows_read(&others, path, &none))
+    if (!chart_rows_read(&others, path, NULL, &none))
         return;
     for (int i = 0; i < others.count && rows->count < CHART_ROWS_MAX; i++)
         if (!chart_rows_find(rows, others.row[i].key))

@@ -39,9 +39,10 @@ typedef struct ChartRows {
     ChartRow row[CHART_ROWS_MAX];
 } ChartRows;
 
-/* The whole rows of an older run; none where there is no such file, or it is empty. False with the reason
-   where the file is no chart's: it is not to be replaced. */
-bool chart_rows_read(ChartRows *rows, const char *path, Error *error);
+/* The sound rows of an older run; none where there is no such file, or it is empty. Each other row is told to
+   `warnings` (NULL: to nobody). False with the reason where the file is no chart's: it is not to be replaced.
+ */
+bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error);
 
 /* Adds a row, in place of the oldest that is none of `plan` where there is no room. */
 void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan);

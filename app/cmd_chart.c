@@ -142,7 +142,8 @@ static bool check_outputs(const ChartPlan *plan, ChartRows *kept, Error *error)
 {
     const Args *args = plan->args;
     return output_check(args->output, error) && output_check(plan->csv, error) &&
-           (!args->json || output_check(args->json, error)) && chart_rows_read(kept, plan->csv, error);
+           (!args->json || output_check(args->json, error)) &&
+           chart_rows_read(kept, plan->csv, stderr, error);
 }
 
 /* Where a run that is still to be made is on a GPU. */

@@ -42,11 +42,12 @@ static bool write_json(const Export *export, const Args *args, double wall_secon
 {
     if (!args->json)
         return true;
-    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:I, s:I, s:f, s:f, s:b}", "command", "export", "input",
-                             args->scenes[0], "output", args->output, "frame",
-                             snapshot_frame_name(export->frame), "snapshots", (json_int_t) export->snapshots,
-                             "particles", (json_int_t) export->particles, "simulated_seconds", export->time,
-                             "wall_seconds", wall_seconds, "stopped", export->interrupted);
+    json_t *json =
+        json_pack("{s:s, s:s, s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:b}", "command", "export", "input",
+                  args->scenes[0], "output", args->output, "frame", snapshot_frame_name(export->frame),
+                  "snapshots", (json_int_t) export->snapshots, "particles", (json_int_t) export->particles,
+                  "left_out", (json_int_t)snapshot_flaws_left_out(&export->flaws), "simulated_seconds",
+                  export->time, "wall_seconds", wall_seconds, "stopped", export->interrupted);
     if (json && export->surface)
         json_object_set_new(json, "surface", surface_json(export));
     const bool written = json_file_write(json, args->json, error);
@@ -58,6 +59,7 @@ static void report(const Export *export, const Args *args)
 {
     if (export->interrupted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->time, args->output);
+    snapshot_flaws_print(&export->flaws, args->scenes[0], stderr);
     if (export->empty > 0)
         fprintf(stderr, "%s: warning: %zu of %zu snapshots %s no fluid at that level, and no surface\n",
                 args->output, export->empty, export->snapshots, export->empty == 1 ? "has" : "have");
@@ -142,6 +144,7 @@ static bool understand(Export *export, SurfaceDef *surface, size_t *index, const
     tell_gap(export->reader, args->scenes[0]);
     if (snapshot_count_steps(export->reader) == 0)
         return error_set(error, "%s: has no whole snapshot; make some with slosh run", args->scenes[0]);
+    export->flaws = snapshot_flaws(export->reader, args->surface);
     return understand_surface(export, surface, args, error) && choose(args, export->reader, index, error);
 }
 

@@ -60,13 +60,26 @@ static bool is_ply(const Export *export)
     return export->kind == EXPORT_PLY || export->kind == EXPORT_PLY_SERIES;
 }
 
+/* Without what is left out, which is noted in `flaws`. */
+static bool read_step(const Export *export, size_t index, SnapshotFlaws *flaws, SnapshotStep *step,
+                      Error *error)
+{
+    if (!snapshot_read_step(export->reader, index, step, error))
+        return false;
+    if (snapshot_sift(flaws, index, step))
+        return true;
+    snapshot_step_free(step);
+    return error_set(error, "%s: out of memory for a snapshot", export->path);
+}
+
 /* ---- colours ---- */
 
 static bool widen_range(Export *export, size_t index, Error *error)
 {
     PlyColors *colors = &export->colors;
+    SnapshotFlaws noted_later = export->flaws;
     SnapshotStep step;
-    if (!snapshot_read_step(export->reader, index, &step, error))
+    if (!read_step(export, index, &noted_later, &step, error))
         return false;
     if (export->frame == FRAME_WORLD)
         snapshot_step_to_world(&step);
@@ -161,7 +174,7 @@ static bool write_surface(Export *export, const char *name, const SnapshotStep *
 static bool write_snapshot(Export *export, size_t index, const char *name, Error *error)
 {
     SnapshotStep step;
-    if (!snapshot_read_step(export->reader, index, &step, error))
+    if (!read_step(export, index, &export->flaws, &step, error))
         return false;
     export->particles = step.count;
     export->time = step.time;

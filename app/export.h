@@ -5,6 +5,7 @@
 #include "app/ply.h"
 #include "app/progress.h"
 #include "app/snapshot_frame.h"
+#include "app/snapshot_sift.h"
 
 typedef enum ExportKind { EXPORT_PVD, EXPORT_VTP, EXPORT_PLY, EXPORT_PLY_SERIES } ExportKind;
 
@@ -25,6 +26,7 @@ typedef struct Export {
     SnapshotFrame frame;
     const SurfaceDef *surface;  /* instead of the particles; NULL: the particles */
     SnapshotScene scene;        /* with a surface: that the snapshots are of */
+    SnapshotFlaws flaws;        /* see snapshot_flaws; what was found in those that were written */
     PlyColors colors;           /* of a .ply: see export_colors */
     size_t snapshots;           /* written */
     size_t particles;           /* of the last one */

@@ -112,6 +112,41 @@ static bool read_value(const Edit *edit, const char *text, Node **value)
     return *value || fail(edit, "no memory");
 }
 
+/* What is wrong with an index, `at` its '['. */
+static bool fail_index(const Edit *edit, const char *at)
+{
+    const int length = (int)strcspn(at + 1, "]"), digits = (int)strspn(at + 1 + (at[1] == '-'), "0123456789");
+    const char *behind = at + 1 + length;
+    if (!*behind)
+        return fail(edit, "a '[' has no ']' behind it; write an index like fluids[0]");
+    if (at[1] == '-' && digits > 0 && digits == length - 1)
+        return error_set(edit->error, "%s: the index %.*s is less than 0; the first entry of a list is [0]",
+                         edit->said, length, at + 1);
+    if (digits != length || length == 0)
+        return error_set(edit->error,
+                         "%s: '[%.*s]' is no index; write a whole number from 0 on, like fluids[0]",
+                         edit->said, length, at + 1);
+    if (behind[1] && behind[1] != '.' && behind[1] != '[')
+        return error_set(edit->error, "%s: '%s' follows an index; write a '.' between them", edit->said,
+                         behind + 1);
+    if (behind[1] == '.' && !behind[2])
+        return fail(edit, "the path ends in a '.'; name a key behind it");
+    return error_set(edit->error, "%s: [%.*s] is beyond the end of any list", edit->said, length, at + 1);
+}
+
+/* What is wrong where no part of a path is. */
+static bool fail_part(const Edit *edit, const char *at)
+{
+    if (*at == '[')
+        return fail_index(edit, at);
+    const size_t length = strcspn(at, ".[");
+    if (length == 0)
+        return fail(edit, "a key is missing before a '.'; write it like fluids[0].density");
+    if (at[length] == '.')
+        return fail(edit, "the path ends in a '.'; name a key behind it");
+    return error_set(edit->error, "%s: '%.*s' is longer than any key", edit->said, (int)length, at);
+}
+
 /* "--set path=value", for as long as the tree lives. */
 static const char *said_by_set(Tree *tree, const char *setting)
 {
@@ -141,8 +176,11 @@ bool tree_set(Tree *tree, const char *setting, const char *said, Error *error)
     for (const char *at = path; *at;) {
         PathPart part;
         edit.done = (int)(at - path);
-        if (!path_next(&at, &part) || ++depth > TREE_DEPTH_MAX)
-            return fail(&edit, "no path before the '='; write it like fluids[0].density");
+        const char *began = at;
+        if (!path_next(&at, &part))
+            return fail_part(&edit, began);
+        if (++depth > TREE_DEPTH_MAX)
+            return fail(&edit, "the path has more parts than any key");
         if (!(part.index < 0 ? step_key(&edit, node, part.key, &node)
                              : step_index(&edit, node, (size_t)part.index, &node)))
             return false;

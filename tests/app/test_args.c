@@ -183,7 +183,9 @@ static void numbers_have_ranges(void **state)
     refuse("run s -o o --time 5s", "slosh run: --time must be a number, not '5s'");
     refuse("run s -o o --time=", "slosh run: --time must be a number, not ''");
     refuse("run s -o o --every 0", "slosh run: --every must be more than 0 and at most 1000000, not 0");
-    refuse("render s -o o --fps 0", "slosh render: --fps must be more than 0 and at most 1000, not 0");
+    refuse("render s -o o --fps 0", "slosh render: --fps must be 0.001 to 1000, not 0");
+    refuse("render s -o o --fps 1e-9", "slosh render: --fps must be 0.001 to 1000, not 1e-9");
+    refuse("render s -o o --fps 1001", "slosh render: --fps must be 0.001 to 1000, not 1001");
     refuse("render s -o o --frames 0", "slosh render: --frames must be 1 to 10000000, not 0");
     refuse("render s -o o --frames 1.5", "slosh render: --frames must be a whole number, not '1.5'");
     refuse("info --particles 0", "slosh info: --particles must be 1 to 2147483647, not 0");

@@ -162,13 +162,13 @@ static int remove_file(void **state)
 static void a_file_keeps_them(void **state)
 {
     (void)state;
-    assert_true(chart_rows_read(&again, path, &error)); /* empty */
+    assert_true(chart_rows_read(&again, path, NULL, &error)); /* empty */
     assert_int_equal(again.count, 0);
     rows.count = 0;
     set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5);
     add(CHART_FLOOR, 0.25, (double)NAN, (double)NAN);
     assert_true(chart_rows_write(&rows, path, &error));
-    assert_true(chart_rows_read(&again, path, &error));
+    assert_true(chart_rows_read(&again, path, NULL, &error));
     assert_int_equal(again.count, 2);
     const ChartRow *row = chart_rows_find(&again, 100);
     assert_non_null(row);
@@ -198,14 +198,14 @@ static void half_a_row_is_none(void **state)
     for (int i = 0; i < 2; i++)
         set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5 + i);
     assert_true(chart_rows_write(&rows, path, &error));
-    assert_true(chart_rows_read(&rows, path, &error)); /* as printed */
+    assert_true(chart_rows_read(&rows, path, NULL, &error)); /* as printed */
     FILE *file = fopen(path, "r");
     const size_t size = fread(whole, 1, sizeof whole, file);
     fclose(file);
     const size_t second = (size_t)(strstr(whole, "0000000000000065,") - whole);
     for (size_t cut = second; cut < size; cut += cut < second + 200 || cut > size - 20 ? 1 : 97) {
         write_text(whole, cut);
-        assert_true(chart_rows_read(&again, path, &error));
+        assert_true(chart_rows_read(&again, path, NULL, &error));
         assert_int_equal(again.count, 1);
         assert_memory_equal(again.row[0].series, rows.row[0].series, sizeof rows.row[0].series);
     }
@@ -214,10 +214,58 @@ static void half_a_row_is_none(void **state)
             const char right = whole[at];
             whole[at] = 'x';
             write_text(whole, size);
-            assert_true(chart_rows_read(&again, path, &error));
+            assert_true(chart_rows_read(&again, path, NULL, &error));
             assert_int_equal(again.count, 1);
             whole[at] = right;
         }
+}
+
+/* As edited by hand, or damaged: said with its line, and none of the chart. */
+static void an_impossible_row_is_left_out(void **state)
+{
+    (void)state;
+    static const char *const cells[][2] = {
+        {",1.5,", ",-1,"}, {",1.5,", ",0,"}, {",1.5,", ",inf,"},   {",0.25,", ",-0.25,"}, {",0.25,", ",inf,"},
+        {"0.125", "-2"},   {"0.125", "nan"}, {",1.5,", ",seven,"}, {",1000,", ",-3,"},
+    };
+    static const char *const wrong[] = {"seconds_a_simulated_second",
+                                        "seconds_a_simulated_second",
+                                        "seconds_a_simulated_second",
+                                        "error",
+                                        "error",
+                                        "spacing_m",
+                                        "spacing_m",
+                                        "row",
+                                        "particles"};
+    static char whole[16384], spoilt[16384];
+    rows.count = 0;
+    for (int i = 0; i < 2; i++) {
+        add(CHART_POINT, 0.125, 1.5, 0.25);
+        rows.row[i].particles = 1000;
+    }
+    assert_true(chart_rows_write(&rows, path, &error));
+    FILE *file = fopen(path, "r");
+    whole[fread(whole, 1, sizeof whole - 1, file)] = '\0';
+    fclose(file);
+    const char *second = strstr(whole, "0000000000000065,");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char *said = NULL, expected[200];
+        size_t size = 0;
+        const char *cell = strstr(second, cells[i][0]);
+        assert_non_null(cell);
+        snprintf(spoilt, sizeof spoilt, "%.*s%s%s", (int)(cell - whole), whole, cells[i][1],
+                 cell + strlen(cells[i][0]));
+        write_text(spoilt, strlen(spoilt));
+        file = open_memstream(&said, &size);
+        assert_true(chart_rows_read(&again, path, file, &error));
+        fclose(file);
+        assert_int_equal(again.count, 1);
+        snprintf(expected, sizeof expected,
+                 "%s:3: this %s is none that a chart writes; the row is left out, its run made again\n", path,
+                 wrong[i]);
+        assert_string_equal(said, expected);
+        free(said);
+    }
 }
 
 static void another_s_file_is_kept(void **state)
@@ -225,10 +273,10 @@ static void another_s_file_is_kept(void **state)
     (void)state;
     static const char theirs[] = "day,rain\n1,0.5\n", older[] = "key,role,method,backend,more\n1,0,a,b,c\n";
     write_text(theirs, sizeof theirs - 1);
-    assert_false(chart_rows_read(&again, path, &error));
+    assert_false(chart_rows_read(&again, path, NULL, &error));
     assert_non_null(strstr(error.message, "no chart wrote it"));
     write_text(older, sizeof older - 1);
-    assert_true(chart_rows_read(&again, path, &error));
+    assert_true(chart_rows_read(&again, path, NULL, &error));
     assert_int_equal(again.count, 0);
 }
 
@@ -270,6 +318,7 @@ int main(void)
         cmocka_unit_test(nothing_on_the_front_is_beaten),
         cmocka_unit_test_setup_teardown(a_file_keeps_them, make_file, remove_file),
         cmocka_unit_test_setup_teardown(half_a_row_is_none, make_file, remove_file),
+        cmocka_unit_test_setup_teardown(an_impossible_row_is_left_out, make_file, remove_file),
         cmocka_unit_test_setup_teardown(another_s_file_is_kept, make_file, remove_file),
         cmocka_unit_test_setup_teardown(others_rows_stay, make_file, remove_file),
     };

@@ -197,7 +197,7 @@ static void paths_must_name_one_key(void **state)
     refuse("nonsense.key=1", "unknown key 'nonsense.key'; `slosh info SCENE` lists the keys");
     refuse("fluids[2].viscosity=1", "the scene has no fluids[2]; use at most fluids[1]");
     refuse("fluids[3].viscosity=1", "[3] is beyond the list's end");
-    refuse("fluids[].viscosity=1", "no path before the '='");
+    refuse("fluids[].viscosity=1", "'[]' is no index");
     refuse("gravity[1]=1", "[1] is beyond the list's end");
     refuse("gravity[0]=1", "unknown key 'gravity[0]'");
     refuse("view.camera={from: [0, 0, 1], to: [0, 0, 0]}", "view.camera cannot change");

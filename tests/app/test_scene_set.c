@@ -85,10 +85,24 @@ static void bad_settings_are_named(void **state)
     assert_set_refused("box[0]=1", "[0] follows something that is no list");
     assert_set_refused("nothing", "no setting; write path=value");
     assert_set_refused("=3", "no setting; write path=value");
-    assert_set_refused("a..b=3", "no path before the '='");
-    assert_set_refused("a.=3", "no path before the '='");
-    assert_set_refused("a[x]=3", "no path before the '='");
-    assert_set_refused("fluids[0]density=3", "no path before the '='");
+    assert_set_refused("a..b=3", "a key is missing before a '.'; write it like fluids[0].density");
+    assert_set_refused(".a=3", "a key is missing before a '.'");
+    assert_set_refused("solver.=3", "the path ends in a '.'; name a key behind it");
+    assert_set_refused("fluids[-1].viscosity=1", "the index -1 is less than 0; the first entry "
+                                                 "of a list is [0]");
+    for (int k = 0; k < 4; k++) {
+        char setting[64], reason[128];
+        const char *const indices[] = {"", "x", "1.5", "-"};
+        snprintf(setting, sizeof setting, "fluids[%s].viscosity=1", indices[k]);
+        snprintf(reason, sizeof reason, "'[%s]' is no index; write a whole number from 0 on, like fluids[0]",
+                 indices[k]);
+        assert_set_refused(setting, reason);
+    }
+    assert_set_refused("fluids[0=1", "a '[' has no ']' behind it; write an index like fluids[0]");
+    assert_set_refused("fluids[0]density=1", "'density' follows an index; write a '.' between them");
+    assert_set_refused("fluids[0].=1", "the path ends in a '.'");
+    assert_set_refused("fluids[9].viscosity=1", "[9] is beyond the list's end; use at most 1, which appends");
+    assert_set_refused("fluids[99999999999].viscosity=1", "[99999999999] is beyond the end of any list");
     assert_set_refused("title=*a", "an alias");
     assert_set_refused("solver.backend=gpu", "solver.backend cannot be 'gpu'; it must be one of: cpu");
 }

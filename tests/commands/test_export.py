@@ -383,7 +383,7 @@ class Whole(ExportTest):
         wall = out.pop('wall_seconds')
         self.assertTrue(0 < wall < 10)
         self.assertEqual(out, {'command': 'export', 'input': 'a.h5part', 'output': 'b.pvd', 'frame': 'box',
-                               'snapshots': 9, 'particles': 500, 'simulated_seconds': 0.4, 'stopped': False})
+                               'snapshots': 9, 'particles': 500, 'left_out': 0, 'simulated_seconds': 0.4, 'stopped': False})
         self.make('--time', '0.1')
         self.assertEqual(self.export('b.pvd', '--quiet'), '')
         self.assert_whole_series('b', 3)  # none is left of the longer one
@@ -507,11 +507,13 @@ class Bad(ExportTest):
         self.refused('a.h5part', 'a.ply', '--surface', words='a scene of two dimensions has no surface')
         self.export('a.ply')
 
-    def test_a_particle_far_away(self):
+    def test_particles_too_far_apart_for_a_grid(self):
         self.make('--time', '0.1')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
-            file['Step#1']['y'][3] = 1e20
-        self.refused('a.h5part', 'a.pvd', '--surface', '--quiet', words='particles are too far apart', code=1)
+            for name in 'xyz':
+                file['Step#1'][name][3] = 99
+        self.refused('a.h5part', 'a.pvd', '--surface', '--cell', '0.05', '--quiet', words='particles are too far apart',
+                     code=1)
 
     def test_a_folder_of_others(self):
         self.make('--time', '0')
@@ -523,6 +525,73 @@ class Bad(ExportTest):
         self.refused('a.h5part', 'thesis2.ply.series', words="'thesis2-0000.vtp' in it is no .ply of an export", code=1)
         self.write('file', '')
         self.refused('a.h5part', 'file.pvd', words='file: is to be a folder', code=1)
+
+
+class Flaws(ExportTest):
+    """What no simulation writes is said, a line each; what has no place is left out."""
+
+    def damage(self, step, **fields):
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            for name, values in fields.items():
+                for i, value in values.items():
+                    file[f'Step#{step}'][name][i] = value
+
+    def setUp(self):
+        super().setUp()
+        self.make('--time', '0.1')
+
+    def test_a_sound_file_has_none(self):
+        self.assertEqual(self.export('a.pvd', '--quiet'), '')
+
+    def test_each_is_said(self):
+        nan = float('nan')
+        with h5py.File(self.path('a.h5part')) as file:
+            other = int(file['Step#2']['id'][20])
+        self.damage(2, x={3: nan, 4: 1e30}, y={5: -101, 6: 99}, fluid={7: 77, 8: -1}, density={9: -5, 10: nan, 11: 0},
+                    velocity_1={12: float('inf')}, pressure={13: nan}, id={21: other, 22: other})
+        self.damage(1, z={3: nan}, fluid={7: 2})
+        said = self.export('a.ply.series', '--quiet', '--json', 'a.json')
+        expected = ('4 particles in 2 snapshots, the first of them Step#1, have a position that is not finite or more than '
+                    '100 boxes away; left out',
+                    '3 particles in 2 snapshots, the first of them Step#1, have a fluid that the file does not know; '
+                    'exported as it is in the file',
+                    '3 particles of Step#2 have a density that is not more than 0; exported as it is in the file',
+                    '2 particles of Step#2 have a velocity or a pressure that is not finite; exported as it is in the '
+                    'file',
+                    '2 particles of Step#2 have the id of another one; exported as it is in the file')
+        self.assertEqual(said, ''.join(f'a.h5part: warning: {line}\n' for line in expected))
+        self.assertEqual(json.loads(self.read('a.json'))['left_out'], 4)
+        written = read_ply(self.read('a/a-0002.ply'))
+        self.assertEqual(len(written), 497)
+        self.assertLessEqual(abs(written['y']).max(), 99)
+        with h5py.File(self.path('a.h5part')) as file:  # the others, in their order
+            keep = [i for i in range(500) if i not in (3, 4, 5)]
+            numpy.testing.assert_array_equal(written['x'], file['Step#2']['x'][:][keep])
+            numpy.testing.assert_array_equal(written['id'], file['Step#2']['id'][:][keep])
+            numpy.testing.assert_array_equal(written['fluid'], file['Step#2']['fluid'][:][keep])
+        said = self.export('b.vtp', '--quiet', '--time', '0.05')
+        self.assertIn('a.h5part: warning: 1 particle of Step#1 has a position that is not finite', said)
+
+    def test_a_surface_and_colours_are_of_the_sound_ones(self):
+        """As without the particles that are damaged."""
+        spoilt = {3: ('x', float('nan')), 4: ('y', 1e20), 5: ('fluid', 77), 6: ('density', -1e9), 7: ('pressure', float('inf'))}
+        shutil.copy(self.path('a.h5part'), self.path('sound.h5part'))
+        with h5py.File(self.path('sound.h5part'), 'r+') as file:
+            for name, values in file['Step#2'].items():
+                rest = numpy.delete(values[:], list(spoilt))
+                del file['Step#2'][name]
+                file['Step#2'].create_dataset(name, data=rest)
+        for i, (name, value) in spoilt.items():
+            self.damage(2, **{name: {i: value}})
+        for output in ('a.ply', 'a.vtp'):
+            said = self.export(output, '--surface', '--quiet')
+            self.assertEqual(said.count('; left out\n'), 4, said)
+            damaged = self.read(output)
+            self.assertEqual(self.export(output, '--surface', '--quiet', source='sound.h5part'), '')
+            self.assertEqual(self.read(output), damaged)
+        self.damage(2, velocity_0={3: 1e9})
+        self.export('c.ply', '--color-by', 'speed')
+        self.assertNotIn(b'e+0', re.search(rb'comment colours: .*', self.read('c.ply')).group())
 
 
 class FullDisk(ExportTest):
