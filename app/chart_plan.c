@@ -200,6 +200,7 @@ static bool find_subject(ChartPlan *plan, Error *error)
     const Args *args = plan->args;
     SceneSettings settings = args->settings;
     Error no_case, no_scene;
+    settings.purpose = SCENE_FOR_CHART;
     plan->subject = (ChartSubject){.scene = args->scenes[0],
                                    .time = args->time_given ? args->time : DEFAULT_TIME,
                                    .settings = &args->settings};

@@ -10,6 +10,7 @@ enum { NOTES_MAX = 24, NOTE_SIZE = 400 };
 
 typedef struct Notes {
     int count;
+    int lasting; /* so many of them, the first, hold whatever is changed while the scene runs */
     char line[NOTES_MAX][NOTE_SIZE]; /* without a line's end */
 } Notes;
 

@@ -30,7 +30,9 @@ static void help_of(const PanelKey *row, char *text, size_t size)
     const bool numbers = row->key->type == KEY_NUMBER || row->key->type == KEY_CURVE ||
                          row->key->type == KEY_INTEGER || row->key->type == KEY_VEC3;
     key_range_text(row->key, range, sizeof range);
-    snprintf(text, size, "%s\n%s: %s%s%s%s", row->key->help, row->path, range, *row->key->unit ? " " : "",
+    key_help_text(row->key, text, size);
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "\n%s: %s%s%s%s", row->path, range, *row->key->unit ? " " : "",
              row->key->unit, numbers ? "\nCtrl + click to type a number" : "");
 }
 

@@ -56,10 +56,10 @@ void play_view_changed(Play *play)
 
 _Static_assert((int)PANEL_SETTING_SIZE == SIM_SETTING_SIZE, "what the panel asks for fits into a command");
 
-static void advise_anew(Play *play)
+static void advise_anew(Play *play, const char *setting)
 {
     Notes fresh = {.count = 0};
-    play_scene_advise(&play->open, &fresh);
+    play_scene_advise(&play->open, setting, &fresh);
     for (int i = fresh.count - 1; i >= 0; i--)
         play_tell(play, "%s", fresh.line[i]);
 }
@@ -77,7 +77,7 @@ void play_set(Play *play, const char *setting)
     }
     simulator_set_realtime(play->open.simulator, play->open.scene.realtime);
     play_view_changed(play);
-    advise_anew(play);
+    advise_anew(play, setting);
     snprintf(command.setting, sizeof command.setting, "%s", setting);
     if (sim_command_moves(&command)) {
         if (!play_scene_move(&play->open, &command, &error)) {

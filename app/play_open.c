@@ -96,7 +96,7 @@ static void tell(Play *play, const Notes *notes)
 {
     for (int i = notes->count - 1; i >= 0; i--)
         play_tell(play, "%s", notes->line[i]);
-    play_scene_advise(&play->open, NULL);
+    play_scene_advise(&play->open, NULL, NULL);
 }
 
 /* On failure the scene that is open stays. */

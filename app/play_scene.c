@@ -15,6 +15,7 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
 {
     static const SceneSettings none;
     SceneSettings applied = settings ? *settings : none;
+    applied.purpose = SCENE_FOR_WINDOW;
     char path[SCENE_PATH_SIZE];
     size_t size;
     *open = (PlayScene){.upload = NULL};
@@ -24,13 +25,26 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
     const bool ok = text && scene_parse(path, text, size, &applied, &open->scene, notes, error) &&
                     recording_create(&open->recording, path, text, size, settings ? settings : &none, error);
     free(text);
+    if (ok)
+        open->notes = *notes;
     return ok;
 }
 
-void play_scene_advise(PlayScene *open, Notes *fresh)
+/* A key that was changed and has no effect: said for as long as the scene is open. */
+static void advise_unused(PlayScene *open, const char *setting)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%.*s", (int)strcspn(setting, "="), setting);
+    scene_unused(&open->scene, path, &open->notes);
+    open->notes.lasting = open->notes.count;
+}
+
+void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh)
 {
     const Notes before = open->notes;
-    open->notes.count = 0;
+    open->notes.count = open->notes.lasting;
+    if (setting)
+        advise_unused(open, setting);
     scene_advise(NULL, &open->scene, &open->notes);
     for (int i = 0; fresh && i < open->notes.count; i++)
         if (!notes_have(&before, open->notes.line[i]))

@@ -17,13 +17,13 @@ typedef struct PlayScene {
 } PlayScene;
 
 /* Reads a scene; starts nothing yet. `settings` are those of the command line, or NULL. False with the
-   loader's message; `notes` as of scene_load. */
+   loader's message; `notes` as of scene_load, not NULL. */
 bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
                      Error *error);
 
-/* Finds anew what is to be said of the scene as it stands; what was not there before goes into `fresh` (may
-   be NULL). */
-void play_scene_advise(PlayScene *open, Notes *fresh);
+/* Finds anew what is to be said of the scene as it stands after a setting ("path=value"; NULL: as it was
+   read); what was not there before goes into `fresh` (may be NULL). */
+void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh);
 
 /* Begins to simulate it; needs the context. `timer` as of SimulatorSetup. */
 bool play_scene_start(PlayScene *open, void (*wake)(void), GlTimer *timer, bool paused, Error *error);

@@ -110,6 +110,8 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
     file_scalar(tree, scalar);
     if (!apply_settings(tree, settings, error) || !read_scene(tree, out, error))
         return false;
+    out->purpose = settings->purpose;
+    scene_advise_unused(tree, out, notes);
     range_of_scalar(tree, scalar, &out->view);
     if (settings->particles > 0 && !scene_set_particles(tree, out, settings, notes, error))
         return false;
@@ -131,7 +133,7 @@ bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings
 {
     SceneSettings none = {0};
     if (notes)
-        notes->count = 0;
+        notes->count = notes->lasting = 0;
     if (size > SCENE_BYTES_MAX)
         return error_set(error, "%s: larger than 1 MiB; a scene file is a page of YAML", path);
     Tree tree;
@@ -146,7 +148,7 @@ bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *no
     char path[SCENE_PATH_SIZE];
     size_t size;
     if (notes)
-        notes->count = 0;
+        notes->count = notes->lasting = 0;
     if (!scene_path_find(name, path, error))
         return false;
     char *bytes = scene_file_read(path, &size, error);

@@ -15,8 +15,17 @@
 
 enum { SCENE_METRICS_MAX = 8 };
 
+/* What a scene is read for: some of its keys are for some of these only. */
+typedef enum ScenePurpose {
+    SCENE_FOR_ONE,     /* a command that leaves method, backend and view as they are */
+    SCENE_FOR_NUMBERS, /* the same, without a picture: the particles are what comes out */
+    SCENE_FOR_WINDOW,  /* backend and view may change while it runs */
+    SCENE_FOR_CHART
+} ScenePurpose;
+
 typedef struct Scene {
     char path[1024]; /* as found; what messages name */
+    ScenePurpose purpose;
     char title[128];
     WorldDef world;
     ViewDef view;
@@ -40,7 +49,8 @@ typedef struct SceneSettings {
     const char
         *said[SCENE_SETTINGS_MAX]; /* what messages call it: "--backend cuda"; NULL: --set and the setting */
     size_t particles;              /* --particles; 0: the scene's own spacing */
-    bool dt_set;                   /* filled: dt was among `set`, so --particles does not scale it */
+    ScenePurpose purpose;
+    bool dt_set; /* filled: dt was among `set`, so --particles does not scale it */
 } SceneSettings;
 
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what

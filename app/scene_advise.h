@@ -12,6 +12,13 @@
    runs: then lines begin with the key's path. */
 void scene_advise(const Tree *tree, const Scene *scene, Notes *notes);
 
+/* The same of settings without effect, since what reads them is not in use: the keys that stand in `tree`,
+   with their rows' owners. These lines come first in `notes`, and last as long as the scene does. */
+void scene_advise_unused(const Tree *tree, const Scene *scene, Notes *notes);
+
+/* The same of one key that is set while the scene runs. */
+void scene_unused(const Scene *scene, const char *path, Notes *notes);
+
 /* For the checks: a line about the setting at `path`, with its place where the tree has it. */
 void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

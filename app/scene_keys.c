@@ -2,6 +2,8 @@
 
 #include "app/metric_list.h"
 #include "app/scene_lists.h"
+#include "sim/flow.h"
+#include "sim/tension.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -21,19 +23,19 @@
 enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
 
 /* The rows by type. */
-#define MAPPING(PATH, HELP)                                                                                  \
+#define MAPPING(PATH, ...)                                                                                   \
     {                                                                                                        \
-        .path = PATH, .type = KEY_MAPPING, .unit = "", .help = HELP, NOT_STORED                              \
+        .path = PATH, .type = KEY_MAPPING, .unit = "", NOT_STORED, .help = __VA_ARGS__                       \
     }
 #define VARIANT(PATH, AUX, VALUE, HELP)                                                                      \
     {                                                                                                        \
         .path = PATH, .type = KEY_VARIANT, .unit = "", .help = HELP, .offset = KEY_NOWHERE, .aux = AUX,      \
         .variant = VALUE                                                                                     \
     }
-#define NUMBER(PATH, FLAGS, UNIT, LO, HI, AT, HELP)                                                          \
+#define NUMBER(PATH, FLAGS, UNIT, LO, HI, AT, ...)                                                           \
     {                                                                                                        \
         .path = PATH, .type = KEY_NUMBER, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),           \
-        .help = HELP                                                                                         \
+        .help = __VA_ARGS__                                                                                  \
     }
 #define CURVE(PATH, FLAGS, UNIT, LO, HI, AT, TABLE, HELP)                                                    \
     {                                                                                                        \
@@ -49,24 +51,24 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
     {                                                                                                        \
         .path = PATH, .type = KEY_AXES, .unit = "", PLACE(AT), .help = HELP                                  \
     }
-#define NAMES(PATH, LO, HI, CHOICES, AT, COUNT, HELP)                                                        \
+#define NAMES(PATH, LO, HI, CHOICES, AT, COUNT, ...)                                                         \
     {                                                                                                        \
         .path = PATH, .type = KEY_NAMES, .unit = "", BOUNDS(LO, HI), .choice = CHOICES, .offset = AT,        \
-        .aux = COUNT, .help = HELP                                                                           \
+        .aux = COUNT, .help = __VA_ARGS__                                                                    \
     }
-#define INTEGER(PATH, FLAGS, LO, HI, AT, HELP)                                                               \
+#define INTEGER(PATH, FLAGS, LO, HI, AT, ...)                                                                \
     {                                                                                                        \
         .path = PATH, .type = KEY_INTEGER, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), PLACE(AT),            \
-        .help = HELP                                                                                         \
+        .help = __VA_ARGS__                                                                                  \
     }
-#define BOOLEAN(PATH, FLAGS, AT, HELP)                                                                       \
+#define BOOLEAN(PATH, FLAGS, AT, ...)                                                                        \
     {                                                                                                        \
-        .path = PATH, .type = KEY_BOOLEAN, .flags = FLAGS, .unit = "", PLACE(AT), .help = HELP               \
+        .path = PATH, .type = KEY_BOOLEAN, .flags = FLAGS, .unit = "", PLACE(AT), .help = __VA_ARGS__        \
     }
-#define CHOICE(PATH, FLAGS, CHOICES, AT, HELP)                                                               \
+#define CHOICE(PATH, FLAGS, CHOICES, AT, ...)                                                                \
     {                                                                                                        \
         .path = PATH, .type = KEY_CHOICE, .flags = FLAGS, .unit = "", .choice = CHOICES, PLACE(AT),          \
-        .help = HELP                                                                                         \
+        .help = __VA_ARGS__                                                                                  \
     }
 #define TEXT(PATH, FLAGS, SIZE, AT, FALLBACK, HELP)                                                          \
     {                                                                                                        \
@@ -133,6 +135,100 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
 #define SOLID_ROWS(KIND, NAME, HELP)                                                                         \
     VARIANT("solids[]." NAME, SOLID(kind), SOLID_##KIND, HELP), FIELDS_##KIND("solids[]." NAME)
 
+/* The owners of keys, each with the question whether it is in use. The window's user may change backend and
+   view at any time; and a file may say how every view and the chart shall be, for when it comes to that. */
+static bool is(const char *name, const char *wanted)
+{
+    return strcmp(name, wanted) == 0;
+}
+
+static bool backend_is(const Scene *scene, const char *name)
+{
+    return scene->purpose == SCENE_FOR_WINDOW || is(scene->world.backend, name);
+}
+
+static bool view_is(const Scene *scene, bool said, const char *name)
+{
+    return scene->purpose == SCENE_FOR_WINDOW || !said || is(scene->view.kind, name);
+}
+
+static bool mueller_used(const Scene *scene, bool said)
+{
+    (void)said;
+    return is(scene->world.method, "mueller");
+}
+
+static bool wcsph_used(const Scene *scene, bool said)
+{
+    (void)said;
+    return is(scene->world.method, "wcsph");
+}
+
+static bool cpu_used(const Scene *scene, bool said)
+{
+    (void)said;
+    return backend_is(scene, "cpu");
+}
+
+static bool fragment_used(const Scene *scene, bool said)
+{
+    (void)said;
+    return backend_is(scene, "fragment");
+}
+
+static bool mode_fixed_used(const Scene *scene, bool said)
+{
+    (void)said;
+    return scene->world.step_mode == STEP_FIXED;
+}
+
+static bool mode_cfl_used(const Scene *scene, bool said)
+{
+    (void)said;
+    return scene->world.step_mode == STEP_CFL;
+}
+
+static bool emitters_used(const Scene *scene, bool said)
+{
+    (void)said;
+    return flow_emits(&scene->world);
+}
+
+static bool tension_used(const Scene *scene, bool said)
+{
+    (void)said;
+    return scene->world.tension_model != TENSION_NONE;
+}
+
+static bool view_splat_used(const Scene *scene, bool said)
+{
+    return view_is(scene, said, "splat");
+}
+
+static bool view_volume_used(const Scene *scene, bool said)
+{
+    return view_is(scene, said, "volume");
+}
+
+/* Who runs a scene for its numbers may wait for these in the output. */
+static bool chart_used(const Scene *scene, bool said)
+{
+    return scene->purpose == SCENE_FOR_CHART || (!said && scene->purpose != SCENE_FOR_NUMBERS);
+}
+
+static const KeyOwner mueller = {"mueller", "solver.method: mueller", mueller_used};
+static const KeyOwner wcsph = {"wcsph", "solver.method: wcsph", wcsph_used};
+static const KeyOwner cpu = {"cpu", "solver.backend: cpu", cpu_used};
+static const KeyOwner fragment = {"fragment", "solver.backend: fragment", fragment_used};
+static const KeyOwner mode_fixed = {"fixed", "solver.step.mode: fixed", mode_fixed_used};
+static const KeyOwner mode_cfl = {"cfl", "solver.step.mode: cfl", mode_cfl_used};
+static const KeyOwner emitters = {"with emitters", "an emitter (fluids[].emit)", emitters_used};
+static const KeyOwner tension = {"with solver.surface_tension", "a model (solver.surface_tension)",
+                                 tension_used};
+static const KeyOwner view_splat = {NULL, "view.kind: splat", view_splat_used};
+static const KeyOwner view_volume = {NULL, "view.kind: volume", view_volume_used};
+static const KeyOwner chart = {"slosh chart", "slosh chart, which alone reads it", chart_used};
+
 /* Bounds are wide: they catch slips of the unit and of the sign, not taste. */
 /* clang-format off */
 static const Key keys[] = {
@@ -157,7 +253,7 @@ static const Key keys[] = {
     TEXT("fluids[].name", 0, NAME_SIZE, FLUID(name), "fluid 1, fluid 2, ...", "for the legend; each its own"),
     NUMBER("fluids[].density", 0, "kg/m3", 0.001, 1e5, FLUID(density), "at rest"),
     CURVE("fluids[].viscosity", L, "Pa s", 0, 1e6, FLUID(viscosity), FLUID(viscosity_table), "dynamic; water 0.001, olive oil 0.08, honey 10; or a table over time such as [[0, 50], [2, 50], [6, 0.1]]: seconds (ascending) and Pa s, at most 16 rows, straight lines between them, constant before and after"),
-    NUMBER("fluids[].surface_tension", 0, "N/m", 0, 1000, FLUID(surface_tension), "where solver.surface_tension names a model; water 0.072"),
+    NUMBER("fluids[].surface_tension", 0, "N/m", 0, 1000, FLUID(surface_tension), "water 0.072", .owner = &tension),
     VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
     NUMBER("fluids[].taylor_green", 0, "m/s", 0, 1000, FLUID(taylor_green), "besides it at the start Taylor and Green's vortices of that speed, two by two in x and y, with their pressure"),
     COLOR("fluids[].color", L | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
@@ -184,7 +280,7 @@ static const Key keys[] = {
     NUMBER("fluids[].emit[].speed", R | O, "m/s", 0, 1000, EMIT(speed), "of the fluid, in the box's frame"),
     NUMBER("fluids[].emit[].start", 0, "s", 0, 1e6, EMIT(start), "nothing comes before it"),
     NUMBER("fluids[].emit[].duration", 0, "s", 0, 1e6, EMIT(duration), "0: for ever"),
-    INTEGER("particles.most", 0, 1, 2000000000, WORLD(most), "with emitters: so many particles are the most at any time; then they wait"),
+    INTEGER("particles.most", 0, 1, 2000000000, WORLD(most), "upper limit on particles; emitters pause while it is reached", .owner = &emitters),
     LIST("drains", 0, 0, DRAINS_MAX, WORLD(drains), WORLD(drain_count), Fill, NULL,
          "where fluid leaves the scene"),
     VARIANT("drains[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
@@ -208,21 +304,21 @@ static const Key keys[] = {
     CHOICE("solver.method", 0, method_choice, WORLD(method), "the equations"),
     CHOICE("solver.preset", 0, preset_choice, offsetof(Scene, preset),
            "fills in what the scene does not name; accurate: wcsph with the settings that slosh validate measures"),
-    CHOICE("solver.density_kernel", 0, density_kernel_choice, WORLD(density_kernel), "mueller: the kernel that density is summed by"),
-    CHOICE("solver.kernel", 0, wcsph_kernel_choice, WORLD(kernel), "wcsph: its kernel"),
+    CHOICE("solver.density_kernel", 0, density_kernel_choice, WORLD(density_kernel), "the kernel that density is summed by", .owner = &mueller),
+    CHOICE("solver.kernel", 0, wcsph_kernel_choice, WORLD(kernel), "its kernel", .owner = &wcsph),
     NUMBER("solver.artificial_viscosity", 0, "", 0, 1, WORLD(artificial_viscosity),
-           "wcsph: alpha, for fluids without a viscosity; 0: none"),
+           "alpha, for fluids without a viscosity; 0: none", .owner = &wcsph),
     CHOICE("solver.viscosity_form", KEY_INDEX, viscosity_choice, WORLD(viscosity_form),
-           "wcsph: what friction by a fluid's viscosity acts along; radial: right at free surfaces, for half the step"),
-    NUMBER("solver.delta_sph", 0, "", 0, 0.5, WORLD(delta_sph), "wcsph: diffusion of density, 0.1 as a rule; 0: none"),
+           "what friction by a fluid's viscosity acts along; radial: right at free surfaces, for half the step", .owner = &wcsph),
+    NUMBER("solver.delta_sph", 0, "", 0, 0.5, WORLD(delta_sph), "diffusion of density, 0.1 as a rule; 0: none", .owner = &wcsph),
     NUMBER("solver.shifting", 0, "", 0, 1, WORLD(shifting),
-           "wcsph: keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none"),
+           "keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none", .owner = &wcsph),
     CHOICE("solver.backend", L, backend_choice, WORLD(backend), "what computes them"),
-    INTEGER("solver.threads", 0, 0, 1024, WORLD(threads), "of the CPU; 0: one a processor"),
+    INTEGER("solver.threads", 0, 0, 1024, WORLD(threads), "how many; 0: one a processor", .owner = &cpu),
     INTEGER("solver.grid_layers", 0, 0, 63, WORLD(grid_layers),
-            "fragment: layers of its grid, four particles a cell each; 0: as many as a lattice at rest needs, 7 at support 2.1; 1: paper 003's"),
+            "layers of its grid, four particles a cell each; 0: as many as a lattice at rest needs, 7 at support 2.1; 1: paper 003's", .owner = &fragment),
     INTEGER("solver.lost_limit", 0, 0, 2000000000, WORLD(lost_limit),
-            "fragment: so many particles may find no place in the grid in a step; more end the run"),
+            "so many particles may find no place in the grid in a step; more end the run", .owner = &fragment),
     NUMBER("solver.sound_speed", L, "m/s", 0.001, 1e4, WORLD(sound_speed),
            "stiffness: 3 to 10 times the greatest speed of the flow; more is stiffer and needs smaller steps"),
     BOOLEAN("solver.negative_pressure", L, WORLD(negative_pressure), "whether fluid may pull as well as push"),
@@ -232,11 +328,11 @@ static const Key keys[] = {
     MAPPING("solver.step", "the time step"),
     CHOICE("solver.step.mode", KEY_INDEX, step_mode_choice, WORLD(step_mode),
            "fixed: a frame simulates dt, in substeps; cfl: a frame is one step, as long as speeds and forces allow"),
-    NUMBER("solver.step.dt", L, "s", 1e-7, 1, WORLD(dt), "fixed: simulated time of a frame"),
-    INTEGER("solver.step.substeps", L, 1, 10000, WORLD(substeps), "fixed: steps in a frame"),
+    NUMBER("solver.step.dt", L, "s", 1e-7, 1, WORLD(dt), "simulated time of a frame", .owner = &mode_fixed),
+    INTEGER("solver.step.substeps", L, 1, 10000, WORLD(substeps), "steps in a frame", .owner = &mode_fixed),
     NUMBER("solver.step.number", L, "", 0.001, 2, WORLD(cfl_number),
-           "cfl: of the limits h / (c + v), sqrt(h / a) and h^2 / 4 nu (wcsph: h^2 / 8 nu, radial: h^2 / 16 nu)"),
-    NUMBER("solver.step.max_dt", L, "s", 1e-7, 1, WORLD(max_dt), "cfl: greatest step"),
+           "the step is this fraction, the Courant factor, of the smallest of these limits: h / (c + v), sqrt(h / a), h^2 / 4 nu (wcsph: h^2 / 8 nu, radial: h^2 / 16 nu)", .owner = &mode_cfl),
+    NUMBER("solver.step.max_dt", L, "s", 1e-7, 1, WORLD(max_dt), "greatest step", .owner = &mode_cfl),
     INTEGER("solver.step.retries", 0, 0, 10, WORLD(retries),
             "after trouble go back and halve the step, up to so many times; 0: stop at once"),
     BOOLEAN("solver.step.realtime", L, offsetof(Scene, realtime),
@@ -255,7 +351,7 @@ static const Key keys[] = {
     MOTION_LIST(MOTION_ROWS)
 
     NAMES("metrics", 1, SCENE_METRICS_MAX, metric_choice, offsetof(Scene, metrics), offsetof(Scene, metric_count),
-          "what slosh chart compares of two runs of the scene, [front, kinetic_energy] and so on; slosh info explains them"),
+          "what is compared of two runs of the scene, [front, kinetic_energy] and so on; slosh info explains them", .owner = &chart),
 
     MAPPING("view", "the picture"),
     CHOICE("view.kind", L, view_choice, VIEW(kind), "how the fluid is drawn"),
@@ -264,7 +360,7 @@ static const Key keys[] = {
     {.path = "view.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = VIEW(range),
      .aux = VIEW(range_auto), .help = "auto, or [low, high] in the scalar's unit; auto where view.color_by is set to another scalar than the file's"},
     NUMBER("view.radius", L, "spacings", 0, 10, VIEW(radius), "of a particle; 0: the view's own"),
-    MAPPING("view.splat", "of the view splat: the fluid as one surface, after Adams, Lenaerts and Dutré 2006"),
+    MAPPING("view.splat", "of the view splat: the fluid as one surface, after Adams, Lenaerts and Dutré 2006", .owner = &view_splat),
     NUMBER("view.splat.level", L, "", 0, 1, VIEW(splat.level),
            "of the field that is the surface (0.1 and so on); 0: the spheres; above, radius 0 is the solver's support radius, "
            "and eps, weights, drops and ellipsoids have no part in it"),
@@ -290,7 +386,7 @@ static const Key keys[] = {
            "the filter takes what lies farther in front or behind for another surface"),
     INTEGER("view.splat.filter_iterations", L, 1, 20, VIEW(splat.filter_iterations), "how often the filter runs"),
     BOOLEAN("view.splat.antialias", L, VIEW(splat.antialias), "smooth outlines, and spheres smaller than pixels"),
-    MAPPING("view.volume", "of the view volume: the fluid's field on a grid of voxels"),
+    MAPPING("view.volume", "of the view volume: the fluid's field on a grid of voxels", .owner = &view_volume),
     INTEGER("view.volume.cells", L, 4, 4096, VIEW(volume.cells), "along the box's longest side, where cell is 0; cells are never wider than the support radius"),
     NUMBER("view.volume.cell", L, "spacings", 0, 10, VIEW(volume.cell), "side of a cell; 0: by cells"),
     CHOICE("view.volume.bounds", L | KEY_INDEX, volume_bounds_choice, VIEW(volume.bounds),
@@ -330,6 +426,22 @@ static const Key keys[] = {
     NUMBER("view.camera.fov", L, "degrees", 1, 170, VIEW(camera.fov_deg), "vertical field of view"),
 };
 /* clang-format on */
+
+const KeyOwner *key_owner(const Key *key)
+{
+    for (const Key *row = keys; !key->owner && row < keys + sizeof keys / sizeof *keys; row++) {
+        const size_t length = strlen(row->path);
+        if (row->owner && strncmp(key->path, row->path, length) == 0 && key->path[length] == '.')
+            return row->owner;
+    }
+    return key->owner;
+}
+
+void key_help_text(const Key *key, char *text, size_t size)
+{
+    const char *owner = key->owner && key->owner->name ? key->owner->name : "";
+    snprintf(text, size, "%s%s%s", owner, *owner ? ": " : "", key->help);
+}
 
 const Key *scene_keys(int *count)
 {

@@ -32,6 +32,15 @@ enum {
     KEY_SINGLE = 16   /* color: stored as float[3] */
 };
 
+/* What reads some of the keys only: a method, a mode, a part of the scene. Where it is not in use such a key
+   has no effect, which scene_advise_unused says. */
+typedef struct KeyOwner {
+    const char *name; /* what the help of its keys begins with; NULL: their path says it */
+    const char *need; /* what a scene lacks where the owner is not in use: "solver.method: wcsph" */
+    /* Whether it is in use; `said`: by the command line, for this run alone, while a file serves many. */
+    bool (*used)(const Scene *scene, bool said);
+} KeyOwner;
+
 #define KEY_NOWHERE ((size_t)-1) /* an offset: has no field */
 
 typedef struct Key {
@@ -48,8 +57,9 @@ typedef struct Key {
     int variant;                            /* value of the kind */
     const char *(*choice)(int index);       /* names of a KEY_CHOICE or KEY_NAMES, NULL after the last */
     void (*init)(void *element, int index); /* list: defaults of an element */
-    const char *fallback; /* the default in words where it isn't one constant; NULL: as in scene_default() */
-    const char *help;     /* one line */
+    const char *fallback;  /* the default in words where it isn't one constant; NULL: as in scene_default() */
+    const char *help;      /* one line */
+    const KeyOwner *owner; /* of the key and of those below it; NULL: that of the mapping above, if any */
 } Key;
 
 const Key *scene_keys(int *count);
@@ -59,6 +69,12 @@ const Key *scene_key_find(const char *path);
 
 /* The part of row's path below `parent` when the row stands directly in it ("size" in "box"), else NULL. */
 const char *key_name_in(const Key *key, const char *parent);
+
+/* The owner of a row, its own or of a mapping above it; NULL: whatever the scene is, the key is read. */
+const KeyOwner *key_owner(const Key *key);
+
+/* "wcsph: its kernel" */
+void key_help_text(const Key *key, char *text, size_t size);
 
 /* A scene that says nothing; fluids and motions come from their rows' `init`. */
 void scene_default(Scene *scene);

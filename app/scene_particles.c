@@ -93,7 +93,7 @@ bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *se
 
     const double scale = best.spacing / scene->world.spacing, dt = scene->world.dt;
     scene->world.spacing = best.spacing;
-    if (settings->dt_set)
+    if (settings->dt_set || scene->world.step_mode == STEP_CFL)
         return true;
     scene->world.dt = dt * scale;
     notes_add(

@@ -196,14 +196,15 @@ void scene_keys_print(FILE *file)
     fprintf(file, "| key | type | unit | range | default | live | meaning |\n");
     fprintf(file, "| --- | --- | --- | --- | --- | --- | --- |\n");
     for (int i = 0; i < count; i++) {
-        char range[256];
+        char range[256], help[512];
+        key_help_text(&keys[i], help, sizeof help);
         key_range_text(&keys[i], range, sizeof range);
         fprintf(file, "| `%s` | %s | %s | %s%s |", keys[i].path, types[keys[i].type], keys[i].unit, range,
                 keys[i].type == KEY_LIST   ? " entries"
                 : keys[i].type == KEY_TEXT ? " bytes"
                                            : "");
         print_default(&keys[i], &defaults, file);
-        fprintf(file, " %s | %s |\n", keys[i].flags & KEY_LIVE ? "yes" : "", keys[i].help);
+        fprintf(file, " %s | %s |\n", keys[i].flags & KEY_LIVE ? "yes" : "", help);
     }
 }
 

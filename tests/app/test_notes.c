@@ -2,13 +2,11 @@
 #include "app/notes.h"
 #include "app/scene_advise.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "app/play_scene.h"
+#include "app/scene_keys.h"
+#include "sim/gl/backends.h"
+#include "sim/world.h"
+#include "tests/app/scene_text.h"
 
 static void a_line_is_said_once(void **state)
 {
@@ -54,12 +52,183 @@ static void a_line_has_its_place(void **state)
     assert_string_equal(notes.line[3], "solver.step.dt: long");
 }
 
+/* A column that falls, with a setting for each owner of keys that is not the default. */
+static const char column[] = "box: {size: [1, 1]}\n"
+                             "particles: {spacing: 0.1}\n"
+                             "fluids: [{fill: [{block: {min: [-0.5, 0], max: [0, 0.8]}}]}]\n"
+                             "solver: {sound_speed: 10}\n";
+
+/* Keys with an owner: a value, what brings the owner into use, and what says in a message that it lacks. */
+static const struct {
+    const char *setting, *owner, *need;
+    bool bits; /* the solver on cpu reads it */
+} owned[] = {
+    {"solver.density_kernel=poly6", "solver.method=mueller", "solver.method: mueller", true},
+    {"solver.kernel=wendland_c2", "solver.method=wcsph", "solver.method: wcsph", true},
+    {"solver.artificial_viscosity=0.3", "solver.method=wcsph", "solver.method: wcsph", true},
+    {"solver.viscosity_form=radial", "solver.method=wcsph", "solver.method: wcsph", false},
+    {"solver.delta_sph=0.1", "solver.method=wcsph", "solver.method: wcsph", true},
+    {"solver.shifting=0.2", "solver.method=wcsph", "solver.method: wcsph", true},
+    {"solver.grid_layers=3", "solver.backend=fragment", "solver.backend: fragment", false},
+    {"solver.lost_limit=3", "solver.backend=fragment", "solver.backend: fragment", false},
+    {"solver.threads=3", "solver.backend=cpu", "solver.backend: cpu", false},
+    {"solver.step.dt=0.001", "solver.step.mode=fixed", "solver.step.mode: fixed", true},
+    {"solver.step.substeps=3", "solver.step.mode=fixed", "solver.step.mode: fixed", true},
+    {"solver.step.number=0.1", "solver.step.mode=cfl", "solver.step.mode: cfl", true},
+    {"solver.step.max_dt=0.0001", "solver.step.mode=cfl", "solver.step.mode: cfl", true},
+    {"fluids[0].surface_tension=1", "solver.surface_tension=cohesion", "a model (solver.surface_tension)",
+     true},
+    {"particles.most=100",
+     "fluids[0].emit=[{disk: {centre: [0.4, 0.9], direction: [0, -1], radius: 0.1}, speed: 1}]",
+     "an emitter (fluids[].emit)", false},
+    {"view.splat.ior=2", "view.kind=splat", "view.kind: splat", false},
+    {"view.volume.look=water", "view.kind=volume", "view.kind: volume", false},
+};
+enum { OWNED = sizeof owned / sizeof *owned };
+
+/* What is not the owner in question. */
+static const char *rival(const char *owner)
+{
+    static const char *const rivals[][2] = {{"solver.method=mueller", "solver.method=wcsph"},
+                                            {"solver.method=wcsph", "solver.method=mueller"},
+                                            {"solver.backend=cpu", "solver.backend=compute"},
+                                            {"solver.step.mode=fixed", "solver.step.mode=cfl"}};
+    for (size_t i = 0; i < sizeof rivals / sizeof *rivals; i++)
+        if (strcmp(owner, rivals[i][0]) == 0)
+            return rivals[i][1];
+    return "title=none";
+}
+
+static Notes notes_of(const char *text, const char *a, const char *b, ScenePurpose purpose, Scene *scene)
+{
+    Notes notes;
+    Error error;
+    SceneSettings settings = {.count = (a != NULL) + (b != NULL), .set = {a, b}, .purpose = purpose};
+    if (!scene_parse("scene.yaml", text, strlen(text), &settings, scene, &notes, &error))
+        fail_msg("%s", error.message);
+    return notes;
+}
+
+static void a_key_without_its_owner_is_said(void **state)
+{
+    (void)state;
+    static Scene scene;
+    for (size_t i = 0; i < OWNED; i++) {
+        char line[NOTE_SIZE];
+        const char *set = owned[i].setting;
+        snprintf(line, sizeof line, "--set %s: %.*s has no effect; it needs %s", set, (int)strcspn(set, "="),
+                 set, owned[i].need);
+        Notes notes = notes_of(column, rival(owned[i].owner), set, SCENE_FOR_ONE, &scene);
+        if (!notes_have(&notes, line) || notes.lasting != 1)
+            fail_msg("%s is not said: %s", line, notes.count ? notes.line[0] : "nothing");
+        notes = notes_of(column, owned[i].owner, set, SCENE_FOR_ONE, &scene);
+        if (notes.lasting > 0)
+            fail_msg("%s with %s: %s", set, owned[i].owner, notes.line[0]);
+    }
+}
+
+/* Every row that has an owner is among those. */
+static void every_owner_is_tried(void **state)
+{
+    (void)state;
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int i = 0; i < count; i++) {
+        bool tried = !keys[i].owner || strcmp(keys[i].path, "metrics") == 0;
+        for (size_t k = 0; k < OWNED && !tried; k++) {
+            char path[128];
+            snprintf(path, sizeof path, "%.*s", (int)strcspn(owned[k].setting, "="), owned[k].setting);
+            const Key *key = scene_key_find(path);
+            tried = key == &keys[i] || (keys[i].type == KEY_MAPPING && key_owner(key) == keys[i].owner);
+        }
+        if (!tried)
+            fail_msg("%s", keys[i].path);
+    }
+}
+
+static uint64_t hash_with(const char *a, const char *b)
+{
+    static Scene scene;
+    Error error;
+    notes_of(column, a, b, SCENE_FOR_ONE, &scene);
+    snprintf(scene.world.backend, sizeof scene.world.backend, "cpu");
+    World *world = world_create(&scene.world, &error);
+    assert_non_null(world);
+    for (int i = 0; i < 4; i++)
+        assert_true(world_substep(world, NULL, &error));
+    const uint64_t hash = world_hash(world);
+    world_destroy(world);
+    return hash;
+}
+
+/* The solver itself says whose keys they are: only with the owner do they change a bit. */
+static void only_the_owner_reads_its_keys(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < OWNED; i++) {
+        const char *without = rival(owned[i].owner);
+        if (strstr(owned[i].setting, "view.") || strstr(owned[i].setting, "threads"))
+            continue;
+        if (hash_with(without, NULL) != hash_with(without, owned[i].setting))
+            fail_msg("%s is read with %s", owned[i].setting, without);
+        if (owned[i].bits && hash_with(owned[i].owner, NULL) == hash_with(owned[i].owner, owned[i].setting))
+            fail_msg("%s is not read with %s", owned[i].setting, owned[i].owner);
+    }
+}
+
+/* A file serves many commands and views; what the command line says is for this one. */
+static void files_may_say_how_other_views_shall_be(void **state)
+{
+    (void)state;
+    static Scene scene;
+    char text[1024];
+    snprintf(text, sizeof text, "%sview: {kind: spheres, splat: {ior: 2}}\nmetrics: [front]\n", column);
+    assert_int_equal(notes_of(text, NULL, NULL, SCENE_FOR_ONE, &scene).count, 0);
+    assert_int_equal(notes_of(text, NULL, NULL, SCENE_FOR_WINDOW, &scene).count, 0);
+    assert_int_equal(notes_of(text, "metrics=[front]", NULL, SCENE_FOR_CHART, &scene).count, 0);
+    assert_int_equal(
+        notes_of(text, "view.volume.ior=2", "solver.grid_layers=1", SCENE_FOR_WINDOW, &scene).count, 0);
+    const Notes run = notes_of(text, NULL, NULL, SCENE_FOR_NUMBERS, &scene);
+    assert_int_equal(run.count, 1);
+    assert_string_equal(run.line[0],
+                        "scene.yaml:6:1: metrics has no effect; it needs slosh chart, which alone reads it");
+    snprintf(text, sizeof text, "%.*sshifting: 0.2}\n", (int)(strstr(column, "sound") - column), column);
+    const Notes file = notes_of(text, NULL, NULL, SCENE_FOR_WINDOW, &scene);
+    assert_string_equal(file.line[0],
+                        "scene.yaml:4:10: solver.shifting has no effect; it needs solver.method: wcsph");
+    const Notes window = notes_of(column, "metrics=[front]", NULL, SCENE_FOR_WINDOW, &scene);
+    assert_int_equal(window.count, 1);
+}
+
+/* In the window the lines stay while other keys change; a key that is changed there in vain is said too. */
+static void the_panel_keeps_the_lines(void **state)
+{
+    (void)state;
+    static PlayScene open;
+    Notes fresh = {.count = 0};
+    open.notes = notes_of(column, "solver.shifting=0.2", NULL, SCENE_FOR_WINDOW, &open.scene);
+    for (int i = 0; i < 2; i++)
+        play_scene_advise(&open, "solver.step.max_dt=0.1", &fresh);
+    play_scene_advise(&open, "gravity=[0, -1, 0]", &fresh);
+    assert_int_equal(open.notes.lasting, 2);
+    assert_true(strncmp(open.notes.line[0], "--set solver.shifting=0.2: ", 27) == 0);
+    assert_string_equal(open.notes.line[1],
+                        "solver.step.max_dt has no effect; it needs solver.step.mode: cfl");
+    assert_int_equal(fresh.count, 1);
+}
+
 int main(void)
 {
+    backends_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_line_is_said_once),
         cmocka_unit_test(too_many_are_said_to_be_more),
         cmocka_unit_test(a_line_has_its_place),
+        cmocka_unit_test(a_key_without_its_owner_is_said),
+        cmocka_unit_test(every_owner_is_tried),
+        cmocka_unit_test(only_the_owner_reads_its_keys),
+        cmocka_unit_test(files_may_say_how_other_views_shall_be),
+        cmocka_unit_test(the_panel_keeps_the_lines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
