@@ -331,7 +331,7 @@ static const Key keys[] = {
     NUMBER("solver.step.dt", L, "s", 1e-7, 1, WORLD(dt), "simulated time of a frame", .owner = &mode_fixed),
     INTEGER("solver.step.substeps", L, 1, 10000, WORLD(substeps), "steps in a frame", .owner = &mode_fixed),
     NUMBER("solver.step.number", L, "", 0.001, 2, WORLD(cfl_number),
-           "the step is this fraction, the Courant factor, of the smallest of these limits: h / (c + v), sqrt(h / a), h^2 / 4 nu (wcsph: h^2 / 8 nu, radial: h^2 / 16 nu)", .owner = &mode_cfl),
+           "Courant factor: the step is at most this fraction of h / (c + v) and of sqrt(h / a), and twice it, at most 0.7, of the longest step that friction stands", .owner = &mode_cfl),
     NUMBER("solver.step.max_dt", L, "s", 1e-7, 1, WORLD(max_dt), "greatest step", .owner = &mode_cfl),
     INTEGER("solver.step.retries", 0, 0, 10, WORLD(retries),
             "after trouble go back and halve the step, up to so many times; 0: stop at once"),

@@ -306,6 +306,7 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     solver->last_row = def->dimensions == 2 ? 6 : 9;
     lattice_calibrate(def->dimensions, def->spacing, h, kernel,
                       continuity ? kernel : density_kernel_find("spiky"), &solver->lattice);
+    solver->friction = step_friction(def);
     solver->continuity = continuity;
     solver->poly6 = kernel->value == kernel_poly6;
     solver->support_radius = (float)h;

@@ -7,6 +7,7 @@
 #include "sim/error.h"
 #include "sim/lattice.h"
 #include "sim/periodic.h"
+#include "sim/step_control.h"
 #include "sim/tension.h"
 #include "sim/viscosity.h"
 #include "sim/wall.h"
@@ -63,6 +64,7 @@ typedef struct Solver {
     int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
     Lattice lattice;
     Walls walls;
+    StepFriction friction;
     bool no_slip;          /* walls hold fluid: the def says so and some fluid is viscous */
     bool lid;              /* and the one at the top moves, */
     float lid_velocity[3]; /* so, m/s */

@@ -37,30 +37,61 @@ StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel)
     return watch->lost > watch->lost_limit ? STEP_TROUBLE_LOST : STEP_TROUBLE_NONE;
 }
 
+StepFriction step_friction(const WorldDef *def)
+{
+    const bool continuity = strcmp(def->method, "wcsph") == 0;
+    const double h = def->support * def->spacing;
+    const Kernel *summed = density_kernel_find(def->density_kernel), *kernel = wcsph_kernel_find(def->kernel);
+    Lattice lattice;
+    if (continuity)
+        lattice_calibrate(def->dimensions, def->spacing, h, kernel, kernel, &lattice);
+    else
+        lattice_calibrate(def->dimensions, def->spacing, h, summed, density_kernel_find("spiky"), &lattice);
+    if (!continuity)
+        return (StepFriction){friction_rate(&lattice, FRICTION_MUELLER, h, summed), 0};
+    const Friction form = def->viscosity_form == VISCOSITY_RADIAL ? FRICTION_RADIAL : FRICTION_MORRIS;
+    return (StepFriction){
+        friction_rate(&lattice, form, h, NULL),
+        def->artificial_viscosity > 0 ? friction_rate(&lattice, FRICTION_ARTIFICIAL, h, NULL) : 0};
+}
+
+/* A light particle between those of the most viscous fluid. */
 static double greatest_kinematic_viscosity(const WorldDef *def)
 {
-    double greatest = 0;
+    double greatest = 0, most = 0;
     for (int f = 0; f < def->fluid_count; f++)
-        greatest = fmax(greatest, def->fluids[f].viscosity / def->fluids[f].density);
+        most = fmax(most, def->fluids[f].viscosity);
+    for (int f = 0; f < def->fluid_count; f++)
+        greatest = fmax(greatest, 0.5 * (def->fluids[f].viscosity + most) / def->fluids[f].density);
     return greatest;
 }
 
-double step_cfl(const WorldDef *def, double max_speed, double max_acceleration, double before,
-                StepLimit *binding)
+/* alpha c h / 4, where some fluid has no viscosity ever. */
+static double artificial_kinematic_viscosity(const WorldDef *def)
+{
+    bool any = false;
+    for (int f = 0; f < def->fluid_count; f++)
+        any |= fluid_viscosity_most(&def->fluids[f]) == 0;
+    return any ? 0.25 * def->artificial_viscosity * def->sound_speed * def->support * def->spacing : 0;
+}
+
+double step_viscous(const WorldDef *def, const StepFriction *friction)
+{
+    const double rate = fmax(friction->laminar * greatest_kinematic_viscosity(def),
+                             friction->artificial * artificial_kinematic_viscosity(def));
+    return rate > 0 ? 2 / rate : INFINITY;
+}
+
+double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,
+                double before, StepLimit *binding)
 {
     const double h = def->support * def->spacing, number = def->cfl_number;
-    const double nu = greatest_kinematic_viscosity(def);
-    /* The fastest decay on the lattice is 13 to 16 nu / h^2 with mueller's Laplacian; 24, 28 and 36 with
-       wcsph's cubic, Wendland and quintic kernel, 39 to 67 in its radial form. Twice its inverse is what a
-       step stands. */
-    const double form = def->viscosity_form == VISCOSITY_RADIAL ? 16 : 8;
-    const double decay = strcmp(def->method, "wcsph") == 0 ? form : 4;
     const double courant = number * h / (def->sound_speed + max_speed);
     const double most[STEP_LIMIT_COUNT] = {
         [STEP_LIMIT_DT] = INFINITY,
         [STEP_LIMIT_COURANT] = courant,
         [STEP_LIMIT_FORCE] = max_acceleration > 0 ? number * sqrt(h / max_acceleration) : INFINITY,
-        [STEP_LIMIT_VISCOUS] = nu > 0 ? number * h * h / (decay * nu) : INFINITY,
+        [STEP_LIMIT_VISCOUS] = fmin(2 * number, STEP_VISCOUS_STANDS) * step_viscous(def, friction),
         [STEP_LIMIT_MAX_DT] = def->max_dt,
         [STEP_LIMIT_GROWTH] = before > 0 ? GROWTH * before : FIRST * courant,
     };

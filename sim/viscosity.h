@@ -16,6 +16,8 @@
 #ifndef SLOSH_VISCOSITY_H
 #define SLOSH_VISCOSITY_H
 
+#include "sim/lattice.h"
+
 typedef enum ViscosityForm { VISCOSITY_MORRIS, VISCOSITY_RADIAL } ViscosityForm;
 
 typedef struct ViscosityKind {
@@ -23,5 +25,15 @@ typedef struct ViscosityKind {
 } ViscosityKind;
 
 extern const ViscosityKind viscosity_kinds[]; /* in the order of ViscosityForm, ended by a NULL name */
+
+/* What levels differences of velocity: Müller's Laplacian, the two forms above, wcsph's artificial viscosity.
+ */
+typedef enum Friction { FRICTION_MUELLER, FRICTION_MORRIS, FRICTION_RADIAL, FRICTION_ARTIFICIAL } Friction;
+
+/* How fast at most it levels them on the lattice at rest, 1/s for a kinematic viscosity of 1 m2/s (of the
+   artificial one for alpha c h / 4): the greatest eigenvalue of its pair terms. An explicit step stands less
+   than twice the inverse. `summed` is the kernel that density is summed by: in films and threads, where it is
+   low, friction is stronger, and the greatest of all three counts. NULL: particles carry their density. */
+double friction_rate(const Lattice *lattice, Friction friction, double support_radius, const Kernel *summed);
 
 #endif

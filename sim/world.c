@@ -189,9 +189,10 @@ static void choose_step(World *world)
     StepState *s = &world->stepping;
     StepLimit limit = STEP_LIMIT_DT;
     const double before = world->step > 0 ? s->refine * s->dt : 0;
-    const double dt = def->step_mode == STEP_CFL
-                          ? step_cfl(def, s->max_speed, s->max_acceleration, before, &limit) / s->refine
-                          : def->dt / def->substeps / s->refine;
+    const double dt = def->step_mode == STEP_CFL ? step_cfl(def, &world->solver.friction, s->max_speed,
+                                                            s->max_acceleration, before, &limit) /
+                                                       s->refine
+                                                 : def->dt / def->substeps / s->refine;
     s->limit = limit;
     if (dt == s->dt)
         return;
