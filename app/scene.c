@@ -7,8 +7,10 @@
 #include "app/scene_read.h"
 #include "app/scene_tree.h"
 #include "render/renderer.h"
+#include "sim/fill_lattice.h"
 #include "sim/flow.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -104,6 +106,19 @@ static void view_space(Scene *scene)
     scene->view.particles = flow_capacity(world, world_def_count(world, world->spacing));
 }
 
+/* The spacing at which the fills have their mass. */
+static void fit_spacing(const Tree *tree, Scene *scene, Notes *notes)
+{
+    WorldDef *world = &scene->world;
+    const double asked = world->spacing, fits = fill_lattice_spacing(world);
+    world->spacing = fits;
+    if (fabs(fits / asked - 1) > 1e-6)
+        advise(
+            tree, "particles.spacing", notes,
+            "%.6g m divides the fills into no whole layers; taken is %.6g m, at which they reach from wall to wall",
+            asked, fits);
+}
+
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     char scalar[NAME_SIZE];
@@ -115,6 +130,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
     range_of_scalar(tree, scalar, &out->view);
     if (settings->particles > 0 && !scene_set_particles(tree, out, settings, notes, error))
         return false;
+    fit_spacing(tree, out, notes);
     if (out->world.dimensions == 2)
         out->world.box_size[2] = out->world.spacing;
     solids_default(out);

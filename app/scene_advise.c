@@ -8,10 +8,7 @@
 
 enum { PATH_SIZE = 256 };
 
-/* One check a row; each asks the scene and adds its lines. */
-typedef void Advice(const Tree *tree, const Scene *scene, Notes *notes);
-
-static Advice *const advices[] = {advise_friction, NULL};
+static Advice *const advices[] = {advise_fills, advise_friction, NULL};
 
 /* Whether `node`, the nearest to `path`, stands at it. */
 static bool stands_at(const Node *node, const char *path)

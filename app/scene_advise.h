@@ -19,6 +19,12 @@ void scene_advise_unused(const Tree *tree, const Scene *scene, Notes *notes);
 /* The same of one key that is set while the scene runs. */
 void scene_unused(const Scene *scene, const char *path, Notes *notes);
 
+/* A check: asks the scene and adds its lines. */
+typedef void Advice(const Tree *tree, const Scene *scene, Notes *notes);
+
+/* Fills of few layers, and fluids of which the lattice has another mass than their fills. */
+Advice advise_fills;
+
 /* For the checks: a line about the setting at `path`, with its place where the tree has it. */
 void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

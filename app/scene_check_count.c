@@ -125,33 +125,31 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
         return false;
     if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
         return false;
-    WorldDef part = scene->world;
-    size_t before = 0;
+    size_t all = 0, counts[FLUIDS_MAX];
+    seed_counts(&scene->world, counts);
     for (int f = 0; f < scene->world.fluid_count; f++) {
-        part.fluid_count = f + 1;
-        const size_t count = world_def_count(&part, spacing);
         char path[64];
         snprintf(path, sizeof path, "fluids[%d].fill", f);
-        if (!scene_fits_memory((double)count))
-            return too_many(&check, (double)count);
-        if (count == before && scene->world.fluids[f].fill_count > 0)
+        all += counts[f];
+        if (!scene_fits_memory((double)all))
+            return too_many(&check, (double)all);
+        if (counts[f] == 0 && scene->world.fluids[f].fill_count > 0)
             return FAIL(
                 &check, path,
                 "the fluid '%s' has no particles: its fills hold no point of the lattice of spacing %g m that "
                 "is free; use a smaller spacing or larger fills",
                 scene->world.fluids[f].name, spacing);
-        before = count;
     }
-    if (!check_boundary(&check, before))
+    if (!check_boundary(&check, all))
         return false;
     if (!flow_emits(&scene->world))
         return true;
     if (!scene_fits_memory(scene->world.most))
         return FAIL(&check, "particles.most", "%d particles are more than this machine can hold; use fewer",
                     scene->world.most);
-    return before <= (size_t)scene->world.most ||
+    return all <= (size_t)scene->world.most ||
            FAIL(
                &check, "particles.most",
                "the fills alone hold %zu particle%s, more than the %d that emitters may fill up to; raise it",
-               before, plural(before), scene->world.most);
+               all, plural(all), scene->world.most);
 }

@@ -1,6 +1,7 @@
 #include "app/scene_particles.h"
 
 #include "app/scene_check.h"
+#include "sim/fill_lattice.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,6 +13,7 @@ enum { TRIES = 96 };
 typedef struct Best {
     double spacing;
     size_t count;
+    double cost; /* part of the wanted number by which the count misses it, and how uneven the lattice is */
 } Best;
 
 /* The width of a cube, or a square, of that volume. */
@@ -20,30 +22,19 @@ static double root(const Scene *scene, double volume)
     return scene->world.dimensions == 3 ? cbrt(volume) : sqrt(volume);
 }
 
-static double miss(size_t count, size_t wanted)
-{
-    return fabs((double)count - (double)wanted);
-}
-
 static void offer(const Scene *scene, size_t wanted, double spacing, Best *best)
 {
-    const size_t count = world_def_count(&scene->world, spacing);
-    if (best->spacing <= 0 || miss(count, wanted) < miss(best->count, wanted))
-        *best = (Best){spacing, count};
-}
-
-/* Of all spacings that give this count, the widest: its lattice leaves the least gap at the walls. */
-static double widest(const Scene *scene, Best best)
-{
-    double low = best.spacing, high = 1.03 * best.spacing;
-    for (int i = 0; i < 12; i++) {
-        const double middle = 0.5 * (low + high);
-        if (world_def_count(&scene->world, middle) == best.count)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    WorldDef world = scene->world;
+    double uneven;
+    world.spacing = spacing;
+    const double fits = fill_lattice_fit(&world, &uneven);
+    if (fits <= 0 && best->spacing > 0)
+        return;
+    const size_t count = world_def_count(&world, fits > 0 ? fits : spacing);
+    const double cost =
+        fabs((double)count - (double)wanted) / (double)wanted + 0.1 * uneven + (fits > 0 ? 0 : 1);
+    if (best->spacing <= 0 || cost < best->cost)
+        *best = (Best){fits > 0 ? fits : spacing, count, cost};
 }
 
 /* The more particles, the smaller the jumps, and the dearer each count. */
@@ -54,7 +45,7 @@ static int tries_for(size_t wanted)
 
 static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
 {
-    Best best = {0, 0};
+    Best best = {0};
     for (int round = 0; round < 2; round++) { /* fills that overlap fill less than their volumes add up to */
         offer(scene, wanted, guess, &best);
         guess = best.spacing * root(scene, fmax(1, (double)best.count) / (double)wanted);
@@ -63,7 +54,6 @@ static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
     const double width = wanted < 1000 ? 0.3 : 0.05;
     for (int i = 0; i < tries; i++)
         offer(scene, wanted, guess * (1 + width * (2.0 * i / (tries - 1) - 1)), &best);
-    best.spacing = widest(scene, best);
     return best;
 }
 

@@ -1,5 +1,7 @@
 #include "sim/seed.h"
 
+#include "sim/fill_lattice.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -104,55 +106,54 @@ static bool taken_before(const WorldDef *def, int fluid, int index, const double
     return false;
 }
 
-/* Range of lattice indices that a fill may cover; the point of index i lies at first + i * step. */
-typedef struct Axis {
-    double first, step; /* m */
-    long begin, end;
-} Axis;
-
-static Axis lattice_axis(const WorldDef *def, const Fill *fill, int k)
-{
-    if (k >= def->dimensions)
-        return (Axis){.first = 0, .step = def->spacing, .begin = 0, .end = 1};
-    /* across a periodic side the lattice goes on without a seam */
-    const double size = def->box_size[k], whole = fmax(1, round(size / def->spacing));
-    const double s = def->periodic[k] ? size / whole : def->spacing;
-    const double points = def->periodic[k] ? whole : floor(size / s + slack);
-    double low[3], high[3];
-    fill_bounds(fill, low, high);
-    Axis axis = {.step = s, .first = k == 1 ? 0.5 * s : -0.5 * (points - 1) * s};
-    axis.begin = (long)fmax(0, floor((low[k] - axis.first) / s));
-    axis.end = (long)fmin(points, ceil((high[k] - axis.first) / s) + 1);
-    return axis;
-}
-
 static size_t seed_fill(const Stand *stand, int fluid, int index, float *position)
 {
     const WorldDef *def = stand->def;
     const Fill *fill = &def->fluids[fluid].fills[index];
-    const Axis ax = lattice_axis(def, fill, 0), ay = lattice_axis(def, fill, 1),
-               az = lattice_axis(def, fill, 2);
+    FillAxis axes[3];
     size_t count = 0;
-    for (long iz = az.begin; iz < az.end; iz++)
-        for (long iy = ay.begin; iy < ay.end; iy++)
-            for (long ix = ax.begin; ix < ax.end; ix++) {
-                const double x[3] = {ax.first + (double)ix * ax.step, ay.first + (double)iy * ay.step,
-                                     az.first + (double)iz * az.step};
-                if (!fill_covers(def, fill, x) || taken_before(def, fluid, index, x) || !is_free(stand, x))
+    fill_lattice(def, fill, axes);
+    const FillAxis *ax = &axes[0], *ay = &axes[1], *az = &axes[2];
+    for (long iz = az->begin; iz < az->end; iz++)
+        for (long iy = ay->begin; iy < ay->end; iy++)
+            for (long ix = ax->begin; ix < ax->end; ix++) {
+                const double x[3] = {ax->first + (double)ix * ax->step, ay->first + (double)iy * ay->step,
+                                     az->first + (double)iz * az->step};
+                const double at[3] = {ax->place + (double)ix * ax->advance,
+                                      ay->place + (double)iy * ay->advance,
+                                      az->place + (double)iz * az->advance};
+                if (!fill_covers(def, fill, x) || taken_before(def, fluid, index, x) || !is_free(stand, at))
                     continue;
                 for (size_t k = 0; position && k < 3; k++)
-                    position[3 * count + k] = (float)x[k];
+                    position[3 * count + k] = (float)at[k];
                 count++;
             }
     return count;
 }
 
+static void stand_make(const WorldDef *def, Stand *stand)
+{
+    stand->def = def;
+    for (int k = 0; k < def->solid_count; k++)
+        solid_pose(&def->solids[k], 0, &stand->pose[k]);
+}
+
+void seed_counts(const WorldDef *def, size_t counts[FLUIDS_MAX])
+{
+    Stand stand;
+    stand_make(def, &stand);
+    for (int f = 0; f < def->fluid_count; f++) {
+        counts[f] = 0;
+        for (int i = 0; i < def->fluids[f].fill_count; i++)
+            counts[f] += seed_fill(&stand, f, i, NULL);
+    }
+}
+
 size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
 {
     size_t count = 0;
-    Stand stand = {.def = def};
-    for (int k = 0; k < def->solid_count; k++)
-        solid_pose(&def->solids[k], 0, &stand.pose[k]);
+    Stand stand;
+    stand_make(def, &stand);
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].fill_count; i++) {
             const size_t added = seed_fill(&stand, f, i, position ? position + 3 * count : NULL);

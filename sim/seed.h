@@ -1,10 +1,7 @@
-/* The initial state: the fills of a def become particles on one lattice.
-
-   The lattice has a point half a spacing above the floor and is centred between the walls, half a spacing
-   from them where the box's width is a whole number of spacings; along a periodic axis its spacing is the
-   nearest of which the width is a whole number; fluids that touch therefore never overlap.
-   Where fills overlap, the first fill of the first fluid has the point; none is within half a spacing of a
-   solid. */
+/* The initial state: the fills of a def become particles, each fill on its lattice (sim/fill_lattice.h): half
+   a layer from the walls that it touches, and in line with the fills that it touches, so that fluids never
+   overlap. Where fills overlap, the first fill of the first fluid has the point; none is within half a
+   spacing of a solid. */
 #ifndef SLOSH_SEED_H
 #define SLOSH_SEED_H
 
@@ -13,6 +10,9 @@
 /* Writes positions (3 each) and fluid of every lattice point that a fill covers, fill by fill and in each in
    the order z, y, x (x fastest), and returns how many there are; with NULLs it only counts. */
 size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid);
+
+/* How many of them each fluid has. */
+void seed_counts(const WorldDef *def, size_t counts[FLUIDS_MAX]);
 
 /* Whether x (m) is in the region; a point that is `tolerance` m outside a block's low side is, and one as
    near inside its high side is not. */

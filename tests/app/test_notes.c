@@ -217,6 +217,40 @@ static void the_panel_keeps_the_lines(void **state)
     assert_int_equal(fresh.count, 1);
 }
 
+static bool is_told(const Notes *notes, const char *part)
+{
+    for (int i = 0; i < notes->count; i++)
+        if (strstr(notes->line[i], part))
+            return true;
+    return false;
+}
+
+/* A block that its spacing does not divide, one of two layers, a ball. */
+static void what_fills_became_is_told(void **state)
+{
+    (void)state;
+    static Scene scene;
+    Notes notes;
+    Error error;
+    static const char text[] = "box: {size: [1, 1, 1]}\n"
+                               "particles:\n"
+                               "  spacing: 0.06\n"
+                               "fluids:\n"
+                               "  - fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.5, 0.5]}}]\n"
+                               "  - name: drop\n"
+                               "    fill: [{ball: {centre: [0, 0.8, 0], radius: 0.15}}]\n"
+                               "  - fill: [{block: {min: [-0.5, 0.6, -0.5], max: [-0.3, 0.72, -0.3]}}]\n";
+    assert_true(scene_parse("s.yaml", text, strlen(text), NULL, &scene, &notes, &error));
+    assert_true(is_told(&notes, "s.yaml:3:3: 0.06 m divides the fills into no whole layers; taken is 0.0"));
+    assert_true(is_told(&notes, "s.yaml:7:5: 'drop' has "));
+    assert_true(is_told(&notes, "s.yaml:8:13: the block is "));
+    assert_false(is_told(&notes, "s.yaml:5:5: 'fluid 1' has")); /* its mass is right */
+    SceneSettings fits = {.count = 1, .set = {"particles.spacing=0.02"}};
+    assert_true(scene_parse("s.yaml", text, strlen(text), &fits, &scene, &notes, &error));
+    assert_false(is_told(&notes, "no whole layers"));
+    assert_false(is_told(&notes, "the block is "));
+}
+
 int main(void)
 {
     backends_add();
@@ -229,6 +263,7 @@ int main(void)
         cmocka_unit_test(only_the_owner_reads_its_keys),
         cmocka_unit_test(files_may_say_how_other_views_shall_be),
         cmocka_unit_test(the_panel_keeps_the_lines),
+        cmocka_unit_test(what_fills_became_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

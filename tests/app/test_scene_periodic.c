@@ -76,8 +76,10 @@ static void a_lattice_fits_its_sides(void **state)
     for (size_t particles = 700; particles < 1000; particles += 37) {
         SceneSettings settings = {.particles = particles};
         assert_true(parse_text(FLAT, &settings, &scene, &error));
-        const double across = round(2 / scene.world.spacing), up = floor(1 / scene.world.spacing + 1e-6);
-        assert_int_equal(world_def_count(&scene.world, scene.world.spacing), (size_t)(across * up));
+        const double s = scene.world.spacing, across = round(2 / s);
+        const size_t count = world_def_count(&scene.world, s);
+        assert_int_equal(count % (size_t)across, 0);
+        assert_float_equal((double)count * s * s, 2, 1e-6);
     }
 }
 

@@ -1,0 +1,200 @@
+/* Fills on lattices that their size does not suit: walls are touched, the mass is right, what rests stays at
+   rest. */
+#include "fixture.h"
+
+#include "sim/fill_lattice.h"
+#include "sim/seed.h"
+
+static float position[3 * 40000];
+static uint8_t fluid[40000];
+
+static size_t seed(WorldDef *def)
+{
+    def->spacing = fill_lattice_spacing(def);
+    if (seed_lattice(def, NULL, NULL) > sizeof fluid)
+        fail_msg("a spacing of %g m gives too many particles", def->spacing);
+    return seed_lattice(def, position, fluid);
+}
+
+/* Least and greatest coordinate, and how far the layer next to the least one is. */
+static void extent(size_t count, size_t k, double *low, double *high, double *step)
+{
+    *low = INFINITY;
+    *high = -INFINITY;
+    *step = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        *low = fmin(*low, (double)position[3 * i + k]);
+        *high = fmax(*high, (double)position[3 * i + k]);
+    }
+    for (size_t i = 0; i < count; i++)
+        if ((double)position[3 * i + k] > *low + 1e-4)
+            *step = fmin(*step, (double)position[3 * i + k] - *low);
+}
+
+static WorldDef tank(int dimensions, double width, double height, double depth, double level)
+{
+    WorldDef def = fixture_def(width, height, depth);
+    def.dimensions = dimensions;
+    fixture_block(&def, 0, -width / 2, 0, -depth / 2, width / 2, level, depth / 2);
+    return def;
+}
+
+/* Half a layer from floor and walls, and as much below the level; the mass within 0.1 %. */
+static void check_tank(int dimensions, double spacing)
+{
+    WorldDef def = tank(dimensions, 1.03, 1.5, 0.61, 0.77);
+    const Fill *fill = &def.fluids[0].fills[0];
+    def.spacing = spacing;
+    const size_t count = seed(&def);
+    const double mass = (double)count * pow(def.spacing, dimensions) / fill_volume(fill, dimensions);
+    if (fabs(mass - 1) > 1e-3 || fabs(def.spacing / spacing - 1) > 0.1)
+        fail_msg("%dD, %g m: taken is %g m, mass %g", dimensions, spacing, def.spacing, mass);
+    for (size_t k = 0; k < (size_t)dimensions; k++) {
+        double low, high, step;
+        extent(count, k, &low, &high, &step);
+        assert_float_equal(low - fill->min[k], step / 2, 1e-5);
+        assert_float_equal(fill->max[k] - high, step / 2, 1e-5);
+        assert_float_equal(step / def.spacing, 1, 0.1);
+    }
+}
+
+static void any_spacing_fits_the_walls_and_keeps_the_mass(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 60; k++) {
+        check_tank(2, 0.02 + 0.0011 * k);
+        check_tank(3, 0.035 + 0.0011 * k);
+    }
+}
+
+/* To the bit: a spacing that divides the fills is not touched. */
+static void what_fits_stays(void **state)
+{
+    (void)state;
+    WorldDef def = tank(3, 1, 1.5, 0.6, 0.7);
+    def.spacing = 0.05;
+    const size_t count = seed(&def);
+    assert_true(def.spacing == 0.05);
+    assert_int_equal(count, 20 * 14 * 12);
+    for (size_t i = 0; i < count; i++) {
+        assert_true(position[3 * i] == (float)(-0.5 * (20 - 1) * 0.05 + (double)(i % 20) * 0.05));
+        assert_true(position[3 * i + 1] == (float)(0.5 * 0.05 + (double)(i / 20 % 14) * 0.05));
+    }
+}
+
+/* A column that touches the left wall of a box of which the spacing divides nothing. */
+static void a_dam_stands_at_its_wall(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1.6437, 0.9, 0);
+    double low, high, step;
+    def.dimensions = 2;
+    fixture_block(&def, 0, -1.6437 / 2, 0, 0, -1.6437 / 2 + 0.4, 0.6, 0);
+    def.spacing = 0.02;
+    const size_t count = seed(&def);
+    assert_true(def.spacing == 0.02); /* it divides the column */
+    assert_int_equal(count, 20 * 30);
+    extent(count, 0, &low, &high, &step);
+    assert_float_equal(low, -1.6437 / 2 + 0.01, 1e-6);
+}
+
+/* Each has its own half, with no gap between them and none nearer than neighbours. */
+static void fluids_that_touch_share_a_lattice(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1.05, 1, 0);
+    def.dimensions = 2;
+    def.fluid_count = 2;
+    def.fluids[1] = (FluidDef){.name = "other", .density = 800};
+    fixture_block(&def, 0, -0.525, 0, 0, 0, 0.5, 0);
+    fixture_block(&def, 1, 0, 0, 0, 0.525, 0.5, 0);
+    for (int k = 0; k < 40; k++) {
+        size_t counts[FLUIDS_MAX];
+        def.spacing = 0.03 + 0.0007 * k;
+        const size_t count = seed(&def);
+        seed_counts(&def, counts);
+        assert_int_equal(counts[0], counts[1]);
+        assert_int_equal(counts[0] + counts[1], count);
+        assert_float_equal((double)count * def.spacing * def.spacing / (1.05 * 0.5), 1, 1e-3);
+        for (size_t i = 0; i < count; i++) {
+            assert_true((fluid[i] == 0) == (position[3 * i] < 0));
+            for (size_t j = 0; j < i; j++)
+                assert_true(hypotf(position[3 * i] - position[3 * j],
+                                   position[3 * i + 1] - position[3 * j + 1]) > 0.85 * def.spacing);
+        }
+    }
+}
+
+/* Where one spacing cannot suit all, the smaller column has a free level, and a point the volume that makes
+   the rest density. */
+static void what_cannot_fit_keeps_its_density(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(2, 1, 0);
+    double low, high, step, up, top;
+    def.dimensions = 2;
+    fixture_block(&def, 0, -1, 0, 0, -0.3, 0.5, 0);
+    fixture_block(&def, 0, 0.67, 0, 0, 1, 0.237, 0);
+    def.spacing = 0.05;
+    const size_t count = seed(&def), first = 14 * 10;
+    assert_true(def.spacing == 0.05);
+    memmove(position, position + 3 * first, 3 * (count - first) * sizeof *position);
+    extent(count - first, 0, &low, &high, &step);
+    assert_float_equal(step, 0.33 / 6, 1e-6);
+    assert_float_equal(high, 1 - step / 2, 1e-6);
+    extent(count - first, 1, &low, &top, &up);
+    assert_float_equal(low, up / 2, 1e-6);
+    assert_float_equal(step * up, 0.05 * 0.05, 1e-6);
+    assert_float_equal(top + up / 2, 0.237, 0.025);
+}
+
+/* Over the energy of its height: the most that a second of rest stirs up. */
+static double stirred(const char *method, double spacing)
+{
+    WorldDef def = tank(2, 0.5, 0.8, 0, 0.4);
+    snprintf(def.method, sizeof def.method, "%s", method);
+    def.spacing = spacing;
+    def.support = 2.6;
+    def.sound_speed = 20;
+    def.delta_sph = 0.1;
+    def.dt = 0.01;
+    def.substeps = 25;
+    def.fluids[0].viscosity = 1;
+    def.spacing = fill_lattice_spacing(&def);
+    World *world = fixture_world(&def);
+    double most = 0;
+    for (int k = 0; k < 40; k++) {
+        WorldSums sums;
+        fixture_step(world, 1);
+        world_sums(world, &sums);
+        most = fmax(most, sums.kinetic_energy / (sums.mass * 9.81 * 0.2));
+    }
+    world_destroy(world);
+    return most;
+}
+
+static void what_rests_stays_at_rest(void **state)
+{
+    (void)state;
+    for (int m = 0; m < fixture_methods(); m++) {
+        const char *method = m ? "wcsph" : "mueller";
+        const double fits = stirred(method, 0.025), odd = stirred(method, 0.0237),
+                     other = stirred(method, 0.0263);
+        printf("%s: stirs up %.2g of its height where the spacing fits, else %.2g, %.2g\n", method, fits, odd,
+               other);
+        assert_true(odd < 1.5 * fits && other < 1.5 * fits);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_spacing_fits_the_walls_and_keeps_the_mass),
+        cmocka_unit_test(what_fits_stays),
+        cmocka_unit_test(a_dam_stands_at_its_wall),
+        cmocka_unit_test(fluids_that_touch_share_a_lattice),
+        cmocka_unit_test(what_cannot_fit_keeps_its_density),
+        cmocka_unit_test(what_rests_stays_at_rest),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
