@@ -14,6 +14,10 @@
 
 /* What the program calls goes through these pointers; libepoxy's are no such before their first call. */
 #define ENTRIES(X)                                                                                           \
+    X(glCompileShader)                                                                                       \
+    X(glGetShaderiv)                                                                                         \
+    X(glGetProgramiv)                                                                                        \
+    X(glUseProgram)                                                                                          \
     X(glLinkProgram)                                                                                         \
     X(glShaderSource)                                                                                        \
     X(glDispatchCompute)                                                                                     \
@@ -28,6 +32,35 @@
 #define X(name) static __typeof__(epoxy_##name) real_##name;
 ENTRIES(X)
 #undef X
+
+/* While all forms are made, the driver compiles nothing and says that all went well: that would take it
+ * minutes. */
+static bool texts_only;
+
+static void APIENTRY maybe_compile(GLuint shader)
+{
+    if (!texts_only)
+        real_glCompileShader(shader);
+}
+
+static void APIENTRY maybe_use(GLuint program)
+{
+    real_glUseProgram(texts_only ? 0 : program);
+}
+
+static void APIENTRY say_compiled(GLuint shader, GLenum what, GLint *value)
+{
+    real_glGetShaderiv(shader, what, value);
+    if (texts_only && what == GL_COMPILE_STATUS)
+        *value = GL_TRUE;
+}
+
+static void APIENTRY say_linked(GLuint program, GLenum what, GLint *value)
+{
+    real_glGetProgramiv(program, what, value);
+    if (texts_only && what == GL_LINK_STATUS)
+        *value = GL_TRUE;
+}
 
 /* Sources: one file each, named by their stage for the validator. */
 static char folder[64];
@@ -97,6 +130,8 @@ static void APIENTRY note_program(GLuint program)
     GLuint first = 0;
     GLsizei stages = 0;
     GLint count = 0, kind = 0, binding = 0;
+    if (texts_only)
+        return;
     real_glLinkProgram(program);
     glGetAttachedShaders(program, 1, &stages, &first);
     glGetShaderiv(first, GL_SHADER_TYPE, &kind);
@@ -185,6 +220,8 @@ static void APIENTRY note_dispatch(GLuint x, GLuint y, GLuint z)
     GLint program = 0;
     GLuint seen[BLOCKS_MAX];
     int count = 0;
+    if (texts_only)
+        return;
     glGetIntegerv(GL_CURRENT_PROGRAM, &program);
     note_blocks((GLuint)program, GL_UNIFORM_BLOCK, GL_UNIFORM_BUFFER_BINDING, seen, &count);
     note_blocks((GLuint)program, GL_SHADER_STORAGE_BLOCK, GL_SHADER_STORAGE_BUFFER_BINDING, seen, &count);
@@ -213,7 +250,7 @@ static void APIENTRY note_image(GLuint unit, GLuint texture, GLint level, GLbool
 static void check(const bool *written, GLenum kind, GLuint name, const char *what)
 {
     char label[64] = "";
-    commands++;
+    commands += !texts_only;
     if (name >= NAMES_MAX || !written[name])
         return;
     glGetObjectLabel(kind, name, sizeof label, NULL, label);
@@ -265,6 +302,10 @@ static void watch_entries(void)
 #define X(name) real_##name = (__typeof__(real_##name))eglGetProcAddress(#name);
     ENTRIES(X)
 #undef X
+    epoxy_glCompileShader = maybe_compile;
+    epoxy_glUseProgram = maybe_use;
+    epoxy_glGetShaderiv = say_compiled;
+    epoxy_glGetProgramiv = say_linked;
     epoxy_glLinkProgram = note_program;
     epoxy_glShaderSource = keep_source;
     epoxy_glDispatchCompute = note_dispatch;
@@ -430,7 +471,26 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     for (int show = VOLUME_SLICE; show <= VOLUME_NORMALS; show++)
         VIEW("volume", v.volume.show = (VolumeShow)show);
     return count;
-#undef VIEW
+}
+
+/* Those whose passes write what others read. */
+static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
+{
+    int count = 0;
+    VIEW("splat", v.splat.cull = true, v.floor = true);
+    VIEW("splat", v.splat.shape = SPLAT_ELLIPSOID, v.splat.cull = true);
+    VIEW("volume", v.volume.method = VOLUME_SCATTER, v.raycast.by_scalar = 0.5,
+         v.volume.bounds = VOLUME_FLUID);
+    VIEW("volume", v.volume.method = VOLUME_GATHER, v.raycast.look = RAYCAST_TRANSLUCENT,
+         v.raycast.by_scalar = 0.5);
+    return count;
+}
+
+static void assert_views_have_what_they_ask_for(void)
+{
+    printf("views have up to %d storage blocks in a vertex shader, %d in a compute shader, %d bindings\n",
+           most.vertex_blocks, most.compute_blocks, most.bindings);
+    assert_true(most.vertex_blocks == 5 && most.compute_blocks <= 8 && most.bindings == 11);
 }
 
 static void draw_views(const WorldDef *def, bool solids)
@@ -445,7 +505,7 @@ static void draw_views(const WorldDef *def, bool solids)
     base.volume.cells = 16;
     if (solids)
         with_a_ball(base.solids, &base.solid_count);
-    const int count = views_of(base, views);
+    const int count = texts_only ? views_of(base, views) : few_views_of(base, views);
     World *world = fixture_world(def);
     fixture_step(world, 1);
     most = (GlLimits){0};
@@ -459,37 +519,59 @@ static void draw_views(const WorldDef *def, bool solids)
         for (int frame = 0; frame < 2; frame++) /* nobody else's barriers in between */
             renderer_draw(renderer, &particles, NULL);
     }
-    printf("views have up to %d storage blocks in a vertex shader, %d in a compute shader, %d bindings\n",
-           most.vertex_blocks, most.compute_blocks, most.bindings);
-    assert_true(most.vertex_blocks == 5 && most.compute_blocks <= 8 && most.bindings == 11);
+    if (!texts_only)
+        assert_views_have_what_they_ask_for();
     renderer_destroy(renderer);
     world_destroy(world);
     forget();
 }
 
-static void worlds_live(void **state)
+/* All forms of all shaders, of which no step and no picture comes. */
+static void every_form_is_made(void **state)
 {
     (void)state;
-    worlds_only = true;
+    WorldDef def = pool_def("compute");
+    glDisable(GL_DEBUG_OUTPUT);
+    texts_only = true;
     mueller_lives("compute");
     mueller_lives("fragment");
     mueller_has_more_on_compute();
     wcsph_lives();
+    draw_views(&def, false);
+    with_a_ball(def.solids, &def.solid_count);
+    draw_views(&def, true);
+    texts_only = false;
+    while (glGetError() != GL_NO_ERROR) /* there were no programs */
+        continue;
+    glEnable(GL_DEBUG_OUTPUT);
+}
+
+static void worlds_live(void **state)
+{
+    (void)state;
+    WorldDef def = pool_def("compute");
+    worlds_only = true;
+    with_a_ball(def.solids, &def.solid_count);
+    add_flow(&def);
+    live(&def);
+    set_name(def.method, "wcsph");
+    def.dt = 0.0005;
+    live(&def); /* without diffusion */
+    def.delta_sph = def.shifting = 0.1;
+    def.reproducible = true;
+    live(&def);
     worlds_only = false;
     assert_int_equal(unbound, 0);
     printf("worlds have up to %d storage blocks in a compute shader, %d bindings\n", most.compute_blocks,
            most.bindings);
     assert_true(most.compute_blocks == 11 && most.bindings == 16);
-    most = (GlLimits){0};
 }
 
 static void views_draw(void **state)
 {
     (void)state;
-    WorldDef def = pool_def("compute");
+    const WorldDef def = pool_def("compute");
     draw_views(&def, false);
-    with_a_ball(def.solids, &def.solid_count);
-    draw_views(&def, true);
 }
 
 static void blocks_and_barriers_are_right(void **state)
@@ -497,7 +579,7 @@ static void blocks_and_barriers_are_right(void **state)
     (void)state;
     printf("%d dispatches, %d commands that read or write what they may have written\n", dispatches,
            commands);
-    assert_true(dispatches > 500 && commands > 500);
+    assert_true(dispatches > 200 && commands > 200);
     assert_int_equal(violations, 0);
 }
 
@@ -537,6 +619,7 @@ static int variants_teardown(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(every_form_is_made, no_gl_errors),
         cmocka_unit_test_teardown(worlds_live, no_gl_errors),
         cmocka_unit_test_teardown(views_draw, no_gl_errors),
         cmocka_unit_test(blocks_and_barriers_are_right),
