@@ -479,6 +479,9 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     int count = 0;
     VIEW("splat", v.splat.cull = true, v.floor = true);
     VIEW("splat", v.splat.shape = SPLAT_ELLIPSOID, v.splat.cull = true);
+    VIEW("splat", v.splat.shape = SPLAT_ELLIPSOID, v.splat.cull = false);
+    VIEW("volume", v.volume.method = VOLUME_DIRECT);
+    VIEW("volume", v.volume.method = VOLUME_LAYERS);
     VIEW("volume", v.volume.method = VOLUME_SCATTER, v.raycast.by_scalar = 0.5,
          v.volume.bounds = VOLUME_FLUID);
     VIEW("volume", v.volume.method = VOLUME_GATHER, v.raycast.look = RAYCAST_TRANSLUCENT,
