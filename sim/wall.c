@@ -135,6 +135,34 @@ static bool table_create(WallTable *table, const Behind *behind, double step, do
     return true;
 }
 
+/* How deep a place at u is in the zone of `stiffen`: 0 at its begin, 1 at the wall. */
+static double depth_in_edge(double u, double spacing)
+{
+    return fmax(0.25 * spacing - u, 0) / (0.5 * spacing);
+}
+
+/* Takes k t_a^2 t_b^2, t from `depth_in_edge`, out of the table of the edge, which is subtracted itself. At
+   the wall the push is then that of the lattice at rest. */
+static void stiffen(WallTable *edge, const WallTable *face, double spacing, const Lattice *lattice)
+{
+    const int rest_edge = (int)lround(0.75 * spacing * edge->inverse_step),
+              rest_face = (int)lround(0.75 * spacing * face->inverse_step);
+    const double at_rest = face->sums[rest_face].push[0] -
+                           edge->sums[(size_t)rest_edge * (size_t)edge->nodes + (size_t)rest_edge].push[0];
+    const double at_wall = face->sums[0].push[0] - edge->sums[0].push[0], zone = 0.5 * spacing;
+    const double k = fmax(2 * at_rest - at_wall, 0) * zone / 2; /* u'(d) is 2 there, 1 here */
+    for (int i = 0; i < edge->nodes; i++)
+        for (int j = 0; j < edge->nodes; j++) {
+            WallSums *sums = &edge->sums[(size_t)i * (size_t)edge->nodes + (size_t)j];
+            const double first = -0.25 * spacing, a = depth_in_edge(first + i / edge->inverse_step, spacing),
+                         b = depth_in_edge(first + j / edge->inverse_step, spacing);
+            sums->number_density -=
+                (float)(k * a * a * b * b * lattice->density_scale / lattice->gradient_scale);
+            sums->push[0] -= (float)(2 * k * a * b * b / zone);
+            sums->push[1] -= (float)(2 * k * a * a * b / zone);
+        }
+}
+
 void walls_place(Walls *walls, int dimensions, const double box_size[3], const bool open[3], double spacing)
 {
     memset(walls, 0, sizeof *walls);
@@ -163,6 +191,7 @@ bool walls_create(Walls *walls, const double box_size[3], const bool open[3], do
             return false;
         }
     }
+    stiffen(&walls->table[1], &walls->table[0], spacing, lattice);
     return true;
 }
 

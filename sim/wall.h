@@ -16,6 +16,11 @@
    tables are read not at the distance d but at u(d), which is d at the layers of the lattice (1/2, 3/2, ...
    spacings) and has slope 2 there: density and force are both right at rest.
 
+   Near two walls at once the tables alone push ever less (in a corner of three walls by a seventh of the push
+   at rest): such a particle is within the lattice behind, and fluid half a spacing in front would hold it
+   there for good. So from 0.37 spacings on, nearer than which fluid at rest does not come, the edge has more
+   density, and its gradient: at the wall the push is that at rest again.
+
    With w = -W'(r) / r of the pressure kernel and x = x_i - x_j, a wall particle whose pressure continues the
    fluid's hydrostatically, p_j = p_i - rho0 g.x, adds -V_i V_j rho0 w (x x^T) g; the moment m = sum w x x^T
    sums that up. Its part along the wall is what keeps fluid at a side wall from sinking. */
