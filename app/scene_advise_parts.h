@@ -4,6 +4,10 @@
 
 #include "app/scene_advise.h"
 
-void advise_friction(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_step(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_sound(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_kernel(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_slip(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_artificial(const Tree *tree, const Scene *scene, Notes *notes);
 
 #endif

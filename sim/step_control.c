@@ -66,19 +66,24 @@ static double greatest_kinematic_viscosity(const WorldDef *def)
     return greatest;
 }
 
-/* alpha c h / 4, where some fluid has no viscosity ever. */
-static double artificial_kinematic_viscosity(const WorldDef *def)
+double artificial_kinematic(const WorldDef *def)
+{
+    return 0.25 * def->artificial_viscosity * def->sound_speed * def->support * def->spacing;
+}
+
+/* Whether artificial viscosity acts on some fluid. */
+static bool any_inviscid(const WorldDef *def)
 {
     bool any = false;
     for (int f = 0; f < def->fluid_count; f++)
         any |= fluid_viscosity_most(&def->fluids[f]) == 0;
-    return any ? 0.25 * def->artificial_viscosity * def->sound_speed * def->support * def->spacing : 0;
+    return any;
 }
 
 double step_viscous(const WorldDef *def, const StepFriction *friction)
 {
     const double rate = fmax(friction->laminar * greatest_kinematic_viscosity(def),
-                             friction->artificial * artificial_kinematic_viscosity(def));
+                             any_inviscid(def) ? friction->artificial * artificial_kinematic(def) : 0);
     return rate > 0 ? 2 / rate : INFINITY;
 }
 

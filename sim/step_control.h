@@ -72,10 +72,19 @@ typedef struct StepFriction {
 
 StepFriction step_friction(const WorldDef *def);
 
+/* The viscosity that wcsph's artificial one stands for, alpha c h / 4, m2/s. */
+double artificial_kinematic(const WorldDef *def);
+
 /* The longest step that friction stands on the lattice at rest, s: what is longer makes differences of
    velocity grow. With the def's present viscosities; of a pair of fluids their mean counts, over the lighter
    one's density. INFINITY without friction. */
 double step_viscous(const WorldDef *def, const StepFriction *friction);
+
+/* The longest step that sound stands, in h / c: 2 / omega of its stiffest wave on the lattice, 2.0 to 2.6 c /
+   h by kernel and support. Of mueller's, which damps nothing, longer ones than STEP_SOUND_CALM heat fluid
+   that has no friction: sim/README.md. */
+#define STEP_SOUND_STANDS 0.9
+#define STEP_SOUND_CALM   0.5
 
 /* So much of it stands a fluid that is out of order; measured: 0.8 to 1.1, of wcsph in 3D at supports below
    3, stirred hard, 0.6 (sim/README.md). */
