@@ -10,6 +10,7 @@ layout(location = 1) uniform float splat_radius; // of the kernel, m
 #define splat_radius particle.x
 #endif
 
+// Two passes find the same depth: what it is made of is `precise`, and `invariant` where vertices send it.
 struct Splat {
     float depth;   // z_i, m
     float inside2; // 1 - (distance of the ray from the centre / r)^2: below 0 beside the sphere; of an ellipsoid where A takes it
@@ -23,21 +24,21 @@ Splat splat_hit(vec4 at, vec2 scale, float radius, mat3 inverse)
 {
     vec3 u = inverse * vec3(at.xy, scale.y), d = inverse * vec3(at.zw, -1.0);
     float length2 = dot(d, d), per = 1.0 / length2, slant = dot(u, d) * per;
-    float e = slant * slant + (1.0 - dot(u, u)) * per, k = slant + sqrt(max(e, 0.0));
-    return Splat(scale.x - radius * k, e * length2, normalize(inverse * (u - k * d)), (inverse * (u - slant * d)).xy);
+    precise float e = slant * slant + (1.0 - dot(u, u)) * per, k = slant + sqrt(max(e, 0.0)), depth = scale.x - radius * k;
+    return Splat(depth, e * length2, normalize(inverse * (u - k * d)), (inverse * (u - slant * d)).xy);
 }
 #else
 Splat splat_hit(vec4 at, vec2 scale, float radius)
 {
 #ifdef PAPER
-    float inside2 = 1.0 - dot(at.xy, at.xy), k = sqrt(max(inside2, 0.0));
-    return Splat(scale.x - radius * k, inside2, vec3(at.xy, k), at.xy);
+    precise float inside2 = 1.0 - dot(at.xy, at.xy), k = sqrt(max(inside2, 0.0)), depth = scale.x - radius * k;
+    return Splat(depth, inside2, vec3(at.xy, k), at.xy);
 #else
     float length2 = 1.0 + dot(at.zw, at.zw), per = 1.0 / length2;
     float slant = (dot(at.xy, at.zw) - scale.y) * per;
-    float e = slant * slant + (1.0 - scale.y * scale.y - dot(at.xy, at.xy)) * per;
-    float k = slant + sqrt(max(e, 0.0));
-    return Splat(scale.x - radius * k, e * length2, vec3(at.xy - k * at.zw, scale.y + k), at.xy - slant * at.zw);
+    precise float e = slant * slant + (1.0 - scale.y * scale.y - dot(at.xy, at.xy)) * per;
+    precise float k = slant + sqrt(max(e, 0.0)), depth = scale.x - radius * k;
+    return Splat(depth, e * length2, vec3(at.xy - k * at.zw, scale.y + k), at.xy - slant * at.zw);
 #endif
 }
 #endif

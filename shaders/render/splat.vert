@@ -23,19 +23,21 @@ layout(location = 2) flat out vec2 column;
 #endif
 
 #ifdef POINT
-layout(location = 0) flat out vec4 from; // of `at` over the point
-layout(location = 3) flat out vec4 across;
+layout(location = 0) invariant flat out vec4 from; // of `at` over the point
+layout(location = 3) invariant flat out vec4 across;
 #else
-layout(location = 0) noperspective out vec4 at;
+layout(location = 0) invariant noperspective out vec4 at;
 #endif
-layout(location = 1) flat out vec2 scale;
+layout(location = 1) invariant flat out vec2 scale;
 #if defined ELLIPSOID || defined DROPS
-layout(location = 4) flat out float radius;
+layout(location = 4) invariant flat out float radius;
 #endif
 #ifdef ELLIPSOID
-layout(location = 5) flat out vec3 inverse_own;
-layout(location = 6) flat out vec3 inverse_mixed;
+layout(location = 5) invariant flat out vec3 inverse_own;
+layout(location = 6) invariant flat out vec3 inverse_mixed;
 #endif
+invariant gl_Position;
+invariant gl_PointSize;
 
 vec4 at_corner(Body body, vec2 corner)
 {
