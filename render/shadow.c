@@ -5,14 +5,14 @@
 #include <epoxy/gl.h>
 
 /* Both maps reach farther than any shadow, so that their rims say what is beyond. */
-static GLuint create_map(GLenum format, int texels, const char *label)
+static GLuint create_map(GLenum format, GLint filter, int texels, const char *label)
 {
     GLuint map;
     glCreateTextures(GL_TEXTURE_2D, 1, &map);
     glObjectLabel(GL_TEXTURE, map, -1, label);
     glTextureStorage2D(map, 1, format, texels, texels);
-    glTextureParameteri(map, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTextureParameteri(map, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(map, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(map, GL_TEXTURE_MAG_FILTER, filter);
     glTextureParameteri(map, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(map, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     return map;
@@ -21,7 +21,7 @@ static GLuint create_map(GLenum format, int texels, const char *label)
 /* Read as a comparison. Beyond its rim nothing casts: solids may leave the box. */
 static GLuint create_solid_map(void)
 {
-    GLuint map = create_map(GL_DEPTH_COMPONENT32F, SHADOW_MAP_TEXELS, "solid shadow map");
+    GLuint map = create_map(GL_DEPTH_COMPONENT32F, GL_LINEAR, SHADOW_MAP_TEXELS, "solid shadow map");
     glTextureParameteri(map, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
     glTextureParameteri(map, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
     glTextureParameteri(map, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -52,9 +52,9 @@ static GLuint create_floor_program(const char *label, const char *defines, Error
 bool shadow_create(Shadow *shadow, Error *error)
 {
     *shadow = (Shadow){0};
-    shadow->map = create_map(GL_DEPTH_COMPONENT32F, SHADOW_MAP_TEXELS, "shadow map");
+    shadow->map = create_map(GL_DEPTH_COMPONENT32F, GL_NEAREST, SHADOW_MAP_TEXELS, "shadow map");
     shadow->framebuffer = create_framebuffer(GL_DEPTH_ATTACHMENT, shadow->map, "shadow");
-    shadow->floor_map = create_map(GL_R32F, FLOOR_MAP_TEXELS, "floor shadow map");
+    shadow->floor_map = create_map(GL_R32F, GL_LINEAR, FLOOR_MAP_TEXELS, "floor shadow map");
     shadow->floor_framebuffer = create_framebuffer(GL_COLOR_ATTACHMENT0, shadow->floor_map, "floor shadow");
     glCreateVertexArrays(1, &shadow->vertex_array);
     shadow->floor_program = create_floor_program("floor shadow", NULL, error);

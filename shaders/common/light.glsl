@@ -1,11 +1,20 @@
 // Soft daylight: a key light with shadow, sky above, ground below.
 layout(binding = 0) uniform sampler2D shadow_map; // reversed: 1 next to the light; 0 where nothing casts
 
+// The map between its four nearest texels, as a linear filter has it: not all hardware filters depths without comparing them.
+float nearest_to_light(vec2 at)
+{
+    vec2 size = vec2(textureSize(shadow_map, 0)), texel = at * size - 0.5, corner = floor(texel), part = texel - corner;
+    vec4 around = textureGather(shadow_map, (corner + 1.0) / size); // at a corner of texels: which four is never in doubt
+    vec2 sides = mix(around.wx, around.zy, part.x);
+    return mix(sides.x, sides.y, part.y);
+}
+
 // How much of the key light reaches a point inside the fluid. Not a yes or no: it fades with the depth below the first
 // lit surface, as in a cloudy liquid, which is soft, needs no bias and costs one texel.
 float fluid_light_at(vec3 at)
 {
-    float below = (textureLod(shadow_map, at.xy, 0.0).x - at.z) * lens.w;
+    float below = (nearest_to_light(at.xy) - at.z) * lens.w;
     return 0.12 + 0.88 * exp2(-0.55 * max(below - particle.z, 0.0) / max(particle.z, 1e-9));
 }
 

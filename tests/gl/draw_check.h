@@ -101,6 +101,19 @@ static inline GLint draw_check_texture(GLint type, GLint unit)
     return texture;
 }
 
+/* Depths that are read as they are, not compared, between texels: few formats are filtered on all hardware.
+ */
+static inline bool draw_check_filters_depth(GLint type, GLuint texture)
+{
+    GLint bits = 0, compare = GL_NONE, filter = GL_NEAREST;
+    if (type != GL_SAMPLER_2D)
+        return false;
+    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_SIZE, &bits);
+    glGetTextureParameteriv(texture, GL_TEXTURE_COMPARE_MODE, &compare);
+    glGetTextureParameteriv(texture, GL_TEXTURE_MAG_FILTER, &filter);
+    return bits > 0 && compare == GL_NONE && filter == GL_LINEAR;
+}
+
 static inline void draw_check_textures(GLuint program, bool draws)
 {
     static const GLenum wanted[] = {GL_TYPE, GL_LOCATION};
@@ -116,6 +129,8 @@ static inline void draw_check_textures(GLuint program, bool draws)
         const GLint texture = draw_check_texture(is[0], unit);
         if (texture == 0)
             draw_check_complain(program, "no texture is bound to", name);
+        else if (texture > 0 && draw_check_filters_depth(is[0], (GLuint)texture))
+            draw_check_complain(program, "filters the depths of", name);
         else if (texture > 0 && draw_check_fed_back(texture, draws))
             draw_check_complain(program, "reads and draws into the texture of", name);
     }

@@ -69,6 +69,8 @@ static inline unsigned texel(unsigned format, unsigned unit)
     unsigned texture;
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     glTextureStorage2D(texture, 1, format, 1, 1);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glBindTextureUnit(unit, texture);
     return texture;
 }
