@@ -1,5 +1,7 @@
 #include "app/chart_row.h"
 
+#include "app/curve.h"
+
 #include "app/output.h"
 
 #include <errno.h>
@@ -286,4 +288,62 @@ bool chart_on_front(const ChartRows *rows, int row)
             return false;
     }
     return true;
+}
+
+bool chart_drawn(const ChartRow *row)
+{
+    return row->role == CHART_POINT && isfinite(row->seconds) && row->error > 0 && isfinite(row->error);
+}
+
+bool chart_same_line(const ChartRow *a, const ChartRow *b)
+{
+    return strcmp(a->method, b->method) == 0 && strcmp(a->backend, b->backend) == 0 &&
+           a->fineness == b->fineness;
+}
+
+bool chart_opens_line(const ChartRows *rows, int row)
+{
+    for (int i = 0; i < row; i++)
+        if (chart_drawn(&rows->row[i]) && chart_same_line(&rows->row[i], &rows->row[row]))
+            return false;
+    return chart_drawn(&rows->row[row]);
+}
+
+void chart_line_name(const ChartRow *row, char name[128])
+{
+    snprintf(name, 128, "%s, %s, %s steps", row->method, row->backend, row->fineness ? "fine" : "long");
+}
+
+/* Whether each finer run of the line is nearer than each coarser one. */
+static bool falls(const ChartRows *rows, int first)
+{
+    const ChartRow *opener = &rows->row[first];
+    for (int i = first; i < rows->count; i++)
+        for (int k = first; k < rows->count; k++) {
+            const ChartRow *a = &rows->row[i], *b = &rows->row[k];
+            if (chart_drawn(a) && chart_drawn(b) && chart_same_line(a, opener) &&
+                chart_same_line(b, opener) && a->spacing < b->spacing && a->error >= b->error)
+                return false;
+        }
+    return true;
+}
+
+double chart_order(const ChartRows *rows, int first, double floor, const char **why)
+{
+    Curve line = {.count = 0};
+    bool known = true;
+    for (int i = first; i < rows->count; i++) {
+        const ChartRow *row = &rows->row[i];
+        if (!chart_drawn(row) || !chart_same_line(row, &rows->row[first]))
+            continue;
+        known &= !(row->error <= floor);
+        curve_add(&line, log(row->spacing), log(row->error));
+    }
+    *why = line.count < 3        ? "fewer than three runs"
+           : !known              ? "errors reach the spread"
+           : !falls(rows, first) ? "errors do not fall"
+                                 : NULL;
+    const double order = *why ? (double)NAN : curve_slope(&line);
+    curve_free(&line);
+    return order;
 }

@@ -71,6 +71,19 @@ double chart_rows_compare(ChartRows *rows);
 /* Whether no other point is both cheaper and nearer. */
 bool chart_on_front(const ChartRows *rows, int row);
 
+/* Whether the row is a point that can be drawn, and the first of its line: rows of one line differ in nothing
+   but the spacing. */
+bool chart_drawn(const ChartRow *row);
+bool chart_same_line(const ChartRow *a, const ChartRow *b);
+bool chart_opens_line(const ChartRows *rows, int row);
+
+/* "mueller, cpu, long steps" */
+void chart_line_name(const ChartRow *row, char name[128]);
+
+/* The order of the line that the row `first` opens: the slope of log error over log spacing. NaN where there
+   is none to be seen, and *why says it. `floor` as of chart_draw. */
+double chart_order(const ChartRows *rows, int first, double floor, const char **why);
+
 typedef struct ChartWords {
     const char *title, *error; /* what the error is of */
     const char *note;          /* below the title; "" */

@@ -122,6 +122,7 @@ static void the_chart_says_its_orders(void **state)
         const double spacing = 0.1 / (1 << i);
         add(CHART_POINT, spacing, pow(8, i), spacing * spacing)->particles = 1000 + (size_t)i;
         snprintf(add(CHART_POINT, spacing, pow(8, i), spacing)->method, NAME_SIZE, "mueller");
+        add(CHART_POINT, spacing, 9 * pow(8, i), i == 1 ? 0.3 : 0.2)->fineness = 1;
     }
     assert_true(chart_draw(&rows, &words, 1e-4, file_path, &error));
     FILE *in = fopen(file_path, "r");
@@ -131,6 +132,7 @@ static void the_chart_says_its_orders(void **state)
     unlink(file_path);
     const char *const there[] = {"wcsph, cpu, long steps: order 2.00",
                                  "mueller, cpu, long steps: order 1.00",
+                                 "wcsph, cpu, fine steps: no order: errors do not fall",
                                  "wcsph, cpu, 1002, number 0.3",
                                  "runs that differ by 1e-6",
                                  "best for its time",
@@ -308,12 +310,42 @@ static void others_rows_stay(void **state)
     assert_non_null(chart_rows_find(&rows, 102));
 }
 
+/* A line that opens with `first`: an order, or why there is none. */
+static void assert_order(double a, double b, double c, double floor, const char *expected)
+{
+    const char *why;
+    rows.count = 0;
+    add(CHART_POINT, 0.2, 1, a);
+    add(CHART_POINT, 0.15, 2, b);
+    add(CHART_POINT, 0.1, 4, c);
+    const double order = chart_order(&rows, 0, floor, &why);
+    if (expected ? !why || strcmp(why, expected) != 0 || !isnan(order) : why || !(order > 0))
+        fail_msg("%g, %g, %g: order %g, %s", a, b, c, order, why ? why : "no reason");
+}
+
+static void an_order_is_of_errors_that_fall(void **state)
+{
+    (void)state;
+    const double none = (double)NAN;
+    const char *const rises = "errors do not fall", *const low = "errors reach the spread",
+                      *const few = "fewer than three runs";
+    assert_order(0.04, 0.0225, 0.01, none, NULL);
+    assert_order(0.0034, 0.031, 0.0008, none, rises); /* couette's: a line through them has the order 2.45 */
+    assert_order(0.01, 0.02, 0.03, none, rises);
+    assert_order(0.01, 0.01, 0.01, none, rises);
+    assert_order(0.04, 0.02, 0.01, 0.009, NULL);
+    assert_order(0.04, 0.02, 0.01, 0.011, low);
+    assert_order(0.04, 0.02, none, none, few); /* broke */
+    assert_order(0.04, 0.02, 0, none, few);    /* no error at all has no logarithm */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distances_are_over_the_range),
         cmocka_unit_test(metrics_count_alike),
         cmocka_unit_test(the_chart_says_its_orders),
+        cmocka_unit_test(an_order_is_of_errors_that_fall),
         cmocka_unit_test(what_does_not_change_is_left_out),
         cmocka_unit_test(nothing_on_the_front_is_beaten),
         cmocka_unit_test_setup_teardown(a_file_keeps_them, make_file, remove_file),

@@ -54,6 +54,11 @@ class Chart(command.CommandTest):
         for run in figures['runs']:
             self.assertTrue(run['error'] >= 0 and run['seconds_per_second'] > 0 and run['particles'] > 0, run)
         self.assertTrue(any(run['front'] for run in figures['runs']))
+        for steps, order in zip(('long', 'fine'), figures['orders']):
+            errors = [run['error'] for run in figures['runs'][:6]][3 * (steps == 'fine'):][:3]
+            falls = errors[0] > errors[1] > errors[2] > figures['floor']
+            self.assertEqual((order['steps'], order['order'] is None, order['why'] is None), (steps, not falls, falls), figures)
+            self.assertIn(f'mueller, cpu, {steps} steps: {"order " if falls else "no order"}', done.stdout)
 
     def test_runs_that_break_are_a_failure(self):
         # sound goes through many spacings a step
@@ -123,7 +128,7 @@ class Chart(command.CommandTest):
         cpu, gpu = ([float(r[9]) for r in rows if r[3] == b and r[1] == 'point'] for b in ('cpu', 'compute'))
         for a, b in zip(cpu, gpu):
             self.assertAlmostEqual(a, b, delta=1e-3)  # the same simulation
-        self.assertIn('mueller, compute, long steps: order', self.text('two.svg'))
+        self.assertIn('mueller, compute, long steps: ', self.text('two.svg'))
 
     def test_a_case(self):
         done = self.run_it('free_fall', '-o', 'out.png', '--method', 'mueller')
