@@ -19,6 +19,7 @@ typedef struct StageFigure {
 
 /* Times are per frame: `substeps` substeps and one picture. */
 typedef struct BenchResult {
+    const char *failure; /* why there are no figures; NULL: there are */
     char scene[1024];
     char backend[NAME_SIZE], method[NAME_SIZE], view[NAME_SIZE];
     char swept[256];    /* "key=value" of each sweep, joined by ", "; "" without sweeps */
@@ -65,7 +66,8 @@ extern const char bench_compiler[], bench_options[];
 /* The table for people. */
 void bench_print(const BenchResult *result, FILE *file);
 
-/* An array of all results; false with the reason when the file can't be written. */
+/* An array of all results, one that failed with its "error" in place of figures; false with the reason when
+ * the file can't be written. */
 bool bench_write_json(const BenchResult *results, size_t count, const char *path, Error *error);
 
 #endif

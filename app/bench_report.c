@@ -82,8 +82,19 @@ static json_t *stages_json(const BenchResult *r)
     return stages;
 }
 
+static json_t *failed_case_json(const BenchResult *r)
+{
+    json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:s}", "scene", r->scene, "backend", r->backend, "method",
+                             r->method, "view", r->view, "error", r->failure);
+    if (json && r->swept[0])
+        json_object_set_new(json, "swept", json_string(r->swept));
+    return json;
+}
+
 static json_t *result_json(const BenchResult *r)
 {
+    if (r->failure)
+        return failed_case_json(r);
     json_t *json =
         json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i], s:s, s:s, s:s}", "scene", r->scene, "backend",
                   r->backend, "method", r->method, "view", r->view, "threads", r->threads, "renderer",

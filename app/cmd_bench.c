@@ -235,14 +235,30 @@ static bool show_table(const Plan *plan, const BenchResult *results, size_t coun
            (!args->output || table_draw(plan->table, results, count, args->output, error));
 }
 
+/* The case that failed, without figures. */
+static void note_failure(const Plan *plan, size_t index, const Error *error, BenchResult *result)
+{
+    Scene scene;
+    Error none;
+    *result = (BenchResult){.failure = error->message};
+    snprintf(result->scene, sizeof result->scene, "%s", plan->scenes[index / plan->combinations]);
+    case_name(plan, index % plan->combinations, result->swept, sizeof result->swept);
+    if (!case_load(plan, index, false, &scene, &none))
+        return;
+    snprintf(result->scene, sizeof result->scene, "%s", scene.path);
+    memcpy(result->backend, scene.world.backend, sizeof result->backend);
+    memcpy(result->method, scene.world.method, sizeof result->method);
+    memcpy(result->view, scene.view.kind, sizeof result->view);
+}
+
 static int bench(const Plan *plan, bool wants_context, Error *error)
 {
     const Args *args = plan->args;
     size_t done = 0;
     Headless *context = NULL;
     BenchResult *results = calloc(plan->scene_count * plan->combinations + 1, sizeof *results);
-    bool ok = results || error_set(error, "no memory for the results");
-    ok = ok && (!args->json || output_check(args->json, error));
+    const bool can_write = results && (!args->json || output_check(args->json, error));
+    bool ok = can_write || (!results && error_set(error, "no memory for the results"));
     if (ok && wants_context)
         ok = (context = headless_create(args->gpu, error)) != NULL;
     if (context)
@@ -250,7 +266,11 @@ static int bench(const Plan *plan, bool wants_context, Error *error)
     ok = ok && measure_all(plan, context, results, &done, error);
     if (ok && plan->table)
         ok = show_table(plan, results, done, error);
-    if (args->json && done > 0) {
+    if (can_write && !ok && !interrupted() && done < plan->scene_count * plan->combinations) {
+        note_failure(plan, done, error, &results[done]);
+        done++;
+    }
+    if (can_write && args->json && done > 0) {
         Error json_error = {{0}};
         const bool written = bench_write_json(results, done, args->json, &json_error);
         if (!written && ok)

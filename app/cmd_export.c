@@ -14,6 +14,12 @@ static int fail(int code, const Error *error)
     return code;
 }
 
+static int fail_run(const Args *args, const Error *error)
+{
+    failure_json_write(failure_json("export", "input", args->scenes[0], args->output, error), args->json);
+    return fail(EXIT_FAILED, error);
+}
+
 /* The last snapshot, or the first at or after --time, give or take what rounding does to a time. */
 static bool choose(const Args *args, SnapshotReader *reader, size_t *index, Error *error)
 {
@@ -94,13 +100,13 @@ static int run(Export *export, size_t index, const Args *args, Error *error)
     if (args->json && !output_check(args->json, error))
         return fail(EXIT_FAILED, error);
     if (!find_colors(export, index, args, error))
-        return fail(EXIT_FAILED, error);
+        return fail_run(args, error);
     progress_begin(&progress, stderr, "export", args->quiet);
     const bool done = export_is_series(export->kind) ? export_series(export, &progress, error)
                                                      : export_one(export, index, error);
     progress_end(&progress);
     if (!done)
-        return fail(EXIT_FAILED, error);
+        return fail_run(args, error);
     report(export, args);
     if (!write_json(export, args, (wall_ms() - began_ms) / 1000, error))
         return fail(EXIT_FAILED, error);

@@ -1,7 +1,10 @@
 #include "app/cmd.h"
 #include "app/export.h"
 #include "app/headless.h"
+#include "app/json_file.h"
 #include "app/metric_list.h"
+#include "app/output.h"
+#include "app/scene_json.h"
 #include "app/scene_keys.h"
 #include "app/scene_preset.h"
 #include "render/view.h"
@@ -12,31 +15,58 @@
 
 #include <stdio.h>
 
-static void print_row(const char *name, const char *help)
+/* What is printed, and the same for --json. */
+typedef struct Info {
+    bool quiet;
+    json_t *json, *list; /* all of it; the list in hand */
+} Info;
+
+static void begin_list(Info *info, const char *title, const char *key)
 {
-    printf("  %-12s %s\n", name, help);
+    if (!info->quiet)
+        printf("%s\n", title);
+    info->list = json_array();
+    json_object_set_new(info->json, key, info->list);
 }
 
-static void print_named(const char *title, const Named *list)
+static json_t *add_row(Info *info, const char *name, const char *word, const char *text)
 {
-    printf("%s\n", title);
+    json_t *row = json_pack("{s:s, s:s}", "name", name, word, text);
+    json_array_append_new(info->list, row);
+    return row;
+}
+
+/* Its object, which the list owns. */
+static json_t *put_row(Info *info, const char *name, const char *help)
+{
+    if (!info->quiet)
+        printf("  %-12s %s\n", name, help);
+    return add_row(info, name, "help", help);
+}
+
+static void put_named(Info *info, const char *title, const char *key, const Named *list)
+{
+    begin_list(info, title, key);
     for (; list->name; list++)
-        print_row(list->name, list->help);
+        put_row(info, list->name, list->help);
 }
 
 /* A world of the scene, or a small one, shows whether a backend on a GPU can do it; `no_context`: why there
    is none, or NULL. */
-static void print_backend(const Named *backend, const WorldDef *scene, const char *no_context)
+static void put_backend(Info *info, const Named *backend, const WorldDef *scene, const char *no_context)
 {
     WorldDef def = *scene;
     Error error = {{0}};
-    print_row(backend->name, backend->help);
+    json_t *row = put_row(info, backend->name, backend->help);
     snprintf(def.backend, sizeof def.backend, "%s", backend->name);
-    if (!world_on_gpu(&def))
-        return;
-    World *world = no_context ? NULL : world_create(&def, &error);
-    if (!world)
-        printf("  %-12s cannot run here: %s\n", "", no_context ? no_context : error.message);
+    const bool on_gpu = world_on_gpu(&def);
+    World *world = on_gpu && !no_context ? world_create(&def, &error) : NULL;
+    const char *reason = !on_gpu || world ? NULL : no_context ? no_context : error.message;
+    if (reason && !info->quiet)
+        printf("  %-12s cannot run here: %s\n", "", reason);
+    json_object_set_new(row, "runs", json_boolean(!reason));
+    if (reason)
+        json_object_set_new(row, "reason", json_string(reason));
     world_destroy(world);
 }
 
@@ -53,51 +83,108 @@ static WorldDef small_def(void)
     return def;
 }
 
-static void print_backends(const WorldDef *scene, int gpu)
+static void put_backends(Info *info, const WorldDef *scene, int gpu)
 {
     Error error = {{0}};
     const WorldDef small = small_def();
     Headless *context = headless_create(gpu, &error);
-    printf("renderer\n  %s\n", context ? headless_renderer(context) : error.message);
-    printf("backends\n");
+    const char *renderer = context ? headless_renderer(context) : error.message;
+    if (!info->quiet)
+        printf("renderer\n  %s\n", renderer);
+    json_object_set_new(info->json, "renderer", context ? json_string(renderer) : json_null());
+    if (!context)
+        json_object_set_new(info->json, "no_renderer", json_string(renderer));
+    begin_list(info, "backends", "backends");
     for (const Named *backend = world_backends(); backend->name; backend++)
-        print_backend(backend, scene ? scene : &small, context ? NULL : error.message);
+        put_backend(info, backend, scene ? scene : &small, context ? NULL : error.message);
     headless_destroy(context);
 }
 
-static void print_lists(void)
+static void put_methods(Info *info)
 {
-    print_named("methods", world_methods());
-    printf("presets\n");
+    put_named(info, "methods", "methods", world_methods());
+    begin_list(info, "presets", "presets");
     for (const Preset *preset = preset_list; preset->name; preset++)
-        print_row(preset->name, preset->help);
-    printf("density kernels\n");
+        put_row(info, preset->name, preset->help);
+    begin_list(info, "density kernels", "density_kernels");
     for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
-        print_row(kernel->name, kernel->help);
-    printf("kernels of wcsph\n");
+        put_row(info, kernel->name, kernel->help);
+    begin_list(info, "kernels of wcsph", "wcsph_kernels");
     for (const Kernel *kernel = wcsph_kernels; kernel->name; kernel++)
-        print_row(kernel->name, kernel->help);
-    printf("models of surface tension\n");
+        put_row(info, kernel->name, kernel->help);
+    begin_list(info, "models of surface tension", "surface_tension_models");
     for (const TensionKind *kind = tension_kinds; kind->name; kind++)
-        print_row(kind->name, kind->help);
-    printf("forms of viscosity of wcsph\n");
+        put_row(info, kind->name, kind->help);
+    begin_list(info, "forms of viscosity of wcsph", "viscosity_forms");
     for (const ViscosityKind *kind = viscosity_kinds; kind->name; kind++)
-        print_row(kind->name, kind->help);
-    printf("views\n");
+        put_row(info, kind->name, kind->help);
+}
+
+static void put_views(Info *info)
+{
+    begin_list(info, "views", "views");
     for (const ViewKind *const *view = view_list; *view; view++)
-        print_row((*view)->name, (*view)->help);
-    print_row("none", "draws nothing; for timing the solver alone");
-    printf("scalars\n");
-    for (int s = 0; s < SCALAR_COUNT; s++)
-        print_row(scalar_name((Scalar)s), scalar_unit((Scalar)s));
-    print_named("exports", export_kinds());
-    printf("metrics of a scene, which chart compares\n");
-    for (const MetricKind *metric = metric_kinds; metric->name; metric++)
-        printf("  %-17s %s%s%s%s\n", metric->name, metric->help, *metric->unit ? " (" : "", metric->unit,
-               *metric->unit ? ")" : "");
-    printf("motions of the box\n");
+        put_row(info, (*view)->name, (*view)->help);
+    put_row(info, "none", "draws nothing; for timing the solver alone");
+    begin_list(info, "scalars", "scalars");
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        const char *name = scalar_name((Scalar)s), *unit = scalar_unit((Scalar)s);
+        if (!info->quiet)
+            printf("  %-12s %s\n", name, unit);
+        add_row(info, name, "unit", unit);
+    }
+    put_named(info, "exports", "exports", export_kinds());
+}
+
+static void put_metrics(Info *info)
+{
+    begin_list(info, "metrics of a scene, which chart compares", "metrics");
+    for (const MetricKind *metric = metric_kinds; metric->name; metric++) {
+        if (!info->quiet)
+            printf("  %-17s %s%s%s%s\n", metric->name, metric->help, *metric->unit ? " (" : "", metric->unit,
+                   *metric->unit ? ")" : "");
+        json_object_set_new(add_row(info, metric->name, "help", metric->help), "unit",
+                            json_string(metric->unit));
+    }
+    begin_list(info, "motions of the box", "motions");
     for (int m = 0; m < MOTION_KIND_COUNT; m++)
-        print_row(motion_name((MotionKind)m), motion_help((MotionKind)m));
+        put_row(info, motion_name((MotionKind)m), motion_help((MotionKind)m));
+}
+
+static void put_scene(Info *info, const Scene *scene, const Notes *notes)
+{
+    const size_t count = world_def_count(&scene->world, scene->world.spacing);
+    json_t *lines = json_array();
+    for (int i = 0; i < notes->count; i++)
+        json_array_append_new(lines, json_string(notes->line[i]));
+    json_object_set_new(info->json, "scene",
+                        json_pack("{s:s, s:I, s:o, s:o}", "path", scene->path, "particles", (json_int_t)count,
+                                  "notes", lines, "settings", scene_json(scene)));
+    notes_print(notes, stderr);
+    if (info->quiet)
+        return;
+    printf("%s: %zu particle%s\n", scene->path, count, plural(count));
+    preset_print(scene, stdout);
+    scene_print(scene, stdout);
+}
+
+static void put_all(Info *info, const Scene *scene, const Notes *notes, int gpu)
+{
+    put_backends(info, scene ? &scene->world : NULL, gpu);
+    put_methods(info);
+    put_views(info);
+    put_metrics(info);
+    if (!info->quiet)
+        printf("threads\n  %d\n", world_processors());
+    json_object_set_new(info->json, "threads", json_integer(world_processors()));
+    if (scene)
+        put_scene(info, scene, notes);
+}
+
+static int fail(int code, const Error *error)
+{
+    fprintf(stderr, "%s\n", error->message);
+    return code;
 }
 
 int cmd_info(const Args *args)
@@ -106,19 +193,14 @@ int cmd_info(const Args *args)
     Notes notes;
     SceneSettings settings = args->settings;
     Scene scene;
-    if (args->scene_count && !scene_load(args->scenes[0], &settings, &scene, &notes, &error)) {
-        fprintf(stderr, "%s\n", error.message);
-        return EXIT_USAGE;
-    }
-    print_backends(args->scene_count ? &scene.world : NULL, args->gpu);
-    print_lists();
-    printf("threads\n  %d\n", world_processors());
-    if (!args->scene_count)
-        return 0;
-    const size_t count = world_def_count(&scene.world, scene.world.spacing);
-    printf("%s: %zu particle%s\n", scene.path, count, plural(count));
-    notes_print(&notes, stderr);
-    preset_print(&scene, stdout);
-    scene_print(&scene, stdout);
-    return 0;
+    if (args->scene_count && !scene_load(args->scenes[0], &settings, &scene, &notes, &error))
+        return fail(EXIT_USAGE, &error);
+    if (args->json && !output_check(args->json, &error))
+        return fail(EXIT_FAILED, &error);
+    Info info = {.quiet = args->quiet,
+                 .json = json_pack("{s:s, s:s}", "command", "info", "version", SLOSH_VERSION)};
+    put_all(&info, args->scene_count ? &scene : NULL, &notes, args->gpu);
+    const bool written = !args->json || json_file_write(info.json, args->json, &error);
+    json_decref(info.json);
+    return written ? 0 : fail(EXIT_FAILED, &error);
 }

@@ -122,13 +122,21 @@ static void warn_of_older(const Pictures *pictures, size_t taken)
         fprintf(stderr, "%s and what follows is of an earlier run; remove it unless you want both\n", frame);
 }
 
+/* What there is of pictures is of no use. */
+static int fail(const Session *session, const Args *args, const Error *error)
+{
+    const Summary summary = {.command = "render",
+                             .product = "pictures",
+                             .renderer = session->context ? headless_renderer(session->context) : NULL};
+    return session_fail(session, args, &summary, error);
+}
+
 static int render(Session *session, const Args *args, PicturesKind kind, Pictures *pictures, Error *error)
 {
     Shoot shoot = {.drawn = false};
     Progress progress;
     Schedule schedule = make_schedule(args, kind);
     size_t taken = 0;
-    int code = EXIT_FAILED;
     if (shoot_open(&shoot, session, args, error)) {
         progress_begin(&progress, stderr, "render", args->quiet);
         taken = take_pictures(session, &shoot, pictures, &schedule, &progress, error);
@@ -139,10 +147,7 @@ static int render(Session *session, const Args *args, PicturesKind kind, Picture
         pictures_discard(pictures);
     else if (!pictures_finish(pictures, error))
         taken = 0;
-    if (taken > 0)
-        code = report(session, args, &schedule, taken, error);
-    else
-        fprintf(stderr, "%s\n", error->message);
+    const int code = taken > 0 ? report(session, args, &schedule, taken, error) : fail(session, args, error);
     shoot_close(&shoot);
     return code;
 }
@@ -166,12 +171,12 @@ int cmd_render(const Args *args)
     Pictures *pictures = NULL;
     interrupt_install();
     int code = understand(args, &kind, &error) ? session_open(&session, args, true, &error) : EXIT_USAGE;
-    if (code != 0) {
+    if (code == EXIT_USAGE || (code == 0 && args->json && !output_check(args->json, &error))) {
         fprintf(stderr, "%s\n", error.message);
-    } else if ((args->json && !output_check(args->json, &error)) ||
+        code = code == 0 ? EXIT_FAILED : code;
+    } else if (code != 0 ||
                !(pictures = pictures_create(args->output, args->width, args->height, args->fps, &error))) {
-        fprintf(stderr, "%s\n", error.message);
-        code = EXIT_FAILED;
+        code = fail(&session, args, &error);
     } else {
         code = render(&session, args, kind, pictures, &error);
     }

@@ -29,6 +29,14 @@ static int fail(int code, const Error *error)
     return code;
 }
 
+static int fail_run(const Args *args, int code, const Error *error)
+{
+    if (code == EXIT_FAILED)
+        failure_json_write(failure_json("replay", "recording", args->scenes[0], args->output, error),
+                           args->json);
+    return fail(code, error);
+}
+
 /* A session that blew up was recorded up to that step, in the middle of a frame or at its end. */
 static bool broke_as_recorded(const Replay *replay)
 {
@@ -144,7 +152,7 @@ static int run(Replay *replay, Error *error)
     if (args->output) {
         Snapshot *file = snapshot_create(args->output, &replay->session.scene, error);
         if (!file)
-            return fail(EXIT_FAILED, error);
+            return fail_run(args, EXIT_FAILED, error);
         replay->series = (SnapshotSeries){.file = file, .every = args->every};
     }
     progress_begin(&progress, stderr, "replay", args->quiet);
@@ -152,7 +160,7 @@ static int run(Replay *replay, Error *error)
     progress_end(&progress);
     if (code == 0)
         return finish(replay, error);
-    fail(code, error);
+    fail_run(args, code, error);
     snapshot_series_left(replay->series.file, args->output);
     return code;
 }
@@ -176,7 +184,7 @@ int cmd_replay(const Args *args)
     Error error = {{0}};
     interrupt_install();
     int code = open_recording(&replay, &error);
-    code = code == 0 ? run(&replay, &error) : fail(code, &error);
+    code = code == 0 ? run(&replay, &error) : fail_run(args, code, &error);
     snapshot_close(replay.series.file);
     session_close(&replay.session);
     recording_destroy(&replay.recording);

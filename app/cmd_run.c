@@ -36,6 +36,12 @@ static bool simulate(Session *session, const Args *args, Snapshot *file, Progres
     }
 }
 
+static int complain(int code, const Error *error)
+{
+    fprintf(stderr, "%s\n", error->message);
+    return code;
+}
+
 static int finish(const Session *session, const Args *args, const Snapshot *file, Error *error)
 {
     Summary summary = {.command = "run",
@@ -45,15 +51,16 @@ static int finish(const Session *session, const Args *args, const Snapshot *file
     session_report(session, args, &summary);
     if (session_write_json(session, args, &summary, error))
         return summary.stopped ? EXIT_INTERRUPTED : 0;
-    fprintf(stderr, "%s\n", error->message);
-    return EXIT_FAILED;
+    return complain(EXIT_FAILED, error);
 }
 
-static int fail(const Args *args, const Snapshot *file, const Error *error)
+static int fail(const Session *session, const Args *args, const Snapshot *file, const Error *error)
 {
-    fprintf(stderr, "%s\n", error->message);
+    const Summary summary = {
+        .command = "run", .product = "snapshots", .products = file ? snapshot_steps(file) : 0};
+    const int code = session_fail(session, args, &summary, error);
     snapshot_series_left(file, args->output);
-    return EXIT_FAILED;
+    return code;
 }
 
 /* --resume: the file to go on with, and the world as it was at its end. */
@@ -91,20 +98,18 @@ static int run(Session *session, const Args *args, Error *error)
     Snapshot *file;
     bool busy = false;
     if (args->json && !output_check(args->json, error))
-        return fail(args, NULL, error);
+        return complain(EXIT_FAILED, error);
     if (args->resume && access(args->output, F_OK) == 0) {
         file = resume(session, args, &busy, error);
-        if (!file) {
-            fprintf(stderr, "%s\n", error->message);
-            return busy ? EXIT_FAILED : EXIT_USAGE;
-        }
+        if (!file)
+            return busy ? fail(session, args, NULL, error) : complain(EXIT_USAGE, error);
     } else if (!(file = begin(session, args, error))) {
-        return fail(args, NULL, error);
+        return fail(session, args, NULL, error);
     }
     progress_begin(&progress, stderr, "run", args->quiet);
     bool done = simulate(session, args, file, &progress, error);
     progress_end(&progress);
-    int code = done ? finish(session, args, file, error) : fail(args, file, error);
+    int code = done ? finish(session, args, file, error) : fail(session, args, file, error);
     snapshot_close(file);
     return code;
 }
@@ -118,8 +123,10 @@ int cmd_run(const Args *args)
         snapshot_series_name(args->output, &error) ? session_open(&session, args, false, &error) : EXIT_USAGE;
     if (code == 0)
         code = run(&session, args, &error);
+    else if (code == EXIT_FAILED)
+        fail(&session, args, NULL, &error);
     else
-        fprintf(stderr, "%s\n", error.message);
+        complain(code, &error);
     session_close(&session);
     return code;
 }

@@ -34,6 +34,21 @@ bool json_file_write(const json_t *json, const char *path, Error *error)
     return false;
 }
 
+json_t *failure_json(const char *command, const char *word, const char *input, const char *output,
+                     const Error *error)
+{
+    return json_pack("{s:s, s:s, s:s*, s:s}", "command", command, word, input, "output", output, "error",
+                     error->message);
+}
+
+void failure_json_write(json_t *json, const char *path)
+{
+    Error error = {{0}};
+    if (path && !json_file_write(json, path, &error))
+        fprintf(stderr, "%s\n", error.message);
+    json_decref(json);
+}
+
 json_t *number_json(double number)
 {
     return isfinite(number) ? json_real(number) : json_null();

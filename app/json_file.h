@@ -11,6 +11,14 @@
    take the reference. */
 bool json_file_write(const json_t *json, const char *path, Error *error);
 
+/* {"command": COMMAND, WORD: INPUT, "output": OUTPUT, "error": why} of a command that failed before it had
+   figures; the output may be NULL. */
+json_t *failure_json(const char *command, const char *word, const char *input, const char *output,
+                     const Error *error);
+
+/* Writes it where `path` is not NULL, says it where that fails, and releases the reference. */
+void failure_json_write(json_t *json, const char *path);
+
 /* A real, or null where the number is not finite: JSON has no other word for that. */
 json_t *number_json(double number);
 

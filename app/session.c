@@ -193,3 +193,15 @@ bool session_write_json(const Session *session, const Args *args, const Summary 
     json_decref(json);
     return written;
 }
+
+int session_fail(const Session *session, const Args *args, const Summary *summary, const Error *error)
+{
+    fprintf(stderr, "%s\n", error->message);
+    json_t *json = session->world ? summary_json(session, args, summary) : NULL;
+    if (json)
+        json_object_set_new(json, "error", json_string(error->message));
+    else /* no world, or one with numbers that are none */
+        json = failure_json(summary->command, "scene", args->scenes[0], args->output, error);
+    failure_json_write(json, args->json);
+    return EXIT_FAILED;
+}

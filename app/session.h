@@ -66,4 +66,8 @@ void session_report(const Session *session, const Args *args, const Summary *sum
 /* Writes --json FILE, if asked for. */
 bool session_write_json(const Session *session, const Args *args, const Summary *summary, Error *error);
 
+/* Says what failed, and writes --json FILE, if asked for, with as much as there is and that as "error".
+   Returns EXIT_FAILED. */
+int session_fail(const Session *session, const Args *args, const Summary *summary, const Error *error);
+
 #endif

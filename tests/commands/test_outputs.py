@@ -2,7 +2,9 @@
 import json
 import os
 import random
+import re
 import signal
+import subprocess
 import time
 
 import command
@@ -177,6 +179,100 @@ class Unwritable(CommandTest):
         self.assertEqual(code, 1, said)
         self.assertIn('no/a.json: cannot be written', said)
         self.assertEqual(self.entries(), [])
+
+
+class Failures(CommandTest):
+    """What failed is in --json too, with what there is of figures; where the command line is wrong there is no file."""
+    BREAKS = ('--set', 'solver.sound_speed=9000', '--set', 'solver.step.retries=0')
+
+    def failed(self, *arguments, code=1):
+        done, said = self.slosh(*arguments, '--json', 'a.json')
+        self.assertEqual(done, code, said)
+        return json.loads(self.read('a.json')), said
+
+    def test_run_and_render(self):
+        for name, output, product in (('run', 'a.h5part', 'snapshots'), ('render', 'a.png', 'pictures')):
+            found, said = self.failed(name, 'scene.yaml', '-o', output, *self.BREAKS, '--quiet', '--time', '1')
+            self.assertIn(found['error'], said.splitlines())
+            self.assertIn('the simulation blew up at t = ', found['error'])
+            self.assertEqual((found['command'], found['scene'], found['particles']), (name, 'scene.yaml', 500))
+            self.assertIn(product, found)
+            found, said = self.failed(name, 'scene.yaml', '-o', f'no/{output}', '--quiet')
+            self.assertIn(f'no/{output}: cannot be written', found['error'])
+
+    def test_no_context(self):
+        found, said = self.failed('render', 'scene.yaml', '-o', 'a.png', '--gpu', '15')
+        self.assertEqual(found, {'command': 'render', 'scene': 'scene.yaml', 'output': 'a.png', 'error': said.strip()})
+
+    def test_bench(self):
+        """The cases before it have their figures."""
+        found, said = self.failed('bench', 'scene.yaml', '--view', 'none', '--frames', '2', '--quiet',
+                                  '--sweep', 'solver.sound_speed=15,9000', '--set', 'solver.step.retries=0')
+        self.assertEqual(len(found), 2)
+        self.assertGreater(found[0]['frame_ms'], 0)
+        self.assertNotIn('error', found[0])
+        self.assertEqual(found[1].pop('error'), said.strip())
+        self.assertEqual(found[1], {'scene': 'scene.yaml', 'backend': 'cpu', 'method': 'mueller', 'view': 'none',
+                                    'swept': 'solver.sound_speed=9000'})
+
+    def test_export_and_replay(self):
+        self.assertEqual(self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet')[0], 0)
+        found, said = self.failed('export', 'a.h5part', '-o', 'no/a.vtp')
+        self.assertEqual(found, {'command': 'export', 'input': 'a.h5part', 'output': 'no/a.vtp', 'error': said.strip()})
+        text = ''.join(f'| {line}\n' for line in command.SCENE.splitlines())
+        self.write('a.rec', f'slosh recording 1\nprogram 0.1\nscene a.yaml\ntext\n{text}commands\nend 9 {"0" * 16}\n')
+        found, said = self.failed('replay', 'a.rec', '-o', 'no/a.h5part')
+        self.assertEqual((found['recording'], found['output']), ('a.rec', 'no/a.h5part'))
+        self.assertIn(found['error'], said)
+
+    def test_a_wrong_command_line_leaves_no_file(self):
+        for name, *more in (('run', '-o', 'a.h5part'), ('render', '-o', 'a.png'), ('bench',), ('info',)):
+            code, said = self.slosh(name, 'scene.yaml', *more, '--set', 'solver.step.dt=-1', '--json', 'a.json')
+            self.assertEqual(code, 2, said)
+        self.assertEqual(self.entries(), [])
+
+
+class Info(CommandTest):
+    def info(self, *arguments):
+        done = subprocess.run([command.PROGRAM, 'info', *arguments, '--json', 'a.json'], cwd=self.folder,
+                              capture_output=True, text=True, check=True)
+        return done.stdout, json.loads(self.read('a.json'))
+
+    def test_all_that_is_printed(self):
+        printed, found = self.info()
+        self.assertEqual(found['command'], 'info')
+        self.assertNotIn('scene', found)
+        self.assertIn(f"threads\n  {found['threads']}\n", printed)
+        self.assertIn(f"renderer\n  {found['renderer']}\n", printed)
+        names = [row['name'] for rows in found.values() if isinstance(rows, list) for row in rows]
+        rows = [line.split()[0] for line in re.sub(r'^(renderer|threads)\n.*\n', '', printed, flags=re.M).splitlines()
+                if line.startswith('  ') and line[2] != ' ']
+        self.assertEqual(names, rows)
+        for key in ('backends', 'methods', 'presets', 'views', 'scalars', 'exports', 'metrics', 'motions'):
+            self.assertGreater(len(found[key]), 1, key)
+        self.assertEqual({'name': 'cpu', 'runs': True}, {key: found['backends'][0][key] for key in ('name', 'runs')})
+        self.assertEqual(found['scalars'][0], {'name': 'speed', 'unit': 'm/s'})
+
+    def test_a_scene(self):
+        printed, found = self.info('scene.yaml', '--set', 'fluids[1].viscosity=[[0, 1], [2, 0.5]]',
+                                   '--set', 'title="7"', '--set', 'metrics=[centre_of_mass, kinetic_energy]')
+        scene = found['scene']
+        self.assertEqual((scene['path'], scene['particles']), ('scene.yaml', 500))
+        settings = scene['settings']
+        self.assertEqual(list(settings), [line.split(' = ')[0] for line in printed.splitlines()
+                                          if ' = ' in line and not line.startswith(' ')])
+        self.assertEqual(settings['box.size'], {'value': [1, 1, 1], 'unit': 'm'})
+        self.assertEqual(settings['fluids[1].viscosity'], {'value': [[0, 1], [2, 0.5]], 'unit': 'Pa s'})
+        self.assertEqual(settings['fluids[1].name'], {'value': 'oil'})
+        self.assertEqual(settings['solver.step.realtime'], {'value': True})
+        self.assertEqual(settings['title'], {'value': '7'})
+        self.assertEqual(settings['metrics'], {'value': ['centre_of_mass', 'kinetic_energy']})
+
+    def test_quiet_and_a_file_that_cannot_be(self):
+        self.assertEqual(self.info('--quiet')[0], '')
+        code, said = self.slosh('info', '--json', 'no/a.json')
+        self.assertEqual(code, 1)
+        self.assertIn('no/a.json: cannot be written', said)
 
 
 class Usage(CommandTest):
