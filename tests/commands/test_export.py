@@ -223,7 +223,7 @@ class ParaView(ExportTest):
         self.make('--time', '0.2', '--set', 'motion=[{spin: {axis: [1, 2, 3], rate: 3}}]')
         self.empty_the_last()
         self.assertRegex(self.export('a.pvd', '--surface', '--frame', 'world'),
-                         'a.pvd: warning: 1 of 5 snapshots have no fluid at that level, and no surface')
+                         'a.pvd: warning: 1 of 5 snapshots has no fluid at that level, and no surface')
         seen = self.read_with_paraview('a.pvd')
         self.assertEqual([len(step['triangles']) > 500 for step in seen], [True] * 4 + [False])
         self.assertEqual(seen[4]['points'], [])
