@@ -232,8 +232,24 @@ static const OptionRow *option_find(const Parser *parser, const char *name)
     return NULL;
 }
 
+/* "render, run" */
+static void who_takes(const char *name, char commands[128])
+{
+    size_t used = 0;
+    for (const CommandRow *row = command_rows; row->name; row++)
+        for (const OptionRow *option = option_rows; option->name; option++)
+            if (option->commands & 1u << row->command && option->kind != OPTION_REFUSED &&
+                strcmp(option->name, name) == 0 && used < 128)
+                used += (size_t)snprintf(commands + used, 128 - used, "%s%s", used ? ", " : "", row->name);
+}
+
 static bool unknown_option(const Parser *parser, const char *name)
 {
+    char commands[128] = "";
+    who_takes(name, commands);
+    if (*commands)
+        return fail(parser, "unknown option '%.60s', which is one of slosh %s; `slosh help %s` lists its own",
+                    name, commands, parser->row->name);
     Suggestion near = suggest_for(name);
     for (const OptionRow *option = option_rows; option->name; option++)
         if (option->commands & 1u << parser->row->command)
@@ -303,7 +319,13 @@ static bool unknown_command(const Parser *parser, const char *name)
         suggest_offer(&near, row->name);
     if (near.best)
         return fail(parser, "unknown command '%.60s'; did you mean '%s'?", name, near.best);
-    return fail(parser, "unknown command '%.60s'; `slosh help` lists them", name);
+    SceneNames scenes;
+    scene_path_names(&scenes);
+    for (int i = 0; i < scenes.count; i++)
+        suggest_offer(&near, scenes.name[i]);
+    if (near.best)
+        return fail(parser, "unknown command '%.60s'; did you mean the scene '%s'?", name, near.best);
+    return fail(parser, "unknown command '%.60s'; `slosh help` lists them, and the scenes", name);
 }
 
 /* `slosh help [COMMAND]` */
@@ -335,7 +357,7 @@ static bool is_scene(const char *word)
 /* An option or a scene in place of a command. */
 static bool is_for_play(const char *word)
 {
-    return word[0] == '-' || strchr(word, '/') || strstr(word, ".yaml") || is_scene(word);
+    return word[0] == '-' || strchr(word, '/') || strchr(word, '.') || is_scene(word);
 }
 
 static bool parse_command(Parser *parser)

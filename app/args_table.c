@@ -2,6 +2,7 @@
 
 #include "app/bench_table.h"
 #include "app/scene_lists.h"
+#include "app/scene_path.h"
 
 #include <stddef.h>
 
@@ -141,8 +142,15 @@ static void help_program(FILE *file)
     fprintf(file, "  slosh %-51s %s\n", "--version", "says which slosh this is");
     fprintf(
         file,
-        "\n`slosh help COMMAND` lists its options. SCENE is a file, or the name of one that comes with slosh: "
-        "box_slosh, ...\n");
+        "\n`slosh help COMMAND` lists its options. SCENE is a file, or the name of one that comes with slosh:\n");
+    SceneNames scenes;
+    scene_path_names(&scenes);
+    int column = 0;
+    for (int i = 0; i < scenes.count; i++) {
+        const char *end = i + 1 < scenes.count ? "," : "\n";
+        column = column > 90 ? 0 : column;
+        column += fprintf(file, "%s%s%s", column ? " " : i ? "\n  " : "  ", scenes.name[i], end);
+    }
 }
 
 void args_help(Command command, FILE *file)

@@ -217,6 +217,9 @@ static bool find_subject(ChartPlan *plan, Error *error)
     if (scene_load(args->scenes[0], &settings, &plan->scene, &plan->notes, &no_scene))
         return true;
     const char *near = case_near(args->scenes[0]);
+    char *hint = strstr(no_scene.message, "; did you mean '");
+    if (near && hint)
+        *hint = 0; /* one is enough */
     return near ? error_set(error, "%.700s; did you mean the case '%s'?", no_scene.message, near)
                 : error_set(error, "%s", no_scene.message);
 }

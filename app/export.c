@@ -44,8 +44,8 @@ bool export_kind(const char *path, ExportKind *kind, Error *error)
             return true;
         }
     return error_set(error,
-                     "'%s' says not what to write; name a FILE.pvd, a FILE.vtp or a FILE.ply, or for all "
-                     "snapshots as .ply a FILE.ply.series",
+                     "cannot tell the format from '%s'; use .pvd, .vtp or .ply, or .ply.series for all "
+                     "snapshots as .ply",
                      path);
 }
 

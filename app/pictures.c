@@ -32,7 +32,7 @@ bool pictures_kind(const char *path, PicturesKind *kind, Error *error)
     else if (extension && strcasecmp(extension, ".mp4") == 0)
         *kind = PICTURES_VIDEO;
     else
-        return error_set(error, "'%s' says not what to write; name a FILE.png, a FILE.mp4 or a folder", path);
+        return error_set(error, "cannot tell the format from '%s'; use .png, .mp4 or a folder name", path);
     return true;
 }
 

@@ -141,7 +141,10 @@ static void slips_are_named(void **state)
     refuse("render s -o a.png --tme 3", "slosh render: unknown option '--tme'; did you mean '--time'?");
     refuse("render s -o a.png --xyzzy",
            "slosh render: unknown option '--xyzzy'; `slosh help render` lists them");
-    refuse("run s -o a --fps 3", "slosh run: unknown option '--fps'");
+    refuse("run s -o a --fps 3",
+           "slosh run: unknown option '--fps', which is one of slosh render; `slosh help run`");
+    refuse("play --time 3", "slosh play: unknown option '--time', which is one of slosh render, run, bench,");
+    refuse("dam_brake", "slosh: unknown command 'dam_brake'; did you mean the scene 'dam_break'?");
     refuse("render -o a.png", "slosh render: the scene is missing; write slosh render SCENE -o");
     refuse("render s", "slosh render: -o is missing; add -o with OUT.png, OUT.mp4 or a folder");
     refuse("run s", "slosh run: -o is missing; add -o with OUT.h5part");
@@ -246,6 +249,8 @@ static void play_is_what_is_meant_without_a_command(void **state)
     assert_string_equal(args.scenes[0], "x/y.yaml");
     assert_string_equal(args.record, "r");
     assert_int_equal(args.settings.count, 1);
+    accept("a.recording"); /* whose loader says which command takes it */
+    assert_int_equal(args.command, COMMAND_PLAY);
     accept("bench --play --seconds 3 a");
     assert_true(args.play && args.seconds == 3);
     refuse("play a b", "slosh play: one argument too many");
@@ -283,6 +288,7 @@ static void help_comes_from_the_table(void **state)
     char *program = help_of(COMMAND_HELP), *bench = help_of(COMMAND_BENCH), *run = help_of(COMMAND_RUN);
     assert_non_null(strstr(program, " SCENE -o OUT.png|OUT.mp4|FOLDER"));
     assert_non_null(strstr(program, "slosh play"));
+    assert_non_null(strstr(program, "dam_break, dam_break_2d, drop,"));
     assert_non_null(strstr(bench, "--sweep KEY=A,B,..."));
     assert_non_null(strstr(bench, "--clock gl|finish"));
     assert_non_null(strstr(run, "--every S"));

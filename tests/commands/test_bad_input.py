@@ -83,6 +83,20 @@ class BadInput(CommandTest):
         os.mkdir(self.path('folder.yaml'))
         self.refused('folder.yaml', 'folder.yaml', 'folder|directory')
 
+    def test_a_folder_named_like_a_scene(self):
+        os.mkdir(self.path('bowl'))
+        code, said = self.slosh('run', 'bowl', '-o', 'bowl.h5part', '--time', '0', '--quiet')
+        self.assertEqual(code, 0, said)
+
+    def test_files_of_other_commands(self):
+        for text, takes in (('slosh recording 1\nprogram 0.1\n', 'slosh replay'), ('\x89HDF\r\n\x1a\n', 'slosh export'),
+                            ('slosh device recording 1\n', '--device file:PATH')):
+            self.write('other', text.encode('latin-1'))
+            self.refused('other', 'other: ', f'no scene; {takes} takes it', commands=COMMANDS[:2])
+
+    def test_a_scene_that_is_nearly_named(self):
+        self.refused('dam_brake', 'dam_brake: no such file', "did you mean 'dam_break'", commands=COMMANDS[:2])
+
     def test_empty_file(self):
         self.refused_text('', None, 'empty')
 
@@ -124,6 +138,7 @@ class BadInput(CommandTest):
         self.refused('--backend=cuda', '--backend cuda: ', 'cuda', '--table', 'paper003-spheres', commands=[['bench']])
         for command_ in COMMANDS[:4]:
             self.refused('scene.yaml', '', '--time', '--time', '-1', commands=[command_])
+        self.refused('scene.yaml', "cannot tell the format from 'x.gif'; use .png, .mp4", '.', '-o', 'x.gif', commands=[['render']])
         code, said = self.slosh('rnder', 'scene.yaml')
         self.assertEqual(code, 2)
         self.assertIn('render', said)
