@@ -394,7 +394,7 @@ static void the_extension_says_what_is_written(void **state)
     assert_false(export_is_series(EXPORT_PLY) || export_is_series(EXPORT_VTP));
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         assert_false(export_kind(others[i], &kind, &error));
-        assert_contains(error.message, "name a FILE.pvd, a FILE.vtp or a FILE.ply");
+        assert_contains(error.message, "use .pvd, .vtp or .ply");
     }
 }
 

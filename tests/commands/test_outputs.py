@@ -284,7 +284,7 @@ class Usage(CommandTest):
 
     def test_extension(self):
         for name in ('a.jpg', 'a.gif', 'a.h5part', 'b.c/a.tiff'):
-            self.refused('render', 'scene.yaml', '-o', name, reason='name a FILE.png, a FILE.mp4 or a folder')
+            self.refused('render', 'scene.yaml', '-o', name, reason='use .png, .mp4 or a folder name')
 
     def test_run_extension(self):
         self.refused('run', 'scene.yaml', '-o', 'a.mp4', reason='name a FILE.h5part')
