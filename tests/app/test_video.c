@@ -180,7 +180,7 @@ static void the_name_says_what_to_write(void **state)
     const char *const wrong[] = {"a.jpg", "a.gif", "a.png.", "", "a.mp4x"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_false(pictures_kind(wrong[i], &kind, &error));
-    assert_contains(error.message, "name a FILE.png, a FILE.mp4 or a folder");
+    assert_contains(error.message, "use .png, .mp4 or a folder name");
 }
 
 static void a_folder_gets_numbered_frames(void **state)
