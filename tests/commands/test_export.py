@@ -462,7 +462,7 @@ class Bad(ExportTest):
     def test_output(self):
         self.make('--time', '0')
         for name in ('b.h5part', 'a.obj', 'a', 'a.pvd/', '.ply'):
-            self.refused('a.h5part', name, words='name a FILE.pvd, a FILE.vtp or a FILE.ply')
+            self.refused('a.h5part', name, words='use .pvd, .vtp or .ply')
         self.refused('a.h5part', 'no/a.vtp', words='No such file or directory; create it first', code=1)
         self.refused('a.h5part', 'no/a.pvd', words='No such file or directory; create it first', code=1)
         self.refused('a.h5part', 'a.vtp', '--json', 'no/a.json', words='no/a.json: cannot be written', code=1)
