@@ -70,6 +70,7 @@ static double fraction_done(const Session *session, const Schedule *schedule, si
 static bool advance(Session *session, double time, const Schedule *schedule, size_t pictures,
                     Progress *progress, Error *error)
 {
+    world_stop_at(session->world, time);
     while (!session_reached(session, time) && !interrupted()) {
         if (!session_step(session, error))
             return false;
@@ -137,6 +138,8 @@ static int render(Session *session, const Args *args, PicturesKind kind, Picture
     Progress progress;
     Schedule schedule = make_schedule(args, kind);
     size_t taken = 0;
+    if (schedule.count > 1)
+        session_tell_uneven(session, "pictures", schedule.interval);
     if (shoot_open(&shoot, session, args, error)) {
         progress_begin(&progress, stderr, "render", args->quiet);
         taken = take_pictures(session, &shoot, pictures, &schedule, &progress, error);

@@ -21,6 +21,7 @@ static void keep_last(const Session *session, Snapshot *file)
 static bool simulate(Session *session, const Args *args, Snapshot *file, Progress *progress, Error *error)
 {
     SnapshotSeries series = {.file = file, .every = args->every};
+    session_tell_uneven(session, "snapshots", args->every);
     if (snapshot_steps(file) > 0)
         snapshot_series_resume(&series, session);
     for (;;) {
@@ -28,6 +29,7 @@ static bool simulate(Session *session, const Args *args, Snapshot *file, Progres
             return false;
         if (session_reached(session, args->time) || interrupted())
             return true;
+        world_stop_at(session->world, series.next * series.every);
         if (!session_step(session, error)) {
             keep_last(session, file);
             return false;

@@ -60,6 +60,16 @@ bool session_reached(const Session *session, double time)
     return session->info.time >= time - ROUNDING * session->scene.world.dt && world_sound(session->world);
 }
 
+void session_tell_uneven(const Session *session, const char *what, double interval)
+{
+    const double dt = session->scene.world.dt, frames = fmax(1, round(interval / dt));
+    if (session->scene.world.step_mode == STEP_FIXED && fabs(interval / dt - frames) > ROUNDING * frames)
+        fprintf(stderr,
+                "%s are at uneven times: a frame of %.4g s does not divide the %.4g s between them; "
+                "--set solver.step.dt=%.6g or --set solver.step.mode=cfl makes them even\n",
+                what, dt, interval, interval / frames);
+}
+
 /* After a step: what is there now, and what the sentinel did. */
 static void look(Session *session)
 {

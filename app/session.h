@@ -42,6 +42,10 @@ bool session_reached(const Session *session, double time);
 bool session_step(Session *session, Error *error);
 bool session_substep(Session *session, Error *error); /* one step of a frame */
 
+/* Says on standard error where `what`, one each `interval` s, will be at uneven times: mode fixed, and a
+   frame that does not divide the interval. */
+void session_tell_uneven(const Session *session, const char *what, double interval);
+
 /* What the sentinel did, in words. */
 const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);
 

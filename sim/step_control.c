@@ -66,6 +66,12 @@ static double greatest_kinematic_viscosity(const WorldDef *def)
     return greatest;
 }
 
+double step_towards(double dt, double left)
+{
+    const double steps = ceil(left / dt - 1e-6);
+    return steps >= 1 && steps <= 4 ? fmin(dt, left / steps) : dt;
+}
+
 double artificial_kinematic(const WorldDef *def)
 {
     return 0.25 * def->artificial_viscosity * def->sound_speed * def->support * def->spacing;

@@ -96,4 +96,9 @@ double step_viscous(const WorldDef *def, const StepFriction *friction);
 double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,
                 double before, StepLimit *binding);
 
+/* The step of at most `dt` that reaches what is `left` (s) in whole steps, once it is four or fewer: all of
+   one length, so that the last one is no sliver after which steps would have to grow again. `dt` where it is
+   further or behind. */
+double step_towards(double dt, double left);
+
 #endif

@@ -100,6 +100,11 @@ void world_vary(World *world, double time)
         world->backend->vary(world->state);
 }
 
+void world_stop_at(World *world, double time)
+{
+    world->stop = time;
+}
+
 World *world_create(const WorldDef *def, Error *error)
 {
     World *world = calloc(1, sizeof *world);
@@ -189,11 +194,13 @@ static void choose_step(World *world)
     StepState *s = &world->stepping;
     StepLimit limit = STEP_LIMIT_DT;
     const double before = world->step > 0 ? s->refine * s->dt : 0;
-    const double dt = def->step_mode == STEP_CFL ? step_cfl(def, &world->solver.friction, s->max_speed,
-                                                            s->max_acceleration, before, &limit) /
-                                                       s->refine
-                                                 : def->dt / def->substeps / s->refine;
+    double dt = def->step_mode == STEP_CFL ? step_cfl(def, &world->solver.friction, s->max_speed,
+                                                      s->max_acceleration, before, &limit) /
+                                                 s->refine
+                                           : def->dt / def->substeps / s->refine;
     s->limit = limit;
+    if (def->step_mode == STEP_CFL)
+        dt = step_towards(dt, world->stop - world_time_at(world, (double)world->step));
     if (dt == s->dt)
         return;
     world->since_time = world_time_at(world, (double)world->step);

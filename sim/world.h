@@ -39,6 +39,10 @@ bool world_step(World *world, StageClock *clock, Error *error);
 /* The same for one step of the frame's `substeps`: for who wants a say in between. */
 bool world_substep(World *world, StageClock *clock, Error *error);
 
+/* In mode cfl the steps before `time` (s) are shortened so that a state falls on it; other modes take no
+   notice. No part of the saved state: whoever goes on from one asks again. */
+void world_stop_at(World *world, double time);
+
 /* Whether no trouble is known of the present state. A backend on a GPU is else asked at the begin of the next
    frame only, which then goes back: who keeps a state asks before. Waits for its steps. */
 bool world_sound(World *world);

@@ -18,6 +18,7 @@ struct World {
     uint64_t since_step; /* when the present step size began, */
     double since_time;   /* at this time, s */
     StepState stepping;
+    double stop;      /* s: a state falls on it in mode cfl; behind: none does */
     bool kicked;      /* since the watch was last asked */
     StepTrouble seen; /* then, since the last good state */
     WorldState good;  /* what the sentinel goes back to */

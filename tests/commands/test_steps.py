@@ -29,6 +29,15 @@ class Steps(CommandTest):
         found = json.loads(self.read('a.json'))
         self.assertGreater(found['limits']['max_dt'], 0.9 * found['steps'])
 
+    def test_snapshots_are_at_even_times(self):
+        said = self.go('--set', 'solver.step.mode=cfl', '--every', '0.03')
+        self.assertNotIn('uneven', said)
+        for k, time in enumerate(whole_steps(self.path('a.h5part'))[:-1]):
+            self.assertAlmostEqual(time, 0.03 * k, delta=1e-9)
+        said = self.go('--set', 'solver.step.dt=0.02', '--every', '0.03')
+        self.assertIn('snapshots are at uneven times: a frame of 0.02 s does not divide the 0.03 s', said)
+        self.assertNotIn('uneven', self.go('--set', 'solver.step.dt=0.015', '--every', '0.03'))
+
     def test_cfl_resumes(self):
         cfl = ('--set', 'solver.step.mode=cfl', '--every', '0.01', '--quiet')
         self.assertEqual(self.slosh('run', 'scene.yaml', '-o', 'b.h5part', '--time', '0.4', *cfl)[0], 0)

@@ -421,6 +421,41 @@ static void layers_follow_the_support(void **state)
     }
 }
 
+/* States fall on the times asked for, by steps of at least 3/4 of what the limits allow, and a run that stops
+   nowhere has the bits that it had. */
+static void steps_end_where_they_are_asked_to(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1, 1);
+    WorldInfo info;
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.5, 0.5);
+    def.step_mode = STEP_CFL;
+    World *world = fixture_world(&def), *free_of = fixture_world(&def);
+    double before = 0, longest = 0;
+    for (int k = 1; k <= 10; k++) {
+        const double stop = k / 30.0;
+        world_stop_at(world, stop);
+        do {
+            fixture_step(world, 1);
+            world_info(world, &info);
+            if (before > 0.1) /* grown to its limit */
+                assert_true(info.time - before > 0.7 * longest);
+            longest = fmax(longest, info.time - before);
+            before = info.time;
+        } while (info.time < stop - 1e-9);
+        assert_float_equal(info.time, stop, 1e-12);
+    }
+    fixture_step(free_of, 5);
+    const uint64_t hash = world_hash(free_of);
+    world_destroy(free_of);
+    free_of = fixture_world(&def);
+    world_stop_at(free_of, -1);
+    fixture_step(free_of, 5);
+    assert_true(world_hash(free_of) == hash);
+    world_destroy(free_of);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -435,6 +470,7 @@ int main(void)
         cmocka_unit_test(a_session_with_trouble_comes_out_the_same),
         cmocka_unit_test(what_is_lost_is_trouble_above_the_limit),
         cmocka_unit_test(layers_follow_the_support),
+        cmocka_unit_test(steps_end_where_they_are_asked_to),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
