@@ -62,6 +62,7 @@ typedef struct Args {
     const char *shaders; /* DIR, or NULL: those in the program */
     bool time_given;
     double time;       /* s, at least 0; default 5 */
+    bool interpolate;  /* render: pictures between two states of a fixed step */
     bool resume;       /* run: go on behind the last snapshot of the output */
     double every;      /* s, more than 0; default 1/30 */
     double fps;        /* more than 0; default 30 */

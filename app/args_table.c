@@ -80,6 +80,8 @@ const OptionRow option_rows[] = {
      .help = "colours of a .ply: of the fluids, or a colormap from the least to the greatest (fluid)"},
     {"--every", "S", RUN | REPLAY, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
      .help = "seconds from snapshot to snapshot (1/30)"},
+    {"--interpolate", NULL, RENDER, OPTION_FLAG, AT(interpolate),
+     .help = "with a fixed step: pictures of the states between steps, at their own times"},
     {"--resume", NULL, RUN, OPTION_FLAG, AT(resume), .help = "go on behind the last snapshot of OUT, to the same bits"},
     {"--frames", "N", RENDER | BENCH, OPTION_COUNT, AT(frames), .min = 1, .max = 1e7, .help = "how many frames"},
     {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .min = 0.001, .max = 1000,

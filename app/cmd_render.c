@@ -1,3 +1,4 @@
+#include "app/between.h"
 #include "app/cmd.h"
 #include "app/interrupt.h"
 #include "app/output.h"
@@ -14,6 +15,9 @@
 /* A studio and the last picture. */
 typedef struct Shoot {
     Studio studio;
+    bool interpolates;
+    Upload *upload;               /* of what is between two states; NULL: none is asked for */
+    Still before, after, between; /* the state before the last step, and so on */
     Image image;
     uint64_t drawn_step; /* of the state in `image` */
     bool drawn;
@@ -23,6 +27,10 @@ static bool shoot_open(Shoot *shoot, const Session *session, const Args *args, E
 {
     if (!studio_open(&shoot->studio, &session->scene.view, session->world, args->width, args->height, error))
         return false;
+    shoot->interpolates = args->interpolate && session->scene.world.step_mode == STEP_FIXED;
+    if (shoot->interpolates &&
+        !(shoot->upload = upload_create(2 * session->info.capacity, shoot->studio.attributes, error)))
+        return false;
     return image_create(&shoot->image, args->width, args->height) ||
            error_set(error, "out of memory for a picture of %d x %d", args->width, args->height);
 }
@@ -30,12 +38,36 @@ static bool shoot_open(Shoot *shoot, const Session *session, const Args *args, E
 static void shoot_close(Shoot *shoot)
 {
     image_destroy(&shoot->image);
+    still_free(&shoot->before);
+    still_free(&shoot->after);
+    still_free(&shoot->between);
+    upload_destroy(shoot->upload);
     studio_close(&shoot->studio);
 }
 
-/* A state that serves two pictures is drawn once. */
-static bool shoot_draw(Shoot *shoot, Session *session, Error *error)
+static bool draw_between(Shoot *shoot, Session *session, double time, Error *error)
 {
+    const unsigned attributes = shoot->studio.attributes;
+    ParticleBuffers particles;
+    if (!still_read(&shoot->after, session->world, attributes) ||
+        !still_reserve(&shoot->between, shoot->before.state.count + shoot->after.state.count, attributes) ||
+        !between_states(&shoot->before, &shoot->after, session->scene.world.periodic, time, &shoot->between))
+        return error_set(error, "out of memory for a picture between two states");
+    if (!upload_arrays(shoot->upload, &shoot->between.arrays, &shoot->between.state, error) ||
+        !upload_take(shoot->upload, &particles))
+        return false;
+    renderer_draw(shoot->studio.renderer, &particles, NULL);
+    renderer_read(shoot->studio.renderer, shoot->image.rgb);
+    shoot->drawn = false;
+    return true;
+}
+
+/* A state that serves two pictures is drawn once. */
+static bool shoot_draw(Shoot *shoot, Session *session, double time, Error *error)
+{
+    if (shoot->interpolates && shoot->before.state.count > 0 &&
+        session->info.time > time + 1e-6 * session->scene.world.dt)
+        return draw_between(shoot, session, time, error);
     if (shoot->drawn && shoot->drawn_step == session->info.step)
         return true;
     if (!studio_draw(&shoot->studio, session->world, NULL, NULL, error))
@@ -67,11 +99,15 @@ static double fraction_done(const Session *session, const Schedule *schedule, si
     return last > 0 ? session->info.time / last : (double)pictures / (double)schedule->count;
 }
 
-static bool advance(Session *session, double time, const Schedule *schedule, size_t pictures,
+static bool advance(Session *session, Shoot *shoot, double time, const Schedule *schedule, size_t pictures,
                     Progress *progress, Error *error)
 {
     world_stop_at(session->world, time);
     while (!session_reached(session, time) && !interrupted()) {
+        const bool last = session->info.time + 1.001 * session->scene.world.dt >= time;
+        if (shoot->interpolates && last &&
+            !still_read(&shoot->before, session->world, shoot->studio.attributes))
+            return error_set(error, "out of memory for a picture between two states");
         if (!session_step(session, error))
             return false;
         progress_update(progress, fraction_done(session, schedule, pictures));
@@ -87,11 +123,11 @@ static size_t take_pictures(Session *session, Shoot *shoot, Pictures *pictures, 
     size_t taken = 0;
     while (taken < schedule->count) {
         double time = schedule->first + schedule->interval * (double)taken;
-        if (!advance(session, time, schedule, taken, progress, error))
+        if (!advance(session, shoot, time, schedule, taken, progress, error))
             return 0;
         if (interrupted() && taken > 0)
             break;
-        if (!shoot_draw(shoot, session, error) || !pictures_add(pictures, &shoot->image, error))
+        if (!shoot_draw(shoot, session, time, error) || !pictures_add(pictures, &shoot->image, error))
             return 0;
         taken++;
         progress_update(progress, fraction_done(session, schedule, taken));
@@ -138,7 +174,9 @@ static int render(Session *session, const Args *args, PicturesKind kind, Picture
     Progress progress;
     Schedule schedule = make_schedule(args, kind);
     size_t taken = 0;
-    if (schedule.count > 1)
+    if (args->interpolate && session->scene.world.step_mode == STEP_CFL)
+        fprintf(stderr, "--interpolate has no effect: in mode cfl states fall on the pictures' times\n");
+    if (schedule.count > 1 && !args->interpolate)
         session_tell_uneven(session, "pictures", schedule.interval);
     if (shoot_open(&shoot, session, args, error)) {
         progress_begin(&progress, stderr, "render", args->quiet);

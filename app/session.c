@@ -66,8 +66,9 @@ void session_tell_uneven(const Session *session, const char *what, double interv
     if (session->scene.world.step_mode == STEP_FIXED && fabs(interval / dt - frames) > ROUNDING * frames)
         fprintf(stderr,
                 "%s are at uneven times: a frame of %.4g s does not divide the %.4g s between them; "
-                "--set solver.step.dt=%.6g or --set solver.step.mode=cfl makes them even\n",
-                what, dt, interval, interval / frames);
+                "--set solver.step.dt=%.6g, --set solver.step.mode=cfl%s makes them even\n",
+                what, dt, interval, interval / frames,
+                strcmp(what, "pictures") == 0 ? " or --interpolate" : "");
 }
 
 /* After a step: what is there now, and what the sentinel did. */

@@ -1,5 +1,6 @@
 """Adaptive steps and the sentinel, as a user meets them."""
 import json
+import os
 
 import h5py
 
@@ -37,6 +38,25 @@ class Steps(CommandTest):
         said = self.go('--set', 'solver.step.dt=0.02', '--every', '0.03')
         self.assertIn('snapshots are at uneven times: a frame of 0.02 s does not divide the 0.03 s', said)
         self.assertNotIn('uneven', self.go('--set', 'solver.step.dt=0.015', '--every', '0.03'))
+
+    def render(self, folder, *more):
+        done, said = self.slosh('render', 'scene.yaml', '-o', folder, '--frames', '4', '--fps', '75', '--size', '64x64',
+                                '--set', 'solver.step={dt: 0.02, substeps: 8}', '--set', 'gravity=[0, -30, 0]', *more)
+        self.assertEqual(done, 0, said)
+        with_data = []
+        for name in sorted(os.listdir(self.path(folder))):
+            with open(self.path(os.path.join(folder, name)), 'rb') as file:
+                with_data.append(file.read())
+        return said, with_data
+
+    def test_pictures_between_states(self):
+        said, without = self.render('a')  # 0, 13.3, 26.7 and 40 ms: the states at 0, 20, 40 and 40 ms
+        self.assertIn('pictures are at uneven times', said)
+        self.assertEqual(without[2], without[3])
+        said, between = self.render('b', '--interpolate')
+        self.assertNotIn('uneven', said)
+        self.assertEqual((between[0], between[3]), (without[0], without[3]))
+        self.assertEqual(len(set(between)), 4)
 
     def test_cfl_resumes(self):
         cfl = ('--set', 'solver.step.mode=cfl', '--every', '0.01', '--quiet')
