@@ -21,7 +21,8 @@ static void keep_last(const Session *session, Snapshot *file)
 static bool simulate(Session *session, const Args *args, Snapshot *file, Progress *progress, Error *error)
 {
     SnapshotSeries series = {.file = file, .every = args->every};
-    session_tell_uneven(session, "snapshots", args->every);
+    if (!args->quiet) /* a file has its times in it */
+        session_tell_uneven(session, "snapshots", args->every);
     if (snapshot_steps(file) > 0)
         snapshot_series_resume(&series, session);
     for (;;) {
