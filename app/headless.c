@@ -1,5 +1,7 @@
 #include "app/headless.h"
 
+#include "sim/gl/debug.h"
+
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <stdio.h>
@@ -66,6 +68,7 @@ static Headless *open_display(EGLDisplay display)
     if (headless && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         headless->display = display;
         headless->context = context;
+        gl_debug_install();
         snprintf(headless->renderer, sizeof headless->renderer, "%s", (const char *)glGetString(GL_RENDERER));
         return headless;
     }
@@ -124,6 +127,7 @@ void headless_destroy(Headless *headless)
 {
     if (!headless)
         return;
+    gl_debug_errors(); /* codes that no message told */
     eglMakeCurrent(headless->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(headless->display, headless->context);
     eglReleaseThread();

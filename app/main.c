@@ -1,6 +1,7 @@
 #include "app/cmd.h"
 #include "app/file_clash.h"
 #include "sim/gl/backends.h"
+#include "sim/gl/debug.h"
 #include "sim/gl/shader_source.h"
 
 #include <stdio.h>
@@ -54,6 +55,16 @@ static int run_command(const Args *args)
     return 0;
 }
 
+/* What a driver refused is missing in what was drawn or computed, whatever the command says. */
+static int with_gl_errors(int code)
+{
+    const int errors = gl_debug_total();
+    if (errors == 0)
+        return code;
+    fprintf(stderr, "GL error: %d in all; what was drawn or computed may be wrong\n", errors);
+    return code == 0 ? EXIT_FAILED : code;
+}
+
 int main(int argc, char *argv[])
 {
     static Args args;
@@ -65,7 +76,7 @@ int main(int argc, char *argv[])
         return EXIT_USAGE;
     }
     shader_source_set_directory(args.shaders);
-    const int code = run_command(&args);
+    const int code = with_gl_errors(run_command(&args));
     if (fflush(stdout) != 0 && code == 0) {
         perror("slosh: standard output");
         return EXIT_FAILED;

@@ -2,7 +2,6 @@
 
 #include "app/cmd.h"
 #include "app/json_file.h"
-#include "sim/gl/debug.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -36,7 +35,6 @@ int session_start(Session *session, int gpu, bool draws, Error *error)
         if (!session->context)
             return EXIT_FAILED;
         fprintf(stderr, "renderer: %s\n", headless_renderer(session->context));
-        gl_debug_install();
     }
     session->world = world_create(&session->scene.world, error);
     if (!session->world)

@@ -6,6 +6,9 @@
 
 /* The driver calls back from threads of its own. */
 static atomic_int error_count;
+static int forgotten; /* counted before the last gl_debug_install */
+
+enum { MESSAGES = 8 }; /* of the same kind in each picture, mostly */
 
 static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
                        const GLchar *message, const void *user)
@@ -14,15 +17,15 @@ static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, G
     /* program_create reports what the shader compiler says */
     if (type != GL_DEBUG_TYPE_ERROR || source == GL_DEBUG_SOURCE_SHADER_COMPILER)
         return;
-    atomic_fetch_add(&error_count, 1);
-    fprintf(stderr, "GL error: %s\n", message);
+    if (atomic_fetch_add(&error_count, 1) < MESSAGES)
+        fprintf(stderr, "GL error: %s\n", message);
 }
 
 void gl_debug_install(void)
 {
     while (glGetError() != GL_NO_ERROR)
         continue;
-    atomic_store(&error_count, 0);
+    forgotten += atomic_exchange(&error_count, 0);
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(on_message, NULL);
@@ -38,4 +41,9 @@ int gl_debug_errors(void)
     if (codes > messages)
         atomic_store(&error_count, codes);
     return codes > messages ? codes : messages;
+}
+
+int gl_debug_total(void)
+{
+    return forgotten + atomic_load(&error_count);
 }

@@ -9,4 +9,7 @@ void gl_debug_install(void);
 /* Errors since gl_debug_install, of all contexts; takes pending glGetError codes of the current one along. */
 int gl_debug_errors(void);
 
+/* Errors of all contexts since the program began, none forgotten; needs no context. */
+int gl_debug_total(void);
+
 #endif

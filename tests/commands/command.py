@@ -80,9 +80,10 @@ class CommandTest(unittest.TestCase):
         return sorted(set(os.listdir(self.folder)) - {'scene.yaml'})
 
     def slosh(self, *arguments, timeout=120, before=obey_interrupts):
-        """Runs the program to its end: (exit code, standard error)."""
+        """Runs the program to its end: (exit code, standard error). OpenGL has nothing to complain of."""
         done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True,
                               timeout=timeout, preexec_fn=before, check=False)
+        self.assertNotIn('GL error', done.stderr)
         return done.returncode, done.stderr
 
     def start(self, *arguments):

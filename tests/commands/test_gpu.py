@@ -56,6 +56,19 @@ class Gpu(CommandTest):
         self.refused(1, 'there is no GPU 15', *ON, '--gpu', '15')
         self.refused(1, 'buffers larger than the \\d+ bytes that this driver allows', *ON, '--particles', '20000000')
 
+    def test_a_gl_error_is_no_success(self):
+        """A call that the driver refuses: the uniform that it sets is of another type."""
+        shutil.copytree(SHADERS, self.path('shaders'))
+        shader = self.path('shaders/render/floor_shadow.frag')
+        with open(shader, encoding='utf-8') as file:
+            text = file.read()
+        with open(shader, 'w', encoding='utf-8') as file:
+            file.write(text.replace('uniform float texel', 'uniform int texel').replace('* texel', '* float(texel)'))
+        done = self.start('render', 'scene.yaml', '-o', 'a.png', '--time', '0', '--size', '64x64', '--shaders', 'shaders')
+        said = done.communicate(timeout=60)[1]
+        self.assertEqual(done.returncode, 1, said)
+        self.assertRegex(said, 'GL error: \\d+ in all; what was drawn or computed may be wrong')
+
     def test_a_broken_shader_is_named(self):
         shutil.copytree(SHADERS, self.path('shaders'))
         with open(self.path('shaders/sim/force.comp'), 'a') as file:
