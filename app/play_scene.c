@@ -2,6 +2,7 @@
 
 #include "app/scene_advise.h"
 #include "app/scene_path.h"
+#include "app/studio.h"
 #include "sim/flow.h"
 #include "sim/scalar.h"
 
@@ -87,9 +88,7 @@ bool play_scene_take(PlayScene *open, ParticleBuffers *out)
     const ViewDef *view = &open->scene.view;
     if (!simulator_here(open->simulator))
         return upload_take(open->upload, out);
-    return simulator_share(open->simulator,
-                           particle_attributes_for(view->color_by) | (view->range_auto ? PARTICLE_RANGES : 0),
-                           out);
+    return simulator_share(open->simulator, studio_attributes(view), out);
 }
 
 bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error)

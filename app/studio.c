@@ -1,11 +1,16 @@
 #include "app/studio.h"
 
+unsigned studio_attributes(const ViewDef *view)
+{
+    const bool ranges = view->range_auto && view->color_by != SCALAR_FLUID;
+    return particle_attributes_for(view->color_by) | (ranges ? PARTICLE_RANGES : 0);
+}
+
 bool studio_open(Studio *studio, const ViewDef *view, const World *world, int width, int height, Error *error)
 {
     WorldInfo info;
     *studio = (Studio){.renderer = renderer_create(view, width, height, error),
-                       .attributes = particle_attributes_for(view->color_by) |
-                                     (view->range_auto ? PARTICLE_RANGES : 0)};
+                       .attributes = studio_attributes(view)};
     if (!studio->renderer || world_shares(world))
         return studio->renderer;
     world_info(world, &info);

@@ -32,8 +32,13 @@ static WorldDef column_def(const char *backend)
     return def;
 }
 
-/* Calls that carry data from the GPU to this side; what the program calls goes through these pointers. */
-static int crossings;
+/* Calls that carry data from the GPU to this side, that wait for it, or ask how far it is; what the program
+   calls goes through these pointers. Memory that stays mapped is read behind a fence, which is waited for. */
+static int crossings, waits, queries;
+static PFNGLCLIENTWAITSYNCPROC wait_sync;
+static PFNGLFINISHPROC finish;
+static PFNGLGETQUERYOBJECTIVPROC query_iv;
+static PFNGLGETQUERYOBJECTUI64VPROC query_ui64v;
 static PFNGLGETNAMEDBUFFERSUBDATAPROC get_named;
 static PFNGLGETBUFFERSUBDATAPROC get;
 static PFNGLREADPIXELSPROC read_pixels;
@@ -87,6 +92,31 @@ static void *APIENTRY count_map(GLenum target, GLintptr offset, GLsizeiptr size,
     return map(target, offset, size, access);
 }
 
+/* A look at a fence that has not been reached waits for nothing. */
+static GLenum APIENTRY count_wait_sync(GLsync fence, GLbitfield flags, GLuint64 most_ns)
+{
+    waits += most_ns > 0;
+    return wait_sync(fence, flags, most_ns);
+}
+
+static void APIENTRY count_finish(void)
+{
+    waits++;
+    finish();
+}
+
+static void APIENTRY count_query_iv(GLuint query, GLenum what, GLint *value)
+{
+    queries++;
+    query_iv(query, what, value);
+}
+
+static void APIENTRY count_query_ui64v(GLuint query, GLenum what, GLuint64 *value)
+{
+    queries++;
+    query_ui64v(query, what, value);
+}
+
 /* The driver's own entries: libepoxy's pointers are no such before their first call. */
 static void counting(bool on)
 {
@@ -99,34 +129,105 @@ static void counting(bool on)
     COUNT(glGetTextureImage, get_texture, count_get_texture);
     COUNT(glMapNamedBufferRange, map_named, count_map_named);
     COUNT(glMapBufferRange, map, count_map);
+    COUNT(glClientWaitSync, wait_sync, count_wait_sync);
+    COUNT(glFinish, finish, count_finish);
+    COUNT(glGetQueryObjectiv, query_iv, count_query_iv);
+    COUNT(glGetQueryObjectui64v, query_ui64v, count_query_ui64v);
 #undef COUNT
 }
 
-/* Steps with the sentinel on, and pictures, coloured with a range that follows the state. */
+/* A view with its settings, and how often a picture of it may read from the GPU. */
+typedef struct Viewed {
+    const char *kind;
+    VolumeMethod method;
+    VolumeBounds bounds;
+    VolumeShow show;
+    double level;
+    bool fluid; /* as the colour, which has no range */
+    int crossings;
+} Viewed;
+
+/* Bounds that follow the fluid make textures, whose size this side must know; `slabs` sums on the CPU. */
+static const Viewed views[] = {
+    {.kind = "none"},
+    {.kind = "spheres"},
+    {.kind = "splat", .fluid = true},
+    {.kind = "splat", .level = 0.15},
+    {.kind = "volume", .method = VOLUME_GEOMETRY},
+    {.kind = "volume", .method = VOLUME_GATHER, .show = VOLUME_SLICE, .fluid = true},
+    {.kind = "volume",
+     .method = VOLUME_GEOMETRY,
+     .bounds = VOLUME_FLUID,
+     .show = VOLUME_SLICE,
+     .crossings = 1},
+    {.kind = "volume", .method = VOLUME_SLABS, .crossings = 2},
+};
+
+static ViewDef view_of(const Viewed *viewed)
+{
+    ViewDef view = view_def_default();
+    text_set(view.kind, viewed->kind);
+    view.volume.cells = 16;
+    view.volume.method = viewed->method;
+    view.volume.bounds = viewed->bounds;
+    view.volume.show = viewed->show;
+    view.splat.level = viewed->level;
+    view.color_by = viewed->fluid ? SCALAR_FLUID : SCALAR_SPEED;
+    view.range_auto = true;
+    return view;
+}
+
+/* Steps with the sentinel on, and pictures, coloured with a range that follows the state: two waits a frame,
+   for what the sentinel found in the frame before and for that range. */
+static void count_frames(const char *backend, const Viewed *viewed, Studio *studio, World *world)
+{
+    enum { FRAMES = 3 };
+    Error error = {0};
+    for (int frame = 0; frame < 2 + FRAMES; frame++) {
+        if (frame == 2) { /* the first pictures make what they need */
+            crossings = waits = queries = 0;
+            counting(true);
+        }
+        assert_true(world_step(world, NULL, &error));
+        assert_true(studio_draw(studio, world, NULL, NULL, &error));
+    }
+    counting(false);
+    const int wanted = (1 + !viewed->fluid) * FRAMES;
+    if (crossings != FRAMES * viewed->crossings || waits != wanted || queries)
+        fail_msg("%s, view %td, %s: %d reads, %d waits, %d queries in %d frames; %d and %d are known",
+                 backend, viewed - views, viewed->kind, crossings, waits, queries, FRAMES,
+                 FRAMES * viewed->crossings, wanted);
+}
+
 static void no_particle_crosses_in_a_frame(void **state)
 {
-    Error error = {0};
-    Studio studio;
-    const WorldDef def = column_def(*state);
-    const ViewDef view = view_def_default();
-    World *world = fixture_world(&def);
-    assert_true(def.retries > 0 && view.range_auto);
-    crossings = 0;
-    assert_true(studio_open(&studio, &view, world, 64, 64, &error));
-    for (int frame = 0; frame < 6; frame++) {
-        if (frame == 2) /* the first pictures make what they need */
-            counting(true);
-        assert_true(world_step(world, NULL, &error));
-        assert_true(studio_draw(&studio, world, NULL, NULL, &error));
+    (void)state;
+    static const char *const backends[] = {"compute", "fragment"};
+    World *worlds[2];
+    for (int k = 0; k < 2; k++) {
+        const WorldDef def = column_def(backends[k]);
+        assert_true(def.retries > 0);
+        worlds[k] = fixture_world(&def);
     }
-    const int during = crossings;
-    State read = fixture_read(world); /* that the counters count */
-    counting(false);
-    assert_int_equal(during, 0);
-    assert_true(crossings > 0);
-    fixture_free(&read);
-    studio_close(&studio);
-    world_destroy(world);
+    for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
+        Error error = {0};
+        Studio studio;
+        const ViewDef view = view_of(&views[i]);
+        if (!studio_open(&studio, &view, worlds[0], 64, 64, &error))
+            fail_msg("%s", error.message);
+        for (int k = 0; k < 2; k++)
+            count_frames(backends[k], &views[i], &studio, worlds[k]);
+        studio_close(&studio);
+    }
+    for (int k = 0; k < 2; k++) { /* the counters count */
+        crossings = 0;
+        counting(true);
+        State read = fixture_read(worlds[k]);
+        counting(false);
+        assert_true(crossings > 0);
+        fixture_free(&read);
+        world_destroy(worlds[k]);
+    }
 }
 
 /* What the views are given is what world_read reads. */
@@ -279,9 +380,12 @@ int main(void)
     cmocka_unit_test_prestate_setup_teardown(test, NULL, no_gl_errors, (char[]){backend})
 #define ON_EACH(test) ON(test, "compute"), ON(test, "fragment")
     const struct CMUnitTest tests[] = {
-        ON_EACH(no_particle_crosses_in_a_frame),          ON_EACH(shared_is_what_is_read),
-        ON_EACH(the_sentinel_goes_back_a_frame_later),    ON_EACH(without_retries_it_ends),
-        ON_EACH(adaptive_steps_go_on_from_a_saved_state), ON(a_blown_up_frame_costs_nothing, "compute"),
+        cmocka_unit_test_teardown(no_particle_crosses_in_a_frame, no_gl_errors),
+        ON_EACH(shared_is_what_is_read),
+        ON_EACH(the_sentinel_goes_back_a_frame_later),
+        ON_EACH(without_retries_it_ends),
+        ON_EACH(adaptive_steps_go_on_from_a_saved_state),
+        ON(a_blown_up_frame_costs_nothing, "compute"),
     };
     return cmocka_run_group_tests_name("gl.device", tests, setup, context_teardown);
 }
