@@ -62,14 +62,16 @@ static void restore(World *world)
 static bool give_up(World *world, StepTrouble trouble, double time, Error *error)
 {
     const int retries = world->def.retries;
-    char also[96] = "";
+    const StepState *s = &world->stepping;
+    const double dt =
+        world->def.step_mode == STEP_CFL ? s->dt * s->refine : world->def.dt / world->def.substeps;
+    char also[96] = "", advice[200];
+    step_advice(&world->def, &world->solver.friction, trouble, dt, s->max_speed, advice);
     if (retries > 0)
         snprintf(also, sizeof also, ", with 1/%d of the step too; the state at t = %g s is kept",
                  1 << retries, world_time_at(world, (double)world->step));
-    return error_set(
-        error,
-        "the simulation blew up at t = %g s: %s%s; use a smaller solver.step.dt, more solver.step.substeps or a lower solver.sound_speed",
-        time, step_trouble_words(trouble), also);
+    return error_set(error, "the simulation blew up at t = %g s: %s%s; %s", time, step_trouble_words(trouble),
+                     also, advice);
 }
 
 static void grouped(size_t number, char text[32])

@@ -3,6 +3,7 @@
 #include "sim/viscosity.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double GROWTH = 1.1, FIRST = 0.1;
@@ -91,6 +92,27 @@ double step_viscous(const WorldDef *def, const StepFriction *friction)
     const double rate = fmax(friction->laminar * greatest_kinematic_viscosity(def),
                              any_inviscid(def) ? friction->artificial * artificial_kinematic(def) : 0);
     return rate > 0 ? 2 / rate : INFINITY;
+}
+
+void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble trouble, double dt,
+                 double max_speed, char words[200])
+{
+    const double crossing = def->support * def->spacing / def->sound_speed, c = def->sound_speed;
+    const char *shorter = def->step_mode == STEP_CFL ? "a smaller solver.step.number"
+                                                     : "a smaller solver.step.dt, more solver.step.substeps";
+    if (dt > STEP_SOUND_STANDS * crossing)
+        snprintf(words, 200,
+                 "the step is %.2g h / sound_speed, %.1g at most holds; use %s or a lower solver.sound_speed",
+                 dt / crossing, STEP_SOUND_STANDS, shorter);
+    else if (dt > STEP_VISCOUS_STANDS * step_viscous(def, friction))
+        snprintf(words, 200, "friction stands %.3g ms, the step is %.3g ms; use %s or a lower viscosity",
+                 1e3 * STEP_VISCOUS_STANDS * step_viscous(def, friction), 1e3 * dt, shorter);
+    else if (trouble == STEP_TROUBLE_DENSITY || 2 * max_speed > c)
+        snprintf(words, 200,
+                 "flow of %.3g m/s is much for a solver.sound_speed of %.3g m/s; use a higher one, and %s",
+                 max_speed, c, shorter);
+    else
+        snprintf(words, 200, "use %s", shorter);
 }
 
 double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,

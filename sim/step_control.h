@@ -90,6 +90,11 @@ double step_viscous(const WorldDef *def, const StepFriction *friction);
    3, stirred hard, 0.6 (sim/README.md). */
 #define STEP_VISCOUS_STANDS 0.7
 
+/* What binds a step of `dt` s in which a world blew up, at the greatest speed before (m/s), and what to
+   change: words for an error. */
+void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble trouble, double dt,
+                 double max_speed, char words[200]);
+
 /* The adaptive step (mode cfl; Monaghan, "Smoothed particle hydrodynamics", 1992, eq. 10.1 f.): the least of
    its limits at the speed and acceleration of the step before, never much longer than that one (`before`, s;
    0: there was none), so that what a blow frees has time to show. */

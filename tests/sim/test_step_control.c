@@ -312,6 +312,31 @@ static void it_gives_up_with_the_last_good_state(void **state)
     world_destroy(world);
 }
 
+/* What binds is named: sound, friction, a flow too fast for it, or nothing that is known. */
+static void the_advice_names_what_binds(void **state)
+{
+    (void)state;
+    char words[200];
+    WorldDef def = fixture_def(1, 1, 1);
+    const StepFriction friction = {.laminar = 16 / (0.21 * 0.21)};
+    def.support = 2.1; /* h / c = 10.5 ms */
+    step_advice(&def, &friction, STEP_TROUBLE_SPEED, 0.02, 1, words);
+    assert_non_null(strstr(words, "1.9 h / sound_speed"));
+    assert_non_null(strstr(words, "lower solver.sound_speed"));
+    def.fluids[0].viscosity = 1000; /* 0.7 of 5.5 ms */
+    step_advice(&def, &friction, STEP_TROUBLE_SPEED, 0.005, 1, words);
+    assert_non_null(strstr(words, "friction stands 3.86 ms, the step is 5 ms"));
+    assert_non_null(strstr(words, "lower viscosity"));
+    def.fluids[0].viscosity = 0;
+    step_advice(&def, &friction, STEP_TROUBLE_DENSITY, 0.005, 1, words);
+    assert_non_null(strstr(words, "use a higher one"));
+    step_advice(&def, &friction, STEP_TROUBLE_SPEED, 0.005, 11, words);
+    assert_non_null(strstr(words, "flow of 11 m/s is much for a solver.sound_speed of 20 m/s"));
+    def.step_mode = STEP_CFL;
+    step_advice(&def, &friction, STEP_TROUBLE_SPEED, 0.005, 1, words);
+    assert_string_equal(words, "use a smaller solver.step.number");
+}
+
 static void without_a_sentinel_it_stops_at_once(void **state)
 {
     (void)state;
@@ -465,6 +490,7 @@ int main(void)
         cmocka_unit_test(cfl_follows_the_flow),
         cmocka_unit_test(the_step_is_halved),
         cmocka_unit_test(it_gives_up_with_the_last_good_state),
+        cmocka_unit_test(the_advice_names_what_binds),
         cmocka_unit_test(without_a_sentinel_it_stops_at_once),
         cmocka_unit_test(calm_brings_the_step_back),
         cmocka_unit_test(a_session_with_trouble_comes_out_the_same),
