@@ -8,8 +8,8 @@
 
 enum { PATH_SIZE = 256 };
 
-static Advice *const advices[] = {advise_fills, advise_step,       advise_sound, advise_kernel,
-                                  advise_slip,  advise_artificial, NULL};
+static Advice *const advices[] = {advise_fills, advise_step, advise_sound,      advise_kernel,
+                                  advise_ratio, advise_slip, advise_artificial, NULL};
 
 /* Whether `node`, the nearest to `path`, stands at it. */
 static bool stands_at(const Node *node, const char *path)

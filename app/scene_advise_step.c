@@ -52,7 +52,7 @@ static void advise_viscous(const Tree *tree, const WorldDef *def, const StepFric
 static void advise_heat(const Tree *tree, const WorldDef *def, const StepFriction *friction, Notes *notes)
 {
     const bool fixed = def->step_mode == STEP_FIXED;
-    const double crossing = def->support * def->spacing / def->sound_speed,
+    const double crossing = def->support * def->spacing / step_sound(def),
                  step = fixed ? def->dt / def->substeps : fmin(def->cfl_number * crossing, def->max_dt);
     if (strcmp(def->method, "mueller") != 0 || step <= STEP_SOUND_CALM * crossing * (1 + 1e-9) ||
         step > 0.001 * step_viscous(def, friction))
@@ -74,13 +74,15 @@ void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
 {
     const WorldDef def = most_viscous(&scene->world);
     const StepFriction friction = step_friction(&def);
-    const double step = def.dt / def.substeps, crossing = def.support * def.spacing / def.sound_speed;
+    const double step = def.dt / def.substeps, crossing = def.support * def.spacing / step_sound(&def);
     if (def.step_mode == STEP_FIXED && step > STEP_SOUND_STANDS * crossing)
         advise(
             tree, "solver.step.dt", notes,
-            "the step of %.3g ms is too long for sound at %g m/s, which crosses a support radius in %.3g ms: "
+            "the step of %.3g ms is too long for sound at %g m/s%s, which crosses a support radius in %.3g ms: "
             "use %g substeps or more, or a lower solver.sound_speed",
-            1e3 * step, def.sound_speed, 1e3 * crossing, substeps_for(&def, STEP_SOUND_CALM * crossing));
+            1e3 * step, step_sound(&def),
+            step_sound(&def) > def.sound_speed ? " (of light fluid beside heavy)" : "", 1e3 * crossing,
+            substeps_for(&def, STEP_SOUND_CALM * crossing));
     else if (def.step_mode == STEP_FIXED)
         advise_viscous(tree, &def, &friction, notes);
     if (def.step_mode == STEP_CFL || step <= STEP_SOUND_STANDS * crossing)

@@ -73,6 +73,22 @@ double step_towards(double dt, double left)
     return steps >= 1 && steps <= 4 ? fmin(dt, left / steps) : dt;
 }
 
+double density_ratio(const WorldDef *def)
+{
+    double least = INFINITY, most = 0;
+    for (int f = 0; f < def->fluid_count; f++) {
+        least = fmin(least, def->fluids[f].density);
+        most = fmax(most, def->fluids[f].density);
+    }
+    return most / least;
+}
+
+double step_sound(const WorldDef *def)
+{
+    const bool continuity = strcmp(def->method, "wcsph") == 0;
+    return def->sound_speed * (continuity ? sqrt(fmax(1, density_ratio(def) / 10)) : 1);
+}
+
 double artificial_kinematic(const WorldDef *def)
 {
     return 0.25 * def->artificial_viscosity * def->sound_speed * def->support * def->spacing;
@@ -97,13 +113,14 @@ double step_viscous(const WorldDef *def, const StepFriction *friction)
 void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble trouble, double dt,
                  double max_speed, char words[200])
 {
-    const double crossing = def->support * def->spacing / def->sound_speed, c = def->sound_speed;
+    const double crossing = def->support * def->spacing / step_sound(def), c = def->sound_speed;
     const char *shorter = def->step_mode == STEP_CFL ? "a smaller solver.step.number"
                                                      : "a smaller solver.step.dt, more solver.step.substeps";
     if (dt > STEP_SOUND_STANDS * crossing)
-        snprintf(words, 200,
-                 "the step is %.2g h / sound_speed, %.1g at most holds; use %s or a lower solver.sound_speed",
-                 dt / crossing, STEP_SOUND_STANDS, shorter);
+        snprintf(
+            words, 200,
+            "the step is %.2g times what sound takes to cross a support radius, %.1g at most holds; use %s or a lower solver.sound_speed",
+            dt / crossing, STEP_SOUND_STANDS, shorter);
     else if (dt > STEP_VISCOUS_STANDS * step_viscous(def, friction))
         snprintf(words, 200, "friction stands %.3g ms, the step is %.3g ms; use %s or a lower viscosity",
                  1e3 * STEP_VISCOUS_STANDS * step_viscous(def, friction), 1e3 * dt, shorter);
@@ -119,7 +136,7 @@ double step_cfl(const WorldDef *def, const StepFriction *friction, double max_sp
                 double before, StepLimit *binding)
 {
     const double h = def->support * def->spacing, number = def->cfl_number;
-    const double courant = number * h / (def->sound_speed + max_speed);
+    const double courant = number * h / (step_sound(def) + max_speed);
     const double most[STEP_LIMIT_COUNT] = {
         [STEP_LIMIT_DT] = INFINITY,
         [STEP_LIMIT_COURANT] = courant,

@@ -9,7 +9,7 @@
 /* X(ENUM, name, help): what bounds a step */
 #define STEP_LIMITS(X)                                                                                       \
     X(DT, "dt", "the scene's fixed step")                                                                    \
-    X(COURANT, "courant", "number h / (c + greatest speed)")                                                 \
+    X(COURANT, "courant", "number h / (c + greatest speed); wcsph's c grows with density ratios above 10")   \
     X(FORCE, "force", "number sqrt(h / greatest acceleration)")                                              \
     X(VISCOUS, "viscous", "2 number, at most 0.7, of the longest step that friction stands")                 \
     X(MAX_DT, "max_dt", "the scene's greatest step")                                                         \
@@ -71,6 +71,13 @@ typedef struct StepFriction {
 } StepFriction;
 
 StepFriction step_friction(const WorldDef *def);
+
+/* The greatest density of a def's fluids over the least. */
+double density_ratio(const WorldDef *def);
+
+/* The speed of sound that bounds a step, m/s. Light particles of wcsph between heavy ones are pushed by the
+   pressure of those: above 1 : 10 a step has to be shorter by the root of the ratio (sim/README.md). */
+double step_sound(const WorldDef *def);
 
 /* The viscosity that wcsph's artificial one stands for, alpha c h / 4, m2/s. */
 double artificial_kinematic(const WorldDef *def);
