@@ -27,6 +27,13 @@ static double wall_low(const WorldDef *def, int k)
     return k == 1 ? 0 : -0.5 * def->box_size[k];
 }
 
+/* Of a block that reaches out of the box, what is in it. */
+static double face_of(const WorldDef *def, const Fill *fill, int k, int side)
+{
+    const double wall = wall_low(def, k), face = side ? fill->max[k] : fill->min[k];
+    return fmin(fmax(face, wall), wall + def->box_size[k]);
+}
+
 static bool fills_touch(const WorldDef *def, const Fill *a, const Fill *b)
 {
     double low[2][3], high[2][3];
@@ -46,14 +53,15 @@ static bool group_has(const Group *group, const Fill *fill)
     return false;
 }
 
-static void group_add(Group *group, const Fill *fill)
+static void group_add(const WorldDef *def, Group *group, const Fill *fill)
 {
     group->fills[group->count++] = fill;
     if (fill->kind != FILL_BLOCK)
         return;
     for (int k = 0; k < 3; k++) {
-        group->low[k] = group->has_block ? fmin(group->low[k], fill->min[k]) : fill->min[k];
-        group->high[k] = group->has_block ? fmax(group->high[k], fill->max[k]) : fill->max[k];
+        const double low = face_of(def, fill, k, 0), high = face_of(def, fill, k, 1);
+        group->low[k] = group->has_block ? fmin(group->low[k], low) : low;
+        group->high[k] = group->has_block ? fmax(group->high[k], high) : high;
     }
     group->has_block = true;
 }
@@ -62,13 +70,13 @@ static void group_of(const WorldDef *def, const Fill *fill, Group *group)
 {
     group->count = 0;
     group->has_block = false;
-    group_add(group, fill);
+    group_add(def, group, fill);
     for (int member = 0; member < group->count; member++)
         for (int f = 0; f < def->fluid_count; f++)
             for (int i = 0; i < def->fluids[f].fill_count; i++) {
                 const Fill *other = &def->fluids[f].fills[i];
                 if (!group_has(group, other) && fills_touch(def, group->fills[member], other))
-                    group_add(group, other);
+                    group_add(def, group, other);
             }
 }
 
@@ -83,13 +91,13 @@ static FillAxis box_axis(const WorldDef *def, int k)
 }
 
 /* How far the worst face of the group's blocks is from one of the layers', in layers. */
-static double misfit(const Group *group, int k, double first, double step)
+static double misfit(const WorldDef *def, const Group *group, int k, double first, double step)
 {
     double worst = 0;
     for (int i = 0; i < group->count; i++) {
         const Fill *fill = group->fills[i];
         for (int side = 0; side < 2 && fill->kind == FILL_BLOCK; side++) {
-            const double layers = ((side ? fill->max[k] : fill->min[k]) - first) / step + 0.5;
+            const double layers = (face_of(def, fill, k, side) - first) / step + 0.5;
             worst = fmax(worst, fabs(layers - round(layers)));
         }
     }
@@ -125,7 +133,7 @@ static FillAxis whole_layers(const WorldDef *def, const Group *group, int k, dou
 
 static void choice_add(const WorldDef *def, const Group *group, int k, const FillAxis *axis, Choice *choice)
 {
-    const double off = group->has_block ? misfit(group, k, axis->first, axis->step) : 0;
+    const double off = group->has_block ? misfit(def, group, k, axis->first, axis->step) : 0;
     choice->cost[choice->count] = (off > on_face ? off : 0) + fabs(log(axis->step / def->spacing));
     choice->axis[choice->count++] = *axis;
 }
@@ -134,7 +142,7 @@ static void choose_from(const WorldDef *def, const Group *group, int k, Choice *
 {
     const FillAxis box = box_axis(def, k);
     choice->count = 0;
-    if (!group->has_block || misfit(group, k, box.first, box.step) <= on_face) {
+    if (!group->has_block || misfit(def, group, k, box.first, box.step) <= on_face) {
         choice_add(def, group, k, &box, choice);
         return;
     }
@@ -264,7 +272,7 @@ static double fit_at(const WorldDef *def, const Group *group, double spacing, do
     group_axes(&at, group, axes);
     *uneven = *off = 0;
     for (int k = 0; k < def->dimensions; k++) {
-        const double misses = misfit(group, k, axes[k].first, axes[k].step);
+        const double misses = misfit(def, group, k, axes[k].first, axes[k].step);
         *uneven = fmax(*uneven, fabs(axes[k].step / at.spacing - 1));
         *off = fmax(*off, misses > on_face ? misses : 0);
     }

@@ -186,6 +186,25 @@ static void what_rests_stays_at_rest(void **state)
     }
 }
 
+/* What a block has out of the box counts as if it were not there. */
+static void what_is_out_of_the_box_does_not_count(void **state)
+{
+    (void)state;
+    WorldDef within = tank(3, 0.5, 2, 0.5, 0.7), beyond = within;
+    FillAxis expected[3], axes[3];
+    Fill *fill = &beyond.fluids[0].fills[0];
+    fill->min[0] = fill->min[2] = -0.9;
+    fill->max[0] = fill->max[2] = 0.7;
+    fill->min[1] = -0.33;
+    within.spacing = beyond.spacing = 0.043;
+    fill_lattice(&within, &within.fluids[0].fills[0], expected);
+    fill_lattice(&beyond, fill, axes);
+    for (int k = 0; k < 3; k++) {
+        assert_true(axes[k].place == expected[k].place && axes[k].advance == expected[k].advance);
+        assert_true(axes[k].end == expected[k].end);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -195,6 +214,7 @@ int main(void)
         cmocka_unit_test(fluids_that_touch_share_a_lattice),
         cmocka_unit_test(what_cannot_fit_keeps_its_density),
         cmocka_unit_test(what_rests_stays_at_rest),
+        cmocka_unit_test(what_is_out_of_the_box_does_not_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
