@@ -8,7 +8,7 @@ vec3 direction_of_ids(uint a, uint b)
     for (int k = 0; k < (rows.x == 3 ? 2 : 3); k++) {
         hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
         hash ^= hash >> 13;
-        d[k] = float(hash >> 8) * exp2(-23.0) - 1.0 + exp2(-24.0);
+        d[k] = float(hash >> 8) / 8388608.0 - 1.0 + 1.0 / 16777216.0;
     }
     return normalize(d) * (a < b ? 1.0 : -1.0);
 }
