@@ -5,10 +5,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { LAYERS_FEW = 4 };
 
-static const double mass_off = 1e-3; /* what is not worth a line */
+/* What is not worth a line; of balls and cylinders no lattice has the mass to the last particle. */
+static const double mass_off = 1e-3, mass_off_round = 1e-2;
 
 static bool bounds_meet(const WorldDef *world, const double low[3], const double high[3], const Fill *other)
 {
@@ -54,32 +56,56 @@ static double volume_of(const WorldDef *world, int f)
     return volume;
 }
 
-static void advise_mass(const Tree *tree, const WorldDef *world, int f, size_t count, Notes *notes)
+static double mass_off_of(const FluidDef *fluid)
 {
-    const double volume = volume_of(world, f), is = (double)count * pow(world->spacing, world->dimensions);
-    char path[64];
-    snprintf(path, sizeof path, "fluids[%d].fill", f);
-    if (count > 1 && volume > 0 && fabs(is / volume - 1) > mass_off)
-        advise(tree, path, notes,
-               "'%s' has %+.2f %% of what its fills hold: %zu particles on a lattice; a smaller "
-               "particles.spacing is nearer",
-               world->fluids[f].name, 100 * (is / volume - 1), count);
+    for (int i = 0; i < fluid->fill_count; i++)
+        if (fluid->fills[i].kind != FILL_BLOCK)
+            return mass_off_round;
+    return mass_off;
 }
 
+static void advise_mass(const Tree *tree, const WorldDef *world, int f, size_t count, Notes *notes)
+{
+    const FluidDef *fluid = &world->fluids[f];
+    const double volume = volume_of(world, f),
+                 more = volume > 0 ? (double)count * pow(world->spacing, world->dimensions) / volume - 1 : 0;
+    char path[64];
+    snprintf(path, sizeof path, "fluids[%d].fill", f);
+    if (count > 1 && fabs(more) > mass_off_of(fluid))
+        advise(tree, path, notes,
+               "'%s' has %.2g %% %s mass than its fills: %zu particles on a lattice; a smaller "
+               "particles.spacing comes nearer",
+               fluid->name, 100 * fabs(more), more > 0 ? "more" : "less", count);
+}
+
+/* How thick a block is along its thinnest axis and along its longest, in spacings. */
+static void thickness(const WorldDef *world, const Fill *block, double *least, double *most)
+{
+    *least = INFINITY;
+    *most = 0;
+    for (int k = 0; k < world->dimensions; k++) {
+        const double thick = (block->max[k] - block->min[k]) / world->spacing;
+        *least = fmin(*least, thick);
+        *most = fmax(*most, thick);
+    }
+}
+
+/* Not of a block of one particle: who places that means it. */
 static void advise_thin(const Tree *tree, const WorldDef *world, int f, Notes *notes)
 {
     for (int i = 0; i < world->fluids[f].fill_count; i++) {
         const Fill *fill = &world->fluids[f].fills[i];
-        double least = INFINITY;
-        char path[64];
-        for (int k = 0; k < world->dimensions; k++)
-            least = fmin(least, fill->max[k] - fill->min[k]);
+        double least, most;
+        char path[64], thick[32];
+        thickness(world, fill, &least, &most);
         snprintf(path, sizeof path, "fluids[%d].fill[%d].block", f, i);
-        if (fill->kind == FILL_BLOCK && least < (LAYERS_FEW - 0.5) * world->spacing)
+        snprintf(thick, sizeof thick, "%.2g", least);
+        if (fill->kind == FILL_BLOCK && most >= 1.5 && least < LAYERS_FEW - 0.5)
             advise(tree, path, notes,
-                   "the block is %.2g spacings thick: too few particles to flow like a fluid; a "
+                   "the block is %s spacing%s thick: too few particles to flow like a fluid; a "
                    "particles.spacing of %.2g m has %d layers",
-                   least / world->spacing, least / LAYERS_FEW, LAYERS_FEW);
+                   thick, strcmp(thick, "1") == 0 ? "" : "s", least * world->spacing / LAYERS_FEW,
+                   LAYERS_FEW);
     }
 }
 

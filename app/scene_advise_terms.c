@@ -1,6 +1,7 @@
 /* Settings that do not go together: a kernel and its support, walls that hold what has no friction, a
    viscosity in place of the artificial one. */
 #include "app/scene_advise_parts.h"
+#include "app/scene_preset.h"
 #include "sim/lattice.h"
 #include "sim/step_control.h"
 
@@ -61,24 +62,36 @@ void advise_slip(const Tree *tree, const Scene *scene, Notes *notes)
     }
 }
 
-/* Where that is less friction than before, or an alpha was chosen. */
-void advise_artificial(const Tree *tree, const Scene *scene, Notes *notes)
+/* Whether the scene chose an alpha, and has no fluid that it is for. */
+static bool alpha_in_vain(const Scene *scene)
 {
     const WorldDef *def = &scene->world, usual = world_def_default();
+    bool in_vain = def->artificial_viscosity != usual.artificial_viscosity &&
+                   !preset_gave(scene, "solver.artificial_viscosity");
+    for (int f = 0; f < def->fluid_count; f++)
+        in_vain = in_vain && fluid_viscosity_most(&def->fluids[f]) > 0;
+    return in_vain;
+}
+
+/* Where that is half of the friction before, or less, or the other one was chosen. */
+void advise_artificial(const Tree *tree, const Scene *scene, Notes *notes)
+{
+    const WorldDef *def = &scene->world;
     const double alpha = def->artificial_viscosity;
     if (!is_wcsph(def) || alpha == 0)
         return;
+    const bool in_vain = alpha_in_vain(scene);
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
         const double most = fluid_viscosity_most(fluid), same = artificial_kinematic(def) * fluid->density;
         char path[64];
         snprintf(path, sizeof path, "fluids[%d].viscosity", f);
-        if (most > 0 && (most < same || alpha != usual.artificial_viscosity))
+        if (most > 0 && (most < 0.5 * same || in_vain))
             advise(
                 tree, path, notes,
                 "%g Pa s takes the place of solver.artificial_viscosity %g, which is some %.3g Pa s at this "
-                "spacing; leave one of them out, or make the latter 0",
-                most, alpha, same);
+                "spacing; leave %s out, or make the latter 0",
+                most, alpha, same, in_vain ? "one of them" : "the viscosity");
     }
 }
 

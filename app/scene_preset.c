@@ -62,6 +62,15 @@ bool preset_apply(const Tree *tree, Scene *scene, Error *error)
     return true;
 }
 
+bool preset_gave(const Scene *scene, const char *path)
+{
+    const Preset *preset = preset_find(scene->preset);
+    for (int k = 0; preset && preset->settings[k].path; k++)
+        if (scene->preset_filled >> k & 1 && strcmp(preset->settings[k].path, path) == 0)
+            return true;
+    return false;
+}
+
 /* Whether a later row for the same key holds. */
 static bool is_superseded(const Preset *preset, int k, const WorldDef *def)
 {

@@ -29,6 +29,9 @@ extern const Preset preset_list[];
    read. A name that is no preset fills in nothing. */
 bool preset_apply(const Tree *tree, Scene *scene, Error *error);
 
+/* Whether the key's value came from the scene's preset. */
+bool preset_gave(const Scene *scene, const char *path);
+
 /* A line for each key that the scene's preset has a value for: the value, or that the scene names another. */
 void preset_print(const Scene *scene, FILE *file);
 
