@@ -12,11 +12,11 @@ typedef struct Line {
     int size;
 } Line;
 
-/* Keys that change no bit of a run. */
+/* Keys that change no bit of a run; what a preset fills in has lines of its own. */
 static bool is_idle(Line line)
 {
-    static const char *const idle[] = {"title ", "view.", "solver.threads ", "solver.step.realtime ",
-                                       "metrics "};
+    static const char *const idle[] = {
+        "title ", "view.", "solver.threads ", "solver.step.realtime ", "solver.preset ", "metrics "};
     for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
         if (strncmp(line.text, idle[i], strlen(idle[i])) == 0)
             return true;

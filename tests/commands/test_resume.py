@@ -55,6 +55,16 @@ class Resume(CommandTest):
         self.go(name='whole.h5part')
         return len(whole_steps(self.path('whole.h5part')))
 
+    def test_a_preset_is_what_it_fills_in(self):
+        """Files from before there were presets name none."""
+        self.go('--time', '0.1')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            settings = file.attrs['settings'].decode()
+            self.assertIn('solver.preset = play\n', settings)
+            file.attrs['settings'] = settings.replace('solver.preset = play\n', '').encode()
+        self.go('--resume')
+        self.assertIn("this is '", self.go('--resume', '--set', 'solver.preset=accurate', code=2))
+
     def test_killed_at_random_moments(self):
         steps = self.whole()
         began = time.monotonic()
