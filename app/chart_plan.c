@@ -224,6 +224,42 @@ static bool find_subject(ChartPlan *plan, Error *error)
                 : error_set(error, "%s", no_scene.message);
 }
 
+/* What is said of settings without effect is said where they have none in each run. */
+static void keep_common(Notes *notes, const Notes *other)
+{
+    int kept = 0;
+    for (int i = 0; i < notes->count; i++) {
+        if (i < notes->lasting && !notes_have(other, notes->line[i]))
+            continue;
+        if (kept != i)
+            memcpy(notes->line[kept], notes->line[i], NOTE_SIZE);
+        kept++;
+    }
+    notes->lasting -= notes->count - kept;
+    notes->count = kept;
+}
+
+static void keep_notes_of_all(ChartPlan *plan)
+{
+    static Scene scene;
+    static Notes notes;
+    for (int i = 0; i < plan->count && plan->notes.lasting > 0; i++) {
+        const ChartJob *job = &plan->jobs[i];
+        char method[96], backend[96];
+        Error error;
+        SceneSettings settings = *plan->subject.settings;
+        if (job->role != CHART_POINT || job->coarsening != 1 || settings.count + 2 > SCENE_SETTINGS_MAX)
+            continue;
+        snprintf(method, sizeof method, "solver.method=%s", job->method);
+        snprintf(backend, sizeof backend, "solver.backend=%s", job->backend);
+        settings.set[settings.count++] = method;
+        settings.set[settings.count++] = backend;
+        settings.purpose = SCENE_FOR_CHART;
+        if (scene_load(plan->subject.scene, &settings, &scene, &notes, &error))
+            keep_common(&plan->notes, &notes);
+    }
+}
+
 bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error)
 {
     *plan = (ChartPlan){.args = args};
@@ -232,8 +268,10 @@ bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error)
     for (int s = 0; s < args->sweep_count; s++)
         if (!sweep_check(plan, &args->sweeps[s], error))
             return false;
-    return plan_jobs(plan, error) &&
-           (plan->count > 0 || error_set(error, "slosh chart: nothing of it can run here"));
+    if (!plan_jobs(plan, error))
+        return false;
+    keep_notes_of_all(plan);
+    return plan->count > 0 || error_set(error, "slosh chart: nothing of it can run here");
 }
 
 void chart_plan_end(ChartPlan *plan)

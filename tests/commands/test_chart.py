@@ -45,6 +45,13 @@ class Chart(command.CommandTest):
         # the other sound has runs of its own; another title is the same flow
         self.assertEqual(len(self.text('out.csv').splitlines()), 1 + 2 * 10)
 
+    def test_a_key_of_one_method_has_an_effect(self):
+        words = ['scene.yaml', '-o', 'out.svg', '--set', 'solver.kernel=quintic', *SMALL]
+        self.assertIn('solver.kernel has no effect', self.run_it(*words).stderr)
+        both = self.run_it(*words[:-1], 'wcsph', '--sweep', 'method=mueller,wcsph')
+        self.assertEqual(both.returncode, 0, both.stderr)
+        self.assertNotIn('no effect', both.stderr)
+
     def test_json(self):
         done = self.run_it('scene.yaml', '-o', 'out.svg', '--json', 'out.json', *SMALL)
         self.assertEqual(done.returncode, 0, done.stderr)
