@@ -120,7 +120,7 @@ const OptionRow option_rows[] = {
     {"--mapping", "FILE", DEVICES, OPTION_TEXT, AT(mapping), .help = "check such a file, and say in words what devices do by it"},
     {"--write-mapping", "FILE", DEVICES, OPTION_TEXT, AT(write_mapping), .help = "write what devices do into a new file, to be changed"},
     {"--watch", NULL, DEVICES, OPTION_FLAG, AT(watch), .help = "show what they say, live, until Ctrl-C or the end of the recording"},
-    {"--json", "FILE", ALL | REPLAY | EXPORT | DEVICES, OPTION_TEXT, AT(json), .help = "write the figures there too"},
+    {"--json", "FILE", ALL | REPLAY | EXPORT | DEVICES, OPTION_TEXT, AT(json), .help = "write the figures there too; -: on standard output"},
     {"--quiet", NULL, ALL | REPLAY | EXPORT | DEVICES, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
     {"--help", NULL, ALL | REPLAY | EXPORT | DEVICES, OPTION_HELP, .help = "this text"},
     {0},

@@ -5,7 +5,7 @@
 #include "app/device/devices.h"
 #include "app/device/mapping.h"
 #include "app/interrupt.h"
-#include "app/output.h"
+#include "app/json_file.h"
 #include "app/play.h"
 #include "app/play_report.h"
 
@@ -257,7 +257,7 @@ static int bench(const Plan *plan, bool wants_context, Error *error)
     size_t done = 0;
     Headless *context = NULL;
     BenchResult *results = calloc(plan->scene_count * plan->combinations + 1, sizeof *results);
-    const bool can_write = results && (!args->json || output_check(args->json, error));
+    const bool can_write = results && (!args->json || json_file_check(args->json, error));
     bool ok = can_write || (!results && error_set(error, "no memory for the results"));
     if (ok && wants_context)
         ok = (context = headless_create(args->gpu, error)) != NULL;
@@ -290,7 +290,7 @@ static int bench_play(const Args *args, Error *error)
     static const char *const scene = "scenes/box_slosh.yaml";
     const size_t count = args->scene_count ? (size_t)args->scene_count : 1;
     PlayFigures *figures = calloc(count, sizeof *figures);
-    if (!figures || (args->json && !output_check(args->json, error))) {
+    if (!figures || (args->json && !json_file_check(args->json, error))) {
         free(figures);
         return fail(error, EXIT_FAILED);
     }

@@ -2,6 +2,7 @@
 #include "app/chart_report.h"
 #include "app/cmd.h"
 #include "app/interrupt.h"
+#include "app/json_file.h"
 #include "app/output.h"
 
 #include <math.h>
@@ -142,7 +143,7 @@ static bool check_outputs(const ChartPlan *plan, ChartRows *kept, Error *error)
 {
     const Args *args = plan->args;
     return output_check(args->output, error) && output_check(plan->csv, error) &&
-           (!args->json || output_check(args->json, error)) &&
+           (!args->json || json_file_check(args->json, error)) &&
            chart_rows_read(kept, plan->csv, stderr, error);
 }
 

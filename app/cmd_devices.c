@@ -4,7 +4,6 @@
 #include "app/device/mapping.h"
 #include "app/interrupt.h"
 #include "app/json_file.h"
-#include "app/output.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -149,7 +148,7 @@ static int watch_devices(const Args *args, Error *error)
     static Watch watch;
     if (args->device && !devices_check(args->device, error))
         return fail(EXIT_USAGE, error);
-    if (args->json && !output_check(args->json, error))
+    if (args->json && !json_file_check(args->json, error))
         return fail(EXIT_FAILED, error);
     watch = (Watch){.source = args->device,
                     .out = args->watch && !args->quiet ? stdout : NULL,

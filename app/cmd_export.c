@@ -2,7 +2,6 @@
 #include "app/export.h"
 #include "app/interrupt.h"
 #include "app/json_file.h"
-#include "app/output.h"
 #include "sim/stage.h"
 
 #include <math.h>
@@ -97,7 +96,7 @@ static int run(Export *export, size_t index, const Args *args, Error *error)
 {
     const double began_ms = wall_ms();
     Progress progress;
-    if (args->json && !output_check(args->json, error))
+    if (args->json && !json_file_check(args->json, error))
         return fail(EXIT_FAILED, error);
     if (!find_colors(export, index, args, error))
         return fail_run(args, error);

@@ -3,7 +3,6 @@
 #include "app/headless.h"
 #include "app/json_file.h"
 #include "app/metric_list.h"
-#include "app/output.h"
 #include "app/scene_json.h"
 #include "app/scene_keys.h"
 #include "app/scene_preset.h"
@@ -195,7 +194,7 @@ int cmd_info(const Args *args)
     Scene scene;
     if (args->scene_count && !scene_load(args->scenes[0], &settings, &scene, &notes, &error))
         return fail(EXIT_USAGE, &error);
-    if (args->json && !output_check(args->json, &error))
+    if (args->json && !json_file_check(args->json, &error))
         return fail(EXIT_FAILED, &error);
     Info info = {.quiet = args->quiet,
                  .json = json_pack("{s:s, s:s}", "command", "info", "version", SLOSH_VERSION)};

@@ -1,5 +1,6 @@
 #include "app/cmd.h"
 #include "app/device/devices.h"
+#include "app/json_file.h"
 #include "app/output.h"
 #include "app/play.h"
 #include "app/play_report.h"
@@ -35,7 +36,7 @@ int cmd_play(const Args *args)
         (args->device && !devices_check(args->device, &error)))
         return fail(&error, EXIT_USAGE);
     if ((args->record && !output_check(args->record, &error)) ||
-        (args->json && !output_check(args->json, &error)))
+        (args->json && !json_file_check(args->json, &error)))
         return fail(&error, EXIT_FAILED);
     const int code = play(&setup, &figures);
     if (code == 0 && args->json && !play_write_json(&figures, args->json, &error))

@@ -1,7 +1,7 @@
 #include "app/between.h"
 #include "app/cmd.h"
 #include "app/interrupt.h"
-#include "app/output.h"
+#include "app/json_file.h"
 #include "app/pictures.h"
 #include "app/progress.h"
 #include "app/session.h"
@@ -212,7 +212,7 @@ int cmd_render(const Args *args)
     Pictures *pictures = NULL;
     interrupt_install();
     int code = understand(args, &kind, &error) ? session_open(&session, args, true, &error) : EXIT_USAGE;
-    if (code == EXIT_USAGE || (code == 0 && args->json && !output_check(args->json, &error))) {
+    if (code == EXIT_USAGE || (code == 0 && args->json && !json_file_check(args->json, &error))) {
         fprintf(stderr, "%s\n", error.message);
         code = code == 0 ? EXIT_FAILED : code;
     } else if (code != 0 ||

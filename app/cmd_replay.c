@@ -1,7 +1,6 @@
 #include "app/cmd.h"
 #include "app/interrupt.h"
 #include "app/json_file.h"
-#include "app/output.h"
 #include "app/progress.h"
 #include "app/recording_play.h"
 #include "app/snapshot_series.h"
@@ -147,7 +146,7 @@ static int run(Replay *replay, Error *error)
 {
     const Args *args = replay->args;
     Progress progress;
-    if (args->json && !output_check(args->json, error))
+    if (args->json && !json_file_check(args->json, error))
         return fail(EXIT_FAILED, error);
     if (args->output) {
         Snapshot *file = snapshot_create(args->output, &replay->session.scene, error);

@@ -1,6 +1,6 @@
 #include "app/cmd.h"
 #include "app/interrupt.h"
-#include "app/output.h"
+#include "app/json_file.h"
 #include "app/progress.h"
 #include "app/session.h"
 #include "app/snapshot_series.h"
@@ -100,7 +100,7 @@ static int run(Session *session, const Args *args, Error *error)
     Progress progress;
     Snapshot *file;
     bool busy = false;
-    if (args->json && !output_check(args->json, error))
+    if (args->json && !json_file_check(args->json, error))
         return complain(EXIT_FAILED, error);
     if (args->resume && access(args->output, F_OK) == 0) {
         file = resume(session, args, &busy, error);

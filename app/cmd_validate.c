@@ -2,6 +2,7 @@
 #include "app/cmd.h"
 #include "app/headless.h"
 #include "app/interrupt.h"
+#include "app/json_file.h"
 #include "app/output.h"
 #include "app/validate_report.h"
 
@@ -196,7 +197,7 @@ static int validate(const Plan *plan, bool wants_context, Error *error)
     Headless *context = NULL;
     CaseResult *results = calloc((size_t)plan->count + 1, sizeof *results);
     bool ok = results || error_set(error, "no memory for the results");
-    ok = ok && (!args->json || output_check(args->json, error)) &&
+    ok = ok && (!args->json || json_file_check(args->json, error)) &&
          (!args->output || make_folder(args->output, error));
     if (ok && wants_context)
         ok = (context = headless_create(args->gpu, error)) != NULL;

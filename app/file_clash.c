@@ -5,6 +5,7 @@
 #include "app/device/mapping.h"
 #include "app/export.h"
 #include "app/file_place.h"
+#include "app/json_file.h"
 #include "app/pictures.h"
 #include "app/scene_path.h"
 
@@ -90,7 +91,8 @@ static void add_outputs(Files *files, const Args *args)
         add_chart(files, output);
     else
         add(files, FILE_REPLACED, "-o", output, args->command == COMMAND_VALIDATE ? "*.svg" : NULL);
-    add(files, FILE_REPLACED, "--json", args->json, NULL);
+    if (args->json && !json_is_stream(args->json))
+        add(files, FILE_REPLACED, "--json", args->json, NULL);
     add(files, args->command == COMMAND_DEVICES ? FILE_NEW : FILE_REPLACED, "--record", args->record, NULL);
 }
 

@@ -1,4 +1,4 @@
-/* JSON results, written whole or not at all. */
+/* JSON results: a file, written whole or not at all, or a stream. */
 #ifndef SLOSH_JSON_FILE_H
 #define SLOSH_JSON_FILE_H
 
@@ -7,9 +7,15 @@
 #include <jansson.h>
 
 /* Writes `json` (NULL: it could not be made, for jansson takes no text but UTF-8 and no number that is not
-   finite) to that file, indented, with a newline at the end; false with the reason, and no file. Does not
-   take the reference. */
+   finite) to that file or stream, indented, with a newline at the end; false with the reason, and no file.
+   Does not take the reference. */
 bool json_file_write(const json_t *json, const char *path, Error *error);
+
+/* Whether the path is no file that could be replaced: "-", /dev/stdout, /dev/stderr, a device, a pipe. */
+bool json_is_stream(const char *path);
+
+/* Whether it could be written there, without leaving anything. */
+bool json_file_check(const char *path, Error *error);
 
 /* {"command": COMMAND, WORD: INPUT, "output": OUTPUT, "error": why} of a command that failed before it had
    figures; the output may be NULL. */

@@ -75,8 +75,8 @@ static const struct Case {
     {{"fluids[0].fill=[{block: {min: [0, 0.1, 0], max: [0.1, 0.2, 0.1]}}]"},
      NULL}, /* one particle is meant */
     {{"fluids[0].fill=[{block: {min: [0, 0.1, 0], max: [0.5, 0.2, 0.5]}}]"},
-     "fill: [{block: {min: [0, 0.1, 0], max: [0.5, 0.2, 0.5]}}]: the block is 1 spacing thick"},
-    {{"fluids[0].fill=[{ball: {centre: [0, 0.5, 0], radius: 0.3}}]"}, "% less mass than its fills: "},
+     "the block is 1 spacing thick: too few"},
+    {{"fluids[0].fill=[{ball: {centre: [0, 0.5, 0], radius: 0.3}}]"}, "% more mass than its fills: "},
     {{"fluids[0].viscosity=0.001"}, NULL},
 };
 

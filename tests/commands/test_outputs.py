@@ -39,6 +39,22 @@ class Whole(CommandTest):
         summary = json.loads(self.read('a.json'))
         self.assertEqual((summary['particles'], summary['emitted'], summary['drained']), (520, 20, 0))
 
+    def test_json_on_a_stream(self):
+        few = ['run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet', '--json']
+        for name in ('-', '/dev/stdout', '/dev/fd/1'):
+            done = subprocess.run([command.PROGRAM, *few, name], cwd=self.folder, capture_output=True, text=True,
+                                  timeout=120, check=False)
+            self.assertEqual((done.returncode, done.stderr, json.loads(done.stdout)['snapshots']), (0, '', 1), name)
+        with open(self.path('said'), 'w', encoding='utf8') as said:  # a file that must not be replaced
+            said.write('before\n')
+            said.flush()
+            subprocess.run([command.PROGRAM, *few, '/dev/stdout'], cwd=self.folder, stdout=said, timeout=120, check=True)
+        self.assertRegex(self.read('said').decode(), r'^before\n\{\n')
+        self.assertEqual(self.slosh(*few, '/dev/null'), (0, ''))
+        self.assertEqual(self.slosh(*few, '/dev/full'),
+                         (1, '/dev/full: cannot write the results: No space left on device\n'))
+        self.assertEqual(self.entries(), ['a.h5part', 'said'])
+
     def test_run_replaces_an_old_file(self):
         self.write('a.h5part', 'old')
         code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet')
