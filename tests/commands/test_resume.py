@@ -7,6 +7,7 @@ import signal
 import time
 
 import h5py
+import numpy
 
 import command
 from command import CommandTest, SCENE, whole_steps
@@ -61,7 +62,7 @@ class Resume(CommandTest):
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             settings = file.attrs['settings'].decode()
             self.assertIn('solver.preset = play\n', settings)
-            file.attrs['settings'] = settings.replace('solver.preset = play\n', '').encode()
+            file.attrs['settings'] = numpy.bytes_(settings.replace('solver.preset = play\n', ''))
         self.go('--resume')
         self.assertIn("this is '", self.go('--resume', '--set', 'solver.preset=accurate', code=2))
 
