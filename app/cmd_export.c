@@ -127,9 +127,17 @@ static bool understand_surface(Export *export, SurfaceDef *surface, const Args *
 static void tell_gap(const SnapshotReader *reader, const char *path)
 {
     char words[256];
-    if (snapshot_gap(reader, words))
+    if (snapshot_gap(reader, words) && snapshot_count_steps(reader) > 0)
         fprintf(stderr, "%s: warning: %s; only the %zu before it can be exported\n", path, words,
                 snapshot_count_steps(reader));
+}
+
+static bool no_snapshot(const SnapshotReader *reader, const char *path, Error *error)
+{
+    char words[256];
+    if (snapshot_gap(reader, words))
+        return error_set(error, "%s: %s; give the steps names from Step#0 on", path, words);
+    return error_set(error, "%s: has no whole snapshot; make some with slosh run", path);
 }
 
 /* What is to be done, before anything is: false is a mistake of the command line or of the input. */
@@ -148,7 +156,7 @@ static bool understand(Export *export, SurfaceDef *surface, size_t *index, const
         return false;
     tell_gap(export->reader, args->scenes[0]);
     if (snapshot_count_steps(export->reader) == 0)
-        return error_set(error, "%s: has no whole snapshot; make some with slosh run", args->scenes[0]);
+        return no_snapshot(export->reader, args->scenes[0], error);
     export->flaws = snapshot_flaws(export->reader, args->surface);
     return understand_surface(export, surface, args, error) && choose(args, export->reader, index, error);
 }

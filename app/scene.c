@@ -115,7 +115,7 @@ static void fit_spacing(const Tree *tree, Scene *scene, Notes *notes)
     if (fabs(fits / asked - 1) > 1e-6)
         advise(
             tree, "particles.spacing", notes,
-            "%.6g m divides the fills into no whole layers; taken is %.6g m, at which they reach from wall to wall",
+            "%.6g m does not divide the fills into whole layers; %.6g m is taken, at which they reach from wall to wall",
             asked, fits);
 }
 

@@ -163,6 +163,7 @@ void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)
         advise(
             tree, "solver.sound_speed", notes,
             "%.3g m/s is little for fluid that may come to %.3g m/s: it is pressed by some %.0f %%; use %.2g "
-            "or more, with a step as much shorter",
-            c, speed, 100 * expm1(0.5 * speed * speed / (c * c)), good * speed);
+            "m/s or more%s",
+            c, speed, 100 * expm1(0.5 * speed * speed / (c * c)), good * speed,
+            def->step_mode == STEP_FIXED ? ", with a step as much shorter" : "");
 }

@@ -48,7 +48,7 @@ static bool any_viscosity(const WorldDef *def)
 void advise_slip(const Tree *tree, const Scene *scene, Notes *notes)
 {
     static const char what[] =
-        "none has no effect: only fluid with a viscosity is held; give fluids[0].viscosity a value";
+        "slip none has no effect: only fluid with a viscosity is held; give fluids[0].viscosity a value";
     const WorldDef *def = &scene->world;
     if (any_viscosity(def))
         return;

@@ -110,8 +110,10 @@ void snapshot_flaws_print(const SnapshotFlaws *flaws, const char *path, FILE *fi
             fprintf(file, "in %zu snapshots, the first of them ", snapshots);
         else
             fputs("of ", file);
+        const char *kept =
+            particles == 1 ? "exported as it is in the file" : "exported as they are in the file";
         fprintf(file, "Step#%zu%s %s %s; %s\n", flaws->of[flaw].first, snapshots > 1 ? "," : "",
                 particles == 1 ? "has" : "have", words[flaw],
-                is_left_out(flaws, (Flaw)flaw) ? "left out" : "exported as it is in the file");
+                is_left_out(flaws, (Flaw)flaw) ? "left out" : kept);
     }
 }

@@ -241,13 +241,13 @@ static void what_fills_became_is_told(void **state)
                                "    fill: [{ball: {centre: [0, 0.8, 0], radius: 0.15}}]\n"
                                "  - fill: [{block: {min: [-0.5, 0.6, -0.5], max: [-0.3, 0.72, -0.3]}}]\n";
     assert_true(scene_parse("s.yaml", text, strlen(text), NULL, &scene, &notes, &error));
-    assert_true(is_told(&notes, "s.yaml:3:3: 0.06 m divides the fills into no whole layers; taken is 0.0"));
+    assert_true(is_told(&notes, "s.yaml:3:3: 0.06 m does not divide the fills into whole layers; 0.0"));
     assert_true(is_told(&notes, "s.yaml:7:5: 'drop' has "));
     assert_true(is_told(&notes, "s.yaml:8:13: the block is "));
     assert_false(is_told(&notes, "s.yaml:5:5: 'fluid 1' has")); /* its mass is right */
     SceneSettings fits = {.count = 1, .set = {"particles.spacing=0.02"}};
     assert_true(scene_parse("s.yaml", text, strlen(text), &fits, &scene, &notes, &error));
-    assert_false(is_told(&notes, "no whole layers"));
+    assert_false(is_told(&notes, "whole layers"));
     assert_false(is_told(&notes, "the block is "));
 }
 

@@ -44,6 +44,8 @@ static const struct Case {
     /* sqrt(2 g H) = 3.13 m/s */
     {{"solver.sound_speed=5"},
      "5 m/s is little for fluid that may come to 3.13 m/s: it is pressed by some 22 %"},
+    {{"solver.sound_speed=5"}, "use 9.4 m/s or more, with a step as much shorter"},
+    {{"solver.sound_speed=5", "solver.step={mode: cfl}"}, "use 9.4 m/s or more"},
     {{"solver.sound_speed=6"}, NULL},
     {{"solver.sound_speed=5", "gravity=[0, 0, 0]"}, NULL},
     {{"solver.sound_speed=6", "gravity=[9.81, 0, 0]"}, "may come to 4.43 m/s"},
@@ -58,7 +60,7 @@ static const struct Case {
       "fluids=[{density: 31, fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.2, 0.5]}}]}, {density: "
       "1, fill: [{block: {min: [-0.5, 0.2, -0.5], max: [0.5, 0.5, 0.5]}}]}]"},
      "mueller throws single light particles up where densities differ by more than 1 : 30, here 1 : 31"},
-    {{"box.slip=none"}, "--set box.slip=none: none has no effect: only fluid with a viscosity is held"},
+    {{"box.slip=none"}, "--set box.slip=none: slip none has no effect: only fluid with a viscosity is held"},
     {{"box.slip=none", "fluids[0].viscosity=1"}, NULL},
     {{"solids=[{sphere: {centre: [0, 0.8, 0], radius: 0.1}, slip: none}]"}, "none has no effect"},
     {{"solver.method=wcsph", "fluids[0].viscosity=0.001"},

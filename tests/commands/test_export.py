@@ -447,6 +447,10 @@ class Bad(ExportTest):
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             file['Step#0'].attrs['complete'] = 0
         self.refused('a.h5part', 'a.pvd', words='has no whole snapshot')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            file.move('Step#0', 'Step#1')
+        self.refused('a.h5part', 'a.pvd', words="a.h5part: Step#0 is missing or not whole, but there is 'Step#1'; give the "
+                                                'steps names from Step#0 on')
 
     def test_damaged(self):
         self.make()
@@ -554,11 +558,11 @@ class Flaws(ExportTest):
         expected = ('4 particles in 2 snapshots, the first of them Step#1, have a position that is not finite or more than '
                     '100 boxes away; left out',
                     '3 particles in 2 snapshots, the first of them Step#1, have a fluid that the file does not know; '
-                    'exported as it is in the file',
-                    '3 particles of Step#2 have a density that is not more than 0; exported as it is in the file',
-                    '2 particles of Step#2 have a velocity or a pressure that is not finite; exported as it is in the '
+                    'exported as they are in the file',
+                    '3 particles of Step#2 have a density that is not more than 0; exported as they are in the file',
+                    '2 particles of Step#2 have a velocity or a pressure that is not finite; exported as they are in the '
                     'file',
-                    '2 particles of Step#2 have the id of another one; exported as it is in the file')
+                    '2 particles of Step#2 have the id of another one; exported as they are in the file')
         self.assertEqual(said, ''.join(f'a.h5part: warning: {line}\n' for line in expected))
         self.assertEqual(json.loads(self.read('a.json'))['left_out'], 4)
         written = read_ply(self.read('a/a-0002.ply'))
