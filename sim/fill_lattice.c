@@ -86,7 +86,7 @@ static FillAxis box_axis(const WorldDef *def, int k)
     /* across a periodic side the lattice goes on without a seam */
     const double size = def->box_size[k], whole = fmax(1, round(size / def->spacing));
     const double s = def->periodic[k] ? size / whole : def->spacing;
-    const double points = def->periodic[k] ? whole : floor(size / s + slack);
+    const double points = def->periodic[k] ? whole : floor(size / s + on_face);
     return (FillAxis){.first = k == 1 ? 0.5 * s : -0.5 * (points - 1) * s, .step = s, .end = (long)points};
 }
 

@@ -82,6 +82,16 @@ static void what_fits_stays(void **state)
     }
 }
 
+/* A box that the spacing divides but for rounding has no layer less under its lid. */
+static void rounding_leaves_no_gap_under_the_lid(void **state)
+{
+    (void)state;
+    WorldDef def = tank(2, 0.6, 1.79999, 0, 1.79999);
+    def.spacing = 0.02;
+    assert_int_equal(seed(&def), 30 * 90);
+    assert_true(def.spacing == 0.02);
+}
+
 /* A column that touches the left wall of a box of which the spacing divides nothing. */
 static void a_dam_stands_at_its_wall(void **state)
 {
@@ -210,6 +220,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_spacing_fits_the_walls_and_keeps_the_mass),
         cmocka_unit_test(what_fits_stays),
+        cmocka_unit_test(rounding_leaves_no_gap_under_the_lid),
         cmocka_unit_test(a_dam_stands_at_its_wall),
         cmocka_unit_test(fluids_that_touch_share_a_lattice),
         cmocka_unit_test(what_cannot_fit_keeps_its_density),
