@@ -188,8 +188,8 @@ static void count_frames(const char *backend, const Viewed *viewed, Studio *stud
             crossings = waits = queries = 0;
             counting(true);
         }
-        assert_true(world_step(world, NULL, &error));
-        assert_true(studio_draw(studio, world, NULL, NULL, &error));
+        if (!world_step(world, NULL, &error) || !studio_draw(studio, world, NULL, NULL, &error))
+            fail_msg("%s, view %td, frame %d: %s", backend, viewed - views, frame, error.message);
     }
     counting(false);
     const int wanted = (1 + !viewed->fluid) * FRAMES;
