@@ -57,8 +57,8 @@ static const struct Case {
      "2.1 is little for wendland_c2, which sums over 32"},
     {{"solver.kernel=wendland_c2"}, "solver.kernel has no effect; it needs solver.method: wcsph"},
     {{"fluids[0].density=31",
-      "fluids=[{density: 31, fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.2, 0.5]}}]}, {density: "
-      "1, fill: [{block: {min: [-0.5, 0.2, -0.5], max: [0.5, 0.5, 0.5]}}]}]"},
+      "fluids=[{density: 31, fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}, {density: "
+      "1, fill: [{block: {min: [-0.5, 0.4, -0.5], max: [0.5, 0.8, 0.5]}}]}]"},
      "mueller throws single light particles up where densities differ by more than 1 : 30, here 1 : 31"},
     {{"box.slip=none"}, "--set box.slip=none: slip none has no effect: only fluid with a viscosity is held"},
     {{"box.slip=none", "fluids[0].viscosity=1"}, NULL},
