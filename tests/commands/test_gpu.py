@@ -54,7 +54,7 @@ class Gpu(CommandTest):
     def test_what_it_cannot_do_is_said(self):
         self.refused(2, "solver.backend.*'gpu'", '--backend', 'gpu')
         self.refused(1, 'there is no GPU 15', *ON, '--gpu', '15')
-        self.refused(1, 'buffers larger than the \\d+ bytes that this driver allows', *ON, '--particles', '20000000')
+        self.refused(1, r'needs a buffer of \d+ bytes for this scene, and this driver allows shaders \d+', *ON, '--particles', '20000000')
 
     def test_a_gl_error_is_no_success(self):
         """A call that the driver refuses: the uniform that it sets is of another type."""
