@@ -256,7 +256,8 @@ static const char *read_group(hid_t group, SnapshotStep *step)
     SNAPSHOT_ATTRIBUTES(X)
 #undef X
     if (H5Aexists(group, SNAPSHOT_RESTART) > 0 &&
-        !read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS, &step->restart))
+        !read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS, &step->restart) &&
+        !read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS_LEAST, &step->restart))
         step->restart.version = 0; /* of another version of slosh */
     if (!read_values(group, SNAPSHOT_STEP_NUMBER, H5T_NATIVE_UINT64, 1, &step->step))
         return SNAPSHOT_STEP_NUMBER;

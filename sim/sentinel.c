@@ -47,6 +47,8 @@ static void restore(World *world)
     world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
     world->filter = numbers->filter;
     world->box = numbers->box;
+    if (world->energy.until > 0) /* else forgotten since, by a change that stays */
+        world->energy = numbers->energy;
     world->stepping.max_speed = numbers->stepping.max_speed;
     world->stepping.max_acceleration = numbers->stepping.max_acceleration;
     world->stepping.frame_left = -1;

@@ -51,6 +51,7 @@ typedef struct StepWatch {
     X(NONE, "")                                                                                              \
     X(SPEED, "a particle moves further than the support radius in one step")                                 \
     X(DENSITY, "fluid is pressed to more than five times its density")                                       \
+    X(ENERGY, "energy grows by a tenth without work done")                                                   \
     X(LOST, "particles found no place in the grid of backend fragment")
 
 typedef enum StepTrouble {

@@ -1,6 +1,7 @@
 #include "sim/world.h"
 
 #include "sim/cpu/parallel.h"
+#include "sim/energy_watch.h"
 #include "sim/sentinel.h"
 #include "sim/world_struct.h"
 
@@ -129,6 +130,7 @@ World *world_create(const WorldDef *def, Error *error)
     world->trouble.retries = def->retries;
     box_at(world, &world->filter, 0, &world->box);
     world_settle(world);
+    energy_sound(world);
     if (sentinel_mark(world, error)) /* what it needs is there before the first step */
         return world;
     world_destroy(world);
@@ -259,7 +261,7 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     world->method->substep(&step);
     world->kicked = true;
     count_step(world);
-    if (!world->backend->gpu && !world_sound(world))
+    if (!world->backend->gpu && (!world_sound(world) || !energy_sound(world)))
         return sentinel_back(world, world_time_at(world, (double)world->step), error);
     s->frame_left--;
     s->calm++;
@@ -310,6 +312,7 @@ void world_carry(World *world, const BoxTarget *target)
 {
     if (!target_take(world, target))
         return;
+    energy_forget(world);
     world->filter = box_filter_at_rest();
     memcpy(world->filter.position, world->target.position, sizeof world->filter.position);
     memcpy(world->filter.orientation, world->target.orientation, sizeof world->filter.orientation);
@@ -346,6 +349,7 @@ bool world_change(World *world, const WorldDef *def, Error *error)
     after.limits = def->limits;
     if (!world_adopt(world, &after, error))
         return false;
+    energy_forget(world);
     world_vary(world, world_time_at(world, (double)world->step));
     return true;
 }

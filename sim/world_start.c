@@ -150,6 +150,8 @@ bool world_start(World *world, Error *error)
         world->capacity = flow_capacity(&world->def, initial.count);
         world->state =
             world->backend->create(&world->solver, &initial, world->capacity, world->def.threads, error);
+        for (size_t i = 0; i < initial.count; i++)
+            world->mass += (double)world->solver.mass[initial.fluid ? initial.fluid[i] : 0];
         ok = world->state && layer_create(world, error);
     }
     seeds_free(&seeds);

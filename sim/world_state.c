@@ -62,6 +62,7 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
         .cfl_number = def->cfl_number,
         .max_dt = def->max_dt,
         .limits = def->limits,
+        .energy = world->energy,
     };
     memcpy(numbers->gravity, def->gravity, sizeof numbers->gravity);
     for (int f = 0; f < def->fluid_count; f++) {
@@ -173,6 +174,7 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->target = numbers->target;
     world->filter = numbers->filter;
     world->box = numbers->box;
+    world->energy = world->backend->energy ? numbers->energy : (EnergyMark){0};
     world_vary(world, world_time_at(world, numbers->step));
     world_put_back(world, numbers, state->count);
     return sentinel_mark(world, error);

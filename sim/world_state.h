@@ -6,6 +6,16 @@
 #include "sim/step_control.h"
 #include "sim/world.h"
 
+#include <stddef.h>
+
+/* What sim/energy_watch.h compares with; zero: nothing yet. */
+typedef struct EnergyMark {
+    double least; /* energy of a closed world, J */
+    double until; /* the step after which another takes its place */
+    double next;  /* the step that looks again, sooner if a particle is much faster than */
+    double speed; /* at the last look, m/s */
+} EnergyMark;
+
 /* What is not of a particle. Doubles only, so that it is also an array of WORLD_NUMBERS of them: files keep
    it as that. */
 typedef struct WorldNumbers {
@@ -26,9 +36,14 @@ typedef struct WorldNumbers {
     BoxLimits limits;             /* of the hand */
     double viscosity[FLUIDS_MAX]; /* Pa s */
     TimeTable table[FLUIDS_MAX];  /* of viscosity over time */
+    EnergyMark energy;            /* stands last: files may end before it */
 } WorldNumbers;
 
-enum { WORLD_STATE_VERSION = 3, WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double) };
+enum {
+    WORLD_STATE_VERSION = 3,
+    WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double),
+    WORLD_NUMBERS_LEAST = offsetof(WorldNumbers, energy) / sizeof(double)
+};
 
 /* What is of a particle, a column each. */
 typedef struct ParticleColumns {

@@ -27,6 +27,8 @@ struct World {
     BoxTarget target;                   /* of the hand */
     BoxFilter filter;                   /* at the present time */
     BoxState box;                       /* at the present time, the hand's part included */
+    double mass;                        /* of the initial fluid, kg */
+    EnergyMark energy;                  /* of sim/energy_watch.h */
     bool gauge_asked;                   /* and not answered yet, */
     double gauge_time;                  /* of the state at this time, s */
 };

@@ -269,6 +269,7 @@ const Backend backend_cpu = {
     .read = cpu_read,
     .gauge = cpu_gauge,
     .gauged = cpu_gauged,
+    .energy = cpu_energy,
     .guide = cpu_guide,
     .emit = cpu_emit,
     .drain = cpu_drain,

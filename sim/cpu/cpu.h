@@ -128,6 +128,7 @@ void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge);
+void cpu_energy(void *state, const double gravity[3], WorldGauge *gauge);
 
 /* rho / rho0 - 1: carried, or calibrated so that p = c^2 (rho - rho0) holds. */
 static inline float cpu_compression(const Cpu *cpu, size_t i)

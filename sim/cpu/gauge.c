@@ -23,22 +23,28 @@ static void gauge_range(void *context, size_t begin, size_t end)
 }
 
 /* Sums in an order that no thread count changes, in the memory that `sums` has for its own. */
-bool cpu_gauge(void *state, const double gravity[3])
+void cpu_energy(void *state, const double gravity[3], WorldGauge *gauge)
 {
     Cpu *cpu = state;
     _Static_assert(sizeof(WorldGauge) <= sizeof(WorldSums), "their memory is shared");
     GaugePass pass = {cpu, gravity, (WorldGauge *)(void *)cpu->partial};
     parallel_ranges(cpu->threads, cpu->owned, CPU_GRAIN, gauge_range, &pass);
-    cpu->gauge = (WorldGauge){0};
+    *gauge = (WorldGauge){0};
     for (size_t r = 0; r < (cpu->owned + CPU_GRAIN - 1) / CPU_GRAIN; r++) {
         const WorldGauge *part = &pass.partial[r];
-        cpu->gauge.density_error_mean += part->density_error_mean;
-        cpu->gauge.density_error_max = fmax(cpu->gauge.density_error_max, part->density_error_max);
-        cpu->gauge.kinetic_energy += part->kinetic_energy;
-        cpu->gauge.potential_energy += part->potential_energy;
-        cpu->gauge.compression_energy += part->compression_energy;
+        gauge->density_error_mean += part->density_error_mean;
+        gauge->density_error_max = fmax(gauge->density_error_max, part->density_error_max);
+        gauge->kinetic_energy += part->kinetic_energy;
+        gauge->potential_energy += part->potential_energy;
+        gauge->compression_energy += part->compression_energy;
     }
-    cpu->gauge.density_error_mean /= cpu->owned > 0 ? (double)cpu->owned : 1;
+    gauge->density_error_mean /= cpu->owned > 0 ? (double)cpu->owned : 1;
+}
+
+bool cpu_gauge(void *state, const double gravity[3])
+{
+    Cpu *cpu = state;
+    cpu_energy(cpu, gravity, &cpu->gauge);
     return true;
 }
 

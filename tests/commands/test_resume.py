@@ -222,6 +222,23 @@ class Resume(CommandTest):
             self.assertIn(said, answer)
             self.assertRegex(answer, r'; only the \d+ before it can be exported\n')
 
+    def test_a_file_from_before_the_energy_was_watched(self):
+        """The last four of the restart's numbers are not in it."""
+        steps = self.whole()
+        shutil.copy(self.path('whole.h5part'), self.path('a.h5part'))
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            for k in range(steps // 2, steps):
+                del file[f'Step#{k}']
+            last = file[f'Step#{steps // 2 - 1}']
+            numbers = last.attrs['restart'][:-4]
+            del last.attrs['restart']
+            last.attrs['restart'] = numbers
+        self.go('--resume')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            last = file[f'Step#{steps // 2 - 1}']
+            last.attrs['restart'] = numpy.append(numbers, [0] * 4)
+        self.same('whole.h5part', 'a.h5part')
+
     def test_other_particles_are_refused(self):
         self.go()
         with h5py.File(self.path('a.h5part'), 'r+') as file:

@@ -1,0 +1,235 @@
+/* Growth of energy without work done: found in a closed world, mended by half the step, and nobody else is
+   accused. */
+#include "fixture.h"
+
+#include "sim/tension.h"
+#include "sim/world_state.h"
+
+static Error error;
+
+/* Water at rest, as viscous as stones; a step is `share` of the longest one that friction stands. */
+static WorldDef viscous_tank(double share)
+{
+    WorldDef def = fixture_def(0.4, 0.4, 0.02);
+    def.dimensions = 2;
+    def.spacing = 0.02;
+    def.support = 2.6;
+    def.sound_speed = 20;
+    def.fluids[0].viscosity = 3000;
+    def.retries = 3;
+    fixture_block(&def, 0, -0.2, 0, -1, 0.2, 0.2, 1);
+    const StepFriction friction = step_friction(&def);
+    def.dt = share * step_viscous(&def, &friction);
+    return def;
+}
+
+/* A column that falls over, with no friction but what wcsph brings. */
+static WorldDef dam(const char *method)
+{
+    WorldDef def = fixture_def(1, 0.6, 0.02);
+    def.dimensions = 2;
+    def.spacing = 0.03;
+    def.support = 2.6;
+    def.sound_speed = 25;
+    def.retries = 3;
+    def.dt = 0.001;
+    snprintf(def.method, sizeof def.method, "%s", method);
+    snprintf(def.kernel, sizeof def.kernel, "wendland_c2");
+    fixture_block(&def, 0, -0.5, 0, -1, -0.2, 0.5, 1);
+    return def;
+}
+
+static WorldTrouble trouble_of(const World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    return info.trouble;
+}
+
+static double rms_speed(World *world)
+{
+    WorldSums sums;
+    world_sums(world, &sums);
+    return sqrt(2 * sums.kinetic_energy / sums.mass);
+}
+
+static WorldNumbers numbers_of(World *world)
+{
+    WorldNumbers numbers;
+    world_save_numbers(world, &numbers);
+    return numbers;
+}
+
+/* Slowly, where no other kind of trouble ever came, and fast. */
+static void boiling_is_found_and_mended(void **state)
+{
+    static const double shares[] = {1.15, 1.5};
+    (void)state;
+    fixture_needs_cpu("energy is watched on the CPU only");
+    for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
+        const WorldDef def = viscous_tank(shares[i]);
+        World *world = fixture_world(&def);
+        double fastest = 0;
+        for (int steps = 0; trouble_of(world).count == 0 && steps < 1000; steps++)
+            fixture_step(world, 1);
+        const WorldTrouble trouble = trouble_of(world);
+        printf("%g of the limit: t = %g s\n", shares[i], trouble.time);
+        assert_int_equal(trouble.count, 1);
+        assert_int_equal(trouble.what, STEP_TROUBLE_ENERGY);
+        assert_true(trouble.time - trouble.back_to < 1.01 * def.dt);
+        for (int steps = 0; steps < 150; steps++) {
+            fixture_step(world, 1);
+            fastest = steps > 20 ? fmax(fastest, rms_speed(world)) : 0;
+        }
+        assert_int_equal(trouble_of(world).count, 1);
+        assert_true(fastest < 0.05);
+        world_destroy(world);
+    }
+}
+
+/* With half of half of the step it boils still. */
+static void it_gives_up_and_names_friction(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("energy is watched on the CPU only");
+    WorldDef def = viscous_tank(4);
+    def.retries = 1;
+    World *world = fixture_world(&def);
+    bool good = true;
+    for (int steps = 0; good && steps < 1000; steps++)
+        good = world_step(world, NULL, &error);
+    assert_false(good);
+    assert_non_null(strstr(error.message, step_trouble_words(STEP_TROUBLE_ENERGY)));
+    assert_non_null(strstr(error.message, "lower viscosity"));
+    world_destroy(world);
+}
+
+static void who_falls_or_rests_is_not_accused(void **state)
+{
+    const WorldDef defs[] = {dam("mueller"), dam("wcsph"), viscous_tank(0.6)};
+    (void)state;
+    for (size_t i = 0; i < sizeof defs / sizeof *defs; i++) {
+        World *world = fixture_world(&defs[i]);
+        fixture_step(world, fixture_count(1500, 50));
+        assert_int_equal(trouble_of(world).count, 0);
+        assert_true((numbers_of(world).energy.until > 0) == fixture_on_cpu());
+        world_destroy(world);
+    }
+}
+
+static void watched_for(World *world, int steps, bool watched)
+{
+    for (int i = 0; i < steps; i++) {
+        fixture_step(world, 1);
+        assert_true((numbers_of(world).energy.until > 0) == watched);
+    }
+    assert_int_equal(trouble_of(world).count, 0);
+}
+
+/* A box that is shaken does work, and so do keys: what was before is nothing to compare with. */
+static void work_is_no_trouble(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("energy is watched on the CPU only");
+    WorldDef def = dam("mueller");
+    def.motions[def.motion_count++] = (Motion){.kind = MOTION_SHAKE,
+                                               .axis = {1, 0, 0},
+                                               .amplitude = 0.1,
+                                               .frequency = 2,
+                                               .start = 0.1003,
+                                               .duration = 0.5};
+    World *world = fixture_world(&def);
+    watched_for(world, 99, true);
+    fixture_step(world, 2);
+    watched_for(world, 490, false);
+    fixture_step(world, 12);
+    watched_for(world, 100, true);
+    def.gravity[1] = -40;
+    assert_true(world_change(world, &def, &error));
+    watched_for(world, 100, true);
+    world_carry(world, &(BoxTarget){{0, 0, 0}, {0, 0, 1, 0}}); /* upside down, and what has fallen up again */
+    watched_for(world, 100, true);
+    world_carry(world, &(BoxTarget){{0, 0, 0}, {0, 0, 0, 1}});
+    watched_for(world, 100, true);
+    world_set_target(world, &(BoxTarget){{0.3, 0, 0}, {0, 0, 0, 1}});
+    fixture_step(world, 1);
+    watched_for(world, 100, false);
+    world_destroy(world);
+}
+
+static void who_is_not_closed_is_not_watched(void **state)
+{
+    enum { PERIODIC, DRAIN, EMIT, PADDLE, TENSION, RETRIES, CASES };
+    (void)state;
+    for (int i = 0; i < CASES; i++) {
+        WorldDef def = dam("mueller");
+        def.periodic[1] = i == PERIODIC;
+        def.retries = i == RETRIES ? 0 : 3;
+        if (i == DRAIN)
+            def.drains[def.drain_count++] =
+                (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -1}, .max = {0.5, 0.1, 1}};
+        if (i == EMIT) {
+            def.fluids[0].emits[def.fluids[0].emit_count++] =
+                (Emit){.centre = {0, 0.5, 0}, .direction = {0, -1, 0}, .radius = 0.06, .speed = 1};
+            def.most = 1000;
+        }
+        if (i == PADDLE) {
+            SolidDef *paddle = &def.solids[def.solid_count++];
+            *paddle =
+                (SolidDef){.kind = SOLID_SPHERE, .centre = {0.3, 0.3, 0}, .radius = 0.1, .motion_count = 1};
+            paddle->motions[0] =
+                (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.01, .frequency = 1};
+        }
+        if (i == TENSION) {
+            def.tension_model = TENSION_COHESION;
+            def.fluids[0].surface_tension = 0.07;
+        }
+        World *world = fixture_world(&def);
+        watched_for(world, 5, false);
+        world_destroy(world);
+    }
+}
+
+/* A state that is taken before the trouble has all that finds it; one of a file of before goes on without. */
+static void save_load_step_is_step(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("energy is watched on the CPU only");
+    const WorldDef def = viscous_tank(1.15);
+    World *straight = fixture_world(&def), *loaded = fixture_world(&def);
+    WorldState saved = {.count = 0};
+    while (trouble_of(straight).count == 0) {
+        if (!world_save(straight, &saved, &error)) /* the last is that before the trouble */
+            fail_msg("%s", error.message);
+        fixture_step(straight, 1);
+    }
+    fixture_step(loaded, 3);
+    assert_true(world_load(loaded, &saved, &error));
+    fixture_step(loaded, 1);
+    assert_int_equal(trouble_of(loaded).count, 1);
+    for (int i = 0; i < 3; i++) {
+        const WorldNumbers one = numbers_of(straight), other = numbers_of(loaded);
+        assert_memory_equal(&one, &other, sizeof one);
+        assert_true(one.energy.until > 0 && world_hash(straight) == world_hash(loaded));
+        fixture_step(straight, 100);
+        fixture_step(loaded, 100);
+    }
+    saved.numbers.energy = (EnergyMark){0};
+    assert_true(world_load(loaded, &saved, &error));
+    const unsigned before = trouble_of(loaded).count;
+    fixture_step(loaded, 1);
+    assert_int_equal(trouble_of(loaded).count, before); /* nothing to compare with */
+    world_state_free(&saved);
+    world_destroy(straight);
+    world_destroy(loaded);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(boiling_is_found_and_mended),       cmocka_unit_test(it_gives_up_and_names_friction),
+        cmocka_unit_test(who_falls_or_rests_is_not_accused), cmocka_unit_test(work_is_no_trouble),
+        cmocka_unit_test(who_is_not_closed_is_not_watched),  cmocka_unit_test(save_load_step_is_step),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
