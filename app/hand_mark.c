@@ -21,7 +21,8 @@ static uint64_t add_log(uint64_t hash, const ReportLog *log)
                                  device->row->vendor, device->row->product, device->bluetooth};
         hash = add(hash, &entry->time, sizeof entry->time);
         hash = add(hash, what, sizeof what);
-        hash = add(hash, log->bytes + entry->offset, entry->size);
+        if (entry->size > 0) /* a log of reports without a byte has no bytes at all */
+            hash = add(hash, log->bytes + entry->offset, entry->size);
     }
     return hash;
 }

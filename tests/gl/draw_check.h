@@ -121,12 +121,12 @@ static inline void draw_check_textures(GLuint program, bool draws)
     glGetProgramInterfaceiv(program, GL_UNIFORM, GL_ACTIVE_RESOURCES, &count);
     for (GLint i = 0; i < count; i++) {
         char name[64] = "";
-        GLint is[2] = {0}, unit = 0;
+        GLint is[2] = {0}, value[16] = {0}; /* room for a matrix; of a sampler its unit */
         glGetProgramResourceiv(program, GL_UNIFORM, (GLuint)i, 2, wanted, 2, NULL, is);
         glGetProgramResourceName(program, GL_UNIFORM, (GLuint)i, sizeof name, NULL, name);
         if (is[1] >= 0)
-            glGetUniformiv(program, is[1], &unit);
-        const GLint texture = draw_check_texture(is[0], unit);
+            glGetUniformiv(program, is[1], value);
+        const GLint texture = draw_check_texture(is[0], value[0]);
         if (texture == 0)
             draw_check_complain(program, "no texture is bound to", name);
         else if (texture > 0 && draw_check_filters_depth(is[0], (GLuint)texture))
