@@ -24,7 +24,7 @@ static void calibrate(Device *device, const uint8_t *bytes, size_t size)
 
 static void play(Devices *devices, const ReportLogEntry *entry, Device *device)
 {
-    const uint8_t *bytes = devices->log.bytes + entry->offset;
+    const uint8_t *bytes = entry->size > 0 ? devices->log.bytes + entry->offset : NULL;
     switch ((ReportLogKind)entry->kind) {
     case REPORT_LOG_PLUGGED:
         plug_in(devices, &devices->log.devices[entry->device], device);
