@@ -198,7 +198,7 @@ class Keys(Window):
         time.sleep(0.5)
         self.keys('space', 'equal', 'plus', 'minus', 'space')
         self.keys('r')
-        time.sleep(0.4)  # back at the start, and paused
+        time.sleep(1.5)  # back at the start, and paused, under a sanitizer too
         self.keys('period', 'n', 'period')
         out = self.quit()
         self.assertEqual((out['paused'], out['speed']), (True, 2))
