@@ -36,25 +36,20 @@ static void view_fluids(Scene *scene)
     }
 }
 
-static bool is_key(const Node *node, const char *name)
-{
-    return node->key && strcmp(node->key, name) == 0;
-}
-
 /* The file's scalar, or "" where it names none. */
 static void file_scalar(const Tree *tree, char name[NAME_SIZE])
 {
-    const Node *node = tree_near(tree, "view.color_by");
-    snprintf(name, NAME_SIZE, "%s", is_key(node, "color_by") && node->text ? node->text : "");
+    const Node *node = tree_at(tree, "view.color_by");
+    snprintf(name, NAME_SIZE, "%s", node && node->text ? node->text : "");
 }
 
 /* A range that the file gives is of the file's scalar, not of one that the command line names. */
 static void range_of_scalar(const Tree *tree, const char *scalar_of_file, ViewDef *view)
 {
-    const Node *color = tree_near(tree, "view.color_by"), *range = tree_near(tree, "view.range");
-    const bool own = is_key(range, "range") && range->said;
+    const Node *color = tree_at(tree, "view.color_by"), *range = tree_at(tree, "view.range");
+    const bool own = range && range->said;
     const char *of_file = *scalar_of_file ? scalar_of_file : scalar_name(view_def_default().color_by);
-    if (!own && is_key(color, "color_by") && color->said && strcmp(of_file, scalar_name(view->color_by)) != 0)
+    if (!own && color && color->said && strcmp(of_file, scalar_name(view->color_by)) != 0)
         view->range_auto = true;
 }
 
@@ -63,18 +58,16 @@ static bool apply_settings(Tree *tree, SceneSettings *settings, Error *error)
     for (int i = 0; i < settings->count; i++)
         if (!tree_set(tree, settings->set[i], settings->said[i], error))
             return false;
-    const Node *dt = tree_near(tree, "solver.step.dt");
-    settings->dt_set = dt->said && is_key(dt, "dt");
+    const Node *dt = tree_at(tree, "solver.step.dt");
+    settings->dt_set = dt && dt->said;
     return true;
 }
 
 /* A box with a width and a height, and no depth, makes a scene of two dimensions. */
 static int dimensions_of(const Tree *tree)
 {
-    const Node *size = tree_near(tree, "box.size");
-    return size->key && strcmp(size->key, "size") == 0 && size->kind == NODE_SEQUENCE && node_count(size) == 2
-               ? 2
-               : 3;
+    const Node *size = tree_at(tree, "box.size");
+    return size && size->kind == NODE_SEQUENCE && node_count(size) == 2 ? 2 : 3;
 }
 
 static bool read_scene(Tree *tree, Scene *out, Error *error)

@@ -4,19 +4,11 @@
 
 #include <stdarg.h>
 #include <stddef.h>
-#include <string.h>
 
 enum { PATH_SIZE = 256 };
 
 static Advice *const advices[] = {advise_fills, advise_step, advise_sound,      advise_kernel,
                                   advise_ratio, advise_slip, advise_artificial, NULL};
-
-/* Whether `node`, the nearest to `path`, stands at it. */
-static bool stands_at(const Node *node, const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return node->key && strcmp(node->key, dot ? dot + 1 : path) == 0;
-}
 
 void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
 {
@@ -28,7 +20,7 @@ void advise(const Tree *tree, const char *path, Notes *notes, const char *format
     const Node *node = tree ? tree_near(tree, path) : NULL;
     if (node && node->said)
         notes_add(notes, "%s: %s", node->said, what);
-    else if (node && stands_at(node, path))
+    else if (tree && tree_at(tree, path))
         notes_add(notes, "%s:%d:%d: %s", tree->path, node->key_line, node->key_column, what);
     else
         notes_add(notes, "%s%s%s: %s", tree ? tree->path : "", tree ? ": " : "", path, what);
