@@ -107,12 +107,6 @@ bool play_scene_close(PlayScene *open, double patience_ms)
     return true;
 }
 
-static int is_scene(const struct dirent *entry)
-{
-    const char *dot = strrchr(entry->d_name, '.');
-    return dot && dot != entry->d_name && strcmp(dot, ".yaml") == 0;
-}
-
 bool play_scene_neighbour(const char *path, int by, char out[1024])
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -121,7 +115,7 @@ bool play_scene_neighbour(const char *path, int by, char out[1024])
     int place = -1;
     if (slash)
         snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
-    const int count = scandir(*folder ? folder : "/", &entries, is_scene, alphasort);
+    const int count = scandir(*folder ? folder : "/", &entries, scene_path_is_yaml, alphasort);
     for (int i = 0; i < count; i++)
         if (strcmp(entries[i]->d_name, name) == 0)
             place = i;

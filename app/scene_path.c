@@ -13,7 +13,7 @@
 
 #define SCENES SLOSH_SOURCE_DIR "/scenes"
 
-static int is_yaml(const struct dirent *entry)
+int scene_path_is_yaml(const struct dirent *entry)
 {
     const char *dot = strrchr(entry->d_name, '.');
     return dot && dot != entry->d_name && strcmp(dot, ".yaml") == 0;
@@ -22,7 +22,7 @@ static int is_yaml(const struct dirent *entry)
 void scene_path_names(SceneNames *names)
 {
     struct dirent **entries;
-    const int count = scandir(SCENES, &entries, is_yaml, alphasort);
+    const int count = scandir(SCENES, &entries, scene_path_is_yaml, alphasort);
     names->count = 0;
     for (int i = 0; i < count; i++) {
         const char *name = entries[i]->d_name;

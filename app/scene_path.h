@@ -4,6 +4,7 @@
 
 #include "sim/error.h"
 
+#include <dirent.h>
 #include <stddef.h>
 
 enum { SCENE_PATH_SIZE = 1024, SCENE_NAMES_MAX = 64 };
@@ -15,6 +16,9 @@ typedef struct SceneNames {
 } SceneNames;
 
 void scene_path_names(SceneNames *names);
+
+/* For scandir: whether the entry is named like a scene file. */
+int scene_path_is_yaml(const struct dirent *entry);
 
 /* The file that `name` means: a path, else a path or a bare name (with or without .yaml) beside the sources
    that the program was built from. A folder is meant only where there is nothing else: outputs have the names
