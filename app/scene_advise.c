@@ -20,7 +20,7 @@ void advise(const Tree *tree, const char *path, Notes *notes, const char *format
     const Node *node = tree ? tree_near(tree, path) : NULL;
     if (node && node->said)
         notes_add(notes, "%s: %s", node->said, what);
-    else if (tree && tree_at(tree, path))
+    else if (node && tree_at(tree, path))
         notes_add(notes, "%s:%d:%d: %s", tree->path, node->key_line, node->key_column, what);
     else
         notes_add(notes, "%s%s%s: %s", tree ? tree->path : "", tree ? ": " : "", path, what);

@@ -259,6 +259,15 @@ static void largest_group(const WorldDef *def, Group *largest)
         }
 }
 
+/* The root of a number near 1, by Newton: the C library's last bit depends on the processor. */
+static double root_near_one(double x, int power)
+{
+    double root = 1;
+    for (int i = 0; i < 8; i++)
+        root -= power == 2 ? (root - x / root) / 2 : (root - x / (root * root)) / 3;
+    return root;
+}
+
 /* The spacing at which the lattice that `spacing` gives has a particle's volume a point; its steps differ
    from it by up to the part `uneven`, and faces inside the group are `off` its layers. 0: with it the lattice
    is another one. */
@@ -268,7 +277,7 @@ static double fit_at(const WorldDef *def, const Group *group, double spacing, do
     FillAxis axes[3];
     at.spacing = spacing;
     group_axes(&at, group, axes);
-    at.spacing *= pow(cell_of(&at, axes), 1.0 / def->dimensions);
+    at.spacing *= root_near_one(cell_of(&at, axes), def->dimensions);
     group_axes(&at, group, axes);
     *uneven = *off = 0;
     for (int k = 0; k < def->dimensions; k++) {

@@ -49,11 +49,12 @@ StepFriction step_friction(const WorldDef *def)
     else
         lattice_calibrate(def->dimensions, def->spacing, h, summed, density_kernel_find("spiky"), &lattice);
     if (!continuity)
-        return (StepFriction){friction_rate(&lattice, FRICTION_MUELLER, h, summed), 0};
+        return (StepFriction){friction_rate(&lattice, def->spacing, FRICTION_MUELLER, h, summed), 0};
     const Friction form = def->viscosity_form == VISCOSITY_RADIAL ? FRICTION_RADIAL : FRICTION_MORRIS;
-    return (StepFriction){
-        friction_rate(&lattice, form, h, NULL),
-        def->artificial_viscosity > 0 ? friction_rate(&lattice, FRICTION_ARTIFICIAL, h, NULL) : 0};
+    return (StepFriction){friction_rate(&lattice, def->spacing, form, h, NULL),
+                          def->artificial_viscosity > 0
+                              ? friction_rate(&lattice, def->spacing, FRICTION_ARTIFICIAL, h, NULL)
+                              : 0};
 }
 
 /* A light particle between those of the most viscous fluid. */

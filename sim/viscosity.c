@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 const ViscosityKind viscosity_kinds[] = {
@@ -35,10 +36,9 @@ static double friction_weight(const Lattice *lattice, Friction friction, double 
 }
 
 /* Of the lattice's first `axes` axes: a thread, a film, all of it. Its density over that of rest. */
-static double sites_fill(Sites *sites, const Lattice *lattice, Friction friction, int axes, double h,
-                         const Kernel *summed)
+static double sites_fill(Sites *sites, const Lattice *lattice, double spacing, Friction friction, int axes,
+                         double h, const Kernel *summed)
 {
-    const double spacing = pow(lattice->number_density, -1.0 / lattice->dimensions);
     const int deep[3] = {REACH, axes > 1 ? REACH : 0, axes > 2 ? REACH : 0};
     double sum = summed ? summed->value(0, h) : 0;
     *sites = (Sites){.along = friction == FRICTION_RADIAL || friction == FRICTION_ARTIFICIAL};
@@ -76,13 +76,24 @@ static double greatest_eigenvalue(double m[3][3])
     return length;
 }
 
-/* Of a wave whose phase goes on by these angles from one site to the next. */
-static double rate_of_wave(const Sites *sites, const double phase[3])
+/* cos(pi n / WAVES) from constants: the C library's last bit depends on the processor, and a step would too.
+ */
+static double wave_cosine(int n)
+{
+    static const double quarter[] = {1, 0.92387953251128674, 0.70710678118654752, 0.38268343236508977, 0};
+    const int turn = abs(n) % (2 * WAVES), half = turn > WAVES ? 2 * WAVES - turn : turn;
+    return half <= WAVES / 2 ? quarter[half] : -quarter[WAVES - half];
+}
+
+/* Of a wave whose phase goes on by so many times pi / WAVES from one site to the next. */
+static double rate_of_wave(const Sites *sites, const int phase[3])
 {
     double sum = 0, m[3][3] = {{0}};
     for (int n = 0; n < sites->count; n++) {
         const double *x = sites->x[n];
-        const double part = sites->weight[n] * (1 - cos(phase[0] * x[0] + phase[1] * x[1] + phase[2] * x[2]));
+        const double part =
+            sites->weight[n] *
+            (1 - wave_cosine(phase[0] * (int)x[0] + phase[1] * (int)x[1] + phase[2] * (int)x[2]));
         sum += part;
         for (int a = 0; a < 3 && sites->along; a++)
             for (int b = 0; b < 3; b++)
@@ -97,17 +108,17 @@ static double greatest_rate(const Sites *sites, int axes)
     for (int i = 0; i <= WAVES; i++)
         for (int j = 0; j <= (axes > 1 ? i : 0); j++)
             for (int k = 0; k <= (axes > 2 ? j : 0); k++)
-                greatest = fmax(greatest, rate_of_wave(sites, (double[3]){M_PI * i / WAVES, M_PI * j / WAVES,
-                                                                          M_PI * k / WAVES}));
+                greatest = fmax(greatest, rate_of_wave(sites, (int[3]){i, j, k}));
     return greatest;
 }
 
-double friction_rate(const Lattice *lattice, Friction friction, double support_radius, const Kernel *summed)
+double friction_rate(const Lattice *lattice, double spacing, Friction friction, double support_radius,
+                     const Kernel *summed)
 {
     double greatest = 0;
     for (int axes = summed ? 1 : lattice->dimensions; axes <= lattice->dimensions; axes++) {
         Sites sites;
-        const double density = sites_fill(&sites, lattice, friction, axes, support_radius, summed);
+        const double density = sites_fill(&sites, lattice, spacing, friction, axes, support_radius, summed);
         greatest =
             fmax(greatest, greatest_rate(&sites, axes) / (lattice->number_density * density * density));
     }

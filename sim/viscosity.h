@@ -30,10 +30,12 @@ extern const ViscosityKind viscosity_kinds[]; /* in the order of ViscosityForm, 
  */
 typedef enum Friction { FRICTION_MUELLER, FRICTION_MORRIS, FRICTION_RADIAL, FRICTION_ARTIFICIAL } Friction;
 
-/* How fast at most it levels them on the lattice at rest, 1/s for a kinematic viscosity of 1 m2/s (of the
-   artificial one for alpha c h / 4): the greatest eigenvalue of its pair terms. An explicit step stands less
-   than twice the inverse. `summed` is the kernel that density is summed by: in films and threads, where it is
-   low, friction is stronger, and the greatest of all three counts. NULL: particles carry their density. */
-double friction_rate(const Lattice *lattice, Friction friction, double support_radius, const Kernel *summed);
+/* How fast at most it levels them on the lattice of that spacing (m) at rest, 1/s for a kinematic viscosity
+   of 1 m2/s (of the artificial one for alpha c h / 4): the greatest eigenvalue of its pair terms. An explicit
+   step stands less than twice the inverse. `summed` is the kernel that density is summed by: in films and
+   threads, where it is low, friction is stronger, and the greatest of all three counts. NULL: particles carry
+   their density. */
+double friction_rate(const Lattice *lattice, double spacing, Friction friction, double support_radius,
+                     const Kernel *summed);
 
 #endif
