@@ -1,8 +1,8 @@
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
-#include "render/ellipsoids.h"
-#include "render/legend.h"
-#include "render/splat_level.h"
+#include "render/frame/legend.h"
+#include "render/splat/ellipsoids.h"
+#include "render/splat/splat_level.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -1,14 +1,14 @@
 #include "render/renderer.h"
 
-#include "render/backdrop.h"
-#include "render/edges.h"
-#include "render/legend.h"
-#include "render/raycast_names.h"
-#include "render/shadow.h"
-#include "render/solids.h"
-#include "render/splat_names.h"
-#include "render/view.h"
-#include "render/volume_names.h"
+#include "render/frame/backdrop.h"
+#include "render/frame/edges.h"
+#include "render/frame/legend.h"
+#include "render/frame/shadow.h"
+#include "render/frame/solids.h"
+#include "render/frame/view.h"
+#include "render/splat/splat_names.h"
+#include "render/volume/raycast_names.h"
+#include "render/volume/volume_names.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>

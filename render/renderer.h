@@ -5,9 +5,9 @@
 #ifndef SLOSH_RENDERER_H
 #define SLOSH_RENDERER_H
 
-#include "render/counts.h"
-#include "render/view_def.h"
-#include "sim/error.h"
+#include "render/frame/counts.h"
+#include "render/frame/view_def.h"
+#include "sim/base/error.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/timer.h"
 

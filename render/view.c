@@ -1,8 +1,8 @@
-#include "render/view.h"
+#include "render/frame/view.h"
 
-#include "render/spheres.h"
-#include "render/splat.h"
-#include "render/volume_view.h"
+#include "render/spheres/spheres.h"
+#include "render/splat/splat.h"
+#include "render/volume/volume_view.h"
 #include "sim/gl/limits.h"
 
 #include <stdio.h>

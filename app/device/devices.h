@@ -6,7 +6,7 @@
 #define SLOSH_DEVICES_H
 
 #include "app/device/device_state.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 typedef enum DeviceEventKind {
     DEVICE_PLUGGED,   /* the state is all zero */

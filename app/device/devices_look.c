@@ -1,6 +1,6 @@
 #include "app/device/devices_state.h"
 
-#include "sim/stage.h"
+#include "sim/base/stage.h"
 
 #include <stdlib.h>
 #include <string.h>

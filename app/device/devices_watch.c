@@ -1,9 +1,9 @@
 #include "app/device/devices_watch.h"
 
+#include "app/base/interrupt.h"
 #include "app/device/device_show.h"
 #include "app/device/device_trouble.h"
-#include "app/interrupt.h"
-#include "sim/stage.h"
+#include "sim/base/stage.h"
 
 #include <errno.h>
 #include <pthread.h>

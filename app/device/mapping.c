@@ -2,7 +2,7 @@
 
 #include "app/device/device_table.h"
 #include "app/device/mapping_keys.h"
-#include "sim/box_motion.h"
+#include "sim/box/box_motion.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,9 +8,9 @@
 #define SLOSH_MAPPING_H
 
 #include "app/device/device_state.h"
-#include "app/hand.h"
-#include "app/play_commands.h"
-#include "sim/error.h"
+#include "app/hand/hand.h"
+#include "app/hand/play_commands.h"
+#include "sim/base/error.h"
 
 #include <stddef.h>
 #include <stdio.h>

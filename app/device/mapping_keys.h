@@ -3,7 +3,7 @@
 #define SLOSH_MAPPING_KEYS_H
 
 #include "app/device/mapping.h"
-#include "app/scene_keys.h"
+#include "app/scene/keys.h"
 
 /* The keys of a device, of one of its axes, and of its pose; each ended by a row without a path. */
 extern const Key mapping_device_keys[], mapping_axis_keys[], mapping_pose_keys[];

@@ -1,10 +1,10 @@
 /* From a mapping file to what devices do. */
+#include "app/base/read_file.h"
+#include "app/base/suggest.h"
 #include "app/device/device_table.h"
 #include "app/device/mapping_keys.h"
-#include "app/read_file.h"
-#include "app/scene_suggest.h"
-#include "app/scene_value.h"
-#include "app/scene_yaml.h"
+#include "app/scene/value.h"
+#include "app/yaml/yaml.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "app/device/orientation.h"
 
-#include "sim/box_motion.h"
+#include "sim/box/box_motion.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "app/device/report_log.h"
 
-#include "app/read_file.h"
-#include "app/recording_reader.h"
+#include "app/base/read_file.h"
+#include "app/recording/recording_reader.h"
 
 #include <stdlib.h>
 #include <string.h>

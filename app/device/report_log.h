@@ -15,7 +15,7 @@
 #define SLOSH_REPORT_LOG_H
 
 #include "app/device/device_table.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 #include <stddef.h>
 

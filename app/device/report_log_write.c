@@ -1,6 +1,6 @@
+#include "app/base/output.h"
 #include "app/device/report_log.h"
-#include "app/output.h"
-#include "sim/stage.h"
+#include "sim/base/stage.h"
 
 #include <errno.h>
 #include <stdarg.h>

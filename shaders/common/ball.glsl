@@ -1,5 +1,5 @@
 // The ball that stands for a particle: of the view's radius, with DROPS of its own one, with ELLIPSOID that of an ellipsoid's volume
-// (render/ellipsoids.c). Wants common/frame.glsl and common/particles.glsl.
+// (render/splat/ellipsoids.c). Wants common/frame.glsl and common/particles.glsl.
 #ifdef ELLIPSOID
 // Of each: centre, radius of the ball of its volume, m; the symmetric matrix A that takes it to that ball, of determinant 1: xx yy
 // zz, least axis in radii at most; xy xz yz.

@@ -1,4 +1,4 @@
-// What stands behind the fluid, bent by it; render/behind.c binds it. Wants common/frame.glsl and, with FLOOR_SHADOW,
+// What stands behind the fluid, bent by it; render/frame/behind.c binds it. Wants common/frame.glsl and, with FLOOR_SHADOW,
 // common/environment.glsl.
 #include "common/nan.glsl"
 layout(binding = 14) uniform sampler2D behind_color;

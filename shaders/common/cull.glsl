@@ -1,4 +1,4 @@
-// Culling of hidden particles on a coarse map, for render/cull.c. A cell holds a depth behind which nothing can be seen in it: that
+// Culling of hidden particles on a coarse map, for render/splat/cull.c. A cell holds a depth behind which nothing can be seen in it: that
 // of the nearest sprite that covers all of its pixels' centres. A particle whose sprite lies behind all cells that it
 // touches is hidden. Two projections: the eye's, with depth along its axis, and with LIGHT the shadow map's.
 layout(location = 1) uniform uvec4 grid;       // columns, rows; pixels along a cell's side; how far maxima reach, cells

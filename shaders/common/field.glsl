@@ -1,5 +1,5 @@
 // The fluid's field at a place, m in the box's frame: from the volume, or with FIELD_DIRECT summed up there and then. Bound by
-// voxelizer_bind (render/volume.h), whose voxelizer_defines must stand before.
+// voxelizer_bind (render/volume/volume.h), whose voxelizer_defines must stand before.
 #include "common/volume.glsl"
 
 #ifdef FIELD_DIRECT

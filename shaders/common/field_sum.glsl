@@ -1,4 +1,4 @@
-// The field as a sum over the particles around, by the lists of render/cell_lists.c. After: Iwasaki et al. 2006; Müller 2003.
+// The field as a sum over the particles around, by the lists of render/volume/cell_lists.c. After: Iwasaki et al. 2006; Müller 2003.
 layout(std430, binding = 8) readonly buffer ListStarts { uint list_starts[]; }; // one more than cells
 layout(std430, binding = 9) readonly buffer ListParticles { vec4 list_particles[]; }; // centre, cells; amplitude
 #ifdef SCALAR

@@ -1,4 +1,4 @@
-// The particles to be drawn: all, or with LISTED those that culling kept (render/cull.c), in the same order.
+// The particles to be drawn: all, or with LISTED those that culling kept (render/splat/cull.c), in the same order.
 #ifdef LISTED
 layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
 #endif

@@ -1,4 +1,4 @@
-// The grid of render/neighbourhood.c: cells along x lie side by side. The one after the last is for what is far beside all.
+// The grid of render/particles/neighbourhood.c: cells along x lie side by side. The one after the last is for what is far beside all.
 #include "common/nan.glsl"
 layout(location = 1) uniform uvec4 grid_size;  // cells along each axis; particles
 layout(location = 2) uniform vec4 grid_place;  // least corner, m; cells a metre

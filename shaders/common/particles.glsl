@@ -1,4 +1,4 @@
-// The particles, as render/particle_bind.c binds them; strides are in words since the owner of the buffers chose them. What else
+// The particles, as render/particles/particle_bind.c binds them; strides are in words since the owner of the buffers chose them. What else
 // is known of them stands in blocks of their own, so that a shader declares what it reads: common/particle_scalars.glsl,
 // common/particle_fluids.glsl.
 layout(std430, binding = 0) readonly buffer Positions { float position_words[]; };

@@ -1,4 +1,4 @@
-// What the passes of raycasting know of the volume and of the march; filled by render/raycast.c, same order as RaycastBlock
+// What the passes of raycasting know of the volume and of the march; filled by render/volume/raycast.c, same order as RaycastBlock
 // there. Volume space: 0..1 of the texture.
 layout(std140, binding = 3) uniform RaycastBlock {
     mat4 eye_to_volume; // m

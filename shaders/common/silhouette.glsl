@@ -1,4 +1,4 @@
-// What is seen in a finished picture of the view splat, for render/silhouette.c. Wants common/frame.glsl.
+// What is seen in a finished picture of the view splat, for render/splat/silhouette.c. Wants common/frame.glsl.
 layout(binding = 1) uniform sampler2D nearest_map;
 layout(binding = 2) uniform sampler2D target_depth;
 layout(binding = 7) uniform sampler2D weight_map;

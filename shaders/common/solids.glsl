@@ -1,4 +1,4 @@
-// Poses and colours of the solids; filled by render/solids.c, same order as SolidBlock there.
+// Poses and colours of the solids; filled by render/frame/solids.c, same order as SolidBlock there.
 struct Solid {
     mat4 to_eye; // from the solid's own frame
     mat4 to_light;

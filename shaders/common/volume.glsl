@@ -1,4 +1,4 @@
-// The grid of a volume, and its particles in units of its cells; filled by render/voxelizer.c, same order as VolumeBlock there.
+// The grid of a volume, and its particles in units of its cells; filled by render/volume/voxelizer.c, same order as VolumeBlock there.
 layout(std140, binding = 2) uniform VolumeBlock {
     vec4 volume_place;  // corner, m; cells a m
     vec4 volume_low;    // what particles may count, m; radius of the kernel, cells

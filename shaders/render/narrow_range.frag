@@ -1,4 +1,4 @@
-// One pass of the filter of render/narrow_range.h: along one axis, or with CLEAN over 5 x 5 pixels. Pairs of opposite
+// One pass of the filter of render/splat/narrow_range.h: along one axis, or with CLEAN over 5 x 5 pixels. Pairs of opposite
 // neighbours go from the middle outwards; a pair of which one is out of the picture is left out.
 #include "common/frame.glsl"
 

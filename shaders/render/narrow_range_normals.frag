@@ -1,4 +1,4 @@
-// Normals of a map of depths, for render/narrow_range.c. Of the plane n.P = d the points are P = z (x, y, -1), so
+// Normals of a map of depths, for render/splat/narrow_range.c. Of the plane n.P = d the points are P = z (x, y, -1), so
 // 1 / z = (n.x x + n.y y - n.z) / d is linear on the screen, and its slopes there give n.
 #include "common/frame.glsl"
 

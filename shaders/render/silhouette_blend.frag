@@ -1,4 +1,4 @@
-// Blends each pixel of a finished picture beside an outline with those across it. DISCS and ROWS: see render/silhouette.h.
+// Blends each pixel of a finished picture beside an outline with those across it. DISCS and ROWS: see render/splat/silhouette.h.
 #include "common/frame.glsl"
 #include "common/silhouette.glsl"
 

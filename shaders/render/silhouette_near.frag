@@ -1,4 +1,4 @@
-// Leaves only pixels that may be beside an outline, for render/silhouette.c.
+// Leaves only pixels that may be beside an outline, for render/splat/silhouette.c.
 #include "common/frame.glsl"
 #include "common/silhouette.glsl"
 

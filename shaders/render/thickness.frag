@@ -1,4 +1,4 @@
-// A particle's share of the fluid's thickness, render/thickness.h: its field along the whole ray, where its centre is before the
+// A particle's share of the fluid's thickness, render/splat/thickness.h: its field along the whole ray, where its centre is before the
 // solid.
 #include "common/frame.glsl"
 #include "common/sphere.glsl"

@@ -1,5 +1,5 @@
 #include "sim/cells.glsl"
-// Boundary particles of solids (sim/boundary.h), sorted by cell in a grid of their own: the fluids' buffers hold fluid alone.
+// Boundary particles of solids (sim/matter/boundary.h), sorted by cell in a grid of their own: the fluids' buffers hold fluid alone.
 layout(std430, binding = 12) BOUNDARY_ACCESS buffer BoundaryPositions { vec4 boundary_position[]; }; // w: volume in friction
 layout(std430, binding = 13) BOUNDARY_ACCESS buffer BoundaryVelocities { vec4 boundary_velocity[]; }; // w: viscosity
 layout(std430, binding = 14) BOUNDARY_ACCESS buffer BoundaryStates { uvec2 boundary_state[]; }; // p V0^2, number

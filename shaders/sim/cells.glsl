@@ -1,4 +1,4 @@
-// Which cell is where, and which are next to it: sim/cpu/grid.c, sim/cell_rows.c.
+// Which cell is where, and which are next to it: sim/cpu/grid.c, sim/world/cell_rows.c.
 ivec3 cell_of(vec3 x)
 {
     ivec3 first = cell_first.xyz + 1, last = cell_first.xyz + cell_size.xyz - 2;

@@ -1,4 +1,4 @@
-// Who stays: fill_holds of sim/seed.c, of none of the drains.
+// Who stays: fill_holds of sim/matter/seed.c, of none of the drains.
 #include "sim/constants.glsl"
 #include "sim/flow.glsl"
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };

@@ -1,4 +1,4 @@
-// What a particle adds to the gauge: mirrors sim/gauge.h.
+// What a particle adds to the gauge: mirrors sim/world/gauge.h.
 
 // Energy of compression over m c^2, of x = rho / rho0 - 1.
 float gauge_compression_energy(float x)

@@ -1,4 +1,4 @@
-// What emitters hold to its course: guide_holds of sim/flow.h.
+// What emitters hold to its course: guide_holds of sim/matter/flow.h.
 #include "sim/constants.glsl"
 #include "sim/cells.glsl"
 #include "sim/flow.glsl"

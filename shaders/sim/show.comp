@@ -7,7 +7,7 @@ layout(std430, binding = 2) readonly buffer Names { uvec2 name[]; }; // id, flui
 layout(std430, binding = 3) readonly buffer Pressures { vec2 pressure[]; };
 layout(std430, binding = 4) writeonly buffer Values { uint word[]; };
 layout(std430, binding = 5) buffer Ranges { uint range[]; }; // least and greatest of each scalar, in the order of bits
-layout(location = 0) uniform int scalar; // sim/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
+layout(location = 0) uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
 shared uint least, greatest;
 
 #ifdef CONTINUITY

@@ -1,4 +1,4 @@
-// Keeps particles out of solids: solid_guard of sim/solid_step.c, in the solid's frame.
+// Keeps particles out of solids: solid_guard of sim/matter/solid_step.c, in the solid's frame.
 #include "sim/solids.glsl"
 
 // The first part of the way, 0 .. 1, where it meets the surface; more than 1: it does not. Goes forward by the distance

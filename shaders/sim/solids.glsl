@@ -1,4 +1,4 @@
-// Solids: where they are over half a step, their shapes and distances. Mirrors sim/solid_step.c and sim/solid.c, the block
+// Solids: where they are over half a step, their shapes and distances. Mirrors sim/matter/solid_step.c and sim/matter/solid.c, the block
 // SolidsBlock in sim/gl/compute/boundary.c. Distances are in single precision, of which most GPUs have 32 to 64 times as much as
 // of double. With REPRODUCIBLE they are in double precision as there: what lies on a surface is held or not by the last bit, and
 // that is the same bit then.

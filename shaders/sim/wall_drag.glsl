@@ -1,4 +1,4 @@
-// The friction of no-slip walls, as sim/wall_drag.c has it: tables over the distances to one, two, three faces.
+// The friction of no-slip walls, as sim/box/wall_drag.c has it: tables over the distances to one, two, three faces.
 layout(std430, binding = 5) readonly buffer DragTables { float drag_tables[]; };
 
 float drag_of_faces(vec3 distances, int count)

@@ -1,4 +1,4 @@
-// The walls of the box, as sim/wall.c has them: tables over the distances to one, two, three faces.
+// The walls of the box, as sim/box/wall.c has them: tables over the distances to one, two, three faces.
 // An entry is ten numbers: density, push xyz, moment xx yy zz xy yz zx.
 #ifdef WALL_TEXTURE
 uniform samplerBuffer wall_texture;

@@ -2,9 +2,9 @@
 #ifndef SLOSH_CPU_H
 #define SLOSH_CPU_H
 
-#include "sim/backend.h"
+#include "sim/base/parallel.h"
 #include "sim/cpu/pairs.h"
-#include "sim/cpu/parallel.h"
+#include "sim/world/backend.h"
 
 typedef ParticleColumns CpuParticles; /* what moves when particles are sorted */
 

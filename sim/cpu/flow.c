@@ -1,6 +1,6 @@
 /* Particles that come and go between steps. */
 #include "sim/cpu/cpu.h"
-#include "sim/seed.h"
+#include "sim/matter/fill.h"
 
 #include <math.h>
 

@@ -44,7 +44,7 @@ typedef struct ForcePass {
     const ApparentGravity *gravity;
 } ForcePass;
 
-/* The force of the walls on particle i: p_i V_i^2 s - V_i V0 rho0 m g with the sums of sim/wall.h. The
+/* The force of the walls on particle i: p_i V_i^2 s - V_i V0 rho0 m g with the sums of sim/box/wall.h. The
    hydrostatic part fades out below the pressure of one layer, so that a drop on a wall falls freely, and must
    not turn a push into a pull; fluid under tension pulls by itself. */
 static void wall_force(const Cpu *cpu, size_t i, const float g[3], const WallSums *sums, float out[3])

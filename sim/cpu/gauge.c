@@ -1,5 +1,5 @@
 /* What is plotted of the state, where it is asked for. */
-#include "sim/gauge.h"
+#include "sim/world/gauge.h"
 #include "sim/cpu/cpu.h"
 
 typedef struct GaugePass {

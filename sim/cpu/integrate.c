@@ -70,8 +70,8 @@ static void atomic_greatest(float *greatest, float value)
         ;
 }
 
-/* The drag of the walls, sim/wall_drag.h, by v' = v + (a + g - k v') dt: at the end of the step, so that it
-   can't overshoot however near the wall; what is left of a + g then is put in a's place. */
+/* The drag of the walls, sim/box/wall_drag.h, by v' = v + (a + g - k v') dt: at the end of the step, so that
+   it can't overshoot however near the wall; what is left of a + g then is put in a's place. */
 static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
 {
     Cpu *cpu = kick->cpu;

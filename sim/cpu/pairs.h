@@ -3,8 +3,8 @@
 #ifndef SLOSH_PAIRS_H
 #define SLOSH_PAIRS_H
 
-#include "sim/cell_rows.h"
-#include "sim/frame_step.h"
+#include "sim/box/frame_step.h"
+#include "sim/world/cell_rows.h"
 
 enum { LANES = 8 }; /* see sim/cpu/simd.h */
 

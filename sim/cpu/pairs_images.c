@@ -1,8 +1,8 @@
 /* What the images of the fluid in the walls of the box add to the sums of wcsph: the rate of density and
    pressure, with what shifting goes by. They have no friction and no part in diffusion. See
-   sim/wall_images.h. */
+   sim/box/wall_images.h. */
+#include "sim/box/wall_images.h"
 #include "sim/cpu/pair_kernel.h"
-#include "sim/wall_images.h"
 
 SIMD_INLINE f8 lesser(f8 a, f8 b)
 {

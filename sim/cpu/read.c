@@ -1,6 +1,6 @@
 /* What others see of the state: copies and sums. */
 #include "sim/cpu/cpu.h"
-#include "sim/sums.h"
+#include "sim/world/sums.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,11 +2,11 @@
 #ifndef SLOSH_BACKENDS_H
 #define SLOSH_BACKENDS_H
 
-#include "sim/backend.h"
+#include "sim/world/backend.h"
 
 extern const Backend backend_compute, backend_fragment;
 
-/* Adds them to the list of sim/backend.h; before any scene is read. */
+/* Adds them to the list of sim/world/backend.h; before any scene is read. */
 void backends_add(void);
 
 #endif

@@ -3,7 +3,7 @@
 #ifndef SLOSH_LIMITS_H
 #define SLOSH_LIMITS_H
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 #include <stdint.h>
 

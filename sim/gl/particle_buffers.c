@@ -1,6 +1,6 @@
 #include "sim/gl/particle_buffers.h"
 
-#include "sim/world_struct.h"
+#include "sim/world/world_struct.h"
 
 #include <string.h>
 

@@ -4,9 +4,9 @@
 #ifndef SLOSH_PARTICLE_BUFFERS_H
 #define SLOSH_PARTICLE_BUFFERS_H
 
-#include "sim/box_motion.h"
-#include "sim/scalar.h"
-#include "sim/world.h"
+#include "sim/base/scalar.h"
+#include "sim/box/box_motion.h"
+#include "sim/world/world.h"
 
 #include <stddef.h>
 #include <stdint.h>

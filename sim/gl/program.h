@@ -2,7 +2,7 @@
 #ifndef SLOSH_PROGRAM_H
 #define SLOSH_PROGRAM_H
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 /* Compiles and links the files `stages` (paths below shaders/, ended by NULL; .vert .geom .frag or .comp says
    which stage a file is) after the lines `defines` ("#define A 1\n", or NULL). Returns the GL name, labelled

@@ -6,7 +6,7 @@
 #ifndef SLOSH_SHADER_SOURCE_H
 #define SLOSH_SHADER_SOURCE_H
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/* The clock of stages that run on the GPU, under the names of sim/stage.h.
+/* The clock of stages that run on the GPU, under the names of sim/base/stage.h.
 
    `gl`: timestamp queries, read when they are there (two frames later), so that nothing waits. On a software
    renderer these lie: work is deferred, and the stamps are taken when it is noted down, not when it is done.
@@ -6,7 +6,7 @@
 #ifndef SLOSH_GL_TIMER_H
 #define SLOSH_GL_TIMER_H
 
-#include "sim/stage.h"
+#include "sim/base/stage.h"
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 #include "sim/gl/transfer.h"
 
-#include "sim/sums.h"
+#include "sim/world/sums.h"
 
 #include <math.h>
 #include <stdlib.h>

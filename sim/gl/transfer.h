@@ -3,8 +3,8 @@
 #ifndef SLOSH_GL_TRANSFER_H
 #define SLOSH_GL_TRANSFER_H
 
-#include "sim/solver.h"
-#include "sim/world_state.h"
+#include "sim/world/solver.h"
+#include "sim/world/world_state.h"
 
 /* Owns its arrays. */
 typedef struct Transfer {

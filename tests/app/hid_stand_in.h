@@ -5,7 +5,7 @@
 #include "tests/app/report_fixture.h"
 
 #include "app/device/hid_port.h"
-#include "sim/stage.h"
+#include "sim/base/stage.h"
 
 #include <pthread.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 
 /* The least that loads: 500 particles. What a test appends starts in line 7. */
 #define LEAST                                                                                                \

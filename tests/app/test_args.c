@@ -1,8 +1,8 @@
 /* The command line: what it becomes, and the words for what it cannot be. */
 #include "tests/app/scene_text.h"
 
-#include "app/args_table.h"
-#include "app/bench_table.h"
+#include "app/lab/bench_table.h"
+#include "app/session/args_table.h"
 #include "sim/gl/backends.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Published tables beside made-up measurements: each figure stands in its row. */
 #include "tests/sim/fixture.h"
 
-#include "app/bench_table.h"
+#include "app/lab/bench_table.h"
 #include "sim/gl/backends.h"
 
 static BenchResult made_up(size_t particles, const char *view, const char *backend)

@@ -1,7 +1,7 @@
 /* Between two states: free fall exactly, whatever the order; what comes and goes; sides; the box. */
 #include "tests/sim/fixture.h"
 
-#include "app/between.h"
+#include "app/session/between.h"
 
 enum { COUNT = 5 };
 

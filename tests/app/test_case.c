@@ -2,8 +2,8 @@
    the start that fills cannot say. */
 #include "tests/sim/fixture.h"
 
-#include "app/case.h"
-#include "app/scene.h"
+#include "app/case/case.h"
+#include "app/scene/scene.h"
 
 enum { LAYERS = 100 };
 

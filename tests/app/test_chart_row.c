@@ -1,7 +1,7 @@
 /* Rows of a chart: kept in a file, compared with the reference, the front among them. */
 #include "tests/sim/fixture.h"
 
-#include "app/chart_row.h"
+#include "app/lab/chart_row.h"
 
 #include <unistd.h>
 

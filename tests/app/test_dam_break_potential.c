@@ -10,7 +10,7 @@
    SLOSH_POTENTIAL=FILE writes that file anew, with more elements. */
 #include "tests/sim/fixture.h"
 
-#include "app/reference.h"
+#include "app/case/reference.h"
 
 enum { MOST = 128 };
 

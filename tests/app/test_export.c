@@ -1,10 +1,10 @@
 /* Formats of other programs: what stands in the bytes, and the world's frame by hand. */
 #include "output_fixture.h"
 
-#include "app/export.h"
-#include "app/export_index.h"
-#include "app/ply.h"
-#include "app/vtp.h"
+#include "app/output/export.h"
+#include "app/output/export_index.h"
+#include "app/output/ply.h"
+#include "app/output/vtp.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -2,7 +2,7 @@
    shipped. sim/README.md has the errors of the fine ones. */
 #include "tests/app/scene_text.h"
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 #include <math.h>
 #include <stdlib.h>

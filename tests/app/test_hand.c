@@ -1,7 +1,7 @@
 /* The hand: what devices say becomes the pose that the box shall have. */
 #include "tests/app/near.h"
 
-#include "app/hand.h"
+#include "app/hand/hand.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* The mark of a recording, its mapping and its camera: the same for the same ones, wherever and whoever. */
 #include "tests/app/output_fixture.h"
 
-#include "app/hand_mark.h"
+#include "app/held/hand_mark.h"
 
 #define HEAD "slosh device recording 1\n0 1 plugged dualsense 054c:0ce6 usb\n"
 

@@ -3,8 +3,8 @@
 #include "tests/app/hid_stand_in.h"
 #include "tests/app/near.h"
 
-#include "app/hand_post.h"
-#include "sim/stage.h"
+#include "app/held/hand_post.h"
+#include "sim/base/stage.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

@@ -4,11 +4,11 @@
 #include "tests/app/output_fixture.h"
 #include "tests/app/report_fixture.h"
 
-#include "app/hand.h"
-#include "app/hand_replay.h"
-#include "app/held_devices.h"
-#include "app/session.h"
-#include "sim/world_state.h"
+#include "app/hand/hand.h"
+#include "app/held/hand_replay.h"
+#include "app/held/held_devices.h"
+#include "app/session/session.h"
+#include "sim/world/world_state.h"
 
 static const double SIZE[3] = {1, 1, 1};
 static const double RATE = 250; /* reports a second */

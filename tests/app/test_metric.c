@@ -1,8 +1,8 @@
 /* What validate measures, of particles set by hand, and what it makes of rows of points. */
 #include "tests/sim/fixture.h"
 
-#include "app/case.h"
-#include "app/metric.h"
+#include "app/case/case.h"
+#include "app/metric/metric.h"
 
 enum { MOST = 4000 };
 

@@ -1,11 +1,11 @@
 /* What is told of a scene that is no error. */
-#include "app/notes.h"
-#include "app/scene_advise.h"
+#include "app/base/notes.h"
+#include "app/scene/advise.h"
 
-#include "app/play_scene.h"
-#include "app/scene_keys.h"
+#include "app/play/play_scene.h"
+#include "app/scene/keys.h"
 #include "sim/gl/backends.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 #include "tests/app/scene_text.h"
 
 static void a_line_is_said_once(void **state)

@@ -1,8 +1,8 @@
 /* The camera in the hand: it begins where the picture is, and drags do what they look like. */
 #include "tests/app/near.h"
 
-#include "app/orbit.h"
-#include "render/camera.h"
+#include "app/hand/orbit.h"
+#include "render/frame/camera.h"
 
 #include <string.h>
 

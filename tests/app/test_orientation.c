@@ -7,7 +7,7 @@
 #include "tests/app/near.h"
 
 #include "app/device/orientation.h"
-#include "sim/box_motion.h"
+#include "sim/box/box_motion.h"
 
 #include <string.h>
 

@@ -1,9 +1,9 @@
 /* Files that appear whole or not at all. */
 #include "output_fixture.h"
 
-#include "app/interrupt.h"
-#include "app/output.h"
-#include "app/output_folder.h"
+#include "app/base/interrupt.h"
+#include "app/base/output.h"
+#include "app/base/output_folder.h"
 
 #include <signal.h>
 #include <sys/wait.h>

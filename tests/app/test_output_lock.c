@@ -2,7 +2,7 @@
 /* One writer a file, whatever the names and whatever the file system can. */
 #include "output_fixture.h"
 
-#include "app/output_lock.h"
+#include "app/base/output_lock.h"
 
 #include <errno.h>
 #include <fcntl.h>

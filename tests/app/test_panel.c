@@ -2,10 +2,10 @@
  */
 #include "tests/render/ui_fixture.h"
 
-#include "app/panel.h"
-#include "app/play_commands.h"
-#include "app/scene_keys.h"
-#include "app/scene_live.h"
+#include "app/hand/play_commands.h"
+#include "app/play/panel.h"
+#include "app/scene/keys.h"
+#include "app/scene/live.h"
 
 enum { HISTORY = 120 };
 

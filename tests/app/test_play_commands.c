@@ -1,7 +1,7 @@
 /* The list of what a user can do in the window: it is whole, without conflicts, and the README has it. */
 #include "tests/app/readme_table.h"
 
-#include "app/play_commands.h"
+#include "app/hand/play_commands.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -183,7 +183,7 @@ static void every_key_has_a_name(void **state)
 static void readme_has_the_table(void **state)
 {
     (void)state;
-    check_readme_table(play_commands_print, "app/README.md", "app/play_commands.c");
+    check_readme_table(play_commands_print, "app/README.md", "app/hand/play_commands.c");
 }
 
 int main(void)

@@ -1,8 +1,8 @@
 /* What the window measures of itself, against what was put in; and the script that shakes the box. */
 #include "near.h"
 
-#include "app/play_meter.h"
-#include "app/play_script.h"
+#include "app/play/play_meter.h"
+#include "app/play/play_script.h"
 
 #include <math.h>
 

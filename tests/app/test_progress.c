@@ -2,7 +2,7 @@
 #define _GNU_SOURCE
 #include "output_fixture.h"
 
-#include "app/progress.h"
+#include "app/base/progress.h"
 
 #include <poll.h>
 #include <pty.h>

@@ -1,7 +1,8 @@
 /* Recordings: what is written comes back to the bit; what is wrong is named with its line. */
 #include "output_fixture.h"
 
-#include "app/recording.h"
+#include "app/base/path.h"
+#include "app/recording/recording.h"
 
 #include <errno.h>
 #include <float.h>

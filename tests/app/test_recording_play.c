@@ -1,7 +1,7 @@
 /* A session that was recorded comes out with the same bits when it is simulated again. */
 #include "output_fixture.h"
 
-#include "app/recording_play.h"
+#include "app/session/recording_play.h"
 
 #include <math.h>
 

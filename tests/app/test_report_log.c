@@ -2,7 +2,7 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/device/report_log.h"
-#include "sim/stage.h"
+#include "sim/base/stage.h"
 
 #include <signal.h>
 #include <sys/resource.h>

@@ -1,5 +1,7 @@
 /* The loader on texts in memory: what a scene becomes, and what is refused with which words at which place.
  */
+#include "app/base/path.h"
+#include "sim/matter/seed.h"
 #include "tests/app/scene_text.h"
 
 #include <stdlib.h>
@@ -18,7 +20,7 @@ static void least_scene_gets_the_defaults(void **state)
     assert_string_equal(scene.world.method, "mueller");
     assert_int_equal(scene.world.fluid_count, 1);
     assert_string_equal(scene.world.fluids[0].name, "fluid 1");
-    assert_int_equal(world_def_count(&scene.world, scene.world.spacing), 500);
+    assert_int_equal(seed_count(&scene.world, scene.world.spacing), 500);
     assert_true(scene.view.camera_auto && scene.view.range_auto);
     assert_string_equal(scene.view.fluid_name[0], "fluid 1");
 }

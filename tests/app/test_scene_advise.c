@@ -1,7 +1,7 @@
 /* What scenes are warned about, and what they are not. */
 #include "tests/app/scene_text.h"
 
-#include "app/scene_advise.h"
+#include "app/scene/advise.h"
 
 #include <dirent.h>
 

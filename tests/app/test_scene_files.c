@@ -1,7 +1,8 @@
 /* Scene files on disk: those that are shipped, where they are looked for, and what is no file. */
 #include "tests/app/scene_text.h"
 
-#include "app/scene_path.h"
+#include "app/base/path.h"
+#include "sim/matter/seed.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -55,7 +56,7 @@ static void check_scene(const char *name)
 {
     if (!load(name, 0))
         fail_msg("%s", error.message);
-    size_t count = world_def_count(&scene.world, scene.world.spacing);
+    size_t count = seed_count(&scene.world, scene.world.spacing);
     if (count == 0) /* what emitters may fill it up to */
         count = (size_t)scene.world.most;
     if (strcmp(name, "two_spheres") == 0) /* a picture of splatting, no flow */
@@ -79,7 +80,7 @@ static void every_shipped_scene_loads(void **state)
 /* Of those that fill something: how many the others have is a matter of their time. */
 static void check_particles(const char *name)
 {
-    if (load(name, 0) && world_def_count(&scene.world, scene.world.spacing) == 0) {
+    if (load(name, 0) && seed_count(&scene.world, scene.world.spacing) == 0) {
         assert_false(load(name, 5000));
         assert_non_null(strstr(error.message, "the scene fills nothing at the start"));
         return;
@@ -88,7 +89,7 @@ static void check_particles(const char *name)
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         if (!load(name, wanted[i]))
             fail_msg("%s", error.message);
-        const double count = (double)world_def_count(&scene.world, scene.world.spacing);
+        const double count = (double)seed_count(&scene.world, scene.world.spacing);
         const double coarse = scene.world.solid_count > 0 ? 0.08 : 0.06; /* solids take whole layers away */
         const double miss = fabs(count / (double)wanted[i] - 1), allowed = wanted[i] < 5000 ? coarse : 0.025;
         if (miss > allowed)

@@ -3,8 +3,8 @@
 #include "tests/app/readme_table.h"
 #include "tests/app/scene_text.h"
 
-#include "app/scene_keys.h"
-#include "app/scene_suggest.h"
+#include "app/base/suggest.h"
+#include "app/scene/keys.h"
 #include "sim/gl/backends.h"
 
 #include <math.h>
@@ -240,7 +240,7 @@ static void what_is_printed_can_be_set(void **state)
 static void readme_has_the_table(void **state)
 {
     (void)state;
-    check_readme_table(scene_keys_print, "scenes/README.md", "app/scene_keys.c");
+    check_readme_table(scene_keys_print, "scenes/README.md", "app/scene/keys.c");
 }
 
 static void nearest_names(void **state)

@@ -1,8 +1,8 @@
 /* Keys of a scene that change while its simulation runs. */
 #include "tests/app/scene_text.h"
 
-#include "app/scene_keys.h"
-#include "app/scene_live.h"
+#include "app/scene/keys.h"
+#include "app/scene/live.h"
 
 #define TWO_FLUIDS                                                                                           \
     "box: {size: [1, 1, 1]}\n"                                                                               \

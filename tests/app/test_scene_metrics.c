@@ -2,8 +2,8 @@
 #include "tests/app/scene_text.h"
 #include "tests/sim/fixture.h"
 
-#include "app/metric_list.h"
-#include "app/scene_keys.h"
+#include "app/metric/metric_list.h"
+#include "app/scene/keys.h"
 
 static Scene scene;
 static Error error;

@@ -1,5 +1,6 @@
 /* Scenes with periodic sides and a lid: how they are written, and what is refused where. */
 #include "scene_text.h"
+#include "sim/matter/seed.h"
 
 #include <math.h>
 
@@ -77,7 +78,7 @@ static void a_lattice_fits_its_sides(void **state)
         SceneSettings settings = {.particles = particles};
         assert_true(parse_text(FLAT, &settings, &scene, &error));
         const double s = scene.world.spacing, across = round(2 / s);
-        const size_t count = world_def_count(&scene.world, s);
+        const size_t count = seed_count(&scene.world, s);
         assert_int_equal(count % (size_t)across, 0);
         assert_float_equal((double)count * s * s, 2, 1e-6);
     }

@@ -1,5 +1,6 @@
 /* Scenes of two dimensions: vectors of two numbers, and what may not leave the plane. */
 #include "scene_text.h"
+#include "sim/matter/seed.h"
 
 static const char flat[] =
     "box: {size: [2, 1]}\n"
@@ -26,10 +27,10 @@ static void two_numbers_make_a_plane(void **state)
     assert_int_equal(scene.world.dimensions, 2);
     assert_true(scene.world.gravity[0] == 0.5 && scene.world.gravity[1] == -9 && scene.world.gravity[2] == 0);
     assert_true(scene.world.box_size[2] == 0.05);
-    assert_true(world_def_count(&scene.world, 0.05) == 20 * 10 + 52);
+    assert_true(seed_count(&scene.world, 0.05) == 20 * 10 + 52);
     SceneSettings settings = {.particles = 1000};
     assert_true(parse(flat, &settings));
-    const size_t count = world_def_count(&scene.world, scene.world.spacing);
+    const size_t count = seed_count(&scene.world, scene.world.spacing);
     assert_true(count > 980 && count < 1020);
     assert_true(scene.world.box_size[2] == scene.world.spacing);
 }

@@ -1,9 +1,9 @@
 /* solver.preset: fills in what a scene does not name, by method and dimensions, and nothing else. */
 #include "tests/app/scene_text.h"
 
-#include "app/case_run.h"
-#include "app/scene_keys.h"
-#include "app/scene_preset.h"
+#include "app/case/run.h"
+#include "app/scene/keys.h"
+#include "app/scene/preset.h"
 
 #include <stdlib.h>
 

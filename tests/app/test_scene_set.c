@@ -1,4 +1,5 @@
 /* --set and --particles: edits of the tree before it is read. */
+#include "sim/matter/seed.h"
 #include "tests/app/scene_text.h"
 
 #include <math.h>
@@ -118,7 +119,7 @@ static void the_file_keeps_its_places(void **state)
 
 static bool near_count(size_t wanted, double tolerance)
 {
-    const size_t count = world_def_count(&scene.world, scene.world.spacing);
+    const size_t count = seed_count(&scene.world, scene.world.spacing);
     return fabs((double)count - (double)wanted) <= tolerance * (double)wanted;
 }
 

@@ -2,9 +2,10 @@
    takes states meanwhile, as the window does; ThreadSanitizer watches. */
 #include "output_fixture.h"
 
-#include "app/headless.h"
-#include "app/recording_play.h"
-#include "app/simulator.h"
+#include "app/session/headless.h"
+#include "app/session/recording_play.h"
+#include "app/session/simulator.h"
+#include "sim/matter/seed.h"
 
 #include <math.h>
 
@@ -39,7 +40,7 @@ static void rig_open(Rig *rig, const char *setting, bool paused)
     *rig = (Rig){.upload = NULL};
     must(scene_parse("a.yaml", still, strlen(still), &settings, &rig->scene, NULL, &error));
     must(recording_create(&rig->recording, "a.yaml", still, strlen(still), &settings, &error));
-    rig->upload = upload_create(world_def_count(&rig->scene.world, rig->scene.world.spacing),
+    rig->upload = upload_create(seed_count(&rig->scene.world, rig->scene.world.spacing),
                                 particle_attributes_for(SCALAR_SPEED), &error);
     const SimulatorSetup setup = {
         .scene = &rig->scene, .recording = &rig->recording, .upload = rig->upload, .paused = paused};

@@ -1,9 +1,9 @@
 /* The solver on the window's own thread, its backend on the GPU; and from one backend to another. */
 #include "output_fixture.h"
 
-#include "app/headless.h"
-#include "app/recording_play.h"
-#include "app/simulator.h"
+#include "app/session/headless.h"
+#include "app/session/recording_play.h"
+#include "app/session/simulator.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/shader_source.h"
 

@@ -1,8 +1,8 @@
 /* Snapshot files: what is written is read, and only whole steps are. */
 #include "output_fixture.h"
 
-#include "app/snapshot.h"
-#include "sim/world.h"
+#include "app/output/snapshot.h"
+#include "sim/world/world.h"
 
 #include <hdf5.h>
 #include <math.h>

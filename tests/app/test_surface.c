@@ -1,8 +1,8 @@
 /* Surfaces of particles placed by hand: closed, of the fluid's volume, at the level, with the particles'
  * fields. */
-#include "app/surface.h"
-#include "sim/field.h"
-#include "sim/lattice.h"
+#include "app/output/surface.h"
+#include "sim/kernel/lattice.h"
+#include "sim/mesh/field.h"
 #include "tests/closed_mesh.h"
 
 #include <math.h>

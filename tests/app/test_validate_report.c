@@ -1,7 +1,7 @@
 /* What validate says of a figure that has no value: words in the table, null in the JSON. */
 #include "tests/sim/fixture.h"
 
-#include "app/validate_report.h"
+#include "app/lab/validate_report.h"
 
 #include <unistd.h>
 

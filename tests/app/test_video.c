@@ -1,8 +1,8 @@
 /* Videos by ffmpeg, folders of frames, single pictures. */
 #include "output_fixture.h"
 
-#include "app/pictures.h"
-#include "app/video.h"
+#include "app/output/pictures.h"
+#include "app/output/video.h"
 
 #include <signal.h>
 

@@ -1,6 +1,6 @@
 /* Fuzz target of the scene loader. What stands before a first byte 0 is a --set; a '#' at the end asks for
    --particles 1000. */
-#include "app/scene.h"
+#include "app/scene/scene.h"
 
 #include <stdint.h>
 #include <stdlib.h>

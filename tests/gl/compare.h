@@ -5,9 +5,9 @@
 #include "tests/render/fixture.h"
 #include "tests/sim/fixture.h"
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "sim/gl/backends.h"
-#include "sim/world_struct.h"
+#include "sim/world/world_struct.h"
 
 static inline int compare_setup(void **state)
 {

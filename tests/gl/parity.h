@@ -4,7 +4,7 @@
 
 #include "tests/gl/compare.h"
 
-#include "sim/world_struct.h"
+#include "sim/world/world_struct.h"
 
 /* Two viscous fluids over each other, stirred, in a box that moves in all ways. */
 static inline WorldDef stirred_def(int dimensions)

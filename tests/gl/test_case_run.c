@@ -2,8 +2,8 @@
    behind is no part of what is measured. */
 #include "tests/sim/fixture.h"
 
-#include "app/case_run.h"
-#include "app/headless.h"
+#include "app/case/run.h"
+#include "app/session/headless.h"
 #include "sim/gl/backends.h"
 
 static Headless *context;

@@ -1,8 +1,9 @@
 /* Emitters and drains on the backend `compute` against `cpu`. */
 #include "tests/gl/compare.h"
 
-#include "sim/flow.h"
-#include "sim/seed.h"
+#include "sim/matter/fill.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -235,7 +236,7 @@ static void the_state_goes_to_and_fro(void **state)
     copy_state(gpu, cpu);
     same_ids(cpu, gpu);
     copy_state(gpu, other);
-    assert_true(info_of(cpu).count != world_def_count(&def, def.spacing));
+    assert_true(info_of(cpu).count != seed_count(&def, def.spacing));
     assert_true(world_hash(gpu) == world_hash(other));
     substeps(other, 40);
     copy_state(gpu, other); /* which has more by now */
@@ -263,7 +264,7 @@ static void going_back_takes_back_what_came(void **state)
         continue;
     const WorldInfo info = info_of(world);
     assert_true(info.trouble.count > 0);
-    assert_int_equal(info.count, world_def_count(&def, def.spacing) + info.emitted - info.drained);
+    assert_int_equal(info.count, seed_count(&def, def.spacing) + info.emitted - info.drained);
     Snapshot s = snapshot_read(world);
     for (size_t k = 1; k < s.count; k++)
         assert_true(s.who[k].id > s.who[k - 1].id);
@@ -309,7 +310,7 @@ static void drains_count_behind_a_blow_up(void **state)
     (void)state;
     for (int retries = 0; retries <= 2; retries++) {
         const WorldDef def = boiling_def(retries);
-        const size_t initial = world_def_count(&def, def.spacing);
+        const size_t initial = seed_count(&def, def.spacing);
         World *world = world_on(def, "compute");
         Error error = {0};
         bool good = true;

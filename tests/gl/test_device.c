@@ -2,10 +2,10 @@
 #include "tests/render/fixture.h"
 #include "tests/sim/fixture.h"
 
-#include "app/studio.h"
+#include "app/session/studio.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/compute/compute.h"
-#include "sim/world_struct.h"
+#include "sim/world/world_struct.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

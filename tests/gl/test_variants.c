@@ -6,8 +6,8 @@
 
 #include "render/renderer.h"
 #include "sim/gl/limits.h"
-#include "sim/tension.h"
-#include "sim/viscosity.h"
+#include "sim/matter/tension.h"
+#include "sim/matter/viscosity.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
-#include "app/headless.h"
+#include "app/session/headless.h"
+#include "render/particles/upload.h"
 #include "render/renderer.h"
-#include "render/upload.h"
 #include "sim/gl/debug.h"
 #include "tests/gl/draw_check.h"
 

@@ -4,9 +4,9 @@
 
 #include "tests/render/fixture.h"
 
-#include "render/frame.h"
-#include "render/raycast.h"
-#include "render/raycast_names.h"
+#include "render/frame/frame.h"
+#include "render/volume/raycast.h"
+#include "render/volume/raycast_names.h"
 
 #include <epoxy/gl.h>
 

@@ -5,8 +5,8 @@
 
 #include "tests/render/fixture.h"
 
-#include "render/frame.h"
-#include "render/splat.h"
+#include "render/frame/frame.h"
+#include "render/splat/splat.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>

@@ -4,7 +4,7 @@
 
 #include "tests/render/splat_fixture.h"
 
-#include "sim/kernel.h"
+#include "sim/kernel/kernel.h"
 
 /* A particle's part of a ray: |x - c|^2 = length2 (z - middle)^2 + beside2 at the depth z, m. */
 typedef struct LevelChord {

@@ -4,7 +4,7 @@
    SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
 #include "tests/render/fixture.h"
 
-#include "app/image.h"
+#include "app/output/image.h"
 
 #define SPACING 0.08
 

@@ -1,7 +1,7 @@
 /* PNG files: what is written is what is read, and a write that fails is told. */
 #include "tests/render/fixture.h"
 
-#include "app/image.h"
+#include "app/output/image.h"
 
 #include <unistd.h>
 

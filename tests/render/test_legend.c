@@ -1,8 +1,8 @@
 /* The legend's numbers, and the automatic camera that leaves room around the box. */
 #include "tests/render/fixture.h"
 
-#include "render/camera.h"
-#include "render/legend.h"
+#include "render/frame/camera.h"
+#include "render/frame/legend.h"
 
 static void test_round_ticks(void **state)
 {

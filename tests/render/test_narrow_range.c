@@ -2,7 +2,7 @@
    and what it must keep. */
 #include "tests/render/splat_fixture.h"
 
-#include "render/narrow_range.h"
+#include "render/splat/narrow_range.h"
 
 enum { W = 64, H = 48, N = W * H };
 

@@ -2,7 +2,7 @@
    what the view shows of both. */
 #include "tests/render/raycast_fixture.h"
 
-#include "render/bricks.h"
+#include "render/volume/bricks.h"
 
 static const VolumeGrid odd = {{37, 9, 20}, {-0.5, 0.1, -0.2}, 1.0 / 37};
 

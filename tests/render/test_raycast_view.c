@@ -2,8 +2,8 @@
    without a volume. */
 #include "tests/render/raycast_fixture.h"
 
-#include "app/image.h"
-#include "render/colormap.h"
+#include "app/output/image.h"
+#include "render/frame/colormap.h"
 
 #define SPACING 0.08
 

@@ -1,6 +1,6 @@
 /* A writer and a drawer, each at its own pace: no slot is ever touched by both, the writer never waits, and
    the drawer sees states whole and in order. ThreadSanitizer watches the bytes. */
-#include "render/slots.h"
+#include "render/particles/slots.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

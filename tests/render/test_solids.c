@@ -1,8 +1,8 @@
 /* Solids: their depth against rays in double, and who hides whom. */
 #include "tests/render/solids_fixture.h"
 
-#include "render/camera.h"
-#include "render/solid_mesh.h"
+#include "render/frame/camera.h"
+#include "render/frame/solid_mesh.h"
 
 static void make_camera(const Scene *scene, Camera *camera)
 {

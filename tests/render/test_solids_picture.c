@@ -1,7 +1,7 @@
 /* Solids in a picture: whom they shade and who shades them, and what changes while a renderer lives. */
 #include "tests/render/solids_fixture.h"
 
-#include "render/camera.h"
+#include "render/frame/camera.h"
 
 typedef struct Darker {
     double by;  /* mean over these pixels, levels of green */

@@ -1,7 +1,7 @@
 /* Every pixel of the view `spheres` against a ray that is tried with every sphere, in double. */
 #include "tests/render/fixture.h"
 
-#include "render/camera.h"
+#include "render/frame/camera.h"
 
 enum { WIDTH = 160, HEIGHT = 120 };
 

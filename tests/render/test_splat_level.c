@@ -2,7 +2,7 @@
    in double. */
 #include "tests/render/splat_level_fixture.h"
 
-#include "render/splat_level.h"
+#include "render/splat/splat_level.h"
 
 /* The support is `h`, 2.1 spacings. */
 static SplatScene level_scene(const double from[3], const double to[3], double fov_deg, double h,

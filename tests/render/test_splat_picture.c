@@ -2,7 +2,7 @@
  */
 #include "tests/render/solids_fixture.h"
 
-#include "render/camera.h"
+#include "render/frame/camera.h"
 
 static Scene splat_among_solids(void)
 {

@@ -2,7 +2,7 @@
  */
 #include "tests/render/ui_fixture.h"
 
-#include "render/text.h"
+#include "render/frame/text.h"
 
 /* One window at a place with one widget of each kind. */
 typedef struct Form {

@@ -1,7 +1,7 @@
 /* Grids of volumes: where they lie, what does not fit; and the field as shaders sample it. */
 #include "tests/render/volume_fixture.h"
 
-#include "render/view.h"
+#include "render/frame/view.h"
 #include "sim/gl/program.h"
 #include "sim/gl/shader_source.h"
 

@@ -1,8 +1,8 @@
 /* View `volume`, one slice of it: the colours of the field, from wherever one looks. */
 #include "tests/render/volume_fixture.h"
 
-#include "render/colormap.h"
-#include "render/volume_view.h"
+#include "render/frame/colormap.h"
+#include "render/volume/volume_view.h"
 
 enum { SIZE = 96 };
 

@@ -4,8 +4,8 @@
 
 #include "tests/render/fixture.h"
 
-#include "render/target.h"
-#include "render/ui.h"
+#include "render/frame/target.h"
+#include "render/ui/ui.h"
 
 #include <epoxy/gl.h>
 

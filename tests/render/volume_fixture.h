@@ -4,8 +4,8 @@
 
 #include "tests/render/fixture.h"
 
-#include "render/volume.h"
-#include "sim/kernel.h"
+#include "render/volume/volume.h"
+#include "sim/kernel/kernel.h"
 
 #include <epoxy/gl.h>
 

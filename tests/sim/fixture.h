@@ -2,7 +2,7 @@
 #ifndef SLOSH_TEST_FIXTURE_H
 #define SLOSH_TEST_FIXTURE_H
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 /* cmocka's needs */
 #include <setjmp.h>

@@ -2,8 +2,8 @@
    accused. */
 #include "fixture.h"
 
-#include "sim/tension.h"
-#include "sim/world_state.h"
+#include "sim/matter/tension.h"
+#include "sim/world/world_state.h"
 
 static Error error;
 

@@ -1,8 +1,8 @@
 /* The field on a grid against its sum over all particles in double, particle by particle. */
 #include "fixture.h"
 
-#include "sim/field.h"
-#include "sim/kernel.h"
+#include "sim/kernel/kernel.h"
+#include "sim/mesh/field.h"
 
 enum { COUNT = 500 };
 

@@ -2,8 +2,9 @@
    rest. */
 #include "fixture.h"
 
-#include "sim/fill_lattice.h"
-#include "sim/seed.h"
+#include "sim/matter/fill.h"
+#include "sim/matter/fill_lattice.h"
+#include "sim/matter/seed.h"
 
 static float position[3 * 40000];
 static uint8_t fluid[40000];

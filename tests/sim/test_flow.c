@@ -1,8 +1,9 @@
 /* Emitters and drains: how much comes, in which order, how many at most, what is saved of it. */
 #include "fixture.h"
 
-#include "sim/flow.h"
-#include "sim/world_state.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
+#include "sim/world/world_state.h"
 
 static WorldDef jet_def(int dimensions)
 {
@@ -302,9 +303,9 @@ static void going_back_takes_back_what_came(void **state)
     World *world = fixture_world(&def);
     Error error;
     for (int i = 0; i < fixture_count(20, 8) && world_step(world, NULL, &error); i++)
-        check_ids(world, world_def_count(&def, def.spacing));
+        check_ids(world, seed_count(&def, def.spacing));
     assert_true(info_of(world).trouble.count > 0);
-    check_ids(world, world_def_count(&def, def.spacing));
+    check_ids(world, seed_count(&def, def.spacing));
     world_destroy(world);
 }
 

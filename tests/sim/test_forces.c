@@ -2,7 +2,7 @@
  * walls. */
 #include "fixture.h"
 
-#include "sim/lattice.h"
+#include "sim/kernel/lattice.h"
 
 enum { COUNT = 900 };
 static const double dt = 1e-4;

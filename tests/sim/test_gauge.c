@@ -1,8 +1,8 @@
 /* What is plotted of a world while it runs, against sums in double over the particles that are read back. */
 #include "fixture.h"
 
-#include "sim/box_motion.h"
-#include "sim/gauge.h"
+#include "sim/box/box_motion.h"
+#include "sim/world/gauge.h"
 
 #include <time.h>
 

@@ -2,7 +2,7 @@
  */
 #include "fixture.h"
 
-#include "sim/isosurface.h"
+#include "sim/mesh/isosurface.h"
 #include "tests/closed_mesh.h"
 
 /* A field in a cube of 2 m around the origin: more inside. */

@@ -2,8 +2,8 @@
 #define _GNU_SOURCE
 #include "fixture.h"
 
-#include "sim/kernel.h"
-#include "sim/lattice.h"
+#include "sim/kernel/kernel.h"
+#include "sim/kernel/lattice.h"
 
 #include <fenv.h>
 

@@ -1,7 +1,7 @@
 /* The grid search, the pair sums and the order of particles against brute force over all pairs. */
 #include "fixture.h"
 
-#include "sim/lattice.h"
+#include "sim/kernel/lattice.h"
 
 typedef struct Cloud {
     size_t count;

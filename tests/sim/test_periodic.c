@@ -2,10 +2,10 @@
    vortices that fill such a box, what is refused. */
 #include "fixture.h"
 
-#include "sim/periodic.h"
-#include "sim/tension.h"
-#include "sim/vortices.h"
-#include "sim/world_state.h"
+#include "sim/box/periodic.h"
+#include "sim/matter/tension.h"
+#include "sim/matter/vortices.h"
+#include "sim/world/world_state.h"
 
 /* Scattered particles in a box that is periodic along the axes given; the others have walls. */
 typedef struct Cloud {

@@ -2,9 +2,9 @@
  */
 #include "fixture.h"
 
-#include "sim/kernel.h"
-#include "sim/lattice.h"
-#include "sim/world_state.h"
+#include "sim/kernel/kernel.h"
+#include "sim/kernel/lattice.h"
+#include "sim/world/world_state.h"
 
 static Error error;
 

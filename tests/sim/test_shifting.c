@@ -2,7 +2,7 @@
    density that particles carry make of it. backend compute is compared with cpu in tests/gl. */
 #include "fixture.h"
 
-#include "sim/lattice.h"
+#include "sim/kernel/lattice.h"
 
 enum { WIDE = 12, HIGH = 10, ALL = WIDE * HIGH };
 static const double H = 0.3, SOUND = 15;

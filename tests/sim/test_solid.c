@@ -1,9 +1,9 @@
 /* Solids by themselves: distances, poses, the layers of boundary particles, the guard. */
 #include "fixture.h"
 
-#include "sim/boundary.h"
-#include "sim/lattice.h"
-#include "sim/solid_step.h"
+#include "sim/kernel/lattice.h"
+#include "sim/matter/boundary.h"
+#include "sim/matter/solid_step.h"
 
 #include "tests/app/near.h"
 

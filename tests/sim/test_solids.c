@@ -1,9 +1,9 @@
 /* Solids in a fluid: density next to them, rest, tightness, friction, the same bits. */
 #include "fixture.h"
 
-#include "sim/boundary.h"
-#include "sim/stage.h"
-#include "sim/world_state.h"
+#include "sim/base/stage.h"
+#include "sim/matter/boundary.h"
+#include "sim/world/world_state.h"
 
 /* Distance of a particle from a solid's surface at the world's time. */
 static double clearance(const SolidDef *solid, int dimensions, double time, const float x[3])

@@ -2,9 +2,9 @@
    with the last good state. */
 #include "fixture.h"
 
-#include "sim/solver.h"
-#include "sim/step_control.h"
-#include "sim/world_state.h"
+#include "sim/world/solver.h"
+#include "sim/world/step_control.h"
+#include "sim/world/world_state.h"
 
 static Error error;
 

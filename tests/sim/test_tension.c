@@ -2,9 +2,9 @@
    pressure in a drop. */
 #include "fixture.h"
 
-#include "sim/kernel.h"
-#include "sim/lattice.h"
-#include "sim/tension.h"
+#include "sim/kernel/kernel.h"
+#include "sim/kernel/lattice.h"
+#include "sim/matter/tension.h"
 
 enum { COUNT = 250 };
 

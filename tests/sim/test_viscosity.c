@@ -2,8 +2,8 @@
    work that a fluid does. */
 #include "fixture.h"
 
-#include "sim/lattice.h"
-#include "sim/viscosity.h"
+#include "sim/kernel/lattice.h"
+#include "sim/matter/viscosity.h"
 
 enum { KERNELS = 6 };
 

@@ -2,7 +2,7 @@
    oscillating floor. */
 #include "fixture.h"
 
-#include "sim/solver.h"
+#include "sim/world/solver.h"
 
 #include <complex.h>
 

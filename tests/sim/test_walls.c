@@ -2,7 +2,7 @@
  * escape. */
 #include "fixture.h"
 
-#include "sim/wall.h"
+#include "sim/box/wall.h"
 
 static WorldDef full_box(double nx, double ny, double nz, double support)
 {

@@ -2,10 +2,10 @@
    ten, and bits. */
 #include "fixture.h"
 
-#include "sim/kernel.h"
-#include "sim/lattice.h"
-#include "sim/viscosity.h"
-#include "sim/world_state.h"
+#include "sim/kernel/kernel.h"
+#include "sim/kernel/lattice.h"
+#include "sim/matter/viscosity.h"
+#include "sim/world/world_state.h"
 
 enum { COUNT = 600 };
 

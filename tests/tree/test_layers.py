@@ -1,4 +1,6 @@
-"""Dependencies run one way: sim <- sim/gl <- render <- app; sim without sim/gl needs no GL, window or HID symbol."""
+"""Dependencies run one way: sim <- sim/gl <- render <- app, and between the rooms of a floor; no circle of files; sim
+without sim/gl needs no GL, window or HID symbol."""
+import collections
 import pathlib
 import re
 import subprocess
@@ -7,35 +9,163 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIM_LIBRARY = sys.argv.pop(1)
+FILES_MAX = 40  # in a folder
 
-# What each folder may include of the tree.
-MAY = {
-    "sim": ["sim", "sim/cpu/parallel.h"],
-    "sim/cpu": ["sim", "sim/cpu"],
-    "sim/gl": ["sim", "sim/gl"],
-    "sim/gl/compute": ["sim", "sim/gl", "sim/gl/compute"],
-    "sim/gl/fragment": ["sim", "sim/gl", "sim/gl/fragment"],
-    "render": ["sim", "sim/cpu/parallel.h", "sim/gl", "render"],
-    "app/device": ["sim", "app/device", "app"],
-    "app": ["sim", "sim/gl", "render", "app/device", "app"],
+# Each room with the rooms of its floor that it may include; all of them are above it in the list.
+SIM = {
+    "base": "",
+    "kernel": "base",
+    "box": "base kernel",
+    "matter": "base kernel box",
+    "mesh": "base kernel",
+    "world": "base kernel box matter",
+    "cpu": "base kernel box matter world",
+    "mueller": "base kernel box matter world cpu",
+    "wcsph": "base kernel box matter world cpu",
 }
+GL = {"": "", "compute": "", "fragment": ""}
+RENDER = {
+    "frame": "",
+    "particles": "",
+    "ui": "frame",
+    "spheres": "frame particles",
+    "splat": "frame particles",
+    "volume": "frame particles",
+    "": "frame particles spheres splat volume ui",
+}
+APP = {
+    "base": "",
+    "metric": "base",
+    "yaml": "base",
+    "scene": "base metric yaml",
+    "recording": "base yaml scene",
+    "hand": "base scene",
+    "device": "base yaml scene recording hand",
+    "held": "base scene hand device",
+    "output": "base scene",
+    "session": "base scene recording hand held output",
+    "case": "base metric scene",
+    "lab": "base metric scene held session case",
+    "play": "base scene recording hand device held output session lab",
+    "command": "base metric yaml scene recording hand device held output session case lab play",
+}
+FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
+          ("app", APP, ["sim", "sim/gl", "render"])]
+DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device"}  # rooms of app without render and sim/gl
+
+
+# What is left to cut: circles by their first file, and drawers.
+CIRCLES_LEFT = ["app/base/output", "app/device/mapping", "app/scene/advise", "app/yaml/tree", "render/splat/silhouette",
+                "sim/cpu/pair_loop", "sim/world/backend"]
+DRAWERS_LEFT = ["shaders/common", "shaders/render", "shaders/sim", "tests/app", "tests/render"]
+
+
+def folder(floor, room):
+    return f"{floor}/{room}" if room else floor
+
+
+def may():
+    """Of each folder the folders that it may include."""
+    rooms, allowed = {}, {}
+    for floor, table, below in FLOORS:
+        rooms[floor] = [folder(floor, room) for room in table]
+        under = [where for name in below for where in rooms[name]]
+        under = [where for where in under if not where.startswith("sim/gl/")]  # backends: by name only
+        if floor != "sim/gl":
+            under = [where for where in under if where not in ("sim/mueller", "sim/wcsph", "sim/cpu")]
+        for room, names in table.items():
+            own = [folder(floor, name) for name in names.split()]
+            if floor == "sim/gl":
+                own.append("sim/gl")
+            down = [w for w in under if not (floor == "app" and room in DRAWS_NOTHING and not w.startswith("sim/"))]
+            allowed[folder(floor, room)] = [*down, *own, folder(floor, room)]
+    return allowed
 
 
 def includes(path):
     return re.findall(r'^\s*#\s*include\s+"([^"]+)"', path.read_text(), re.M)
 
 
+def sources():
+    for floor in ("sim", "render", "app"):
+        yield from sorted(path for path in (ROOT / floor).rglob("*.[ch]*") if path.suffix in (".c", ".h", ".cpp"))
+
+
+def part_of(name):
+    """The file without its suffix. A header of one file's parts, NAME_parts.h without a .c, belongs to NAME.c."""
+    path = pathlib.PurePosixPath(name)
+    stem = str(path.with_suffix(""))
+    if path.suffix == ".h" and not (ROOT / stem).with_suffix(".c").exists():
+        whole = stem
+        while "_" in pathlib.PurePosixPath(whole).name:
+            whole = whole.rsplit("_", 1)[0]
+            if (ROOT / whole).with_suffix(".c").exists():
+                return whole
+    return stem
+
+
+def circles(graph):
+    """Strongly connected components of more than one node: Tarjan 1972."""
+    index, low, stack, found = {}, {}, [], []
+
+    def visit(node):
+        index[node] = low[node] = len(index)
+        stack.append(node)
+        for other in graph.get(node, ()):
+            if other not in index:
+                visit(other)
+                low[node] = min(low[node], low[other])
+            elif other in stack:
+                low[node] = min(low[node], index[other])
+        if low[node] == index[node]:
+            at = stack.index(node)
+            if len(stack) - at > 1:
+                found.append(sorted(stack[at:]))
+            del stack[at:]
+
+    for node in list(graph):
+        if node not in index:
+            visit(node)
+    return found
+
+
 class Layers(unittest.TestCase):
+    maxDiff = None
+
     def test_includes_run_one_way(self):
-        seen = 0
-        for folder, allowed in MAY.items():
-            for path in sorted((ROOT / folder).glob("*.[ch]*")):
-                for name in includes(path):
-                    seen += 1
-                    where = str(pathlib.PurePosixPath(name).parent)
-                    self.assertTrue(where in allowed or name in allowed,
-                                    f"{path.relative_to(ROOT)} includes {name}; {folder} may use {allowed}")
-        self.assertGreater(seen, 100)
+        allowed, seen, wrong = may(), 0, []
+        for path in sources():
+            where = str(path.parent.relative_to(ROOT))
+            self.assertIn(where, allowed, f"{where} is no room of FLOORS")
+            for name in includes(path):
+                seen += 1
+                if str(pathlib.PurePosixPath(name).parent) not in allowed[where]:
+                    wrong.append(f"{path.relative_to(ROOT)} includes {name}; {where} may use {allowed[where]}")
+        self.assertEqual(wrong, [])
+        self.assertGreater(seen, 1000)
+
+    def test_rooms_stand_above_what_uses_them(self):
+        for floor, table, _ in FLOORS:
+            above = []
+            for room, names in table.items():
+                self.assertEqual([name for name in names.split() if name not in above], [], f"{floor}/{room}")
+                above.append(room)
+
+    def test_no_circle_of_files(self):
+        graph = collections.defaultdict(set)
+        for path in sources():
+            here = part_of(str(path.relative_to(ROOT)))
+            graph[here] |= {part_of(name) for name in includes(path)} - {here}
+        self.assertEqual([circle for circle in circles(graph) if circle[0] not in CIRCLES_LEFT], [])
+        self.assertEqual(circles({"a": ["b"], "b": ["c"], "c": ["a"], "d": ["a"]}), [["a", "b", "c"]])
+
+    def test_no_drawer(self):
+        count = collections.Counter(
+            str(pathlib.PurePosixPath(name).parent)
+            for name in subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True,
+                                       text=True).stdout.split())
+        self.assertGreater(count["sim/world"], 10)
+        self.assertEqual({name: n for name, n in count.items() if n > FILES_MAX and name not in DRAWERS_LEFT}, {})
 
     def test_sim_needs_no_window_and_no_gl(self):
         symbols = subprocess.run(["nm", "--undefined-only", "--format=just-symbols", SIM_LIBRARY], check=True,
@@ -45,8 +175,8 @@ class Layers(unittest.TestCase):
         self.assertEqual(foreign, [])
 
     def test_one_cpp_file(self):
-        files = [str(p.relative_to(ROOT)) for folder in MAY for p in (ROOT / folder).glob("*.cpp")]
-        self.assertEqual(files, ["render/imgui.cpp"])
+        files = [str(p.relative_to(ROOT)) for p in sources() if p.suffix == ".cpp"]
+        self.assertEqual(files, ["render/ui/imgui.cpp"])
 
 
 if __name__ == "__main__":

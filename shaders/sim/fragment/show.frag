@@ -1,7 +1,7 @@
 // What the views want to know of each particle besides place and velocity: shaders/sim/show.comp.
 #include "sim/fragment/own.glsl"
 uniform sampler2D fields;
-uniform int scalar; // sim/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
+uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
 layout(location = 0) out uint word; // bits of a float, or a number
 
 float compression_of(int i) { return scales.w * (1.0 / (of_particle(fields, i).x * kernel.z) - 1.0); }

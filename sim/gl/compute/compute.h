@@ -5,8 +5,8 @@
 #ifndef SLOSH_COMPUTE_H
 #define SLOSH_COMPUTE_H
 
-#include "sim/backend.h"
 #include "sim/gl/mailbox.h"
+#include "sim/world/backend.h"
 
 enum {
     COMPUTE_SCAN_LEVELS = 3,

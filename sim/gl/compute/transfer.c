@@ -1,7 +1,7 @@
 /* Between the buffers and the plain arrays of sim/gl/transfer.h. */
 #include "sim/gl/transfer.h"
-#include "sim/cell_rows.h"
 #include "sim/gl/compute/compute.h"
+#include "sim/world/cell_rows.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>

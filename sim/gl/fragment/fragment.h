@@ -8,9 +8,9 @@
 #ifndef SLOSH_FRAGMENT_H
 #define SLOSH_FRAGMENT_H
 
-#include "sim/backend.h"
 #include "sim/gl/mailbox.h"
 #include "sim/gl/transfer.h"
+#include "sim/world/backend.h"
 
 enum {
     FRAGMENT_COUNT_MOST = 1 << 24, /* indices up to here are exact in a depth of 32 bits */

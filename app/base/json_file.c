@@ -1,0 +1,90 @@
+#include "app/base/json_file.h"
+
+#include "app/base/output.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool write_text(const json_t *json, FILE *file)
+{
+    return json_dumpf(json, file, JSON_INDENT(1) | JSON_REAL_PRECISION(9)) == 0 && fputc('\n', file) != EOF;
+}
+
+static bool write_named(const json_t *json, const char *name)
+{
+    FILE *file = fopen(name, "w");
+    if (!file)
+        return false;
+    const bool ok = write_text(json, file);
+    return (fclose(file) == 0) && ok;
+}
+
+/* The stream that the path stands for, however it was redirected; NULL: it is a path. */
+static FILE *own_stream(const char *path)
+{
+    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0)
+        return stdout;
+    return strcmp(path, "/dev/stderr") == 0 ? stderr : NULL;
+}
+
+bool json_is_stream(const char *path)
+{
+    struct stat status;
+    return own_stream(path) ||
+           (stat(path, &status) == 0 && (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode)));
+}
+
+static bool write_stream(const json_t *json, const char *path)
+{
+    FILE *stream = own_stream(path);
+    return stream ? write_text(json, stream) && fflush(stream) == 0 : write_named(json, path);
+}
+
+bool json_file_check(const char *path, Error *error)
+{
+    if (!json_is_stream(path))
+        return output_check(path, error);
+    return own_stream(path) || access(path, W_OK) == 0 ||
+           error_set(error, "%s: cannot be written: %s", path, strerror(errno));
+}
+
+bool json_file_write(const json_t *json, const char *path, Error *error)
+{
+    Output output = {0};
+    const bool stream = json_is_stream(path);
+    if (!stream && !output_begin(&output, path, error))
+        return false;
+    if (json && (stream ? write_stream(json, path) : write_named(json, output.temp)))
+        return stream || output_commit(&output, error);
+    if (!json)
+        error_set(error, "%s: the results hold a name that is not UTF-8, or a number that is not finite",
+                  path);
+    else
+        error_set(error, "%s: cannot write the results: %s", path, strerror(errno));
+    output_discard(&output);
+    return false;
+}
+
+json_t *failure_json(const char *command, const char *word, const char *input, const char *output,
+                     const Error *error)
+{
+    return json_pack("{s:s, s:s, s:s*, s:s}", "command", command, word, input, "output", output, "error",
+                     error->message);
+}
+
+void failure_json_write(json_t *json, const char *path)
+{
+    Error error = {{0}};
+    if (path && !json_file_write(json, path, &error))
+        fprintf(stderr, "%s\n", error.message);
+    json_decref(json);
+}
+
+json_t *number_json(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}

@@ -1,0 +1,71 @@
+#define _GNU_SOURCE /* getdents64 */
+#include "app/base/output_pending.h"
+
+#include "app/base/output.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { PENDING_MAX = 8 };
+
+/* The one state that a signal handler can reach. */
+static struct {
+    volatile sig_atomic_t used;
+    char temp[sizeof(((Output *)NULL)->temp)];
+} pending[PENDING_MAX];
+
+void output_pending_add(const char *temp)
+{
+    int i = 0;
+    while (i < PENDING_MAX && pending[i].used)
+        i++;
+    if (i == PENDING_MAX)
+        return;
+    snprintf(pending[i].temp, sizeof pending[i].temp, "%s", temp);
+    pending[i].used = 1;
+}
+
+void output_pending_forget(const char *temp)
+{
+    for (int i = 0; i < PENDING_MAX; i++)
+        if (pending[i].used && strcmp(pending[i].temp, temp) == 0)
+            pending[i].used = 0;
+}
+
+/* One buffer of entries; whether there was any file to remove. */
+static bool remove_some(int folder)
+{
+    _Alignas(struct dirent64) char buffer[4096];
+    bool removed = false;
+    ssize_t size = getdents64(folder, buffer, sizeof buffer);
+    for (ssize_t at = 0; at < size;) {
+        const struct dirent64 *entry = (const struct dirent64 *)(buffer + at);
+        removed |= unlinkat(folder, entry->d_name, 0) == 0;
+        at += entry->d_reclen;
+    }
+    return removed;
+}
+
+/* By system calls, since opendir allocates, which a signal handler must not. */
+void output_remove_folder(const char *path)
+{
+    int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0)
+        return;
+    while (remove_some(folder))
+        lseek(folder, 0, SEEK_SET);
+    close(folder);
+    rmdir(path);
+}
+
+void output_discard_all(void)
+{
+    for (int i = 0; i < PENDING_MAX; i++)
+        if (pending[i].used && unlink(pending[i].temp) != 0)
+            output_remove_folder(pending[i].temp);
+}

@@ -1,0 +1,59 @@
+#include "app/case/case.h"
+
+#include "app/base/suggest.h"
+#include "app/case/all.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const Case *const case_list[] = {&case_hydrostatic,  &case_hydrostatic_3d, &case_dam_break,
+                                 &case_dam_break_2d, &case_free_fall,      &case_bucket,
+                                 &case_sloshing,     &case_wave,           &case_ellipse,
+                                 &case_collision,    &case_drop,           &case_laplace,
+                                 &case_vortices,     &case_poiseuille,     &case_couette,
+                                 &case_cavity,       &case_cavity_1000,    NULL};
+
+const char *case_near(const char *word)
+{
+    Suggestion near = suggest_for(word);
+    for (const Case *const *at = case_list; *at; at++)
+        suggest_offer(&near, (*at)->name);
+    return near.best;
+}
+
+const Case *case_find(const char *name, Error *error)
+{
+    char all[512] = "";
+    for (const Case *const *at = case_list; *at; at++) {
+        if (strcmp((*at)->name, name) == 0)
+            return *at;
+        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", *all ? ", " : "", (*at)->name);
+    }
+    const char *near = case_near(name);
+    error_set(error, "there is no case '%.60s'%s%s%s; these are there: %s", name,
+              near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", all);
+    return NULL;
+}
+
+Figure figure_scaled(double value, double reference, double scale)
+{
+    return (Figure){value, reference, fabs(value - reference) / fabs(scale)};
+}
+
+Figure figure_relative(double value, double reference)
+{
+    return figure_scaled(value, reference, reference);
+}
+
+double figure_worse(double a, double b)
+{
+    return isnan(a) || a > b ? a : b;
+}
+
+double case_tolerance(const CaseMetric *metric, CaseLevel level, const char *method)
+{
+    if (level == CASE_COARSE)
+        return metric->coarse;
+    return metric->mueller > 0 && strcmp(method, "mueller") == 0 ? metric->mueller : metric->tolerance;
+}

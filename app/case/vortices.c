@@ -1,0 +1,46 @@
+/* Taylor and Green's vortices in a periodic square: their energy falls as exp(-16 pi^2 nu t / L^2). */
+#include "app/case/all.h"
+#include "app/metric/metric.h"
+
+#include <math.h>
+
+enum { ENERGY };
+
+static void sample(CaseRun *run)
+{
+    Energies e;
+    metric_energies(&run->cloud, run->def, &e);
+    curve_add(&run->column[ENERGY], run->info.time, log(e.kinetic));
+}
+
+static bool judge(CaseRun *run, Error *error)
+{
+    (void)error;
+    const FluidDef *fluid = &run->def->fluids[0];
+    const double side = run->def->box_size[0], nu = fluid->viscosity / fluid->density;
+    const double right = -16 * M_PI * M_PI * nu / (side * side);
+    const Curve *energy = &run->column[ENERGY];
+    for (size_t i = 0; i < energy->count; i++) {
+        curve_add(&run->found[0], energy->at[i][0], energy->at[i][1] - energy->at[0][1]);
+        curve_add(&run->expected[0], energy->at[i][0], right * energy->at[i][0]);
+    }
+    run->figures[0] = figure_relative(curve_slope(energy), right);
+    return true;
+}
+
+const Case case_vortices = {
+    .name = "taylor_green",
+    .help = "Taylor and Green's vortices, Re 100: the decay of their energy",
+    .scene = "scenes/cases/taylor_green.yaml",
+    .methods = {"wcsph"},
+    .spacing = {0.04, 0.01, 0.005},
+    .time = 1.5,
+    .every = 0.02,
+    .metrics = {{"slope of ln energy", "1/s", .tolerance = 0.03, .coarse = 0.05}},
+    .plot = {.x = "time, s",
+             .y = "ln of the kinetic energy over the start's",
+             .found = {"energy"},
+             .expected = {"exact"}},
+    .sample = sample,
+    .judge = judge,
+};

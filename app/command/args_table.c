@@ -1,0 +1,178 @@
+#include "app/session/args_table.h"
+
+#include "app/base/path.h"
+#include "app/lab/bench_table.h"
+#include "app/scene/lists.h"
+
+#include <stddef.h>
+
+enum {
+    PLAY = 1 << COMMAND_PLAY,
+    RENDER = 1 << COMMAND_RENDER,
+    RUN = 1 << COMMAND_RUN,
+    BENCH = 1 << COMMAND_BENCH,
+    VALIDATE = 1 << COMMAND_VALIDATE,
+    CHART = 1 << COMMAND_CHART,
+    REPLAY = 1 << COMMAND_REPLAY,
+    EXPORT = 1 << COMMAND_EXPORT,
+    DEVICES = 1 << COMMAND_DEVICES,
+    INFO = 1 << COMMAND_INFO,
+    ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | INFO
+};
+
+const CommandRow command_rows[] = {
+    {COMMAND_PLAY, "play", "[SCENE] [OPTIONS]",
+     "opens the window: the box in your hand; without a scene, box_slosh", 0, 1, NULL, 1280, 720},
+    {COMMAND_RENDER, "render", "SCENE -o OUT.png|OUT.mp4|FOLDER [OPTIONS]",
+     "simulates a scene into a picture, a video or a folder of pictures; needs no display", 1, 1,
+     "OUT.png, OUT.mp4 or a folder", 1280, 720},
+    {COMMAND_RUN, "run", "SCENE -o OUT.h5part [OPTIONS]",
+     "simulates a scene into snapshots that ParaView opens", 1, 1, "OUT.h5part", 1280, 720},
+    {COMMAND_BENCH, "bench", "[SCENE...] [OPTIONS]", "measures how long each stage of a frame takes", 0,
+     ARGS_SCENES_MAX, NULL, 512, 512},
+    {COMMAND_VALIDATE, "validate", "[CASE...] [OPTIONS]",
+     "known flows against their references; without a CASE, all", 0, ARGS_SCENES_MAX, NULL, 0, 0},
+    {COMMAND_CHART, "chart", "SCENE|CASE -o OUT.svg|.png [OPTIONS]",
+     "speed against accuracy over methods, steps and resolutions", 1, 1, "OUT.svg or OUT.png", 0, 0},
+    {COMMAND_REPLAY, "replay", "FILE [OPTIONS]",
+     "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
+    {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply [OPTIONS]",
+     "writes snapshots in the formats of other programs", 1, 1, "OUT.pvd, OUT.vtp or OUT.ply", 0, 0},
+    {COMMAND_DEVICES, "devices", "[--watch] [--record FILE] [OPTIONS]",
+     "motion devices: which there are, what they say, and how to open them", 0, 0, NULL, 0, 0},
+    {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
+     0, 1, NULL, 1280, 720},
+    {COMMAND_HELP, "help", "[COMMAND]", "says what a command does and takes", 0, 0, NULL, 0, 0},
+    {0},
+};
+
+/* "box|world" */
+#define X(NAME, name) "|" name
+#define FRAMES        (&("" SNAPSHOT_FRAMES(X))[1])
+
+#define AT(field) .offset = offsetof(Args, field)
+
+/* clang-format off */
+const OptionRow option_rows[] = {
+    {"-o", "OUT", RENDER | RUN | REPLAY | EXPORT, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
+    {"-o", "OUT", BENCH, OPTION_TEXT, AT(output), .help = "the chart of --table: OUT.svg or OUT.png"},
+    {"-o", "DIR", VALIDATE, OPTION_TEXT, AT(output), .help = "a folder for a plot a case, with the reference on it"},
+    {"--full", NULL, VALIDATE, OPTION_FLAG, AT(full), .help = "finer, for as long as it takes"},
+    {"--coarse", NULL, VALIDATE, OPTION_FLAG, AT(coarse), .help = "a glance: few particles, with tolerances of its own"},
+    {"-o", "OUT", CHART, OPTION_TEXT, AT(output), .help = "the chart, OUT.svg or OUT.png; its figures in OUT.csv, which a later run goes on with"},
+    {"--time", "S", CHART, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a scene (2); a case has its own"},
+    {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods, of the scene's backend and cpu, and of those on a GPU where there is one"},
+    {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
+     .help = "a published table again, beside its figures", .names = table_choice},
+    {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
+    {"--time", "S", BENCH, OPTION_NUMBER, AT(time), .max = 1e6,
+     .help = "measure from the first frame at or after that time on (0)"},
+    {"--time", "S", EXPORT, OPTION_NUMBER, AT(time), .max = 1e6,
+     .help = "the one snapshot at that time, or the first after it (the last)"},
+    {"--frame", FRAMES, EXPORT, OPTION_CHOICE, AT(frame), .min = FRAME_BOX,
+     .help = "whose positions and velocities are written (box)"},
+    {"--surface", NULL, EXPORT, OPTION_FLAG, AT(surface), .help = "the fluid's surface as a mesh instead of the particles"},
+    {"--level", "F", EXPORT, OPTION_NUMBER, AT(level), .max = 0.99, .flags = OPTION_OPEN_LOW,
+     .help = "of the field at the surface (the one at which it encloses the fluid's volume: about 0.5)"},
+    {"--cell", "SPACINGS", EXPORT, OPTION_NUMBER, AT(cell), .min = 0.05, .max = 4,
+     .help = "side of the cells that the surface is made from (0.5)"},
+    {"--color-by", "fluid|speed|density|pressure", EXPORT, OPTION_CHOICE, AT(color_by), .min = COLOR_CHOICE_FLUID,
+     .help = "colours of a .ply: of the fluids, or a colormap from the least to the greatest (fluid)"},
+    {"--every", "S", RUN | REPLAY, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
+     .help = "seconds from snapshot to snapshot (1/30)"},
+    {"--interpolate", NULL, RENDER, OPTION_FLAG, AT(interpolate),
+     .help = "with a fixed step: pictures of the states between steps, at their own times"},
+    {"--resume", NULL, RUN, OPTION_FLAG, AT(resume), .help = "go on behind the last snapshot of OUT, to the same bits"},
+    {"--frames", "N", RENDER | BENCH, OPTION_COUNT, AT(frames), .min = 1, .max = 1e7, .help = "how many frames"},
+    {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .min = 0.001, .max = 1000,
+     .help = "frames in a second (30)"},
+    {"--size", "WxH", PLAY | RENDER | BENCH, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
+     .help = "pixels"},
+    {"--record", "FILE", PLAY, OPTION_TEXT, AT(record), .help = "write the session there at the end, for slosh replay"},
+    {"--record", "FILE", DEVICES, OPTION_TEXT, AT(record), .help = "write all raw reports there, with their times, for --device file:FILE; until Ctrl-C"},
+    {"--play", NULL, BENCH, OPTION_FLAG, AT(play), .help = "measure the live window, the box shaken by a script"},
+    {"--seconds", "S", BENCH, OPTION_NUMBER, AT(seconds), .max = 1e5, .flags = OPTION_OPEN_LOW,
+     .help = "how long, with --play (20)"},
+    {"--clock", "gl|finish", BENCH, OPTION_CHOICE, AT(clock), .min = CLOCK_CHOICE_GL,
+     .help = "GPU stages by GL timer queries, or by glFinish and the CPU's clock"},
+    {"--sweep", "KEY=A,B,...", BENCH, OPTION_SWEEP, AT(sweeps),
+     .help = "measure with each value: particles, backend, method, view, threads or any scene key; repeat for a product"},
+    {"--set", "PATH=VALUE", ALL, OPTION_SETTING, AT(settings),
+     .help = "any key of the scene, such as solver.step.dt=0.01; repeat for more"},
+    {"--particles", "N", ALL, OPTION_PARTICLES, AT(settings.particles), .min = 1, .max = 2147483647,
+     .help = "the spacing that gives about N particles"},
+    {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes", .names = backend_choice},
+    {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations", .names = method_choice},
+    {"--view", "NAME", ALL & ~(VALIDATE | CHART), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn", .names = view_choice},
+    {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
+    {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
+    {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
+    {"--device", "file:PATH", PLAY | DEVICES, OPTION_DEVICE, AT(device),
+     .help = "a recording of motion devices in place of those that are plugged in"},
+    {"--device", "file:PATH", RENDER | RUN | BENCH, OPTION_DEVICE, AT(device),
+     .help = "a recording of motion devices (slosh devices --record) moves the box, in simulated time"},
+    {"--device", "file:PATH", VALIDATE | CHART, OPTION_REFUSED, .help = "refused: what is compared moves as the scene says, and no other way"},
+    {"--device", "file:PATH", REPLAY, OPTION_REFUSED, .help = "refused: all that moved the box is in the recorded session"},
+    {"--device", "file:PATH", EXPORT, OPTION_REFUSED, .help = "refused: nothing is simulated; slosh run takes it"},
+    {"--device", "file:PATH", INFO, OPTION_REFUSED, .help = "refused: nothing is simulated; slosh devices lists what is in a recording"},
+    {"--mapping", "FILE", PLAY | RENDER | RUN | BENCH, OPTION_TEXT, AT(mapping),
+     .help = "what motion devices do (the user's slosh/mapping.yaml, if there is one, or what is built in)"},
+    {"--mapping", "FILE", DEVICES, OPTION_TEXT, AT(mapping), .help = "check such a file, and say in words what devices do by it"},
+    {"--write-mapping", "FILE", DEVICES, OPTION_TEXT, AT(write_mapping), .help = "write what devices do into a new file, to be changed"},
+    {"--watch", NULL, DEVICES, OPTION_FLAG, AT(watch), .help = "show what they say, live, until Ctrl-C or the end of the recording"},
+    {"--json", "FILE", ALL | REPLAY | EXPORT | DEVICES, OPTION_TEXT, AT(json), .help = "write the figures there too; -: on standard output"},
+    {"--quiet", NULL, ALL | REPLAY | EXPORT | DEVICES, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
+    {"--help", NULL, ALL | REPLAY | EXPORT | DEVICES, OPTION_HELP, .help = "this text"},
+    {0},
+};
+/* clang-format on */
+#undef X
+
+const CommandRow *command_row(Command command)
+{
+    const CommandRow *row = command_rows;
+    while (row->name && row->command != command)
+        row++;
+    return row;
+}
+
+static void help_program(FILE *file)
+{
+    fprintf(file, "slosh: a fluid of particles, simulated, shown and measured\n\n");
+    for (const CommandRow *row = command_rows; row->name; row++)
+        fprintf(file, "  slosh %-8s %-42s %s\n", row->name, row->usage, row->help);
+    fprintf(file, "  slosh %-51s %s\n", "--version", "says which slosh this is");
+    fprintf(
+        file,
+        "\n`slosh help COMMAND` lists its options. SCENE is a file, or the name of one that comes with slosh:\n");
+    SceneNames scenes;
+    scene_path_names(&scenes);
+    int column = 0;
+    for (int i = 0; i < scenes.count; i++) {
+        const char *end = i + 1 < scenes.count ? "," : "\n";
+        column = column > 90 ? 0 : column;
+        column += fprintf(file, "%s%s%s", column ? " " : i ? "\n  " : "  ", scenes.name[i], end);
+    }
+}
+
+void args_help(Command command, FILE *file)
+{
+    const CommandRow *row = command_row(command);
+    if (!row->name || command == COMMAND_HELP || command == COMMAND_VERSION) {
+        help_program(file);
+        return;
+    }
+    fprintf(file, "slosh %s %s\n%s\n\n", row->name, row->usage, row->help);
+    for (const OptionRow *option = option_rows; option->name; option++) {
+        char left[64];
+        if (!(option->commands & 1u << command) || option->kind == OPTION_REFUSED)
+            continue;
+        snprintf(left, sizeof left, "%s %s", option->name, option->value ? option->value : "");
+        fprintf(file, "  %-22s %s", left, option->help);
+        for (int i = 0; option->names && option->names(i); i++)
+            fprintf(file, "%s%s", i ? ", " : ": ", option->names(i));
+        if (option->kind == OPTION_SIZE)
+            fprintf(file, " (%dx%d)", row->width, row->height);
+        fputc('\n', file);
+    }
+}

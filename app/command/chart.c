@@ -1,0 +1,191 @@
+#include "app/base/interrupt.h"
+#include "app/base/json_file.h"
+#include "app/base/output.h"
+#include "app/command/cmd.h"
+#include "app/lab/chart_plan.h"
+#include "app/lab/chart_report.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Rows of the plan, in its order, and all that the file has: runs of other settings stay there. */
+typedef struct Runs {
+    ChartRows kept, rows;
+    bool made[CHART_JOBS_MAX]; /* by an older run */
+    int there;                 /* rows of the plan that have their figures */
+} Runs;
+
+/* Rows of the plan, with the figures of those that are kept. */
+static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
+{
+    static Scene scene;
+    ChartRows *rows = &runs->rows;
+    rows->metric_count = plan->scene.metric_count;
+    memcpy(rows->metrics, plan->scene.metrics, sizeof rows->metrics);
+    for (rows->count = 0; rows->count < plan->count; rows->count++) {
+        const int i = rows->count;
+        if (!chart_prepare(&plan->subject, &plan->jobs[i], &scene, &rows->row[i], error))
+            return false;
+        const ChartRow *old = chart_rows_find(&runs->kept, rows->row[i].key);
+        runs->made[i] = old != NULL;
+        runs->there += old != NULL;
+        if (old)
+            rows->row[i] = *old;
+    }
+    if (!plan->args->quiet && runs->there > 0)
+        fprintf(stderr, "%d of %d runs %s in %s already\n", runs->there, plan->count,
+                runs->there == 1 ? "is" : "are", plan->csv);
+    return true;
+}
+
+/* Of what was to be run when it began: what was done before a job, and the job itself. */
+static void shares(const ChartPlan *plan, const Runs *runs, int job, double *done, double *part)
+{
+    double all = 0;
+    *done = *part = 0;
+    for (int i = 0; i < plan->count; i++) {
+        const double seconds = runs->made[i] ? 0 : chart_plan_seconds(plan, i, &runs->kept);
+        all += seconds;
+        *done += i < job ? seconds : 0;
+        *part += i == job ? seconds : 0;
+    }
+    *done /= all;
+    *part /= all;
+}
+
+static bool run_one(const ChartPlan *plan, Runs *runs, int job, Progress *progress, Error *error)
+{
+    double done, part;
+    ChartRow *row = &runs->rows.row[job];
+    shares(plan, runs, job, &done, &part);
+    if (!chart_run(&plan->subject, &plan->jobs[job], row, progress, done, part, error))
+        return false;
+    runs->there++;
+    chart_rows_add(&runs->kept, row, &runs->rows);
+    chart_rows_merge(&runs->kept, plan->csv, &runs->rows);
+    return chart_rows_write(&runs->kept, plan->csv, error);
+}
+
+/* Those that are not made yet; the file is written after each. */
+static bool run_all(const ChartPlan *plan, Runs *runs, Error *error)
+{
+    Progress progress;
+    bool ok = true;
+    progress_begin(&progress, stderr, "chart", plan->args->quiet);
+    for (int i = 0; ok && i < plan->count && !interrupted(); i++)
+        ok = runs->made[i] || run_one(plan, runs, i, &progress, error);
+    progress_end(&progress);
+    return ok && !interrupted();
+}
+
+/* Older runs of other settings stay in the file. */
+static void keep_errors(ChartRows *kept, const ChartRows *rows)
+{
+    for (int i = 0; i < kept->count; i++) {
+        const ChartRow *row = chart_rows_find(rows, kept->row[i].key);
+        if (row)
+            kept->row[i].error = row->error;
+    }
+}
+
+/* A chart without an error on it is a failure. */
+static bool check_rows(const ChartPlan *plan, const ChartRows *rows, Error *error)
+{
+    int known = 0;
+    if (!plan->subject.of && !chart_rows_reference(rows))
+        return error_set(error, "the finest run, which all are compared with, broke: no error is known; use "
+                                "a smaller step or a larger spacing");
+    for (int i = 0; i < rows->count; i++)
+        known += rows->row[i].role == CHART_POINT && isfinite(rows->row[i].error);
+    return known > 0 || error_set(error, "every run broke: no error is known; use a smaller step");
+}
+
+/* "error: centre_of_mass and kinetic_energy, rms over range" */
+static void name_error(const ChartPlan *plan, char name[256])
+{
+    size_t used = (size_t)snprintf(name, 256, "error: ");
+    if (plan->subject.of) {
+        snprintf(name + used, 256 - used, "%s", plan->subject.of->metrics[0].name);
+        return;
+    }
+    for (int m = 0; m < plan->scene.metric_count && used < 200; m++)
+        used += (size_t)snprintf(name + used, 256 - used, "%s%s",
+                                 m == 0                              ? ""
+                                 : m + 1 == plan->scene.metric_count ? " and "
+                                                                     : ", ",
+                                 metric_kinds[plan->scene.metrics[m]].name);
+    if (used < 256)
+        snprintf(name + used, 256 - used, ", rms over range");
+}
+
+static bool finish(const ChartPlan *plan, Runs *runs, Error *error)
+{
+    char title[256], name[256];
+    const Args *args = plan->args;
+    const Case *of = plan->subject.of;
+    ChartRows *rows = &runs->rows;
+    const double floor = chart_rows_compare(rows);
+    keep_errors(&runs->kept, rows);
+    if (!args->quiet)
+        chart_print(rows, floor, stdout);
+    snprintf(title, sizeof title, "%.120s%s", of ? of->help : args->scenes[0],
+             of ? "" : ": the finest run is the reference");
+    name_error(plan, name);
+    const ChartWords words = {title, name, plan->note};
+    chart_rows_merge(&runs->kept, plan->csv, rows);
+    return chart_rows_write(&runs->kept, plan->csv, error) &&
+           (!args->json ||
+            chart_write_json(rows, args->scenes[0], name + strlen("error: "), floor, args->json, error)) &&
+           chart_draw(rows, &words, floor, args->output, error) && check_rows(plan, rows, error);
+}
+
+static bool check_outputs(const ChartPlan *plan, ChartRows *kept, Error *error)
+{
+    const Args *args = plan->args;
+    return output_check(args->output, error) && output_check(plan->csv, error) &&
+           (!args->json || json_file_check(args->json, error)) &&
+           chart_rows_read(kept, plan->csv, stderr, error);
+}
+
+/* Where a run that is still to be made is on a GPU. */
+static bool make_context(ChartPlan *plan, const Runs *runs, Error *error)
+{
+    if (!plan->wants_context || runs->there == plan->count)
+        return true;
+    if (!plan->context && !(plan->context = headless_create(plan->args->gpu, error)))
+        return false;
+    fprintf(stderr, "renderer: %s\n", headless_renderer(plan->context));
+    return true;
+}
+
+static int chart(ChartPlan *plan, Error *error)
+{
+    static Runs runs;
+    notes_print(&plan->notes, stderr);
+    if (*plan->note)
+        fprintf(stderr, "%s\n", plan->note);
+    const bool ok = check_outputs(plan, &runs.kept, error) && make_rows(plan, &runs, error) &&
+                    make_context(plan, &runs, error) && run_all(plan, &runs, error) &&
+                    finish(plan, &runs, error);
+    if (interrupted()) {
+        fprintf(stderr, "stopped after %d of %d runs; the same command goes on\n", runs.there, plan->count);
+        return EXIT_INTERRUPTED;
+    }
+    if (!ok)
+        fprintf(stderr, "%s\n", error->message);
+    return ok ? 0 : EXIT_FAILED;
+}
+
+int cmd_chart(const Args *args)
+{
+    static ChartPlan plan;
+    Error error = {{0}};
+    int code = EXIT_USAGE;
+    interrupt_install();
+    if (chart_plan_make(args, &plan, &error))
+        code = chart(&plan, &error);
+    else
+        fprintf(stderr, "%s\n", error.message);
+    chart_plan_end(&plan);
+    return code;
+}

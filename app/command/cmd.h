@@ -1,0 +1,20 @@
+/* The commands: each returns the exit code of the program (app/base/exit_code.h). Messages go to standard
+ * error. */
+#ifndef SLOSH_CMD_H
+#define SLOSH_CMD_H
+
+#include "app/base/exit_code.h"
+#include "app/session/args.h"
+
+int cmd_play(const Args *args);
+int cmd_render(const Args *args);
+int cmd_run(const Args *args);
+int cmd_bench(const Args *args);
+int cmd_validate(const Args *args);
+int cmd_chart(const Args *args);
+int cmd_replay(const Args *args);
+int cmd_export(const Args *args);
+int cmd_devices(const Args *args);
+int cmd_info(const Args *args);
+
+#endif

@@ -1,0 +1,180 @@
+#define _GNU_SOURCE /* FNM_EXTMATCH */
+#include "app/command/file_clash.h"
+
+#include "app/base/file_place.h"
+#include "app/base/json_file.h"
+#include "app/base/path.h"
+#include "app/device/mapping.h"
+#include "app/output/export.h"
+#include "app/output/pictures.h"
+#include "app/session/args_table.h"
+
+#include <fnmatch.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { FILES_MAX = ARGS_SCENES_MAX + 16 };
+
+typedef enum Use { FILE_READ, FILE_REPLACED, FILE_NEW /* refused where it is there */ } Use;
+
+typedef struct File {
+    Use use;
+    const char *word;    /* "--json", "the scene" */
+    const char *pattern; /* a folder: the files in it that count; NULL: a file */
+    char name[1024];     /* as the user wrote it */
+    char place[PATH_MAX];
+} File;
+
+typedef struct Files {
+    int count;
+    File file[FILES_MAX];
+} Files;
+
+/* What has no place is no file either: the command will say so. */
+static void add(Files *files, Use use, const char *word, const char *name, const char *pattern)
+{
+    File *file = &files->file[files->count];
+    if (!name || files->count == FILES_MAX || !file_place(name, file->place))
+        return;
+    file->use = use;
+    file->word = word;
+    file->pattern = pattern;
+    snprintf(file->name, sizeof file->name, "%s", name);
+    files->count++;
+}
+
+/* ---- what is written ---- */
+
+/* `path` with its last `length` bytes, or all from its last dot on, replaced. */
+static void add_beside(Files *files, const char *word, const char *path, size_t length, const char *ending,
+                       const char *pattern)
+{
+    char name[1024];
+    if (strlen(path) < length ||
+        snprintf(name, sizeof name, "%.*s%s", (int)(strlen(path) - length), path, ending) >= (int)sizeof name)
+        return;
+    add(files, FILE_REPLACED, word, name, pattern);
+}
+
+static void add_render(Files *files, const char *output)
+{
+    PicturesKind kind;
+    const bool folder = pictures_kind(output, &kind, NULL) && kind == PICTURES_FOLDER;
+    add(files, FILE_REPLACED, "-o", output, folder ? "frame_[0-9]*.png" : NULL);
+}
+
+static void add_export(Files *files, const char *output)
+{
+    ExportKind kind;
+    add(files, FILE_REPLACED, "-o", output, NULL);
+    if (export_kind(output, &kind, NULL) && export_is_series(kind))
+        add_beside(files, "the folder of -o", output, strlen(export_kinds()[kind].name) + 1, "", "*");
+}
+
+static void add_chart(Files *files, const char *output)
+{
+    const char *dot = strrchr(output, '.');
+    add(files, FILE_REPLACED, "-o", output, NULL);
+    if (dot)
+        add_beside(files, "the figures of -o", output, strlen(dot), ".csv", NULL);
+}
+
+static void add_outputs(Files *files, const Args *args)
+{
+    const char *output = args->output;
+    if (output && args->command == COMMAND_RENDER)
+        add_render(files, output);
+    else if (output && args->command == COMMAND_EXPORT)
+        add_export(files, output);
+    else if (output && args->command == COMMAND_CHART)
+        add_chart(files, output);
+    else
+        add(files, FILE_REPLACED, "-o", output, args->command == COMMAND_VALIDATE ? "*.svg" : NULL);
+    if (args->json && !json_is_stream(args->json))
+        add(files, FILE_REPLACED, "--json", args->json, NULL);
+    add(files, args->command == COMMAND_DEVICES ? FILE_NEW : FILE_REPLACED, "--record", args->record, NULL);
+}
+
+/* ---- what is read ---- */
+
+static void add_scenes(Files *files, const Args *args)
+{
+    char path[SCENE_PATH_SIZE];
+    for (int i = 0; i < args->scene_count; i++) {
+        const char *name = args->scenes[i];
+        if (args->command == COMMAND_REPLAY)
+            add(files, FILE_READ, "the recording", name, NULL);
+        else if (args->command == COMMAND_EXPORT)
+            add(files, FILE_READ, "the file of snapshots", name, NULL);
+        else if (args->command != COMMAND_VALIDATE && scene_path_find(name, path, NULL))
+            add(files, FILE_READ, "the scene", path, NULL);
+    }
+    if (scene_path_find("scenes", path, NULL)) /* what is read without being named */
+        add(files, FILE_READ, "the folder of scenes", path, "*.yaml");
+    if (scene_path_find("scenes/reference", path, NULL))
+        add(files, FILE_READ, "the folder of references", path, "*.csv");
+}
+
+static void add_inputs(Files *files, const Args *args)
+{
+    char own[1024];
+    add_scenes(files, args);
+    if (args->device)
+        add(files, FILE_READ, "--device", args->device + strlen("file:"), NULL);
+    if (args->mapping)
+        add(files, FILE_READ, "--mapping", args->mapping, NULL);
+    else if (mapping_user_path(own))
+        add(files, FILE_READ, "your own mapping", own, NULL);
+    add(files, FILE_READ, "--shaders", args->shaders, "*.@(vert|frag|geom|comp|glsl)");
+}
+
+/* ---- how they meet ---- */
+
+/* One file, whatever its names. */
+static bool is_same(const File *a, const File *b)
+{
+    struct stat one, other;
+    if (stat(a->place, &one) == 0 && stat(b->place, &other) == 0)
+        return one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+    return strcmp(a->place, b->place) == 0;
+}
+
+static bool holds(const File *folder, const File *file)
+{
+    const size_t length = strlen(folder->place);
+    return folder->pattern && strncmp(folder->place, file->place, length) == 0 &&
+           file->place[length] == '/' &&
+           fnmatch(folder->pattern, file->place + length + 1, FNM_EXTMATCH) == 0;
+}
+
+static bool meet(const File *output, const File *other, const char *command, Error *error)
+{
+    const bool read = other->use == FILE_READ, folder = read && other->pattern;
+    if ((output->use == FILE_NEW && read) ||
+        !((!folder && is_same(output, other)) || holds(output, other) || holds(other, output)))
+        return false;
+    if (read)
+        error_set(error, "slosh %s: %s %.300s would replace %s %.300s; name another file", command,
+                  output->word, output->name, other->word, other->name);
+    else
+        error_set(error, "slosh %s: %s %.300s and %s %.300s would replace each other; name another file",
+                  command, output->word, output->name, other->word, other->name);
+    return true;
+}
+
+bool file_clash_check(const Args *args, Error *error)
+{
+    static Files files;
+    const char *command = command_row(args->command)->name;
+    files.count = 0;
+    add_outputs(&files, args);
+    const int outputs = files.count;
+    if (outputs > 0)
+        add_inputs(&files, args);
+    for (int i = 0; i < outputs; i++)
+        for (int k = i + 1; k < files.count; k++)
+            if (meet(&files.file[i], &files.file[k], command, error))
+                return false;
+    return true;
+}

@@ -1,0 +1,45 @@
+#include "app/play/play.h"
+#include "app/base/json_file.h"
+#include "app/base/output.h"
+#include "app/command/cmd.h"
+#include "app/device/devices.h"
+#include "app/play/play_report.h"
+
+#include <stdio.h>
+
+static const char *const default_scene = "scenes/box_slosh.yaml";
+
+static int fail(const Error *error, int code)
+{
+    fprintf(stderr, "%s\n", error->message);
+    return code;
+}
+
+int cmd_play(const Args *args)
+{
+    const char *scene = args->scene_count ? args->scenes[0] : default_scene;
+    static Mapping mapping;
+    const PlaySetup setup = {.scene = scene,
+                             .settings = &args->settings,
+                             .width = args->width,
+                             .height = args->height,
+                             .record = args->record,
+                             .mapping = &mapping,
+                             .device = args->device,
+                             .quiet = args->quiet};
+    static PlayFigures figures;
+    static Scene checked;
+    SceneSettings settings = args->settings;
+    Error error = {{0}};
+    if (!scene_load(scene, &settings, &checked, NULL, &error) ||
+        !mapping_load(args->mapping, &mapping, &error) ||
+        (args->device && !devices_check(args->device, &error)))
+        return fail(&error, EXIT_USAGE);
+    if ((args->record && !output_check(args->record, &error)) ||
+        (args->json && !json_file_check(args->json, &error)))
+        return fail(&error, EXIT_FAILED);
+    const int code = play(&setup, &figures);
+    if (code == 0 && args->json && !play_write_json(&figures, args->json, &error))
+        return fail(&error, EXIT_FAILED);
+    return code;
+}

@@ -1,0 +1,191 @@
+#include "app/base/interrupt.h"
+#include "app/base/json_file.h"
+#include "app/base/progress.h"
+#include "app/command/cmd.h"
+#include "app/session/recording_play.h"
+#include "app/session/snapshot_series.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A recording on its way through the simulation. */
+typedef struct Replay {
+    const Args *args;
+    const char *path;
+    Recording recording;
+    RecordingPlay play;
+    Session session;
+    SnapshotSeries series;
+    uint64_t hash; /* at the end */
+    bool ended;    /* false: a signal came before */
+    bool broke;    /* the simulation blew up where the recording ends */
+} Replay;
+
+static int fail(int code, const Error *error)
+{
+    fprintf(stderr, "%s\n", error->message);
+    return code;
+}
+
+static int fail_run(const Args *args, int code, const Error *error)
+{
+    if (code == EXIT_FAILED)
+        failure_json_write(failure_json("replay", "recording", args->scenes[0], args->output, error),
+                           args->json);
+    return fail(code, error);
+}
+
+/* A session that blew up was recorded up to that step, in the middle of a frame or at its end. */
+static bool broke_as_recorded(const Replay *replay)
+{
+    const Recording *recording = &replay->recording;
+    return !recording->cut && replay->play.next == recording->count &&
+           replay->session.info.step == recording->steps;
+}
+
+/* 0, or the exit code with the reason. */
+static int simulate(Replay *replay, Progress *progress, Error *error)
+{
+    Session *session = &replay->session;
+    for (;;) {
+        if (!recording_play_apply(&replay->play, session, error))
+            return EXIT_USAGE;
+        if (!snapshot_series_add(&replay->series, session, error))
+            return EXIT_FAILED;
+        replay->ended = recording_play_ended(&replay->play, session);
+        if (replay->ended || interrupted())
+            return 0;
+        if (!session_substep(session, error)) {
+            replay->broke = replay->ended = broke_as_recorded(replay);
+            return replay->broke ? 0 : EXIT_FAILED;
+        }
+        progress_update(progress, (double)session->info.step / (double)replay->recording.steps);
+    }
+}
+
+static bool same_bits(const Replay *replay)
+{
+    return replay->ended && !replay->recording.cut && replay->hash == replay->recording.hash;
+}
+
+static void advise(const WorldDef *def)
+{
+    if (strcmp(def->backend, "compute") == 0 && !def->reproducible)
+        fprintf(stderr,
+                "backend compute gives the same bits only with solver.reproducible: true in the scene\n");
+}
+
+/* What came of it, in words and as exit code. */
+static int judge(const Replay *replay)
+{
+    const Recording *recording = &replay->recording;
+    const uint64_t step = replay->session.info.step;
+    if (!replay->ended) {
+        fprintf(stderr, "stopped at step %" PRIu64 " of %" PRIu64 "; nothing was compared\n", step,
+                recording->steps);
+        return EXIT_INTERRUPTED;
+    }
+    if (recording->cut) {
+        fprintf(stderr,
+                "%s:%zu: the recording was cut here, its last line 'end STEPS HASH' is missing; %" PRIu64
+                " step%s replayed, hash %016" PRIx64 ", and nothing is proven\n",
+                replay->path, recording_line(recording, recording->count), step,
+                step == 1 ? " was" : "s were", replay->hash);
+        return EXIT_FAILED;
+    }
+    if (!same_bits(replay)) {
+        fprintf(stderr,
+                "different after %" PRIu64 " steps: hash %016" PRIx64 ", and %016" PRIx64 " was recorded%s\n",
+                step, replay->hash, recording->hash,
+                strcmp(recording->program, SLOSH_VERSION) == 0 ? "" : " by another version");
+        advise(&replay->session.scene.world);
+        return EXIT_FAILED;
+    }
+    if (!replay->args->quiet)
+        fprintf(stderr, "the same bits: %" PRIu64 " steps, hash %016" PRIx64 "\n", step, replay->hash);
+    return 0;
+}
+
+static bool write_json(const Replay *replay, Error *error)
+{
+    const Session *session = &replay->session;
+    const WorldInfo *info = &session->info;
+    const WorldDef *def = &session->scene.world;
+    char hash[17], recorded[17];
+    if (!replay->args->json)
+        return true;
+    snprintf(hash, sizeof hash, "%016" PRIx64, replay->hash);
+    snprintf(recorded, sizeof recorded, "%016" PRIx64, replay->recording.hash);
+    json_t *json = json_pack(
+        "{s:s, s:s, s:s, s:s, s:s, s:s, s:i, s:I, s:I, s:I, s:f, s:f, s:s, s:s*, s:b, s:b}", "command",
+        "replay", "recording", replay->path, "program", replay->recording.program, "scene",
+        session->scene.path, "backend", def->backend, "method", def->method, "threads", info->threads,
+        "particles", (json_int_t)info->count, "steps", (json_int_t)info->step, "commands",
+        (json_int_t)replay->play.next, "simulated_seconds", info->time, "wall_seconds",
+        (wall_ms() - session->began_ms) / 1000, "hash", hash, "recorded_hash",
+        replay->recording.cut ? NULL : recorded, "same", same_bits(replay), "stopped", !replay->ended);
+    const bool written = json_file_write(json, replay->args->json, error);
+    json_decref(json);
+    return written;
+}
+
+static int finish(Replay *replay, Error *error)
+{
+    replay->hash = world_hash(replay->session.world);
+    if (replay->series.file && !replay->args->quiet)
+        fprintf(stderr, "%s: %zu snapshot%s\n", replay->args->output, snapshot_steps(replay->series.file),
+                plural(snapshot_steps(replay->series.file)));
+    if (replay->broke)
+        fprintf(stderr, "%s\n", error->message);
+    const int code = judge(replay);
+    return write_json(replay, error) ? code : fail(EXIT_FAILED, error);
+}
+
+static int run(Replay *replay, Error *error)
+{
+    const Args *args = replay->args;
+    Progress progress;
+    if (args->json && !json_file_check(args->json, error))
+        return fail(EXIT_FAILED, error);
+    if (args->output) {
+        Snapshot *file = snapshot_create(args->output, &replay->session.scene, error);
+        if (!file)
+            return fail_run(args, EXIT_FAILED, error);
+        replay->series = (SnapshotSeries){.file = file, .every = args->every};
+    }
+    progress_begin(&progress, stderr, "replay", args->quiet);
+    const int code = simulate(replay, &progress, error);
+    progress_end(&progress);
+    if (code == 0)
+        return finish(replay, error);
+    fail_run(args, code, error);
+    snapshot_series_left(replay->series.file, args->output);
+    return code;
+}
+
+static int open_recording(Replay *replay, Error *error)
+{
+    const Args *args = replay->args;
+    if ((args->output && !snapshot_series_name(args->output, error)) ||
+        !recording_read(replay->path, &replay->recording, error))
+        return EXIT_USAGE;
+    if (strcmp(replay->recording.program, SLOSH_VERSION) != 0)
+        fprintf(stderr, "%s: recorded by slosh %s; this is %s, whose bits may differ\n", replay->path,
+                replay->recording.program, SLOSH_VERSION);
+    replay->play = (RecordingPlay){.path = replay->path, .recording = &replay->recording};
+    return recording_play_open(&replay->play, &args->settings, args->gpu, &replay->session, error);
+}
+
+int cmd_replay(const Args *args)
+{
+    Replay replay = {.args = args, .path = args->scenes[0]};
+    Error error = {{0}};
+    interrupt_install();
+    int code = open_recording(&replay, &error);
+    code = code == 0 ? run(&replay, &error) : fail_run(args, code, &error);
+    snapshot_close(replay.series.file);
+    session_close(&replay.session);
+    recording_destroy(&replay.recording);
+    return code;
+}

@@ -1,0 +1,135 @@
+#include "app/base/interrupt.h"
+#include "app/base/json_file.h"
+#include "app/base/progress.h"
+#include "app/command/cmd.h"
+#include "app/session/session.h"
+#include "app/session/snapshot_series.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+/* After trouble that no smaller step cured the world holds its last good state: what one wants to look at. */
+static void keep_last(const Session *session, Snapshot *file)
+{
+    Error none = {{0}};
+    if (session->scene.world.retries > 0 && session->info.time > snapshot_time(file))
+        snapshot_append(file, session->world, &none);
+}
+
+/* From the first state to the last, with a snapshot of the first state at or after each multiple of --every.
+   Ends early, with a whole file, when a signal came. */
+static bool simulate(Session *session, const Args *args, Snapshot *file, Progress *progress, Error *error)
+{
+    SnapshotSeries series = {.file = file, .every = args->every};
+    if (!args->quiet) /* a file has its times in it */
+        session_tell_uneven(session, "snapshots", args->every);
+    if (snapshot_steps(file) > 0)
+        snapshot_series_resume(&series, session);
+    for (;;) {
+        if (!snapshot_series_add(&series, session, error))
+            return false;
+        if (session_reached(session, args->time) || interrupted())
+            return true;
+        world_stop_at(session->world, series.next * series.every);
+        if (!session_step(session, error)) {
+            keep_last(session, file);
+            return false;
+        }
+        progress_update(progress, session->info.time / args->time);
+    }
+}
+
+static int complain(int code, const Error *error)
+{
+    fprintf(stderr, "%s\n", error->message);
+    return code;
+}
+
+static int finish(const Session *session, const Args *args, const Snapshot *file, Error *error)
+{
+    Summary summary = {.command = "run",
+                       .product = "snapshots",
+                       .products = snapshot_steps(file),
+                       .stopped = !session_reached(session, args->time)};
+    session_report(session, args, &summary);
+    if (session_write_json(session, args, &summary, error))
+        return summary.stopped ? EXIT_INTERRUPTED : 0;
+    return complain(EXIT_FAILED, error);
+}
+
+static int fail(const Session *session, const Args *args, const Snapshot *file, const Error *error)
+{
+    const Summary summary = {
+        .command = "run", .product = "snapshots", .products = file ? snapshot_steps(file) : 0};
+    const int code = session_fail(session, args, &summary, error);
+    snapshot_series_left(file, args->output);
+    return code;
+}
+
+/* --resume: the file to go on with, and the world as it was at its end. */
+static Snapshot *resume(Session *session, const Args *args, bool *busy, Error *error)
+{
+    WorldState state = {.count = 0};
+    Snapshot *file =
+        snapshot_resume(args->output, &session->scene, hand_replay_mark(session->hand), &state, busy, error);
+    Error why = {{0}};
+    if (file && !world_load(session->world, &state, &why)) {
+        error_set(error, "%.300s: cannot be resumed: %.600s", args->output, why.message);
+        snapshot_close(file);
+        file = NULL;
+    }
+    world_state_free(&state);
+    world_info(session->world, &session->info);
+    if (file && !args->quiet)
+        fprintf(stderr, "%s: goes on from %.4g s, behind %zu snapshot%s\n", args->output, session->info.time,
+                snapshot_steps(file), plural(snapshot_steps(file)));
+    return file;
+}
+
+static Snapshot *begin(const Session *session, const Args *args, Error *error)
+{
+    Snapshot *file = snapshot_create(args->output, &session->scene, error);
+    if (!file || snapshot_note_hand(file, hand_replay_mark(session->hand), error))
+        return file;
+    snapshot_close(file);
+    return NULL;
+}
+
+static int run(Session *session, const Args *args, Error *error)
+{
+    Progress progress;
+    Snapshot *file;
+    bool busy = false;
+    if (args->json && !json_file_check(args->json, error))
+        return complain(EXIT_FAILED, error);
+    if (args->resume && access(args->output, F_OK) == 0) {
+        file = resume(session, args, &busy, error);
+        if (!file)
+            return busy ? fail(session, args, NULL, error) : complain(EXIT_USAGE, error);
+    } else if (!(file = begin(session, args, error))) {
+        return fail(session, args, NULL, error);
+    }
+    progress_begin(&progress, stderr, "run", args->quiet);
+    bool done = simulate(session, args, file, &progress, error);
+    progress_end(&progress);
+    int code = done ? finish(session, args, file, error) : fail(session, args, file, error);
+    snapshot_close(file);
+    return code;
+}
+
+int cmd_run(const Args *args)
+{
+    Session session = {.world = NULL};
+    Error error = {{0}};
+    interrupt_install();
+    int code =
+        snapshot_series_name(args->output, &error) ? session_open(&session, args, false, &error) : EXIT_USAGE;
+    if (code == 0)
+        code = run(&session, args, &error);
+    else if (code == EXIT_FAILED)
+        fail(&session, args, NULL, &error);
+    else
+        complain(code, &error);
+    session_close(&session);
+    return code;
+}

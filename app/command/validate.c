@@ -1,0 +1,231 @@
+#include "app/base/interrupt.h"
+#include "app/base/json_file.h"
+#include "app/base/output.h"
+#include "app/case/run.h"
+#include "app/command/cmd.h"
+#include "app/lab/validate_report.h"
+#include "app/session/headless.h"
+#include "sim/matter/seed.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { RUNS_MAX = 128, CASE_NAME_MAX = 32 };
+
+#define PLOT_NAME "%s/%s.svg"
+
+typedef struct Plan {
+    const Args *args;
+    CaseLevel level;
+    const char *method; /* the only one, or NULL */
+    int count;
+    CaseSetup setups[RUNS_MAX];
+    double work[RUNS_MAX]; /* about how long each takes, up to a factor */
+} Plan;
+
+/* --method, which stands among the settings. */
+static const char *chosen_method(const SceneSettings *settings)
+{
+    static const char key[] = "solver.method=";
+    const char *method = NULL;
+    for (int i = 0; i < settings->count; i++)
+        if (strncmp(settings->set[i], key, sizeof key - 1) == 0)
+            method = settings->set[i] + sizeof key - 1;
+    return method;
+}
+
+static bool is_planned(const Plan *plan, const Case *of)
+{
+    for (int i = 0; i < plan->count; i++)
+        if (plan->setups[i].of == of)
+            return true;
+    return false;
+}
+
+static bool add_case(Plan *plan, const Case *of, Error *error)
+{
+    const char *const one[2] = {plan->method, NULL};
+    for (const char *const *method = plan->method ? one : of->methods; *method; method++) {
+        if (plan->count == RUNS_MAX)
+            return error_set(error, "slosh validate: more than %d runs; name fewer cases", RUNS_MAX);
+        plan->setups[plan->count++] = (CaseSetup){of, plan->level, *method, &plan->args->settings};
+    }
+    return true;
+}
+
+/* Particles, times pairs of each, times steps that sound sets. */
+static double work_of(const Case *of, const WorldDef *def)
+{
+    return (double)seed_count(def, def->spacing) * pow(def->support, def->dimensions) * of->time *
+           def->sound_speed / def->spacing;
+}
+
+/* All scenes are read before the first runs: a mistake in the last one shows at once. What the backend cannot
+   do is left out, and said. */
+static bool plan_keep(Plan *plan, bool *wants_context, Error *error)
+{
+    static Scene scene;
+    int kept = 0;
+    *wants_context = false;
+    for (int i = 0; i < plan->count; i++) {
+        const CaseSetup setup = plan->setups[i];
+        if (!case_scene(&setup, &scene, error))
+            return false;
+        if (world_can(&scene.world, error)) {
+            *wants_context |= world_on_gpu(&scene.world);
+            plan->work[kept] = work_of(setup.of, &scene.world);
+            plan->setups[kept++] = setup;
+        } else {
+            fprintf(stderr, "%s with %s is left out: %s\n", setup.of->name, setup.method, error->message);
+        }
+    }
+    plan->count = kept;
+    return kept > 0; /* else the last reason stands in `error` */
+}
+
+static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *error)
+{
+    bool ok = true;
+    *plan = (Plan){.args = args, .method = chosen_method(&args->settings)};
+    plan->level = args->full ? CASE_FULL : args->coarse ? CASE_COARSE : CASE_DEFAULT;
+    if (args->full && args->coarse)
+        return error_set(error, "slosh validate: --full and --coarse exclude each other; leave one out");
+    for (const Case *const *at = case_list; ok && args->scene_count == 0 && *at; at++)
+        ok = ((*at)->only_full && !args->full) || add_case(plan, *at, error);
+    for (int i = 0; ok && i < args->scene_count; i++) {
+        const Case *of = case_find(args->scenes[i], error);
+        ok = of && (is_planned(plan, of) || add_case(plan, of, error));
+    }
+    return ok && plan_keep(plan, wants_context, error);
+}
+
+static bool run_all(const Plan *plan, CaseResult *results, int *done, Error *error)
+{
+    const Args *args = plan->args;
+    Progress progress;
+    double all = 0, before = 0;
+    bool ok = true;
+    for (int i = 0; i < plan->count; i++)
+        all += plan->work[i];
+    if (!args->quiet)
+        validate_print_head(stdout);
+    fflush(stdout);
+    progress_begin(&progress, stderr, "validate", args->quiet);
+    for (; ok && *done < plan->count && !interrupted(); ++*done) {
+        const double part = plan->work[*done] / all;
+        ok = case_run(&plan->setups[*done], &progress, before, part, &results[*done], error);
+        if (!ok)
+            break;
+        before += part;
+        progress_end(&progress);
+        if (!args->quiet)
+            validate_print(&results[*done], stdout);
+    }
+    progress_end(&progress);
+    return ok;
+}
+
+/* DIR/CASE.svg, the methods of a case in one. */
+static bool plot_all(const Args *args, const CaseResult *results, int count, Error *error)
+{
+    if (!args->output)
+        return true;
+    for (int i = 0, next; i < count; i = next) {
+        char path[1024];
+        for (next = i + 1; next < count && results[next].of == results[i].of;)
+            next++;
+        snprintf(path, sizeof path, PLOT_NAME, args->output, results[i].of->name);
+        if (!validate_plot(&results[i], (size_t)(next - i), path, error))
+            return false;
+    }
+    return true;
+}
+
+/* Where plots can be written. */
+static bool make_folder(const char *path, Error *error)
+{
+    char probe[1024];
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        return error_set(error, "%s: cannot be made (%s); name a folder for the plots", path,
+                         strerror(errno));
+    if (snprintf(probe, sizeof probe, PLOT_NAME, path, "plot") >= (int)sizeof probe - CASE_NAME_MAX)
+        return error_set(error, "the name of the folder has more than %zu bytes; name a shorter one",
+                         sizeof probe - CASE_NAME_MAX);
+    return output_check(probe, error);
+}
+
+static int count_missed(const CaseResult *results, int count, FILE *file)
+{
+    int all = 0, misses = 0;
+    for (int i = 0; i < count; i++)
+        for (int m = 0; m < CASE_METRICS && results[i].of->metrics[m].name; m++) {
+            all++;
+            misses += !case_passed(&results[i], m);
+        }
+    if (file)
+        fprintf(file, "%d of %d figure%s within tolerance\n", all - misses, all, plural((size_t)all));
+    return misses;
+}
+
+/* What is done is written, whatever ended it. */
+static int finish(const Plan *plan, const CaseResult *results, int done, bool ran, Error *error)
+{
+    const Args *args = plan->args;
+    Error no_json, no_plot;
+    const bool written = !args->json || validate_write_json(results, (size_t)done, args->json, &no_json);
+    const bool drawn = plot_all(args, results, done, &no_plot);
+    if (!written)
+        fprintf(stderr, "%s\n", no_json.message);
+    if (!drawn)
+        fprintf(stderr, "%s\n", no_plot.message);
+    if (interrupted()) {
+        fprintf(stderr, "stopped after %d of %d runs\n", done, plan->count);
+        return EXIT_INTERRUPTED;
+    }
+    if (!ran)
+        fprintf(stderr, "%s\n", error->message);
+    const bool missed = count_missed(results, done, args->quiet ? NULL : stdout) > 0;
+    return ran && written && drawn && !missed ? 0 : EXIT_FAILED;
+}
+
+static int validate(const Plan *plan, bool wants_context, Error *error)
+{
+    const Args *args = plan->args;
+    int done = 0;
+    Headless *context = NULL;
+    CaseResult *results = calloc((size_t)plan->count + 1, sizeof *results);
+    bool ok = results || error_set(error, "no memory for the results");
+    ok = ok && (!args->json || json_file_check(args->json, error)) &&
+         (!args->output || make_folder(args->output, error));
+    if (ok && wants_context)
+        ok = (context = headless_create(args->gpu, error)) != NULL;
+    if (context)
+        fprintf(stderr, "renderer: %s\n", headless_renderer(context));
+    int code = EXIT_FAILED;
+    if (ok) {
+        const bool ran = run_all(plan, results, &done, error);
+        code = finish(plan, results, done, ran, error);
+    } else {
+        fprintf(stderr, "%s\n", error->message);
+    }
+    for (int i = 0; results && i < plan->count; i++)
+        case_result_free(&results[i]);
+    headless_destroy(context);
+    free(results);
+    return code;
+}
+
+int cmd_validate(const Args *args)
+{
+    static Plan plan;
+    Error error = {{0}};
+    bool wants_context = false;
+    interrupt_install();
+    if (plan_make(args, &plan, &wants_context, &error))
+        return validate(&plan, wants_context, &error);
+    fprintf(stderr, "%s\n", error.message);
+    return EXIT_USAGE;
+}

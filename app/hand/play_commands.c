@@ -1,0 +1,291 @@
+#include "app/hand/play_commands.h"
+
+#define GLFW_INCLUDE_NONE /* numbers only */
+#include <GLFW/glfw3.h>
+#include <string.h>
+
+enum { CTRL = GLFW_MOD_CONTROL, SHIFT = GLFW_MOD_SHIFT };
+
+#define KEY(NAME)                                                                                            \
+    {                                                                                                        \
+        GLFW_KEY_##NAME, 0                                                                                   \
+    }
+
+/* Function keys where programs agree on one, a letter that stands for the word beside it: some keyboards hide
+   the function keys, others have no sign of that name. */
+const PlayCommandRow play_command_rows[] = {
+    {.command = PLAY_PAUSE,
+     .name = "pause",
+     .help = "stop the time, or let it run on",
+     .keys = {KEY(SPACE), KEY(PAUSE)},
+     .gamepad = "Start",
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_STEP,
+     .name = "step",
+     .help = "one frame further, then pause",
+     .keys = {KEY(PERIOD), KEY(N)},
+     .flags = PLAY_BUTTON | PLAY_REPEATS},
+    {.command = PLAY_RESET,
+     .name = "reset",
+     .help = "back to the start of the scene",
+     .keys = {KEY(R), KEY(F5)},
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_SLOWER,
+     .name = "slower",
+     .help = "let time go slower",
+     .keys = {KEY(MINUS), KEY(KP_SUBTRACT)},
+     .flags = PLAY_BUTTON | PLAY_REPEATS},
+    {.command = PLAY_FASTER,
+     .name = "faster",
+     .help = "let time go faster",
+     .keys = {KEY(EQUAL), KEY(KP_ADD)},
+     .flags = PLAY_BUTTON | PLAY_REPEATS},
+    {.command = PLAY_NEXT_SCENE,
+     .name = "next-scene",
+     .help = "open the next scene",
+     .keys = {KEY(TAB), KEY(RIGHT_BRACKET)},
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_PREVIOUS_SCENE,
+     .name = "previous-scene",
+     .help = "open the scene before",
+     .keys = {{GLFW_KEY_TAB, SHIFT}, KEY(LEFT_BRACKET)},
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_NEXT_SCALAR,
+     .name = "next-scalar",
+     .help = "colour the fluid by the next quantity",
+     .keys = {KEY(S)}},
+    {.command = PLAY_NEXT_COLORMAP,
+     .name = "next-colormap",
+     .help = "use the next colours for it",
+     .keys = {KEY(C)}},
+    {.command = PLAY_SCREENSHOT,
+     .name = "screenshot",
+     .help = "save the picture as PNG",
+     .keys = {KEY(F12), KEY(I)},
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_VIDEO,
+     .name = "video",
+     .help = "start or end a video of the picture",
+     .keys = {KEY(F9), KEY(V)},
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_SAVE_RECORDING,
+     .name = "save-recording",
+     .help = "save all that was done since the start, for slosh replay",
+     .keys = {{GLFW_KEY_S, CTRL}},
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_FULLSCREEN,
+     .name = "fullscreen",
+     .help = "fill the screen, or go back to a window",
+     .keys = {KEY(F11), KEY(F)}},
+    {.command = PLAY_PANEL, .name = "panel", .help = "show or hide the panel", .keys = {KEY(F2), KEY(P)}},
+    {.command = PLAY_HELP,
+     .name = "help",
+     .help = "show or hide this list",
+     .keys = {KEY(F1), KEY(H)},
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_CAMERA_HOME,
+     .name = "camera-home",
+     .help = "let the camera show the whole box again",
+     .keys = {KEY(HOME), KEY(A)},
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_BOX_HOME,
+     .name = "box-home",
+     .help = "bring the box back to its place, upright",
+     .keys = {KEY(BACKSPACE), KEY(B)},
+     .gamepad = "A",
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_NEUTRAL,
+     .name = "neutral",
+     .help = "make the pose of the motion device now its neutral one",
+     .keys = {KEY(L)},
+     .gamepad = "Y",
+     .flags = PLAY_BUTTON},
+    {.command = PLAY_QUIT,
+     .name = "quit",
+     .help = "close the list of keys if it is open, else the window",
+     .keys = {KEY(ESCAPE), {GLFW_KEY_Q, CTRL}}},
+    {.command = PLAY_ORBIT, .name = "orbit", .gesture = "left drag", .help = "turn the camera about the box"},
+    {.command = PLAY_PAN, .name = "pan", .gesture = "right drag or middle drag", .help = "shift the picture"},
+    {.command = PLAY_ZOOM, .name = "zoom", .gesture = "wheel", .help = "nearer or farther"},
+    {.command = PLAY_MOVE_DRAG,
+     .name = "move-box",
+     .gesture = "Shift + left drag",
+     .help = "move the box in the plane of the picture"},
+    {.command = PLAY_TURN_DRAG,
+     .name = "turn-box",
+     .gesture = "Ctrl + left drag",
+     .help = "turn the box: its near face follows the mouse"},
+    {.command = PLAY_MOVE_KEYS,
+     .name = "push-box",
+     .gesture = "arrows, PageUp and PageDown",
+     .help = "move the box left, right, away or nearer; up or down"},
+    {.command = PLAY_TILT_KEYS,
+     .name = "tilt-box",
+     .gesture = "Shift + arrows",
+     .help = "tilt the box to the left, to the right, away or nearer"},
+    {.command = PLAY_MOVE_STICK,
+     .name = "sway-box",
+     .gesture = "gamepad left stick",
+     .help = "move the box; let go, and it comes back"},
+    {.command = PLAY_TILT_STICK,
+     .name = "lean-box",
+     .gesture = "gamepad right stick",
+     .help = "tilt the box; let go, and it comes back"},
+    {.command = PLAY_NONE},
+};
+
+/* Axes and signs as HandInput has them: right, up, away. */
+const PlayHeldKey play_held_keys[] = {
+    {PLAY_MOVE_KEYS, GLFW_KEY_RIGHT, 0, 0, +1},
+    {PLAY_MOVE_KEYS, GLFW_KEY_LEFT, 0, 0, -1},
+    {PLAY_MOVE_KEYS, GLFW_KEY_PAGE_UP, 0, 1, +1},
+    {PLAY_MOVE_KEYS, GLFW_KEY_PAGE_DOWN, 0, 1, -1},
+    {PLAY_MOVE_KEYS, GLFW_KEY_UP, 0, 2, +1},
+    {PLAY_MOVE_KEYS, GLFW_KEY_DOWN, 0, 2, -1},
+    {PLAY_TILT_KEYS, GLFW_KEY_RIGHT, SHIFT, 0, +1},
+    {PLAY_TILT_KEYS, GLFW_KEY_LEFT, SHIFT, 0, -1},
+    {PLAY_TILT_KEYS, GLFW_KEY_UP, SHIFT, 1, +1},
+    {PLAY_TILT_KEYS, GLFW_KEY_DOWN, SHIFT, 1, -1},
+    {PLAY_NONE, 0, 0, 0, 0},
+};
+
+/* Keys whose sign stands elsewhere on other layouts. */
+static const struct {
+    int key;
+    const char *name;   /* for people */
+    const char *labels; /* one of these on the key */
+} signs[] = {
+    {GLFW_KEY_MINUS, "-", "-"},        {GLFW_KEY_EQUAL, "+", "=+"},        {GLFW_KEY_PERIOD, ".", "."},
+    {GLFW_KEY_LEFT_BRACKET, "[", "["}, {GLFW_KEY_RIGHT_BRACKET, "]", "]"},
+};
+enum { SIGN_COUNT = sizeof signs / sizeof signs[0] };
+
+static const struct {
+    int key;
+    const char *name;
+} named_keys[] = {
+    {GLFW_KEY_SPACE, "Space"},
+    {GLFW_KEY_PAUSE, "Pause"},
+    {GLFW_KEY_TAB, "Tab"},
+    {GLFW_KEY_HOME, "Home"},
+    {GLFW_KEY_ESCAPE, "Escape"},
+    {GLFW_KEY_BACKSPACE, "Backspace"},
+    {GLFW_KEY_KP_SUBTRACT, "keypad -"},
+    {GLFW_KEY_KP_ADD, "keypad +"},
+};
+
+static const struct {
+    int button;
+    const char *name;
+} gamepad_buttons[] = {
+    {GLFW_GAMEPAD_BUTTON_A, "A"}, {GLFW_GAMEPAD_BUTTON_Y, "Y"}, {GLFW_GAMEPAD_BUTTON_START, "Start"}};
+
+static int sign_of_key(int key)
+{
+    for (int i = 0; i < SIGN_COUNT; i++)
+        if (signs[i].key == key)
+            return i;
+    return -1;
+}
+
+static PlayCommand find(int key, int modifiers)
+{
+    for (const PlayCommandRow *row = play_command_rows; row->name; row++)
+        for (int k = 0; k < 2; k++)
+            if (row->keys[k].key == key && row->keys[k].modifiers == modifiers)
+                return row->command;
+    return PLAY_NONE;
+}
+
+PlayCommand play_command_of_key(int key, int modifiers)
+{
+    if (key <= 0)
+        return PLAY_NONE;
+    modifiers &= GLFW_MOD_SHIFT | GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
+    PlayCommand command = find(key, modifiers);
+    if (command == PLAY_NONE && sign_of_key(key) >= 0)
+        command = find(key, modifiers & ~SHIFT);
+    return command;
+}
+
+PlayCommand play_command_of_gamepad(int button)
+{
+    const char *name = NULL;
+    for (size_t i = 0; i < sizeof gamepad_buttons / sizeof gamepad_buttons[0]; i++)
+        if (gamepad_buttons[i].button == button)
+            name = gamepad_buttons[i].name;
+    for (const PlayCommandRow *row = play_command_rows; name && row->name; row++)
+        if (row->gamepad && strcmp(row->gamepad, name) == 0)
+            return row->command;
+    return PLAY_NONE;
+}
+
+int play_key_on_layout(int key, const char *label)
+{
+    /* Only keys that type something move from layout to layout, and not those of the keypad. */
+    if (key <= GLFW_KEY_SPACE || key >= GLFW_KEY_ESCAPE || !label || strlen(label) != 1)
+        return key;
+    if (*label >= 'a' && *label <= 'z')
+        return GLFW_KEY_A + (*label - 'a');
+    if (*label >= 'A' && *label <= 'Z')
+        return GLFW_KEY_A + (*label - 'A');
+    for (int i = 0; i < SIGN_COUNT; i++)
+        if (strchr(signs[i].labels, *label))
+            return signs[i].key;
+    return key;
+}
+
+/* Adds to the text in `text`; what does not fit is cut. */
+static void add(char *text, size_t size, const char *more)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s", more);
+}
+
+static void key_name(int key, char name[16])
+{
+    *name = 0;
+    if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F25)
+        snprintf(name, 16, "F%d", key - GLFW_KEY_F1 + 1);
+    else if (sign_of_key(key) >= 0)
+        snprintf(name, 16, "%s", signs[sign_of_key(key)].name);
+    else if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
+        snprintf(name, 16, "%c", key);
+    for (size_t i = 0; i < sizeof named_keys / sizeof named_keys[0]; i++)
+        if (named_keys[i].key == key)
+            snprintf(name, 16, "%s", named_keys[i].name);
+}
+
+void play_command_keys_text(const PlayCommandRow *row, char *text, size_t size)
+{
+    char ways[4][40] = {{0}};
+    int count = 0;
+    for (int k = 0; k < 2 && row->keys[k].key; k++) {
+        char name[16];
+        key_name(row->keys[k].key, name);
+        snprintf(ways[count++], sizeof ways[0], "%s%s%s", row->keys[k].modifiers & CTRL ? "Ctrl+" : "",
+                 row->keys[k].modifiers & SHIFT ? "Shift+" : "", name);
+    }
+    if (row->gamepad)
+        snprintf(ways[count++], sizeof ways[0], "gamepad %s", row->gamepad);
+    if (row->gesture)
+        snprintf(ways[count++], sizeof ways[0], "%s", row->gesture);
+
+    if (size == 0)
+        return;
+    *text = 0;
+    for (int i = 0; i < count; i++) {
+        add(text, size, i == 0 ? "" : i == count - 1 ? " or " : ", ");
+        add(text, size, ways[i]);
+    }
+}
+
+void play_commands_print(FILE *file)
+{
+    fprintf(file, "| command | keys | what it does |\n| --- | --- | --- |\n");
+    for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
+        char keys[80];
+        play_command_keys_text(row, keys, sizeof keys);
+        fprintf(file, "| `%s` | %s | %s |\n", row->name, keys, row->help);
+    }
+}

@@ -1,0 +1,283 @@
+#include "app/lab/bench.h"
+
+#include "app/base/interrupt.h"
+#include "app/held/hand_replay.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WARM_UP_FRAMES = 3 };
+
+/* Rows of stage times, one a frame, and each frame's wall time. GL stages come later than the others when
+   their clock is a query. */
+typedef struct Samples {
+    StageTimes *cpu, *gl;
+    double *frame_ms;
+    int frames, gl_frames;
+    uint64_t steps;
+    size_t lost;
+    double began, simulated; /* s */
+    bool sim_on_gpu;
+} Samples;
+
+static bool samples_create(Samples *samples, int frames, bool sim_on_gpu, Error *error)
+{
+    const size_t count = frames > 0 ? (size_t)frames : 1;
+    *samples = (Samples){calloc(count, sizeof(StageTimes)), calloc(count, sizeof(StageTimes)),
+                         calloc(count, sizeof(double)), .sim_on_gpu = sim_on_gpu};
+    return (samples->cpu && samples->gl && samples->frame_ms) ||
+           error_set(error, "no memory for the times of %d frames", frames);
+}
+
+static void samples_destroy(Samples *samples)
+{
+    free(samples->cpu);
+    free(samples->gl);
+    free(samples->frame_ms);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sorts `values`; the value below which that fraction of them lies. */
+static double quantile(double *values, int count, double fraction)
+{
+    if (count == 0)
+        return 0;
+    qsort(values, (size_t)count, sizeof *values, ascending);
+    const double at = fraction * (count - 1);
+    const int low = (int)at;
+    const int high = low + 1 < count ? low + 1 : low;
+    return values[low] + (values[high] - values[low]) * (at - low);
+}
+
+/* Whether the stage runs on the GPU. */
+static bool on_gpu(const Samples *samples, Stage stage)
+{
+    return stage_part(stage) == PART_RENDER || (stage_part(stage) == PART_SIM && samples->sim_on_gpu);
+}
+
+static const StageTimes *rows_of(const Samples *samples, Stage stage, int *count)
+{
+    const bool gl = on_gpu(samples, stage);
+    *count = gl ? samples->gl_frames : samples->frames;
+    return gl ? samples->gl : samples->cpu;
+}
+
+static double stage_figure(const Samples *samples, Stage stage, const char *gl_clock, double *work,
+                           StageFigure *figure)
+{
+    int count;
+    double sum = 0;
+    const StageTimes *rows = rows_of(samples, stage, &count);
+    figure->clock = on_gpu(samples, stage) ? gl_clock : "cpu";
+    for (int f = 0; f < count; f++) {
+        work[f] = rows[f].ms[stage];
+        sum += work[f];
+        figure->ran |= rows[f].ran[stage];
+    }
+    figure->median_ms = quantile(work, count, 0.5);
+    figure->p95_ms = quantile(work, count, 0.95);
+    return sum;
+}
+
+static double part_median(const Samples *samples, Part part, double *work)
+{
+    int count = 0;
+    memset(work, 0, (size_t)samples->frames * sizeof *work);
+    for (int s = 0; s < STAGE_COUNT; s++) {
+        if (stage_part((Stage)s) != part)
+            continue;
+        const StageTimes *rows = rows_of(samples, (Stage)s, &count);
+        for (int f = 0; f < count; f++)
+            work[f] += rows[f].ms[s];
+    }
+    return quantile(work, count, 0.5);
+}
+
+static bool figures(const Samples *samples, const char *gl_clock, BenchResult *result, Error *error)
+{
+    double *work = calloc((size_t)samples->frames + 1, sizeof *work), sum[STAGE_COUNT], all = 0, sim = 0,
+           wall = 0;
+    if (!work)
+        return error_set(error, "no memory for the figures of %d frames", samples->frames);
+    for (int s = 0; s < STAGE_COUNT; s++) {
+        sum[s] = stage_figure(samples, (Stage)s, gl_clock, work, &result->stages[s]);
+        all += sum[s];
+        sim += stage_part((Stage)s) == PART_SIM ? sum[s] : 0;
+    }
+    for (int s = 0; s < STAGE_COUNT; s++)
+        result->stages[s].share = all > 0 ? sum[s] / all : 0;
+    result->sim_ms = part_median(samples, PART_SIM, work);
+    result->upload_ms = part_median(samples, PART_UPLOAD, work);
+    result->render_ms = part_median(samples, PART_RENDER, work);
+    for (int f = 0; f < samples->frames; f++)
+        wall += samples->frame_ms[f];
+    result->frame_ms = quantile(samples->frame_ms, samples->frames, 0.5);
+    result->frames = samples->frames;
+    result->particle_steps_per_second = (double)result->particles * (double)samples->steps / (1e-3 * sim);
+    result->real_time_factor = samples->simulated / (1e-3 * wall);
+    free(work);
+    return true;
+}
+
+/* What a frame works on. */
+typedef struct Stand {
+    World *world;
+    HandReplay *hand; /* or NULL */
+    Studio studio;
+    GlTimer *timer;
+    bool draws, sim_on_gpu;
+} Stand;
+
+static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
+{
+    *stand = (Stand){.world = world_create(&setup->scene->world, error),
+                     .draws = setup->draws,
+                     .sim_on_gpu = world_on_gpu(&setup->scene->world)};
+    if (!stand->world)
+        return false;
+    if (setup->device &&
+        !(stand->hand = hand_replay_open(setup->device, setup->mapping, setup->scene, error)))
+        return false;
+    if (!stand->draws && !stand->sim_on_gpu)
+        return true;
+    if (stand->draws &&
+        !studio_open(&stand->studio, &setup->scene->view, stand->world, setup->width, setup->height, error))
+        return false;
+    stand->timer = gl_timer_create(setup->clock);
+    return stand->timer || error_set(error, "no memory for the clock of the stages");
+}
+
+static void stand_close(Stand *stand)
+{
+    gl_timer_destroy(stand->timer);
+    studio_close(&stand->studio);
+    hand_replay_close(stand->hand);
+    world_destroy(stand->world);
+}
+
+/* One frame: the stages that ran on the CPU go into `clock`. */
+static bool frame(Stand *stand, StageClock *clock, Error *error)
+{
+    *clock = stand->sim_on_gpu ? gl_timer_stage_clock(stand->timer) : (StageClock){0};
+    hand_replay_move(stand->hand, stand->world);
+    if (!world_step(stand->world, clock, error))
+        return false;
+    return !stand->draws || studio_draw(&stand->studio, stand->world, clock, stand->timer, error);
+}
+
+static bool advance(Stand *stand, double from, Error *error)
+{
+    WorldInfo info;
+    for (world_info(stand->world, &info); info.time < from && !interrupted();
+         world_info(stand->world, &info)) {
+        hand_replay_move(stand->hand, stand->world);
+        if (!world_step(stand->world, NULL, error))
+            return false;
+    }
+    return true;
+}
+
+static bool warm_up(Stand *stand, Error *error)
+{
+    StageClock clock;
+    StageTimes unused;
+    for (int f = 0; f < WARM_UP_FRAMES; f++) {
+        if (!frame(stand, &clock, error))
+            return false;
+        gl_timer_frame(stand->timer, &unused);
+    }
+    while (gl_timer_drain(stand->timer, &unused))
+        continue;
+    return true;
+}
+
+static bool measure(Stand *stand, int frames, Progress *progress, double done, double part, Samples *samples,
+                    Error *error)
+{
+    WorldInfo first, last;
+    world_info(stand->world, &first);
+    for (double began = wall_ms(); samples->frames < frames && !interrupted();) {
+        StageClock clock;
+        if (!frame(stand, &clock, error))
+            return false;
+        samples->gl_frames += gl_timer_frame(stand->timer, &samples->gl[samples->gl_frames]);
+        const double now = wall_ms();
+        samples->cpu[samples->frames] = clock.frame;
+        samples->frame_ms[samples->frames++] = now - began;
+        progress_update(progress, done + part * samples->frames / frames);
+        world_info(stand->world, &last);
+        samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
+        began = wall_ms();
+    }
+    if (!world_sound(stand->world) && !world_substep(stand->world, NULL, error)) /* goes back, or gives up */
+        return false;
+    world_info(stand->world, &last);
+    samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
+    samples->steps = last.step - first.step;
+    samples->began = first.time;
+    samples->simulated = last.time - first.time;
+    while (samples->gl_frames < samples->frames &&
+           gl_timer_drain(stand->timer, &samples->gl[samples->gl_frames]))
+        samples->gl_frames++;
+    return samples->frames > 0 || error_set(error, "stopped before a frame was measured");
+}
+
+static void describe(const BenchSetup *setup, World *world, BenchResult *result)
+{
+    const WorldDef *def = &setup->scene->world;
+    WorldInfo info;
+    WorldSums sums;
+    world_info(world, &info);
+    world_sums(world, &sums);
+    *result = (BenchResult){
+        .threads = info.threads,
+        .width = setup->width,
+        .height = setup->height,
+        .particles = info.count,
+        .troubles = info.trouble.count,
+        .neighbours_mean = sums.neighbours_mean,
+        .dt = def->step_mode == STEP_CFL ? info.dt : def->dt,
+        .dt_substep = info.dt,
+        .bytes_per_particle = (double)info.state_bytes / (double)info.capacity,
+    };
+    snprintf(result->swept, sizeof result->swept, "%s", setup->swept ? setup->swept : "");
+    snprintf(result->scene, sizeof result->scene, "%s", setup->scene->path);
+    snprintf(result->backend, sizeof result->backend, "%s", def->backend);
+    snprintf(result->method, sizeof result->method, "%s", def->method);
+    snprintf(result->view, sizeof result->view, "%s", setup->draws ? setup->scene->view.kind : "none");
+    if (setup->context)
+        snprintf(result->renderer, sizeof result->renderer, "%s", headless_renderer(setup->context));
+}
+
+/* All that a result says of frames that are measured. */
+static bool conclude(Stand *stand, const BenchSetup *setup, const Samples *samples, BenchResult *result,
+                     Error *error)
+{
+    describe(setup, stand->world, result);
+    result->substeps = (int)lround((double)samples->steps / samples->frames);
+    result->lost = samples->lost;
+    result->time = samples->began;
+    return figures(samples, gl_timer_clock_name(stand->timer), result, error) &&
+           (!stand->draws || studio_count(&stand->studio, stand->world, &result->counts, error));
+}
+
+bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part, BenchResult *result,
+                   Error *error)
+{
+    Stand stand;
+    Samples samples = {0};
+    const bool ok = stand_open(&stand, setup, error) &&
+                    samples_create(&samples, setup->frames, stand.sim_on_gpu, error) &&
+                    advance(&stand, setup->from, error) && warm_up(&stand, error) &&
+                    measure(&stand, setup->frames, progress, done, part, &samples, error) &&
+                    conclude(&stand, setup, &samples, result, error);
+    samples_destroy(&samples);
+    stand_close(&stand);
+    return ok;
+}

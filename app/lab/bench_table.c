@@ -1,0 +1,250 @@
+#include "app/lab/bench_table.h"
+
+#include "app/case/reference.h"
+#include "render/frame/view.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define BIT(stage) (1U << (stage))
+
+enum { SIM = BIT(STAGE_GRID) | BIT(STAGE_DENSITY) | BIT(STAGE_FORCE) | BIT(STAGE_INTEGRATE) };
+
+static const Table tables[] = {
+    {.name = "paper003-spheres",
+     .help = "simulation and rendering by spheres, CPU and GPU (SIBGRAPI 2010, Table II and Figure 5)",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"solver.step.dt=0.0012", "solver.step.substeps=1"},
+     .particles = {"1024", "2048", "4096", "8192"},
+     .reference = "scenes/reference/paper003-spheres.csv",
+     .shares = true,
+     .columns = {{"simulation", SIM}, {"rendering", 0}}},
+    {.name = "paper003-substeps",
+     .help = "one step of 0.01 s a picture against ten of 0.001 s (SIBGRAPI 2010, Figure 6)",
+     .scene = "scenes/substeps.yaml",
+     .settings = {"solver.step.dt=0.01"},
+     .particles = {"8192"},
+     .substeps = {"1", "10"},
+     .columns = {{"simulation", SIM}, {"rendering", 0}}},
+    {.name = "paper002-passes",
+     .help =
+         "the passes of splatting, and frames a second (Adams et al. 2006, Table 1); give it --size 640x480",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"view.radius=1", "view.splat.drops=false"}, /* no neighbours there */
+     .particles = {"18000", "59000", "63000", "110000"},
+     .reference = "scenes/reference/paper002-passes.csv",
+     .view = "splat",
+     .percent = true,
+     .columns = {{"visibility", BIT(STAGE_VISIBILITY)},
+                 {"blend", BIT(STAGE_BLEND)},
+                 {"shade", BIT(STAGE_SHADE)}}},
+    {.name = "paper003-raycast",
+     .help =
+         "simulation, volume and raycasting (SIBGRAPI 2010, Table I and Figure 5); 128 cells along the box, "
+         "as the paper's CPU has, or with --set view.volume.cells=512 as many as its GPU has",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"solver.step.dt=0.0012", "solver.step.substeps=1"},
+     .particles = {"1024", "2048", "4096", "8192"},
+     .reference = "scenes/reference/paper003-raycast.csv",
+     .view = "volume",
+     .backends = true,
+     .shares = true,
+     .columns = {{"simulation", SIM},
+                 {"voxelize", BIT(STAGE_VOXELIZE)},
+                 {"raycast", BIT(STAGE_RAYCAST)},
+                 {"rendering", 0}}},
+    {.name = "paper003-voxelize",
+     .help =
+         "the ways to the volume side by side; `direct` lists the particles and sums where the slice is drawn",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"view.volume.show=slice"},
+     .particles = {"1024", "8192"},
+     .view = "volume",
+     .sweep = "view.volume.method",
+     .values = {"geometry", "layers", "planes", "scatter", "gather", "slabs", "direct"},
+     .columns = {{"voxelize", BIT(STAGE_VOXELIZE)}, {"slice", BIT(STAGE_SHADE)}}},
+};
+
+const char *table_choice(int index)
+{
+    return index < (int)(sizeof tables / sizeof *tables) ? tables[index].name : NULL;
+}
+
+const Table *table_find(const char *name, Error *error)
+{
+    char all[sizeof error->message] = "";
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        if (strcmp(tables[i].name, name) == 0)
+            return &tables[i];
+        snprintf(all + strlen(all), sizeof all - strlen(all), "\n  %-18s %s", tables[i].name, tables[i].help);
+    }
+    error_set(error, "there is no table '%.60s'; these are there:%s", name, all);
+    return NULL;
+}
+
+static void add(Sweep *sweep, const char *value)
+{
+    if (sweep->count < ARGS_SWEEP_VALUES_MAX)
+        sweep->values[sweep->count++] = value;
+}
+
+int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1])
+{
+    int count = 0;
+    Sweep *views = &sweeps[count++], *particles = &sweeps[count++];
+    *views = (Sweep){.key = "view.kind"};
+    *particles = (Sweep){.key = "particles"};
+    for (const ViewKind *const *view = view_list; *view; view++)
+        if (!table->view || strcmp(table->view, (*view)->name) == 0)
+            add(views, (*view)->name);
+    for (int i = 0; table->particles[i]; i++)
+        add(particles, table->particles[i]);
+    if (table->substeps[0]) {
+        Sweep *substeps = &sweeps[count++];
+        *substeps = (Sweep){.key = "solver.step.substeps"};
+        for (int i = 0; table->substeps[i]; i++)
+            add(substeps, table->substeps[i]);
+    }
+    if (table->sweep) {
+        Sweep *values = &sweeps[count++];
+        *values = (Sweep){.key = table->sweep};
+        for (int i = 0; table->values[i]; i++)
+            add(values, table->values[i]);
+    }
+    if (table->view && !table->backends)
+        return count;
+    Sweep *backends = &sweeps[count++];
+    *backends = (Sweep){.key = "solver.backend"};
+    for (const Named *backend = world_backends(); backend->name; backend++)
+        add(backends, backend->name);
+    return count;
+}
+
+double table_value(const Table *table, const BenchResult *result, int column)
+{
+    unsigned named = 0;
+    double sum = 0;
+    for (int c = 0; table->columns[c].title; c++)
+        named |= table->columns[c].stages;
+    const unsigned wanted = table->columns[column].stages ? table->columns[column].stages : ~named;
+    for (unsigned s = 0; s < STAGE_COUNT; s++)
+        sum += wanted & BIT(s) ? result->stages[s].median_ms : 0;
+    return sum;
+}
+
+const char *table_row_name(const Table *table, const BenchResult *result)
+{
+    const char *value = table->sweep ? strrchr(result->swept, '=') : NULL;
+    return value ? value + 1 : result->backend;
+}
+
+/* Values in ms, or published as shares: then without times. */
+static void print_values(const double *values, int columns, bool times, FILE *file)
+{
+    double all = 0;
+    for (int c = 0; c < columns; c++)
+        all += values[c];
+    for (int c = 0; c < columns; c++) {
+        if (times)
+            fprintf(file, " %9.3f", values[c]);
+        else
+            fprintf(file, " %9s", "");
+        fprintf(file, " %5.1f %%", all > 0 ? 100 * values[c] / all : 0);
+    }
+    if (times)
+        fprintf(file, " %9.3f", all);
+    else
+        fprintf(file, " %9s", "");
+}
+
+static int column_count(const Table *table)
+{
+    int columns = 0;
+    while (table->columns[columns].title)
+        columns++;
+    return columns;
+}
+
+/* Coverage, and fragments a covered pixel of the columns that are one counted stage. */
+static void print_counts(const Table *table, const BenchResult *r, FILE *file)
+{
+    fprintf(file, " %8.1f %%", 100 * r->counts.coverage);
+    for (int c = 0; table->columns[c].title; c++)
+        for (unsigned s = 0; s < STAGE_COUNT; s++)
+            if (table->columns[c].stages == BIT(s) && r->counts.fragments[s] > 0)
+                fprintf(file, " %6.1f", r->counts.fragments[s]);
+}
+
+static void print_result(const Table *table, const BenchResult *r, FILE *file)
+{
+    double values[TABLE_COLUMNS];
+    const int columns = column_count(table);
+    for (int c = 0; c < columns; c++)
+        values[c] = table_value(table, r, c);
+    fprintf(file, "%9zu %8d  %-9s %-22s", r->particles, r->substeps, r->view, table_row_name(table, r));
+    print_values(values, columns, true, file);
+    if (table->percent)
+        fprintf(file, " %9.1f", r->render_ms > 0 ? 1e3 / r->render_ms : 0);
+    if (r->counts.counted)
+        print_counts(table, r, file);
+    fputc('\n', file);
+}
+
+/* What was published of as many particles; the paper's steps are one a frame. */
+static void print_published(const Table *table, const Reference *reference, size_t particles, FILE *file)
+{
+    double values[TABLE_COLUMNS];
+    const int columns = column_count(table);
+    for (int row = 0; row < reference->rows; row++) {
+        if ((size_t)reference_number(reference, row, "particles") != particles)
+            continue;
+        for (int c = 0; c < columns; c++)
+            values[c] =
+                (table->percent ? 1 : 1e3) * reference_number(reference, row, table->columns[c].title);
+        char label[64];
+        snprintf(label, sizeof label, "%s, published", reference_text(reference, row, "engine"));
+        fprintf(file, "%9zu %8s  %-9s %-22s", particles, table->percent ? "" : "1",
+                table->view ? table->view : "spheres", label);
+        print_values(values, columns, !table->percent, file);
+        if (table->percent)
+            fprintf(file, " %9.1f", reference_number(reference, row, "rate"));
+        fputc('\n', file);
+    }
+}
+
+static size_t asked_for(const Table *table, int group)
+{
+    return strtoul(table->particles[group], NULL, 10);
+}
+
+bool table_print(const Table *table, const BenchResult *results, size_t count, FILE *file, Error *error)
+{
+    static Reference reference;
+    if (table->reference && !reference_load(table->reference, &reference, error))
+        return false;
+    fprintf(file, "%s: %s\n", table->name, table->help);
+    if (table->reference)
+        fprintf(file, "published: %s\n", reference.notes);
+    if (count > 0)
+        fprintf(file, "here: %s; %s with %d thread%s; %d x %d; medians of %d frame%s, ms\n\n",
+                results[0].renderer, bench_processor(), results[0].threads,
+                plural((size_t)results[0].threads), results[0].width, results[0].height, results[0].frames,
+                plural((size_t)results[0].frames));
+    fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view",
+            table->sweep ? strrchr(table->sweep, '.') + 1 : "backend");
+    for (int c = 0; table->columns[c].title; c++)
+        fprintf(file, " %17s", table->columns[c].title);
+    fprintf(file, " %9s%s%s\n", "total", table->percent ? "  frames/s" : "",
+            count > 0 && results[0].counts.counted ? "   coverage  fragments a covered pixel" : "");
+    size_t last = 0;
+    int group = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (table->reference && results[i].particles != last && table->particles[group] &&
+            strcmp(results[i].view, table->view ? table->view : "spheres") == 0)
+            print_published(table, &reference, asked_for(table, group++), file);
+        last = results[i].particles;
+        print_result(table, &results[i], file);
+    }
+    fputc('\n', file);
+    return true;
+}

@@ -1,0 +1,28 @@
+/* A chart drawn by gnuplot over a pipe, as SVG or PNG by its name; it appears whole or not at all. */
+#ifndef SLOSH_CHART_H
+#define SLOSH_CHART_H
+
+#include "app/base/output.h"
+
+#include <stdio.h>
+
+/* Zero-initialise it. */
+typedef struct Chart {
+    FILE *gnuplot; /* takes gnuplot's commands after chart_begin */
+    Output output;
+} Chart;
+
+/* Whether a chart can have that name: FILE.svg or FILE.png. */
+bool chart_name(const char *path, Error *error);
+
+/* Starts gnuplot, with terminal, output and the look of all charts set; pixels. */
+bool chart_begin(Chart *chart, const char *path, int width, int height, Error *error);
+
+/* Text in gnuplot's quotes. */
+void chart_quote(FILE *gnuplot, const char *text);
+
+/* Ends gnuplot and gives the file its name; false with the reason, and no file. Not needed when begin failed.
+ */
+bool chart_end(Chart *chart, Error *error);
+
+#endif

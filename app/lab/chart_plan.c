@@ -1,0 +1,306 @@
+#include "app/lab/chart_plan.h"
+
+#include "app/lab/chart.h"
+#include "sim/gl/timer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double coarsenings[] = {2, 1.5, 1}; /* fills that are whole numbers of spacings often stay so */
+static const double FINEST = 0.5;                /* of a scene's reference */
+static const double jitters[] = {1e-6, 2e-6, 3e-6};
+static const double DEFAULT_TIME = 2; /* s, of a scene */
+
+/* The last setting of that key on the command line, or NULL. */
+static const char *set_value(const SceneSettings *settings, const char *key)
+{
+    const size_t length = strlen(key);
+    const char *value = NULL;
+    for (int i = 0; i < settings->count; i++)
+        if (strncmp(settings->set[i], key, length) == 0 && settings->set[i][length] == '=')
+            value = settings->set[i] + length + 1;
+    return value;
+}
+
+/* What --sweep or the option says for the key: how many. */
+static int names_given(const Args *args, const char *key, const char *names[CHART_NAMES_MAX])
+{
+    int count = 0;
+    const char *one = set_value(&args->settings, key);
+    for (int s = 0; s < args->sweep_count; s++)
+        for (int v = 0; strcmp(args->sweeps[s].key, key) == 0 && v < args->sweeps[s].count; v++)
+            if (count < CHART_NAMES_MAX)
+                names[count++] = args->sweeps[s].values[v];
+    if (count == 0 && one)
+        names[count++] = one;
+    return count;
+}
+
+/* Those of the case, or all that there are. */
+static int methods_of(const ChartPlan *plan, const char *methods[CHART_NAMES_MAX])
+{
+    int count = names_given(plan->args, "solver.method", methods);
+    if (count > 0)
+        return count;
+    if (plan->subject.of)
+        while (count < CASE_METHODS && plan->subject.of->methods[count]) {
+            methods[count] = plan->subject.of->methods[count];
+            count++;
+        }
+    else
+        for (; count < CHART_NAMES_MAX && world_methods()[count].name; count++)
+            methods[count] = world_methods()[count].name;
+    return count;
+}
+
+/* Whether there is a GPU; asked once. */
+static bool has_gpu(ChartPlan *plan)
+{
+    Error error = {{0}};
+    if (!plan->context)
+        plan->context = headless_create(plan->args->gpu, &error);
+    return plan->context && !gl_renderer_is_software();
+}
+
+/* One sentence for all of them. */
+static void note_left_out(ChartPlan *plan, const char *const left[], int count)
+{
+    char names[128] = "";
+    for (int i = 0; i < count; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%.30s", i ? ", " : "", left[i]);
+    if (count > 0)
+        snprintf(plan->note, sizeof plan->note,
+                 "backend %s left out: %s; --sweep backend=... runs them all the same", names,
+                 plan->context ? "no GPU here, only a software renderer" : "no OpenGL 4.5 here");
+}
+
+/* The scene's own first: the reference is of it. */
+static int backends_of(ChartPlan *plan, const char *backends[CHART_NAMES_MAX])
+{
+    const char *left[CHART_NAMES_MAX];
+    int count = names_given(plan->args, "solver.backend", backends), left_count = 0;
+    if (count > 0)
+        return count;
+    backends[count++] = plan->scene.world.backend;
+    for (const Named *at = world_backends(); at->name && count < CHART_NAMES_MAX; at++) {
+        WorldDef def = plan->scene.world;
+        Error why = {{0}};
+        snprintf(def.backend, sizeof def.backend, "%s", at->name);
+        if (strcmp(at->name, backends[0]) == 0 || !world_can(&def, &why))
+            continue;
+        if (!world_on_gpu(&def) || has_gpu(plan))
+            backends[count++] = at->name;
+        else
+            left[left_count++] = at->name;
+    }
+    note_left_out(plan, left, left_count);
+    return count;
+}
+
+/* A reason that holds for several jobs is said once. */
+static void say_left_out(const char *why)
+{
+    static char last[sizeof(Error)];
+    if (strcmp(last, why) != 0)
+        fprintf(stderr, "left out: %s\n", why);
+    snprintf(last, sizeof last, "%s", why);
+}
+
+/* False with the reason where it cannot be made. */
+static bool try_job(ChartPlan *plan, ChartJob job, Error *why)
+{
+    static Scene scene;
+    static ChartRow row;
+    if (plan->count == CHART_JOBS_MAX)
+        return error_set(why, "more than %d runs; name fewer methods or backends", CHART_JOBS_MAX);
+    if (!chart_prepare(&plan->subject, &job, &scene, &row, why))
+        return false;
+    plan->wants_context |= world_on_gpu(&scene.world);
+    plan->work[plan->count] = pow(job.coarsening, -scene.world.dimensions - 1) * (1 << job.fineness);
+    plan->jobs[plan->count++] = job;
+    return true;
+}
+
+static void add_job(ChartPlan *plan, ChartJob job)
+{
+    Error why = {{0}};
+    if (!try_job(plan, job, &why))
+        say_left_out(why.message);
+}
+
+/* A scene has no reference of its own: the finest run with its own method is one, and three runs that differ
+   by next to nothing say below which distance nothing is known. */
+static bool add_reference(ChartPlan *plan, const char *backend, Error *error)
+{
+    const char *method = plan->scene.world.method;
+    Error why = {{0}};
+    if (!try_job(plan, (ChartJob){CHART_REFERENCE, method, backend, FINEST, 1, 0}, &why))
+        return error_set(error,
+                         "slosh chart: the run at %g of the spacing, which all are compared with, cannot be "
+                         "made: %.700s",
+                         FINEST, why.message);
+    for (size_t i = 0; i < sizeof jitters / sizeof *jitters; i++)
+        add_job(plan, (ChartJob){CHART_FLOOR, method, backend, 1, 0, jitters[i]});
+    return true;
+}
+
+static bool plan_jobs(ChartPlan *plan, Error *error)
+{
+    const char *methods[CHART_NAMES_MAX], *backends[CHART_NAMES_MAX];
+    const int m = methods_of(plan, methods), b = backends_of(plan, backends);
+    for (int at = 0; at < m * b; at++)
+        for (int fine = 0; fine < 2; fine++)
+            for (size_t c = 0; c < sizeof coarsenings / sizeof *coarsenings; c++)
+                add_job(plan,
+                        (ChartJob){CHART_POINT, methods[at % m], backends[at / m], coarsenings[c], fine, 0});
+    return plan->subject.of || add_reference(plan, backends[0], error);
+}
+
+/* Whether the scene can be read with each of the values. */
+static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
+{
+    static Scene scene;
+    char text[160];
+    const ChartSubject *subject = &plan->subject;
+    const bool of_method = strcmp(sweep->key, "solver.method") == 0;
+    bool ok = of_method || strcmp(sweep->key, "solver.backend") == 0 ||
+              error_set(error, "slosh chart: --sweep takes method or backend here, not '%.60s'", sweep->key);
+    for (int v = 0; ok && v < sweep->count; v++) {
+        SceneSettings settings = *subject->settings;
+        const char *method = of_method || !subject->of ? sweep->values[v] : subject->of->methods[0];
+        snprintf(text, sizeof text, "--sweep %.60s=%.60s", sweep->key, sweep->values[v]);
+        const int last = settings.count < SCENE_SETTINGS_MAX ? settings.count++ : settings.count - 1;
+        settings.set[last] = text + strlen("--sweep ");
+        settings.said[last] = text;
+        const CaseSetup setup = {subject->of, CASE_DEFAULT, method, &settings};
+        ok = subject->of ? case_scene(&setup, &scene, error)
+                         : scene_load(subject->scene, &settings, &scene, NULL, error);
+    }
+    return ok;
+}
+
+/* OUT.csv beside OUT.svg. */
+static bool name_csv(ChartPlan *plan, Error *error)
+{
+    const char *output = plan->args->output;
+    if (!chart_name(output, error))
+        return false;
+    if (strlen(output) >= sizeof plan->csv)
+        return error_set(error, "the name of the chart has more than %zu bytes; name a shorter one",
+                         sizeof plan->csv - 1);
+    snprintf(plan->csv, sizeof plan->csv, "%s", output);
+    memcpy(strrchr(plan->csv, '.'), ".csv", sizeof ".csv");
+    return true;
+}
+
+/* A case's name, or a scene's. */
+static bool find_subject(ChartPlan *plan, Error *error)
+{
+    const Args *args = plan->args;
+    SceneSettings settings = args->settings;
+    Error no_case, no_scene;
+    settings.purpose = SCENE_FOR_CHART;
+    plan->subject = (ChartSubject){.scene = args->scenes[0],
+                                   .time = args->time_given ? args->time : DEFAULT_TIME,
+                                   .settings = &args->settings};
+    plan->subject.of = case_find(args->scenes[0], &no_case);
+    if (plan->subject.time <= 0)
+        return error_set(error, "slosh chart: --time must be more than 0");
+    if (plan->subject.of && args->time_given)
+        return error_set(error, "slosh chart: the case %s has a time of its own; leave --time out",
+                         plan->subject.of->name);
+    const CaseSetup setup = {plan->subject.of, CASE_DEFAULT,
+                             plan->subject.of ? plan->subject.of->methods[0] : NULL, &settings};
+    if (plan->subject.of)
+        return case_scene(&setup, &plan->scene, error);
+    if (scene_load(args->scenes[0], &settings, &plan->scene, &plan->notes, &no_scene))
+        return true;
+    const char *near = case_near(args->scenes[0]);
+    char *hint = strstr(no_scene.message, "; did you mean '");
+    if (near && hint)
+        *hint = 0; /* one is enough */
+    return near ? error_set(error, "%.700s; did you mean the case '%s'?", no_scene.message, near)
+                : error_set(error, "%s", no_scene.message);
+}
+
+/* What is said of settings without effect is said where they have none in each run. */
+static void keep_common(Notes *notes, const Notes *other)
+{
+    int kept = 0;
+    for (int i = 0; i < notes->count; i++) {
+        if (i < notes->lasting && !notes_have(other, notes->line[i]))
+            continue;
+        if (kept != i)
+            memcpy(notes->line[kept], notes->line[i], NOTE_SIZE);
+        kept++;
+    }
+    notes->lasting -= notes->count - kept;
+    notes->count = kept;
+}
+
+static void keep_notes_of_all(ChartPlan *plan)
+{
+    static Scene scene;
+    static Notes notes;
+    for (int i = 0; i < plan->count && plan->notes.lasting > 0; i++) {
+        const ChartJob *job = &plan->jobs[i];
+        char method[96], backend[96];
+        Error error;
+        SceneSettings settings = *plan->subject.settings;
+        if (job->role != CHART_POINT || job->coarsening != 1 || settings.count + 2 > SCENE_SETTINGS_MAX)
+            continue;
+        snprintf(method, sizeof method, "solver.method=%s", job->method);
+        snprintf(backend, sizeof backend, "solver.backend=%s", job->backend);
+        settings.set[settings.count++] = method;
+        settings.set[settings.count++] = backend;
+        settings.purpose = SCENE_FOR_CHART;
+        if (scene_load(plan->subject.scene, &settings, &scene, &notes, &error))
+            keep_common(&plan->notes, &notes);
+    }
+}
+
+bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error)
+{
+    *plan = (ChartPlan){.args = args};
+    if (!name_csv(plan, error) || !find_subject(plan, error))
+        return false;
+    for (int s = 0; s < args->sweep_count; s++)
+        if (!sweep_check(plan, &args->sweeps[s], error))
+            return false;
+    if (!plan_jobs(plan, error))
+        return false;
+    keep_notes_of_all(plan);
+    return plan->count > 0 || error_set(error, "slosh chart: nothing of it can run here");
+}
+
+void chart_plan_end(ChartPlan *plan)
+{
+    headless_destroy(plan->context);
+    plan->context = NULL;
+}
+
+/* How much a row's method and backend say of the job's: 3, both; 2, the backend; 1, a row that ran at all. */
+static int likeness(const ChartRow *row, const ChartJob *job)
+{
+    if (!(row->seconds > 0))
+        return 0;
+    return strcmp(row->backend, job->backend) != 0 ? 1 : strcmp(row->method, job->method) != 0 ? 2 : 3;
+}
+
+double chart_plan_seconds(const ChartPlan *plan, int i, const ChartRows *rows)
+{
+    const WorldDef *def = &plan->scene.world;
+    double factor = 1, best = 0;
+    for (int r = 0; r < rows->count; r++) {
+        const ChartRow *row = &rows->row[r];
+        const int like = likeness(row, &plan->jobs[i]);
+        const double work =
+            pow(row->spacing / def->spacing, -def->dimensions - 1) * (row->fineness > 0 ? 2 : 1);
+        if (like < best || like == 0)
+            continue;
+        best = like; /* the last of the best: later rows are finer, as a rule */
+        factor = row->seconds / work;
+    }
+    return plan->work[i] * factor;
+}

@@ -1,0 +1,15 @@
+/* What `slosh chart` says of its rows: a table, JSON. */
+#ifndef SLOSH_CHART_REPORT_H
+#define SLOSH_CHART_REPORT_H
+
+#include "app/lab/chart_row.h"
+
+/* A line a row, the floor's but for their spread. */
+void chart_print(const ChartRows *rows, double floor, FILE *file);
+
+/* {"chart": subject, "error_of": error_name, "floor", "orders": [...], "runs": [...]}; what is not known is
+ * null. */
+bool chart_write_json(const ChartRows *rows, const char *subject, const char *error_name, double floor,
+                      const char *path, Error *error);
+
+#endif

@@ -1,0 +1,349 @@
+#include "app/lab/chart_row.h"
+
+#include "app/metric/curve.h"
+
+#include "app/base/output.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char HEAD[] =
+    "key,role,method,backend,step,fineness,spacing_m,particles,seconds_a_simulated_second,error,series\n";
+static const char *const roles[] = {"point", "reference", "floor"};
+
+/* What every chart's file begins with, whatever else its rows hold. */
+static const char OURS[] = "key,role,method,backend,";
+
+static bool read_number(const char *text, double *number)
+{
+    char *end;
+    *number = strtod(text, &end);
+    return end != text && !*end;
+}
+
+/* "1 2 3": how many, or -1. */
+static int parse_numbers(char *text, double numbers[CHART_QUANTITIES])
+{
+    int read = 0;
+    for (char *cell = strsep(&text, " "); cell; cell = strsep(&text, " "), read++)
+        if (read == CHART_QUANTITIES || !read_number(cell, &numbers[read]))
+            return -1;
+    return read;
+}
+
+/* "1 2 3;1.1 2 3;...": as many times as there are, with as many numbers each; or nothing, of a case. */
+static bool parse_series(char *text, ChartRow *row)
+{
+    int times = 0;
+    if (!*text)
+        return true;
+    for (char *cell = strsep(&text, ";"); cell; cell = strsep(&text, ";"), times++) {
+        const int numbers = times < CHART_TIMES ? parse_numbers(cell, row->series[times]) : -1;
+        if (numbers < 1 || (times > 0 && numbers != row->quantities))
+            return false;
+        row->quantities = numbers;
+    }
+    return times == CHART_TIMES;
+}
+
+static bool parse_role(const char *name, ChartRole *role)
+{
+    for (int r = CHART_POINT; r <= CHART_FLOOR; r++)
+        if (strcmp(roles[r], name) == 0) {
+            *role = (ChartRole)r;
+            return true;
+        }
+    return false;
+}
+
+static bool copy_name(char name[NAME_SIZE], const char *cell)
+{
+    return snprintf(name, NAME_SIZE, "%s", cell) < NAME_SIZE && *cell;
+}
+
+/* What no run has, or NULL. Of one that broke the seconds are NaN, of one without a reference the error. */
+static const char *impossible(const ChartRow *row, double fineness, double particles)
+{
+    if (!(fineness >= 0 && fineness < 100))
+        return "fineness";
+    if (!(row->spacing > 0 && isfinite(row->spacing)))
+        return "spacing_m";
+    if (!(particles >= 0 && particles < 1e15))
+        return "particles";
+    if (row->seconds <= 0 || isinf(row->seconds))
+        return "seconds_a_simulated_second";
+    return row->error < 0 || isinf(row->error) ? "error" : NULL;
+}
+
+/* NULL, or what is wrong: the run is made again. */
+static const char *parse_row(char *line, ChartRow *row)
+{
+    enum { CELLS = 10 };
+    static const char unreadable[] = "row";
+    char *cells[CELLS], *at = line, *end;
+    double fineness, particles;
+    if (!line[strcspn(line, "\n")])
+        return unreadable;
+    line[strcspn(line, "\n")] = '\0';
+    for (int c = 0; c < CELLS; c++) {
+        cells[c] = strsep(&at, ",");
+        if (!at)
+            return unreadable;
+    }
+    *row = (ChartRow){.key = strtoull(cells[0], &end, 16)};
+    const bool ok = end == cells[0] + 16 && !*end && parse_role(cells[1], &row->role) &&
+                    copy_name(row->method, cells[2]) && copy_name(row->backend, cells[3]) &&
+                    copy_name(row->step, cells[4]) && read_number(cells[5], &fineness) &&
+                    read_number(cells[6], &row->spacing) && read_number(cells[7], &particles) &&
+                    read_number(cells[8], &row->seconds) && read_number(cells[9], &row->error) &&
+                    parse_series(at, row);
+    const char *wrong = ok ? impossible(row, fineness, particles) : unreadable;
+    if (wrong)
+        return wrong;
+    row->fineness = (int)fineness;
+    row->particles = (size_t)particles;
+    return NULL;
+}
+
+static void read_rows(ChartRows *rows, FILE *file, const char *path, FILE *warnings)
+{
+    char *line = NULL;
+    size_t size = 0;
+    for (int number = 2; rows->count < CHART_ROWS_MAX && getline(&line, &size, file) > 0; number++) {
+        const char *wrong = parse_row(line, &rows->row[rows->count]);
+        if (!wrong)
+            rows->count++;
+        else if (warnings)
+            fprintf(warnings,
+                    "%s:%d: this %s is none that a chart writes; the row is left out, its run made again\n",
+                    path, number, wrong);
+    }
+    free(line);
+}
+
+bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error)
+{
+    char *head = NULL;
+    size_t size = 0;
+    FILE *file = fopen(path, "r");
+    rows->count = 0;
+    if (!file)
+        return true;
+    const bool empty = getline(&head, &size, file) <= 0;
+    const bool ours = empty || strncmp(head, OURS, sizeof OURS - 1) == 0;
+    if (!empty && ours && strcmp(head, HEAD) == 0)
+        read_rows(rows, file, path, warnings);
+    free(head);
+    fclose(file);
+    return ours || error_set(error,
+                             "%s: is there already, and no chart wrote it; give the chart another name, or "
+                             "move that file",
+                             path);
+}
+
+void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan)
+{
+    int oldest = 0;
+    if (rows->count == CHART_ROWS_MAX) {
+        while (oldest < rows->count && chart_rows_find(plan, rows->row[oldest].key))
+            oldest++;
+        if (oldest == rows->count)
+            return;
+        rows->count--;
+        memmove(&rows->row[oldest], &rows->row[oldest + 1],
+                (size_t)(rows->count - oldest) * sizeof *rows->row);
+    }
+    rows->row[rows->count++] = *row;
+}
+
+void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan)
+{
+    static ChartRows others;
+    Error none;
+    if (!chart_rows_read(&others, path, NULL, &none))
+        return;
+    for (int i = 0; i < others.count && rows->count < CHART_ROWS_MAX; i++)
+        if (!chart_rows_find(rows, others.row[i].key))
+            chart_rows_add(rows, &others.row[i], plan);
+}
+
+/* The series to the last bit: the errors of a chart that goes on are the same. */
+static void print_row(const ChartRow *row, FILE *file)
+{
+    fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,", row->key, roles[row->role],
+            row->method, row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds,
+            row->error);
+    for (int t = 0; t < CHART_TIMES && row->quantities > 0; t++)
+        for (int q = 0; q < row->quantities; q++)
+            fprintf(file, "%s%.17g", q ? " " : t ? ";" : "", row->series[t][q]);
+    fputc('\n', file);
+}
+
+bool chart_rows_write(const ChartRows *rows, const char *path, Error *error)
+{
+    Output output = {.path = ""};
+    if (!output_begin(&output, path, error))
+        return false;
+    FILE *file = fopen(output.temp, "w");
+    if (file) {
+        fputs(HEAD, file);
+        for (int i = 0; i < rows->count; i++)
+            print_row(&rows->row[i], file);
+        const bool whole = !ferror(file);
+        if (fclose(file) == 0 && whole)
+            return output_commit(&output, error);
+    }
+    error_set(error, "%s: cannot be written (%s)", path, strerror(errno));
+    output_discard(&output);
+    return false;
+}
+
+const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key)
+{
+    for (int i = 0; i < rows->count; i++)
+        if (rows->row[i].key == key)
+            return &rows->row[i];
+    return NULL;
+}
+
+const ChartRow *chart_rows_reference(const ChartRows *rows)
+{
+    for (int i = 0; i < rows->count; i++)
+        if (rows->row[i].role == CHART_REFERENCE && isfinite(rows->row[i].seconds))
+            return &rows->row[i];
+    return NULL;
+}
+
+/* Of the numbers of one metric: rms distance over the greatest range of one of them. False without a range:
+   what does not change in the reference has no scale. */
+static bool distance_of(const ChartRow *row, const ChartRow *reference, int first, int count,
+                        double *distance)
+{
+    double sum2 = 0, range = 0;
+    int times = 0;
+    for (int q = first; q < first + count; q++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int t = 0; t < CHART_TIMES; t++) {
+            const double off = row->series[t][q] - reference->series[t][q];
+            sum2 += isfinite(off) ? off * off : 0;
+            times += isfinite(off);
+            low = fmin(low, reference->series[t][q]); /* which passes over NaN */
+            high = fmax(high, reference->series[t][q]);
+        }
+        range = fmax(range, high - low);
+    }
+    *distance = times > 0 ? sqrt(sum2 * count / times) / range : (double)NAN;
+    return times == 0 || range > 0;
+}
+
+double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference)
+{
+    double sum = 0, distance;
+    int compared = 0, first = 0;
+    for (int m = 0; m < rows->metric_count; m++) {
+        const int numbers = metric_kinds[rows->metrics[m]].numbers;
+        if (distance_of(row, reference, first, numbers, &distance)) {
+            sum += distance;
+            compared++;
+        }
+        first += numbers;
+    }
+    if (row->quantities < first || reference->quantities < first)
+        return (double)NAN;
+    return compared > 0 ? sum / compared : 0;
+}
+
+static bool is_floor(const ChartRow *row)
+{
+    return row->role == CHART_FLOOR && isfinite(row->seconds);
+}
+
+double chart_rows_compare(ChartRows *rows)
+{
+    const ChartRow *reference = chart_rows_reference(rows);
+    double floor = (double)NAN;
+    for (int i = 0; i < rows->count; i++) {
+        ChartRow *row = &rows->row[i];
+        if (reference)
+            row->error = isfinite(row->seconds) ? chart_distance(rows, row, reference) : (double)NAN;
+        for (int k = 0; k < i && is_floor(row); k++)
+            if (is_floor(&rows->row[k])) /* fmax takes the number of a NaN's two */
+                floor = fmax(floor, chart_distance(rows, row, &rows->row[k]));
+    }
+    return floor;
+}
+
+bool chart_on_front(const ChartRows *rows, int row)
+{
+    const ChartRow *mine = &rows->row[row];
+    if (mine->role != CHART_POINT || !isfinite(mine->error) || !isfinite(mine->seconds))
+        return false;
+    for (int i = 0; i < rows->count; i++) {
+        const ChartRow *other = &rows->row[i];
+        if (i != row && other->role == CHART_POINT && other->seconds <= mine->seconds &&
+            other->error <= mine->error && (other->seconds < mine->seconds || other->error < mine->error))
+            return false;
+    }
+    return true;
+}
+
+bool chart_drawn(const ChartRow *row)
+{
+    return row->role == CHART_POINT && isfinite(row->seconds) && row->error > 0 && isfinite(row->error);
+}
+
+bool chart_same_line(const ChartRow *a, const ChartRow *b)
+{
+    return strcmp(a->method, b->method) == 0 && strcmp(a->backend, b->backend) == 0 &&
+           a->fineness == b->fineness;
+}
+
+bool chart_opens_line(const ChartRows *rows, int row)
+{
+    for (int i = 0; i < row; i++)
+        if (chart_drawn(&rows->row[i]) && chart_same_line(&rows->row[i], &rows->row[row]))
+            return false;
+    return chart_drawn(&rows->row[row]);
+}
+
+void chart_line_name(const ChartRow *row, char name[128])
+{
+    snprintf(name, 128, "%s, %s, %s steps", row->method, row->backend, row->fineness ? "fine" : "long");
+}
+
+/* Whether each finer run of the line is nearer than each coarser one. */
+static bool falls(const ChartRows *rows, int first)
+{
+    const ChartRow *opener = &rows->row[first];
+    for (int i = first; i < rows->count; i++)
+        for (int k = first; k < rows->count; k++) {
+            const ChartRow *a = &rows->row[i], *b = &rows->row[k];
+            if (chart_drawn(a) && chart_drawn(b) && chart_same_line(a, opener) &&
+                chart_same_line(b, opener) && a->spacing < b->spacing && a->error >= b->error)
+                return false;
+        }
+    return true;
+}
+
+double chart_order(const ChartRows *rows, int first, double floor, const char **why)
+{
+    Curve line = {.count = 0};
+    bool known = true;
+    for (int i = first; i < rows->count; i++) {
+        const ChartRow *row = &rows->row[i];
+        if (!chart_drawn(row) || !chart_same_line(row, &rows->row[first]))
+            continue;
+        known &= !(row->error <= floor);
+        curve_add(&line, log(row->spacing), log(row->error));
+    }
+    *why = line.count < 3        ? "fewer than three runs"
+           : !known              ? "errors reach the spread"
+           : !falls(rows, first) ? "errors do not fall"
+                                 : NULL;
+    const double order = *why ? (double)NAN : curve_slope(&line);
+    curve_free(&line);
+    return order;
+}

@@ -1,0 +1,96 @@
+/* One run of `slosh chart`: with which settings, how long it took, how far off it was. Rows are kept in a CSV
+   file, so that a run already there is not repeated; its last column has, of a scene, the numbers of the
+   metrics at CHART_TIMES even times: numbers parted by blanks, times by semicolons. */
+#ifndef SLOSH_CHART_ROW_H
+#define SLOSH_CHART_ROW_H
+
+#include "app/metric/metric_list.h"
+#include "app/scene/scene.h"
+
+#include <stdio.h>
+
+enum { CHART_TIMES = 40, CHART_QUANTITIES = SCENE_METRICS_MAX * METRIC_NUMBERS, CHART_ROWS_MAX = 256 };
+
+/* Why a run is made. */
+typedef enum ChartRole {
+    CHART_POINT,     /* a point of the chart */
+    CHART_REFERENCE, /* the finest run of a scene that has no other reference */
+    CHART_FLOOR      /* one of three that differ by a millionth of a spacing */
+} ChartRole;
+
+typedef struct ChartRow {
+    uint64_t key; /* of all that the run depends on */
+    ChartRole role;
+    char method[NAME_SIZE], backend[NAME_SIZE];
+    char step[NAME_SIZE]; /* "number 0.3" or "substeps 20" */
+    int fineness;         /* of the step: rows of the same one are one line of the convergence */
+    double spacing;       /* m */
+    size_t particles;
+    double seconds;    /* of computing, a simulated second; NaN: it broke */
+    double error;      /* NaN: not known */
+    char failure[128]; /* why it broke; "" where it did not, and in rows that were read */
+    int quantities; /* of a scene: the numbers of its metrics, one after the other, at even times; else 0 */
+    double series[CHART_TIMES][CHART_QUANTITIES];
+} ChartRow;
+
+typedef struct ChartRows {
+    int metric_count, metrics[SCENE_METRICS_MAX]; /* that a scene's runs are compared by, as Scene has them */
+    int count;
+    ChartRow row[CHART_ROWS_MAX];
+} ChartRows;
+
+/* The sound rows of an older run; none where there is no such file, or it is empty. Each other row is told to
+   `warnings` (NULL: to nobody). False with the reason where the file is no chart's: it is not to be replaced.
+ */
+bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error);
+
+/* Adds a row, in place of the oldest that is none of `plan` where there is no room. */
+void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan);
+
+/* Adds the rows that the file has got since it was read, from another chart under the same name. */
+void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan);
+
+/* Writes all rows, whole or not at all. */
+bool chart_rows_write(const ChartRows *rows, const char *path, Error *error);
+
+/* NULL where there is none. */
+const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key);
+
+/* The reference among them, or NULL: none, or it broke. */
+const ChartRow *chart_rows_reference(const ChartRows *rows);
+
+/* How far a row is from the reference: the mean over the metrics of rms over time over the metric's range in
+   `reference`; times at which either has none are left out, and a metric that does not change in the
+   reference. NaN where a metric was at no time in both, or a row has not the numbers of these metrics. */
+double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference);
+
+/* Fills the errors of the points from the one reference among them; the spread of the floor's, the greatest
+   distance of two of them, or NaN. */
+double chart_rows_compare(ChartRows *rows);
+
+/* Whether no other point is both cheaper and nearer. */
+bool chart_on_front(const ChartRows *rows, int row);
+
+/* Whether the row is a point that can be drawn, and the first of its line: rows of one line differ in nothing
+   but the spacing. */
+bool chart_drawn(const ChartRow *row);
+bool chart_same_line(const ChartRow *a, const ChartRow *b);
+bool chart_opens_line(const ChartRows *rows, int row);
+
+/* "mueller, cpu, long steps" */
+void chart_line_name(const ChartRow *row, char name[128]);
+
+/* The order of the line that the row `first` opens: the slope of log error over log spacing. NaN where there
+   is none to be seen, and *why says it. `floor` as of chart_draw. */
+double chart_order(const ChartRows *rows, int first, double floor, const char **why);
+
+typedef struct ChartWords {
+    const char *title, *error; /* what the error is of */
+    const char *note;          /* below the title; "" */
+} ChartWords;
+
+/* The two charts: error over cost with the front, error over spacing with the order. `floor`: the spread
+   (NaN: none). */
+bool chart_draw(const ChartRows *rows, const ChartWords *words, double floor, const char *path, Error *error);
+
+#endif

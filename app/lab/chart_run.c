@@ -1,0 +1,231 @@
+#include "app/lab/chart_run.h"
+
+#include "app/base/interrupt.h"
+#include "app/scene/keys.h"
+#include "sim/base/stage.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TEXTS = 6, TEXT_SIZE = 96 };
+
+static uint64_t hash(uint64_t h, const char *text, size_t size)
+{
+    for (size_t i = 0; i < size; i++) /* FNV-1a */
+        h = (h ^ (uint8_t)text[i]) * 0x100000001b3ULL;
+    return (h ^ 0xff) * 0x100000001b3ULL;
+}
+
+/* Of all settings as they were resolved, by whatever file or option, but for how it looks. */
+static bool hash_scene(const Scene *scene, uint64_t *h, Error *error)
+{
+    char *text = scene_print_text(scene);
+    for (const char *line = text; line && *line;) {
+        const size_t size = strcspn(line, "\n");
+        if (strncmp(line, "title ", 6) != 0 && strncmp(line, "view.", 5) != 0 &&
+            strncmp(line, "hand.", 5) != 0)
+            *h = hash(*h, line, size);
+        line += size + (line[size] == '\n');
+    }
+    free(text);
+    return text != NULL || error_set(error, "no memory for the settings of %.200s", scene->path);
+}
+
+/* The settings that the job adds to those of the command line; `texts` holds them. */
+typedef struct JobSettings {
+    SceneSettings all;
+    char texts[TEXTS][TEXT_SIZE];
+    int used;
+} JobSettings;
+
+__attribute__((format(printf, 3, 4))) static bool add(JobSettings *job, Error *error, const char *format, ...)
+{
+    va_list arguments;
+    if (job->all.count == SCENE_SETTINGS_MAX)
+        return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
+    va_start(arguments, format);
+    vsnprintf(job->texts[job->used], TEXT_SIZE, format, arguments);
+    va_end(arguments);
+    job->all.set[job->all.count++] = job->texts[job->used++];
+    return true;
+}
+
+static bool load(const ChartSubject *subject, const ChartJob *job, JobSettings *settings, Scene *scene,
+                 Error *error)
+{
+    if (!subject->of)
+        return scene_load(subject->scene, &settings->all, scene, NULL, error);
+    const CaseSetup setup = {subject->of, CASE_DEFAULT, job->method, &settings->all};
+    return case_scene(&setup, scene, error);
+}
+
+/* First as the scene has it, to know its spacing and step; then with those of the job. A step of mode fixed
+   shrinks with the spacing. */
+static bool job_settings(const ChartSubject *subject, const ChartJob *job, JobSettings *settings,
+                         Scene *scene, ChartRow *row, Error *error)
+{
+    *settings = (JobSettings){.all = *subject->settings};
+    bool ok = add(settings, error, "solver.method=%s", job->method) &&
+              add(settings, error, "solver.backend=%s", job->backend) &&
+              load(subject, job, settings, scene, error);
+    if (!ok)
+        return false;
+    const WorldDef *def = &scene->world;
+    row->spacing = def->spacing * job->coarsening;
+    settings->all.particles = 0;
+    ok = add(settings, error, "particles.spacing=%.9g", row->spacing);
+    if (def->step_mode == STEP_CFL) {
+        const double number = def->cfl_number / (1 << job->fineness);
+        snprintf(row->step, NAME_SIZE, "number %.3g", number);
+        ok = ok && add(settings, error, "solver.step.number=%.9g", number);
+    } else {
+        const int substeps = (int)ceil(def->substeps * (1 << job->fineness) / job->coarsening - 1e-6);
+        snprintf(row->step, NAME_SIZE, "%.3g ms", 1000 * def->dt / substeps);
+        ok = ok && add(settings, error, "solver.step.substeps=%d", substeps);
+    }
+    return ok && (job->jitter == 0 || add(settings, error, "particles.jitter=%.9g", job->jitter));
+}
+
+bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scene, ChartRow *row,
+                   Error *error)
+{
+    JobSettings settings;
+    char rest[128];
+    *row = (ChartRow){.role = job->role,
+                      .fineness = job->fineness,
+                      .seconds = (double)NAN,
+                      .error = (double)NAN,
+                      .key = 0xcbf29ce484222325ULL};
+    if (!job_settings(subject, job, &settings, scene, row, error) ||
+        !load(subject, job, &settings, scene, error) || !world_can(&scene->world, error))
+        return false;
+    snprintf(row->method, NAME_SIZE, "%s", scene->world.method);
+    snprintf(row->backend, NAME_SIZE, "%s", scene->world.backend);
+    snprintf(rest, sizeof rest, "%s %d %.9g", SLOSH_VERSION, (int)job->role, subject->time);
+    const char *name = subject->of ? subject->of->name : "";
+    row->key = hash(hash(row->key, rest, strlen(rest)), name, strlen(name));
+    return hash_scene(scene, &row->key, error);
+}
+
+/* A scene on its way through time. */
+typedef struct SceneRun {
+    const Scene *scene;
+    World *world;
+    MetricState state;
+    WorldInfo info;
+    double before[CHART_QUANTITIES], now[CHART_QUANTITIES]; /* at `before_time` and at the present, s */
+    double before_time;
+    double spent;  /* s of computing */
+    Error failure; /* why it broke */
+} SceneRun;
+
+/* The metrics of the present state, one after the other; how many numbers, or -1 without memory. */
+static int note_state(SceneRun *run, double at[CHART_QUANTITIES])
+{
+    const Scene *scene = run->scene;
+    int used = 0;
+    if (!metric_state_read(&run->state, &scene->world, run->world, scene->metrics, scene->metric_count))
+        return -1;
+    for (int m = 0; m < scene->metric_count; m++) {
+        const MetricKind *metric = &metric_kinds[scene->metrics[m]];
+        metric->of(&run->state, at + used);
+        used += metric->numbers;
+    }
+    return used;
+}
+
+/* Steps until a sound state at or after `due` (on a GPU trouble is found behind the step, and the next one
+   goes back), and leaves the one before it in `before`: all of them need not be measured, only what comes
+   within a step and a half of it. False when it broke or a signal came. */
+static bool advance_to(SceneRun *run, double due, double until, Progress *progress, double done, double part)
+{
+    double length = 0;
+    bool sound = true;
+    while (!sound || run->info.time < due - 1e-9) {
+        const double from = run->info.time;
+        if (sound && (length <= 0 || from + 1.5 * length >= due)) {
+            run->before_time = from;
+            note_state(run, run->before);
+        }
+        const double begin = wall_ms();
+        const bool ok = world_step(run->world, NULL, &run->failure);
+        sound = world_sound(run->world); /* waits for a GPU, which is what is timed */
+        run->spent += (wall_ms() - begin) / 1000;
+        world_info(run->world, &run->info);
+        length = run->info.time - from;
+        progress_update(progress, done + part * fmin(run->info.time / until, 1));
+        if (!ok || interrupted())
+            return false;
+    }
+    return true;
+}
+
+/* Samples at k time / (CHART_TIMES - 1), on straight lines between the states around them. */
+static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *progress, double done,
+                       double part, Error *error)
+{
+    for (int k = 0; k < CHART_TIMES; k++) {
+        const double due = until * k / (CHART_TIMES - 1);
+        if (!advance_to(run, due, until, progress, done, part))
+            return !interrupted() || error_set(error, "stopped");
+        row->quantities = note_state(run, run->now);
+        if (row->quantities < 0)
+            return error_set(error, "no memory to read the particles; use a larger spacing");
+        const double length = run->info.time - run->before_time;
+        const double w =
+            length > 0 && run->before_time < due ? fmin((due - run->before_time) / length, 1) : 1;
+        for (int q = 0; q < row->quantities; q++)
+            row->series[k][q] = w < 1 ? run->before[q] + w * (run->now[q] - run->before[q]) : run->now[q];
+    }
+    row->seconds = run->spent / until;
+    return true;
+}
+
+static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress *progress, double done,
+                      double part, Error *error)
+{
+    SceneRun run = {.scene = scene, .world = world_create(&scene->world, error)};
+    if (!run.world)
+        return false;
+    world_info(run.world, &run.info);
+    row->particles = run.info.count;
+    const bool ok = sample_all(&run, until, row, progress, done, part, error);
+    snprintf(row->failure, sizeof row->failure, "%.127s", run.failure.message);
+    metric_state_free(&run.state);
+    world_destroy(run.world);
+    return ok;
+}
+
+static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
+                     double done, double part, Error *error)
+{
+    static CaseResult result;
+    static Scene scene;
+    JobSettings settings;
+    if (!job_settings(subject, job, &settings, &scene, row, error))
+        return false;
+    const CaseSetup setup = {subject->of, CASE_DEFAULT, job->method, &settings.all};
+    const bool ok = case_run(&setup, progress, done, part, &result, error);
+    row->particles = result.particles;
+    snprintf(row->failure, sizeof row->failure, "%.127s", result.failure);
+    if (ok && !*result.failure) {
+        row->seconds = result.step_seconds / subject->of->time;
+        row->error = result.run.figures[0].error;
+    }
+    case_result_free(&result);
+    return ok;
+}
+
+bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
+               double done, double part, Error *error)
+{
+    static Scene scene;
+    if (subject->of)
+        return run_case(subject, job, row, progress, done, part, error);
+    JobSettings settings;
+    return job_settings(subject, job, &settings, &scene, row, error) &&
+           load(subject, job, &settings, &scene, error) &&
+           run_scene(&scene, subject->time, row, progress, done, part, error);
+}

@@ -1,0 +1,21 @@
+/* The particles of a world, read back for the metrics. */
+#ifndef SLOSH_CLOUD_H
+#define SLOSH_CLOUD_H
+
+#include "sim/world/world.h"
+
+/* Pure data: a test makes one by hand. */
+typedef struct Cloud {
+    size_t count;
+    double spacing, support_radius; /* m */
+    float *position, *velocity;     /* 4 a particle: x y z 0; m, m/s */
+    float *density, *pressure;      /* kg/m3, Pa */
+    uint32_t *fluid;
+} Cloud;
+
+/* Zero-initialise it. The present state of `world`, in place of what `cloud` held. False when memory is
+   short. */
+bool cloud_read(Cloud *cloud, World *world);
+void cloud_free(Cloud *cloud);
+
+#endif

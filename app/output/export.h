@@ -1,0 +1,56 @@
+/* Snapshots in the formats of other programs: what `slosh export` writes. */
+#ifndef SLOSH_EXPORT_H
+#define SLOSH_EXPORT_H
+
+#include "app/base/progress.h"
+#include "app/output/ply.h"
+#include "app/output/snapshot_frame.h"
+#include "app/output/snapshot_sift.h"
+
+typedef enum ExportKind { EXPORT_PVD, EXPORT_VTP, EXPORT_PLY, EXPORT_PLY_SERIES } ExportKind;
+
+/* Their names, which are the extensions, in the order of ExportKind; ended by a row without a name. */
+const Named *export_kinds(void);
+
+/* Whether it is of all snapshots. */
+bool export_is_series(ExportKind kind);
+
+/* By the extension of the name; false with what would be right. */
+bool export_kind(const char *path, ExportKind *kind, Error *error);
+
+/* One export: where from, where to, and what came of it. */
+typedef struct Export {
+    SnapshotReader *reader; /* not owned; has at least one whole step */
+    const char *path;       /* of the output */
+    ExportKind kind;
+    SnapshotFrame frame;
+    const SurfaceDef *surface;  /* instead of the particles; NULL: the particles */
+    SnapshotScene scene;        /* with a surface: that the snapshots are of */
+    SnapshotFlaws flaws;        /* see snapshot_flaws; what was found in those that were written */
+    PlyColors colors;           /* of a .ply: see export_colors */
+    size_t snapshots;           /* written */
+    size_t particles;           /* of the last one */
+    double time;                /* of the last one, s */
+    size_t vertices, triangles; /* of the last surface */
+    double level, volume;       /* of its field; that it encloses, m3 */
+    size_t empty;               /* surfaces without a triangle */
+    bool interrupted;           /* by a signal, before the last snapshot of a series */
+} Export;
+
+/* Sets the colours of a .ply: those of the fluids, or for speed, density and pressure a colormap from the
+   least to the greatest that a particle has in the `count` snapshots from `first` on. False when one cannot
+   be read.
+ */
+bool export_colors(Export *export, Scalar by, size_t first, size_t count, Error *error);
+
+/* Writes snapshot `index` into one file. False with the reason: it cannot be read or written;
+   then what had that name before stays. */
+bool export_one(Export *export, size_t index, Error *error);
+
+/* Writes all snapshots: the index OUT.pvd, and beside it the folder OUT with OUT-0000.vtp, OUT-0001.vtp, ...;
+   or the index OUT.ply.series, and the folder OUT with OUT-0000.ply, ...
+   Both get their names when all is written, or after a signal with the snapshots that are; false with the
+   reason, and what had those names before stays. */
+bool export_series(Export *export, Progress *progress, Error *error);
+
+#endif

@@ -1,0 +1,102 @@
+#include "app/output/image.h"
+
+#include <errno.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+bool image_create(Image *image, int width, int height)
+{
+    *image = (Image){width, height, calloc((size_t)width * (size_t)height, 3)};
+    return image->rgb != NULL;
+}
+
+void image_destroy(Image *image)
+{
+    free(image->rgb);
+    *image = (Image){0};
+}
+
+static void on_png_error(png_structp png, png_const_charp message)
+{
+    snprintf(png_get_error_ptr(png), 128, "%s", message);
+    longjmp(*png_set_longjmp_fn(png, longjmp, sizeof(jmp_buf)), 1);
+}
+
+static void on_png_warning(png_structp png, png_const_charp message)
+{
+    (void)png, (void)message;
+}
+
+/* A short write must be seen: libpng's own writer sees it, its flush does not. */
+static void write_bytes(png_structp png, png_bytep data, size_t size)
+{
+    if (fwrite(data, 1, size, png_get_io_ptr(png)) != size)
+        png_error(png, strerror(errno));
+}
+
+static void flush_bytes(png_structp png)
+{
+    if (fflush(png_get_io_ptr(png)) != 0)
+        png_error(png, strerror(errno));
+}
+
+static void write_png(png_structp png, png_infop info, const Image *image)
+{
+    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8, PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_compression_level(png, 6);
+    png_write_info(png, info);
+    for (int y = 0; y < image->height; y++)
+        png_write_row(png, image->rgb + 3 * (size_t)image->width * (size_t)y);
+    png_write_end(png, info);
+}
+
+bool image_write_stream(const Image *image, FILE *stream, const char *name, Error *error)
+{
+    char reason[128] = "out of memory";
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, reason, on_png_error, on_png_warning);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    bool written = false;
+    if (info && !setjmp(png_jmpbuf(png))) {
+        png_set_write_fn(png, stream, write_bytes, flush_bytes);
+        write_png(png, info, image);
+        flush_bytes(png);
+        written = true;
+    }
+    png_destroy_write_struct(&png, &info);
+    return written || error_set(error, "%s: cannot write the picture: %s", name, reason);
+}
+
+bool image_write(const Image *image, const char *path, Error *error)
+{
+    FILE *file = fopen(path, "wb");
+    if (!file)
+        return error_set(error, "%s: cannot create the file: %s", path, strerror(errno));
+    bool written = image_write_stream(image, file, path, error);
+    if (fclose(file) != 0 && written)
+        written = error_set(error, "%s: cannot write the picture: %s", path, strerror(errno));
+    if (!written)
+        unlink(path);
+    return written;
+}
+
+bool image_read(Image *image, const char *path, Error *error)
+{
+    png_image png = {.version = PNG_IMAGE_VERSION};
+    *image = (Image){0};
+    if (!png_image_begin_read_from_file(&png, path))
+        return error_set(error, "%s: cannot read the picture: %s", path, png.message);
+    png.format = PNG_FORMAT_RGB;
+    if (!image_create(image, (int)png.width, (int)png.height)) {
+        png_image_free(&png);
+        return error_set(error, "%s: out of memory for %u x %u pixels", path, png.width, png.height);
+    }
+    if (png_image_finish_read(&png, NULL, image->rgb, 0, NULL))
+        return true;
+    image_destroy(image);
+    return error_set(error, "%s: cannot read the picture: %s", path, png.message);
+}

@@ -1,0 +1,31 @@
+/* PNG files of 8-bit RGB, rows from the top down. */
+#ifndef SLOSH_IMAGE_H
+#define SLOSH_IMAGE_H
+
+#include "sim/base/error.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* 3 * width * height bytes, sRGB. */
+typedef struct Image {
+    int width, height;
+    uint8_t *rgb; /* owned */
+} Image;
+
+/* False when memory is short. */
+bool image_create(Image *image, int width, int height);
+void image_destroy(Image *image);
+
+/* Writes into an open stream and flushes it; false, with the reason, when any of it fails (a full disk too).
+   `name` is for the message. The stream stays open. */
+bool image_write_stream(const Image *image, FILE *stream, const char *name, Error *error);
+
+/* Writes the file `path`; on failure none is left. The caller renames if it must appear whole. */
+bool image_write(const Image *image, const char *path, Error *error);
+
+/* Reads any PNG as RGB into a new image. */
+bool image_read(Image *image, const char *path, Error *error);
+
+#endif

@@ -1,0 +1,60 @@
+/* Names and types of the snapshot file, shared by writer and reader. */
+#ifndef SLOSH_SNAPSHOT_FILE_H
+#define SLOSH_SNAPSHOT_FILE_H
+
+#include "app/base/output_lock.h"
+#include "app/output/snapshot.h"
+
+#include <hdf5.h>
+#include <stdint.h>
+
+/* HDF5's type of a field of SnapshotStep; the file has the same. */
+#define SNAPSHOT_TYPE(field)                                                                                 \
+    _Generic((field), float * : H5T_IEEE_F32LE, int32_t * : H5T_STD_I32LE, int64_t * : H5T_STD_I64LE)
+
+/* X(attribute of a step, number of doubles, field of SnapshotStep as a double *) */
+#define SNAPSHOT_ATTRIBUTES(X)                                                                               \
+    X("TimeValue", 1, &step->time)                                                                           \
+    X("box_position", 3, step->box.position)                                                                 \
+    X("box_orientation", 4, step->box.orientation)                                                           \
+    X("box_velocity", 3, step->box.velocity)                                                                 \
+    X("box_angular_velocity", 3, step->box.angular_velocity)                                                 \
+    X("gravity", 3, step->gravity)
+
+/* The settings of the scene, of the root: see scene_print. */
+#define SNAPSHOT_SETTINGS "settings"
+
+/* What moved the box, of the root: see snapshot_note_hand. */
+#define SNAPSHOT_HAND "hand"
+
+/* The colours of the fluids, of the root: red, green, blue of each as in the scene file, sRGB 0 to 1. */
+#define SNAPSHOT_COLORS "fluid_colors"
+
+/* What a run goes on from: WORLD_NUMBERS doubles of a step. */
+#define SNAPSHOT_RESTART "restart"
+
+/* The field that files of older versions lack. */
+#define SNAPSHOT_COMPRESSION "compression"
+
+/* A step's number of substeps, and the mark of a whole step: each one integer. */
+#define SNAPSHOT_STEP_NUMBER "step"
+#define SNAPSHOT_COMPLETE    "complete"
+
+/* "Step#k": no leading zeros, or ParaView does not find it. */
+static inline void snapshot_group_name(size_t index, char name[32])
+{
+    snprintf(name, 32, "Step#%zu", index);
+}
+
+/* Access without file locks: others may look at a file that is being written, and network folders that have
+   no locks still work. -1 on failure; the caller closes it. */
+hid_t snapshot_access(void);
+
+/* A Snapshot that appends to a file that has so many whole steps, and takes over its lock, which is
+   then no longer the caller's. NULL with the reason. */
+Snapshot *snapshot_continue(const char *path, size_t steps, OutputLock *lock, Error *error);
+
+/* The text attribute of the root in new memory; NULL when there is none. */
+char *snapshot_root_text(const SnapshotReader *reader, const char *name);
+
+#endif

@@ -1,0 +1,296 @@
+#include "app/base/hdf5_error.h"
+#include "app/output/snapshot.h"
+#include "app/output/snapshot_file.h"
+#include "sim/kernel/lattice.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { SUPPORT_MOST = 10 }; /* spacings: a lattice is summed up within it; scenes have 1.5 to 4 */
+
+struct SnapshotReader {
+    char path[1024];
+    hid_t file;
+    size_t steps;
+};
+
+static bool read_values(hid_t at, const char *name, hid_t type, size_t count, void *values)
+{
+    hid_t attribute = H5Aopen(at, name, H5P_DEFAULT);
+    hid_t space = attribute >= 0 ? H5Aget_space(attribute) : -1;
+    bool read = space >= 0 && H5Sget_simple_extent_npoints(space) == (hssize_t)count &&
+                H5Aread(attribute, type, values) >= 0;
+    if (space >= 0)
+        H5Sclose(space);
+    if (attribute >= 0)
+        H5Aclose(attribute);
+    return read;
+}
+
+static hid_t open_step(hid_t file, size_t index)
+{
+    char name[32];
+    snapshot_group_name(index, name);
+    return H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
+}
+
+static bool step_is_complete(hid_t file, size_t index)
+{
+    int32_t complete = 0;
+    hid_t group = open_step(file, index);
+    bool whole = group >= 0 && H5Aexists(group, SNAPSHOT_COMPLETE) > 0 &&
+                 read_values(group, SNAPSHOT_COMPLETE, H5T_NATIVE_INT32, 1, &complete) && complete == 1;
+    if (group >= 0)
+        H5Gclose(group);
+    return whole;
+}
+
+SnapshotReader *snapshot_open(const char *path, Error *error)
+{
+    SnapshotReader *reader = calloc(1, sizeof *reader);
+    if (!reader || access(path, R_OK) != 0) {
+        error_set(error, "%s: cannot be read: %s", path, strerror(reader ? errno : ENOMEM));
+        free(reader);
+        return NULL;
+    }
+    hdf5_listen();
+    snprintf(reader->path, sizeof reader->path, "%s", path);
+    hid_t access = snapshot_access();
+    reader->file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    if (reader->file < 0) {
+        hdf5_fail(error, path, "is no file of snapshots");
+        free(reader);
+        reader = NULL;
+    }
+    H5Pclose(access);
+    while (reader && step_is_complete(reader->file, reader->steps))
+        reader->steps++;
+    return reader;
+}
+
+void snapshot_reader_close(SnapshotReader *reader)
+{
+    if (!reader)
+        return;
+    H5Fclose(reader->file);
+    free(reader);
+}
+
+size_t snapshot_count_steps(const SnapshotReader *reader)
+{
+    return reader->steps;
+}
+
+/* What stands where no step can be read. */
+typedef struct Stray {
+    size_t steps, count; /* whole ones before; those behind */
+    char first[64];      /* the first of them by name */
+} Stray;
+
+static herr_t look_at_link(hid_t file, const char *name, const H5L_info_t *info, void *user)
+{
+    Stray *stray = user;
+    char own[32];
+    (void)file, (void)info;
+    if (strncmp(name, "Step#", 5) != 0)
+        return 0;
+    const size_t index = strtoul(name + 5, NULL, 10);
+    snapshot_group_name(index, own);
+    if (index <= stray->steps && strcmp(name, own) == 0) /* the last: being written, or left by a kill */
+        return 0;
+    if (stray->count++ == 0)
+        snprintf(stray->first, sizeof stray->first, "%s", name);
+    return 0;
+}
+
+bool snapshot_gap(const SnapshotReader *reader, char words[256])
+{
+    Stray stray = {.steps = reader->steps};
+    char next[32];
+    H5Literate(reader->file, H5_INDEX_NAME, H5_ITER_INC, NULL, look_at_link, &stray);
+    snapshot_group_name(reader->steps, next);
+    if (stray.count == 1)
+        snprintf(words, 256, "%s is missing or not whole, but there is '%s'", next, stray.first);
+    else
+        snprintf(words, 256, "%s is missing or not whole, but there are %zu behind it, such as '%s'", next,
+                 stray.count, stray.first);
+    return stray.count > 0;
+}
+
+bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Error *error)
+{
+    const hid_t group = index < reader->steps ? open_step(reader->file, index) : -1;
+    const bool read = group >= 0 && H5Aexists(group, "TimeValue") > 0 &&
+                      read_values(group, "TimeValue", H5T_NATIVE_DOUBLE, 1, time);
+    if (group >= 0)
+        H5Gclose(group);
+    return read || error_set(error, "%s: Step#%zu: 'TimeValue' is missing", reader->path, index);
+}
+
+/* `width` numbers of each fluid; returns of how many fluids. */
+static size_t read_fluids(const SnapshotReader *reader, const char *name, size_t width, double *values)
+{
+    size_t count = H5Aexists(reader->file, name) > 0 ? FLUIDS_MAX : 0;
+    while (count > 0 && !read_values(reader->file, name, H5T_NATIVE_DOUBLE, width * count, values))
+        count--;
+    return count;
+}
+
+size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_MAX][3])
+{
+    return read_fluids(reader, SNAPSHOT_COLORS, 3, colors[0]);
+}
+
+/* As sim/kernel/lattice.h calibrates a density that is summed up; wcsph carries it instead. */
+static double read_compression(const SnapshotReader *reader, const SnapshotScene *scene)
+{
+    Lattice lattice = {.stiffness_scale = 1};
+    char name[NAME_SIZE] = "", *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
+    const char *kernel = settings ? strstr(settings, "\nsolver.density_kernel = ") : NULL;
+    if (kernel && !strstr(settings, "\nsolver.method = wcsph\n") &&
+        sscanf(kernel, "\nsolver.density_kernel = %31s", name) == 1 && density_kernel_find(name))
+        lattice_calibrate(scene->dimensions, scene->spacing, scene->support_radius, density_kernel_find(name),
+                          density_kernel_find(name), &lattice);
+    free(settings);
+    return lattice.stiffness_scale;
+}
+
+/* Numbers of a damaged file: other code takes them as they are. NaN is none of these. */
+static bool check_scene(const SnapshotReader *reader, const SnapshotScene *scene, Error *error)
+{
+    const double *box = scene->box_size, support = scene->support_radius / scene->spacing;
+    if (!(scene->spacing > 0 && scene->spacing < INFINITY))
+        return error_set(error, "%s: 'spacing' is %g; it must be more than 0", reader->path, scene->spacing);
+    if (!(support >= 1 && support <= SUPPORT_MOST))
+        return error_set(error, "%s: 'support_radius' is %g spacings; it must be 1 to %d", reader->path,
+                         support, SUPPORT_MOST);
+    for (int k = 0; k < 3; k++)
+        if (!(box[k] > 0 && box[k] < INFINITY))
+            return error_set(error, "%s: 'box_size' is %g along %c; it must be more than 0", reader->path,
+                             box[k], "xyz"[k]);
+    for (size_t k = 0; k < scene->fluid_count; k++)
+        if (!(scene->density[k] > 0 && scene->density[k] < INFINITY))
+            return error_set(error, "%s: 'fluid_densities' has %g; all must be more than 0", reader->path,
+                             scene->density[k]);
+    return scene->fluid_count > 0 || error_set(error, "%s: 'fluid_densities' is missing", reader->path);
+}
+
+bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error)
+{
+    const struct {
+        const char *name;
+        size_t count;
+        double *values;
+    } numbers[] = {{"spacing", 1, &scene->spacing},
+                   {"support_radius", 1, &scene->support_radius},
+                   {"box_size", 3, scene->box_size}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (H5Aexists(reader->file, numbers[i].name) <= 0 ||
+            !read_values(reader->file, numbers[i].name, H5T_NATIVE_DOUBLE, numbers[i].count,
+                         numbers[i].values))
+            return error_set(error, "%s: '%s' is missing", reader->path, numbers[i].name);
+    scene->fluid_count = read_fluids(reader, "fluid_densities", 1, scene->density);
+    if (!check_scene(reader, scene, error))
+        return false;
+    /* a box of two dimensions is a spacing deep: WorldDef */
+    scene->dimensions = scene->box_size[2] > 1.001 * scene->spacing ? 3 : 2;
+    scene->compression = read_compression(reader, scene);
+    return true;
+}
+
+char *snapshot_root_text(const SnapshotReader *reader, const char *name)
+{
+    const hid_t attribute = H5Aexists(reader->file, name) > 0 ? H5Aopen(reader->file, name, H5P_DEFAULT) : -1;
+    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1;
+    char *text = NULL;
+    if (type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0)
+        text = calloc(1, H5Tget_size(type) + 1);
+    if (text && H5Aread(attribute, type, text) < 0) {
+        free(text);
+        text = NULL;
+    }
+    if (type >= 0)
+        H5Tclose(type);
+    if (attribute >= 0)
+        H5Aclose(attribute);
+    return text;
+}
+
+/* The length of a one-dimensional dataset; false when there is no such dataset. */
+static bool field_length(hid_t group, const char *name, size_t *length)
+{
+    hid_t set = H5Lexists(group, name, H5P_DEFAULT) > 0 ? H5Dopen2(group, name, H5P_DEFAULT) : -1;
+    hid_t space = set >= 0 ? H5Dget_space(set) : -1;
+    bool one_dimensional = space >= 0 && H5Sget_simple_extent_ndims(space) == 1;
+    if (one_dimensional)
+        *length = (size_t)H5Sget_simple_extent_npoints(space);
+    if (space >= 0)
+        H5Sclose(space);
+    if (set >= 0)
+        H5Dclose(set);
+    return one_dimensional;
+}
+
+static bool read_field(hid_t group, const char *name, hid_t type, size_t count, void *values)
+{
+    size_t length = 0;
+    if (!field_length(group, name, &length) || length != count)
+        return false;
+    hid_t set = H5Dopen2(group, name, H5P_DEFAULT);
+    bool read = set >= 0 && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+    if (set >= 0)
+        H5Dclose(set);
+    return read;
+}
+
+/* The name of the first attribute or dataset that is not as it must be, or NULL. */
+static const char *read_group(hid_t group, SnapshotStep *step)
+{
+#define X(name, count, values)                                                                               \
+    if (!read_values(group, name, H5T_NATIVE_DOUBLE, count, values))                                         \
+        return name;
+    SNAPSHOT_ATTRIBUTES(X)
+#undef X
+    if (H5Aexists(group, SNAPSHOT_RESTART) > 0 &&
+        !read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS, &step->restart) &&
+        !read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS_LEAST, &step->restart))
+        step->restart.version = 0; /* of another version of slosh */
+    if (!read_values(group, SNAPSHOT_STEP_NUMBER, H5T_NATIVE_UINT64, 1, &step->step))
+        return SNAPSHOT_STEP_NUMBER;
+    if (H5Lexists(group, SNAPSHOT_COMPRESSION, H5P_DEFAULT) <= 0)
+        step->restart.version = 0; /* of a slosh before it had that field */
+#define X(name, type, field)                                                                                 \
+    if (!read_field(group, name, SNAPSHOT_TYPE(step->field), step->count, step->field) &&                    \
+        (step->restart.version != 0 || strcmp(name, SNAPSHOT_COMPRESSION) != 0))                             \
+        return name;
+    SNAPSHOT_FIELDS(X)
+#undef X
+    return NULL;
+}
+
+bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error)
+{
+    size_t count = 0;
+    *step = (SnapshotStep){0};
+    if (index >= reader->steps)
+        return error_set(error, "%s: has no step %zu; it has %zu whole step%s", reader->path, index,
+                         reader->steps, plural(reader->steps));
+    hid_t group = open_step(reader->file, index);
+    const char *missing = group >= 0 && field_length(group, "x", &count) ? NULL : "x";
+    if (!missing && !snapshot_step_allocate(step, count)) {
+        H5Gclose(group);
+        return error_set(error, "%s: out of memory for %zu particles", reader->path, count);
+    }
+    missing = missing ? missing : read_group(group, step);
+    if (group >= 0)
+        H5Gclose(group);
+    if (!missing)
+        return true;
+    snapshot_step_free(step);
+    return error_set(error, "%s: Step#%zu: '%s' is missing or of another length", reader->path, index,
+                     missing);
+}

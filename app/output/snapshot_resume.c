@@ -1,0 +1,180 @@
+/* A run goes on where its file ends. */
+#include "app/output/snapshot_file.h"
+#include "app/scene/keys.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A line of settings, "key = value", within its text. */
+typedef struct Line {
+    const char *text;
+    int size;
+} Line;
+
+/* Keys that change no bit of a run; what a preset fills in has lines of its own. */
+static bool is_idle(Line line)
+{
+    static const char *const idle[] = {
+        "title ", "view.", "solver.threads ", "solver.step.realtime ", "solver.preset ", "metrics "};
+    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
+        if (strncmp(line.text, idle[i], strlen(idle[i])) == 0)
+            return true;
+    return false;
+}
+
+/* The next line of `*text` that counts; false at the end. */
+static bool next_line(const char **text, Line *line)
+{
+    while (**text) {
+        *line = (Line){*text, (int)strcspn(*text, "\n")};
+        *text += line->size + ((*text)[line->size] == '\n');
+        if (!is_idle(*line))
+            return true;
+    }
+    *line = (Line){"nothing more", (int)strlen("nothing more")};
+    return false;
+}
+
+/* The line, or where it is long its key and what stands about place `at`. */
+static void line_words(Line line, int at, char words[256])
+{
+    enum { WHOLE = 160, BEFORE = 50, SHOWN = 110 };
+    const int key = (int)strcspn(line.text, "=") + 1, from = at - BEFORE;
+    if (line.size <= WHOLE || from <= key)
+        snprintf(words, 256, "%.*s%s", line.size < WHOLE ? line.size : WHOLE, line.text,
+                 line.size > WHOLE ? "..." : "");
+    else
+        snprintf(words, 256, "%.*s ...%.*s%s", key < 120 ? key : 120, line.text,
+                 line.size - from < SHOWN ? line.size - from : SHOWN, line.text + from,
+                 line.size - from > SHOWN ? "..." : "");
+}
+
+static bool fail_at(const char *path, Line was, Line is, Error *error)
+{
+    char before[256], now[256];
+    int at = 0;
+    while (at < was.size && at < is.size && was.text[at] == is.text[at])
+        at++;
+    line_words(was, at, before);
+    line_words(is, at, now);
+    return error_set(
+        error,
+        "%.300s: was made with '%s', and this is '%s'; resume with the same scene and settings, or "
+        "name another file",
+        path, before, now);
+}
+
+static bool same_settings(const char *path, const char *file, const char *scene, Error *error)
+{
+    Line was, is;
+    for (;;) {
+        const bool more = next_line(&file, &was), also = next_line(&scene, &is);
+        if (!more && !also)
+            return true;
+        if (was.size != is.size || memcmp(was.text, is.text, (size_t)is.size) != 0)
+            return fail_at(path, was, is, error);
+    }
+}
+
+/* The next step would meet one that has its name. */
+static bool check_steps(const SnapshotReader *reader, const char *path, Error *error)
+{
+    char words[256];
+    return !snapshot_gap(reader, words) ||
+           error_set(
+               error,
+               "%.300s: %s; give the steps names without a gap, remove those behind it, or name another file",
+               path, words);
+}
+
+static bool check_scene(const SnapshotReader *reader, const char *path, const Scene *scene, Error *error)
+{
+    char *file = snapshot_root_text(reader, SNAPSHOT_SETTINGS), *now = scene_print_text(scene);
+    bool same = false;
+    if (!file)
+        error_set(error, "%s: was made by a slosh that could not resume; name another file", path);
+    else
+        same = now ? same_settings(path, file, now, error) : error_set(error, "%s: out of memory", path);
+    free(file);
+    free(now);
+    return same;
+}
+
+static bool check_hand(const SnapshotReader *reader, const char *path, const char *hand, Error *error)
+{
+    char *noted = snapshot_root_text(reader, SNAPSHOT_HAND);
+    const char *was = noted ? noted : "";
+    const bool same = strcmp(was, hand) == 0;
+    if (!same && !*hand)
+        error_set(error, "%s: --device moved its box; resume with the same one, or name another file", path);
+    else if (!same && !*was)
+        error_set(error, "%s: no --device moved its box; resume without one, or name another file", path);
+    else if (!same)
+        error_set(error,
+                  "%s: another recording, mapping or camera moved its box; resume with the same ones, or "
+                  "name another file",
+                  path);
+    free(noted);
+    return same;
+}
+
+static bool state_of(const SnapshotStep *step, WorldState *state)
+{
+    if (!world_state_reserve(state, step->count))
+        return false;
+    state->numbers = step->restart;
+    const ParticleColumns *p = &state->particles;
+    float *const to[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->compression};
+    const float *const from[] = {step->position[0], step->position[1], step->position[2], step->velocity[0],
+                                 step->velocity[1], step->velocity[2], step->compression};
+    for (size_t k = 0; step->count > 0 && k < sizeof to / sizeof *to; k++)
+        memcpy(to[k], from[k], step->count * sizeof(float));
+    for (size_t i = 0; i < step->count; i++) {
+        p->fluid[i] = (uint8_t)step->fluid[i];
+        p->id[i] = (uint32_t)step->id[i];
+    }
+    return true;
+}
+
+static bool read_last(SnapshotReader *reader, const char *path, WorldState *state, Error *error)
+{
+    SnapshotStep step;
+    const size_t steps = snapshot_count_steps(reader);
+    if (steps == 0)
+        return error_set(error, "%s: has no whole step to resume from; remove it to start anew", path);
+    if (!snapshot_read_step(reader, steps - 1, &step, error))
+        return false;
+    const bool known = step.restart.version != 0;
+    const bool read = known && state_of(&step, state);
+    snapshot_step_free(&step);
+    return read || error_set(error,
+                             known ? "%s: out of memory"
+                                   : "%s: was made by a slosh that could not resume; name another file",
+                             path);
+}
+
+/* How many whole steps there are, 0 with the reason. */
+static size_t read_end(const char *path, const Scene *scene, const char *hand, WorldState *state,
+                       Error *error)
+{
+    SnapshotReader *reader = snapshot_open(path, error);
+    if (!reader)
+        return 0;
+    const bool good = check_steps(reader, path, error) && check_scene(reader, path, scene, error) &&
+                      check_hand(reader, path, hand, error) && read_last(reader, path, state, error);
+    const size_t steps = snapshot_count_steps(reader);
+    snapshot_reader_close(reader);
+    return good ? steps : 0;
+}
+
+Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
+                          bool *busy, Error *error)
+{
+    OutputLock lock = {.state = OUTPUT_UNLOCKED};
+    *busy = !output_lock(&lock, path, error);
+    const size_t steps = *busy ? 0 : read_end(path, scene, hand, state, error);
+    Snapshot *snapshot = steps > 0 ? snapshot_continue(path, steps, &lock, error) : NULL;
+    output_unlock(&lock);
+    return snapshot;
+}

@@ -1,0 +1,119 @@
+#include "app/output/snapshot_sift.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+SnapshotFlaws snapshot_flaws(const SnapshotReader *reader, bool strict)
+{
+    SnapshotScene scene;
+    SnapshotFlaws flaws = {.farthest = INFINITY, .fluids = SIZE_MAX, .strict = strict};
+    if (!snapshot_read_scene(reader, &scene, NULL))
+        return flaws;
+    flaws.farthest = SIFT_BOXES * fmax(scene.box_size[0], fmax(scene.box_size[1], scene.box_size[2]));
+    flaws.fluids = scene.fluid_count;
+    return flaws;
+}
+
+/* The worst that is wrong with particle i; FLAW_COUNT: nothing. */
+static Flaw flaw_of(const SnapshotFlaws *flaws, const SnapshotStep *step, size_t i)
+{
+    bool finite = isfinite(step->pressure[i]);
+    for (int k = 0; k < 3; k++) {
+        const double place = step->position[k][i];
+        if (!isfinite(place) || fabs(place) > flaws->farthest)
+            return FLAW_POSITION;
+        finite = finite && isfinite(step->velocity[k][i]);
+    }
+    if (step->fluid[i] < 0 || (size_t)step->fluid[i] >= flaws->fluids)
+        return FLAW_FLUID;
+    if (!(step->density[i] > 0) || !isfinite(step->density[i]))
+        return FLAW_DENSITY;
+    return finite ? FLAW_COUNT : FLAW_NUMBER;
+}
+
+static bool is_left_out(const SnapshotFlaws *flaws, Flaw flaw)
+{
+    return flaw == FLAW_POSITION || (flaws->strict && flaw < FLAW_ID);
+}
+
+static void move(SnapshotStep *step, size_t from, size_t to)
+{
+#define X(name, type, field) step->field[to] = step->field[from];
+    SNAPSHOT_FIELDS(X)
+#undef X
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const int64_t one = *(const int64_t *)a, other = *(const int64_t *)b;
+    return (one > other) - (one < other);
+}
+
+static bool count_ids(const SnapshotStep *step, size_t *repeated)
+{
+    int64_t *ids = malloc((step->count + 1) * sizeof *ids);
+    if (!ids)
+        return false;
+    memcpy(ids, step->id, step->count * sizeof *ids);
+    qsort(ids, step->count, sizeof *ids, by_value);
+    for (size_t i = 1; i < step->count; i++)
+        *repeated += ids[i] == ids[i - 1];
+    free(ids);
+    return true;
+}
+
+bool snapshot_sift(SnapshotFlaws *flaws, size_t index, SnapshotStep *step)
+{
+    size_t found[FLAW_COUNT + 1] = {0}, kept = 0;
+    for (size_t i = 0; i < step->count; i++) {
+        const Flaw flaw = flaw_of(flaws, step, i);
+        found[flaw]++;
+        if (!is_left_out(flaws, flaw))
+            move(step, i, kept++);
+    }
+    step->count = kept;
+    if (!count_ids(step, &found[FLAW_ID]))
+        return false;
+    for (int flaw = 0; flaw < FLAW_COUNT; flaw++) {
+        if (found[flaw] > 0 && flaws->of[flaw].snapshots++ == 0)
+            flaws->of[flaw].first = index;
+        flaws->of[flaw].particles += found[flaw];
+    }
+    return true;
+}
+
+size_t snapshot_flaws_left_out(const SnapshotFlaws *flaws)
+{
+    size_t count = 0;
+    for (int flaw = 0; flaw < FLAW_COUNT; flaw++)
+        count += is_left_out(flaws, (Flaw)flaw) ? flaws->of[flaw].particles : 0;
+    return count;
+}
+
+void snapshot_flaws_print(const SnapshotFlaws *flaws, const char *path, FILE *file)
+{
+    static const char *const words[] = {
+        [FLAW_POSITION] = "a position that is not finite or more than 100 boxes away",
+        [FLAW_FLUID] = "a fluid that the file does not know",
+        [FLAW_DENSITY] = "a density that is not more than 0",
+        [FLAW_NUMBER] = "a velocity or a pressure that is not finite",
+        [FLAW_ID] = "the id of another one",
+    };
+    _Static_assert(SIFT_BOXES == 100, "the words say it");
+    for (int flaw = 0; flaw < FLAW_COUNT; flaw++) {
+        const size_t particles = flaws->of[flaw].particles, snapshots = flaws->of[flaw].snapshots;
+        if (particles == 0)
+            continue;
+        fprintf(file, "%s: warning: %zu particle%s ", path, particles, particles == 1 ? "" : "s");
+        if (snapshots > 1)
+            fprintf(file, "in %zu snapshots, the first of them ", snapshots);
+        else
+            fputs("of ", file);
+        const char *kept =
+            particles == 1 ? "exported as it is in the file" : "exported as they are in the file";
+        fprintf(file, "Step#%zu%s %s %s; %s\n", flaws->of[flaw].first, snapshots > 1 ? "," : "",
+                particles == 1 ? "has" : "have", words[flaw],
+                is_left_out(flaws, (Flaw)flaw) ? "left out" : kept);
+    }
+}

@@ -1,0 +1,296 @@
+#include "app/output/surface.h"
+
+#include "app/output/snapshot_frame.h"
+#include "sim/mesh/field.h"
+#include "sim/mesh/isosurface.h"
+#include "sim/world/world.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- the grid ---- */
+
+static double physical_bytes(void)
+{
+    return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+}
+
+/* The grid around low .. high, with h and a cell more on each side, so that its outermost values are 0. Its
+   cells are those of one lattice for all steps of a scene, so that a fluid at rest has the same mesh in each.
+   False when two numbers a cell, the field and a mean, need more memory than there is. */
+static bool grid_around(const double low[3], const double high[3], const SnapshotScene *scene, double cell,
+                        VolumeGrid *grid)
+{
+    double cells = 1;
+    grid->cell = cell;
+    for (int k = 0; k < 3; k++) {
+        const double first = floor((low[k] - scene->support_radius) / cell) - 1;
+        const double size = ceil((high[k] + scene->support_radius) / cell) + 1 - first;
+        if (!(size < INT32_MAX))
+            return false;
+        cells *= size;
+        grid->corner[k] = first * cell;
+        grid->size[k] = (int)size;
+    }
+    return cells * 2 * sizeof(float) < physical_bytes();
+}
+
+static double cell_side(const SurfaceDef *def, const SnapshotScene *scene)
+{
+    return (def->cell > 0 ? def->cell : 0.5) * scene->spacing;
+}
+
+static bool box_grid(const SnapshotScene *scene, double cell, VolumeGrid *grid)
+{
+    const double *size = scene->box_size;
+    const double low[3] = {-size[0] / 2, 0, -size[2] / 2}, high[3] = {size[0] / 2, size[1], size[2] / 2};
+    return grid_around(low, high, scene, cell, grid);
+}
+
+bool surface_check(const SurfaceDef *def, const SnapshotScene *scene, Error *error)
+{
+    VolumeGrid grid;
+    double fits = cell_side(def, scene);
+    if (scene->dimensions != 3)
+        return error_set(error, "a scene of two dimensions has no surface; export it without --surface");
+    if (box_grid(scene, fits, &grid))
+        return true;
+    while (!box_grid(scene, fits, &grid))
+        fits *= 1.1;
+    return error_set(error,
+                     "the grid of a surface needs more memory than this machine has (%.3g GB); use a --cell "
+                     "of %.2g or more",
+                     physical_bytes() / 1e9, fits / scene->spacing);
+}
+
+/* ---- the work in hand ---- */
+
+typedef struct Work {
+    const SnapshotScene *scene;
+    const SnapshotStep *step;
+    VolumeGrid grid;
+    FieldSlabs slabs;
+    FieldParticles particles;
+    float *position;         /* of the particles, as a field wants them */
+    float *field, *weighted; /* the grid's values */
+    float *scalar;           /* of each particle: whether it is of a fluid */
+    IsoMesh mesh;
+    Surface *surface;
+} Work;
+
+static void work_free(Work *work)
+{
+    field_slabs_free(&work->slabs);
+    isosurface_free(&work->mesh);
+    free(work->position);
+    free(work->field);
+    free(work->weighted);
+    free(work->scalar);
+}
+
+static bool take_particles(Work *work)
+{
+    const SnapshotStep *step = work->step;
+    work->position = malloc((4 * step->count + 1) * sizeof *work->position);
+    work->scalar = malloc((step->count + 1) * sizeof *work->scalar);
+    if (!work->position || !work->scalar)
+        return false;
+    for (size_t i = 0; i < step->count; i++) {
+        for (int k = 0; k < 3; k++)
+            work->position[4 * i + (size_t)k] = step->position[k][i];
+        work->position[4 * i + 3] = (float)snapshot_volume(work->scene, step, i);
+    }
+    work->particles = (FieldParticles){step->count, work->position, NULL, work->scene->support_radius};
+    return true;
+}
+
+/* ---- what each vertex has ---- */
+
+static bool sum_weighted(Work *work, const float *scalar, Error *error)
+{
+    work->particles.scalar = scalar;
+    return field_sum(&work->particles, &work->grid, world_processors(), &work->slabs, NULL, work->weighted,
+                     error);
+}
+
+/* The mean of the particles' scalar at each vertex, weighted by V W. */
+static bool mean(Work *work, const float *scalar, float *out, Error *error)
+{
+    if (!sum_weighted(work, scalar, error))
+        return false;
+    for (size_t i = 0; i < work->mesh.vertex_count; i++) {
+        const float weight = isosurface_value(&work->mesh, i, work->field);
+        out[i] = weight > 0 ? isosurface_value(&work->mesh, i, work->weighted) / weight : 0;
+    }
+    return true;
+}
+
+/* The fluid that has the most of V W at each vertex. `most` has room for a number a vertex. */
+static bool find_fluids(Work *work, float *most, Error *error)
+{
+    SnapshotStep *vertices = &work->surface->vertices;
+    for (size_t fluid = 0; fluid < work->scene->fluid_count && work->scene->fluid_count > 1; fluid++) {
+        for (size_t i = 0; i < work->step->count; i++)
+            work->scalar[i] = work->step->fluid[i] == (int32_t)fluid;
+        if (!sum_weighted(work, work->scalar, error))
+            return false;
+        for (size_t i = 0; i < vertices->count; i++) {
+            const float weight = isosurface_value(&work->mesh, i, work->weighted);
+            if (fluid == 0 || weight > most[i]) {
+                most[i] = weight;
+                vertices->fluid[i] = (int32_t)fluid;
+            }
+        }
+    }
+    return true;
+}
+
+static bool find_means(Work *work, Error *error)
+{
+    const SnapshotStep *step = work->step;
+    SnapshotStep *vertices = &work->surface->vertices;
+    for (int k = 0; k < 3; k++)
+        if (!mean(work, step->velocity[k], vertices->velocity[k], error))
+            return false;
+    return find_fluids(work, vertices->density, error) && /* which is not yet found */
+           mean(work, step->density, vertices->density, error) &&
+           mean(work, step->pressure, vertices->pressure, error);
+}
+
+/* The field falls outwards. */
+static void place_vertices(Work *work)
+{
+    Surface *surface = work->surface;
+    for (size_t i = 0; i < work->mesh.vertex_count; i++) {
+        double place[3];
+        float slope[3];
+        isosurface_place(&work->mesh, i, place);
+        isosurface_slope(&work->mesh, i, work->field, slope);
+        const float steep = sqrtf(slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2]);
+        for (int k = 0; k < 3; k++) {
+            surface->vertices.position[k][i] =
+                (float)(work->grid.corner[k] + work->grid.cell * (place[k] + 0.5));
+            surface->normal[k][i] = steep > 0 ? -slope[k] / steep : k == 1;
+        }
+    }
+}
+
+/* ---- all of it ---- */
+
+static bool allocate(Surface *surface, const Work *work)
+{
+    const size_t count = work->mesh.vertex_count;
+    bool all = snapshot_step_allocate(&surface->vertices, count);
+    for (int k = 0; k < 3; k++)
+        all = (surface->normal[k] = malloc((count + 1) * sizeof(float))) && all;
+    surface->vertices.time = work->step->time;
+    surface->vertices.step = work->step->step;
+    surface->vertices.box = work->step->box;
+    return all;
+}
+
+static bool march(Work *work, double level, Error *error)
+{
+    const double side = work->grid.cell;
+    isosurface_free(&work->mesh);
+    if (!isosurface(work->grid.size, work->field, (float)level, &work->mesh, error))
+        return false;
+    work->surface->level = level;
+    work->surface->volume = isosurface_volume(&work->mesh) * side * side * side;
+    return true;
+}
+
+/* The level at which the mesh encloses the volume that the fluid has at rest, by the method of secants.
+ */
+static bool march_to_volume(Work *work, Error *error)
+{
+    const double s = work->scene->spacing, volume = s * s * s * (double)work->particles.count;
+    double level = 0.5, change = -1, before = 0; /* of the excess with the level; the last excess */
+    for (int tries = 0; tries < 6; tries++) {
+        const double last = work->surface->level;
+        if (!march(work, level, error))
+            return false;
+        const double excess = work->surface->volume / volume - 1;
+        if (tries > 0 && level != last)
+            change = fmin((excess - before) / (level - last), -0.2);
+        if (fabs(excess) < 0.003)
+            break;
+        before = excess;
+        level = fmin(fmax(level - excess / change, 0.25), 0.75);
+        if (level == work->surface->level)
+            break; /* at a bound */
+    }
+    return true;
+}
+
+/* The mesh, or none where there are no particles. */
+static bool cross_level(Work *work, double level, Error *error)
+{
+    double low[3], high[3];
+    if (!field_bounds(&work->particles, low, high))
+        return true;
+    if (!grid_around(low, high, work->scene, work->grid.cell, &work->grid))
+        return error_set(error, "at %g s particles are too far apart for a surface of such small cells",
+                         work->step->time);
+    const size_t cells = volume_grid_cells(&work->grid);
+    work->field = malloc(cells * sizeof *work->field);
+    work->weighted = malloc(cells * sizeof *work->weighted);
+    if (!work->field || !work->weighted)
+        return error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
+    if (!field_sum(&work->particles, &work->grid, world_processors(), &work->slabs, work->field, NULL, error))
+        return false;
+    return level > 0 ? march(work, level, error) : march_to_volume(work, error);
+}
+
+static bool make(Work *work, double level, Error *error)
+{
+    Surface *surface = work->surface;
+    if (!take_particles(work))
+        return error_set(error, "no memory for a surface of %zu particles", work->step->count);
+    if (!cross_level(work, level, error))
+        return false;
+    if (work->mesh.triangle_count > INT32_MAX / 3) /* what files count their numbers with */
+        return error_set(error, "a surface of %zu triangles fits into no file; use a larger --cell",
+                         work->mesh.triangle_count);
+    if (!allocate(surface, work))
+        return error_set(error, "no memory for a surface of %zu vertices", work->mesh.vertex_count);
+    place_vertices(work);
+    surface->triangle_count = work->mesh.triangle_count;
+    surface->triangle = work->mesh.triangle;
+    work->mesh.triangle = NULL;
+    return surface->triangle_count == 0 || find_means(work, error);
+}
+
+bool surface_make(const SurfaceDef *def, const SnapshotScene *scene, const SnapshotStep *step,
+                  Surface *surface, Error *error)
+{
+    *surface = (Surface){0};
+    Work work = {.scene = scene, .step = step, .grid.cell = cell_side(def, scene), .surface = surface};
+    const bool made = make(&work, def->level, error);
+    work_free(&work);
+    if (!made)
+        surface_free(surface);
+    return made;
+}
+
+void surface_to_world(Surface *surface)
+{
+    snapshot_step_to_world(&surface->vertices);
+    for (size_t i = 0; i < surface->vertices.count; i++) {
+        double normal[3] = {surface->normal[0][i], surface->normal[1][i], surface->normal[2][i]};
+        quat_rotate(surface->vertices.box.orientation, normal, normal);
+        for (int k = 0; k < 3; k++)
+            surface->normal[k][i] = (float)normal[k];
+    }
+}
+
+void surface_free(Surface *surface)
+{
+    snapshot_step_free(&surface->vertices);
+    for (int k = 0; k < 3; k++)
+        free(surface->normal[k]);
+    free(surface->triangle);
+    *surface = (Surface){0};
+}

@@ -1,0 +1,205 @@
+#define _GNU_SOURCE /* memfd_create, pipe2, F_SETPIPE_SZ */
+#include "app/output/video.h"
+
+#include "app/base/output.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum { LOG_BYTES = 4096 };
+enum { PIPE_BYTES = 1 << 20 }; /* so that ffmpeg works while the next picture is drawn */
+
+struct Video {
+    Output output;
+    pid_t process; /* 0: none any more */
+    int pipe;      /* pictures go in here; -1: closed */
+    int log;       /* ffmpeg's messages: in memory, since a pipe could fill and a disk be full */
+    size_t bytes;  /* of a picture */
+    size_t pictures;
+};
+
+/* The colours of BT.709, as players expect them. fillborders takes planes; left alone, ffmpeg would make them
+   with the older colours of BT.601. */
+static void write_filter(char filter[192], int width, int height)
+{
+    int right = width % 2, bottom = height % 2;
+    char odd[96] = "";
+    if (right || bottom)
+        snprintf(odd, sizeof odd, "format=gbrp,pad=%d:%d,fillborders=right=%d:bottom=%d:mode=smear,",
+                 width + right, height + bottom, right, bottom);
+    snprintf(filter, 192, "%sscale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd", odd);
+}
+
+/* Quiet, H.264, the index in front. Returns 0 or the system's error number. */
+static int spawn_ffmpeg(Video *video, int input, int width, int height, double fps)
+{
+    char size[32], rate[32], filter[192];
+    snprintf(size, sizeof size, "%dx%d", width, height);
+    snprintf(rate, sizeof rate, "%.6f", fps);
+    write_filter(filter, width, height);
+    char *arguments[] = {"ffmpeg",    "-nostdin",    "-hide_banner", "-v",           "error",
+                         "-xerror",   "-y",          "-f",           "rawvideo",     "-pix_fmt",
+                         "rgb24",     "-video_size", size,           "-framerate",   rate,
+                         "-i",        "pipe:0",      "-vf",          filter,         "-c:v",
+                         "libx264",   "-preset",     "veryfast",     "-crf",         "18",
+                         "-pix_fmt",  "yuv420p",     "-colorspace",  "bt709",        "-color_primaries",
+                         "bt709",     "-color_trc",  "bt709",        "-color_range", "tv",
+                         "-movflags", "+faststart",  "-f",           "mp4",          video->output.temp,
+                         NULL};
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t defaults;
+    sigemptyset(&defaults);
+    sigaddset(&defaults, SIGPIPE);
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, video->log, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, video->log, STDERR_FILENO);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    posix_spawnattr_setpgroup(&attributes, 0); /* a Ctrl-C in the terminal is not for ffmpeg */
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    int reason = posix_spawnp(&video->process, "ffmpeg", &actions, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return reason;
+}
+
+static bool start(Video *video, int width, int height, double fps, Error *error)
+{
+    int ends[2];
+    video->log = memfd_create("ffmpeg", MFD_CLOEXEC);
+    if (video->log < 0 || pipe2(ends, O_CLOEXEC) != 0)
+        return error_set(error, "%s: cannot start ffmpeg: %s", video->output.path, strerror(errno));
+    fcntl(ends[1], F_SETPIPE_SZ, PIPE_BYTES);
+    int reason = spawn_ffmpeg(video, ends[0], width, height, fps);
+    close(ends[0]);
+    video->pipe = ends[1];
+    if (reason == 0)
+        return true;
+    video->process = 0;
+    if (reason == ENOENT)
+        return error_set(error,
+                         "%s: a video needs the program ffmpeg, which was not found; install the package "
+                         "ffmpeg, or render a folder of frames (-o DIR)",
+                         video->output.path);
+    return error_set(error, "%s: cannot start ffmpeg: %s", video->output.path, strerror(reason));
+}
+
+Video *video_create(const char *path, int width, int height, double fps, Error *error)
+{
+    Video *video = calloc(1, sizeof *video);
+    if (!video) {
+        error_set(error, "%s: out of memory", path);
+        return NULL;
+    }
+    video->pipe = video->log = -1;
+    video->bytes = 3 * (size_t)width * (size_t)height;
+    if (output_begin(&video->output, path, error) && start(video, width, height, fps, error))
+        return video;
+    video_discard(video);
+    return NULL;
+}
+
+/* ffmpeg's last line, in `log`; empty when it said nothing. */
+static char *last_line(const Video *video, char log[LOG_BYTES])
+{
+    off_t size = lseek(video->log, 0, SEEK_END);
+    off_t from = size >= LOG_BYTES ? size - LOG_BYTES + 1 : 0;
+    ssize_t length = pread(video->log, log, LOG_BYTES - 1, from);
+    log[length > 0 ? length : 0] = '\0';
+    while (length > 0 && strchr("\r\n ", log[length - 1]))
+        log[--length] = '\0';
+    char *newline = strrchr(log, '\n');
+    return newline ? newline + 1 : log;
+}
+
+/* Without the temporary name, that nobody asked for. */
+static bool fail_with_words(const Video *video, const char *words, Error *error)
+{
+    const char *path = video->output.path;
+    const char *temp = strstr(words, video->output.temp);
+    if (!temp)
+        return error_set(error, "%s: ffmpeg could not write the video: %s", path, words);
+    return error_set(error, "%s: ffmpeg could not write the video: %.*s%s%s", path, (int)(temp - words),
+                     words, path, temp + strlen(video->output.temp));
+}
+
+/* Closes the pipe and waits; the exit status as of waitpid. */
+static int wait_for_end(Video *video)
+{
+    int status = 0;
+    if (video->pipe >= 0)
+        close(video->pipe);
+    video->pipe = -1;
+    while (video->process && waitpid(video->process, &status, 0) < 0 && errno == EINTR)
+        ;
+    video->process = 0;
+    return status;
+}
+
+static bool fail_with_last_line(const Video *video, int status, Error *error)
+{
+    char log[LOG_BYTES];
+    const char *line = last_line(video, log);
+    if (line[0])
+        return fail_with_words(video, line, error);
+    if (WIFSIGNALED(status))
+        return error_set(error, "%s: ffmpeg was ended by signal %d (%s)", video->output.path,
+                         WTERMSIG(status), strsignal(WTERMSIG(status)));
+    return error_set(error, "%s: ffmpeg ended early, with exit code %d", video->output.path,
+                     WEXITSTATUS(status));
+}
+
+bool video_add(Video *video, const uint8_t *rgb, Error *error)
+{
+    size_t done = 0;
+    while (video->pipe >= 0 && done < video->bytes) {
+        ssize_t written = write(video->pipe, rgb + done, video->bytes - done);
+        if (written > 0)
+            done += (size_t)written;
+        else if (errno != EINTR)
+            break;
+    }
+    if (done < video->bytes)
+        return fail_with_last_line(video, wait_for_end(video), error);
+    video->pictures++;
+    return true;
+}
+
+bool video_finish(Video *video, Error *error)
+{
+    bool whole = false;
+    if (video->pictures == 0) {
+        error_set(error, "%s: no picture was made, so there is no video", video->output.path);
+    } else {
+        int status = wait_for_end(video);
+        whole =
+            status == 0 ? output_commit(&video->output, error) : fail_with_last_line(video, status, error);
+    }
+    video_discard(video);
+    return whole;
+}
+
+void video_discard(Video *video)
+{
+    if (!video)
+        return;
+    if (video->process)
+        kill(video->process, SIGKILL);
+    wait_for_end(video);
+    if (video->log >= 0)
+        close(video->log);
+    output_discard(&video->output);
+    free(video);
+}

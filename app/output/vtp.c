@@ -1,0 +1,191 @@
+/* After: VTK file formats, "XML file formats", https://docs.vtk.org: PolyData, raw appended data with 64-bit
+   sizes. */
+#include "app/output/vtp.h"
+
+#include <inttypes.h>
+#include <stdbool.h>
+
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are written as numbers lie in memory");
+
+enum { CHUNK = 4096, BLOCKS_MAX = 10 };
+
+/* Where a block's array stands in the XML, in this order. */
+typedef enum Section { SECTION_POINTS, SECTION_VERTS, SECTION_POLYS, SECTION_DATA, SECTION_COUNT } Section;
+
+/* An appended block: its size in bytes as 64 bits and then its numbers. */
+typedef struct Block {
+    Section section;
+    const char *name, *type; /* VTK's */
+    size_t components, bytes, count;
+    const void *numbers;  /* or if NULL */
+    float *const *vector; /* three arrays, or if NULL */
+    size_t first, step;   /* first, first + step, ... */
+} Block;
+
+typedef struct Contents {
+    double time;
+    size_t points, vertices, triangles;
+    bool normals; /* there is an array of them */
+    size_t count;
+    Block block[BLOCKS_MAX];
+} Contents;
+
+static void add_numbers(Contents *all, Section section, const char *name, const char *type, size_t bytes,
+                        size_t count, const void *numbers)
+{
+    all->block[all->count++] = (Block){.section = section,
+                                       .name = name,
+                                       .type = type,
+                                       .components = 1,
+                                       .bytes = bytes,
+                                       .count = count,
+                                       .numbers = numbers};
+}
+
+static void add_vectors(Contents *all, Section section, const char *name, size_t count,
+                        float *const vector[3])
+{
+    all->block[all->count++] = (Block){.section = section,
+                                       .name = name,
+                                       .type = "Float32",
+                                       .components = 3,
+                                       .bytes = 4,
+                                       .count = count,
+                                       .vector = vector};
+}
+
+static void add_ramp(Contents *all, Section section, const char *name, size_t count, size_t first,
+                     size_t step)
+{
+    all->block[all->count++] = (Block){.section = section,
+                                       .name = name,
+                                       .type = "Int32",
+                                       .components = 1,
+                                       .bytes = 4,
+                                       .count = count,
+                                       .first = first,
+                                       .step = step};
+}
+
+static void add_fields(Contents *all, const SnapshotStep *step)
+{
+    add_vectors(all, SECTION_DATA, "velocity", step->count, step->velocity);
+    add_numbers(all, SECTION_DATA, "density", "Float32", 4, step->count, step->density);
+    add_numbers(all, SECTION_DATA, "pressure", "Float32", 4, step->count, step->pressure);
+    add_numbers(all, SECTION_DATA, "fluid", "Int32", 4, step->count, step->fluid);
+}
+
+/* ---- the XML ---- */
+
+static uint64_t block_bytes(const Block *block)
+{
+    return (uint64_t)block->count * block->components * block->bytes;
+}
+
+static void print_section(FILE *file, const Contents *all, Section section)
+{
+    uint64_t offset = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        const Block *block = &all->block[i];
+        if (block->section == section)
+            fprintf(file,
+                    "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"appended\" "
+                    "offset=\"%" PRIu64 "\"/>\n",
+                    block->type, block->name, block->components, offset);
+        offset += sizeof(uint64_t) + block_bytes(block);
+    }
+}
+
+static void print_head(FILE *file, const Contents *all)
+{
+    fprintf(file,
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+            "<PolyData>\n<FieldData>\n"
+            "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">"
+            "%.17g</DataArray>\n</FieldData>\n"
+            "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+            "NumberOfPolys=\"%zu\">\n",
+            all->time, all->points, all->vertices, all->triangles);
+    fputs("<Points>\n", file);
+    print_section(file, all, SECTION_POINTS);
+    fputs("</Points>\n<Verts>\n", file);
+    print_section(file, all, SECTION_VERTS);
+    fputs("</Verts>\n<Polys>\n", file);
+    print_section(file, all, SECTION_POLYS);
+    fprintf(file, "</Polys>\n<PointData Vectors=\"velocity\" Scalars=\"density\"%s>\n",
+            all->normals ? " Normals=\"Normals\"" : "");
+    print_section(file, all, SECTION_DATA);
+    fputs("</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_", file);
+}
+
+/* ---- the numbers ---- */
+
+static void write_vectors(FILE *file, const Block *block)
+{
+    float chunk[CHUNK][3];
+    for (size_t from = 0; from < block->count; from += CHUNK) {
+        const size_t size = block->count - from < CHUNK ? block->count - from : CHUNK;
+        for (size_t i = 0; i < size; i++)
+            for (int k = 0; k < 3; k++)
+                chunk[i][k] = block->vector[k][from + i];
+        fwrite(chunk, sizeof chunk[0], size, file);
+    }
+}
+
+static void write_ramp(FILE *file, const Block *block)
+{
+    int32_t chunk[CHUNK];
+    for (size_t from = 0; from < block->count; from += CHUNK) {
+        const size_t size = block->count - from < CHUNK ? block->count - from : CHUNK;
+        for (size_t i = 0; i < size; i++)
+            chunk[i] = (int32_t)(block->first + block->step * (from + i));
+        fwrite(chunk, sizeof chunk[0], size, file);
+    }
+}
+
+static void write_block(FILE *file, const Block *block)
+{
+    const uint64_t bytes = block_bytes(block);
+    fwrite(&bytes, sizeof bytes, 1, file);
+    if (block->numbers)
+        fwrite(block->numbers, block->bytes, block->count * block->components, file);
+    else if (block->vector)
+        write_vectors(file, block);
+    else
+        write_ramp(file, block);
+}
+
+static bool write_all(FILE *file, const Contents *all)
+{
+    print_head(file, all);
+    for (size_t i = 0; i < all->count; i++)
+        write_block(file, &all->block[i]);
+    fputs("\n</AppendedData>\n</VTKFile>\n", file);
+    return !ferror(file);
+}
+
+bool vtp_write(FILE *file, const SnapshotStep *step)
+{
+    Contents all = {.time = step->time, .points = step->count, .vertices = step->count};
+    add_vectors(&all, SECTION_POINTS, "Points", step->count, step->position);
+    add_ramp(&all, SECTION_VERTS, "connectivity", step->count, 0, 1);
+    add_ramp(&all, SECTION_VERTS, "offsets", step->count, 1, 1);
+    add_fields(&all, step);
+    add_numbers(&all, SECTION_DATA, "id", "Int64", 8, step->count, step->id);
+    return write_all(file, &all);
+}
+
+bool vtp_write_surface(FILE *file, const Surface *surface)
+{
+    const SnapshotStep *step = &surface->vertices;
+    Contents all = {
+        .time = step->time, .points = step->count, .triangles = surface->triangle_count, .normals = true};
+    add_vectors(&all, SECTION_POINTS, "Points", step->count, step->position);
+    add_numbers(&all, SECTION_POLYS, "connectivity", "UInt32", 4, 3 * surface->triangle_count,
+                surface->triangle);
+    add_ramp(&all, SECTION_POLYS, "offsets", surface->triangle_count, 3, 3);
+    add_fields(&all, step);
+    add_vectors(&all, SECTION_DATA, "Normals", step->count, surface->normal);
+    return write_all(file, &all);
+}

@@ -1,0 +1,144 @@
+#include "app/play/panel.h"
+
+#include "app/hand/play_commands.h"
+#include "app/play/panel_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const float WIDTH_EM = 25, MARGIN_EM = 0.75F, LABEL_SHARE = 0.44F;
+
+struct Panel {
+    Scene start; /* the scene as it was when it was opened */
+    bool has_start;
+};
+
+Panel *panel_create(void)
+{
+    return calloc(1, sizeof(Panel));
+}
+
+void panel_destroy(Panel *panel)
+{
+    free(panel);
+}
+
+static float margin_of(const Ui *ui)
+{
+    return floorf(MARGIN_EM * ui_pixels(ui));
+}
+
+float panel_width(const Ui *ui, int width)
+{
+    const float margin = margin_of(ui);
+    return fminf(floorf(WIDTH_EM * ui_pixels(ui)), fmaxf((float)width - 2 * margin, 1)) + 2 * margin;
+}
+
+static void follow_scene(Panel *panel, const Scene *scene)
+{
+    if (panel->has_start && strcmp(panel->start.path, scene->path) == 0 &&
+        panel->start.world.fluid_count == scene->world.fluid_count)
+        return;
+    panel->start = *scene;
+    panel->has_start = true;
+}
+
+/* "8,250" */
+static void count_text(size_t count, char text[32])
+{
+    char digits[24];
+    const int length = snprintf(digits, sizeof digits, "%zu", count);
+    int used = 0;
+    for (int i = 0; i < length; i++) {
+        if (i > 0 && (length - i) % 3 == 0)
+            text[used++] = ',';
+        text[used++] = digits[i];
+    }
+    text[used] = 0;
+}
+
+static void draw_figures(Ui *ui, const PanelData *data)
+{
+    char text[96];
+    count_text(data->particles, text);
+    ui_row(ui, "particles", text);
+    snprintf(text, sizeof text, "%.2f s%s", data->time, data->paused ? ", paused" : "");
+    ui_row(ui, "time", text);
+    if (data->paused)
+        snprintf(text, sizeof text, "%.3g × real time when it runs", data->speed);
+    else if (data->realtime)
+        snprintf(text, sizeof text, "%.2f of %.3g × real time", data->real_time_factor, data->speed);
+    else
+        snprintf(text, sizeof text, "%.2f × real time, as it can", data->real_time_factor);
+    ui_row(ui, "pace", text);
+    snprintf(text, sizeof text, "%.3g ms, bounded by %s", 1e3 * data->dt, step_limit_name(data->limit));
+    ui_row(ui, "time step", text);
+    snprintf(text, sizeof text, "%.1f a second", data->pictures_per_second);
+    ui_row(ui, "pictures", text);
+}
+
+/* "previous-scene" as "previous scene". */
+static void plain_words(const char *name, char text[32])
+{
+    snprintf(text, 32, "%s", name);
+    for (char *c = text; *c; c++)
+        if (*c == '-')
+            *c = ' ';
+}
+
+static void draw_buttons(Ui *ui, bool paused, PanelEvents *events)
+{
+    for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
+        char keys[64], help[160], label[32];
+        if (!(row->flags & PLAY_BUTTON))
+            continue;
+        play_command_keys_text(row, keys, sizeof keys);
+        snprintf(help, sizeof help, "%s\n%s", row->help, keys);
+        plain_words(row->name, label);
+        const UiField field = {.id = row->name, .label = label, .help = help};
+        if (ui_button(ui, &field, row->command == PLAY_PAUSE && paused))
+            events->command = row->command;
+    }
+    ui_gap(ui);
+}
+
+static void draw_end(Ui *ui, const PanelData *data)
+{
+    char keys[64], text[160];
+    play_command_keys_text(&play_command_rows[PLAY_PANEL], keys, sizeof keys);
+    ui_gap(ui);
+    snprintf(text, sizeof text, "%.100s", data->renderer);
+    ui_faint(ui, text);
+    snprintf(text, sizeof text, "this panel: %.2f ms a picture · hide it: %s", data->panel_ms, keys);
+    ui_faint(ui, text);
+}
+
+void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *data, PanelEvents *events)
+{
+    const float margin = margin_of(ui);
+    const UiWindow window = {.id = "panel",
+                             .place = {margin, margin},
+                             .width = panel_width(ui, width) - 2 * margin,
+                             .height_most = fmaxf((float)height - 2 * margin, 1),
+                             .label_share = LABEL_SHARE};
+    *events = (PanelEvents){.command = PLAY_NONE};
+    follow_scene(panel, data->scene);
+    ui_window_begin(ui, &window);
+    if (ui_title(ui, data->scene->title)) {
+        for (int i = 0; i < data->warning_count; i++)
+            ui_warning(ui, data->warnings[i]);
+        draw_figures(ui, data);
+        ui_gap(ui);
+        draw_buttons(ui, data->paused, events);
+        panel_devices(ui, data, events);
+        panel_stages(ui, data);
+        events->watches = panel_gauges(ui, data);
+        panel_history(ui, data);
+        panel_colors(ui, data, &panel->start, events);
+        panel_scene(ui, data->scene, &panel->start, events);
+        draw_end(ui, data);
+    }
+    ui_window_end(ui);
+}

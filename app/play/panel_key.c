@@ -1,0 +1,187 @@
+/* One live key as a widget. */
+#include "app/play/panel_parts.h"
+#include "app/scene/keys.h"
+#include "render/frame/legend.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static void emit(const PanelKey *row, PanelEvents *events, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void emit(const PanelKey *row, PanelEvents *events, const char *format, ...)
+{
+    if (events->setting_count == PANEL_SETTINGS_MAX)
+        return;
+    char *setting = events->settings[events->setting_count++];
+    const int used = snprintf(setting, PANEL_SETTING_SIZE, "%.40s=", row->path);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(setting + used, PANEL_SETTING_SIZE - (size_t)used, format, arguments);
+    va_end(arguments);
+}
+
+/* Meaning, range, unit and path of a key, for who wonders. */
+static void help_of(const PanelKey *row, char *text, size_t size)
+{
+    char range[160];
+    const bool numbers = row->key->type == KEY_NUMBER || row->key->type == KEY_CURVE ||
+                         row->key->type == KEY_INTEGER || row->key->type == KEY_VEC3;
+    key_range_text(row->key, range, sizeof range);
+    key_help_text(row->key, text, size);
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "\n%s: %s%s%s%s", row->path, range, *row->key->unit ? " " : "",
+             row->key->unit, numbers ? "\nCtrl + click to type a number" : "");
+}
+
+/* All of a key's range when that is small; else from a tenth to ten times the value at the start. The present
+   value is always on the slider. */
+static UiScale scale_of(const Key *key, double start, double now, const char *unit)
+{
+    const bool open = key->flags & KEY_OPEN_LOW;
+    UiScale scale = {.least = open ? nextafter(key->min, key->max) : key->min,
+                     .most = key->max,
+                     .whole = key->type == KEY_INTEGER,
+                     .unit = unit};
+    scale.low = key->min;
+    scale.high = key->max;
+    if (start > 0 && (key->min <= 0 || key->max / key->min > 100)) {
+        scale.low = fmax(start / 10, key->min);
+        scale.high = fmin(start * 10, key->max);
+        scale.logarithmic = !scale.whole;
+    } else if (start == 0 && key->min == 0) {
+        scale.high = fmin(1, key->max);
+    }
+    if (now > 0 || !scale.logarithmic)
+        scale.low = fmin(scale.low, now);
+    scale.high = fmax(scale.high, now);
+    if (scale.whole)
+        scale.low = ceil(scale.low);
+    return scale;
+}
+
+static void draw_number(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
+{
+    const Key *key = row->key;
+    const size_t at = key->offset;
+    const bool whole = key->type == KEY_INTEGER;
+    const char *now = row->base, *start = row->start;
+    double value = whole ? *(const int *)(now + at) : *(const double *)(now + at);
+    char unit[32];
+    legend_unit(key->unit, unit);
+    const UiScale scale =
+        scale_of(key, whole ? *(const int *)(start + at) : *(const double *)(start + at), value, unit);
+    if (ui_sliders(ui, field, &value, 1, &scale))
+        emit(row, events, "%.9g", value);
+}
+
+/* Three sliders of one length to either side. */
+static void draw_vector(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
+{
+    const Key *key = row->key;
+    const double *now = (const double *)((const char *)row->base + key->offset);
+    const double *start = (const double *)((const char *)row->start + key->offset);
+    double value[3], reach = 0;
+    for (int k = 0; k < 3; k++) {
+        value[k] = now[k];
+        reach = fmax(reach, fmax(2 * fabs(start[k]), fabs(now[k])));
+    }
+    if (reach == 0)
+        reach = fmin(1, key->max);
+    reach = fmin(reach, key->max);
+    const UiScale scale = {.low = -reach, .high = reach, .least = key->min, .most = key->max, .unit = ""};
+    if (ui_sliders(ui, field, value, 3, &scale))
+        emit(row, events, "[%.9g, %.9g, %.9g]", value[0], value[1], value[2]);
+}
+
+static void draw_choice(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
+{
+    const Key *key = row->key;
+    const char *value = (const char *)row->base + key->offset;
+    int chosen = key->flags & KEY_INDEX ? *(const int *)value : 0;
+    while (!(key->flags & KEY_INDEX) && key->choice(chosen + 1) && strcmp(key->choice(chosen), value) != 0)
+        chosen++;
+    if (ui_choice(ui, field, &chosen, key->choice))
+        emit(row, events, "%s", key->choice(chosen));
+}
+
+static void draw_color(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
+{
+    const char *value = (const char *)row->base + row->key->offset;
+    const bool single = row->key->flags & KEY_SINGLE;
+    float srgb[3];
+    for (int k = 0; k < 3; k++)
+        srgb[k] = (float)linear_to_srgb(single ? ((const float *)value)[k] : ((const double *)value)[k]);
+    if (ui_color(ui, field, srgb))
+        emit(row, events, "[%.4g, %.4g, %.4g]", (double)srgb[0], (double)srgb[1], (double)srgb[2]);
+}
+
+/* Automatic or not; when not, both ends. */
+static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
+{
+    const Key *key = row->key;
+    const double *now = (const double *)((const char *)row->base + key->offset), *seen = row->range_now;
+    bool automatic = *((const bool *)row->base + key->aux);
+    char id[64];
+    snprintf(id, sizeof id, "%.40s.auto", row->path);
+    const UiField follow = {.id = id, .label = "automatic range", .help = field->help};
+    if (ui_checkbox(ui, &follow, &automatic)) {
+        if (automatic)
+            emit(row, events, "auto");
+        else
+            emit(row, events, "[%.9g, %.9g]", seen[0], seen[1] > seen[0] ? seen[1] : seen[0] + 1);
+        return;
+    }
+    if (automatic)
+        return;
+    double ends[2] = {now[0], now[1]};
+    const double width = now[1] - now[0];
+    const UiScale scale = {.low = fmin(now[0], seen[0]) - width / 2,
+                           .high = fmax(now[1], seen[1]) + width / 2,
+                           .least = key->min,
+                           .most = key->max,
+                           .unit = ""};
+    if (ui_sliders(ui, field, ends, 2, &scale) && ends[0] < ends[1])
+        emit(row, events, "[%.9g, %.9g]", ends[0], ends[1]);
+}
+
+void panel_key(Ui *ui, const PanelKey *row, PanelEvents *events)
+{
+    char help[512];
+    help_of(row, help, sizeof help);
+    const UiField field = {.id = row->path, .label = row->label, .help = help};
+    bool on;
+    switch (row->key->type) {
+    case KEY_NUMBER:
+    case KEY_CURVE:
+    case KEY_INTEGER:
+        draw_number(ui, row, &field, events);
+        break;
+    case KEY_BOOLEAN:
+        on = *((const bool *)row->base + row->key->offset);
+        if (ui_checkbox(ui, &field, &on))
+            emit(row, events, "%s", on ? "true" : "false");
+        break;
+    case KEY_CHOICE:
+        draw_choice(ui, row, &field, events);
+        break;
+    case KEY_VEC3:
+        draw_vector(ui, row, &field, events);
+        break;
+    case KEY_COLOR:
+        draw_color(ui, row, &field, events);
+        break;
+    case KEY_RANGE:
+        draw_range(ui, row, &field, events);
+        break;
+    case KEY_TEXT:
+    case KEY_AXES:
+    case KEY_NAMES:
+    case KEY_MAPPING:
+    case KEY_VARIANT:
+    case KEY_LIST:
+        break;
+    }
+}

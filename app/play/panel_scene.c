@@ -1,0 +1,137 @@
+/* The scene's live keys, from the table of keys. */
+#include "app/play/panel_parts.h"
+#include "app/scene/keys.h"
+#include "render/frame/legend.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NAME_LENGTH = 48, PATH_LENGTH = 64 };
+
+static const char *const color_keys[] = {"view.color_by", "view.colormap", "view.range"};
+
+/* Live keys that are no widget among the scene's. */
+static const struct {
+    const char *path, *why;
+} elsewhere[] = {
+    {"title", "words for people: nothing in the picture or the fluid depends on them"},
+    {"view.camera.from", "the mouse moves the camera"},
+    {"view.camera.to", "the mouse moves the camera"},
+    {"view.camera.fov", "the mouse moves the camera"},
+    {"view.color_by", "among the colours"},
+    {"view.colormap", "among the colours"},
+    {"view.range", "among the colours"},
+};
+
+static bool is_elsewhere(const Key *key)
+{
+    for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
+        if (strcmp(elsewhere[i].path, key->path) == 0)
+            return true;
+    return false;
+}
+
+/* The first part of a path, as a heading: "solver.step.dt" is in "Solver", "gravity" in "World". */
+static void group_of(const Key *key, char name[NAME_LENGTH])
+{
+    const size_t length = strcspn(key->path, ".[");
+    if (!key->path[length]) {
+        snprintf(name, NAME_LENGTH, "World");
+        return;
+    }
+    snprintf(name, NAME_LENGTH, "%.*s", (int)length, key->path);
+    name[0] = (char)toupper((unsigned char)name[0]);
+}
+
+/* What follows the first part, in words: "step dt". */
+static void label_of(const Key *key, char label[NAME_LENGTH])
+{
+    const char *dot = strchr(key->path, '.');
+    char unit[32];
+    legend_unit(key->type == KEY_VEC3 ? key->unit : "", unit);
+    snprintf(label, NAME_LENGTH, "%.30s%s%.14s", dot ? dot + 1 : key->path, *unit ? ", " : "", unit);
+    for (char *c = label; *c && *c != ','; c++)
+        if (*c == '_' || *c == '.')
+            *c = ' ';
+}
+
+/* "fluids[].color" as "fluids[1].color". */
+static void path_of(const Key *key, int element, char path[PATH_LENGTH])
+{
+    const char *list = strstr(key->path, "[]");
+    if (list)
+        snprintf(path, PATH_LENGTH, "%.*s[%d]%s", (int)(list - key->path), key->path, element, list + 2);
+    else
+        snprintf(path, PATH_LENGTH, "%s", key->path);
+}
+
+static void draw_fluids(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        ui_text(ui, scene->world.fluids[f].name);
+        for (int i = 0; i < count; i++) {
+            char label[NAME_LENGTH], path[PATH_LENGTH];
+            if (!(keys[i].flags & KEY_LIVE) || strncmp(keys[i].path, "fluids[]", 8) != 0)
+                continue;
+            label_of(&keys[i], label);
+            path_of(&keys[i], f, path);
+            panel_key(ui,
+                      &(PanelKey){.key = &keys[i],
+                                  .base = &scene->world.fluids[f],
+                                  .start = &start->world.fluids[f],
+                                  .path = path,
+                                  .label = label},
+                      events);
+        }
+    }
+}
+
+static void draw_key(Ui *ui, const Key *key, const Scene *scene, const Scene *start, const double *range,
+                     PanelEvents *events)
+{
+    char label[NAME_LENGTH];
+    label_of(key, label);
+    panel_key(
+        ui,
+        &(PanelKey){
+            .key = key, .base = scene, .start = start, .path = key->path, .label = label, .range_now = range},
+        events);
+}
+
+void panel_scene(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    char last[NAME_LENGTH] = "", group[NAME_LENGTH];
+    bool open = false;
+    for (int i = 0; i < count; i++) {
+        const bool list = strstr(keys[i].path, "[]") != NULL;
+        if (!(keys[i].flags & KEY_LIVE) || is_elsewhere(&keys[i]))
+            continue;
+        group_of(&keys[i], group);
+        const bool first = strcmp(group, last) != 0;
+        if (first)
+            open = ui_section(ui, group, false);
+        memcpy(last, group, sizeof last);
+        if (open && list && first)
+            draw_fluids(ui, scene, start, events);
+        else if (open && !list)
+            draw_key(ui, &keys[i], scene, start, NULL, events);
+    }
+}
+
+void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events)
+{
+    char unit[32], text[80];
+    if (!ui_section(ui, "Colours", false))
+        return;
+    for (size_t i = 0; i < sizeof color_keys / sizeof *color_keys; i++)
+        draw_key(ui, scene_key_find(color_keys[i]), data->scene, start, data->scalar_range, events);
+    legend_unit(scalar_unit(data->scene->view.color_by), unit);
+    snprintf(text, sizeof text, "%.4g to %.4g%s%s", data->scalar_range[0], data->scalar_range[1],
+             *unit ? " " : "", unit);
+    ui_row(ui, "range now", text);
+}

@@ -1,0 +1,130 @@
+#include "app/play/play_scene.h"
+
+#include "app/base/path.h"
+#include "app/scene/advise.h"
+#include "app/session/studio.h"
+#include "sim/base/scalar.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
+                     Error *error)
+{
+    static const SceneSettings none;
+    SceneSettings applied = settings ? *settings : none;
+    applied.purpose = SCENE_FOR_WINDOW;
+    char path[SCENE_PATH_SIZE];
+    size_t size;
+    *open = (PlayScene){.upload = NULL};
+    if (!scene_path_find(name, path, error))
+        return false;
+    char *text = scene_file_read(path, &size, error);
+    const bool ok = text && scene_parse(path, text, size, &applied, &open->scene, notes, error) &&
+                    recording_create(&open->recording, path, text, size, settings ? settings : &none, error);
+    free(text);
+    if (ok)
+        open->notes = *notes;
+    return ok;
+}
+
+/* A key that was changed and has no effect: said for as long as the scene is open. */
+static void advise_unused(PlayScene *open, const char *setting)
+{
+    char path[128];
+    snprintf(path, sizeof path, "%.*s", (int)strcspn(setting, "="), setting);
+    scene_unused(&open->scene, path, &open->notes);
+    open->notes.lasting = open->notes.count;
+}
+
+void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh)
+{
+    const Notes before = open->notes;
+    open->notes.count = open->notes.lasting;
+    if (setting)
+        advise_unused(open, setting);
+    scene_advise(NULL, &open->scene, &open->notes);
+    for (int i = 0; fresh && i < open->notes.count; i++)
+        if (!notes_have(&before, open->notes.line[i]))
+            notes_add(fresh, "%s", open->notes.line[i]);
+}
+
+static bool make_upload(PlayScene *open, Error *error)
+{
+    unsigned attributes = PARTICLE_FLUID;
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        attributes |= particle_attributes_for((Scalar)s);
+    const WorldDef *def = &open->scene.world;
+    if (!open->upload && !world_on_gpu(def))
+        open->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)), attributes, error);
+    return open->upload || world_on_gpu(def);
+}
+
+bool play_scene_start(PlayScene *open, void (*wake)(void), GlTimer *timer, bool paused, Error *error)
+{
+    if (!make_upload(open, error))
+        return false;
+    const SimulatorSetup setup = {.scene = &open->scene,
+                                  .recording = &open->recording,
+                                  .upload = open->upload,
+                                  .timer = timer,
+                                  .wake = wake,
+                                  .paused = paused};
+    open->simulator = simulator_create(&setup, error);
+    return open->simulator != NULL;
+}
+
+bool play_scene_fresh(PlayScene *open)
+{
+    return simulator_here(open->simulator) ? simulator_fresh(open->simulator) : upload_fresh(open->upload);
+}
+
+bool play_scene_take(PlayScene *open, ParticleBuffers *out)
+{
+    const ViewDef *view = &open->scene.view;
+    if (!simulator_here(open->simulator))
+        return upload_take(open->upload, out);
+    return simulator_share(open->simulator, studio_attributes(view), out);
+}
+
+bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error)
+{
+    return make_upload(open, error) &&
+           simulator_move(open->simulator, command, open->upload, open->scene.world.backend, error);
+}
+
+bool play_scene_close(PlayScene *open, double patience_ms)
+{
+    if (!simulator_destroy(open->simulator, patience_ms))
+        return false;
+    upload_destroy(open->upload);
+    recording_destroy(&open->recording);
+    *open = (PlayScene){.upload = NULL};
+    return true;
+}
+
+bool play_scene_neighbour(const char *path, int by, char out[1024])
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    char folder[1024] = ".";
+    struct dirent **entries;
+    int place = -1;
+    if (slash)
+        snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
+    const int count = scandir(*folder ? folder : "/", &entries, scene_path_is_yaml, alphasort);
+    for (int i = 0; i < count; i++)
+        if (strcmp(entries[i]->d_name, name) == 0)
+            place = i;
+    const bool found = count > 1 && place >= 0;
+    if (found)
+        snprintf(out, 1024, "%.760s/%s", folder, entries[((place + by) % count + count) % count]->d_name);
+    for (int i = 0; i < count; i++)
+        free(entries[i]);
+    if (count >= 0)
+        free(entries);
+    return found;
+}

@@ -1,0 +1,367 @@
+#include "app/play/window.h"
+
+#include "sim/base/stage.h"
+
+#include <epoxy/gl.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { EVENTS_MAX = 256 };
+
+struct Window {
+    GLFWwindow *glfw;
+    int first, count;
+    WindowEvent events[EVENTS_MAX]; /* a ring */
+    int place[4];                   /* x, y, width, height before full screen, in screen coordinates */
+    bool full;
+    WindowClaimed *claimed; /* NULL: none is */
+    void *claimer;
+    char renderer[256];
+};
+
+static char last_reason[256];
+
+static void on_error(int code, const char *text)
+{
+    (void)code;
+    snprintf(last_reason, sizeof last_reason, "%s", text);
+}
+
+/* When nobody asks for long, what repeats gives way to what must not be lost: releases, an end. */
+static void append(Window *window, const WindowEvent *event)
+{
+    const bool repeats = event->repeated || event->kind == WINDOW_TEXT || event->kind == WINDOW_WHEEL;
+    if (repeats && window->count > EVENTS_MAX / 2)
+        return;
+    if (window->count == EVENTS_MAX) /* nobody asked for so long: the oldest are stale */
+        window->first = (window->first + 1) % EVENTS_MAX, window->count--;
+    WindowEvent *place = &window->events[(window->first + window->count++) % EVENTS_MAX];
+    *place = *event;
+    place->when_ms = wall_ms();
+}
+
+/* Pixels in a screen coordinate: more than one on some systems with dense displays. */
+static double density(GLFWwindow *glfw)
+{
+    int width, height, pixels, lines;
+    glfwGetWindowSize(glfw, &width, &height);
+    glfwGetFramebufferSize(glfw, &pixels, &lines);
+    return width > 0 ? (double)pixels / width : 1;
+}
+
+static void on_key(GLFWwindow *glfw, int key, int scancode, int action, int modifiers)
+{
+    const char *label = glfwGetKeyName(key, scancode);
+    WindowEvent event = {.kind = WINDOW_KEY,
+                         .key = key,
+                         .modifiers = modifiers,
+                         .down = action != GLFW_RELEASE,
+                         .repeated = action == GLFW_REPEAT};
+    snprintf(event.label, sizeof event.label, "%s", label ? label : "");
+    append(glfwGetWindowUserPointer(glfw), &event);
+}
+
+static void on_text(GLFWwindow *glfw, unsigned codepoint)
+{
+    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_TEXT, .codepoint = codepoint});
+}
+
+static void on_button(GLFWwindow *glfw, int button, int action, int modifiers)
+{
+    double x, y;
+    const double scale = density(glfw);
+    glfwGetCursorPos(glfw, &x, &y);
+    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_BUTTON,
+                                                          .button = button,
+                                                          .modifiers = modifiers,
+                                                          .down = action == GLFW_PRESS,
+                                                          .x = x * scale,
+                                                          .y = y * scale});
+}
+
+/* A mouse may report a thousand places a second: the last of a row will do. */
+static void on_move(GLFWwindow *glfw, double x, double y)
+{
+    Window *window = glfwGetWindowUserPointer(glfw);
+    const double scale = density(glfw);
+    WindowEvent *last = &window->events[(window->first + window->count + EVENTS_MAX - 1) % EVENTS_MAX];
+    if (window->count > 0 && last->kind == WINDOW_MOVE)
+        last->x = x * scale, last->y = y * scale;
+    else
+        append(window, &(WindowEvent){.kind = WINDOW_MOVE, .x = x * scale, .y = y * scale});
+}
+
+static void on_wheel(GLFWwindow *glfw, double x, double y)
+{
+    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_WHEEL, .x = x, .y = y});
+}
+
+static void on_focus(GLFWwindow *glfw, int focused)
+{
+    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_FOCUS, .down = focused});
+}
+
+static void on_resize(GLFWwindow *glfw, int width, int height)
+{
+    (void)width, (void)height;
+    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_RESIZE});
+}
+
+static void on_scale(GLFWwindow *glfw, float x, float y)
+{
+    (void)x, (void)y;
+    on_resize(glfw, 0, 0);
+}
+
+static void on_expose(GLFWwindow *glfw)
+{
+    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_EXPOSE});
+}
+
+static void on_drop(GLFWwindow *glfw, int count, const char *paths[])
+{
+    WindowEvent event = {.kind = WINDOW_DROP};
+    if (count < 1)
+        return;
+    snprintf(event.path, sizeof event.path, "%s", paths[0]);
+    append(glfwGetWindowUserPointer(glfw), &event);
+}
+
+static void on_close(GLFWwindow *glfw)
+{
+    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_CLOSE});
+}
+
+static void listen(Window *window)
+{
+    GLFWwindow *glfw = window->glfw;
+    glfwSetWindowUserPointer(glfw, window);
+    glfwSetKeyCallback(glfw, on_key);
+    glfwSetCharCallback(glfw, on_text);
+    glfwSetMouseButtonCallback(glfw, on_button);
+    glfwSetCursorPosCallback(glfw, on_move);
+    glfwSetScrollCallback(glfw, on_wheel);
+    glfwSetWindowFocusCallback(glfw, on_focus);
+    glfwSetFramebufferSizeCallback(glfw, on_resize);
+    glfwSetWindowContentScaleCallback(glfw, on_scale);
+    glfwSetWindowRefreshCallback(glfw, on_expose);
+    glfwSetDropCallback(glfw, on_drop);
+    glfwSetWindowCloseCallback(glfw, on_close);
+}
+
+static GLFWwindow *open_with(int api, const char *title, int width, int height)
+{
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0); /* what is drawn has its own */
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "slosh");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "slosh");
+    return glfwCreateWindow(width, height, title, NULL, NULL);
+}
+
+static bool open_window(Window *window, const char *title, int width, int height, Error *error)
+{
+    window->glfw = open_with(GLFW_EGL_CONTEXT_API, title, width, height);
+    if (!window->glfw)
+        window->glfw = open_with(GLFW_NATIVE_CONTEXT_API, title, width, height);
+    if (!window->glfw)
+        return error_set(
+            error, "no window with OpenGL 4.5: %s; `slosh render SCENE -o OUT.mp4` draws without a window",
+            last_reason);
+    listen(window);
+    glfwMakeContextCurrent(window->glfw);
+    glfwSwapInterval(1);
+    snprintf(window->renderer, sizeof window->renderer, "%s", (const char *)glGetString(GL_RENDERER));
+    return true;
+}
+
+Window *window_create(const char *title, int width, int height, Error *error)
+{
+    Window *window = calloc(1, sizeof *window);
+    if (!window) {
+        error_set(error, "no memory for the window");
+        return NULL;
+    }
+    glfwSetErrorCallback(on_error);
+    if (!glfwInit())
+        error_set(error, "no display for a window: %s; `slosh render SCENE -o OUT.mp4` needs none",
+                  last_reason);
+    else if (open_window(window, title, width, height, error))
+        return window;
+    window_destroy(window);
+    return NULL;
+}
+
+void window_destroy(Window *window)
+{
+    if (!window)
+        return;
+    if (window->glfw)
+        glfwDestroyWindow(window->glfw);
+    glfwTerminate();
+    free(window);
+}
+
+bool window_next(Window *window, WindowEvent *event)
+{
+    if (window->count == 0)
+        return false;
+    *event = window->events[window->first];
+    window->first = (window->first + 1) % EVENTS_MAX;
+    window->count--;
+    return true;
+}
+
+void window_poll(Window *window)
+{
+    (void)window;
+    glfwPollEvents();
+}
+
+void window_wait(Window *window, double seconds)
+{
+    (void)window;
+    glfwWaitEventsTimeout(seconds);
+}
+
+void window_wake(void)
+{
+    glfwPostEmptyEvent();
+}
+
+void window_present(Window *window)
+{
+    glfwSwapBuffers(window->glfw);
+}
+
+void window_hide(Window *window)
+{
+    glfwHideWindow(window->glfw);
+    glfwPollEvents();
+}
+
+void window_title(Window *window, const char *title)
+{
+    glfwSetWindowTitle(window->glfw, title);
+}
+
+/* The display that shows most of the window, in pixels of the desktop. */
+static GLFWmonitor *display_of(const Window *window)
+{
+    int count, x, y, width, height, best_area = -1;
+    GLFWmonitor **displays = glfwGetMonitors(&count), *best = NULL;
+    glfwGetWindowPos(window->glfw, &x, &y);
+    glfwGetWindowSize(window->glfw, &width, &height);
+    for (int i = 0; i < count; i++) {
+        int left, top;
+        const GLFWvidmode *mode = glfwGetVideoMode(displays[i]);
+        glfwGetMonitorPos(displays[i], &left, &top);
+        if (!mode)
+            continue;
+        const double across = fmin(x + width, left + mode->width) - fmax(x, left);
+        const double down = fmin(y + height, top + mode->height) - fmax(y, top);
+        const int area = (int)(fmax(across, 0) * fmax(down, 0));
+        if (area > best_area)
+            best_area = area, best = displays[i];
+    }
+    return best;
+}
+
+void window_fullscreen(Window *window, bool full)
+{
+    GLFWmonitor *display = display_of(window);
+    const GLFWvidmode *mode = display ? glfwGetVideoMode(display) : NULL;
+    int *place = window->place;
+    if (full == window->full || !mode)
+        return;
+    if (full) {
+        glfwGetWindowPos(window->glfw, &place[0], &place[1]);
+        glfwGetWindowSize(window->glfw, &place[2], &place[3]);
+        glfwSetWindowMonitor(window->glfw, display, 0, 0, mode->width, mode->height, mode->refreshRate);
+    } else {
+        glfwSetWindowMonitor(window->glfw, NULL, place[0], place[1], place[2], place[3], GLFW_DONT_CARE);
+    }
+    window->full = full;
+}
+
+bool window_is_fullscreen(const Window *window)
+{
+    return window->full;
+}
+
+void window_size(const Window *window, int *width, int *height)
+{
+    glfwGetFramebufferSize(window->glfw, width, height);
+}
+
+double window_scale(const Window *window)
+{
+    float x, y;
+    glfwGetWindowContentScale(window->glfw, &x, &y);
+    return fmin(fmax(x, 1), 4);
+}
+
+double window_refresh(const Window *window)
+{
+    GLFWmonitor *display = display_of(window);
+    const GLFWvidmode *mode = display ? glfwGetVideoMode(display) : NULL;
+    return mode && mode->refreshRate > 0 ? mode->refreshRate : 60;
+}
+
+const char *window_renderer(const Window *window)
+{
+    return window->renderer;
+}
+
+void window_leave_gamepads(Window *window, WindowClaimed *claimed, void *user)
+{
+    window->claimed = claimed;
+    window->claimer = user;
+}
+
+/* "03000000 4c05 0000 e60c 0000 11010000": bus, vendor, product and version, little-endian. */
+bool window_guid_ids(const char *guid, uint16_t *vendor, uint16_t *product)
+{
+    unsigned v[2], p[2];
+    if (!guid || strlen(guid) != 32 ||
+        sscanf(guid, "%*8c%2x%2x0000%2x%2x0000", &v[0], &v[1], &p[0], &p[1]) != 4)
+        return false;
+    *vendor = (uint16_t)(v[0] | v[1] << 8);
+    *product = (uint16_t)(p[0] | p[1] << 8);
+    return *vendor != 0;
+}
+
+static bool is_claimed(const Window *window, int joystick)
+{
+    uint16_t vendor, product;
+    return window->claimed && window_guid_ids(glfwGetJoystickGUID(joystick), &vendor, &product) &&
+           window->claimed(window->claimer, vendor, product);
+}
+
+bool window_gamepad(const Window *window, WindowGamepad *gamepad)
+{
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; joystick++) {
+        GLFWgamepadstate state;
+        if (!glfwGetGamepadState(joystick, &state) || is_claimed(window, joystick))
+            continue;
+        *gamepad = (WindowGamepad){
+            .left = {state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]},
+            .right = {state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X], state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]}};
+        for (int i = 0; i <= GLFW_GAMEPAD_BUTTON_LAST; i++)
+            gamepad->buttons |= state.buttons[i] == GLFW_PRESS ? 1U << i : 0;
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,130 @@
+#include "app/recording/recording_reader.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A blank and a finite number, decimal or hexadecimal, at *at, which then points behind them. */
+static bool take_number(const char **at, double *number)
+{
+    const char *digits = *at + 1;
+    char *end = NULL;
+    if (**at != ' ' || !*digits || strchr(" \t\v\f\r", *digits))
+        return false;
+    *number = strtod(digits, &end);
+    *at = end;
+    return end != digits && isfinite(*number);
+}
+
+/* Position and orientation. */
+static bool read_target(const Reader *reader, const char *at, BoxTarget *target)
+{
+    for (int k = 0; k < 7; k++)
+        if (!take_number(&at, k < 3 ? &target->position[k] : &target->orientation[k - 3]))
+            return reader_fail(reader,
+                               "number %d of 7 is missing or not finite; the position x y z (m) and the "
+                               "orientation x y z w must stand here",
+                               k + 1);
+    return !*at || reader_fail(reader, "'%.40s' follows the seven numbers; leave it out", at);
+}
+
+/* The setting after " set", with the lines that carry it on. */
+static bool read_setting(Reader *reader, size_t skip, char setting[SIM_SETTING_SIZE])
+{
+    const size_t number = reader->number;
+    char *text = reader_text(reader, skip);
+    if (!text)
+        return false;
+    const size_t length = strlen(text);
+    if (length < SIM_SETTING_SIZE)
+        memcpy(setting, text, length + 1);
+    free(text);
+    reader->number = length < SIM_SETTING_SIZE ? reader->number : number;
+    return length < SIM_SETTING_SIZE ||
+           reader_fail(reader, "the setting is too long; at most %d bytes are", SIM_SETTING_SIZE - 1);
+}
+
+static bool read_kind(Reader *reader, const char *line, const char *at, SimCommand *command)
+{
+    static const char *const words[] = {[SIM_TARGET] = " target", [SIM_CARRY] = " carry", [SIM_SET] = " set"};
+    for (int kind = SIM_TARGET; kind <= SIM_SET; kind++) {
+        const size_t length = strlen(words[kind]);
+        if (strncmp(at, words[kind], length) != 0 || at[length] != ' ')
+            continue;
+        command->kind = (SimCommandKind)kind;
+        at += length;
+        return kind == SIM_SET ? read_setting(reader, (size_t)(at + 1 - line), command->setting)
+                               : read_target(reader, at, &command->target);
+    }
+    return reader_fail(
+        reader, "'%.40s' is no command; after the step stands target, carry or set, and what it takes", at);
+}
+
+static bool read_command(Reader *reader)
+{
+    char line[READER_LINE_SIZE] = "";
+    const char *at = line;
+    Recording *out = reader->out;
+    SimCommand command = {0};
+    const uint64_t before = out->count > 0 ? out->commands[out->count - 1].step : 0;
+    if (!reader_copy(reader, line))
+        return false;
+    if (!reader_count(&at, &command.step))
+        return reader_fail(reader, "'%.40s' is no command; it must begin with the step at which it applies",
+                           line);
+    if (command.step < before)
+        return reader_fail(reader,
+                           "step %" PRIu64 " is before step %" PRIu64 " of the line above; put them in order",
+                           command.step, before);
+    if (out->count == RECORDING_COMMANDS_MAX)
+        return reader_fail(reader, "more than %d commands; cut the recording here", RECORDING_COMMANDS_MAX);
+    return read_kind(reader, line, at, &command) &&
+           (recording_add(out, &command) || reader_fail(reader, "no memory to read it"));
+}
+
+/* "end STEPS HASH", with nothing behind it. */
+static bool read_end(Reader *reader)
+{
+    char line[READER_LINE_SIZE] = "";
+    Recording *out = reader->out;
+    if (!reader_copy(reader, line))
+        return false;
+    const char *at = line + strlen("end ");
+    const bool counted = reader_count(&at, &out->steps);
+    if (!counted || *at != ' ' || strlen(at + 1) != 16 || strspn(at + 1, "0123456789abcdef") != 16)
+        return reader_fail(reader, "the last line must be 'end STEPS HASH', the hash in 16 digits 0-9a-f");
+    out->hash = strtoull(at + 1, NULL, 16);
+    if (out->count > 0 && out->steps < out->commands[out->count - 1].step)
+        return reader_fail(reader,
+                           "the end at step %" PRIu64 " is before the last command's step %" PRIu64
+                           "; put them in order",
+                           out->steps, out->commands[out->count - 1].step);
+    reader->number++;
+    return reader->at == reader->end || reader_fail(reader, "something follows the end; leave it out");
+}
+
+static bool read_commands(Reader *reader)
+{
+    Recording *out = reader->out;
+    out->command_line = reader->number + 1;
+    while (reader_next(reader)) {
+        if (reader->length >= 4 && memcmp(reader->line, "end ", 4) == 0)
+            return read_end(reader);
+        if (!read_command(reader))
+            return false;
+    }
+    out->cut = true;
+    out->steps = out->count > 0 ? out->commands[out->count - 1].step : 0;
+    return true;
+}
+
+bool recording_parse(const char *path, const char *bytes, size_t size, Recording *out, Error *error)
+{
+    Reader reader = {.path = path, .at = bytes, .end = bytes + size, .out = out, .error = error};
+    *out = (Recording){0};
+    if (recording_read_head(&reader) && read_commands(&reader))
+        return true;
+    recording_destroy(out);
+    return false;
+}

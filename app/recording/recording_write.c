@@ -1,0 +1,89 @@
+#include "app/recording/recording.h"
+
+#include "app/base/output.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A text that may have newlines, after the word that says what it is. */
+static void put_text(FILE *file, const char *text)
+{
+    for (; *text; text++) {
+        putc(*text, file);
+        if (*text == '\n')
+            fputs("+ ", file);
+    }
+    putc('\n', file);
+}
+
+static void put_scene(FILE *file, const Recording *recording)
+{
+    const char *at = recording->text, *end = at + recording->size;
+    fputs("text\n", file);
+    while (at < end) {
+        const char *newline = memchr(at, '\n', (size_t)(end - at));
+        const size_t length = (size_t)((newline ? newline : end) - at);
+        fputs(length > 0 ? "| " : "|", file);
+        fwrite(at, 1, length, file);
+        putc('\n', file);
+        at += length + 1;
+        if (!newline)
+            fputs("\\ no newline at the end\n", file);
+    }
+}
+
+static void put_head(FILE *file, const Recording *recording)
+{
+    fprintf(file, "slosh recording 1\nprogram %s\nscene ", SLOSH_VERSION);
+    put_text(file, recording->path);
+    if (recording->settings.particles > 0)
+        fprintf(file, "particles %zu\n", recording->settings.particles);
+    for (int i = 0; i < recording->settings.count; i++) {
+        fputs("set ", file);
+        put_text(file, recording->settings.set[i]);
+    }
+    put_scene(file, recording);
+}
+
+static void put_command(FILE *file, const SimCommand *command)
+{
+    if (command->kind == SIM_SET) {
+        fprintf(file, "%" PRIu64 " set ", command->step);
+        put_text(file, command->setting);
+        return;
+    }
+    const double *x = command->target.position, *q = command->target.orientation;
+    fprintf(file, "%" PRIu64 " %s %a %a %a %a %a %a %a\n", command->step,
+            command->kind == SIM_CARRY ? "carry" : "target", x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
+}
+
+static bool put_all(FILE *file, const Recording *recording, uint64_t steps, uint64_t hash)
+{
+    put_head(file, recording);
+    fputs("commands\n", file);
+    for (size_t i = 0; i < recording->count; i++)
+        put_command(file, &recording->commands[i]);
+    fprintf(file, "end %" PRIu64 " %016" PRIx64 "\n", steps, hash);
+    return fflush(file) == 0 && !ferror(file);
+}
+
+bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, const char *path,
+                     Error *error)
+{
+    Output output = {0};
+    if (!output_begin(&output, path, error))
+        return false;
+    errno = 0;
+    FILE *file = fopen(output.temp, "wb");
+    bool ok = file && put_all(file, recording, steps, hash);
+    const int reason = errno;
+    if (file && fclose(file) != 0)
+        ok = false;
+    if (ok)
+        return output_commit(&output, error);
+    output_discard(&output);
+    return error_set(error, "%s: cannot be written: %s; free some space, or choose another folder", path,
+                     strerror(reason ? reason : errno));
+}

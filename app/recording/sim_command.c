@@ -1,0 +1,56 @@
+#include "app/recording/sim_command.h"
+
+#include "app/scene/live.h"
+#include "sim/world/world_state.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char BACKEND_IS[] = "solver.backend=";
+
+bool sim_command_moves(const SimCommand *command)
+{
+    return command->kind == SIM_SET && strncmp(command->setting, BACKEND_IS, sizeof BACKEND_IS - 1) == 0;
+}
+
+bool sim_command_needs_gpu(const SimCommand *command)
+{
+    WorldDef def;
+    if (!sim_command_moves(command))
+        return false;
+    snprintf(def.backend, sizeof def.backend, "%.31s", command->setting + sizeof BACKEND_IS - 1);
+    return world_on_gpu(&def);
+}
+
+static bool change_world(World **world, const WorldDef *before, const WorldDef *after, Error *error)
+{
+    if (strcmp(before->backend, after->backend) != 0)
+        return world_move(world, after->backend, error);
+    return world_change(*world, after, error);
+}
+
+static bool apply_setting(const char *setting, World **world, Scene *scene, Error *error)
+{
+    Scene after = *scene;
+    bool concerns_world;
+    if (!scene_set_live(&after, setting, &concerns_world, error) ||
+        (concerns_world && !change_world(world, &scene->world, &after.world, error)))
+        return false;
+    *scene = after;
+    return true;
+}
+
+bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, Error *error)
+{
+    switch (command->kind) {
+    case SIM_TARGET:
+        world_set_target(*world, &command->target);
+        break;
+    case SIM_CARRY:
+        world_carry(*world, &command->target);
+        break;
+    case SIM_SET:
+        return apply_setting(command->setting, world, scene, error);
+    }
+    return true;
+}

@@ -1,0 +1,76 @@
+#include "app/scene/advise_parts.h"
+
+#include "app/scene/keys.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+
+enum { PATH_SIZE = 256 };
+
+static Advice *const advices[] = {advise_fills, advise_step, advise_sound,      advise_kernel,
+                                  advise_ratio, advise_slip, advise_artificial, NULL};
+
+void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
+{
+    char what[NOTE_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    const Node *node = tree ? tree_near(tree, path) : NULL;
+    if (node && node->said)
+        notes_add(notes, "%s: %s", node->said, what);
+    else if (node && tree_at(tree, path))
+        notes_add(notes, "%s:%d:%d: %s", tree->path, node->key_line, node->key_column, what);
+    else
+        notes_add(notes, "%s%s%s: %s", tree ? tree->path : "", tree ? ": " : "", path, what);
+}
+
+/* What a key that stands in the scene lacks to have an effect; NULL: nothing. */
+static const char *lacks(const Scene *scene, const char *path, bool said)
+{
+    const Key *key = scene_key_find(path);
+    const KeyOwner *owner = key ? key_owner(key) : NULL;
+    return owner && !owner->used(scene, said) ? owner->need : NULL;
+}
+
+#define NO_EFFECT "%s has no effect; it needs %s"
+
+void scene_unused(const Scene *scene, const char *path, Notes *notes)
+{
+    const char *need = lacks(scene, path, true);
+    if (need)
+        notes_add(notes, NO_EFFECT, path, need);
+}
+
+/* Down to each key that holds a value, with its path as people write it. */
+static void walk(const Tree *tree, const Node *node, const char *path, const Scene *scene, Notes *notes)
+{
+    int index = 0;
+    for (const Node *child = node->first; child; child = child->next, index++) {
+        char below[PATH_SIZE];
+        if (child->key)
+            snprintf(below, sizeof below, "%.180s%s%.60s", path, *path ? "." : "", child->key);
+        else
+            snprintf(below, sizeof below, "%.180s[%d]", path, index);
+        const Key *key = scene_key_find(below);
+        const char *need = lacks(scene, below, child->said != NULL);
+        if (!key || key->type == KEY_MAPPING || key->type == KEY_LIST || key->type == KEY_VARIANT)
+            walk(tree, child, below, scene, notes);
+        else if (need)
+            advise(tree, below, notes, NO_EFFECT, below, need);
+    }
+}
+
+void scene_advise_unused(const Tree *tree, const Scene *scene, Notes *notes)
+{
+    walk(tree, tree->root, "", scene, notes);
+    if (notes)
+        notes->lasting = notes->count;
+}
+
+void scene_advise(const Tree *tree, const Scene *scene, Notes *notes)
+{
+    for (Advice *const *advice = advices; *advice; advice++)
+        (*advice)(tree, scene, notes);
+}

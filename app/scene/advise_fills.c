@@ -1,0 +1,124 @@
+/* What fills became: particles of a lattice. */
+#include "app/scene/advise.h"
+#include "sim/matter/fill.h"
+#include "sim/matter/seed.h"
+#include "sim/matter/solid.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LAYERS_FEW = 4 };
+
+/* What is not worth a line; of balls and cylinders no lattice has the mass to the last particle. */
+static const double mass_off = 1e-3, mass_off_round = 1e-2;
+
+static bool bounds_meet(const WorldDef *world, const double low[3], const double high[3], const Fill *other)
+{
+    double a[3], b[3];
+    fill_bounds(other, a, b);
+    for (int k = 0; k < world->dimensions; k++)
+        if (fmax(low[k], a[k]) > fmin(high[k], b[k]) - 1e-9 * world->spacing)
+            return false;
+    return true;
+}
+
+static bool meets_solid(const WorldDef *world, const double low[3], const double high[3])
+{
+    for (int s = 0; s < world->solid_count; s++) {
+        const double reach = solid_reach(&world->solids[s]) + world->spacing;
+        bool apart = false;
+        for (int k = 0; k < world->dimensions; k++)
+            apart |=
+                world->solids[s].centre[k] + reach < low[k] || world->solids[s].centre[k] - reach > high[k];
+        if (!apart)
+            return true;
+    }
+    return false;
+}
+
+/* What the fills of a fluid hold, m3 or m2; 0: they share their place with other fills or solids, and nobody
+   has said. */
+static double volume_of(const WorldDef *world, int f)
+{
+    double volume = 0;
+    for (int i = 0; i < world->fluids[f].fill_count; i++) {
+        const Fill *fill = &world->fluids[f].fills[i];
+        double low[3], high[3];
+        fill_bounds(fill, low, high);
+        for (int g = 0; g < world->fluid_count; g++)
+            for (int j = 0; j < world->fluids[g].fill_count; j++)
+                if ((g != f || j != i) && bounds_meet(world, low, high, &world->fluids[g].fills[j]))
+                    return 0;
+        if (meets_solid(world, low, high))
+            return 0;
+        volume += fill_volume(fill, world->dimensions);
+    }
+    return volume;
+}
+
+static double mass_off_of(const FluidDef *fluid)
+{
+    for (int i = 0; i < fluid->fill_count; i++)
+        if (fluid->fills[i].kind != FILL_BLOCK)
+            return mass_off_round;
+    return mass_off;
+}
+
+static void advise_mass(const Tree *tree, const WorldDef *world, int f, size_t count, Notes *notes)
+{
+    const FluidDef *fluid = &world->fluids[f];
+    const double volume = volume_of(world, f),
+                 more = volume > 0 ? (double)count * pow(world->spacing, world->dimensions) / volume - 1 : 0;
+    char path[64];
+    snprintf(path, sizeof path, "fluids[%d].fill", f);
+    if (count > 1 && fabs(more) > mass_off_of(fluid))
+        advise(tree, path, notes,
+               "'%s' has %.2g %% %s mass than its fills: %zu particles on a lattice; a smaller "
+               "particles.spacing comes nearer",
+               fluid->name, 100 * fabs(more), more > 0 ? "more" : "less", count);
+}
+
+/* How thick a block is along its thinnest axis and along its longest, in spacings. */
+static void thickness(const WorldDef *world, const Fill *block, double *least, double *most)
+{
+    *least = INFINITY;
+    *most = 0;
+    for (int k = 0; k < world->dimensions; k++) {
+        const double thick = (block->max[k] - block->min[k]) / world->spacing;
+        *least = fmin(*least, thick);
+        *most = fmax(*most, thick);
+    }
+}
+
+/* Not of a block of one particle: who places that means it. */
+static void advise_thin(const Tree *tree, const WorldDef *world, int f, Notes *notes)
+{
+    for (int i = 0; i < world->fluids[f].fill_count; i++) {
+        const Fill *fill = &world->fluids[f].fills[i];
+        double least, most;
+        char path[64], thick[32];
+        thickness(world, fill, &least, &most);
+        snprintf(path, sizeof path, "fluids[%d].fill[%d].block", f, i);
+        snprintf(thick, sizeof thick, "%.2g", least);
+        if (fill->kind == FILL_BLOCK && most >= 1.5 && least < LAYERS_FEW - 0.5)
+            advise(tree, path, notes,
+                   "the block is %s spacing%s thick: too few particles to flow like a fluid; a "
+                   "particles.spacing of %.2g m has %d layers",
+                   thick, strcmp(thick, "1") == 0 ? "" : "s", least * world->spacing / LAYERS_FEW,
+                   LAYERS_FEW);
+    }
+}
+
+void advise_fills(const Tree *tree, const Scene *scene, Notes *notes)
+{
+    const WorldDef *world = &scene->world;
+    size_t counts[FLUIDS_MAX];
+    if (!tree || !notes) /* of the start alone */
+        return;
+    seed_counts(world, counts);
+    for (int f = 0; f < world->fluid_count; f++) {
+        advise_mass(tree, world, f, counts[f], notes);
+        advise_thin(tree, world, f, notes);
+    }
+}

@@ -1,0 +1,14 @@
+/* The checks that scene_advise lists. */
+#ifndef SLOSH_SCENE_ADVISE_PARTS_H
+#define SLOSH_SCENE_ADVISE_PARTS_H
+
+#include "app/scene/advise.h"
+
+void advise_step(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_sound(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_kernel(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_ratio(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_slip(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_artificial(const Tree *tree, const Scene *scene, Notes *notes);
+
+#endif

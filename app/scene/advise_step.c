@@ -1,0 +1,169 @@
+/* Whether the step fits what a scene asks for: friction and sound, by sim/world/step_control.h. */
+#include "app/scene/advise_parts.h"
+#include "sim/world/step_control.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The def with each viscosity the greatest that its table has. */
+static WorldDef most_viscous(const WorldDef *def)
+{
+    WorldDef most = *def;
+    for (int f = 0; f < def->fluid_count; f++)
+        most.fluids[f].viscosity = fluid_viscosity_most(&def->fluids[f]);
+    return most;
+}
+
+/* What binds the step by friction, as a key and its value. */
+static void name_friction(const WorldDef *most, const StepFriction *friction, char name[64])
+{
+    const StepFriction laminar = {.laminar = friction->laminar};
+    int thickest = 0;
+    for (int f = 1; f < most->fluid_count; f++)
+        thickest = most->fluids[f].viscosity > most->fluids[thickest].viscosity ? f : thickest;
+    if (step_viscous(most, &laminar) > step_viscous(most, friction))
+        snprintf(name, 64, "solver.artificial_viscosity %g", most->artificial_viscosity);
+    else
+        snprintf(name, 64, "fluids[%d].viscosity %g Pa s", thickest, most->fluids[thickest].viscosity);
+}
+
+static double substeps_for(const WorldDef *def, double step)
+{
+    return ceil(def->dt / step * (1 - 1e-9));
+}
+
+/* Friction, where it is what binds. */
+static void advise_viscous(const Tree *tree, const WorldDef *def, const StepFriction *friction, Notes *notes)
+{
+    const double step = def->dt / def->substeps, stands = STEP_VISCOUS_STANDS * step_viscous(def, friction);
+    char what[64];
+    if (step <= stands)
+        return;
+    name_friction(def, friction, what);
+    advise(
+        tree, "solver.step.dt", notes,
+        "the step of %.3g ms is too long for %s: from %.3g ms on friction makes fluid boil instead of calming "
+        "it; use %g substeps or more, or a lower viscosity",
+        1e3 * step, what, 1e3 * stands, substeps_for(def, stands));
+}
+
+/* Of fluid that has next to no friction: a thousandth of what a step stands hides the heat, 5e-4 a step at
+ * 0.65. */
+static void advise_heat(const Tree *tree, const WorldDef *def, const StepFriction *friction, Notes *notes)
+{
+    const bool fixed = def->step_mode == STEP_FIXED;
+    const double crossing = def->support * def->spacing / step_sound(def),
+                 step = fixed ? def->dt / def->substeps : fmin(def->cfl_number * crossing, def->max_dt);
+    if (strcmp(def->method, "mueller") != 0 || step <= STEP_SOUND_CALM * crossing * (1 + 1e-9) ||
+        step > 0.001 * step_viscous(def, friction))
+        return;
+    const char *path = fixed ? "solver.step.dt" : "solver.step.number";
+    char better[64];
+    if (fixed)
+        snprintf(better, sizeof better, "%g substeps or more", substeps_for(def, STEP_SOUND_CALM * crossing));
+    else
+        snprintf(better, sizeof better, "at most %g", STEP_SOUND_CALM);
+    advise(
+        tree, path, notes,
+        "steps of %.2g h / sound_speed heat fluid that has no viscosity: 0.3 %% of a column's energy in 4,000 "
+        "steps at 0.5, 2 %% at 0.6, 5 %% at 0.65; use %s, or a viscosity",
+        step / crossing, better);
+}
+
+void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
+{
+    const WorldDef def = most_viscous(&scene->world);
+    const StepFriction friction = step_friction(&def);
+    const double step = def.dt / def.substeps, crossing = def.support * def.spacing / step_sound(&def);
+    if (def.step_mode == STEP_FIXED && step > STEP_SOUND_STANDS * crossing)
+        advise(
+            tree, "solver.step.dt", notes,
+            "the step of %.3g ms is too long for sound at %g m/s%s, which crosses a support radius in %.3g ms: "
+            "use %g substeps or more, or a lower solver.sound_speed",
+            1e3 * step, step_sound(&def),
+            step_sound(&def) > def.sound_speed ? " (of light fluid beside heavy)" : "", 1e3 * crossing,
+            substeps_for(&def, STEP_SOUND_CALM * crossing));
+    else if (def.step_mode == STEP_FIXED)
+        advise_viscous(tree, &def, &friction, notes);
+    if (def.step_mode == STEP_CFL || step <= STEP_SOUND_STANDS * crossing)
+        advise_heat(tree, &def, &friction, notes);
+}
+
+/* How high a place is against gravity, m above the box's origin. */
+static double height_of(const double gravity[3], const double x[3])
+{
+    double sum = 0, length = 0;
+    for (int k = 0; k < 3; k++) {
+        sum -= gravity[k] * x[k];
+        length += gravity[k] * gravity[k];
+    }
+    return length > 0 ? sum / sqrt(length) : 0;
+}
+
+/* The greatest or least height of a block's corners: of the sign's side. */
+static double block_height(const double gravity[3], const double min[3], const double max[3], double sign)
+{
+    double corner[3];
+    for (int k = 0; k < 3; k++)
+        corner[k] = (gravity[k] < 0) == (sign > 0) ? max[k] : min[k];
+    return height_of(gravity, corner);
+}
+
+static double fill_top(const WorldDef *def, const Fill *fill, const double low[3], const double high[3])
+{
+    double min[3], max[3];
+    for (int k = 0; k < 3; k++) {
+        const double reach = fill->radius + (fill->kind == FILL_CYLINDER ? 0.5 * fill->height : 0);
+        const bool block = fill->kind == FILL_BLOCK;
+        min[k] = fmax(low[k], block ? fill->min[k] : fill->centre[k] - reach);
+        max[k] = fmin(high[k], block ? fill->max[k] : fill->centre[k] + reach);
+    }
+    return block_height(def->gravity, min, max, 1);
+}
+
+/* How far fluid can fall in the box from where it starts, m; 0 without fluid or gravity. */
+static double greatest_fall(const WorldDef *def)
+{
+    double low[3], high[3], top = -INFINITY;
+    for (int k = 0; k < 3; k++) {
+        low[k] = k == 1 ? 0 : -0.5 * def->box_size[k];
+        high[k] = low[k] + def->box_size[k];
+    }
+    const double bottom = block_height(def->gravity, low, high, -1);
+    for (int f = 0; f < def->fluid_count; f++) {
+        const FluidDef *fluid = &def->fluids[f];
+        for (int i = 0; i < fluid->fill_count; i++)
+            top = fmax(top, fill_top(def, &fluid->fills[i], low, high));
+        for (int i = 0; i < fluid->emit_count; i++)
+            top = fmax(top, height_of(def->gravity, fluid->emits[i].centre));
+    }
+    return fmax(top - bottom, 0);
+}
+
+static double greatest_start(const WorldDef *def)
+{
+    double speed = 0;
+    for (int f = 0; f < def->fluid_count; f++) {
+        const double *v = def->fluids[f].velocity;
+        speed = fmax(speed, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + def->fluids[f].taylor_green);
+        for (int i = 0; i < def->fluids[f].emit_count; i++)
+            speed = fmax(speed, def->fluids[f].emits[i].speed);
+    }
+    return speed;
+}
+
+void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)
+{
+    static const double least = 1.75, good = 3; /* of c over the speed of the flow: pressed by 18 and 6 % */
+    const WorldDef *def = &scene->world;
+    const double *a = def->gravity, g = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double fall = greatest_fall(def), start = greatest_start(def), c = def->sound_speed;
+    const double speed = sqrt(start * start + 2 * g * fall);
+    if (c < least * speed)
+        advise(
+            tree, "solver.sound_speed", notes,
+            "%.3g m/s is little for fluid that may come to %.3g m/s: it is pressed by some %.0f %%; use %.2g "
+            "m/s or more%s",
+            c, speed, 100 * expm1(0.5 * speed * speed / (c * c)), good * speed,
+            def->step_mode == STEP_FIXED ? ", with a step as much shorter" : "");
+}

@@ -1,0 +1,47 @@
+#include "app/scene/check_parts.h"
+
+#include <math.h>
+
+static bool check_view(const Check *check)
+{
+    const ViewDef *view = &check->scene->view;
+    if (!view->range_auto && !(view->range[0] < view->range[1]))
+        return FAIL(check, "view.range", "the range's low (%g) is not below its high (%g); swap or move them",
+                    view->range[0], view->range[1]);
+    const double *from = view->camera.from, *to = view->camera.to;
+    if (!view->camera_auto && from[0] == to[0] && from[1] == to[1] && from[2] == to[2])
+        return FAIL(check, "view.camera", "the camera stands where it looks; move `from` or `to`");
+    return true;
+}
+
+static bool check_spacing(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    double width = INFINITY;
+    for (int k = 0; k < world->dimensions; k++)
+        width = fmin(width, world->box_size[k]);
+    if (world->spacing > 0.5 * width)
+        return FAIL(check, "particles.spacing",
+                    "the spacing of %g m is too large for the box; use at most %g m", world->spacing,
+                    0.5 * width);
+    return true;
+}
+
+bool scene_check(const Tree *tree, const Scene *scene, Error *error)
+{
+    const Check check = {tree, scene, error};
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        if (!scene_check_fluid(&check, f))
+            return false;
+    for (int k = 0; k < scene->world.drain_count; k++)
+        if (!scene_check_drain(&check, k))
+            return false;
+    for (int m = 0; m < scene->world.motion_count; m++)
+        if (!scene_check_motion(&check, "motion", m, &scene->world.motions[m]))
+            return false;
+    for (int k = 0; k < scene->world.solid_count; k++)
+        if (!scene_check_solid(&check, k))
+            return false;
+    return scene_check_plane(&check, "gravity", scene->world.gravity) && check_spacing(&check) &&
+           scene_check_lid(&check) && check_view(&check);
+}

@@ -1,0 +1,156 @@
+/* What the machine can hold, and what there is to hold. */
+#include "app/scene/check_parts.h"
+#include "render/volume/volume.h"
+#include "sim/matter/boundary.h"
+#include "sim/matter/fill.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { BYTES_A_PARTICLE = 300, BYTES_A_CELL = 8 };
+
+double scene_fluid_volume(const Scene *scene)
+{
+    double volume = 0;
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
+            volume += fill_volume(&scene->world.fluids[f].fills[i], scene->world.dimensions);
+    return volume;
+}
+
+/* Points of the lattice that counting walks over: those of the block around each fill. */
+static double points_walked(const WorldDef *world, double spacing)
+{
+    double sum = 0;
+    for (int f = 0; f < world->fluid_count; f++)
+        for (int i = 0; i < world->fluids[f].fill_count; i++) {
+            const Fill *fill = &world->fluids[f].fills[i];
+            double points = 1, low[3], high[3];
+            fill_bounds(fill, low, high);
+            for (int k = 0; k < world->dimensions; k++)
+                points *= (high[k] - low[k]) / spacing + 2;
+            sum += points;
+        }
+    return sum;
+}
+
+static double physical_bytes(void)
+{
+    return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+}
+
+static bool too_many(const Check *check, double particles)
+{
+    return FAIL(
+        check, "particles.spacing",
+        "about %.3g particles are more than this machine can hold (at most %.3g); use a larger spacing than "
+        "%g m",
+        particles, fmin(0x1p31 - 1, physical_bytes() / BYTES_A_PARTICLE), check->scene->world.spacing);
+}
+
+bool scene_fits_memory(double particles)
+{
+    return particles < 0x1p31 && particles * BYTES_A_PARTICLE < physical_bytes();
+}
+
+/* The grid of cells of side h covers the whole box, however little of it is filled. */
+static bool check_cells(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    const double h = world->support * world->spacing;
+    double cells = 1;
+    for (int k = 0; k < world->dimensions; k++)
+        cells *= world->box_size[k] / h + 3;
+    if (cells < 0x1p31 && cells * BYTES_A_CELL < physical_bytes())
+        return true;
+    return FAIL(
+        check, "particles.spacing",
+        "the box holds %.3g cells of %g m, more than this machine can; use a larger spacing or a smaller box",
+        cells, h);
+}
+
+bool scene_check_bounds(const Tree *tree, const Scene *scene, double spacing, Error *error)
+{
+    const Check check = {tree, scene, error};
+    double most = 0;
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
+            most = fmax(most, fill_volume(&scene->world.fluids[f].fills[i], scene->world.dimensions));
+    most /= pow(spacing, scene->world.dimensions);
+    if (!scene_fits_memory(0.5 * most)) /* half: rounding to the lattice can only lose so much of this many */
+        return too_many(&check, scene_fluid_volume(scene) / (spacing * spacing * spacing));
+    if (points_walked(&scene->world, spacing) > 0x1p30) /* a wide fill thinner than a spacing, say */
+        return too_many(&check, points_walked(&scene->world, spacing));
+    return true;
+}
+
+/* Boundary particles stand in memory as the `fluid` ones do. */
+static bool check_boundary(const Check *check, size_t fluid)
+{
+    const WorldDef *world = &check->scene->world;
+    double sum = 0;
+    for (int k = 0; k < world->solid_count; k++)
+        sum += boundary_estimate(&world->solids[k], world->dimensions, world->spacing,
+                                 world->support * world->spacing);
+    return sum <= 0 || scene_fits_memory(sum + (double)flow_capacity(world, fluid)) ||
+           FAIL(
+               check, "solids",
+               "the solids' surfaces need about %.3g particles of their own, more than this machine can hold; "
+               "use a larger spacing or smaller solids",
+               sum);
+}
+
+/* What no driver would take; what this one does not is found with it. */
+static bool check_volume(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    const VolumeDef *volume = &check->scene->view.volume;
+    ParticleBuffers space = {.spacing = world->spacing, .support_radius = world->support * world->spacing};
+    VolumeGrid grid;
+    Error error;
+    memcpy(space.box_size, world->box_size, sizeof space.box_size);
+    return strcmp(check->scene->view.kind, "volume") != 0 || volume_grid_for(volume, &space, &grid, &error) ||
+           FAIL(check, volume->cell > 0 ? "view.volume.cell" : "view.volume.cells", "%s", error.message);
+}
+
+bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
+{
+    const Check check = {tree, scene, error};
+    const double spacing = scene->world.spacing;
+    if (!scene_check_widths(&check) || !scene_check_periodic(&check) || !check_boundary(&check, 0) ||
+        !check_volume(&check))
+        return false;
+    if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
+        return false;
+    size_t all = 0, counts[FLUIDS_MAX];
+    seed_counts(&scene->world, counts);
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        char path[64];
+        snprintf(path, sizeof path, "fluids[%d].fill", f);
+        all += counts[f];
+        if (!scene_fits_memory((double)all))
+            return too_many(&check, (double)all);
+        if (counts[f] == 0 && scene->world.fluids[f].fill_count > 0)
+            return FAIL(
+                &check, path,
+                "the fluid '%s' has no particles: its fills hold no point of the lattice of spacing %g m that "
+                "is free; use a smaller spacing or larger fills",
+                scene->world.fluids[f].name, spacing);
+    }
+    if (!check_boundary(&check, all))
+        return false;
+    if (!flow_emits(&scene->world))
+        return true;
+    if (!scene_fits_memory(scene->world.most))
+        return FAIL(&check, "particles.most", "%d particles are more than this machine can hold; use fewer",
+                    scene->world.most);
+    return all <= (size_t)scene->world.most ||
+           FAIL(
+               &check, "particles.most",
+               "the fills alone hold %zu particle%s, more than the %d that emitters may fill up to; raise it",
+               all, plural(all), scene->world.most);
+}

@@ -1,0 +1,13 @@
+/* The settings of a scene as JSON. */
+#ifndef SLOSH_SCENE_JSON_H
+#define SLOSH_SCENE_JSON_H
+
+#include "app/scene/scene.h"
+
+#include <jansson.h>
+
+/* {"fluids[0].viscosity": {"value": 0.5, "unit": "Pa s"}, ...}: each line of scene_print, numbers and lists
+   as such, all else as text; no unit where there is none. The caller's; NULL when memory is short. */
+json_t *scene_json(const Scene *scene);
+
+#endif

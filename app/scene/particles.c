@@ -1,0 +1,96 @@
+#include "app/scene/particles.h"
+
+#include "app/scene/check.h"
+#include "sim/matter/fill_lattice.h"
+#include "sim/matter/seed.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* A count jumps when the lattice gains a layer, so the nearest one is looked for among many spacings, about
+   the one that the volume asks for. */
+enum { TRIES = 96 };
+
+typedef struct Best {
+    double spacing;
+    size_t count;
+    double cost; /* part of the wanted number by which the count misses it, and how uneven the lattice is */
+} Best;
+
+/* The width of a cube, or a square, of that volume. */
+static double root(const Scene *scene, double volume)
+{
+    return scene->world.dimensions == 3 ? cbrt(volume) : sqrt(volume);
+}
+
+static void offer(const Scene *scene, size_t wanted, double spacing, Best *best)
+{
+    WorldDef world = scene->world;
+    double uneven;
+    world.spacing = spacing;
+    const double fits = fill_lattice_fit(&world, &uneven);
+    if (fits <= 0 && best->spacing > 0)
+        return;
+    const size_t count = seed_count(&world, fits > 0 ? fits : spacing);
+    const double cost =
+        fabs((double)count - (double)wanted) / (double)wanted + 0.1 * uneven + (fits > 0 ? 0 : 1);
+    if (best->spacing <= 0 || cost < best->cost)
+        *best = (Best){fits > 0 ? fits : spacing, count, cost};
+}
+
+/* The more particles, the smaller the jumps, and the dearer each count. */
+static int tries_for(size_t wanted)
+{
+    return wanted > 4000000 ? 4 : wanted > 400000 ? 24 : TRIES;
+}
+
+static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
+{
+    Best best = {0};
+    for (int round = 0; round < 2; round++) { /* fills that overlap fill less than their volumes add up to */
+        offer(scene, wanted, guess, &best);
+        guess = best.spacing * root(scene, fmax(1, (double)best.count) / (double)wanted);
+    }
+    const int tries = tries_for(wanted);
+    const double width = wanted < 1000 ? 0.3 : 0.05;
+    for (int i = 0; i < tries; i++)
+        offer(scene, wanted, guess * (1 + width * (2.0 * i / (tries - 1) - 1)), &best);
+    return best;
+}
+
+/* At most half of the box's least width, as for a spacing that a file gives. */
+static double greatest_spacing(const Scene *scene)
+{
+    const double *size = scene->world.box_size, width = fmin(size[0], size[1]);
+    return 0.5 * (scene->world.dimensions == 3 ? fmin(width, size[2]) : width);
+}
+
+bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
+                         Error *error)
+{
+    const size_t wanted = settings->particles;
+    if (scene_fluid_volume(scene) <= 0)
+        return error_set(
+            error, "--particles %zu: the scene fills nothing at the start; use --set particles.spacing=...",
+            wanted);
+    const double guess =
+        fmin(greatest_spacing(scene), root(scene, scene_fluid_volume(scene) / (double)wanted));
+    if (!(guess > 1e-6) || !scene_fits_memory((double)wanted) ||
+        !scene_check_bounds(tree, scene, 0.9 * guess, NULL))
+        return error_set(error, "--particles %zu: more than this machine can hold; use fewer", wanted);
+    const Best best = nearest_spacing(scene, wanted, guess);
+    if (best.count == 0 || best.spacing > greatest_spacing(scene))
+        return error_set(error, "--particles %zu: too few to fill this scene; use more", wanted);
+
+    const double scale = best.spacing / scene->world.spacing, dt = scene->world.dt;
+    scene->world.spacing = best.spacing;
+    if (settings->dt_set || scene->world.step_mode == STEP_CFL)
+        return true;
+    scene->world.dt = dt * scale;
+    notes_add(
+        notes,
+        "--particles %zu: a spacing of %.4g m gives %zu; solver.step.dt goes with it from %.4g to %.4g s "
+        "(--set solver.step.dt=... chooses it)",
+        wanted, best.spacing, best.count, dt, scene->world.dt);
+    return true;
+}

@@ -1,0 +1,293 @@
+/* The table of keys and a scene's settings as text for people. */
+#include "app/scene/keys.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void print_triple(char *text, size_t size, const char *format, const double v[3])
+{
+    char part[3][32];
+    for (int k = 0; k < 3; k++)
+        snprintf(part[k], sizeof part[k], format, v[k]);
+    snprintf(text, size, "[%s, %s, %s]", part[0], part[1], part[2]);
+}
+
+static void color_text(const Key *key, const char *field, char *text, size_t size)
+{
+    double color[3];
+    for (int k = 0; k < 3; k++)
+        color[k] =
+            linear_to_srgb(key->flags & KEY_SINGLE ? ((const float *)field)[k] : ((const double *)field)[k]);
+    print_triple(text, size, "%.3g", color);
+}
+
+/* One number, or the rows. */
+static void curve_text(const TimeTable *table, double number, char *text, size_t size)
+{
+    int used = snprintf(text, size, table->rows > 0 ? "[" : "%.9g", number);
+    for (int k = 0; k < (int)table->rows && used >= 0 && (size_t)used < size; k++)
+        used += snprintf(text + used, size - (size_t)used, "%s[%.9g, %.9g]%s", k ? ", " : "", table->time[k],
+                         table->value[k], k + 1 < (int)table->rows ? "" : "]");
+}
+
+static void axes_text(const bool axes[3], char *text, size_t size)
+{
+    const char *names = "xyz";
+    int used = snprintf(text, size, "[");
+    for (int k = 0; k < 3; k++)
+        if (axes[k])
+            used += snprintf(text + used, size - (size_t)used, "%s%c", used > 1 ? ", " : "", names[k]);
+    snprintf(text + used, size - (size_t)used, "]");
+}
+
+static void names_text(const Key *key, const int *places, int count, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "[");
+    for (int k = 0; k < count && used < size; k++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", k ? ", " : "", key->choice(places[k]));
+    if (used < size)
+        snprintf(text + used, size - used, "]");
+}
+
+void key_value_text(const Key *key, const void *base, char *text, size_t size)
+{
+    *text = 0;
+    if (key->type == KEY_CHOICE && key->offset == KEY_NOWHERE)
+        snprintf(text, size, "%s", key->choice(0));
+    if (key->offset == KEY_NOWHERE)
+        return;
+    const char *field = (const char *)base + key->offset;
+    switch (key->type) {
+    case KEY_NUMBER:
+        snprintf(text, size, "%.9g", *(const double *)field);
+        break;
+    case KEY_CURVE:
+        curve_text((const TimeTable *)((const char *)base + key->aux), *(const double *)field, text, size);
+        break;
+    case KEY_INTEGER:
+        snprintf(text, size, "%d", *(const int *)field);
+        break;
+    case KEY_BOOLEAN:
+        snprintf(text, size, "%s", *(const bool *)field ? "true" : "false");
+        break;
+    case KEY_TEXT:
+        snprintf(text, size, "%s", field);
+        break;
+    case KEY_CHOICE:
+        snprintf(text, size, "%s", key->flags & KEY_INDEX ? key->choice(*(const int *)field) : field);
+        break;
+    case KEY_VEC3:
+        print_triple(text, size, "%.9g", (const double *)field);
+        break;
+    case KEY_AXES:
+        axes_text((const bool *)field, text, size);
+        break;
+    case KEY_NAMES:
+        names_text(key, (const int *)(const void *)field,
+                   *(const int *)(const void *)((const char *)base + key->aux), text, size);
+        break;
+    case KEY_COLOR:
+        color_text(key, field, text, size);
+        break;
+    case KEY_RANGE:
+        if (*((const bool *)base + key->aux))
+            snprintf(text, size, "auto");
+        else
+            snprintf(text, size, "[%.9g, %.9g]", ((const double *)field)[0], ((const double *)field)[1]);
+        break;
+    case KEY_MAPPING:
+    case KEY_VARIANT:
+    case KEY_LIST:
+        break;
+    }
+}
+
+void key_range_text(const Key *key, char *text, size_t size)
+{
+    *text = 0;
+    if (key->type == KEY_CHOICE || key->type == KEY_NAMES) {
+        size_t used = 0;
+        const char *name;
+        for (int i = 0; (name = key->choice(i)) && used < size; i++)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", name);
+    } else if (key->type == KEY_BOOLEAN) {
+        snprintf(text, size, "true, false");
+    } else if (key->min == key->max) {
+        return;
+    } else if (key->flags & KEY_OPEN_LOW) {
+        snprintf(text, size, "more than %g, at most %g", key->min, key->max);
+    } else {
+        snprintf(text, size, "%g to %g", key->min, key->max);
+    }
+}
+
+static bool is_container(KeyType type)
+{
+    return type == KEY_MAPPING || type == KEY_VARIANT || type == KEY_LIST;
+}
+
+/* What the default column is read from. */
+typedef struct Defaults {
+    Scene scene;
+    FluidDef fluid; /* these three have defaults other than zero */
+    Fill fill;
+    SolidDef solid;
+    Motion motion;
+    Emit zero;
+} Defaults;
+
+static void defaults_make(Defaults *defaults)
+{
+    *defaults = (Defaults){0};
+    scene_default(&defaults->scene);
+    scene_key_find("fluids")->init(&defaults->fluid, 0);
+    scene_key_find("fluids[].fill")->init(&defaults->fill, 0);
+    scene_key_find("solids")->init(&defaults->solid, 0);
+}
+
+static const void *default_base(const Defaults *defaults, const Key *key)
+{
+    if (!strchr(key->path, '['))
+        return &defaults->scene;
+    if (strstr(key->path, "emit[]") || strncmp(key->path, "drains", 6) == 0)
+        return &defaults->zero;
+    if (strstr(key->path, "fill[]"))
+        return &defaults->fill;
+    if (strncmp(key->path, "fluids[]", 8) == 0)
+        return &defaults->fluid;
+    return strstr(key->path, "motion[]") ? (const void *)&defaults->motion : &defaults->solid;
+}
+
+static void print_default(const Key *key, const Defaults *defaults, FILE *file)
+{
+    char value[128] = "";
+    if (key->flags & KEY_REQUIRED)
+        snprintf(value, sizeof value, "required");
+    else if (key->fallback)
+        snprintf(value, sizeof value, "%s", key->fallback);
+    else if (!is_container(key->type))
+        key_value_text(key, default_base(defaults, key), value, sizeof value);
+    fprintf(file, " %s |", value);
+}
+
+void scene_keys_print(FILE *file)
+{
+    static const char *const types[] = {
+        [KEY_MAPPING] = "mapping",
+        [KEY_VARIANT] = "mapping",
+        [KEY_LIST] = "list",
+        [KEY_NUMBER] = "number",
+        [KEY_CURVE] = "number or table",
+        [KEY_INTEGER] = "whole number",
+        [KEY_BOOLEAN] = "boolean",
+        [KEY_TEXT] = "text",
+        [KEY_CHOICE] = "name",
+        [KEY_VEC3] = "[x, y, z]",
+        [KEY_AXES] = "list of axes",
+        [KEY_NAMES] = "list of names",
+        [KEY_COLOR] = "[r, g, b]",
+        [KEY_RANGE] = "[low, high]",
+    };
+    int count;
+    const Key *keys = scene_keys(&count);
+    Defaults defaults;
+    defaults_make(&defaults);
+    fprintf(file, "| key | type | unit | range | default | live | meaning |\n");
+    fprintf(file, "| --- | --- | --- | --- | --- | --- | --- |\n");
+    for (int i = 0; i < count; i++) {
+        char range[256], help[512];
+        key_help_text(&keys[i], help, sizeof help);
+        key_range_text(&keys[i], range, sizeof range);
+        fprintf(file, "| `%s` | %s | %s | %s%s |", keys[i].path, types[keys[i].type], keys[i].unit, range,
+                keys[i].type == KEY_LIST   ? " entries"
+                : keys[i].type == KEY_TEXT ? " bytes"
+                                           : "");
+        print_default(&keys[i], &defaults, file);
+        fprintf(file, " %s | %s |\n", keys[i].flags & KEY_LIVE ? "yes" : "", help);
+    }
+}
+
+enum { PATH_SIZE = 128 };
+
+/* Where a printing walk stands: the row's parent, the same with indices, and what offsets count from. */
+typedef struct Walk {
+    char parent[PATH_SIZE], shown[PATH_SIZE];
+    const char *base;
+} Walk;
+
+static void print_children(const Walk *walk, FILE *file);
+
+static void print_list(const Key *key, const Walk *walk, const char *shown, FILE *file)
+{
+    const int elements = *(const int *)(walk->base + key->aux);
+    for (int e = 0; e < elements; e++) {
+        Walk inner = {.base = walk->base + key->offset + (size_t)e * key->size};
+        snprintf(inner.parent, PATH_SIZE, "%.120s[]", key->path);
+        snprintf(inner.shown, PATH_SIZE, "%.110s[%d]", shown, e);
+        print_children(&inner, file);
+    }
+}
+
+static bool is_absent(const Key *key, const char *base)
+{
+    if (key->type == KEY_VARIANT)
+        return *(const int *)(base + key->aux) != key->variant;
+    return key->type == KEY_MAPPING && key->aux != KEY_NOWHERE && *(const bool *)(base + key->aux);
+}
+
+static void print_key(const Key *key, const Walk *walk, const char *shown, FILE *file)
+{
+    char value[TIME_TABLE_ROWS * 48];
+    Walk inner = {.base = walk->base};
+    switch (key->type) {
+    case KEY_MAPPING:
+    case KEY_VARIANT:
+        if (is_absent(key, walk->base))
+            return;
+        snprintf(inner.parent, PATH_SIZE, "%s", key->path);
+        snprintf(inner.shown, PATH_SIZE, "%s", shown);
+        print_children(&inner, file);
+        break;
+    case KEY_LIST:
+        print_list(key, walk, shown, file);
+        break;
+    default:
+        key_value_text(key, walk->base, value, sizeof value);
+        fprintf(file, "%s = %s%s%s\n", shown, value, *key->unit ? " " : "", key->unit);
+    }
+}
+
+static void print_children(const Walk *walk, FILE *file)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int i = 0; i < count; i++) {
+        const char *name = key_name_in(&keys[i], walk->parent);
+        char shown[PATH_SIZE];
+        if (!name)
+            continue;
+        snprintf(shown, sizeof shown, "%.80s%s%.40s", walk->shown, *walk->shown ? "." : "", name);
+        print_key(&keys[i], walk, shown, file);
+    }
+}
+
+void scene_print(const Scene *scene, FILE *file)
+{
+    const Walk walk = {.base = (const char *)scene};
+    print_children(&walk, file);
+}
+
+char *scene_print_text(const Scene *scene)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return NULL;
+    scene_print(scene, file);
+    if (fclose(file) == 0)
+        return text;
+    free(text);
+    return NULL;
+}

@@ -1,0 +1,226 @@
+#include "app/scene/read.h"
+
+#include "app/base/suggest.h"
+#include "app/scene/keys.h"
+#include "app/scene/preset.h"
+#include "app/scene/value.h"
+
+#include <stddef.h>
+#include <string.h>
+
+enum { PATH_SIZE = 128 };
+
+/* A mapping on its way into a struct. */
+typedef struct Place {
+    const Tree *tree;
+    const Node *node;
+    const char *parent;    /* path of the row that the mapping belongs to; "" for the whole scene */
+    char shown[PATH_SIZE]; /* the same with indices, for people */
+    char *base;            /* what the rows' offsets count from */
+    Error *error;
+} Place;
+
+static bool read_mapping(const Place *place);
+
+static void path_join(char out[PATH_SIZE], const char *parent, const char *name)
+{
+    snprintf(out, PATH_SIZE, "%.80s%s%.40s", parent, *parent ? "." : "", name);
+}
+
+/* A key that is known elsewhere ("spacing" for particles.spacing) is worth a hint too. */
+static const char *known_elsewhere(const char *name)
+{
+    int count;
+    const Key *keys = scene_keys(&count), *best = NULL;
+    Suggestion near = suggest_for(name);
+    for (int i = 0; i < count; i++) {
+        const char *dot = strrchr(keys[i].path, '.'), *last = dot ? dot + 1 : keys[i].path;
+        const int distance = near.distance;
+        suggest_offer(&near, last);
+        if (near.distance < distance)
+            best = &keys[i];
+    }
+    return best ? best->path : NULL;
+}
+
+static bool unknown_key(const Place *place, const Node *child)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    Suggestion near = suggest_for(child->key);
+    char known[512] = "";
+    for (int i = 0; i < count; i++) {
+        const char *name = key_name_in(&keys[i], place->parent);
+        const size_t used = strlen(known);
+        if (!name)
+            continue;
+        suggest_offer(&near, name);
+        snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", name);
+    }
+    if (near.best)
+        return tree_error_key(place->tree, child, place->error, "unknown key '%.60s'; did you mean '%s'?",
+                              child->key, near.best);
+    const char *elsewhere = known_elsewhere(child->key);
+    if (elsewhere)
+        return tree_error_key(place->tree, child, place->error,
+                              "unknown key '%.60s' here; did you mean '%s'?", child->key, elsewhere);
+    return tree_error_key(place->tree, child, place->error, "unknown key '%.60s'; known here: %s", child->key,
+                          known);
+}
+
+static bool check_known(const Place *place)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (const Node *child = place->node->first; child; child = child->next) {
+        bool known = false;
+        for (int i = 0; i < count && !known; i++) {
+            const char *name = key_name_in(&keys[i], place->parent);
+            known = name && strcmp(name, child->key) == 0;
+        }
+        if (!known)
+            return unknown_key(place, child);
+    }
+    return true;
+}
+
+/* Names of the variants below `parent`: "block, ball"; empty when there are none. */
+static void variant_names(const char *parent, char *names, size_t size)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    *names = 0;
+    for (int i = 0; i < count; i++) {
+        const char *name = key_name_in(&keys[i], parent);
+        const size_t used = strlen(names);
+        if (name && keys[i].type == KEY_VARIANT)
+            snprintf(names + used, size - used, "%s%s", used ? ", " : "", name);
+    }
+}
+
+/* Variants that the mapping has. */
+static int variant_count(const Place *place)
+{
+    int variants = 0;
+    for (const Node *child = place->node->first; child; child = child->next) {
+        char path[PATH_SIZE];
+        path_join(path, place->parent, child->key);
+        const Key *key = scene_key_find(path);
+        variants += key && key->type == KEY_VARIANT;
+    }
+    return variants;
+}
+
+static bool check_one_variant(const Place *place)
+{
+    char names[256];
+    variant_names(place->parent, names, sizeof names);
+    if (!*names || variant_count(place) == 1)
+        return true;
+    return tree_error(place->tree, place->node, place->error, "%s must have exactly one of: %s", place->shown,
+                      names);
+}
+
+static bool read_list(const Place *place, const Key *key, const Node *node, const char *shown)
+{
+    if (node->kind != NODE_SEQUENCE)
+        return tree_error(place->tree, node, place->error, "%s must be a list: lines that begin with '-'",
+                          shown);
+    const size_t elements = node_count(node);
+    if ((double)elements < key->min || (double)elements > key->max)
+        return tree_error(place->tree, node, place->error, "%s has %zu %s; it must have %g to %g", shown,
+                          elements, elements == 1 ? "entry" : "entries", key->min, key->max);
+    char parent[PATH_SIZE];
+    snprintf(parent, sizeof parent, "%.120s[]", key->path);
+    int index = 0;
+    for (const Node *child = node->first; child; child = child->next, index++) {
+        Place inner = {.tree = place->tree, .node = child, .parent = parent, .error = place->error};
+        inner.base = place->base + key->offset + (size_t)index * key->size;
+        snprintf(inner.shown, PATH_SIZE, "%.110s[%d]", shown, index);
+        memset(inner.base, 0, key->size);
+        if (key->init)
+            key->init(inner.base, index);
+        if (!read_mapping(&inner))
+            return false;
+    }
+    *(int *)(place->base + key->aux) = index;
+    return true;
+}
+
+static bool read_key(const Place *place, const Key *key, const Node *node, const char *shown)
+{
+    Place inner = {
+        .tree = place->tree, .node = node, .parent = key->path, .base = place->base, .error = place->error};
+    switch (key->type) {
+    case KEY_LIST:
+        return read_list(place, key, node, shown);
+    case KEY_VARIANT:
+        *(int *)(place->base + key->aux) = key->variant;
+        break;
+    case KEY_MAPPING:
+        if (key->aux != KEY_NOWHERE)
+            *(bool *)(place->base + key->aux) = false;
+        break;
+    default:
+        return value_read(place->tree, key, node, shown, place->base, place->error);
+    }
+    snprintf(inner.shown, PATH_SIZE, "%s", shown);
+    return read_mapping(&inner);
+}
+
+/* The first key that a mapping that isn't there would have to have, for the message. */
+static const Key *required_below(const Key *mapping)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int i = 0; i < count; i++)
+        if (key_name_in(&keys[i], mapping->path) && keys[i].flags & KEY_REQUIRED)
+            return &keys[i];
+    return NULL;
+}
+
+/* Whether the scene may do without `key`; a camera without its keys is allowed, a box without is not. */
+static bool check_missing(const Place *place, const Key *key, const char *shown)
+{
+    const bool optional = key->type == KEY_VARIANT || (key->type == KEY_MAPPING && key->aux != KEY_NOWHERE);
+    const Key *lacking = key->flags & KEY_REQUIRED ? key : NULL;
+    if (key->type == KEY_MAPPING && !optional)
+        lacking = required_below(key);
+    if (optional || !lacking)
+        return true;
+    const char *name = lacking == key ? shown : lacking->path;
+    return tree_error(place->tree, place->node, place->error, "%s is missing: %s%s%s%s; add it", name,
+                      lacking->help, *lacking->unit ? " (" : "", lacking->unit, *lacking->unit ? ")" : "");
+}
+
+static bool read_mapping(const Place *place)
+{
+    if (place->node->kind != NODE_MAPPING)
+        return tree_error(place->tree, place->node, place->error,
+                          "%s must be a mapping: lines of `key: value`", place->shown);
+    if (!check_known(place) || !check_one_variant(place))
+        return false;
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int i = 0; i < count; i++) {
+        const char *name = key_name_in(&keys[i], place->parent);
+        char shown[PATH_SIZE];
+        if (!name)
+            continue;
+        path_join(shown, place->shown, name);
+        const Node *child = node_child(place->node, name);
+        if (!(child ? read_key(place, &keys[i], child, shown) : check_missing(place, &keys[i], shown)))
+            return false;
+    }
+    return true;
+}
+
+bool scene_read(const Tree *tree, Scene *scene, Error *error)
+{
+    scene_default(scene);
+    if (!preset_apply(tree, scene, error))
+        return false;
+    const Place place = {
+        .tree = tree, .node = tree->root, .parent = "", .base = (char *)scene, .error = error};
+    return read_mapping(&place);
+}

@@ -1,0 +1,170 @@
+#include "app/scene/scene.h"
+
+#include "app/base/path.h"
+#include "app/scene/advise.h"
+#include "app/scene/check.h"
+#include "app/scene/particles.h"
+#include "app/scene/read.h"
+#include "app/yaml/tree.h"
+#include "render/renderer.h"
+#include "sim/matter/fill_lattice.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Without a title, the file's name without folder and ending. */
+static void title_default(Scene *scene)
+{
+    if (*scene->title)
+        return;
+    const char *slash = strrchr(scene->path, '/');
+    snprintf(scene->title, sizeof scene->title, "%.100s", slash ? slash + 1 : scene->path);
+    char *dot = strrchr(scene->title, '.');
+    if (dot && dot != scene->title)
+        *dot = 0;
+}
+
+static void view_fluids(Scene *scene)
+{
+    scene->view.fluid_count = scene->world.fluid_count;
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        memcpy(scene->view.fluid_name[f], scene->world.fluids[f].name, NAME_SIZE);
+        memcpy(scene->view.fluid_color[f], scene->world.fluids[f].color, sizeof scene->view.fluid_color[f]);
+    }
+}
+
+/* The file's scalar, or "" where it names none. */
+static void file_scalar(const Tree *tree, char name[NAME_SIZE])
+{
+    const Node *node = tree_at(tree, "view.color_by");
+    snprintf(name, NAME_SIZE, "%s", node && node->text ? node->text : "");
+}
+
+/* A range that the file gives is of the file's scalar, not of one that the command line names. */
+static void range_of_scalar(const Tree *tree, const char *scalar_of_file, ViewDef *view)
+{
+    const Node *color = tree_at(tree, "view.color_by"), *range = tree_at(tree, "view.range");
+    const bool own = range && range->said;
+    const char *of_file = *scalar_of_file ? scalar_of_file : scalar_name(view_def_default().color_by);
+    if (!own && color && color->said && strcmp(of_file, scalar_name(view->color_by)) != 0)
+        view->range_auto = true;
+}
+
+static bool apply_settings(Tree *tree, SceneSettings *settings, Error *error)
+{
+    for (int i = 0; i < settings->count; i++)
+        if (!tree_set(tree, settings->set[i], settings->said[i], error))
+            return false;
+    const Node *dt = tree_at(tree, "solver.step.dt");
+    settings->dt_set = dt && dt->said;
+    return true;
+}
+
+/* A box with a width and a height, and no depth, makes a scene of two dimensions. */
+static int dimensions_of(const Tree *tree)
+{
+    const Node *size = tree_at(tree, "box.size");
+    return size && size->kind == NODE_SEQUENCE && node_count(size) == 2 ? 2 : 3;
+}
+
+static bool read_scene(Tree *tree, Scene *out, Error *error)
+{
+    tree->dimensions = dimensions_of(tree);
+    if (!scene_read(tree, out, error))
+        return false;
+    out->world.dimensions = tree->dimensions;
+    return scene_check(tree, out, error);
+}
+
+/* A bowl's wall is thick enough to keep fluids apart, whatever the spacing became. */
+static void solids_default(Scene *scene)
+{
+    WorldDef *world = &scene->world;
+    for (int k = 0; k < world->solid_count; k++)
+        if (world->solids[k].thickness == 0)
+            world->solids[k].thickness = world->support * world->spacing;
+    scene->view.solid_count = world->solid_count;
+    memcpy(scene->view.solids, world->solids, sizeof scene->view.solids);
+}
+
+static void view_space(Scene *scene)
+{
+    const WorldDef *world = &scene->world;
+    memcpy(scene->view.box_size, world->box_size, sizeof scene->view.box_size);
+    scene->view.spacing = world->spacing;
+    scene->view.support_radius = world->support * world->spacing;
+    scene->view.particles = flow_capacity(world, seed_count(world, world->spacing));
+}
+
+/* The spacing at which the fills have their mass. */
+static void fit_spacing(const Tree *tree, Scene *scene, Notes *notes)
+{
+    WorldDef *world = &scene->world;
+    const double asked = world->spacing, fits = fill_lattice_spacing(world);
+    world->spacing = fits;
+    if (fabs(fits / asked - 1) > 1e-6)
+        advise(
+            tree, "particles.spacing", notes,
+            "%.6g m does not divide the fills into whole layers; %.6g m is taken, at which they reach from wall to wall",
+            asked, fits);
+}
+
+static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
+{
+    char scalar[NAME_SIZE];
+    file_scalar(tree, scalar);
+    if (!apply_settings(tree, settings, error) || !read_scene(tree, out, error))
+        return false;
+    out->purpose = settings->purpose;
+    scene_advise_unused(tree, out, notes);
+    range_of_scalar(tree, scalar, &out->view);
+    if (settings->particles > 0 && !scene_set_particles(tree, out, settings, notes, error))
+        return false;
+    fit_spacing(tree, out, notes);
+    if (out->world.dimensions == 2)
+        out->world.box_size[2] = out->world.spacing;
+    solids_default(out);
+    if (!scene_check_count(tree, out, error))
+        return false;
+    snprintf(out->path, sizeof out->path, "%s", tree->path);
+    title_default(out);
+    view_fluids(out);
+    view_space(out);
+    scene_advise(tree, out, notes);
+    return true;
+}
+
+bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings *settings, Scene *out,
+                 Notes *notes, Error *error)
+{
+    SceneSettings none = {0};
+    if (notes)
+        notes->count = notes->lasting = 0;
+    if (size > SCENE_BYTES_MAX)
+        return error_set(error, "%s: larger than 1 MiB; a scene file is a page of YAML", path);
+    Tree tree;
+    const bool ok = tree_read(&tree, path, bytes, size, error) &&
+                    fill_scene(&tree, settings ? settings : &none, out, notes, error);
+    tree_free(&tree);
+    return ok;
+}
+
+bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
+{
+    char path[SCENE_PATH_SIZE];
+    size_t size;
+    if (notes)
+        notes->count = notes->lasting = 0;
+    if (!scene_path_find(name, path, error))
+        return false;
+    char *bytes = scene_file_read(path, &size, error);
+    if (!bytes)
+        return false;
+    const bool ok = scene_parse(path, bytes, size, settings, out, notes, error);
+    free(bytes);
+    return ok;
+}

@@ -1,0 +1,68 @@
+/* A scene file, read and checked: plain data.
+
+   The file is YAML (DESIGN 8). One table of keys (app/scene/keys.h) says what may stand where, in which unit,
+   range and with which default; the loader, `--set`, `info` and the documentation are made from it. */
+#ifndef SLOSH_SCENE_H
+#define SLOSH_SCENE_H
+
+#include "app/base/notes.h"
+#include "render/frame/view_def.h"
+#include "sim/base/error.h"
+#include "sim/matter/world_def.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { SCENE_METRICS_MAX = 8 };
+
+/* What a scene is read for: some of its keys are for some of these only. */
+typedef enum ScenePurpose {
+    SCENE_FOR_ONE,     /* a command that leaves method, backend and view as they are */
+    SCENE_FOR_NUMBERS, /* the same, without a picture: the particles are what comes out */
+    SCENE_FOR_WINDOW,  /* backend and view may change while it runs */
+    SCENE_FOR_CHART
+} ScenePurpose;
+
+typedef struct Scene {
+    char path[1024]; /* as found; what messages name */
+    ScenePurpose purpose;
+    char title[128];
+    WorldDef world;
+    ViewDef view;
+    char preset[NAME_SIZE]; /* what filled in the keys that the scene does not name (app/scene/preset.h) */
+    unsigned preset_filled; /* which of the preset's settings, a bit each */
+    bool
+        realtime; /* the window simulates as many frames as the wall clock asks for, else as many as it can */
+    int metric_count;
+    /* what `slosh chart` compares: places in metric_kinds (app/metric/metric_list.h) */
+    int metrics[SCENE_METRICS_MAX];
+} Scene;
+
+enum { SCENE_SETTINGS_MAX = 64 };
+
+/* What the command line adds to the file. */
+typedef struct SceneSettings {
+    int count;
+    const char
+        *set[SCENE_SETTINGS_MAX]; /* "path=value", in the order given; also what --backend, --method, --view,
+                                     --threads stand for */
+    const char
+        *said[SCENE_SETTINGS_MAX]; /* what messages call it: "--backend cuda"; NULL: --set and the setting */
+    size_t particles;              /* --particles; 0: the scene's own spacing */
+    ScenePurpose purpose;
+    bool dt_set; /* filled: dt was among `set`, so --particles does not scale it */
+} SceneSettings;
+
+/* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what
+   would be right", and "--set path=value: ..." where the command line is wrong. Creates nothing. `name` is a
+   path, or the name of a file beside the sources that the program was built from (scenes/box_slosh.yaml,
+   box_slosh). `notes` (may be
+   NULL) is emptied, then gets what the user should know of the scene: that --particles scaled dt, and what
+   scene_advise has to say. */
+bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *notes, Error *error);
+
+/* The same from `size` bytes in memory; pure, for tests and the fuzz target. */
+bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings *settings, Scene *out,
+                 Notes *notes, Error *error);
+
+#endif

@@ -1,0 +1,98 @@
+/* The command line, parsed: plain data. One table of commands and options (app/session/args_table.h) serves
+   the parser and the help. */
+#ifndef SLOSH_ARGS_H
+#define SLOSH_ARGS_H
+
+#include "app/output/snapshot_frame.h"
+#include "app/scene/scene.h"
+#include "sim/base/error.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+enum { ARGS_SCENES_MAX = 64, ARGS_SWEEPS_MAX = 8, ARGS_SWEEP_VALUES_MAX = 32, ARGS_POOL_BYTES = 8192 };
+
+typedef enum Command {
+    COMMAND_HELP, /* also --help: of `help_for`, or of the program where that is COMMAND_HELP */
+    COMMAND_VERSION,
+    COMMAND_PLAY, /* also without a command */
+    COMMAND_RENDER,
+    COMMAND_RUN,
+    COMMAND_BENCH,
+    COMMAND_VALIDATE, /* `scenes` holds the cases */
+    COMMAND_CHART,    /* `scenes` holds a scene or a case */
+    COMMAND_REPLAY,   /* `scenes` holds the recording */
+    COMMAND_EXPORT,   /* `scenes` holds the snapshots */
+    COMMAND_DEVICES,
+    COMMAND_INFO,
+    COMMAND_COUNT
+} Command;
+
+/* In the order of --clock's names, after none of them. */
+typedef enum ClockChoice { CLOCK_CHOICE_AUTO, CLOCK_CHOICE_GL, CLOCK_CHOICE_FINISH } ClockChoice;
+
+/* In the order of --color-by's names, after none of them. */
+typedef enum ColorChoice {
+    COLOR_CHOICE_AUTO,
+    COLOR_CHOICE_FLUID,
+    COLOR_CHOICE_SPEED,
+    COLOR_CHOICE_DENSITY,
+    COLOR_CHOICE_PRESSURE
+} ColorChoice;
+
+/* --sweep KEY=a,b,c: `key` is "particles" or the path of a scene key (backend, method, view and threads are
+   written out: solver.backend, ...). */
+typedef struct Sweep {
+    const char *key;
+    int count;
+    const char *values[ARGS_SWEEP_VALUES_MAX];
+} Sweep;
+
+/* Holds pointers into itself and into argv: it isn't to be copied. */
+typedef struct Args {
+    Command command, help_for;
+    int scene_count;
+    const char *scenes[ARGS_SCENES_MAX];
+    SceneSettings
+        settings;        /* --set, --particles, and what --backend, --method, --view, --threads stand for */
+    bool quiet;          /* no progress and no table */
+    const char *json;    /* FILE, or NULL */
+    const char *output;  /* -o, or NULL */
+    const char *shaders; /* DIR, or NULL: those in the program */
+    bool time_given;
+    double time;       /* s, at least 0; default 5 */
+    bool interpolate;  /* render: pictures between two states of a fixed step */
+    bool resume;       /* run: go on behind the last snapshot of the output */
+    double every;      /* s, more than 0; default 1/30 */
+    double fps;        /* more than 0; default 30 */
+    int frames;        /* at least 1; 0: not given */
+    int width, height; /* pixels, 1 to 16384; default 1280 x 720, of bench 512 x 512 */
+    int gpu;           /* number of the EGL device; -1: not given */
+    ClockChoice clock;
+    SnapshotFrame frame;       /* export: that positions and velocities are in */
+    bool surface;              /* export: the fluid's surface instead of the particles */
+    double level, cell;        /* of it; 0: not given */
+    ColorChoice color_by;      /* export: of a .ply */
+    bool full, coarse;         /* validate: finer or coarser than its default set */
+    const char *table;         /* bench: NAME, or NULL */
+    bool play;                 /* bench: the live window */
+    double seconds;            /* of it; more than 0; default 20 */
+    const char *record;        /* FILE, or NULL; of devices: raw reports */
+    const char *device;        /* "file:PATH", or NULL: what is plugged in */
+    bool watch;                /* devices: live values */
+    const char *mapping;       /* FILE, or NULL: the user's own, or what is built in */
+    const char *write_mapping; /* devices: FILE, or NULL */
+    int sweep_count;
+    Sweep sweeps[ARGS_SWEEPS_MAX];
+    size_t pool_used;
+    char pool[ARGS_POOL_BYTES]; /* texts that settings and sweeps point at */
+} Args;
+
+/* argv as main has it. False with "slosh COMMAND: what is wrong; what would be right": exit code 2. */
+bool args_parse(int argc, char *const argv[], Args *args, Error *error);
+
+/* The help of one command, or of the program for COMMAND_HELP and COMMAND_VERSION. */
+void args_help(Command command, FILE *file);
+
+#endif

@@ -1,0 +1,26 @@
+/* A recorded session, simulated again. */
+#ifndef SLOSH_RECORDING_PLAY_H
+#define SLOSH_RECORDING_PLAY_H
+
+#include "app/recording/recording.h"
+#include "app/session/session.h"
+
+typedef struct RecordingPlay {
+    const char *path; /* of the recording, for messages */
+    const Recording *recording;
+    size_t next; /* command that applies next */
+} RecordingPlay;
+
+/* Loads the recording's scene with its settings, and after them those of `more` (--threads; NULL: none), and
+   makes the world, `gpu` as of session_start. 0, or the exit code with "path: its scene ..."; session_close
+   in any case. */
+int recording_play_open(const RecordingPlay *play, const SceneSettings *more, int gpu, Session *session,
+                        Error *error);
+
+/* Applies the commands that are due at the present step. False with "path:line: ...": a setting is wrong. */
+bool recording_play_apply(RecordingPlay *play, Session *session, Error *error);
+
+/* Whether all that was recorded has been done. */
+bool recording_play_ended(const RecordingPlay *play, const Session *session);
+
+#endif

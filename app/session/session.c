@@ -1,0 +1,216 @@
+#include "app/session/session.h"
+
+#include "app/base/exit_code.h"
+#include "app/base/json_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Times are sums and products of decimal fractions: a state this small part of a frame early is on time. */
+static const double ROUNDING = 1e-6;
+
+int session_open(Session *session, const Args *args, bool draws, Error *error)
+{
+    Notes notes;
+    SceneSettings settings = args->settings;
+    settings.purpose = draws ? SCENE_FOR_ONE : SCENE_FOR_NUMBERS;
+    *session = (Session){.began_ms = wall_ms()};
+    if (!scene_load(args->scenes[0], &settings, &session->scene, &notes, error))
+        return EXIT_USAGE;
+    notes_print(&notes, stderr);
+    if (args->device &&
+        !(session->hand = hand_replay_open(args->device, args->mapping, &session->scene, error)))
+        return EXIT_USAGE;
+    return session_start(session, args->gpu, draws, error);
+}
+
+int session_start(Session *session, int gpu, bool draws, Error *error)
+{
+    const bool on_gpu = world_on_gpu(&session->scene.world);
+    if (!world_can(&session->scene.world, error))
+        return EXIT_USAGE;
+    if (on_gpu || draws) {
+        session->context = headless_create(gpu, error);
+        if (!session->context)
+            return EXIT_FAILED;
+        fprintf(stderr, "renderer: %s\n", headless_renderer(session->context));
+    }
+    session->world = world_create(&session->scene.world, error);
+    if (!session->world)
+        return on_gpu ? EXIT_FAILED : EXIT_USAGE;
+    world_info(session->world, &session->info);
+    return 0;
+}
+
+void session_close(Session *session)
+{
+    world_destroy(session->world);
+    headless_destroy(session->context);
+    hand_replay_close(session->hand);
+    session->hand = NULL;
+    session->world = NULL;
+    session->context = NULL;
+}
+
+bool session_reached(const Session *session, double time)
+{
+    return session->info.time >= time - ROUNDING * session->scene.world.dt && world_sound(session->world);
+}
+
+void session_tell_uneven(const Session *session, const char *what, double interval)
+{
+    const double dt = session->scene.world.dt, frames = fmax(1, round(interval / dt));
+    if (session->scene.world.step_mode == STEP_FIXED && fabs(interval / dt - frames) > ROUNDING * frames)
+        fprintf(stderr,
+                "%s are at uneven times: a frame of %.4g s does not divide the %.4g s between them; "
+                "--set solver.step.dt=%.6g, --set solver.step.mode=cfl%s makes them even\n",
+                what, dt, interval, interval / frames,
+                strcmp(what, "pictures") == 0 ? " or --interpolate" : "");
+}
+
+/* After a step: what is there now, and what the sentinel did. */
+static void look(Session *session)
+{
+    const unsigned troubles = session->info.trouble.count;
+    char words[256];
+    world_info(session->world, &session->info);
+    if (session->info.trouble.count != troubles)
+        fprintf(stderr, "%s\n", session_trouble_text(&session->info.trouble, words));
+    if (session->info.full && !session->told_full)
+        fprintf(stderr, "%s\n", session_full_text(&session->info, words));
+    session->told_full |= session->info.full;
+    if (session->info.lost && !session->told_lost)
+        fprintf(stderr, "%s\n", session_lost_text(&session->info, words));
+    session->told_lost |= session->info.lost > 0;
+}
+
+const char *session_lost_text(const WorldInfo *info, char words[256])
+{
+    snprintf(words, 256,
+             "t = %.4g s: %zu of %zu particles %s no place in the grid, and no neighbour sees %s; "
+             "solver.grid_layers 0 has room for a fluid at rest",
+             info->time, info->lost, info->count, info->lost == 1 ? "finds" : "find",
+             info->lost == 1 ? "it" : "them");
+    return words;
+}
+
+const char *session_full_text(const WorldInfo *info, char words[256])
+{
+    snprintf(
+        words, 256,
+        "t = %.4g s: there %s %zu particle%s, as many as particles.most allows: emitters pause until some drain",
+        info->time, info->count == 1 ? "is" : "are", info->count, plural(info->count));
+    return words;
+}
+
+const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
+{
+    snprintf(words, 256, "t = %.4g s: %s; back to %.4g s with 1/%d of the step (%d of %d)", trouble->time,
+             step_trouble_words(trouble->what), trouble->back_to, 1 << trouble->tries, trouble->tries,
+             trouble->retries);
+    return words;
+}
+
+bool session_substep(Session *session, Error *error)
+{
+    hand_replay_move(session->hand, session->world);
+    const bool stepped = world_substep(session->world, NULL, error);
+    look(session);
+    return stepped;
+}
+
+bool session_step(Session *session, Error *error)
+{
+    bool stepped = true;
+    do
+        stepped = session_substep(session, error);
+    while (stepped && session->info.within_frame);
+    return stepped;
+}
+
+static double wall_seconds(const Session *session)
+{
+    return fmax((wall_ms() - session->began_ms) / 1000, 1e-6);
+}
+
+static void print_limits(const WorldInfo *info)
+{
+    fputs("steps bounded by", stderr);
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        if (info->limited[i])
+            fprintf(stderr, " %s %.3g %%", step_limit_name((StepLimit)i),
+                    100.0 * (double)info->limited[i] / (double)info->step);
+    fputc('\n', stderr);
+}
+
+static json_t *limits_json(const WorldInfo *info)
+{
+    json_t *limits = json_object();
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        if (info->limited[i])
+            json_object_set_new(limits, step_limit_name((StepLimit)i),
+                                json_integer((json_int_t)info->limited[i]));
+    return limits;
+}
+
+void session_report(const Session *session, const Args *args, const Summary *summary)
+{
+    const WorldInfo *info = &session->info;
+    const double wall = wall_seconds(session);
+    if (summary->stopped)
+        fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", info->time, args->output);
+    if (!args->quiet)
+        fprintf(stderr, "%zu particle%s, %.3g s simulated in %.3g s (%.3g times real time): %s, %zu %.*s\n",
+                info->count, plural(info->count), info->time, wall, info->time / wall, args->output,
+                summary->products, (int)strlen(summary->product) - (summary->products == 1),
+                summary->product);
+    if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
+        print_limits(info);
+}
+
+static json_t *summary_json(const Session *session, const Args *args, const Summary *summary)
+{
+    const WorldInfo *info = &session->info;
+    const WorldDef *def = &session->scene.world;
+    const double wall = wall_seconds(session);
+    json_t *json = json_pack(
+        "{s:s, s:s, s:s, s:s, s:s, s:i, s:I, s:f, s:f, s:i, s:I, s:I, s:f, s:f, s:f, s:b}", "command",
+        summary->command, "scene", session->scene.path, "output", args->output, "backend", def->backend,
+        "method", def->method, "threads", info->threads, "particles", (json_int_t)info->count, "spacing",
+        info->spacing, "dt", def->dt, "substeps", def->substeps, "steps", (json_int_t)info->step,
+        summary->product, (json_int_t)summary->products, "simulated_seconds", info->time, "wall_seconds",
+        wall, "real_time_factor", info->time / wall, "stopped", summary->stopped);
+    if (json) {
+        json_object_set_new(json, "limits", limits_json(info));
+        json_object_set_new(json, "troubles", json_integer(info->trouble.count));
+        json_object_set_new(json, "lost", json_integer((json_int_t)info->lost));
+        json_object_set_new(json, "emitted", json_integer((json_int_t)info->emitted));
+        json_object_set_new(json, "drained", json_integer((json_int_t)info->drained));
+    }
+    if (json && summary->renderer)
+        json_object_set_new(json, "renderer", json_string(summary->renderer));
+    return json;
+}
+
+bool session_write_json(const Session *session, const Args *args, const Summary *summary, Error *error)
+{
+    if (!args->json)
+        return true;
+    json_t *json = summary_json(session, args, summary);
+    const bool written = json_file_write(json, args->json, error);
+    json_decref(json);
+    return written;
+}
+
+int session_fail(const Session *session, const Args *args, const Summary *summary, const Error *error)
+{
+    fprintf(stderr, "%s\n", error->message);
+    json_t *json = session->world ? summary_json(session, args, summary) : NULL;
+    if (json)
+        json_object_set_new(json, "error", json_string(error->message));
+    else /* no world, or one with numbers that are none */
+        json = failure_json(summary->command, "scene", args->scenes[0], args->output, error);
+    failure_json_write(json, args->json);
+    return EXIT_FAILED;
+}

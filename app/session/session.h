@@ -1,0 +1,78 @@
+/* A scene and its world, as `run` and `render` open and advance them. */
+#ifndef SLOSH_SESSION_H
+#define SLOSH_SESSION_H
+
+#include "app/base/exit_code.h"
+#include "app/held/hand_replay.h"
+#include "app/scene/scene.h"
+#include "app/session/args.h"
+#include "app/session/headless.h"
+#include "sim/base/error.h"
+#include "sim/world/world.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct Session {
+    Scene scene;
+    Headless *context; /* current; NULL where neither solver nor pictures need one */
+    World *world;
+    HandReplay *hand; /* of --device: moves the box before each step; NULL: none */
+    WorldInfo info;   /* of the present state */
+    double began_ms;  /* wall time of the start */
+    bool told_full;   /* that emitters wait */
+    bool told_lost;   /* that particles find no place in the grid */
+} Session;
+
+/* Loads the only scene of the command line and the recording of --device, says on standard error what
+   --particles did to dt, makes the world, and a context where its backend needs one or the command `draws`.
+   Creates no file. 0 or the exit code: EXIT_USAGE where the command line or the scene is wrong, EXIT_FAILED
+   where the GPU can't. */
+int session_open(Session *session, const Args *args, bool draws, Error *error);
+
+/* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create;
+   `draws`: a context is needed whatever the backend. */
+int session_start(Session *session, int gpu, bool draws, Error *error);
+
+void session_close(Session *session);
+
+/* Whether the present state is the first sound one at or after `time` (s) or a later one. */
+bool session_reached(const Session *session, double time);
+
+/* One frame on, what the sentinel did said on standard error; false when the simulation broke. */
+bool session_step(Session *session, Error *error);
+bool session_substep(Session *session, Error *error); /* one step of a frame */
+
+/* Says on standard error where `what`, one each `interval` s, will be at uneven times: mode fixed, and a
+   frame that does not divide the interval. */
+void session_tell_uneven(const Session *session, const char *what, double interval);
+
+/* What the sentinel did, in words. */
+const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);
+
+/* That emitters wait, in words. */
+const char *session_full_text(const WorldInfo *info, char words[256]);
+
+/* That particles find no place in the grid, in words. */
+const char *session_lost_text(const WorldInfo *info, char words[256]);
+
+/* What a command says when it is done, on standard error and in --json FILE. */
+typedef struct Summary {
+    const char *command;
+    const char *product; /* "snapshots" or "pictures" */
+    size_t products;
+    const char *renderer; /* NULL: nothing was drawn */
+    bool stopped;         /* by a signal */
+} Summary;
+
+/* The closing line, unless quiet, and the line about a signal. */
+void session_report(const Session *session, const Args *args, const Summary *summary);
+
+/* Writes --json FILE, if asked for. */
+bool session_write_json(const Session *session, const Args *args, const Summary *summary, Error *error);
+
+/* Says what failed, and writes --json FILE, if asked for, with as much as there is and that as "error".
+   Returns EXIT_FAILED. */
+int session_fail(const Session *session, const Args *args, const Summary *summary, const Error *error);
+
+#endif

@@ -1,0 +1,129 @@
+#include "app/session/simulator_state.h"
+
+#include <stdio.h>
+
+bool simulator_here(const Simulator *simulator)
+{
+    return simulator->here;
+}
+
+bool simulator_fresh(const Simulator *simulator)
+{
+    return simulator->here && simulator->published != simulator->shown;
+}
+
+bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers *out)
+{
+    simulator->shown = simulator->published;
+    if (!simulator->world)
+        return false;
+    world_share(simulator->world, attributes, out);
+    return true;
+}
+
+bool simulator_reload(Simulator *simulator, Error *error)
+{
+    return !simulator->here || !simulator->world || world_reload(simulator->world, error);
+}
+
+static void change_begin(Simulator *simulator)
+{
+    pthread_mutex_lock(&simulator->lock);
+}
+
+static void change_end(Simulator *simulator)
+{
+    pthread_cond_broadcast(&simulator->changed);
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+void simulator_pause(Simulator *simulator, bool paused)
+{
+    change_begin(simulator);
+    simulator->paused = paused;
+    change_end(simulator);
+}
+
+void simulator_single_step(Simulator *simulator)
+{
+    change_begin(simulator);
+    simulator->paused = simulator->single = true;
+    change_end(simulator);
+}
+
+void simulator_set_speed(Simulator *simulator, double speed)
+{
+    change_begin(simulator);
+    simulator->speed = speed;
+    change_end(simulator);
+}
+
+void simulator_set_realtime(Simulator *simulator, bool realtime)
+{
+    change_begin(simulator);
+    simulator->realtime = realtime;
+    change_end(simulator);
+}
+
+void simulator_reset(Simulator *simulator)
+{
+    change_begin(simulator);
+    simulator->reset = true;
+    simulator->single = false;
+    command_queue_drop_poses(&simulator->queue);
+    change_end(simulator);
+}
+
+bool simulator_save(Simulator *simulator, const char *path)
+{
+    change_begin(simulator);
+    const bool taken = !simulator->saving && !simulator->ended;
+    if (taken) {
+        simulator->save = simulator->saving = true;
+        simulator->save_later = simulator->reset;
+        snprintf(simulator->save_path, sizeof simulator->save_path, "%s", path);
+    }
+    change_end(simulator);
+    return taken;
+}
+
+uint64_t simulator_send(Simulator *simulator, const SimCommand *command)
+{
+    uint64_t number = 0;
+    change_begin(simulator);
+    if (command_queue_add(&simulator->queue, command))
+        number = ++simulator->sent;
+    change_end(simulator);
+    return number;
+}
+
+uint64_t simulator_obeyed(Simulator *simulator, uint64_t step)
+{
+    uint64_t commands = 0;
+    bool found = false;
+    pthread_mutex_lock(&simulator->lock);
+    for (int back = 1; back <= OBEYED_MAX && !found; back++) {
+        const Obeyed *obeyed = &simulator->obeyed[(simulator->obeyed_next + OBEYED_MAX - back) % OBEYED_MAX];
+        found = obeyed->step == step;
+        commands = found ? obeyed->commands : 0;
+    }
+    pthread_mutex_unlock(&simulator->lock);
+    return commands;
+}
+
+void simulator_status(Simulator *simulator, SimulatorStatus *status)
+{
+    pthread_mutex_lock(&simulator->lock);
+    *status = simulator->status;
+    status->paused = simulator->paused;
+    status->ended = simulator->ended;
+    status->saving = simulator->saving;
+    status->realtime = simulator->realtime;
+    status->speed = simulator->speed;
+    const int count = status->history_count, next = simulator->history_next;
+    for (int i = 0; i < count; i++)
+        status->history[i] =
+            simulator->status.history[(next - count + i + SIMULATOR_HISTORY) % SIMULATOR_HISTORY];
+    simulator_gauge_status(simulator, status);
+    pthread_mutex_unlock(&simulator->lock);
+}

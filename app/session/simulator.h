@@ -1,0 +1,132 @@
+/* The solver at its own pace, beside the view: a thread that owns the World, obeys commands between two
+   steps, and hands the state after each step to the upload ring: a picture shows what is newest, not the last
+   whole frame, which answers the hand sooner by some half a frame.
+
+   It paces itself by the wall clock where the scene says `realtime` (as many frames as the clock asks for,
+   times the speed; what it cannot keep up with is left out, dt stays), else runs as fast as it can. It is the
+   only thread that opens parallel regions, and it never waits for the view. All functions here belong to one
+   other thread, that of the window.
+
+   A backend on a GPU steps on that other thread instead, where the context is: simulator_work does what is
+   due, and the views read the world's own buffers. */
+#ifndef SLOSH_SIMULATOR_H
+#define SLOSH_SIMULATOR_H
+
+#include "app/recording/recording.h"
+#include "app/recording/sim_command.h"
+#include "app/scene/scene.h"
+#include "render/particles/upload.h"
+#include "sim/base/error.h"
+#include "sim/base/stage.h"
+#include "sim/gl/timer.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct Simulator Simulator;
+
+typedef struct SimulatorSetup {
+    const Scene *scene; /* copied */
+    const Recording
+        *recording;     /* of this scene, without commands: where the recorded session begins; copied */
+    Upload *upload;     /* for the scene's particles; outlives the simulator; NULL: the backend is on a GPU */
+    GlTimer *timer;     /* for the stages there, which are not in SimulatorStatus then; may be NULL */
+    void (*wake)(void); /* called on the solver's thread after each new state; may be NULL */
+    bool paused;
+} SimulatorSetup;
+
+/* Starts the thread, which makes the world. NULL when there is no memory or no thread. */
+Simulator *simulator_create(const SimulatorSetup *setup, Error *error);
+
+/* Asks the thread to end and waits for it, at most `patience_ms`: a frame of a large scene may take longer.
+   False when it still runs; then all that it uses must stay, and only the end of the program ends it. */
+bool simulator_destroy(Simulator *simulator, double patience_ms);
+
+/* On a GPU: does what is due, for about `budget_ms` or one step, and returns for how many ms nothing will be
+   due unless it is asked for: 0, there is more. Else there is nothing to do here: INFINITY. */
+double simulator_work(Simulator *simulator, double budget_ms);
+bool simulator_here(const Simulator *simulator); /* whether it is on a GPU */
+
+/* On a GPU: whether there is a state that simulator_share has not shown; the particles as they are now,
+   world_share. False when there is no world. */
+bool simulator_fresh(const Simulator *simulator);
+bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers *out);
+
+/* Obeys a command that sets the backend, between two steps; the simulation goes on there, with `upload` where
+   it is not on a GPU. A move that fails is told in the status, and all stays as it was: `backend` gets the
+   present one. False when the simulation does not answer, and goes on as it did, or nothing can go on. */
+bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, char backend[NAME_SIZE],
+                    Error *error);
+
+/* The solver's shaders have changed; false where they are wrong: the last good ones stay. */
+bool simulator_reload(Simulator *simulator, Error *error);
+
+void simulator_pause(Simulator *simulator, bool paused);
+void simulator_single_step(Simulator *simulator); /* one frame, then paused */
+void simulator_set_speed(Simulator *simulator,
+                         double speed); /* simulated seconds in a second, in real time */
+void simulator_set_realtime(Simulator *simulator, bool realtime);
+
+/* The scene from its start: a new world, and a new recording. What was set since stays set; poses that wait
+   are forgotten. */
+void simulator_reset(Simulator *simulator);
+
+/* A command for the next step; its `step` is set there. It replaces what waits and is moot by it
+   (app/session/command_queue.h). Returns its number, counted from 1, or 0 when too many wait, which takes
+   more keys than there are. */
+uint64_t simulator_send(Simulator *simulator, const SimCommand *command);
+
+/* How many commands the state of that step had obeyed, of those counted by simulator_send; of the last few
+   hundred states. */
+uint64_t simulator_obeyed(Simulator *simulator, uint64_t step);
+
+/* Writes the session since the last start of the scene to `path`, from the solver's thread, when the frame in
+   hand is done and before anything that is asked for later, the end included; SimulatorStatus.saves counts
+   what is done. False while an earlier one is not. */
+bool simulator_save(Simulator *simulator, const char *path);
+
+/* Whether somebody looks at the gauges: then one is taken every 50 ms at most, else none. */
+void simulator_watch(Simulator *simulator, bool watched);
+
+enum { SIMULATOR_HISTORY = 120, SIMULATOR_GAUGES = 120 };
+
+/* A state's gauge, and the step before it. */
+typedef struct GaugeSample {
+    WorldGauge gauge;
+    double courant;  /* WorldInfo.courant */
+    StepLimit limit; /* what bounded that step */
+} GaugeSample;
+
+typedef struct SimulatorStatus {
+    bool ready;  /* the world is there */
+    bool failed; /* it stopped, or could not be made: `message` says why; a reset starts it anew */
+    bool ended;  /* the thread; nothing will be done any more */
+    bool paused, realtime;
+    char message[1024]; /* of the failure, or of a command that could not be obeyed; "" */
+    unsigned messages;  /* counts messages */
+    double speed;
+    double time;             /* s, of the last state */
+    double simulated_s;      /* all resets together */
+    double dt;               /* of the last step, s */
+    StepLimit limit;         /* what bounded it */
+    uint64_t step, frames;   /* since the scene's start */
+    size_t lost;             /* particles without a place in the grid, in the last step known */
+    double real_time_factor; /* simulated over wall time in the last second; 0 while paused */
+    double solved_ms;        /* wall time of these frames */
+    double behind_s;         /* wall time that the solver could not keep up with, in all, s */
+    BoxTarget hand;          /* the hand's part of the box's pose, as the filter has it */
+    StageTimes stages;       /* of the last frame */
+    int history_count;       /* of `history`: wall time of the last frames, ms, oldest first */
+    float history[SIMULATOR_HISTORY];
+    int gauge_count; /* of `gauges`: the last ones since the scene's start, oldest first */
+    GaugeSample gauges[SIMULATOR_GAUGES];
+    bool saving;             /* a simulator_save is not done yet */
+    unsigned saves;          /* counts simulator_save that ended */
+    bool saved;              /* whether the last one succeeded */
+    char save_message[1024]; /* its error, or what it saved */
+} SimulatorStatus;
+
+void simulator_status(Simulator *simulator, SimulatorStatus *status);
+
+#endif

@@ -1,0 +1,248 @@
+/* What the thread that steps does: the world, its commands, its frames, its recording. */
+#include "app/session/session.h"
+#include "app/session/simulator_state.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double PACE_MS = 1000; /* the real-time factor is of this long */
+
+void simulator_tell(Simulator *simulator, bool failed, const char *message)
+{
+    pthread_mutex_lock(&simulator->lock);
+    SimulatorStatus *status = &simulator->status;
+    status->failed |= failed;
+    status->messages++;
+    snprintf(status->message, sizeof status->message, "%s", message);
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+/* With the lock held, after each state: what a view may want to know of it. */
+static void describe(Simulator *simulator, const WorldInfo *info)
+{
+    SimulatorStatus *status = &simulator->status;
+    status->ready = true;
+    status->simulated_s += fmax(info->time - status->time, 0);
+    status->time = info->time;
+    status->step = info->step;
+    status->dt = info->dt;
+    status->limit = info->limit;
+    status->hand = info->hand;
+    status->lost = info->lost;
+    simulator->obeyed[simulator->obeyed_next] = (Obeyed){info->step, simulator->taken};
+    simulator->obeyed_next = (simulator->obeyed_next + 1) % OBEYED_MAX;
+}
+
+/* Describes the state, then shows it: in this order, so that who sees it can ask for its commands. */
+bool simulator_publish(Simulator *simulator, Error *error)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    pthread_mutex_lock(&simulator->lock);
+    describe(simulator, &info);
+    pthread_mutex_unlock(&simulator->lock);
+    simulator->published++;
+    return simulator->here || upload_write(simulator->upload, simulator->world, error);
+}
+
+static void awaken(const Simulator *simulator)
+{
+    if (simulator->wake)
+        simulator->wake();
+}
+
+/* The world at the scene's start, or a message. */
+void simulator_make_world(Simulator *simulator)
+{
+    Error error = {{0}};
+    snprintf(simulator->start.world.backend, sizeof simulator->start.world.backend, "%s",
+             simulator->scene.world.backend); /* the one at hand, which this thread can do */
+    simulator->scene = simulator->start;
+    world_destroy(simulator->world);
+    simulator->troubles = 0;
+    simulator->told_full = simulator->told_lost = false;
+    simulator->world = world_create(&simulator->start.world, &error);
+    simulator_gauge_begin(simulator);
+    if (!simulator->world || !simulator_publish(simulator, &error))
+        simulator_tell(simulator, true, error.message);
+    awaken(simulator);
+}
+
+void simulator_obey(Simulator *simulator, const SimCommand *command)
+{
+    Error error = {{0}};
+    if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error)) {
+        simulator_tell(simulator, false, error.message);
+    } else if (!simulator->recording_lost && !recording_add(&simulator->recording, command)) {
+        simulator->recording_lost = true;
+        simulator_tell(simulator, false,
+                       "this session has become too long to be saved; a reset begins a new one");
+    }
+}
+
+/* The new session begins with what the hand has set in the old one: settings stay, poses do not. */
+void simulator_restart(Simulator *simulator, Work *work)
+{
+    Recording before = simulator->recording;
+    Error error = {{0}};
+    pthread_mutex_lock(&simulator->lock);
+    simulator->status.failed = false;
+    simulator->status.frames = 0;
+    simulator->status.solved_ms = 0;
+    pthread_mutex_unlock(&simulator->lock);
+    simulator_make_world(simulator);
+    simulator->recording_lost = !recording_create(&simulator->recording, before.path, before.text,
+                                                  before.size, &before.settings, &error);
+    static const CommandQueue none;
+    work->commands = none;
+    for (size_t i = 0; i < before.count; i++)
+        if (before.commands[i].kind == SIM_SET)
+            command_queue_add(&work->commands, &before.commands[i]);
+    for (int i = 0; i < work->commands.count && simulator->world; i++) {
+        work->commands.commands[i].step = 0;
+        simulator_obey(simulator, &work->commands.commands[i]);
+    }
+    recording_destroy(&before);
+}
+
+void simulator_save_session(Simulator *simulator, const char *path)
+{
+    Error error = {{0}};
+    bool ok = false;
+    WorldInfo info;
+    if (!simulator->world) {
+        error_set(&error, "%s: there is no session to save", path);
+    } else if (simulator->recording_lost) {
+        error_set(&error, "%s: the session was too long to be kept", path);
+    } else {
+        world_info(simulator->world, &info);
+        ok = recording_write(&simulator->recording, info.step, world_hash(simulator->world), path, &error);
+    }
+    pthread_mutex_lock(&simulator->lock);
+    SimulatorStatus *status = &simulator->status;
+    simulator->saving = false;
+    status->saves++;
+    status->saved = ok;
+    if (ok)
+        snprintf(status->save_message, sizeof status->save_message, "%.900s: the session, %.4g s", path,
+                 info.time);
+    else
+        snprintf(status->save_message, sizeof status->save_message, "%s", error.message);
+    pthread_mutex_unlock(&simulator->lock);
+    awaken(simulator);
+}
+
+/* With the lock held: the real-time factor of about the last second. */
+static void pace(Simulator *simulator, double now)
+{
+    const double ms = now - simulator->pace_began_ms, time = simulator->status.time;
+    if (ms < PACE_MS && simulator->status.real_time_factor > 0)
+        return;
+    if (ms < PACE_MS / 4)
+        return;
+    simulator->status.real_time_factor = fmax(time - simulator->pace_began_s, 0) / (1e-3 * ms);
+    simulator->pace_began_ms = now;
+    simulator->pace_began_s = time;
+}
+
+static void count_frame(Simulator *simulator, double spent, double simulated, const StageClock *clock)
+{
+    pthread_mutex_lock(&simulator->lock);
+    SimulatorStatus *status = &simulator->status;
+    const double now = wall_ms();
+    simulator->frame_time = simulated;
+    status->frames++;
+    status->stages = clock->frame;
+    status->solved_ms += spent;
+    status->history[simulator->history_next] = (float)spent;
+    simulator->history_next = (simulator->history_next + 1) % SIMULATOR_HISTORY;
+    if (status->history_count < SIMULATOR_HISTORY)
+        status->history_count++;
+    pace(simulator, now);
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+/* The commands that wait apply at once, between two substeps: sooner by most of a frame than at its start.
+   False when the end has come. */
+static bool obey_all(Simulator *simulator, Work *work)
+{
+    WorldInfo info;
+    pthread_mutex_lock(&simulator->lock);
+    const bool go_on = !simulator->quit;
+    const uint64_t taken = simulator->sent;
+    work->commands = simulator->queue;
+    simulator->queue.count = 0;
+    pthread_mutex_unlock(&simulator->lock);
+    world_info(simulator->world, &info);
+    for (int i = 0; i < work->commands.count; i++) {
+        work->commands.commands[i].step = info.step;
+        simulator_obey(simulator, &work->commands.commands[i]);
+    }
+    simulator->taken = taken;
+    return go_on;
+}
+
+/* The sentinel went back, emitters wait, or particles are lost: that is worth a word. */
+static void tell_news(Simulator *simulator, const WorldInfo *info)
+{
+    char words[256];
+    if (info->full && !simulator->told_full)
+        simulator_tell(simulator, false, session_full_text(info, words));
+    simulator->told_full |= info->full;
+    if (info->lost && !simulator->told_lost)
+        simulator_tell(simulator, false, session_lost_text(info, words));
+    simulator->told_lost |= info->lost > 0;
+    if (info->trouble.count == simulator->troubles)
+        return;
+    simulator->troubles = info->trouble.count;
+    simulator_tell(simulator, false, session_trouble_text(&info->trouble, words));
+}
+
+void simulator_frame_begin(Simulator *simulator)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    simulator->frame = (FrameInHand){.begun = true, .from_s = info.time};
+    if (simulator->here && simulator->timer)
+        simulator->frame.clock = gl_timer_stage_clock(simulator->timer);
+}
+
+void simulator_frame_end(Simulator *simulator)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    const FrameInHand *frame = &simulator->frame;
+    count_frame(simulator, frame->spent_ms, info.time - frame->from_s, &frame->clock);
+    simulator->frame.begun = false;
+    simulator_gauge(simulator);
+    awaken(simulator);
+}
+
+/* One step of the frame in hand. On a GPU without a clock of its own nothing is measured: what the CPU sees
+   of such a step says nothing of it. */
+void simulator_frame_step(Simulator *simulator)
+{
+    StageClock *clock = simulator->here && !simulator->timer ? NULL : &simulator->frame.clock;
+    Error error = {{0}};
+    const double began = wall_ms();
+    WorldInfo info;
+    if (!obey_all(simulator, simulator->work)) {
+        simulator_frame_end(simulator);
+        return;
+    }
+    bool ok = world_substep(simulator->world, clock, &error);
+    world_info(simulator->world, &info);
+    tell_news(simulator, &info);
+    if (ok && simulator->here)
+        ok = simulator_publish(simulator, &error);
+    else if (ok)
+        STAGE (clock, STAGE_UPLOAD)
+            ok = simulator_publish(simulator, &error);
+    awaken(simulator);
+    simulator->frame.spent_ms += wall_ms() - began;
+    if (!ok || !info.within_frame)
+        simulator_frame_end(simulator);
+    if (!ok)
+        simulator_tell(simulator, true, error.message);
+}

@@ -1,0 +1,90 @@
+/* Inside a simulator: for the files that make one up. simulator.c takes what is asked for, simulator_work.c
+   decides what is due and on which thread it is done, simulator_session.c does it. */
+#ifndef SLOSH_SIMULATOR_STATE_H
+#define SLOSH_SIMULATOR_STATE_H
+
+#include "app/session/command_queue.h"
+#include "app/session/simulator.h"
+#include "sim/world/world.h"
+
+#include <pthread.h>
+
+enum { OBEYED_MAX = 512 };
+
+/* A frame of which steps may be left. */
+typedef struct FrameInHand {
+    bool begun;
+    StageClock clock;
+    double spent_ms, from_s; /* wall time of its steps; simulated time at its begin */
+} FrameInHand;
+
+/* How many commands the state of a step had obeyed. */
+typedef struct Obeyed {
+    uint64_t step, commands;
+} Obeyed;
+
+/* What the solver's thread is to do next. */
+typedef struct Work {
+    bool reset, save, frame;
+    char save_path[1024];
+    CommandQueue commands;
+} Work;
+
+struct Simulator {
+    pthread_t thread;
+    pthread_mutex_t lock; /* of all down to `obeyed` */
+    pthread_cond_t changed;
+    bool quit, ended, idle; /* idle: no frame was due for as long as something forbade it */
+    bool paused, realtime, reset;
+    bool single; /* one frame although paused */
+    double speed;
+    bool save, saving; /* asked for; asked for and not done */
+    bool save_later;   /* a reset was asked for before it */
+    char save_path[1024];
+    CommandQueue queue;
+    uint64_t sent;     /* commands */
+    double last_due;   /* wall time at which the last frame was to begin, ms */
+    double frame_time; /* simulated by the last frame, s */
+    SimulatorStatus status;
+    int history_next, gauge_next, obeyed_next;
+    bool watched; /* the gauges are */
+    Obeyed obeyed[OBEYED_MAX];
+
+    /* of the thread that steps alone */
+    bool here;          /* that is the caller's: the backend is on a GPU */
+    GlTimer *timer;     /* for the stages there; may be NULL */
+    Scene start, scene; /* as given; as the commands have changed it */
+    World *world;
+    Work *work;
+    FrameInHand frame;
+    uint64_t published, shown; /* states; with `here` */
+    GaugeSample gauge;         /* on its way; its gauge is not there yet */
+    double gauge_ms;           /* wall time at which it was asked for */
+    Recording recording;
+    unsigned troubles;   /* of the world, that were told */
+    bool told_full;      /* that its emitters wait */
+    bool told_lost;      /* that particles find no place in the grid */
+    bool recording_lost; /* no memory for all of its commands */
+    Upload *upload;
+    void (*wake)(void);
+    uint64_t taken; /* commands */
+    double pace_began_ms, pace_began_s;
+};
+
+/* simulator_session.c: of the thread that steps. */
+void simulator_tell(Simulator *simulator, bool failed, const char *message);
+bool simulator_publish(Simulator *simulator, Error *error); /* describes the state, then shows it */
+void simulator_make_world(Simulator *simulator);            /* at the scene's start, or a message */
+void simulator_obey(Simulator *simulator, const SimCommand *command);
+void simulator_restart(Simulator *simulator, Work *work);
+void simulator_save_session(Simulator *simulator, const char *path);
+void simulator_frame_begin(Simulator *simulator);
+void simulator_frame_step(Simulator *simulator); /* may end the frame */
+void simulator_frame_end(Simulator *simulator);
+
+/* simulator_gauge.c: after a frame, and where a new world begins. */
+void simulator_gauge(Simulator *simulator);
+void simulator_gauge_begin(Simulator *simulator);
+void simulator_gauge_status(const Simulator *simulator, SimulatorStatus *status); /* with the lock held */
+
+#endif

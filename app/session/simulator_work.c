@@ -1,0 +1,281 @@
+/* What is due, and where it is done: on a thread of its own, or when the window asks. */
+#include "app/scene/live.h"
+#include "app/session/simulator_state.h"
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const double BEHIND_MS = 100; /* less is caught up with; more is left out */
+static const double MOVE_MS = 2000;  /* a step lasts less, or the simulation is stuck */
+
+static void wait_until(Simulator *simulator, double ms)
+{
+    struct timespec until;
+    until.tv_sec = (time_t)(ms / 1000);
+    until.tv_nsec = (long)(1e6 * (ms - 1000.0 * (double)until.tv_sec));
+    pthread_cond_timedwait(&simulator->changed, &simulator->lock, &until);
+}
+
+/* With the lock held: whether a frame is due now; else until when there is nothing to do, wall time, ms. */
+static bool frame_due(Simulator *simulator, double *until)
+{
+    const double now = wall_ms();
+    *until = INFINITY;
+    if (simulator->status.failed || (simulator->paused && !simulator->single)) {
+        simulator->status.real_time_factor = 0;
+        simulator->idle = true;
+        return false;
+    }
+    if (simulator->idle) {
+        simulator->idle = false;
+        simulator->last_due = simulator->pace_began_ms = now;
+        simulator->pace_began_s = simulator->status.time;
+    }
+    const double due = simulator->last_due + 1000 * simulator->frame_time / simulator->speed;
+    *until = due;
+    if (!simulator->single && simulator->realtime && now < due)
+        return false;
+    const double late = simulator->realtime ? now - due : 0;
+    simulator->status.behind_s += late > BEHIND_MS ? 1e-3 * late : 0;
+    simulator->last_due = simulator->realtime && late <= BEHIND_MS && !simulator->single ? due : now;
+    return true;
+}
+
+static void take_save(Simulator *simulator, Work *work)
+{
+    work->save = true;
+    simulator->save = false;
+    memcpy(work->save_path, simulator->save_path, sizeof work->save_path);
+}
+
+/* With the lock held: one thing to do, in the order in which it was asked for; a save is done even at the
+   end. False when there is nothing: until then, wall time, ms. */
+static bool find_work(Simulator *simulator, Work *work, double *until)
+{
+    work->reset = work->save = work->frame = false;
+    *until = 0;
+    if (simulator->save && !(simulator->save_later && simulator->reset)) {
+        take_save(simulator, work);
+    } else if (simulator->quit && !simulator->save) {
+        return false;
+    } else if (simulator->reset) {
+        work->reset = true;
+        simulator->reset = false;
+    } else if (frame_due(simulator, until)) {
+        work->frame = true;
+        simulator->single = false;
+    }
+    return work->save || work->reset || work->frame;
+}
+
+/* Waits for it; false at the end. */
+static bool take_work(Simulator *simulator, Work *work)
+{
+    double until;
+    pthread_mutex_lock(&simulator->lock);
+    bool found;
+    while (!(found = find_work(simulator, work, &until)) && !simulator->quit)
+        if (isinf(until))
+            pthread_cond_wait(&simulator->changed, &simulator->lock);
+        else
+            wait_until(simulator, until);
+    pthread_mutex_unlock(&simulator->lock);
+    return found;
+}
+
+static void do_work(Simulator *simulator, Work *work)
+{
+    if (work->reset)
+        simulator_restart(simulator, work);
+    if (work->save)
+        simulator_save_session(simulator, work->save_path);
+    if (work->frame)
+        simulator_frame_begin(simulator);
+}
+
+static void begin(Simulator *simulator)
+{
+    if (!simulator->world && !simulator->status.failed)
+        simulator_make_world(simulator);
+    pthread_mutex_lock(&simulator->lock);
+    simulator->idle = true; /* what has passed until now is not caught up with */
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+static void *simulate(void *argument)
+{
+    Simulator *simulator = argument;
+    begin(simulator);
+    while (take_work(simulator, simulator->work)) {
+        do_work(simulator, simulator->work);
+        while (simulator->frame.begun)
+            simulator_frame_step(simulator);
+    }
+    pthread_mutex_lock(&simulator->lock);
+    simulator->ended = true;
+    pthread_cond_broadcast(&simulator->changed);
+    pthread_mutex_unlock(&simulator->lock);
+    return NULL;
+}
+
+/* Signals are for the thread of the window. */
+static bool start_thread(Simulator *simulator)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const bool started = pthread_create(&simulator->thread, NULL, simulate, simulator) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return started;
+}
+
+/* The thread, or the world here. */
+static bool start(Simulator *simulator, Error *error)
+{
+    simulator->here = world_on_gpu(&simulator->scene.world);
+    simulator->ended = simulator->quit = false;
+    if (!simulator->here)
+        return start_thread(simulator) || error_set(error, "no thread for the simulation");
+    begin(simulator);
+    return true;
+}
+
+static void release(Simulator *simulator)
+{
+    world_destroy(simulator->world);
+    free(simulator->work);
+    recording_destroy(&simulator->recording);
+    pthread_cond_destroy(&simulator->changed);
+    pthread_mutex_destroy(&simulator->lock);
+    free(simulator);
+}
+
+Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
+{
+    Simulator *simulator = calloc(1, sizeof *simulator);
+    const Recording *from = setup->recording;
+    pthread_condattr_t clock;
+    if (!simulator) {
+        error_set(error, "no memory for the simulation");
+        return NULL;
+    }
+    simulator->start = simulator->scene = *setup->scene;
+    simulator->upload = setup->upload;
+    simulator->wake = setup->wake;
+    simulator->paused = setup->paused;
+    simulator->realtime = setup->scene->realtime;
+    simulator->speed = 1;
+    simulator->frame_time = setup->scene->world.dt;
+    pthread_condattr_init(&clock);
+    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
+    pthread_cond_init(&simulator->changed, &clock);
+    pthread_condattr_destroy(&clock);
+    pthread_mutex_init(&simulator->lock, NULL);
+    simulator->timer = setup->timer;
+    simulator->work = calloc(1, sizeof *simulator->work);
+    if ((simulator->work || error_set(error, "no memory for the commands")) &&
+        recording_create(&simulator->recording, from->path, from->text, from->size, &from->settings, error) &&
+        start(simulator, error))
+        return simulator;
+    release(simulator);
+    return NULL;
+}
+
+/* What was asked for before is done. */
+static void end_here(Simulator *simulator)
+{
+    double until;
+    simulator->quit = true;
+    if (simulator->frame.begun)
+        simulator_frame_end(simulator);
+    while (find_work(simulator, simulator->work, &until))
+        do_work(simulator, simulator->work);
+    simulator->ended = true;
+}
+
+/* Asks the thread to end and waits for it, that long; where it still runs then and that is not `for_good`, it
+   goes on. */
+static bool end(Simulator *simulator, double patience_ms, bool for_good)
+{
+    const double until = wall_ms() + patience_ms;
+    if (simulator->here) {
+        end_here(simulator);
+        return true;
+    }
+    pthread_mutex_lock(&simulator->lock);
+    simulator->quit = true;
+    pthread_cond_broadcast(&simulator->changed);
+    while (!simulator->ended && wall_ms() < until)
+        wait_until(simulator, until);
+    const bool ended = simulator->ended;
+    simulator->quit = ended || for_good;
+    pthread_mutex_unlock(&simulator->lock);
+    if (ended)
+        pthread_join(simulator->thread, NULL);
+    return ended;
+}
+
+bool simulator_destroy(Simulator *simulator, double patience_ms)
+{
+    if (!simulator)
+        return true;
+    if (!end(simulator, patience_ms, true))
+        return false;
+    release(simulator);
+    return true;
+}
+
+double simulator_work(Simulator *simulator, double budget_ms)
+{
+    const double enough = wall_ms() + budget_ms;
+    double until = INFINITY;
+    if (!simulator->here)
+        return INFINITY;
+    do {
+        if (simulator->frame.begun) {
+            simulator_frame_step(simulator);
+            continue;
+        }
+        pthread_mutex_lock(&simulator->lock);
+        const bool found = find_work(simulator, simulator->work, &until);
+        pthread_mutex_unlock(&simulator->lock);
+        if (!found)
+            return fmax(until - wall_ms(), 0);
+        do_work(simulator, simulator->work);
+    } while (wall_ms() < enough);
+    return 0;
+}
+
+/* No world could be made: the session begins with that setting. */
+static void start_with(Simulator *simulator, const char *setting, Error *error)
+{
+    simulator->status.failed = false;
+    if (scene_set_live(&simulator->scene, setting, NULL, error) &&
+        !recording_set(&simulator->recording, setting))
+        simulator->recording_lost = true;
+}
+
+bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, char backend[NAME_SIZE],
+                    Error *error)
+{
+    WorldInfo info;
+    SimCommand now = *command;
+    if (!end(simulator, MOVE_MS, false))
+        return error_set(error, "the simulation does not answer; try again in a moment");
+    simulator->upload = upload;
+    if (!simulator->world) {
+        start_with(simulator, command->setting, error);
+    } else {
+        world_info(simulator->world, &info);
+        now.step = info.step;
+        simulator_obey(simulator, &now);
+        simulator->here = world_on_gpu(&simulator->scene.world);
+        simulator_publish(simulator, error);
+    }
+    snprintf(backend, NAME_SIZE, "%s", simulator->scene.world.backend);
+    return start(simulator, error);
+}

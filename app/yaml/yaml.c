@@ -1,0 +1,276 @@
+/* From libfyaml's events to the scene tree. */
+#include "app/yaml/yaml.h"
+
+#include <libfyaml.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Looking for twins is quadratic: a bound keeps a megabyte of keys from taking minutes. */
+enum { MAPPING_KEYS_MAX = 256 };
+
+typedef struct Reader {
+    Tree *tree;
+    const char *said;
+    struct fy_diag *diag;
+    struct fy_parser *parser;
+    struct fy_event *event; /* the present one */
+    Error *error;
+} Reader;
+
+static bool fail_at(const Reader *reader, int line, int column, const char *what)
+{
+    const Node place = {.line = line, .column = column, .said = reader->said};
+    return tree_error(reader->tree, &place, reader->error, "%s", what);
+}
+
+/* Whether the mark of the present event is one character too far right: behind the quote or the '*' of an
+ * alias. */
+static bool mark_is_behind(const Reader *reader)
+{
+    if (reader->event->type == FYET_ALIAS)
+        return true;
+    if (reader->event->type != FYET_SCALAR)
+        return false;
+    const enum fy_scalar_style style = fy_token_scalar_style(fy_event_get_token(reader->event));
+    return style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
+}
+
+/* Where the present event starts, counted from 1; as they were when it has no place. */
+static void event_place(const Reader *reader, int *line, int *column)
+{
+    const struct fy_mark *mark = fy_event_start_mark(reader->event);
+    if (!mark)
+        return;
+    *line = mark->line + 1;
+    *column = mark->column + 1 - mark_is_behind(reader);
+}
+
+static bool fail_here(const Reader *reader, const char *what)
+{
+    int line = 1, column = 1;
+    event_place(reader, &line, &column);
+    return fail_at(reader, line, column, what);
+}
+
+static bool fail_tag(const Reader *reader, struct fy_token *tag)
+{
+    const struct fy_mark *mark = fy_token_start_mark(tag);
+    return fail_at(reader, mark ? mark->line + 1 : 1, mark ? mark->column + 1 : 1,
+                   "a tag (!name), which means nothing here; write the value alone");
+}
+
+/* libfyaml's own words, from the first error that it collected. */
+static bool fail_syntax(const Reader *reader)
+{
+    void *iterator = NULL;
+    for (struct fy_diag_error *found; (found = fy_diag_errors_iterate(reader->diag, &iterator));)
+        if (found->type >= FYET_ERROR && found->msg) {
+            char what[256];
+            snprintf(what, sizeof what, "not valid YAML: %.200s; write `key: value` lines", found->msg);
+            return fail_at(reader, found->line > 0 ? found->line : 1, found->column > 0 ? found->column : 1,
+                           what);
+        }
+    return fail_at(reader, 1, 1, "not valid YAML; write `key: value` lines");
+}
+
+static void event_drop(Reader *reader)
+{
+    if (reader->event)
+        fy_parser_event_free(reader->parser, reader->event);
+    reader->event = NULL;
+}
+
+static bool event_next(Reader *reader)
+{
+    event_drop(reader);
+    reader->event = fy_parser_parse(reader->parser);
+    return reader->event || fail_syntax(reader);
+}
+
+static bool events_skip(Reader *reader, int count)
+{
+    while (count-- > 0)
+        if (!event_next(reader))
+            return false;
+    return true;
+}
+
+/* The length of a scalar's text, which is copied to `out` unless that is NULL; -1 on failure.
+   fy_token_get_text, in libfyaml 0.7, leaks and fails where its guess of the length is short (escaped quotes
+   in a row). */
+static ssize_t text_walk(struct fy_token *token, char *out)
+{
+    struct fy_token_iter *walk = fy_token_iter_create(token);
+    if (!walk)
+        return -1;
+    ssize_t length = 0;
+    int failed = 0;
+    for (const struct fy_iter_chunk *chunk = NULL;
+         (chunk = fy_token_iter_chunk_next(walk, chunk, &failed));) {
+        if (out)
+            memcpy(out + length, chunk->str, chunk->len);
+        length += (ssize_t)chunk->len;
+    }
+    fy_token_iter_destroy(walk);
+    return failed ? -1 : length;
+}
+
+static bool text_copy(Reader *reader, const char **out)
+{
+    struct fy_token *token = fy_event_get_token(reader->event);
+    const ssize_t length = text_walk(token, NULL);
+    char *copy = length >= 0 ? tree_alloc(reader->tree, (size_t)length + 1) : NULL;
+    if (!copy || text_walk(token, copy) != length)
+        return fail_here(reader, "a text that cannot be read; write it plainly");
+    if (memchr(copy, 0, (size_t)length))
+        return fail_here(reader, "a character with the code 0; write the text without it");
+    *out = copy;
+    return true;
+}
+
+static bool read_node(Reader *reader, int depth, int line, int column, Node **out);
+
+static bool read_scalar(Reader *reader, Node *node)
+{
+    struct fy_token *token = fy_event_get_token(reader->event);
+    node->kind = NODE_SCALAR;
+    node->plain = !token || fy_token_scalar_style(token) == FYSS_PLAIN;
+    if (token && !text_copy(reader, &node->text))
+        return false;
+    if (node->plain && node->text &&
+        (!*node->text || strcmp(node->text, "null") == 0 || strcmp(node->text, "~") == 0))
+        node->text = NULL;
+    return true;
+}
+
+static bool read_sequence(Reader *reader, int depth, Node *node)
+{
+    node->kind = NODE_SEQUENCE;
+    Node **last = &node->first;
+    for (;;) {
+        if (!event_next(reader))
+            return false;
+        if (reader->event->type == FYET_SEQUENCE_END)
+            return true;
+        if (!read_node(reader, depth + 1, node->line, node->column, last))
+            return false;
+        last = &(*last)->next;
+    }
+}
+
+/* The present event is a key. */
+static bool read_pair(Reader *reader, int depth, const Node *mapping, Node **out)
+{
+    int line = mapping->line, column = mapping->column;
+    event_place(reader, &line, &column);
+    const char *key = NULL;
+    if (reader->event->type != FYET_SCALAR)
+        return fail_at(reader, line, column, "a key must be a name; write `name: value`");
+    if (!text_copy(reader, &key))
+        return false;
+    if (!key || !*key)
+        return fail_at(reader, line, column, "a key is empty; write `name: value`");
+    const Node *twin = node_child(mapping, key);
+    if (twin) {
+        char what[256];
+        snprintf(what, sizeof what, "'%.100s' stands here twice (first in line %d); keep one of the two", key,
+                 twin->key_line);
+        return fail_at(reader, line, column, what);
+    }
+    if (!event_next(reader) || !read_node(reader, depth + 1, line, column, out))
+        return false;
+    (*out)->key = key;
+    (*out)->key_line = line;
+    (*out)->key_column = column;
+    return true;
+}
+
+static bool read_mapping(Reader *reader, int depth, Node *node)
+{
+    node->kind = NODE_MAPPING;
+    Node **last = &node->first;
+    for (int keys = 0;; keys++) {
+        if (!event_next(reader))
+            return false;
+        if (reader->event->type == FYET_MAPPING_END)
+            return true;
+        if (keys == MAPPING_KEYS_MAX)
+            return fail_here(reader, "more than 256 keys in one mapping; nothing needs so many");
+        if (!read_pair(reader, depth, node, last))
+            return false;
+        last = &(*last)->next;
+    }
+}
+
+/* The present event starts a node; line and column are where it is taken to stand if it has no place of its
+ * own. */
+static bool read_node(Reader *reader, int depth, int line, int column, Node **out)
+{
+    if (depth > TREE_DEPTH_MAX)
+        return fail_here(reader, "nested too deeply; nothing needs more than 32 levels");
+    if (reader->event->type == FYET_ALIAS)
+        return fail_here(reader, "an alias (*name), which means nothing here; write the value out");
+    struct fy_token *tag = fy_event_get_tag_token(reader->event);
+    if (tag)
+        return fail_tag(reader, tag);
+    Node *node = tree_alloc(reader->tree, sizeof *node);
+    if (!node)
+        return fail_here(reader, "no memory to read it");
+    node->line = line;
+    node->column = column;
+    node->said = reader->said;
+    event_place(reader, &node->line, &node->column);
+    *out = node;
+    switch (reader->event->type) {
+    case FYET_SCALAR:
+        return read_scalar(reader, node);
+    case FYET_SEQUENCE_START:
+        return read_sequence(reader, depth, node);
+    case FYET_MAPPING_START:
+        return read_mapping(reader, depth, node);
+    default:
+        return fail_here(reader, "not valid YAML here; write `key: value` lines");
+    }
+}
+
+static bool read_stream(Reader *reader, Node **root)
+{
+    if (!events_skip(reader, 2)) /* the stream, then the document */
+        return false;
+    *root = NULL;
+    if (reader->event->type == FYET_STREAM_END)
+        return !reader->said || fail_at(reader, 1, 1, "no value; write path=value");
+    if (!event_next(reader) || !read_node(reader, 0, 1, 1, root))
+        return false;
+    if (!events_skip(reader, 2)) /* the document's end, then what follows */
+        return false;
+    if (reader->event->type != FYET_STREAM_END)
+        return fail_here(reader, "a second document; write one");
+    return true;
+}
+
+bool yaml_read(Tree *tree, const char *said, const char *bytes, size_t size, Node **root, Error *error)
+{
+    Reader reader = {.tree = tree, .said = said, .error = error};
+    if (!yaml_text_check(tree, said, bytes, size, error))
+        return false;
+    struct fy_diag_cfg quiet;
+    fy_diag_cfg_default(&quiet);
+    quiet.fp = NULL;
+    reader.diag = fy_diag_create(&quiet);
+    if (!reader.diag)
+        return fail_at(&reader, 1, 1, "no memory to read it");
+    fy_diag_set_collect_errors(reader.diag, true);
+
+    const struct fy_parse_cfg config = {.flags = FYPCF_QUIET | FYPCF_COLLECT_DIAG | FYPCF_JSON_NONE,
+                                        .diag = reader.diag};
+    reader.parser = fy_parser_create(&config);
+    bool ok = reader.parser && fy_parser_set_string(reader.parser, bytes, size) == 0;
+    ok = ok ? read_stream(&reader, root) : fail_at(&reader, 1, 1, "no memory to read it");
+    if (reader.parser) {
+        event_drop(&reader);
+        fy_parser_destroy(reader.parser);
+    }
+    fy_diag_destroy(reader.diag);
+    return ok;
+}

@@ -1,0 +1,26 @@
+/* The backdrop: sky and floor, the first thing in a picture. Writes the target's colour; no depth.
+
+   Without the fluid's shadow it depends on the camera alone, so it is kept while that stands still: then a
+   picture costs a copy, and shading where the shadow may lie. */
+#ifndef SLOSH_BACKDROP_H
+#define SLOSH_BACKDROP_H
+
+#include "render/frame/frame.h"
+#include "render/frame/shadow.h"
+#include "sim/base/error.h"
+
+enum { BACKDROP_KEY_SIZE = 30 };
+
+typedef struct Backdrop {
+    unsigned program, shadow_program, vertex_array;
+    double seen[BACKDROP_KEY_SIZE]; /* all that sky and lit floor of the last picture depend on */
+    bool kept;                      /* `kept_color` holds the backdrop of `seen` */
+    unsigned kept_framebuffer, kept_color;
+    unsigned kept_target; /* number of the target that these are as large as; 0: there are none */
+} Backdrop;
+
+bool backdrop_create(Backdrop *backdrop, Error *error);
+void backdrop_destroy(Backdrop *backdrop);
+void backdrop_draw(Backdrop *backdrop, const Frame *frame, const Shadow *shadow);
+
+#endif

@@ -1,0 +1,51 @@
+#include "render/frame/behind.h"
+
+#include <epoxy/gl.h>
+
+static GLuint create_copy(GLenum format, const Target *target, GLint filter, const char *label)
+{
+    GLuint copy;
+    glCreateTextures(GL_TEXTURE_2D, 1, &copy);
+    glObjectLabel(GL_TEXTURE, copy, -1, label);
+    glTextureStorage2D(copy, 1, format, target->width, target->height);
+    glTextureParameteri(copy, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(copy, GL_TEXTURE_MAG_FILTER, filter);
+    glTextureParameteri(copy, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(copy, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return copy;
+}
+
+void behind_destroy(Behind *behind)
+{
+    glDeleteTextures(2, (GLuint[]){behind->color, behind->depth});
+    *behind = (Behind){0};
+}
+
+static void follow(Behind *behind, const Frame *frame)
+{
+    const bool solids = frame->def->solid_count > 0;
+    if (behind->target_number == frame->target->number && solids == (behind->depth != 0))
+        return;
+    behind_destroy(behind);
+    behind->color = create_copy(GL_SRGB8_ALPHA8, frame->target, GL_LINEAR, "behind");
+    if (solids)
+        behind->depth = create_copy(GL_DEPTH_COMPONENT32F, frame->target, GL_NEAREST, "behind, depth");
+    behind->target_number = frame->target->number;
+}
+
+static void copy(GLuint from, GLuint to, const Frame *frame)
+{
+    glCopyImageSubData(from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, 0, 0, 0, frame->width,
+                       frame->height, 1);
+}
+
+void behind_take(Behind *behind, const Frame *frame)
+{
+    follow(behind, frame);
+    copy(frame->target->color, behind->color, frame);
+    if (behind->depth)
+        copy(frame->target->depth, behind->depth, frame);
+    glBindTextureUnit(14, behind->color);
+    glBindTextureUnit(15, behind->depth);
+    glBindTextureUnit(3, frame->floor_light);
+}

@@ -1,0 +1,19 @@
+/* What stands behind a clear fluid: a copy of the target's colour and depth, for shaders that look through.
+   shaders/common/behind.glsl reads it. */
+#ifndef SLOSH_BEHIND_H
+#define SLOSH_BEHIND_H
+
+#include "render/frame/frame.h"
+
+typedef struct Behind {
+    unsigned target_number; /* of the target that it was made for */
+    unsigned color, depth;  /* textures like the target's; no depth without solids */
+} Behind;
+
+/* Copies what is drawn up to now and binds it to texture units 14 (colour), 15 (depth, of a scene with
+   solids) and 3 (what of the light arrives on the floor). All zero at first. */
+void behind_take(Behind *behind, const Frame *frame);
+
+void behind_destroy(Behind *behind);
+
+#endif

@@ -1,0 +1,164 @@
+#include "render/frame/camera.h"
+
+#include <cglm/cglm.h>
+#include <math.h>
+#include <string.h>
+
+/* cglm's matrices are aligned; ours, which cross headers, are not. */
+static void load(const float from[16], mat4 to)
+{
+    memcpy(to, from, sizeof(mat4));
+}
+
+static void store(mat4 from, float to[16])
+{
+    memcpy(to, from, sizeof(mat4));
+}
+
+void matrix_multiply(const float a[16], const float b[16], float out[16])
+{
+    mat4 left, right, product;
+    load(a, left);
+    load(b, right);
+    glm_mat4_mul(left, right, product);
+    store(product, out);
+}
+
+void matrix_invert_rigid(const float a[16], float out[16])
+{
+    mat4 matrix;
+    load(a, matrix);
+    glm_inv_tr(matrix);
+    store(matrix, out);
+}
+
+void matrix_transform(const float a[16], const float x[3], float out[3])
+{
+    mat4 matrix;
+    vec3 from = {x[0], x[1], x[2]}, to;
+    load(a, matrix);
+    glm_mat4_mulv3(matrix, from, 1, to);
+    memcpy(out, to, sizeof to);
+}
+
+void camera_box_matrix(const BoxState *box, float matrix[16])
+{
+    versor turn = {(float)box->orientation[0], (float)box->orientation[1], (float)box->orientation[2],
+                   (float)box->orientation[3]};
+    mat4 pose;
+    glm_quat_mat4(turn, pose);
+    for (int k = 0; k < 3; k++)
+        pose[3][k] = (float)box->position[k];
+    store(pose, matrix);
+}
+
+static void look(Camera *camera, vec3 eye, vec3 at)
+{
+    mat4 view;
+    vec3 up = {0, 1, 0}, along;
+    glm_vec3_sub(at, eye, along);
+    if (fabsf(along[1]) > 0.9999F * glm_vec3_norm(along)) /* straight down or up */
+        up[1] = 0, up[2] = -1;
+    glm_lookat(eye, at, up, view);
+    store(view, camera->view);
+    memcpy(camera->eye, eye, sizeof camera->eye);
+}
+
+/* The part of the picture that the box may fill, -1 .. 1 from left to right, and +-high. */
+typedef struct Room {
+    float left, right, high;
+} Room;
+
+static Room make_room(Covered covered)
+{
+    Room room = {-0.80F, 0.80F, 0.80F};
+    const float right = (float)(1 - 2 * covered.right - 0.04), left = (float)(1 - 2 * covered.left - 0.04);
+    if (right < room.right) /* too narrow beside the legend: out of its way, and nearer to the left side */
+        room.left = -0.92F, room.right = fmaxf(right, -0.5F);
+    if (left < -room.left)
+        room.left = fminf(-left, room.right - 0.4F);
+    return room;
+}
+
+/* How far from the box's centre the eye must be, in direction `back`, so that all corners are inside the room
+   when the centre is seen in its middle: |x + shift| <= limit (distance - z), with the shift that goes with
+   the distance. */
+static float distance_to_fit(const Camera *camera, const double size[3], Room room, vec3 back, vec3 right,
+                             vec3 up)
+{
+    float distance = 0, half = (room.right - room.left) / 2;
+    for (int corner = 0; corner < 8; corner++) {
+        vec3 p;
+        for (int k = 0; k < 3; k++)
+            p[k] = (float)size[k] * ((corner >> k & 1) ? 0.5F : -0.5F);
+        float x = glm_vec3_dot(p, right) / camera->tangent[0], z = glm_vec3_dot(p, back);
+        float y = fabsf(glm_vec3_dot(p, up)) / camera->tangent[1];
+        distance = fmaxf(distance, (x + room.right * z) / half);
+        distance = fmaxf(distance, (-x - room.left * z) / half);
+        distance = fmaxf(distance, (y + room.high * z) / room.high);
+    }
+    return distance;
+}
+
+void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double moved = box->position[k], free_way = box_size[k] / 2;
+        anchor[k] = (float)(moved - fmax(-free_way, fmin(free_way, moved)));
+    }
+}
+
+static const double FLAT = 0.1; /* of width and height */
+
+static void look_at_box(Camera *camera, const double size[3], const BoxState *box, Covered covered)
+{
+    vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up = {0, 1, 0};
+    Room room = make_room(covered);
+    if (size[2] < FLAT * fmin(size[0], size[1])) /* a picture, not a thing: seen as one */
+        back[0] = back[1] = 0;
+    glm_vec3_normalize(back);
+    glm_vec3_crossn(up, back, right);
+    glm_vec3_crossn(back, right, up);
+    camera_anchor(size, box, at);
+    at[1] += (float)size[1] / 2;
+    float distance = distance_to_fit(camera, size, room, back, right, up);
+    glm_vec3_muladds(right, -(room.left + room.right) / 2 * camera->tangent[0] * distance, at);
+    glm_vec3_copy(at, eye);
+    glm_vec3_muladds(back, distance, eye);
+    look(camera, eye, at);
+}
+
+void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
+                 Covered covered, Camera *camera)
+{
+    static const double auto_fov_deg = 32; /* long enough a lens that the box looks calm */
+    double fov = def->camera_auto ? auto_fov_deg : def->camera.fov_deg;
+    double diagonal = sqrt(box_size[0] * box_size[0] + box_size[1] * box_size[1] + box_size[2] * box_size[2]);
+    camera->tangent[1] = (float)tan(fov * M_PI / 360);
+    camera->tangent[0] = (float)(camera->tangent[1] * aspect);
+    camera->near_plane =
+        (float)(1e-3 * diagonal); /* infinite reversed float depth loses nothing by a near one */
+    if (def->camera_auto) {
+        look_at_box(camera, box_size, box, covered);
+        return;
+    }
+    vec3 eye, at;
+    for (int k = 0; k < 3; k++) {
+        eye[k] = (float)def->camera.from[k];
+        at[k] = (float)def->camera.to[k];
+    }
+    look(camera, eye, at);
+}
+
+bool camera_project(const Camera *camera, const double world[3], int width, int height, double pixel[2],
+                    double *depth)
+{
+    float x[3] = {(float)world[0], (float)world[1], (float)world[2]}, eye[3];
+    matrix_transform(camera->view, x, eye);
+    if (eye[2] > -camera->near_plane)
+        return false;
+    pixel[0] = (0.5 + 0.5 * eye[0] / (-eye[2] * camera->tangent[0])) * width;
+    pixel[1] = (0.5 - 0.5 * eye[1] / (-eye[2] * camera->tangent[1])) * height;
+    *depth = camera->near_plane / -eye[2];
+    return true;
+}

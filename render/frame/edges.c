@@ -1,0 +1,55 @@
+#include "render/frame/edges.h"
+
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdint.h>
+
+enum { EDGE_COUNT = 12 };
+
+static GLuint create_indices(void)
+{
+    static const uint16_t corners[6] = {0, 1, 2, 2, 1, 3};
+    uint16_t index[6 * EDGE_COUNT];
+    GLuint buffer;
+    for (int i = 0; i < 6 * EDGE_COUNT; i++)
+        index[i] = (uint16_t)(4 * (i / 6) + corners[i % 6]);
+    glCreateBuffers(1, &buffer);
+    glObjectLabel(GL_BUFFER, buffer, -1, "edge indices");
+    glNamedBufferStorage(buffer, sizeof index, index, 0);
+    return buffer;
+}
+
+bool edges_create(Edges *edges, Error *error)
+{
+    glCreateVertexArrays(1, &edges->vertex_array);
+    edges->indices = create_indices();
+    glVertexArrayElementBuffer(edges->vertex_array, edges->indices);
+    edges->program = program_create_pair("edges", "render/edges.vert", "render/edges.frag", error);
+    return edges->program != 0;
+}
+
+void edges_destroy(Edges *edges)
+{
+    glDeleteProgram(edges->program);
+    glDeleteVertexArrays(1, &edges->vertex_array);
+    glDeleteBuffers(1, &edges->indices);
+    *edges = (Edges){0};
+}
+
+void edges_draw(const Edges *edges, const Frame *frame)
+{
+    float width = fmaxf(1.5F, 1.5F * (float)frame->height / 720); /* pixels */
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glUseProgram(edges->program);
+    glProgramUniform1f(edges->program, 0, width / 2);
+    glBindVertexArray(edges->vertex_array);
+    glDrawElements(GL_TRIANGLES, 6 * EDGE_COUNT, GL_UNSIGNED_SHORT, NULL);
+    glDisable(GL_BLEND);
+}

@@ -1,0 +1,18 @@
+/* The edges of the box: thin, smooth lines, hidden by what is in front of them. Blends colour, tests depth.
+ */
+#ifndef SLOSH_EDGES_H
+#define SLOSH_EDGES_H
+
+#include "render/frame/frame.h"
+#include "sim/base/error.h"
+
+typedef struct Edges {
+    unsigned program;
+    unsigned vertex_array, indices;
+} Edges;
+
+bool edges_create(Edges *edges, Error *error);
+void edges_destroy(Edges *edges);
+void edges_draw(const Edges *edges, const Frame *frame);
+
+#endif

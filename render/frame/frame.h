@@ -1,0 +1,66 @@
+/* All that a pass needs to know of one picture. */
+#ifndef SLOSH_FRAME_H
+#define SLOSH_FRAME_H
+
+#include "render/frame/camera.h"
+#include "render/frame/counts.h"
+#include "render/frame/target.h"
+#include "render/frame/view_def.h"
+#include "sim/gl/particle_buffers.h"
+#include "sim/gl/timer.h"
+
+typedef struct Frame {
+    int width, height; /* pixels */
+    const ViewDef *def;
+    const Target *target;
+    GlTimer *timer;     /* NULL: not measured */
+    ViewCounts *counts; /* NULL: not counted */
+    Camera camera;
+    float box_to_world[16];
+    float world_to_light[16];  /* orthographic, to 0..1 in the shadow map, 1 nearest to the light */
+    float light_depth;         /* m that 0..1 of that stands for, in each axis */
+    float to_light[3];         /* unit vector, world */
+    float floor_height;        /* m, world */
+    float floor_center[2];     /* x z, m */
+    float floor_radius;        /* at which it has faded, m; 0 without a floor */
+    float floor_map_corner[2]; /* x z of the floor's shadow map, which covers all that box and solids may
+                                  shade, m */
+    float floor_map_size[2];   /* m */
+    float particle_radius;     /* m */
+    float particle_reach;      /* how far from a particle it may be drawn, m */
+    float shadow_radius;       /* of a particle as the light sees it, m */
+    double slab;               /* depth of the box of a scene of two dimensions, m; 0 in three */
+    float attenuation;         /* through which white light gets a clear fluid's colour where the scene names
+                                  no distance, m */
+    float bounds[4];           /* x0 x1 y0 y1 in -1..1 that hold all particles; the whole picture when some
+                                  may be beside or behind the eye */
+    float nearest;             /* least distance of a particle along the eye's axis, m; may be negative */
+    float farthest;            /* greatest distance of a particle along the eye's axis, m */
+    bool all_in_view;          /* every particle is wholly in the picture and before the near plane */
+    unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor; 0: not known */
+    double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
+    const char *shown, *shown_unit; /* what that range is of, for the legend */
+    bool by_fluid;                  /* coloured by the fluids' own colours */
+    bool plain;                     /* colours as they are, without light and shadow */
+} Frame;
+
+enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
+
+/* Fills all of `frame` but timer, counts, floor_light and plain. `radius` of a particle in spacings where the
+   def says 0; what lies over the left side of the picture, as in Covered. */
+void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
+                double radius, double covered_left);
+
+/* frame->bounds in pixels: x0 y0 x1 y1. */
+void frame_bounds(const Frame *frame, int part[4]);
+
+/* Sets the scissor to frame->bounds. The caller ends it. */
+void frame_cut_to_bounds(const Frame *frame);
+
+/* The uniform block of shaders/common/frame.glsl; the caller deletes the buffer. */
+unsigned frame_uniforms_create(void);
+
+/* Fills the block and binds it for all passes. */
+void frame_uniforms_update(unsigned buffer, const Frame *frame, const double box_size[3], double spacing);
+
+#endif

@@ -1,0 +1,164 @@
+#include "render/frame/legend.h"
+
+#include "render/frame/colormap.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TICKS_MOST = 7, SCALAR_WIDTH_EM = 8 };
+
+/* Places in units of the letters' height, so that the legend grows with the picture. */
+typedef struct Layout {
+    float em;
+    float left, top, right, bottom; /* of the panel */
+    uint32_t ink, faint, panel;
+} Layout;
+
+float legend_text_pixels(int height)
+{
+    float pixels = floorf((float)height / 40);
+    return pixels < 11 ? 11 : pixels;
+}
+
+double legend_width_pixels(const ViewDef *def, int height)
+{
+    double letters = 0;
+    if (!def->legend || (def->color_by == SCALAR_FLUID && def->fluid_count == 0))
+        return 0;
+    for (int i = 0; i < def->fluid_count; i++)
+        letters = fmax(letters, (double)strlen(def->fluid_name[i]));
+    double width_em = def->color_by == SCALAR_FLUID ? 3.3 + 0.6 * letters : SCALAR_WIDTH_EM;
+    return (width_em + 1) * legend_text_pixels(height);
+}
+
+int legend_ticks(double min, double max, int most, double ticks[], int *decimals)
+{
+    static const double round_steps[] = {1, 2, 5, 10};
+    double rough = (max - min) / (most - 1), power = pow(10, floor(log10(rough))), step = 10 * power;
+    for (int i = 3; i >= 0; i--)
+        if (round_steps[i] * power >= rough * (1 - 1e-9))
+            step = round_steps[i] * power;
+    int count = 0;
+    *decimals = (int)fmax(0, -floor(log10(step) + 1e-9));
+    for (double k = ceil(min / step - 1e-6); k * step <= max + 1e-6 * step && count < most; k++)
+        ticks[count++] = k * step + 0.0; /* no negative zero */
+    return count;
+}
+
+void legend_unit(const char *unit, char out[32])
+{
+    size_t length = strlen(unit), used = 0;
+    for (size_t i = 0; i < length && used + 3 < 32; i++) {
+        bool power = i > 0 && (unit[i] == '2' || unit[i] == '3');
+        if (power)
+            out[used++] = (char)0xC2;
+        out[used++] = unit[i] == '2' && power ? (char)0xB2 : unit[i] == '3' && power ? (char)0xB3 : unit[i];
+    }
+    out[used] = 0;
+}
+
+static Layout make_layout(const Text *text, const Frame *frame, float width_em, float height_em)
+{
+    const double *back = frame->def->background;
+    bool light = 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2] > 0.18;
+    float em = text_height(text), right = (float)frame->width - em;
+    return (Layout){.em = em,
+                    .left = right - width_em * em,
+                    .right = right,
+                    .top = em,
+                    .bottom = em + height_em * em,
+                    .ink = light ? 0x1c222aff : 0xf2f4f6ff,
+                    .faint = light ? 0x1c222a90 : 0xf2f4f690,
+                    .panel = light ? 0xffffffa0 : 0x10141880};
+}
+
+static uint32_t map_color(const uint8_t *rgb, int i)
+{
+    return (uint32_t)rgb[3 * i] << 24 | (uint32_t)rgb[3 * i + 1] << 16 | (uint32_t)rgb[3 * i + 2] << 8 | 255;
+}
+
+static void draw_bar(Text *text, const char *colormap, float x0, float y0, float x1, float y1)
+{
+    enum { PIECES = 51 }; /* 255 = 5 * 51 */
+    uint8_t rgb[3 * COLORMAP_SIZE];
+    if (!colormap_fill(colormap, rgb))
+        return;
+    for (int i = 0; i < PIECES; i++) {
+        float low = y1 + (y0 - y1) * (float)i / PIECES, high = y1 + (y0 - y1) * (float)(i + 1) / PIECES;
+        text_gradient(text, x0, high, x1, low, map_color(rgb, 5 * i), map_color(rgb, 5 * (i + 1)));
+    }
+}
+
+static void draw_ticks(Text *text, const Layout *layout, const double range[2], float x, float y0, float y1)
+{
+    double ticks[TICKS_MOST];
+    int decimals, count = legend_ticks(range[0], range[1], TICKS_MOST, ticks, &decimals);
+    for (int i = 0; i < count; i++) {
+        char label[32];
+        double share = (ticks[i] - range[0]) / (range[1] - range[0]);
+        float y = y1 + (y0 - y1) * (float)share;
+        if (fabs(ticks[i]) >= 1e6 || decimals > 5)
+            snprintf(label, sizeof label, "%.3g", ticks[i]);
+        else
+            snprintf(label, sizeof label, "%.*f", decimals, ticks[i]);
+        text_rectangle(text, x, y - 0.5F, x + 0.3F * layout->em, y + 0.5F, 0, layout->ink);
+        text_draw(text, x + 0.55F * layout->em, y - 0.5F * layout->em, 1, layout->ink, TEXT_LEFT, label);
+    }
+}
+
+static void draw_scalar(Text *text, const Frame *frame)
+{
+    enum { HEIGHT_EM = 15 };
+    Layout layout = make_layout(text, frame, SCALAR_WIDTH_EM, HEIGHT_EM);
+    float em = layout.em, x = layout.left + 0.8F * em, y0 = layout.top + 3.0F * em,
+          y1 = layout.bottom - 1.0F * em;
+    char unit[32], title[80];
+    legend_unit(frame->shown_unit, unit);
+    snprintf(title, sizeof title, "%s%s%s", frame->shown, *unit ? ", " : "", unit);
+    text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
+    text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
+    draw_bar(text, frame->def->colormap, x, y0, x + 1.2F * em, y1);
+    draw_ticks(text, &layout, frame->range, x + 1.2F * em, y0, y1);
+}
+
+static float encode(float linear)
+{
+    return linear <= 0.0031308F ? 12.92F * linear : 1.055F * powf(linear, 1 / 2.4F) - 0.055F;
+}
+
+static uint32_t fluid_rgba(const float linear[3])
+{
+    uint32_t rgba = 0;
+    for (int k = 0; k < 3; k++)
+        rgba = rgba << 8 | (uint32_t)(255 * encode(fminf(fmaxf(linear[k], 0), 1)) + 0.5F);
+    return rgba << 8 | 255;
+}
+
+static void draw_fluids(Text *text, const Frame *frame)
+{
+    const ViewDef *def = frame->def;
+    float widest = 0;
+    for (int i = 0; i < def->fluid_count; i++)
+        widest = fmaxf(widest, text_width(text, 1, def->fluid_name[i]) / text_height(text));
+    Layout layout = make_layout(text, frame, widest + 3.3F, 1.6F * (float)def->fluid_count + 0.9F);
+    float em = layout.em, x = layout.left + 0.8F * em;
+    text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
+    for (int i = 0; i < def->fluid_count; i++) {
+        float y = layout.top + (0.75F + 1.6F * (float)i) * em;
+        text_rectangle(text, x, y, x + em, y + em, 0.5F * em, fluid_rgba(def->fluid_color[i]));
+        text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, def->fluid_name[i]);
+    }
+}
+
+void legend_draw(Text *text, const Frame *frame, double time)
+{
+    Layout layout = make_layout(text, frame, 0, 0);
+    char label[40];
+    snprintf(label, sizeof label, "%.2f s", time);
+    text_draw(text, layout.em, (float)frame->height - 2 * layout.em, 1, layout.faint, TEXT_LEFT, label);
+    if (!frame->by_fluid)
+        draw_scalar(text, frame);
+    else if (frame->def->fluid_count > 0)
+        draw_fluids(text, frame);
+}

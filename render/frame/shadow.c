@@ -1,0 +1,139 @@
+#include "render/frame/shadow.h"
+
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+
+/* Both maps reach farther than any shadow, so that their rims say what is beyond. */
+static GLuint create_map(GLenum format, GLint filter, int texels, const char *label)
+{
+    GLuint map;
+    glCreateTextures(GL_TEXTURE_2D, 1, &map);
+    glObjectLabel(GL_TEXTURE, map, -1, label);
+    glTextureStorage2D(map, 1, format, texels, texels);
+    glTextureParameteri(map, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(map, GL_TEXTURE_MAG_FILTER, filter);
+    glTextureParameteri(map, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(map, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return map;
+}
+
+/* Read as a comparison. Beyond its rim nothing casts: solids may leave the box. */
+static GLuint create_solid_map(void)
+{
+    GLuint map = create_map(GL_DEPTH_COMPONENT32F, GL_LINEAR, SHADOW_MAP_TEXELS, "solid shadow map");
+    glTextureParameteri(map, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTextureParameteri(map, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    glTextureParameteri(map, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTextureParameteri(map, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+    return map;
+}
+
+static GLuint create_framebuffer(GLenum attachment, GLuint map, const char *label)
+{
+    GLuint framebuffer;
+    glCreateFramebuffers(1, &framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, framebuffer, -1, label);
+    glNamedFramebufferTexture(framebuffer, attachment, map, 0);
+    if (attachment == GL_DEPTH_ATTACHMENT)
+        glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
+    return framebuffer;
+}
+
+static GLuint create_floor_program(const char *label, const char *defines, Error *error)
+{
+    static const char *const stages[] = {"common/screen.vert", "render/floor_shadow.frag", NULL};
+    GLuint program = program_create(label, stages, defines, error);
+    if (program)
+        glProgramUniform1f(program, 0, 1.0F / FLOOR_MAP_TEXELS);
+    return program;
+}
+
+bool shadow_create(Shadow *shadow, Error *error)
+{
+    *shadow = (Shadow){0};
+    shadow->map = create_map(GL_DEPTH_COMPONENT32F, GL_NEAREST, SHADOW_MAP_TEXELS, "shadow map");
+    shadow->framebuffer = create_framebuffer(GL_DEPTH_ATTACHMENT, shadow->map, "shadow");
+    shadow->floor_map = create_map(GL_R32F, GL_LINEAR, FLOOR_MAP_TEXELS, "floor shadow map");
+    shadow->floor_framebuffer = create_framebuffer(GL_COLOR_ATTACHMENT0, shadow->floor_map, "floor shadow");
+    glCreateVertexArrays(1, &shadow->vertex_array);
+    shadow->floor_program = create_floor_program("floor shadow", NULL, error);
+    if (!shadow->floor_program)
+        shadow_destroy(shadow);
+    return shadow->floor_program != 0;
+}
+
+static void drop_solids(Shadow *shadow)
+{
+    glDeleteFramebuffers(1, &shadow->solid_framebuffer);
+    glDeleteTextures(1, &shadow->solid_map);
+    glDeleteProgram(shadow->solid_floor_program);
+    shadow->solid_framebuffer = shadow->solid_map = shadow->solid_floor_program = 0;
+}
+
+bool shadow_follow_solids(Shadow *shadow, bool solids, Error *error)
+{
+    if (solids == (shadow->solid_map != 0))
+        return true;
+    if (!solids) {
+        drop_solids(shadow);
+        return true;
+    }
+    shadow->solid_floor_program = create_floor_program("floor shadow, solids", "#define SOLIDS 1\n", error);
+    if (!shadow->solid_floor_program)
+        return false;
+    shadow->solid_map = create_solid_map();
+    shadow->solid_framebuffer = create_framebuffer(GL_DEPTH_ATTACHMENT, shadow->solid_map, "solid shadow");
+    return true;
+}
+
+void shadow_destroy(Shadow *shadow)
+{
+    drop_solids(shadow);
+    glDeleteFramebuffers(1, &shadow->framebuffer);
+    glDeleteFramebuffers(1, &shadow->floor_framebuffer);
+    glDeleteTextures(1, &shadow->map);
+    glDeleteTextures(1, &shadow->floor_map);
+    glDeleteVertexArrays(1, &shadow->vertex_array);
+    glDeleteProgram(shadow->floor_program);
+    *shadow = (Shadow){0};
+}
+
+static void begin(GLuint framebuffer)
+{
+    static const float nothing = 0;
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, SHADOW_MAP_TEXELS, SHADOW_MAP_TEXELS);
+    glDepthMask(GL_TRUE);
+    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &nothing);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+}
+
+void shadow_begin(const Shadow *shadow)
+{
+    begin(shadow->framebuffer);
+}
+
+void shadow_begin_solids(const Shadow *shadow)
+{
+    begin(shadow->solid_framebuffer);
+}
+
+void shadow_end(const Shadow *shadow, const Frame *frame)
+{
+    glDisable(GL_DEPTH_TEST);
+    glBindTextureUnit(0, shadow->map);
+    if (shadow->solid_map)
+        glBindTextureUnit(4, shadow->solid_map);
+    if (frame->floor_radius <= 0)
+        return;
+    glBindFramebuffer(GL_FRAMEBUFFER, shadow->floor_framebuffer);
+    glViewport(0, 0, FLOOR_MAP_TEXELS, FLOOR_MAP_TEXELS);
+    glUseProgram(shadow->solid_map ? shadow->solid_floor_program : shadow->floor_program);
+    glBindVertexArray(shadow->vertex_array);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}

@@ -1,0 +1,31 @@
+/* The shadow maps: what the light sees. A view draws its casters between shadow_begin and shadow_end; then
+   spheres.frag and the floor read the maps. Solids have a map of their own, since what they shade they shade
+   wholly while the fluid's own shadow fades with depth; it is there only where a scene has solids. */
+#ifndef SLOSH_SHADOW_H
+#define SLOSH_SHADOW_H
+
+#include "render/frame/frame.h"
+#include "sim/base/error.h"
+
+typedef struct Shadow {
+    unsigned framebuffer, map;             /* depth, SHADOW_MAP_TEXELS squared */
+    unsigned floor_framebuffer, floor_map; /* light left on the floor, FLOOR_MAP_TEXELS squared */
+    unsigned floor_program, vertex_array;
+    unsigned solid_framebuffer, solid_map, solid_floor_program; /* 0 without solids */
+} Shadow;
+
+bool shadow_create(Shadow *shadow, Error *error);
+void shadow_destroy(Shadow *shadow);
+
+/* Makes what solids need, or drops it. On failure all stays as it was. */
+bool shadow_follow_solids(Shadow *shadow, bool solids, Error *error);
+
+/* Change framebuffer, viewport and depth function: for the casters of a view, and for solids. */
+void shadow_begin(const Shadow *shadow);
+void shadow_begin_solids(const Shadow *shadow);
+
+/* Lays the shadow on the floor if the frame has one, and binds the maps to texture units: 0, and the
+ * solids' 4. */
+void shadow_end(const Shadow *shadow, const Frame *frame);
+
+#endif

@@ -1,0 +1,241 @@
+#include "render/frame/solid_mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Steps of a half circle: chords leave a circle of 300 pixels radius by 300 (1 - cos(pi / 64)) = 0.36. */
+enum { HALF_TURN = 32, TURN = 2 * HALF_TURN };
+
+typedef struct Pen {
+    SolidMesh *mesh;
+    uint32_t solid;
+    bool whole; /* memory sufficed so far */
+} Pen;
+
+static void *grown(void *items, size_t *room, size_t wanted, size_t size)
+{
+    if (wanted <= *room)
+        return items;
+    const size_t more = wanted > 2 * *room ? wanted : 2 * *room;
+    void *moved = realloc(items, more * size);
+    if (moved)
+        *room = more;
+    return moved;
+}
+
+static bool make_room(SolidMesh *mesh, size_t vertices, size_t indices)
+{
+    SolidVertex *vertex =
+        grown(mesh->vertices, &mesh->vertex_room, mesh->vertex_count + vertices, sizeof *vertex);
+    if (!vertex)
+        return false;
+    mesh->vertices = vertex;
+    uint32_t *index = grown(mesh->indices, &mesh->index_room, mesh->index_count + indices, sizeof *index);
+    if (index)
+        mesh->indices = index;
+    return index != NULL;
+}
+
+/* Triangles of a grid whose vertices come next, row by row. Outside is where along the row x from row to row
+   points. False: draw no vertices. */
+static bool begin_grid(Pen *pen, int rows, int columns)
+{
+    SolidMesh *mesh = pen->mesh;
+    pen->whole = pen->whole && make_room(mesh, (size_t)rows * (size_t)columns,
+                                         6 * (size_t)(rows - 1) * (size_t)(columns - 1));
+    if (!pen->whole)
+        return false;
+    const uint32_t first = (uint32_t)mesh->vertex_count, step = (uint32_t)columns;
+    for (int row = 0; row + 1 < rows; row++)
+        for (int column = 0; column + 1 < columns; column++) {
+            const uint32_t at = first + (uint32_t)row * step + (uint32_t)column;
+            const uint32_t corners[6] = {at, at + 1, at + step, at + step, at + 1, at + step + 1};
+            memcpy(mesh->indices + mesh->index_count, corners, sizeof corners);
+            mesh->index_count += 6;
+        }
+    return true;
+}
+
+static void add_vertex(Pen *pen, double x, double y, double z, double nx, double ny, double nz)
+{
+    pen->mesh->vertices[pen->mesh->vertex_count++] =
+        (SolidVertex){{(float)x, (float)y, (float)z}, {(float)nx, (float)ny, (float)nz}, pen->solid};
+}
+
+/* A point of a profile in the half plane: distance from the y axis, height, and the normal there. */
+static void add_ring(Pen *pen, double r, double y, double nr, double ny)
+{
+    for (int i = 0; i <= TURN; i++) {
+        const double angle = i % TURN * (2 * M_PI / TURN), c = cos(angle), s = sin(angle);
+        add_vertex(pen, r * c, y, r * s, nr * c, ny, nr * s);
+    }
+}
+
+/* Profiles turned about y. Outside is to the left of the way along them. */
+static void turn_line(Pen *pen, double r0, double y0, double r1, double y1)
+{
+    const double length = hypot(r1 - r0, y1 - y0), nr = -(y1 - y0) / length, ny = (r1 - r0) / length;
+    if (!begin_grid(pen, 2, TURN + 1))
+        return;
+    add_ring(pen, r0, y0, nr, ny);
+    add_ring(pen, r1, y1, nr, ny);
+}
+
+/* From and to an angle above the equator, in steps of a half circle; side 1: seen from without, -1: from
+ * within. */
+static void turn_arc(Pen *pen, double radius, int from, int to, int side)
+{
+    if (!begin_grid(pen, abs(to - from) + 1, TURN + 1))
+        return;
+    for (int i = from; i != to + (to > from ? 1 : -1); i += to > from ? 1 : -1) {
+        const double angle = i * (M_PI / HALF_TURN), c = cos(angle), s = sin(angle);
+        add_ring(pen, radius * c, radius * s, side * c, side * s);
+    }
+}
+
+static void add_cylinder(Pen *pen, double radius, double height)
+{
+    const double half = height / 2;
+    turn_line(pen, 0, half, radius, half);
+    turn_line(pen, radius, half, radius, -half);
+    turn_line(pen, radius, -half, 0, -half);
+}
+
+static void add_bowl(Pen *pen, double inner, double outer)
+{
+    turn_arc(pen, inner, -HALF_TURN / 2, 0, -1);
+    turn_line(pen, inner, 0, outer, 0);
+    turn_arc(pen, outer, 0, -HALF_TURN / 2, 1);
+}
+
+/* A strip in the plane, as pairs of points on its right and its left side, with the normals of these sides.
+ */
+typedef struct Strip {
+    int count;
+    double at[2][HALF_TURN + 1][2], normal[2][HALF_TURN + 1][2];
+} Strip;
+
+enum { RIGHT, LEFT };
+
+static void extrude_face(Pen *pen, const Strip *strip, double z)
+{
+    if (!begin_grid(pen, 2, strip->count))
+        return;
+    for (int row = 0; row < 2; row++)
+        for (int i = 0; i < strip->count; i++) {
+            const double *at = strip->at[(z > 0) == (row == 0) ? RIGHT : LEFT][i];
+            add_vertex(pen, at[0], at[1], z, 0, 0, z > 0 ? 1 : -1);
+        }
+}
+
+static void extrude_side(Pen *pen, const Strip *strip, int side, double half)
+{
+    if (!begin_grid(pen, 2, strip->count))
+        return;
+    for (int row = 0; row < 2; row++)
+        for (int i = 0; i < strip->count; i++) {
+            const double *at = strip->at[side][i], *normal = strip->normal[side][i];
+            add_vertex(pen, at[0], at[1], (row == 0) == (side == RIGHT) ? -half : half, normal[0], normal[1],
+                       0);
+        }
+}
+
+/* Where it begins (-1) or ends (1), unless it does so in a point. */
+static void extrude_end(Pen *pen, const Strip *strip, int end, double half)
+{
+    const int i = end > 0 ? strip->count - 1 : 0;
+    const double *right = strip->at[RIGHT][i], *left = strip->at[LEFT][i];
+    const double dx = left[0] - right[0], dy = left[1] - right[1], length = hypot(dx, dy);
+    if (length <= 1e-9 * half || !begin_grid(pen, 2, 2))
+        return;
+    for (int row = 0; row < 2; row++)
+        for (int side = 0; side < 2; side++) {
+            const double *at = strip->at[side][i];
+            add_vertex(pen, at[0], at[1], (row == 0) == (end > 0) ? -half : half, end * dy / length,
+                       -end * dx / length, 0);
+        }
+}
+
+static void extrude(Pen *pen, const Strip *strip, double depth)
+{
+    const double half = depth / 2;
+    extrude_face(pen, strip, half);
+    extrude_face(pen, strip, -half);
+    extrude_side(pen, strip, RIGHT, half);
+    extrude_side(pen, strip, LEFT, half);
+    extrude_end(pen, strip, -1, half);
+    extrude_end(pen, strip, 1, half);
+}
+
+static void put(Strip *strip, int side, int i, double x, double y, double nx, double ny)
+{
+    strip->at[side][i][0] = x, strip->at[side][i][1] = y;
+    strip->normal[side][i][0] = nx, strip->normal[side][i][1] = ny;
+}
+
+static void add_block(Pen *pen, const double size[3], double depth)
+{
+    Strip strip = {.count = 2};
+    for (int i = 0; i < 2; i++) {
+        put(&strip, RIGHT, i, (i - 0.5) * size[0], -size[1] / 2, 0, -1);
+        put(&strip, LEFT, i, (i - 0.5) * size[0], size[1] / 2, 0, 1);
+    }
+    extrude(pen, &strip, depth);
+}
+
+static void add_disc(Pen *pen, double radius, double depth)
+{
+    Strip strip = {.count = HALF_TURN + 1};
+    for (int i = 0; i <= HALF_TURN; i++) {
+        const double angle = i * (M_PI / HALF_TURN), c = -cos(angle), s = i < HALF_TURN ? sin(angle) : 0;
+        put(&strip, RIGHT, i, radius * c, -radius * s, c, -s);
+        put(&strip, LEFT, i, radius * c, radius * s, c, s);
+    }
+    extrude(pen, &strip, depth);
+}
+
+static void add_half_ring(Pen *pen, double inner, double outer, double depth)
+{
+    Strip strip = {.count = HALF_TURN + 1};
+    for (int i = 0; i <= HALF_TURN; i++) {
+        const double angle = i * (M_PI / HALF_TURN), c = -cos(angle), s = -sin(angle);
+        put(&strip, RIGHT, i, outer * c, outer * s, c, s);
+        put(&strip, LEFT, i, inner * c, inner * s, -c, -s);
+    }
+    extrude(pen, &strip, depth);
+}
+
+bool solid_mesh_add(SolidMesh *mesh, const SolidDef *solid, double slab, uint32_t number)
+{
+    Pen pen = {mesh, number, true};
+    const bool flat = slab > 0;
+    const double radius = solid->radius, outer = radius + solid->thickness;
+    if (solid->kind == SOLID_BOX)
+        add_block(&pen, solid->size, flat ? slab : solid->size[2]);
+    else if (solid->kind == SOLID_CYLINDER)
+        add_cylinder(&pen, radius, solid->height);
+    else if (solid->kind == SOLID_BOWL && flat)
+        add_half_ring(&pen, radius, outer, slab);
+    else if (solid->kind == SOLID_BOWL)
+        add_bowl(&pen, radius, outer);
+    else if (flat)
+        add_disc(&pen, radius, slab);
+    else
+        turn_arc(&pen, radius, HALF_TURN / 2, -HALF_TURN / 2, 1);
+    return pen.whole;
+}
+
+void solid_mesh_destroy(SolidMesh *mesh)
+{
+    free(mesh->vertices);
+    free(mesh->indices);
+    *mesh = (SolidMesh){0};
+}
+
+bool solid_mesh_same(const SolidDef *a, const SolidDef *b)
+{
+    return a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
+           a->thickness == b->thickness && a->size[0] == b->size[0] && a->size[1] == b->size[1] &&
+           a->size[2] == b->size[2];
+}

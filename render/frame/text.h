@@ -1,0 +1,45 @@
+/* Text and flat shapes over a picture: the C side of the bridge to Dear ImGui, which needs no window here.
+
+   One Text at a time may be in use in a context. Colours are sRGB with alpha, 0xRRGGBBAA; places are pixels
+   from the left and the top. */
+#ifndef SLOSH_TEXT_H
+#define SLOSH_TEXT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#include "sim/base/error.h"
+
+typedef struct Text Text;
+
+typedef enum TextAlign { TEXT_LEFT, TEXT_CENTER, TEXT_RIGHT } TextAlign;
+
+/* With letters `pixels` high. NULL when no font is found or memory is short. */
+Text *text_create(float pixels, Error *error);
+void text_destroy(Text *text); /* NULL is allowed */
+float text_height(const Text *text);
+
+/* Between these two, in a picture of that size, everything is collected; text_end draws it into the bound
+ * framebuffer. */
+void text_begin(Text *text, int width, int height);
+void text_end(Text *text);
+
+/* UTF-8 of Latin-1 letters and the superscripts 2 and 3; y is the top of the letters, x the side that `align`
+   says. `scale` 1 is the height given to text_create. */
+void text_draw(Text *text, float x, float y, float scale, uint32_t rgba, TextAlign align, const char *string);
+float text_width(Text *text, float scale, const char *string);
+
+void text_rectangle(Text *text, float x0, float y0, float x1, float y1, float rounding, uint32_t rgba);
+
+/* From `low` at the lower edge to `high` at the upper one. */
+void text_gradient(Text *text, float x0, float y0, float x1, float y1, uint32_t low, uint32_t high);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

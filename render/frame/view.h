@@ -1,0 +1,47 @@
+/* Views: the ways to show a fluid. One file a view, one list of them. */
+#ifndef SLOSH_VIEW_H
+#define SLOSH_VIEW_H
+
+#include "render/frame/frame.h"
+#include "sim/base/error.h"
+#include "sim/gl/particle_buffers.h"
+
+typedef struct View View;
+
+typedef struct ViewKind {
+    const char *name, *help;
+    double radius; /* of a particle, in spacings, where ViewDef.radius is 0 */
+    /* The state behind a View, or NULL with the reason. It stays while the def has solids or has none: a view
+       looks there for what it needs to stand with them. */
+    void *(*create)(const ViewDef *def, Error *error);
+    void (*destroy)(void *state);
+    /* Once a picture, before the rest: what cast and draw need, within a stage of frame->timer. May be NULL.
+     */
+    void (*prepare)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* Whether it can draw by a def that differs from its own in numbers only; NULL: always. */
+    bool (*accepts)(void *state, const ViewDef *def, Error *error);
+    /* Says in the frame what colours and legend show, where that is not the def's scalar; NULL: it is. */
+    void (*show)(const ViewDef *def, Frame *frame);
+    /* Draws what casts shadows, into the map of render/frame/shadow.h. */
+    void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
+    void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
+} ViewKind;
+
+extern const ViewKind *const view_list[]; /* ended by NULL; the first is the default */
+
+/* The kind of that name, or NULL. */
+const ViewKind *view_find(const char *name);
+
+/* NULL on failure: an unknown kind or colormap, a shader that does not compile. */
+View *view_create(const ViewDef *def, Error *error);
+void view_destroy(View *view); /* NULL is allowed */
+const ViewKind *view_kind(const View *view);
+
+void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
+bool view_accepts(View *view, const ViewDef *def, Error *error);
+void view_show(const View *view, const ViewDef *def, Frame *frame);
+void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
+void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
+
+#endif

@@ -1,0 +1,157 @@
+#include "render/particles/neighbourhood.h"
+
+#include "render/particles/work.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+enum { SCAN_BLOCK = 1024, CELLS_A_PARTICLE = 8, CELLS_LEAST = 4096, CELLS_A_SIDE = 32768 };
+
+static GLuint compile(const char *file, Error *error)
+{
+    return program_create(file, (const char *const[]){file, NULL}, NULL, error);
+}
+
+bool neighbourhood_create(Neighbourhood *n, Error *error)
+{
+    *n = (Neighbourhood){0};
+    n->bin = compile("render/neighbourhood_bin.comp", error);
+    n->scan = n->bin ? compile("sim/scan.comp", error) : 0;
+    n->scan_add = n->scan ? compile("sim/scan_add.comp", error) : 0;
+    n->place = n->scan_add ? compile("render/neighbourhood_place.comp", error) : 0;
+    n->sort = n->place ? compile("render/neighbourhood_sort.comp", error) : 0;
+    return n->sort != 0;
+}
+
+void neighbourhood_destroy(Neighbourhood *n)
+{
+    const GLuint programs[] = {n->bin, n->scan, n->scan_add, n->place, n->sort};
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
+        glDeleteProgram(programs[i]);
+    glDeleteBuffers(5, (GLuint[]){n->cell, n->rank, n->order, n->sorted, n->start});
+    glDeleteTextures(1, &n->texels);
+    glDeleteBuffers(NEIGHBOURHOOD_SCAN_LEVELS, n->totals);
+    *n = (Neighbourhood){0};
+}
+
+static size_t blocks_of(size_t size)
+{
+    return (size + SCAN_BLOCK - 1) / SCAN_BLOCK;
+}
+
+static void reserve(Neighbourhood *n, size_t count, size_t cells)
+{
+    if (count > n->capacity) {
+        n->capacity = work_capacity(n->capacity, count);
+        work_buffer_remake(&n->cell, n->capacity * sizeof(GLuint), "neighbourhood cell");
+        work_buffer_remake(&n->rank, n->capacity * sizeof(GLuint), "neighbourhood rank");
+        work_buffer_remake(&n->order, n->capacity * sizeof(GLuint), "neighbourhood order");
+        work_buffer_remake(&n->sorted, n->capacity * 4 * sizeof(GLfloat), "neighbourhood sorted");
+        glDeleteTextures(1, &n->texels);
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &n->texels);
+        glTextureBuffer(n->texels, GL_RGBA32UI, n->sorted);
+    }
+    if (cells > n->cells_capacity) {
+        size_t blocks = cells + 2;
+        work_buffer_remake(&n->start, blocks * sizeof(GLuint), "neighbourhood start");
+        for (int level = 0; level < NEIGHBOURHOOD_SCAN_LEVELS; level++)
+            work_buffer_remake(&n->totals[level], (blocks = blocks_of(blocks)) * sizeof(GLuint),
+                               "neighbourhood totals");
+        n->cells_capacity = cells;
+    }
+}
+
+/* Cells of an edge of h; larger where the box is so wide that most would be empty. Returns how many. */
+static size_t make_grid(Neighbourhood *n, const ParticleBuffers *particles)
+{
+    const double *box = particles->box_size, corner[3] = {-box[0] / 2, 0, -box[2] / 2};
+    const double most = CELLS_A_PARTICLE * (double)particles->count + CELLS_LEAST;
+    double edge = particles->support_radius, cells = INFINITY;
+    for (; cells > most; edge *= 1.25) {
+        cells = 1;
+        for (int k = 0; k < 3; k++) {
+            n->size[k] = (unsigned)fmax(1, fmin(ceil(box[k] / edge), CELLS_A_SIDE));
+            cells *= n->size[k];
+        }
+        n->place_of[3] = (float)(1 / edge);
+    }
+    for (int k = 0; k < 3; k++)
+        n->place_of[k] = (float)corner[k];
+    n->size[3] = (unsigned)particles->count;
+    return (size_t)cells;
+}
+
+static void bind(const unsigned *buffers, int count)
+{
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 4, count, buffers);
+}
+
+static void run(const Neighbourhood *n, GLuint program)
+{
+    glUseProgram(program);
+    glUniform4uiv(1, 1, n->size);
+    glUniform4fv(2, 1, n->place_of);
+    work_run(n->size[3]);
+}
+
+static void run_blocks(GLuint program, GLuint values, GLuint totals, size_t size)
+{
+    glUseProgram(program);
+    glUniform1ui(0, (GLuint)size);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, (GLuint[]){values, totals});
+    work_dispatch(blocks_of(size));
+}
+
+/* Exclusive prefix sums of `start`, in place. */
+static void sum_up(const Neighbourhood *n, size_t size)
+{
+    GLuint values[NEIGHBOURHOOD_SCAN_LEVELS + 1] = {n->start};
+    size_t sizes[NEIGHBOURHOOD_SCAN_LEVELS + 1] = {size};
+    int level = 0;
+    do {
+        run_blocks(n->scan, values[level], n->totals[level], sizes[level]);
+        values[level + 1] = n->totals[level];
+        sizes[level + 1] = blocks_of(sizes[level]);
+        level++;
+    } while (sizes[level] > 1 && level < NEIGHBOURHOOD_SCAN_LEVELS);
+    for (level -= 2; level >= 0; level--)
+        run_blocks(n->scan_add, values[level], values[level + 1], sizes[level]);
+}
+
+static void bind_positions(const Neighbourhood *n, const ParticleBuffers *particles)
+{
+    const ParticleAttribute *position = &particles->position;
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 0, position->buffer, (GLintptr)position->offset,
+                      (GLsizeiptr)(particles->count * position->stride));
+    glProgramUniform4ui(n->bin, 0, (GLuint)(position->stride / 4), 0, 0, 0);
+    glProgramUniform4ui(n->sort, 0, (GLuint)(position->stride / 4), 0, 0, 0);
+}
+
+void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
+{
+    const size_t cells = make_grid(n, particles);
+    if (particles->count == 0)
+        return;
+    reserve(n, particles->count, cells);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glClearNamedBufferData(n->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    bind_positions(n, particles);
+    bind((const unsigned[]){n->cell, n->rank, n->start}, 3);
+    run(n, n->bin);
+    sum_up(n, cells + 2);
+    bind((const unsigned[]){n->cell, n->rank, n->start, n->order}, 4);
+    run(n, n->place);
+    bind_positions(n, particles);
+    bind((const unsigned[]){n->cell, n->order, n->start, n->sorted}, 4);
+    run(n, n->sort);
+}
+
+void neighbourhood_run(const Neighbourhood *n, unsigned program)
+{
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    glBindTextureUnit(1, n->texels);
+    bind((const unsigned[]){0, n->start}, 2);
+    if (n->size[3] > 0)
+        run(n, program);
+}

@@ -1,0 +1,42 @@
+/* Who is near whom, from positions alone, so that it serves every backend: a uniform grid over the box,
+   filled on the GPU by a counting sort whose order is that of the particles within a cell. Sums over
+   neighbours are then the same bits each time.
+
+   Particles beside the box stand in the cells at its sides. Those farther than eight cells from it, or no
+   numbers, stand in none: they have no neighbours. */
+#ifndef SLOSH_NEIGHBOURHOOD_H
+#define SLOSH_NEIGHBOURHOOD_H
+
+#include "sim/base/error.h"
+#include "sim/gl/particle_buffers.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { NEIGHBOURHOOD_SCAN_LEVELS = 3 };
+
+typedef struct Neighbourhood {
+    unsigned bin, scan, scan_add, place, sort; /* programs */
+    unsigned cell, rank, order;                /* buffers: uint a particle */
+    unsigned sorted;                           /* uvec4 a particle, by cell: bits of x y z; its number */
+    unsigned texels;                           /* texture: `sorted` */
+    unsigned start; /* uint a cell and two more: where it begins in `sorted`; what is in
+                       no cell comes last */
+    unsigned totals[NEIGHBOURHOOD_SCAN_LEVELS];
+    size_t capacity, cells_capacity;
+    unsigned size[4];  /* cells along each axis; particles */
+    float place_of[4]; /* the least corner of the grid, m; cells a metre */
+} Neighbourhood;
+
+/* False when a shader does not compile; neighbourhood_destroy is needed in either case. */
+bool neighbourhood_create(Neighbourhood *neighbourhood, Error *error);
+void neighbourhood_destroy(Neighbourhood *neighbourhood);
+
+/* The grid of that state, in cells of at least its support radius. */
+void neighbourhood_build(Neighbourhood *neighbourhood, const ParticleBuffers *particles);
+
+/* Runs a program of shaders/common/neighbourhood.glsl, one invocation a particle in the order of `sorted`,
+   and lets shaders read what it wrote. */
+void neighbourhood_run(const Neighbourhood *neighbourhood, unsigned program);
+
+#endif

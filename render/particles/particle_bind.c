@@ -1,0 +1,97 @@
+#include "render/particles/particle_bind.h"
+
+#include "render/particles/work.h"
+#include "sim/gl/timer.h"
+
+#include <epoxy/gl.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A block that a program declares has a buffer, whether it is read or not: without one some drivers spoil
+   others. Positions stand in for what is not there. */
+static void bind_attribute(GLuint binding, const ParticleAttribute *attribute,
+                           const ParticleBuffers *particles)
+{
+    const ParticleAttribute *bound = attribute->buffer ? attribute : &particles->position;
+    if (bound->buffer && particles->count)
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, bound->buffer, (GLintptr)bound->offset,
+                          (GLsizeiptr)(particles->count * bound->stride));
+}
+
+void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar)
+{
+    const ParticleAttribute *shown = &particles->scalar[scalar];
+    bind_attribute(0, &particles->position, particles);
+    bind_attribute(1, shown, particles);
+    bind_attribute(2, &particles->fluid, particles);
+    glProgramUniform4ui(program, 0, (GLuint)(particles->position.stride / 4), (GLuint)(shown->stride / 4),
+                        (GLuint)(particles->fluid.stride / 4), 0);
+}
+
+float point_limit(void)
+{
+    GLfloat range[2] = {0};
+    if (gl_renderer_is_software())
+        glGetFloatv(GL_POINT_SIZE_RANGE, range);
+    return range[1];
+}
+
+void quad_indices_create(QuadIndices *indices)
+{
+    *indices = (QuadIndices){0};
+    glCreateVertexArrays(1, &indices->vertex_array);
+    glObjectLabel(GL_VERTEX_ARRAY, indices->vertex_array, -1, "quads");
+}
+
+void quad_indices_destroy(QuadIndices *indices)
+{
+    glDeleteVertexArrays(1, &indices->vertex_array);
+    glDeleteBuffers(1, &indices->buffer);
+    *indices = (QuadIndices){0};
+}
+
+static void fill(uint32_t *index, size_t count)
+{
+    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
+    for (size_t i = 0; i < 6 * count; i++)
+        index[i] = (uint32_t)(4 * (i / 6)) + corners[i % 6];
+}
+
+/* Grows when the particles do. */
+static void reserve(QuadIndices *indices, size_t count)
+{
+    const GLsizeiptr size = (GLsizeiptr)(6 * count * sizeof(uint32_t));
+    glDeleteBuffers(1, &indices->buffer);
+    glCreateBuffers(1, &indices->buffer);
+    glObjectLabel(GL_BUFFER, indices->buffer, -1, "quad indices");
+    glNamedBufferStorage(indices->buffer, size, NULL, GL_MAP_WRITE_BIT);
+    uint32_t *mapped = glMapNamedBufferRange(indices->buffer, 0, size, GL_MAP_WRITE_BIT);
+    indices->capacity = mapped ? count : 0;
+    if (mapped)
+        fill(mapped, count);
+    glUnmapNamedBuffer(indices->buffer);
+    glVertexArrayElementBuffer(indices->vertex_array, indices->buffer);
+}
+
+static bool prepare(QuadIndices *indices, size_t count)
+{
+    if (count > indices->capacity)
+        reserve(indices, work_capacity(indices->capacity, count));
+    glBindVertexArray(indices->vertex_array);
+    return count && count <= indices->capacity;
+}
+
+void quad_indices_draw_indirect(QuadIndices *indices, size_t count, unsigned commands, size_t offset)
+{
+    if (!prepare(indices, count))
+        return;
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands);
+    glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, (const char *)NULL + offset);
+}
+
+void quad_indices_draw(QuadIndices *indices, size_t count)
+{
+    if (!prepare(indices, count))
+        return;
+    glDrawElements(GL_TRIANGLES, (GLsizei)(6 * count), GL_UNSIGNED_INT, NULL);
+}

@@ -1,0 +1,225 @@
+#include "render/particles/upload.h"
+
+#include "render/particles/slots.h"
+
+#include <epoxy/gl.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Slot {
+    GLuint buffer;
+    char *bytes;           /* mapped for the buffer's whole life */
+    ParticleBuffers state; /* what stands in it */
+} Slot;
+
+/* Offsets in each slot, bytes; SIZE_MAX for what is not carried. */
+typedef struct Layout {
+    size_t position, velocity, fluid, id, scalar[SCALAR_COUNT];
+    size_t size;
+} Layout;
+
+struct Upload {
+    size_t capacity;
+    unsigned attributes;
+    Layout layout;
+    Slots turn;
+    GLsync fence; /* behind the last drawing from the slot in flight, or NULL */
+    int drawn;    /* slot, or SLOT_NONE; of the drawing thread */
+    Slot slots[SLOTS];
+};
+
+static size_t place(Layout *layout, size_t capacity, size_t stride, bool wanted)
+{
+    enum { ALIGNMENT = 256 }; /* of storage-buffer ranges, at most, by the standard */
+    if (!wanted)
+        return SIZE_MAX;
+    size_t offset = layout->size;
+    layout->size += (capacity * stride + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    return offset;
+}
+
+static Layout make_layout(size_t capacity, unsigned attributes)
+{
+    Layout layout = {0};
+    layout.position = place(&layout, capacity, 4 * sizeof(float), true);
+    layout.velocity = place(&layout, capacity, 4 * sizeof(float), attributes & PARTICLE_VELOCITY);
+    layout.fluid = place(&layout, capacity, sizeof(uint32_t), attributes & PARTICLE_FLUID);
+    layout.id = place(&layout, capacity, sizeof(uint32_t), attributes & PARTICLE_ID);
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        layout.scalar[s] = place(&layout, capacity, sizeof(float), attributes & PARTICLE_SCALAR(s));
+    return layout;
+}
+
+/* Read too, since the range of the scalars is taken from what was written: that asks for cached memory. */
+static bool slot_create(Slot *slot, size_t size)
+{
+    const GLbitfield access =
+        GL_MAP_WRITE_BIT | GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    glCreateBuffers(1, &slot->buffer);
+    glObjectLabel(GL_BUFFER, slot->buffer, -1, "particles");
+    glNamedBufferStorage(slot->buffer, (GLsizeiptr)size, NULL, access | GL_CLIENT_STORAGE_BIT);
+    slot->bytes = glMapNamedBufferRange(slot->buffer, 0, (GLsizeiptr)size, access);
+    return slot->bytes != NULL;
+}
+
+Upload *upload_create(size_t capacity, unsigned attributes, Error *error)
+{
+    Upload *upload = calloc(1, sizeof *upload);
+    if (!upload) {
+        error_set(error, "out of memory for the upload");
+        return NULL;
+    }
+    upload->capacity = capacity ? capacity : 1;
+    upload->attributes = attributes;
+    upload->layout = make_layout(upload->capacity, attributes);
+    upload->drawn = SLOT_NONE;
+    slots_create(&upload->turn);
+    for (int i = 0; i < SLOTS; i++)
+        if (!slot_create(&upload->slots[i], upload->layout.size)) {
+            error_set(error, "the GPU has no %zu bytes for four states of %zu particles; use fewer particles",
+                      SLOTS * upload->layout.size, capacity);
+            upload_destroy(upload);
+            return NULL;
+        }
+    return upload;
+}
+
+void upload_destroy(Upload *upload)
+{
+    if (!upload)
+        return;
+    glDeleteSync(upload->fence);
+    for (int i = 0; i < SLOTS; i++)
+        glDeleteBuffers(1, &upload->slots[i].buffer);
+    slots_destroy(&upload->turn);
+    free(upload);
+}
+
+static void *in_slot(const Slot *slot, size_t offset)
+{
+    return offset == SIZE_MAX ? NULL : slot->bytes + offset;
+}
+
+static ParticleArrays slot_arrays(const Upload *upload, const Slot *slot)
+{
+    const Layout *layout = &upload->layout;
+    ParticleArrays arrays = {.position = in_slot(slot, layout->position),
+                             .velocity = in_slot(slot, layout->velocity),
+                             .fluid = in_slot(slot, layout->fluid),
+                             .id = in_slot(slot, layout->id)};
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        arrays.scalar[s] = in_slot(slot, layout->scalar[s]);
+    return arrays;
+}
+
+static ParticleAttribute attribute(const Slot *slot, size_t offset, size_t stride)
+{
+    return offset == SIZE_MAX ? (ParticleAttribute){0} : (ParticleAttribute){slot->buffer, offset, stride};
+}
+
+static void find_range(const float *values, size_t count, double *min, double *max)
+{
+    float low = count ? values[0] : 0, high = low;
+    for (size_t i = 1; i < count; i++) {
+        low = values[i] < low ? values[i] : low;
+        high = values[i] > high ? values[i] : high;
+    }
+    *min = low;
+    *max = high;
+}
+
+static void describe(const Upload *upload, Slot *slot)
+{
+    ParticleBuffers *out = &slot->state;
+    const Layout *layout = &upload->layout;
+    ParticleArrays arrays = slot_arrays(upload, slot);
+    out->position = attribute(slot, layout->position, 4 * sizeof(float));
+    out->velocity = attribute(slot, layout->velocity, 4 * sizeof(float));
+    out->fluid = attribute(slot, layout->fluid, sizeof(uint32_t));
+    out->id = attribute(slot, layout->id, sizeof(uint32_t));
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        out->scalar[s] = attribute(slot, layout->scalar[s], sizeof(float));
+        out->scalar_min[s] = out->scalar_max[s] = 0;
+        if (arrays.scalar[s])
+            find_range(arrays.scalar[s], out->count, &out->scalar_min[s], &out->scalar_max[s]);
+    }
+}
+
+static bool fits(const Upload *upload, size_t count, Error *error)
+{
+    return count <= upload->capacity ||
+           error_set(error, "%zu particles do not fit the upload, which was made for %zu", count,
+                     upload->capacity);
+}
+
+bool upload_write(Upload *upload, World *world, Error *error)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    if (!fits(upload, info.count, error))
+        return false;
+    Slot *slot = &upload->slots[slots_write_begin(&upload->turn)];
+    ParticleArrays arrays = slot_arrays(upload, slot);
+    if (!world_read(world, &arrays))
+        return error_set(error, "no memory to read %zu particles", info.count);
+    ParticleBuffers *out = &slot->state;
+    particle_buffers_describe(&info, out);
+    describe(upload, slot);
+    slots_write_end(&upload->turn);
+    return true;
+}
+
+static void copy(void *to, const void *from, size_t bytes)
+{
+    if (to && from && bytes)
+        memcpy(to, from, bytes);
+}
+
+bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state, Error *error)
+{
+    if (!fits(upload, state->count, error))
+        return false;
+    Slot *slot = &upload->slots[slots_write_begin(&upload->turn)];
+    ParticleArrays to = slot_arrays(upload, slot);
+    size_t count = state->count;
+    copy(to.position, arrays->position, 4 * count * sizeof(float));
+    copy(to.velocity, arrays->velocity, 4 * count * sizeof(float));
+    copy(to.fluid, arrays->fluid, count * sizeof(uint32_t));
+    copy(to.id, arrays->id, count * sizeof(uint32_t));
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        copy(to.scalar[s], arrays->scalar[s], count * sizeof(float));
+    slot->state = *state;
+    describe(upload, slot);
+    slots_write_end(&upload->turn);
+    return true;
+}
+
+bool upload_fresh(Upload *upload)
+{
+    return slots_fresh(&upload->turn);
+}
+
+static void land(Upload *upload)
+{
+    if (!upload->fence)
+        return;
+    while (glClientWaitSync(upload->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000) == GL_TIMEOUT_EXPIRED)
+        continue;
+    glDeleteSync(upload->fence);
+    upload->fence = NULL;
+    slots_landed(&upload->turn);
+}
+
+bool upload_take(Upload *upload, ParticleBuffers *out)
+{
+    if (slots_fresh(&upload->turn)) {
+        land(upload);
+        if (upload->drawn != SLOT_NONE)
+            upload->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+        upload->drawn = slots_draw(&upload->turn);
+    }
+    if (upload->drawn == SLOT_NONE)
+        return false;
+    *out = upload->slots[upload->drawn].state;
+    return true;
+}

@@ -1,0 +1,175 @@
+#include "render/spheres/spheres.h"
+
+#include "render/frame/colormap.h"
+#include "render/frame/shadow.h"
+#include "render/particles/particle_bind.h"
+#include "sim/gl/program.h"
+#include "sim/gl/timer.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct Spheres {
+    GLuint visibility, points, shading, casting; /* programs */
+    float point_limit;                           /* largest point to be drawn, pixels; 0: quads only */
+    bool solids;                                 /* the target holds more than particles */
+    GLuint colormap;
+    GLuint framebuffer, seen; /* number of the nearest particle where the target's own depth has one, R32UI */
+    unsigned target_number;   /* which the framebuffer was made for */
+    GLuint screen;            /* vertex array without attributes */
+    QuadIndices quads;
+} Spheres;
+
+static void spheres_destroy(void *state)
+{
+    Spheres *spheres = state;
+    glDeleteProgram(spheres->visibility);
+    glDeleteProgram(spheres->points);
+    glDeleteProgram(spheres->shading);
+    glDeleteProgram(spheres->casting);
+    glDeleteTextures(1, &spheres->colormap);
+    glDeleteFramebuffers(1, &spheres->framebuffer);
+    glDeleteTextures(1, &spheres->seen);
+    glDeleteVertexArrays(1, &spheres->screen);
+    quad_indices_destroy(&spheres->quads);
+    free(spheres);
+}
+
+static bool create_programs(Spheres *spheres, Error *error)
+{
+    static const char *const shading[] = {"common/screen.vert", "render/spheres_shade.frag", NULL};
+    spheres->visibility = program_create_pair("spheres", "render/spheres.vert", "render/spheres.frag", error);
+    spheres->points = spheres->visibility ? program_create_pair("spheres point", "render/spheres_point.vert",
+                                                                "render/spheres_point.frag", error)
+                                          : 0;
+    spheres->shading = spheres->points ? program_create("spheres shade", shading,
+                                                        spheres->solids ? "#define SOLIDS 1\n" : NULL, error)
+                                       : 0;
+    spheres->casting = spheres->shading ? program_create_pair("spheres shadow", "render/spheres_shadow.vert",
+                                                              "render/depth_only.frag", error)
+                                        : 0;
+    if (spheres->casting)
+        glProgramUniform1f(spheres->casting, 1, SHADOW_MAP_TEXELS);
+    return spheres->casting != 0;
+}
+
+static void *spheres_create(const ViewDef *def, Error *error)
+{
+    Spheres *spheres = calloc(1, sizeof *spheres);
+    if (!spheres) {
+        error_set(error, "out of memory for the view");
+        return NULL;
+    }
+    spheres->solids = def->solid_count > 0;
+    spheres->colormap = colormap_texture(def->colormap);
+    if (!spheres->colormap)
+        error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
+    glCreateVertexArrays(1, &spheres->screen);
+    quad_indices_create(&spheres->quads);
+    spheres->point_limit = point_limit();
+    if (spheres->colormap && create_programs(spheres, error))
+        return spheres;
+    spheres_destroy(spheres);
+    return NULL;
+}
+
+static void follow_target(Spheres *spheres, const Target *target)
+{
+    if (spheres->target_number == target->number)
+        return;
+    glDeleteFramebuffers(1, &spheres->framebuffer);
+    glDeleteTextures(1, &spheres->seen);
+    glCreateTextures(GL_TEXTURE_2D, 1, &spheres->seen);
+    glTextureStorage2D(spheres->seen, 1, GL_R32UI, target->width, target->height);
+    glTextureParameteri(spheres->seen, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(spheres->seen, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glObjectLabel(GL_TEXTURE, spheres->seen, -1, "seen particles");
+    glCreateFramebuffers(1, &spheres->framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, spheres->framebuffer, -1, "seen particles");
+    glNamedFramebufferTexture(spheres->framebuffer, GL_COLOR_ATTACHMENT0, spheres->seen, 0);
+    glNamedFramebufferTexture(spheres->framebuffer, GL_DEPTH_ATTACHMENT, target->depth, 0);
+    spheres->target_number = target->number;
+}
+
+static void spheres_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    Spheres *spheres = state;
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glUseProgram(spheres->casting);
+    particle_bind(spheres->casting, particles, frame->def->color_by);
+    glBindVertexArray(spheres->screen);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+}
+
+/* A point whose centre is outside the view is lost, and none is larger than the limit. */
+static bool points_will_do(const Spheres *spheres, const Frame *frame)
+{
+    const float *tangent = frame->camera.tangent, r = frame->particle_radius, nearest = frame->nearest + r;
+    if (!frame->all_in_view || nearest <= 2 * r)
+        return false;
+    float slant = sqrtf(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+    float half = r * slant / (nearest - r) / tangent[1] * (float)frame->height / 2;
+    return 2 * half + 1 <= spheres->point_limit;
+}
+
+static void find_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
+{
+    static const GLuint none = UINT32_MAX;
+    if (spheres->solids)
+        glClearNamedFramebufferuiv(spheres->framebuffer, GL_COLOR, 0, &none);
+    glBindFramebuffer(GL_FRAMEBUFFER, spheres->framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    bool points = points_will_do(spheres, frame);
+    GLuint program = points ? spheres->points : spheres->visibility;
+    glUseProgram(program);
+    particle_bind(program, particles, frame->def->color_by);
+    if (!points) {
+        quad_indices_draw(&spheres->quads, particles->count);
+        return;
+    }
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glBindVertexArray(spheres->screen);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+}
+
+/* The triangle at depth 0 passes where something has been drawn; the shader leaves out solids. */
+static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_FALSE);
+    glBindTextureUnit(1, spheres->seen);
+    glBindTextureUnit(2, spheres->colormap);
+    glUseProgram(spheres->shading);
+    particle_bind(spheres->shading, particles, frame->def->color_by);
+    glBindVertexArray(spheres->screen);
+    frame_cut_to_bounds(frame);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+static void spheres_draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    Spheres *spheres = state;
+    follow_target(spheres, frame->target);
+    GL_STAGE(frame->timer, STAGE_VISIBILITY)
+    find_visible(spheres, particles, frame);
+    GL_STAGE(frame->timer, STAGE_SHADE)
+    if (particles->count > 0)
+        shade_visible(spheres, particles, frame);
+}
+
+const ViewKind view_spheres = {
+    .name = "spheres",
+    .help = "every particle as a lit sphere, exact in each pixel",
+    .radius = 0.5, /* half a spacing: neighbours at rest touch */
+    .create = spheres_create,
+    .destroy = spheres_destroy,
+    .cast = spheres_cast,
+    .draw = spheres_draw,
+};

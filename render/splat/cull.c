@@ -1,0 +1,237 @@
+#include "render/splat/cull.h"
+
+#include "render/particles/particle_bind.h"
+#include "render/particles/work.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6, SMALL_MOST = 2 };
+
+/* A coarse map: see `grid` and `projection` in shaders/common/cull.glsl. */
+typedef struct Grid {
+    GLuint columns, rows, side, reach;
+    GLfloat projection[4];
+} Grid;
+
+static GLuint compile(const char *label, const char *file, const char *defines, Error *error)
+{
+    return program_create(label, (const char *const[]){file, NULL}, defines, error);
+}
+
+static bool create_programs(Cull *cull, const char *body, Error *error)
+{
+    char light[96];
+    snprintf(light, sizeof light, "#define LIGHT 1\n%s", body);
+    const char *defines[] = {body, light};
+    for (int i = 0; i < 2; i++) {
+        cull->occlude[i] = compile("cull occlude", "render/cull_occlude.comp", defines[i], error);
+        cull->test[i] =
+            cull->occlude[i] ? compile("cull test", "render/cull_test.comp", defines[i], error) : 0;
+        if (!cull->test[i])
+            return false;
+    }
+    cull->widen = compile("cull widen", "render/cull_widen.comp", NULL, error);
+    cull->sum = cull->widen ? compile("cull sum", "render/cull_sum.comp", NULL, error) : 0;
+    cull->list = cull->sum ? compile("cull list", "render/cull_list.comp", NULL, error) : 0;
+    return cull->list != 0;
+}
+
+bool cull_create(Cull *cull, const char *body, Error *error)
+{
+    GLfloat range[2] = {0};
+    *cull = (Cull){0};
+    glGetFloatv(GL_POINT_SIZE_RANGE, range);
+    cull->point_limit = range[1];
+    work_buffer_remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
+    return create_programs(cull, body, error);
+}
+
+bool cull_create_limit(Cull *cull, Error *error)
+{
+    cull->limit = compile("cull limit", "render/cull_limit.comp", NULL, error);
+    return cull->limit != 0;
+}
+
+void cull_destroy(Cull *cull)
+{
+    for (int i = 0; i < 2; i++) {
+        glDeleteProgram(cull->occlude[i]);
+        glDeleteProgram(cull->test[i]);
+    }
+    glDeleteProgram(cull->widen);
+    glDeleteProgram(cull->sum);
+    glDeleteProgram(cull->list);
+    glDeleteProgram(cull->limit);
+    glDeleteBuffers(2, cull->map);
+    glDeleteBuffers(CULL_LISTS, cull->lists);
+    glDeleteBuffers(2, (GLuint[]){cull->kept, cull->commands});
+    *cull = (Cull){0};
+}
+
+static GLuint chunks_of(size_t count)
+{
+    return (GLuint)((count + CHUNK - 1) / CHUNK);
+}
+
+static void reserve(Cull *cull, size_t count, size_t cells)
+{
+    if (cells > cull->cells) {
+        cull->cells = work_capacity(cull->cells, cells);
+        for (int i = 0; i < 2; i++)
+            work_buffer_remake(&cull->map[i], cull->cells * sizeof(GLuint), "cull map");
+    }
+    if (count > cull->capacity) {
+        cull->capacity = work_capacity(cull->capacity, count);
+        work_buffer_remake(&cull->kept, chunks_of(cull->capacity) * 4 * sizeof(GLuint), "cull kept");
+        for (int i = 0; i < CULL_LISTS; i++)
+            work_buffer_remake(&cull->lists[i], cull->capacity * sizeof(GLuint), "cull list");
+    }
+}
+
+static GLuint clamp_to(double value, double low, double high)
+{
+    return (GLuint)fmax(low, fmin(value, high)); /* `low` for NaN */
+}
+
+/* Cells so large that the smallest sprite, `least` pixels wide within all of its rim, covers one wherever it
+   is: that has side + (side - 1) pixels. Maxima reach as far as the largest sprite does. */
+static Grid make_grid(double width, double height, double least, double most)
+{
+    const double coarse = ceil(fmax(width, height) / CELLS_A_SIDE);
+    const GLuint side = clamp_to(floor((least + 1) / 2), coarse, 4096);
+    return (Grid){.columns = (GLuint)ceil(width / side),
+                  .rows = (GLuint)ceil(height / side),
+                  .side = side,
+                  .reach = clamp_to(ceil(most / side / 2 + 1), 1, REACH_MOST),
+                  .projection = {(GLfloat)width, (GLfloat)height}};
+}
+
+static void use(GLuint program, const Grid *grid, const ParticleBuffers *particles, const Frame *frame)
+{
+    glUseProgram(program);
+    if (particles)
+        particle_bind(program, particles, frame->def->color_by);
+    glUniform4ui(1, grid->columns, grid->rows, grid->side, grid->reach);
+    glUniform4fv(2, 1, grid->projection);
+}
+
+static void widen(const Cull *cull, const Grid *grid)
+{
+    use(cull->widen, grid, NULL, NULL);
+    for (GLuint upwards = 0; upwards < 2; upwards++) {
+        glUniform1ui(3, upwards);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[upwards]);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cull->map[1 - upwards]);
+        work_run((size_t)grid->columns * grid->rows);
+    }
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+}
+
+static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
+                     int light)
+{
+    static const GLfloat nothing = INFINITY;
+    const size_t cells = (size_t)grid->columns * grid->rows;
+    reserve(cull, particles->count, cells);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glClearNamedBufferSubData(cull->map[0], GL_R32F, 0, (GLsizeiptr)(cells * sizeof nothing), GL_RED,
+                              GL_FLOAT, &nothing);
+    use(cull->occlude[light], grid, particles, frame);
+    glUniform1ui(3, (GLuint)particles->count);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+    work_run(particles->count);
+    widen(cull, grid);
+}
+
+static void make_lists(Cull *cull, size_t count, unsigned vertices)
+{
+    glUseProgram(cull->sum);
+    glUniform1ui(1, chunks_of(count));
+    glUniform1ui(2, vertices);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, cull->commands);
+    work_run(1);
+    glUseProgram(cull->list);
+    glUniform1ui(1, chunks_of(count));
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 6, CULL_LISTS, cull->lists);
+    work_run(chunks_of(count));
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+}
+
+static void test(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
+                 int light, float eps, unsigned vertices, bool hidden)
+{
+    use(cull->test[light], grid, particles, frame);
+    glUniform1ui(3, (GLuint)particles->count);
+    glUniform1f(4, eps);
+    glUniform1ui(5, hidden);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cull->kept);
+    work_run(chunks_of(particles->count));
+    make_lists(cull, particles->count, vertices);
+}
+
+static void make(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
+                 int light, float eps, unsigned vertices, bool hidden)
+{
+    make_map(cull, grid, particles, frame, light);
+    test(cull, grid, particles, frame, light, eps, vertices, hidden);
+}
+
+/* Pixels across of a sphere at that distance in the middle of the picture. */
+static double pixels_across(const Frame *frame, double distance)
+{
+    return frame->particle_radius / fmax(distance, frame->camera.near_plane) / frame->camera.tangent[1] *
+           frame->height;
+}
+
+static Grid eye_grid(const Frame *frame)
+{
+    const float *tangent = frame->camera.tangent;
+    const double slant =
+        1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]; /* spheres at the rim are wider */
+    return make_grid(frame->width, frame->height, pixels_across(frame, frame->farthest) * sqrt(0.5),
+                     fmax(pixels_across(frame, frame->nearest + frame->particle_radius) * slant, SMALL_MOST));
+}
+
+void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *frame, float eps,
+                  unsigned vertices, bool hidden)
+{
+    const Grid grid = eye_grid(frame);
+    if (particles->count > 0)
+        make(cull, &grid, particles, frame, 0, eps, vertices, hidden);
+}
+
+void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *frame, unsigned limit,
+                   unsigned vertices)
+{
+    const Grid grid = eye_grid(frame);
+    if (particles->count == 0)
+        return;
+    reserve(cull, particles->count, (size_t)grid.columns * grid.rows);
+    use(cull->limit, &grid, NULL, NULL);
+    glBindTextureUnit(7, limit);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+    work_run((size_t)grid.columns * grid.rows);
+    widen(cull, &grid);
+    test(cull, &grid, particles, frame, 0, 0, vertices, false);
+}
+
+/* As wide as spheres_shadow.vert draws them. */
+bool cull_for_light(Cull *cull, const ParticleBuffers *particles, const Frame *frame)
+{
+    const double side = 1.77245 * frame->shadow_radius / frame->light_depth * SHADOW_MAP_TEXELS;
+    if (side > cull->point_limit || particles->count == 0)
+        return false;
+    Grid grid = make_grid(SHADOW_MAP_TEXELS, SHADOW_MAP_TEXELS, side, fmax(side, 1));
+    grid.projection[2] = (GLfloat)(side / 2);
+    make(cull, &grid, particles, frame, 1, 0, 1, false);
+    return true;
+}
+
+size_t cull_use(const Cull *cull, CullList list)
+{
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, cull->lists[list]);
+    return (size_t)list * COMMAND_SIZE;
+}

@@ -1,0 +1,93 @@
+#include "render/splat/ellipsoids.h"
+
+#include "render/particles/work.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+bool ellipsoids_stretched(const SplatDef *def)
+{
+    return def->shape == SPLAT_ELLIPSOID && !(def->level > 0);
+}
+
+bool ellipsoids_wanted(const SplatDef *def)
+{
+    return ellipsoids_stretched(def) || (def->drops && !(def->level > 0));
+}
+
+const char *ellipsoids_defines(const SplatDef *def)
+{
+    if (ellipsoids_stretched(def))
+        return "#define ELLIPSOID 1\n";
+    const bool paper = def->shape == SPLAT_PAPER;
+    if (ellipsoids_wanted(def))
+        return paper ? "#define PAPER 1\n#define DROPS 1\n" : "#define DROPS 1\n";
+    return paper ? "#define PAPER 1\n" : "";
+}
+
+bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error)
+{
+    const char *file = ellipsoids_stretched(def) ? "render/ellipsoids.comp" : "render/drops.comp";
+    *ellipsoids = (Ellipsoids){.def = *def};
+    if (!ellipsoids_wanted(def))
+        return true;
+    if (!neighbourhood_create(&ellipsoids->neighbourhood, error))
+        return false;
+    ellipsoids->program = program_create("splat shapes", (const char *const[]){file, NULL}, NULL, error);
+    return ellipsoids->program != 0;
+}
+
+void ellipsoids_destroy(Ellipsoids *ellipsoids)
+{
+    neighbourhood_destroy(&ellipsoids->neighbourhood);
+    glDeleteProgram(ellipsoids->program);
+    glDeleteBuffers(1, &ellipsoids->shapes);
+    *ellipsoids = (Ellipsoids){0};
+}
+
+static void reserve(Ellipsoids *ellipsoids, size_t count)
+{
+    const size_t floats = ellipsoids_stretched(&ellipsoids->def) ? 12 : 1;
+    if (count <= ellipsoids->capacity)
+        return;
+    ellipsoids->capacity = work_capacity(ellipsoids->capacity, count);
+    work_buffer_remake(&ellipsoids->shapes, ellipsoids->capacity * floats * sizeof(GLfloat), "splat shapes");
+}
+
+/* The sum of weights from which on a particle belongs to the fluid: a quarter of what a lattice has, less
+   than at its corners or in a sheet one particle thick. The integral of 1 - q^3 over the ball, less the
+   particle itself. */
+static double full_sum(const ParticleBuffers *particles, bool flat)
+{
+    static const double pi = 3.14159265358979323846;
+    const double q = particles->support_radius / particles->spacing;
+    return 0.25 * fmax(flat ? 0.6 * pi * q * q - 1 : 2 * pi / 3 * q * q * q - 1, 1);
+}
+
+/* Of a drop of one particle; a disc in two dimensions. */
+static double drop_radius(const ParticleBuffers *particles, bool flat)
+{
+    return particles->spacing * (flat ? 0.5641896 : 0.6203505); /* pi r^2 = 1; 4/3 pi r^3 = 1 */
+}
+
+void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame)
+{
+    const bool flat = frame->slab > 0;
+    const float radius = frame->particle_radius;
+    reserve(ellipsoids, particles->count);
+    neighbourhood_build(&ellipsoids->neighbourhood, particles);
+    const float drop = ellipsoids->def.drops ? fminf((float)drop_radius(particles, flat), radius) : radius;
+    glProgramUniform4f(ellipsoids->program, 3, (float)particles->support_radius,
+                       (float)full_sum(particles, flat), radius, drop);
+    if (ellipsoids_stretched(&ellipsoids->def))
+        glProgramUniform1ui(ellipsoids->program, 4, flat);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, ellipsoids->shapes);
+    neighbourhood_run(&ellipsoids->neighbourhood, ellipsoids->program);
+}
+
+void ellipsoids_bind(const Ellipsoids *ellipsoids)
+{
+    if (ellipsoids_wanted(&ellipsoids->def))
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, ellipsoids->shapes);
+}

@@ -1,0 +1,42 @@
+/* What stands for each particle in the view splat where it is not a sphere of the view's radius: an ellipsoid
+   from the covariance of its neighbours, after Yu and Turk, Reconstructing surfaces of particle-based fluids
+   using anisotropic kernels, 2013; or, of a particle with few neighbours, a ball on its way to the drop that
+   it is: one of its own volume, spacing^3. Both fade with the neighbours' weights, so that nothing pops.
+
+   That volume is not the solver's 1 / n: without neighbours to sum up, it is several times as large. */
+#ifndef SLOSH_ELLIPSOIDS_H
+#define SLOSH_ELLIPSOIDS_H
+
+#include "render/frame/frame.h"
+#include "render/particles/neighbourhood.h"
+
+typedef struct Ellipsoids {
+    SplatDef def;
+    Neighbourhood neighbourhood; /* where ellipsoids_wanted */
+    unsigned program;
+    unsigned shapes; /* buffer: see shaders/common/ball.glsl; three vec4 a particle, with drops alone a
+                        float */
+    size_t capacity;
+} Ellipsoids;
+
+/* Neither at a level of the field above zero, which has a shape of its own: particles are spheres there. */
+bool ellipsoids_wanted(const SplatDef *def);
+bool ellipsoids_stretched(const SplatDef *def); /* not drops alone */
+
+/* For shaders that include common/ball.glsl; none is longer than 40 characters. */
+const char *ellipsoids_defines(const SplatDef *def);
+
+/* The longest axis of an ellipsoid, in radii of the view: of axes 5 : 1 : 1. */
+#define ELLIPSOID_REACH 2.95
+
+/* False when a shader does not compile; ellipsoids_destroy is needed in either case. */
+bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error);
+void ellipsoids_destroy(Ellipsoids *ellipsoids);
+
+/* Of that state, from its positions. Where they are wanted. */
+void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame);
+
+/* For shaders that include common/ball.glsl; nothing where they are not wanted. */
+void ellipsoids_bind(const Ellipsoids *ellipsoids);
+
+#endif

@@ -1,0 +1,118 @@
+#include "render/splat/silhouette.h"
+
+#include "render/splat/splat_level.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+
+bool silhouette_wanted(const SplatDef *def)
+{
+    return def->antialias && (def->show == SPLAT_SHADED || def->show == SPLAT_CULLED);
+}
+
+bool silhouette_by_discs(const SplatDef *def)
+{
+    return silhouette_wanted(def) && !splat_level_wanted(def);
+}
+
+bool silhouette_create(Silhouette *silhouette, const ViewDef *def, Error *error)
+{
+    static const char *const files[] = {"render/silhouette_near.frag", "render/silhouette_edges.frag",
+                                        "render/silhouette_blend.frag"};
+    const bool solids = def->solid_count > 0, discs = silhouette_by_discs(&def->splat);
+    char defines[96];
+    *silhouette = (Silhouette){0};
+    glCreateVertexArrays(1, &silhouette->screen);
+    snprintf(defines, sizeof defines, "%s%s%s", solids ? "#define SOLIDS 1\n" : "",
+             discs ? "#define DISCS 1\n" : "", solids || !discs ? "#define ROWS 1\n" : "");
+    for (int i = 0; i < SILHOUETTE_PASSES; i++) {
+        const char *const stages[] = {"common/screen.vert", files[i], NULL};
+        silhouette->programs[i] = program_create(files[i], stages, defines, error);
+        if (!silhouette->programs[i])
+            return false;
+    }
+    return true;
+}
+
+static void delete_maps(Silhouette *silhouette)
+{
+    glDeleteFramebuffers(2, (GLuint[]){silhouette->edges_framebuffer, silhouette->target_framebuffer});
+    glDeleteTextures(
+        4, (GLuint[]){silhouette->edges, silhouette->picture, silhouette->target, silhouette->near});
+}
+
+void silhouette_destroy(Silhouette *silhouette)
+{
+    delete_maps(silhouette);
+    for (int i = 0; i < SILHOUETTE_PASSES; i++)
+        glDeleteProgram(silhouette->programs[i]);
+    glDeleteVertexArrays(1, &silhouette->screen);
+    *silhouette = (Silhouette){0};
+}
+
+static void follow(Silhouette *silhouette, const Target *target)
+{
+    if (silhouette->target_number == target->number)
+        return;
+    delete_maps(silhouette);
+    silhouette->edges = splat_map_create(GL_RGBA8, target, "silhouette edges");
+    silhouette->picture = splat_map_create(GL_SRGB8_ALPHA8, target, "silhouette picture");
+    silhouette->edges_framebuffer = splat_framebuffer_create(&silhouette->edges, 1, "silhouette edges");
+    glGenTextures(1, &silhouette->target);
+    glTextureView(silhouette->target, GL_TEXTURE_2D, target->color, GL_RGBA8, 0, 1, 0, 1);
+    silhouette->target_framebuffer = splat_framebuffer_create(&silhouette->target, 1, "silhouette target");
+    silhouette->near = splat_map_create(GL_DEPTH_COMPONENT16, target, "silhouette near");
+    glNamedFramebufferTexture(silhouette->edges_framebuffer, GL_DEPTH_ATTACHMENT, silhouette->near, 0);
+    glNamedFramebufferTexture(silhouette->target_framebuffer, GL_DEPTH_ATTACHMENT, silhouette->near, 0);
+    silhouette->target_number = target->number;
+}
+
+static void fill(GLuint framebuffer, GLuint program, float step)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glUseProgram(program);
+    glUniform1f(1, step);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/* The first pass leaves depths where the others have to look: a software driver branches by the test of
+   depth, and nowhere else. */
+static void run(const Silhouette *silhouette, float step)
+{
+    const unsigned *programs = silhouette->programs;
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    fill(silhouette->edges_framebuffer, programs[0], step);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
+    fill(silhouette->edges_framebuffer, programs[1], step);
+    fill(silhouette->target_framebuffer, programs[2], step);
+    glDepthMask(GL_TRUE);
+}
+
+void silhouette_draw(Silhouette *silhouette, const SplatMaps *blended, unsigned nearest, float step,
+                     const Frame *frame)
+{
+    const Target *target = frame->target;
+    follow(silhouette, target);
+    glCopyImageSubData(target->color, GL_TEXTURE_2D, 0, 0, 0, 0, silhouette->picture, GL_TEXTURE_2D, 0, 0, 0,
+                       0, target->width, target->height, 1);
+    glBindTextures(1, 7,
+                   (GLuint[]){nearest, target->depth, silhouette->picture, silhouette->edges, blended->color,
+                              blended->normal, blended->weight});
+    glDepthMask(GL_TRUE);
+    glClearNamedFramebufferfv(silhouette->edges_framebuffer, GL_COLOR, 0, (GLfloat[4]){0});
+    glClearNamedFramebufferfv(silhouette->edges_framebuffer, GL_DEPTH, 0, (GLfloat[]){1});
+    glViewport(0, 0, frame->width, frame->height);
+    glDisable(GL_BLEND);
+    glBindVertexArray(silhouette->screen);
+    glViewport(0, 0, frame->width, frame->height);
+    frame_cut_to_bounds(frame);
+    run(silhouette, step);
+    glDisable(GL_SCISSOR_TEST);
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+}

@@ -1,0 +1,297 @@
+#include "render/splat/splat.h"
+
+#include "render/frame/colormap.h"
+#include "render/frame/shadow.h"
+#include "render/splat/narrow_range.h"
+#include "render/splat/silhouette.h"
+#include "render/splat/splat_level.h"
+#include "render/splat/splat_shade.h"
+#include "render/splat/splat_sprites.h"
+#include "render/splat/thickness.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct SplatView {
+    SplatDef def;                                          /* what the programs were made for */
+    GLuint depth[SPLAT_POINT + 1], blend[SPLAT_POINT + 1]; /* programs, by sprite */
+    GLuint limit, casting, casting_listed;                 /* programs; the last where culling does */
+    GLuint colormap;
+    SplatSprites sprites;
+    Ellipsoids ellipsoids;
+    SplatMaps maps;
+    Thickness thickness; /* where the shading wants it */
+    NarrowRange filter;  /* where the def has it */
+    SplatMaps shown;     /* what is shaded: maps, or what the filter made of them */
+    SplatShade shade;
+    SplatLevel level;      /* where splat_level_wanted */
+    Silhouette silhouette; /* where it smooths outlines */
+} SplatView;
+
+const SplatMaps *splat_maps(const void *state)
+{
+    return &((const SplatView *)state)->maps;
+}
+
+const Ellipsoids *splat_ellipsoids(const void *state)
+{
+    return &((const SplatView *)state)->ellipsoids;
+}
+
+unsigned splat_thickness_map(const void *state)
+{
+    return ((const SplatView *)state)->thickness.map;
+}
+
+const SplatMaps *splat_shown_maps(const void *state)
+{
+    return &((const SplatView *)state)->shown;
+}
+
+static void splat_destroy(void *state)
+{
+    SplatView *splat = state;
+    for (int sprite = 0; sprite <= SPLAT_POINT; sprite++) {
+        glDeleteProgram(splat->depth[sprite]);
+        glDeleteProgram(splat->blend[sprite]);
+    }
+    glDeleteProgram(splat->limit);
+    glDeleteProgram(splat->casting);
+    glDeleteProgram(splat->casting_listed);
+    glDeleteTextures(1, &splat->colormap);
+    splat_level_destroy(&splat->level);
+    splat_maps_delete(&splat->maps);
+    narrow_range_destroy(&splat->filter);
+    silhouette_destroy(&splat->silhouette);
+    splat_sprites_destroy(&splat->sprites);
+    ellipsoids_destroy(&splat->ellipsoids);
+    thickness_destroy(&splat->thickness);
+    splat_shade_destroy(&splat->shade);
+    free(splat);
+}
+
+static bool create_sprites(SplatView *splat, SplatSprite sprite, Error *error)
+{
+    char blend[96];
+    const char *const file =
+        splat_level_wanted(&splat->def) ? "render/splat_level_blend.frag" : "render/splat_blend.frag";
+    const char *const discs = silhouette_by_discs(&splat->def) ? "#define DISCS 1\n" : "";
+    const bool listed = splat_culls(&splat->def);
+    snprintf(blend, sizeof blend, "#define BLEND 1\n#define WEIGHTS %d\n%s", (int)splat->def.weights, discs);
+    splat->depth[sprite] =
+        splat_sprites_program(&splat->sprites, sprite, listed, "render/splat_depth.frag", discs, error);
+    if (splat->depth[sprite])
+        splat->blend[sprite] = splat_sprites_program(&splat->sprites, sprite, listed, file, blend, error);
+    return splat->blend[sprite] != 0;
+}
+
+/* For the shadow map, where the light culls and where it cannot. */
+static GLuint create_casting(const SplatDef *def, const char *listed, Error *error)
+{
+    static const char *const stages[] = {"render/spheres_shadow.vert", "render/depth_only.frag", NULL};
+    char defines[64];
+    snprintf(defines, sizeof defines, "%s%s", ellipsoids_defines(def), listed);
+    const GLuint program = program_create("splat shadow", stages, defines, error);
+    if (program)
+        glProgramUniform1f(program, 1, SHADOW_MAP_TEXELS);
+    return program;
+}
+
+static bool create_programs(SplatView *splat, Error *error)
+{
+    for (int sprite = SPLAT_QUAD; sprite <= SPLAT_POINT; sprite++)
+        if (splat_sprites_may(&splat->sprites, (SplatSprite)sprite) &&
+            !create_sprites(splat, (SplatSprite)sprite, error))
+            return false;
+    splat->limit = program_create_pair("splat limit", "common/screen.vert", "render/splat_limit.frag", error);
+    splat->casting = splat->limit ? create_casting(&splat->def, "", error) : 0;
+    if (splat->casting && splat_culls(&splat->def))
+        splat->casting_listed = create_casting(&splat->def, "#define LISTED 1\n", error);
+    return splat_culls(&splat->def) ? splat->casting_listed != 0 : splat->casting != 0;
+}
+
+static bool create_shading(SplatView *splat, const ViewDef *def, Error *error)
+{
+    if (splat_shade_wants_thickness(&def->splat) &&
+        !thickness_create(&splat->thickness, &splat->sprites, def->solid_count > 0, error))
+        return false;
+    return splat_shade_create(&splat->shade, def, error);
+}
+
+/* Those that only some settings have, and shading. */
+static bool create_passes(SplatView *splat, const ViewDef *def, Error *error)
+{
+    const SplatDef *own = &splat->def;
+    return (!splat_level_wanted(own) || splat_level_create(&splat->level, &splat->sprites, error)) &&
+           (own->filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, error)) &&
+           (!silhouette_wanted(own) || silhouette_create(&splat->silhouette, def, error)) &&
+           create_shading(splat, def, error);
+}
+
+static void *splat_create(const ViewDef *def, Error *error)
+{
+    SplatView *splat = calloc(1, sizeof *splat);
+    if (!splat) {
+        error_set(error, "out of memory for the view");
+        return NULL;
+    }
+    splat->def = def->splat;
+    splat->colormap = colormap_texture(def->colormap);
+    if (!splat->colormap)
+        error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
+    if (splat->colormap && splat_sprites_create(&splat->sprites, &def->splat, error) &&
+        ellipsoids_create(&splat->ellipsoids, &def->splat, error) && create_programs(splat, error) &&
+        create_passes(splat, def, error))
+        return splat;
+    splat_destroy(splat);
+    return NULL;
+}
+
+static void splat_prepare(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SplatView *splat = state;
+    if (ellipsoids_wanted(&splat->def))
+        GL_STAGE(frame->timer, STAGE_VISIBILITY)
+        {
+            ellipsoids_make(&splat->ellipsoids, particles, frame);
+        }
+}
+
+static void splat_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SplatView *splat = state;
+    ellipsoids_bind(&splat->ellipsoids);
+    const bool listed = splat_culls(&splat->def) && cull_for_light(&splat->sprites.cull, particles, frame);
+    splat_sprites_draw_points(&splat->sprites, listed ? splat->casting_listed : splat->casting, particles,
+                              frame, listed ? &(CullList){CULL_NEAREST} : NULL);
+}
+
+static void draw_sprites(SplatView *splat, SplatSprite sprite, GLuint program,
+                         const ParticleBuffers *particles, const Frame *frame, CullList list)
+{
+    splat_sprites_draw(&splat->sprites, sprite, program, particles, frame,
+                       splat_culls(&splat->def) ? &list : NULL);
+}
+
+static float eps_of(const Frame *frame)
+{
+    return (float)frame->def->splat.eps * frame->particle_radius;
+}
+
+/* How far behind the nearest sphere others matter, m. */
+static float reach_of(const SplatView *splat, const Frame *frame)
+{
+    return splat_level_wanted(&splat->def) ? splat_level_range(frame) : eps_of(frame);
+}
+
+static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
+                         const Frame *frame)
+{
+    const bool hidden = splat->def.show == SPLAT_CULLED;
+    if (splat_culls(&splat->def))
+        cull_for_eye(&splat->sprites.cull, particles, frame, reach_of(splat, frame),
+                     sprite == SPLAT_POINT ? 1 : 6, hidden);
+    glClearNamedFramebufferfv(splat->maps.nearest_framebuffer, GL_COLOR, 0, (GLfloat[4]){SPLAT_NOTHING});
+    splat_sprites_begin(splat->maps.nearest_framebuffer, frame, GL_MIN);
+    counts_begin(frame->counts);
+    draw_sprites(splat, sprite, splat->depth[sprite], particles, frame, CULL_NEAREST);
+    counts_end(frame->counts, STAGE_VISIBILITY);
+    if (splat_level_wanted(&splat->def))
+        splat_level_find(&splat->level, &splat->maps, &splat->sprites, sprite, particles, frame);
+}
+
+static void set_limit(SplatView *splat, const Frame *frame)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, splat->maps.blend_framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glBindTextureUnit(1, splat->maps.nearest);
+    glUseProgram(splat->limit);
+    glUniform1f(1, eps_of(frame));
+    glBindVertexArray(splat->sprites.screen);
+    frame_cut_to_bounds(frame);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+static void blend_attributes(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
+                             const Frame *frame)
+{
+    for (int i = 0; i < 3; i++)
+        glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
+    const bool level = splat_level_wanted(&splat->def); /* its search has set the limit */
+    if (!level)
+        set_limit(splat, frame);
+    splat_sprites_begin(splat->maps.blend_framebuffer, frame, GL_FUNC_ADD);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(GL_FALSE);
+    glProgramUniform1f(splat->blend[sprite], 1,
+                       level ? splat_level_gain_of(frame, particles) : eps_of(frame));
+    glBindTextureUnit(1, splat->maps.nearest);
+    glBindTextureUnit(2, splat->colormap);
+    counts_begin(frame->counts);
+    draw_sprites(splat, sprite, splat->blend[sprite], particles, frame, CULL_BLEND);
+    counts_end(frame->counts, STAGE_BLEND);
+    glDisable(GL_BLEND);
+}
+
+/* Fluid that is farther behind is seen to be behind: it shares nothing with what is before. Levels are
+   smooth, and have no eps. */
+static float apart(const SplatView *splat, const Frame *frame)
+{
+    return splat_level_wanted(&splat->def) ? frame->particle_radius / 2 : eps_of(frame);
+}
+
+static void splat_draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SplatView *splat = state;
+    const SplatSprite sprite =
+        splat_sprites_choose(&splat->sprites, frame, frame->particle_reach, (float)frame->height);
+    splat_maps_follow(&splat->maps, frame->target, silhouette_by_discs(&splat->def));
+    ellipsoids_bind(&splat->ellipsoids);
+    GL_STAGE(frame->timer, STAGE_VISIBILITY)
+    find_nearest(splat, sprite, particles, frame);
+    GL_STAGE(frame->timer, STAGE_BLEND)
+    blend_attributes(splat, sprite, particles, frame);
+    if (splat_shade_wants_thickness(&splat->def))
+        GL_STAGE(frame->timer, STAGE_THICKNESS)
+        {
+            thickness_draw(&splat->thickness, &splat->sprites, particles, frame);
+        }
+    splat->shown = splat->maps;
+    if (splat->def.filter == SPLAT_NARROW_RANGE)
+        GL_STAGE(frame->timer, STAGE_FILTER)
+        {
+            splat->shown = narrow_range_draw(&splat->filter, &splat->maps, frame);
+        }
+    GL_STAGE(frame->timer, STAGE_SHADE)
+    splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, frame);
+    if (silhouette_wanted(&splat->def))
+        GL_STAGE(frame->timer, STAGE_ANTIALIAS)
+        {
+            silhouette_draw(&splat->silhouette, &splat->maps, splat->shown.nearest, apart(splat, frame),
+                            frame);
+        }
+    if (frame->counts)
+        counts_finish(frame->counts, splat_maps_covered(&splat->maps, frame->target),
+                      (uint64_t)frame->width * (uint64_t)frame->height);
+}
+
+const ViewKind view_splat = {
+    .name = "splat",
+    .help = "one smooth surface, blended from spheres",
+    .radius = 1, /* a spacing: neighbours at rest overlap so far that no hole is left */
+    .create = splat_create,
+    .destroy = splat_destroy,
+    .prepare = splat_prepare,
+    .cast = splat_cast,
+    .draw = splat_draw,
+};

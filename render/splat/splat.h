@@ -1,0 +1,22 @@
+/* View "splat": the fluid as one smooth surface, straight from positions and radii. After: Adams, Lenaerts,
+   Dutré, Particle splatting: interactive rendering of particle-based simulation data, CW 453, 2006. */
+#ifndef SLOSH_SPLAT_H
+#define SLOSH_SPLAT_H
+
+#include "render/frame/view.h"
+#include "render/splat/ellipsoids.h"
+#include "render/splat/splat_maps.h"
+#include "render/splat/splat_names.h"
+
+extern const ViewKind view_splat;
+
+/* Of a state that view_splat.create made; for tests. */
+const SplatMaps *splat_maps(const void *state);
+const Ellipsoids *splat_ellipsoids(const void *state);
+unsigned
+splat_thickness_map(const void *state); /* see render/splat/thickness.h; 0 where the shading wants none */
+
+/* Those that were shaded: the filter's depth and normals, where there is one. */
+const SplatMaps *splat_shown_maps(const void *state);
+
+#endif

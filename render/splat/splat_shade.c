@@ -1,0 +1,86 @@
+#include "render/splat/splat_shade.h"
+
+#include "render/splat/silhouette.h"
+#include "render/splat/splat_sprites.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+
+bool splat_shade_wants_thickness(const SplatDef *def)
+{
+    return def->show == SPLAT_THICKNESS || (def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG);
+}
+
+static unsigned create_program(const SplatShade *shade, const ViewDef *def, const char *more, Error *error)
+{
+    static const char *const stages[] = {"common/screen.vert", "render/splat_shade.frag", NULL};
+    char defines[160];
+    snprintf(defines, sizeof defines, "%s%s%s#define SHOW %d\n#define SHADING %d\n",
+             def->solid_count > 0 ? "#define SOLIDS 1\n" : "", shade->clear ? "#define FLOOR_SHADOW 1\n" : "",
+             more, (int)def->splat.show, (int)def->splat.shading);
+    return program_create("splat shade", stages, defines, error);
+}
+
+bool splat_shade_create(SplatShade *shade, const ViewDef *def, Error *error)
+{
+    const bool discs = silhouette_by_discs(&def->splat);
+    *shade = (SplatShade){.clear = def->splat.show == SPLAT_SHADED && def->splat.shading != SPLAT_PHONG};
+    glCreateVertexArrays(1, &shade->screen);
+    shade->program = create_program(shade, def, "", error);
+    if (shade->program && discs)
+        shade->mixing = create_program(shade, def, "#define MIXING 1\n", error);
+    return discs ? shade->mixing != 0 : shade->program != 0;
+}
+
+void splat_shade_destroy(SplatShade *shade)
+{
+    glDeleteProgram(shade->program);
+    glDeleteProgram(shade->mixing);
+    glDeleteVertexArrays(1, &shade->screen);
+    behind_destroy(&shade->behind);
+}
+
+/* What a clear fluid's shading reads besides. */
+static void look_through(SplatShade *shade, unsigned program, const Frame *frame)
+{
+    const SplatDef *def = &frame->def->splat;
+    behind_take(&shade->behind, frame);
+    glProgramUniform2f(program, 2, (float)def->ior,
+                       def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);
+}
+
+/* Blends what the fluid covers of pixels with what is behind it. */
+static void begin_mixing(const Frame *frame)
+{
+    glUniform1f(9, (float)frame->def->splat.eps * frame->particle_radius);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame)
+{
+    const bool mixing = shade->mixing && splat_sprites_small(frame);
+    const unsigned program = mixing ? shade->mixing : shade->program;
+    if (shade->clear)
+        look_through(shade, program, frame);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glBindTextureUnit(1, maps->nearest);
+    glBindTextures(5, 3, (GLuint[]){maps->color, maps->normal, maps->weight});
+    glBindTextureUnit(10, thickness);
+    glUseProgram(program);
+    glUniform2f(1, fmaxf(frame->nearest, frame->camera.near_plane), frame->farthest);
+    if (mixing)
+        begin_mixing(frame);
+    glBindVertexArray(shade->screen);
+    frame_cut_to_bounds(frame);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+}

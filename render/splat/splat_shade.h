@@ -1,0 +1,30 @@
+/* Pass 3 of the view splat: deferred shading of the blended surface into the target. After: Adams et al.
+   2006, section 3.3. */
+#ifndef SLOSH_SPLAT_SHADE_H
+#define SLOSH_SPLAT_SHADE_H
+
+#include "render/frame/behind.h"
+#include "render/splat/splat_maps.h"
+#include "sim/base/error.h"
+
+typedef struct SplatShade {
+    unsigned program;
+    unsigned mixing; /* program for spheres smaller than pixels, which let through what is behind; where
+                        silhouette_by_discs */
+    unsigned screen; /* vertex array without attributes */
+    bool clear;      /* water or jelly: what is behind shows through */
+    Behind behind;   /* where clear */
+} SplatShade;
+
+/* False when a shader does not compile; splat_shade_destroy is needed in either case. */
+bool splat_shade_create(SplatShade *shade, const ViewDef *def, Error *error);
+void splat_shade_destroy(SplatShade *shade);
+
+/* Writes colour and depth of the surface. Solids are in the target already: the test of depth says who hides
+   whom. `thickness`: the texture of render/splat/thickness.h where the shading reads it
+   (splat_shade_wants_thickness), else 0. */
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame);
+
+bool splat_shade_wants_thickness(const SplatDef *def);
+
+#endif

@@ -1,0 +1,51 @@
+/* Particles as sprites for the passes of the view splat: quads or points, all of them or what culling left.
+ */
+#ifndef SLOSH_SPLAT_SPRITES_H
+#define SLOSH_SPLAT_SPRITES_H
+
+#include "render/frame/view_def.h"
+#include "render/particles/particle_bind.h"
+#include "render/splat/cull.h"
+
+typedef struct SplatSprites {
+    SplatDef def;
+    float point_limit; /* largest point that the driver draws, pixels; 0 on hardware: quads cost no more there
+                        */
+    unsigned screen;   /* vertex array without attributes */
+    QuadIndices quads;
+    Cull cull; /* where splat_culls */
+} SplatSprites;
+
+/* False when a shader does not compile; splat_sprites_destroy is needed in either case. */
+bool splat_sprites_create(SplatSprites *sprites, const SplatDef *def, Error *error);
+void splat_sprites_destroy(SplatSprites *sprites);
+
+/* To see what culling left out wants it too. */
+bool splat_culls(const SplatDef *def);
+
+/* Whether some frame may be drawn with it: never SPLAT_AUTO. */
+bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite);
+
+/* For this frame: quad or point, for spheres of that radius (m) in a picture that many pixels high. */
+SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame, float radius, float height);
+
+/* Whether some sphere may be so small that it is drawn larger than it is: shaders/common/splat_small.glsl. */
+bool splat_sprites_small(const Frame *frame);
+
+/* A program of render/splat.vert and a fragment shader, for all particles or those listed by culling. The
+   caller deletes it; 0 on failure. */
+unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, bool listed,
+                               const char *fragment, const char *defines, Error *error);
+
+/* Draws with such a program: all particles where `list` is NULL. */
+void splat_sprites_draw(SplatSprites *sprites, SplatSprite sprite, unsigned program,
+                        const ParticleBuffers *particles, const Frame *frame, const CullList *list);
+
+/* Draws a point a particle with any program; those of render/splat.vert are for splat_sprites_draw. */
+void splat_sprites_draw_points(SplatSprites *sprites, unsigned program, const ParticleBuffers *particles,
+                               const Frame *frame, const CullList *list);
+
+/* State of passes whose sprites mix with what is there, by that equation, and know no depth buffer. */
+void splat_sprites_begin(unsigned framebuffer, const Frame *frame, unsigned equation);
+
+#endif

@@ -1,0 +1,327 @@
+#include "render/volume/raycast.h"
+
+#include "render/frame/behind.h"
+#include "render/frame/colormap.h"
+#include "render/volume/bricks.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* As in shaders/common/raycast.glsl, std140. */
+typedef struct RaycastBlock {
+    float eye_to_volume[16], volume_to_eye[16];
+    float cells[4], bricks[4], march[4], transfer[4], look[4];
+} RaycastBlock;
+
+/* GATE: a copy of what says which pixels have a ray at all, for the test of depth before the shader. */
+enum { ENTRY, EXIT, GATE, DEPTHS };
+enum { FACES_IN, FACES_OUT, MARCH, FRAMEBUFFERS };
+
+/* The longest step, in support radii: see step_from in shaders/common/raycast_ray.glsl. */
+static const double FAR_STEP = 0.5;
+
+struct Raycast {
+    GLuint program, settle; /* march; write depth */
+    GLuint block, colormap, screen;
+    Bricks bricks;
+    Behind behind; /* of water */
+    GLuint depths[DEPTHS], framebuffers[FRAMEBUFFERS];
+    GLuint found;           /* depth below the eye of what each ray met, m, R32F; 0: nothing */
+    unsigned target_number; /* which these were made for; 0: none */
+    RaycastLook look;
+    bool solids;
+};
+
+void raycast_destroy(Raycast *raycast)
+{
+    if (!raycast)
+        return;
+    bricks_destroy(&raycast->bricks);
+    behind_destroy(&raycast->behind);
+    glDeleteProgram(raycast->program);
+    glDeleteProgram(raycast->settle);
+    glDeleteBuffers(1, &raycast->block);
+    glDeleteTextures(DEPTHS, raycast->depths);
+    glDeleteTextures(2, (GLuint[]){raycast->colormap, raycast->found});
+    glDeleteFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
+    glDeleteVertexArrays(1, &raycast->screen);
+    free(raycast);
+}
+
+/* Program text for what the def asks for, and for nothing else. */
+static GLuint create_program(const ViewDef *def, const char *field, Error *error)
+{
+    static const char *const stages[] = {"common/screen.vert", "render/raycast.frag", NULL};
+    const RaycastDef *cast = &def->raycast;
+    static const int shows[] = {
+        [VOLUME_ENTRY] = 1, [VOLUME_EXIT] = 2, [VOLUME_LENGTH] = 3, [VOLUME_STEPS] = 4, [VOLUME_NORMALS] = 5};
+    char defines[256];
+    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s", shows[def->volume.show],
+             def->solid_count > 0 ? "#define SOLIDS 1\n" : "", field,
+             cast->look == RAYCAST_TRANSLUCENT ? "#define TRANSLUCENT 1\n" : "",
+             cast->shadows ? "#define SHADOWS 1\n" : "",
+             cast->look == RAYCAST_WATER ? "#define WATER 1\n#define FLOOR_SHADOW 1\n" : "");
+    return program_create("raycast", stages, defines, error);
+}
+
+Raycast *raycast_create(const ViewDef *def, const Voxelizer *voxelizer, Error *error)
+{
+    Raycast *raycast = calloc(1, sizeof *raycast);
+    if (!raycast) {
+        error_set(error, "out of memory for raycasting");
+        return NULL;
+    }
+    raycast->solids = def->solid_count > 0;
+    raycast->look = def->raycast.look;
+    glCreateVertexArrays(1, &raycast->screen);
+    glCreateBuffers(1, &raycast->block);
+    glObjectLabel(GL_BUFFER, raycast->block, -1, "raycast uniforms");
+    glNamedBufferStorage(raycast->block, sizeof(RaycastBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
+    raycast->colormap = colormap_texture(def->colormap);
+    if (!raycast->colormap)
+        error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
+    else
+        raycast->program = create_program(def, voxelizer ? voxelizer_defines(voxelizer) : "", error);
+    if (raycast->program)
+        raycast->settle =
+            program_create_pair("raycast depth", "common/screen.vert", "render/raycast_depth.frag", error);
+    if (raycast->settle && bricks_create(&raycast->bricks, error))
+        return raycast;
+    raycast_destroy(raycast);
+    return NULL;
+}
+
+static GLuint create_map(const Target *target, GLenum format, const char *label)
+{
+    GLuint texture;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glObjectLabel(GL_TEXTURE, texture, -1, label);
+    glTextureStorage2D(texture, 1, format, target->width, target->height);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+static void attach(Raycast *raycast, int framebuffer, int depth, const char *label)
+{
+    const GLuint name = raycast->framebuffers[framebuffer];
+    glObjectLabel(GL_FRAMEBUFFER, name, -1, label);
+    glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, raycast->depths[depth], 0);
+    glNamedFramebufferDrawBuffer(name, GL_NONE);
+}
+
+static void follow_target(Raycast *raycast, const Target *target)
+{
+    static const char *const labels[DEPTHS] = {"ray entry", "ray exit", "ray gate"};
+    static const GLenum both[2] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    if (raycast->target_number == target->number)
+        return;
+    glDeleteTextures(DEPTHS, raycast->depths);
+    glDeleteTextures(1, &raycast->found);
+    glDeleteFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
+    memset(raycast->depths, 0, sizeof raycast->depths);
+    for (int i = 0; i < DEPTHS; i++)
+        raycast->depths[i] = create_map(target, GL_DEPTH_COMPONENT32F, labels[i]);
+    raycast->found = create_map(target, GL_R32F, "ray found");
+    glCreateFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
+    attach(raycast, FACES_IN, ENTRY, "ray entry");
+    attach(raycast, FACES_OUT, EXIT, "ray exit");
+    attach(raycast, MARCH, GATE, "ray march");
+    glNamedFramebufferTexture(raycast->framebuffers[MARCH], GL_COLOR_ATTACHMENT0, target->color, 0);
+    glNamedFramebufferTexture(raycast->framebuffers[MARCH], GL_COLOR_ATTACHMENT1, raycast->found, 0);
+    glNamedFramebufferDrawBuffers(raycast->framebuffers[MARCH], 2, both);
+    raycast->target_number = target->number;
+}
+
+static void set(float out[4], double x, double y, double z, double w)
+{
+    out[0] = (float)x, out[1] = (float)y, out[2] = (float)z, out[3] = (float)w;
+}
+
+/* The grid's sides are along the box's axes: scale, move, and then the box's pose. */
+static void fill_matrices(RaycastBlock *block, const VolumeGrid *grid, const Frame *frame)
+{
+    float box_to_eye[16], eye_to_box[16], to_volume[16] = {[15] = 1}, to_box[16] = {[15] = 1};
+    for (int k = 0; k < 3; k++) {
+        const double size = grid->size[k] * grid->cell;
+        to_box[5 * k] = (float)size, to_box[12 + k] = (float)grid->corner[k];
+        to_volume[5 * k] = (float)(1 / size), to_volume[12 + k] = (float)(-grid->corner[k] / size);
+    }
+    matrix_multiply(frame->camera.view, frame->box_to_world, box_to_eye);
+    matrix_invert_rigid(box_to_eye, eye_to_box);
+    matrix_multiply(to_volume, eye_to_box, block->eye_to_volume);
+    matrix_multiply(box_to_eye, to_box, block->volume_to_eye);
+}
+
+/* Whether part of the near plane is in the volume: then faces before it are lost, and all rays start there.
+ */
+static bool near_is_inside(const RaycastBlock *block, const Frame *frame)
+{
+    const float *tangent = frame->camera.tangent, near = frame->camera.near_plane;
+    const float reach = near * sqrtf(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+    bool inside = true;
+    for (int k = 0; k < 3; k++) {
+        const float at = block->eye_to_volume[12 + k], margin = reach / (block->cells[k] * block->cells[3]);
+        inside = inside && at > -margin && at < 1 + margin;
+    }
+    return inside;
+}
+
+static void fill_block(RaycastBlock *block, const Volume *volume, const ParticleBuffers *particles,
+                       const Frame *frame)
+{
+    const RaycastDef *cast = &frame->def->raycast;
+    const VolumeGrid *grid = &volume->grid;
+    int count[3];
+    const int side = bricks_of(grid, count);
+    const bool surface = cast->look != RAYCAST_TRANSLUCENT;
+    fill_matrices(block, grid, frame);
+    set(block->cells, grid->size[0], grid->size[1], grid->size[2], grid->cell);
+    set(block->bricks, count[0], count[1], count[2], side);
+    set(block->march, cast->level, cast->step * grid->cell, FAR_STEP * volume->support,
+        near_is_inside(block, frame) ? frame->camera.near_plane : 0);
+    set(block->transfer, cast->ramp[0], 1 / fmax(cast->ramp[1] - cast->ramp[0], 1e-6),
+        -log(fmax(1 - cast->opacity, 1e-30)) / particles->spacing,
+        cast->skip ? surface ? cast->level : cast->ramp[0] : -1);
+    set(block->look, 1 - cast->threshold, cast->jitter, cast->by_scalar, -log(fmax(1 - cast->skin, 1e-30)));
+}
+
+/* The nearest front face and the farthest back face in each pixel. */
+static void draw_faces(Raycast *raycast, const Frame *frame)
+{
+    static const float nothing[2] = {0, 1};
+    glViewport(0, 0, frame->width, frame->height);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glEnable(GL_CULL_FACE);
+    glFrontFace(GL_CCW);
+    for (int i = FACES_IN; i <= FACES_OUT; i++) {
+        glBindFramebuffer(GL_FRAMEBUFFER, raycast->framebuffers[i]);
+        glClearNamedFramebufferfv(raycast->framebuffers[i], GL_DEPTH, 0, &nothing[i]);
+        glCullFace(i == FACES_IN ? GL_BACK : GL_FRONT);
+        glDepthFunc(i == FACES_IN ? GL_GREATER : GL_LESS);
+        bricks_draw_faces(&raycast->bricks);
+    }
+    glDisable(GL_CULL_FACE);
+}
+
+static void copy_depth(GLuint from, GLuint to, const Target *target)
+{
+    glCopyImageSubData(from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, 0, 0, 0, target->width,
+                       target->height, 1);
+}
+
+/* The triangle over the picture passes where a face is; a software driver runs all of a shader where only
+   part of it is wanted. */
+static void open_gate(const Raycast *raycast, const Target *target, bool inside)
+{
+    copy_depth(raycast->depths[inside ? EXIT : ENTRY], raycast->depths[GATE], target);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(inside ? GL_GREATER : GL_LESS);
+    glDepthRange(inside, inside);
+}
+
+/* Solids stand in the target's depth, which is not written until all rays are cast. */
+static void bind_maps(const Raycast *raycast, const Target *target)
+{
+    glBindTextureUnit(2, raycast->colormap);
+    glBindTextureUnit(10, raycast->depths[ENTRY]);
+    glBindTextureUnit(11, raycast->depths[EXIT]);
+    glBindTextureUnit(12, raycast->solids ? target->depth : 0);
+}
+
+/* Without solids all that one looks through the fluid at is sky and floor, which need no copy. */
+static void look_through(Raycast *raycast, const Frame *frame)
+{
+    const RaycastDef *cast = &frame->def->raycast;
+    if (raycast->solids)
+        behind_take(&raycast->behind, frame);
+    else
+        glBindTextureUnit(3, frame->floor_light);
+    glProgramUniform2f(raycast->program, 2, (GLfloat)cast->ior,
+                       cast->attenuation > 0 ? (GLfloat)cast->attenuation : frame->attenuation);
+}
+
+/* Rays end at solids, so that what they find is always before them. */
+static void march(Raycast *raycast, const Frame *frame, bool inside)
+{
+    static const float nothing[4] = {0};
+    glBindFramebuffer(GL_FRAMEBUFFER, raycast->framebuffers[MARCH]);
+    glClearNamedFramebufferfv(raycast->framebuffers[MARCH], GL_COLOR, 1, nothing);
+    open_gate(raycast, frame->target, inside);
+    if (raycast->look == RAYCAST_TRANSLUCENT)
+        glEnablei(GL_BLEND, 0);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    bind_maps(raycast, frame->target);
+    glUseProgram(raycast->program);
+    glBindVertexArray(raycast->screen);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
+    glDepthRange(0, 1);
+}
+
+static void write_depth(const Raycast *raycast, const Frame *frame)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_ALWAYS);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glBindTextureUnit(1, raycast->found);
+    glUseProgram(raycast->settle);
+    glBindVertexArray(raycast->screen);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+}
+
+static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuffers *particles,
+                      const Frame *frame)
+{
+    RaycastBlock block;
+    follow_target(raycast, frame->target);
+    fill_block(&block, volume, particles, frame);
+    glNamedBufferSubData(raycast->block, 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 3, raycast->block);
+    glBindTextures(8, 2, (GLuint[]){volume->field, volume->scalar});
+    bricks_make(&raycast->bricks, volume);
+    draw_faces(raycast, frame);
+    if (raycast->look == RAYCAST_WATER)
+        look_through(raycast, frame);
+    march(raycast, frame, block.march[3] > 0);
+    write_depth(raycast, frame);
+}
+
+/* Pixels whose depth is written: of translucent fluid those that it hides by half. */
+static void count_covered(const Raycast *raycast, const Frame *frame)
+{
+    ViewCounts *counts = frame->counts;
+    counts_begin(counts);
+    write_depth(raycast, frame);
+    counts_end(counts, STAGE_RAYCAST);
+    const uint64_t covered = (uint64_t)counts->fragments[STAGE_RAYCAST];
+    counts->fragments[STAGE_RAYCAST] = 0;
+    counts_finish(counts, covered, (uint64_t)frame->width * (uint64_t)frame->height);
+}
+
+void raycast_draw(Raycast *raycast, const Volume *volume, const Voxelizer *voxelizer,
+                  const ParticleBuffers *particles, const Frame *frame)
+{
+    if (voxelizer)
+        voxelizer_bind(voxelizer);
+    GL_STAGE(frame->timer, STAGE_RAYCAST)
+    cast_rays(raycast, volume, particles, frame);
+    if (frame->counts)
+        count_covered(raycast, frame);
+}
+
+RaycastMaps raycast_maps(const Raycast *raycast)
+{
+    return (RaycastMaps){raycast->depths[ENTRY], raycast->depths[EXIT], raycast->bricks.map};
+}

@@ -1,0 +1,44 @@
+#include "render/volume/volume_slice.h"
+
+#include "render/frame/colormap.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+
+bool volume_slice_create(VolumeSlice *slice, const ViewDef *def, const Voxelizer *voxelizer, Error *error)
+{
+    static const char *const stages[] = {"render/volume_slice.vert", "render/volume_slice.frag", NULL};
+    *slice = (VolumeSlice){.colormap = colormap_texture(def->colormap)};
+    if (!slice->colormap)
+        return error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
+    glCreateVertexArrays(1, &slice->vertex_array);
+    slice->program = program_create("volume slice", stages, voxelizer_defines(voxelizer), error);
+    return slice->program != 0;
+}
+
+void volume_slice_destroy(VolumeSlice *slice)
+{
+    glDeleteProgram(slice->program);
+    glDeleteVertexArrays(1, &slice->vertex_array);
+    glDeleteTextures(1, &slice->colormap);
+    *slice = (VolumeSlice){0};
+}
+
+void volume_slice_draw(const VolumeSlice *slice, const double box_size[3], const Frame *frame)
+{
+    const VolumeDef *def = &frame->def->volume;
+    const int axis = def->slice_axis;
+    const double from = axis == 1 ? 0 : -box_size[axis] / 2;
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glUseProgram(slice->program);
+    glUniform1ui(1, (GLuint)axis);
+    glUniform1f(2, (float)(from + def->slice * box_size[axis]));
+    glBindTextureUnit(1, slice->colormap);
+    glBindVertexArray(slice->vertex_array);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}

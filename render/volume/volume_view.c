@@ -1,0 +1,153 @@
+#include "render/volume/volume_view.h"
+
+#include "render/particles/particle_bind.h"
+#include "render/volume/fluid_numbers.h"
+#include "render/volume/raycast.h"
+#include "render/volume/volume_slice.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+
+#include <stdlib.h>
+
+typedef struct VolumeView {
+    Voxelizer *voxelizer;
+    VolumeSlice slice;    /* shown alone: nothing below is there */
+    Raycast *raycast;     /* NULL: the slice */
+    unsigned casting;     /* program: particles as the light sees them */
+    unsigned casting_vao; /* without attributes */
+    FluidNumbers numbers; /* where the volume carries fluids; else zero */
+} VolumeView;
+
+static void destroy(void *state)
+{
+    VolumeView *view = state;
+    volume_slice_destroy(&view->slice);
+    raycast_destroy(view->raycast);
+    fluid_numbers_destroy(&view->numbers);
+    glDeleteProgram(view->casting);
+    glDeleteVertexArrays(1, &view->casting_vao);
+    voxelizer_destroy(view->voxelizer);
+    free(view);
+}
+
+/* The box's volume: what the fluid's may become. */
+static bool accepts(void *state, const ViewDef *def, Error *error)
+{
+    VolumeView *view = state;
+    ParticleBuffers space = {.spacing = def->spacing, .support_radius = def->support_radius};
+    VolumeGrid grid;
+    for (int k = 0; k < 3; k++)
+        space.box_size[k] = def->box_size[k];
+    if (!(def->spacing > 0))
+        return true;
+    return volume_grid_for(&def->volume, &space, &grid, error) &&
+           voxelizer_fits(view->voxelizer, &grid, def->support_radius, error) &&
+           voxelizer_prepare(view->voxelizer, &def->volume, &grid, error);
+}
+
+static bool create_raycast(VolumeView *view, const ViewDef *def, Error *error)
+{
+    view->raycast = raycast_create(def, view->voxelizer, error);
+    if (!view->raycast)
+        return false;
+    glCreateVertexArrays(1, &view->casting_vao);
+    view->casting =
+        program_create_pair("volume shadow", "render/spheres_shadow.vert", "render/depth_only.frag", error);
+    if (view->casting)
+        glProgramUniform1f(view->casting, 1, SHADOW_MAP_TEXELS);
+    return view->casting != 0;
+}
+
+/* Fluids are carried where the picture has the colours of several, a scalar where it has that one's. */
+static bool carries_fluids(const ViewDef *def)
+{
+    return def->volume.show == VOLUME_SHADED && def->color_by == SCALAR_FLUID && def->fluid_count > 1;
+}
+
+static bool carries(const ViewDef *def)
+{
+    return def->volume.show == VOLUME_SHADED && (def->color_by != SCALAR_FLUID || carries_fluids(def));
+}
+
+static void *create(const ViewDef *def, Error *error)
+{
+    VolumeView *view = calloc(1, sizeof *view);
+    if (!view) {
+        error_set(error, "out of memory for the view");
+        return NULL;
+    }
+    view->voxelizer = voxelizer_create(def->volume.method, carries(def), error);
+    const bool slice = def->volume.show == VOLUME_SLICE;
+    if (view->voxelizer && accepts(view, def, error) &&
+        (!carries_fluids(def) || fluid_numbers_create(&view->numbers, error)) &&
+        (slice ? volume_slice_create(&view->slice, def, view->voxelizer, error)
+               : create_raycast(view, def, error)))
+        return view;
+    destroy(view);
+    return NULL;
+}
+
+/* A slice of the field casts none; the fluid does as its particles do. */
+static void cast(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    const VolumeView *view = state;
+    if (!view->raycast)
+        return;
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glUseProgram(view->casting);
+    particle_bind(view->casting, particles, frame->def->color_by);
+    glBindVertexArray(view->casting_vao);
+    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+}
+
+static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    VolumeView *view = state;
+    Volume volume;
+    Error error;
+    bool made = false;
+    GL_STAGE(frame->timer, STAGE_VOXELIZE)
+    {
+        const ParticleBuffers carrying =
+            view->numbers.program ? fluid_numbers_add(&view->numbers, particles) : *particles;
+        made = voxelizer_run(view->voxelizer, &frame->def->volume, &carrying, frame->def->color_by, &volume,
+                             &error);
+    }
+    if (!made) /* memory that was there at the start is not there now */
+        return;
+    if (view->raycast) {
+        raycast_draw(view->raycast, &volume, view->voxelizer, particles, frame);
+        return;
+    }
+    GL_STAGE(frame->timer, STAGE_SHADE)
+    {
+        voxelizer_bind(view->voxelizer);
+        volume_slice_draw(&view->slice, particles->box_size, frame);
+    }
+}
+
+/* The field is 1 in a fluid at rest, more where it is compressed; of steps raycast.frag shows 64. */
+static void show(const ViewDef *def, Frame *frame)
+{
+    const bool steps = def->volume.show == VOLUME_STEPS;
+    if (!steps && def->volume.show != VOLUME_SLICE)
+        return;
+    frame->by_fluid = false;
+    frame->shown = steps ? "steps" : "field";
+    frame->shown_unit = "";
+    frame->range[0] = 0;
+    frame->range[1] = steps ? 64 : 1.25;
+}
+
+const ViewKind view_volume = {
+    .name = "volume",
+    .help = "the fluid's field on a grid of voxels, by raycasting: a surface, or translucent",
+    .radius = 0.5,
+    .create = create,
+    .destroy = destroy,
+    .accepts = accepts,
+    .show = show,
+    .cast = cast,
+    .draw = draw,
+};

@@ -1,0 +1,312 @@
+/* The grid, the textures and the constants of a volume; its values come from the methods of
+ * render/volume/voxelize.h. */
+#include "render/particles/particle_bind.h"
+#include "render/volume/cell_lists.h"
+#include "render/volume/voxelize.h"
+#include "sim/gl/program.h"
+#include "sim/kernel/kernel.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* As in shaders/common/volume.glsl, std140. */
+typedef struct VolumeBlock {
+    float place[4], low[4], high[4];
+    int32_t size[4], list_size[4];
+    float scale[4];
+} VolumeBlock;
+
+struct Voxelizer {
+    VolumeMethod method;
+    bool scalar;
+    const VoxelizeMethod *by;
+    void *state;          /* of the method */
+    GLuint block, bounds; /* buffers */
+    GLuint find_bounds;   /* program, made when the bounds of the fluid are first wanted */
+    Volume volume;
+};
+
+static const double PI = 3.14159265358979323846;
+
+static const VoxelizeMethod *const methods[] = {
+    [VOLUME_GEOMETRY] = &voxelize_points, [VOLUME_LAYERS] = &voxelize_points,
+    [VOLUME_PLANES] = &voxelize_points,   [VOLUME_SCATTER] = &voxelize_compute,
+    [VOLUME_GATHER] = &voxelize_compute,  [VOLUME_SLABS] = &voxelize_slabs,
+    [VOLUME_DIRECT] = &voxelize_compute};
+
+/* On a software driver its memory is ours, and sums on the CPU are by far the fastest; on hardware the
+ * paper's way. */
+static VolumeMethod choose(VolumeMethod method)
+{
+    if (method != VOLUME_AUTO)
+        return method;
+    return gl_renderer_is_software() ? VOLUME_SLABS : VOLUME_GEOMETRY;
+}
+
+static GLuint create_buffer(size_t size, const char *label)
+{
+    GLuint buffer;
+    glCreateBuffers(1, &buffer);
+    glObjectLabel(GL_BUFFER, buffer, -1, label);
+    glNamedBufferStorage(buffer, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
+    return buffer;
+}
+
+Voxelizer *voxelizer_create(VolumeMethod method, bool scalar, Error *error)
+{
+    Voxelizer *voxelizer = calloc(1, sizeof *voxelizer);
+    if (!voxelizer) {
+        error_set(error, "out of memory for the voxelizer");
+        return NULL;
+    }
+    voxelizer->method = choose(method);
+    voxelizer->scalar = scalar;
+    voxelizer->by = methods[voxelizer->method];
+    voxelizer->block = create_buffer(sizeof(VolumeBlock), "volume");
+    voxelizer->bounds = create_buffer(6 * sizeof(GLuint), "volume bounds");
+    voxelizer->state = voxelizer->by->create(voxelizer->method, scalar, error);
+    if (voxelizer->state)
+        return voxelizer;
+    voxelizer_destroy(voxelizer);
+    return NULL;
+}
+
+static void delete_textures(Volume *volume)
+{
+    glDeleteTextures(2, (GLuint[]){volume->field, volume->scalar});
+    *volume = (Volume){0};
+}
+
+void voxelizer_destroy(Voxelizer *voxelizer)
+{
+    if (!voxelizer)
+        return;
+    if (voxelizer->state)
+        voxelizer->by->destroy(voxelizer->state);
+    delete_textures(&voxelizer->volume);
+    glDeleteBuffers(2, (GLuint[]){voxelizer->block, voxelizer->bounds});
+    glDeleteProgram(voxelizer->find_bounds);
+    free(voxelizer);
+}
+
+const char *voxelizer_defines(const Voxelizer *voxelizer)
+{
+    static const char *const lines[] = {"", "#define SCALAR 1\n", "#define FIELD_DIRECT 1\n",
+                                        "#define FIELD_DIRECT 1\n#define SCALAR 1\n"};
+    return lines[2 * (voxelizer->method == VOLUME_DIRECT) + voxelizer->scalar];
+}
+
+unsigned volume_texture(const int size[3], unsigned format, const char *label)
+{
+    static const GLfloat none[4] = {0};
+    GLuint texture;
+    while (glGetError() != GL_NO_ERROR) /* what is asked below is of this texture */
+        continue;
+    glCreateTextures(GL_TEXTURE_3D, 1, &texture);
+    glObjectLabel(GL_TEXTURE, texture, -1, label);
+    glTextureStorage3D(texture, 1, format, size[0], size[1], size[2]);
+    if (glGetError() != GL_NO_ERROR) {
+        glDeleteTextures(1, &texture);
+        return 0;
+    }
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (GLenum axis = 0; axis < 3; axis++)
+        glTextureParameteri(texture,
+                            (GLenum[]){GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}[axis],
+                            GL_CLAMP_TO_BORDER);
+    glClearTexImage(texture, 0, format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, none);
+    return texture;
+}
+
+static double bytes_of(const VolumeGrid *grid, bool scalar)
+{
+    return 4.0 * grid->size[0] * grid->size[1] * grid->size[2] * (scalar ? 2 : 1);
+}
+
+/* Of the machine, or of the GPU where it tells; planes and slabs need as much again for themselves. */
+static double bytes_there(void)
+{
+    GLint kib = 0;
+    if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
+        glGetIntegerv(GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX, &kib);
+    return kib > 0 ? 1024.0 * kib : (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+}
+
+static bool driver_takes(const VolumeGrid *grid)
+{
+    GLint width = 0;
+    glTexImage3D(GL_PROXY_TEXTURE_3D, 0, GL_R32F, grid->size[0], grid->size[1], grid->size[2], 0, GL_RED,
+                 GL_FLOAT, NULL);
+    glGetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &width);
+    return width == grid->size[0];
+}
+
+bool voxelizer_fits(const Voxelizer *voxelizer, const VolumeGrid *grid, double support, Error *error)
+{
+    const double bytes = bytes_of(grid, voxelizer->scalar);
+    if (voxelizer->method == VOLUME_DIRECT)
+        return true;
+    if (!driver_takes(grid) || 2.5 * bytes > bytes_there())
+        return error_set(
+            error,
+            "a volume of %d x %d x %d cells (%.0f MB) is more than this driver has room for: take fewer "
+            "view.volume.cells, or a larger view.volume.cell",
+            grid->size[0], grid->size[1], grid->size[2], bytes / 1e6);
+    return !voxelizer->by->fits || voxelizer->by->fits(grid, support / grid->cell, error);
+}
+
+static bool follow_grid(Voxelizer *voxelizer, const VolumeGrid *grid, Error *error)
+{
+    Volume *volume = &voxelizer->volume;
+    if (voxelizer->method == VOLUME_DIRECT)
+        return true;
+    if (volume->field && memcmp(volume->grid.size, grid->size, sizeof grid->size) == 0)
+        return true;
+    delete_textures(volume);
+    volume->field = volume_texture(grid->size, GL_R32F, "volume field");
+    if (volume->field && voxelizer->scalar)
+        volume->scalar = volume_texture(grid->size, GL_R32F, "volume scalar");
+    volume->grid = *grid;
+    if (volume->field && (volume->scalar || !voxelizer->scalar))
+        return true;
+    delete_textures(volume);
+    return error_set(error, "the GPU has no memory for a volume of %d x %d x %d cells; take larger cells",
+                     grid->size[0], grid->size[1], grid->size[2]);
+}
+
+static void fill_block(const Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *grid)
+{
+    VolumeBlock block = {.place[3] = (float)(1 / grid->cell),
+                         .low[3] = (float)job->radius,
+                         .high[3] = (float)(1 / (job->radius * job->radius)),
+                         .size[3] = (int32_t)job->particles->count};
+    for (int k = 0; k < 3; k++) {
+        block.place[k] = (float)grid->corner[k];
+        block.low[k] = (float)job->low[k];
+        block.high[k] = (float)job->high[k];
+        block.size[k] = grid->size[k];
+    }
+    block.scale[0] = (float)job->amplitude;
+    block.scale[1] = (float)cell_lists_size(grid, job->radius, block.list_size);
+    glNamedBufferSubData(voxelizer->block, 0, sizeof block, &block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 2, voxelizer->block);
+}
+
+/* From the numbers of shaders/render/volume_bounds.comp. */
+static double ordered(GLuint value)
+{
+    const GLuint bits = value & 0x80000000U ? value & 0x7fffffffU : ~value;
+    GLfloat number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+static bool prepare_bounds(Voxelizer *voxelizer, Error *error)
+{
+    static const char *const stages[] = {"render/volume_bounds.comp", NULL};
+    if (!voxelizer->find_bounds)
+        voxelizer->find_bounds = program_create("volume bounds", stages, NULL, error);
+    return voxelizer->find_bounds != 0;
+}
+
+bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, const VolumeGrid *whole, Error *error)
+{
+    if (def->bounds == VOLUME_FLUID)
+        return prepare_bounds(voxelizer, error);
+    return follow_grid(voxelizer, whole, error) &&
+           (!voxelizer->by->reserve || voxelizer->by->reserve(voxelizer->state, whole, error));
+}
+
+/* Asks the GPU, which this waits for: the grid's size is known on this side. */
+static void find_bounds(const Voxelizer *voxelizer, const VoxelizeJob *job, GLuint found[6])
+{
+    const GLsizeiptr size = 6 * sizeof *found;
+    glNamedBufferSubData(voxelizer->bounds, 0, size, found);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, voxelizer->bounds);
+    glUseProgram(voxelizer->find_bounds);
+    particle_bind(voxelizer->find_bounds, job->particles, job->carried);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(voxelizer->bounds, 0, size, found);
+}
+
+static void crop_to_fluid(const Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *whole,
+                          VolumeGrid *grid)
+{
+    GLuint found[6] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0, 0, 0};
+    double low[3], high[3];
+    if (job->particles->count > 0)
+        find_bounds(voxelizer, job, found);
+    for (int k = 0; k < 3; k++) {
+        low[k] = ordered(found[k]);
+        high[k] = ordered(found[3 + k]);
+    }
+    volume_grid_crop(whole, low, high, job->particles->support_radius, grid);
+}
+
+/* A scene of two dimensions is as deep as its particles; their volumes are areas, and the kernel is that of
+ * the plane. */
+static bool is_flat(const ParticleBuffers *particles)
+{
+    return fabs(particles->box_size[2] - particles->spacing) < 1e-6 * particles->spacing;
+}
+
+static VoxelizeJob make_job(const Voxelizer *voxelizer, const ParticleBuffers *particles, Scalar carried,
+                            const VolumeGrid *whole)
+{
+    const double h = particles->support_radius;
+    VoxelizeJob job = {.particles = particles,
+                       .carried = carried,
+                       .scalar = voxelizer->scalar,
+                       .radius = h / whole->cell,
+                       .amplitude = is_flat(particles) ? 4 / (PI * h * h) : kernel_poly6(0, h),
+                       .volume = &voxelizer->volume};
+    for (int k = 0; k < 3; k++) {
+        job.low[k] = whole->corner[k];
+        job.high[k] = whole->corner[k] + whole->size[k] * whole->cell;
+    }
+    return job;
+}
+
+static bool make_volume(Voxelizer *voxelizer, const VolumeDef *def, const VoxelizeJob *job,
+                        const VolumeGrid *whole, Error *error)
+{
+    VolumeGrid grid = *whole;
+    fill_block(voxelizer, job, &grid);
+    if (def->bounds == VOLUME_FLUID) {
+        crop_to_fluid(voxelizer, job, whole, &grid);
+        fill_block(voxelizer, job, &grid);
+    }
+    if (!follow_grid(voxelizer, &grid, error))
+        return false;
+    voxelizer->volume.grid = grid;
+    voxelizer->volume.support = job->particles->support_radius;
+    return voxelizer->by->run(voxelizer->state, job, error);
+}
+
+bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuffers *particles,
+                   Scalar carried, Volume *out, Error *error)
+{
+    VolumeGrid whole;
+    *out = (Volume){0};
+    if (!volume_grid_for(def, particles, &whole, error) ||
+        (def->bounds == VOLUME_FLUID && !prepare_bounds(voxelizer, error)))
+        return false;
+    const VoxelizeJob job = make_job(voxelizer, particles, carried, &whole);
+    if (!make_volume(voxelizer, def, &job, &whole, error))
+        return false;
+    *out = voxelizer->volume;
+    return true;
+}
+
+void voxelizer_bind(const Voxelizer *voxelizer)
+{
+    glBindBufferBase(GL_UNIFORM_BUFFER, 2, voxelizer->block);
+    glBindTextures(8, 2, (GLuint[]){voxelizer->volume.field, voxelizer->volume.scalar});
+    if (voxelizer->method == VOLUME_DIRECT)
+        voxelize_compute_bind(voxelizer->state);
+}

@@ -1,0 +1,258 @@
+#include "sim/matter/boundary.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where the particles of one solid go. */
+typedef struct Sink {
+    const SolidDef *solid;
+    int dimensions;
+    double spacing, depth;
+    float *position; /* NULL: only counts */
+    size_t count;
+} Sink;
+
+static void put(Sink *sink, double x, double y, double z)
+{
+    if (sink->position) {
+        float *to = sink->position + 3 * sink->count;
+        to[0] = (float)x, to[1] = (float)y, to[2] = (float)z;
+    }
+    sink->count++;
+}
+
+static long at_least_one(double count)
+{
+    return count > 1 ? lround(count) : 1;
+}
+
+/* `count` points, evenly over the part y >= `top` .. -1 of a sphere turned upside down: a Fibonacci lattice,
+   whose points all have the same area. */
+static void put_sphere(Sink *sink, double radius, double top, long count)
+{
+    const double golden = M_PI * (3 - sqrt(5));
+    for (long i = 0; i < count; i++) {
+        const double y = -1 + (1 + top) * ((double)i + 0.5) / (double)count, across = sqrt(1 - y * y);
+        const double angle = golden * (double)i;
+        put(sink, radius * across * cos(angle), radius * y, radius * across * sin(angle));
+    }
+}
+
+/* A ring about z (axis 2) or y (axis 1) at the height `along`. */
+static void put_ring(Sink *sink, int axis, double radius, double along, double begin, double sweep)
+{
+    const long count = at_least_one(radius * sweep / sink->spacing);
+    for (long i = 0; i < count; i++) {
+        const double angle = begin + sweep * ((double)i + 0.5) / (double)count;
+        const double a = radius * cos(angle), b = radius * sin(angle);
+        if (axis == 1)
+            put(sink, a, along, b);
+        else
+            put(sink, a, b, along);
+    }
+}
+
+static double cube(double x)
+{
+    return x * x * x;
+}
+
+/* Shells of a ball, or rings of a disc, from the surface inwards. */
+static void put_ball(Sink *sink)
+{
+    const double s = sink->spacing;
+    for (double outer = sink->solid->radius, behind = 0; outer > 0 && behind < sink->depth;
+         outer -= s, behind += s) {
+        const double inner = fmax(outer - s, 0), middle = inner > 0 ? 0.5 * (inner + outer) : 0.5 * outer;
+        if (sink->dimensions == 2)
+            put_ring(sink, 2, middle, 0, 0, 2 * M_PI);
+        else
+            put_sphere(sink, middle, 1, at_least_one(4 * M_PI / 3 * (cube(outer) - cube(inner)) / cube(s)));
+    }
+}
+
+/* Shells of the wall of a bowl, or half rings. */
+static void put_bowl(Sink *sink)
+{
+    const SolidDef *solid = sink->solid;
+    const double s = sink->spacing;
+    const long shells = at_least_one(solid->thickness / s);
+    const double step = solid->thickness / (double)shells;
+    for (long k = 0; k < shells; k++) {
+        const double inner = solid->radius + (double)k * step, outer = inner + step;
+        const double behind = fmin((double)k, (double)(shells - 1 - k)) * step;
+        if (behind >= sink->depth)
+            continue;
+        if (sink->dimensions == 2)
+            put_ring(sink, 2, 0.5 * (inner + outer), 0, M_PI, M_PI);
+        else
+            put_sphere(sink, 0.5 * (inner + outer), 0,
+                       at_least_one(2 * M_PI / 3 * (cube(outer) - cube(inner)) / cube(s)));
+    }
+}
+
+/* A lattice that fits the block. */
+typedef struct Block {
+    long points[3];
+    double step[3];
+    long layers[3]; /* as many from each side are not too deep */
+} Block;
+
+static bool near_side(const Block *block, int k, long index)
+{
+    return index < block->layers[k] || index >= block->points[k] - block->layers[k];
+}
+
+static double block_at(const Block *block, int k, long index)
+{
+    return ((double)index - 0.5 * (double)(block->points[k] - 1)) * block->step[k];
+}
+
+/* One line along x: all of it, or its two ends. */
+static void put_line(Sink *sink, const Block *block, long y, long z, bool whole)
+{
+    const long points = block->points[0], skip = whole ? points : block->layers[0];
+    for (long x = 0; x < points; x++) {
+        if (x == skip && points - skip > x)
+            x = points - skip;
+        put(sink, block_at(block, 0, x), block_at(block, 1, y), block_at(block, 2, z));
+    }
+}
+
+static void put_block(Sink *sink)
+{
+    Block block = {.points = {1, 1, 1}};
+    for (int k = 0; k < sink->dimensions; k++) {
+        block.points[k] = at_least_one(sink->solid->size[k] / sink->spacing);
+        block.step[k] = sink->solid->size[k] / (double)block.points[k];
+        block.layers[k] = (long)ceil(sink->depth / block.step[k]);
+    }
+    for (long z = 0; z < block.points[2]; z++)
+        for (long y = 0; y < block.points[1]; y++)
+            put_line(sink, &block, y, z, near_side(&block, 1, y) || near_side(&block, 2, z));
+}
+
+/* Discs of rings; of the middle ones only the outer rings. */
+static void put_cylinder(Sink *sink)
+{
+    const double s = sink->spacing, radius = sink->solid->radius, height = sink->solid->height;
+    const long discs = at_least_one(height / s);
+    for (long d = 0; d < discs; d++) {
+        const double step = height / (double)discs, along = ((double)d - 0.5 * (double)(discs - 1)) * step;
+        const double end = fmin((double)d, (double)(discs - 1 - d)) * step;
+        for (double outer = radius, behind = 0; outer > 0 && (behind < sink->depth || end < sink->depth);
+             outer -= s, behind += s)
+            if (outer > s)
+                put_ring(sink, 1, outer - 0.5 * s, along, 0.7 * (double)d, 2 * M_PI);
+            else if (outer > 0.25 * s)
+                put(sink, 0, along, 0);
+    }
+}
+
+size_t boundary_layers(const SolidDef *solid, int dimensions, double spacing, double depth, float *position)
+{
+    Sink sink = {solid, dimensions, spacing, depth, position, 0};
+    switch (solid->kind) {
+    case SOLID_BOX:
+        put_block(&sink);
+        break;
+    case SOLID_CYLINDER:
+        put_cylinder(&sink);
+        break;
+    case SOLID_BOWL:
+        put_bowl(&sink);
+        break;
+    default:
+        put_ball(&sink);
+    }
+    return sink.count;
+}
+
+/* Volume and area of the shape, m3 and m2, or m2 and m. */
+static void measures(const SolidDef *solid, int dimensions, double *volume, double *area)
+{
+    const double r = solid->radius, outer = r + solid->thickness, *e = solid->size;
+    const bool flat = dimensions == 2;
+    switch (solid->kind) {
+    case SOLID_BOX:
+        *volume = e[0] * e[1] * (flat ? 1 : e[2]);
+        *area = flat ? 2 * (e[0] + e[1]) : 2 * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]);
+        break;
+    case SOLID_CYLINDER:
+        *volume = M_PI * r * r * solid->height;
+        *area = 2 * M_PI * r * (r + solid->height);
+        break;
+    case SOLID_BOWL:
+        *volume = flat ? M_PI / 2 * (outer * outer - r * r) : 2 * M_PI / 3 * (cube(outer) - cube(r));
+        *area = flat ? M_PI * (outer + r) : 2 * M_PI * (outer * outer + r * r);
+        break;
+    default:
+        *volume = flat ? M_PI * r * r : 4 * M_PI / 3 * cube(r);
+        *area = flat ? 2 * M_PI * r : 4 * M_PI * r * r;
+    }
+}
+
+double boundary_estimate(const SolidDef *solid, int dimensions, double spacing, double depth)
+{
+    double volume, area;
+    measures(solid, dimensions, &volume, &area);
+    return fmin(volume, area * (depth + spacing)) / pow(spacing, dimensions);
+}
+
+/* Of `count` particles those that are in the box, put together; of a solid that moves all: returns how many.
+ */
+static size_t keep_in_box(const SolidDef *solid, const WorldDef *def, float *x, size_t count)
+{
+    const int axes = def->dimensions == 2 ? 2 : 3;
+    BoxState pose;
+    size_t kept = 0;
+    if (solid->motion_count > 0)
+        return count;
+    solid_pose(solid, 0, &pose);
+    for (size_t i = 0; i < count; i++) {
+        double at[3] = {x[3 * i], x[3 * i + 1], x[3 * i + 2]};
+        bool in = true;
+        quat_rotate(pose.orientation, at, at);
+        for (int k = 0; k < axes; k++) {
+            const double low = k == 1 ? 0 : -0.5 * def->box_size[k], c = at[k] + pose.position[k];
+            in &= c >= low && c <= low + def->box_size[k];
+        }
+        if (in)
+            memmove(x + 3 * kept++, x + 3 * i, 3 * sizeof *x);
+    }
+    return kept;
+}
+
+bool boundary_create(Boundary *boundary, const WorldDef *def)
+{
+    const double depth = def->support * def->spacing;
+    memset(boundary, 0, sizeof *boundary);
+    for (int i = 0; i < def->solid_count; i++)
+        boundary->count += boundary_layers(&def->solids[i], def->dimensions, def->spacing, depth, NULL);
+    if (boundary->count == 0)
+        return true;
+    boundary->rest = malloc(3 * boundary->count * sizeof *boundary->rest);
+    boundary->solid = malloc(boundary->count);
+    if (!boundary->rest || !boundary->solid) {
+        boundary_destroy(boundary);
+        return false;
+    }
+    size_t at = 0;
+    for (int i = 0; i < def->solid_count; i++) {
+        float *rest = boundary->rest + 3 * at;
+        const size_t all = boundary_layers(&def->solids[i], def->dimensions, def->spacing, depth, rest);
+        const size_t more = keep_in_box(&def->solids[i], def, rest, all);
+        memset(boundary->solid + at, i, more);
+        at += more;
+    }
+    boundary->count = at;
+    return true;
+}
+
+void boundary_destroy(Boundary *boundary)
+{
+    free(boundary->rest);
+    free(boundary->solid);
+    memset(boundary, 0, sizeof *boundary);
+}

@@ -1,0 +1,321 @@
+#include "sim/matter/fill_lattice.h"
+
+#include "sim/matter/fill.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    GROUP_MAX = FLUIDS_MAX * FILLS_MAX,
+    SPREAD = 3 /* layers more or less than the spacing asks for */
+};
+
+/* In spacings: fills that are nearer touch; what is nearer to a layer's face is on it; and as in
+ * sim/matter/seed.c.
+ */
+static const double near = 0.75, on_face = 1e-3, slack = 1e-6;
+
+/* Fills that touch, one by way of the others. */
+typedef struct Group {
+    const Fill *fills[GROUP_MAX];
+    int count;
+    bool has_block;
+    double low[3], high[3]; /* outermost faces of its blocks, m */
+} Group;
+
+static double wall_low(const WorldDef *def, int k)
+{
+    return k == 1 ? 0 : -0.5 * def->box_size[k];
+}
+
+/* Of a block that reaches out of the box, what is in it. */
+static double face_of(const WorldDef *def, const Fill *fill, int k, int side)
+{
+    const double wall = wall_low(def, k), face = side ? fill->max[k] : fill->min[k];
+    return fmin(fmax(face, wall), wall + def->box_size[k]);
+}
+
+static bool fills_touch(const WorldDef *def, const Fill *a, const Fill *b)
+{
+    double low[2][3], high[2][3];
+    fill_bounds(a, low[0], high[0]);
+    fill_bounds(b, low[1], high[1]);
+    for (int k = 0; k < def->dimensions; k++)
+        if (fmax(low[0][k], low[1][k]) - fmin(high[0][k], high[1][k]) > near * def->spacing)
+            return false;
+    return true;
+}
+
+static bool group_has(const Group *group, const Fill *fill)
+{
+    for (int i = 0; i < group->count; i++)
+        if (group->fills[i] == fill)
+            return true;
+    return false;
+}
+
+static void group_add(const WorldDef *def, Group *group, const Fill *fill)
+{
+    group->fills[group->count++] = fill;
+    if (fill->kind != FILL_BLOCK)
+        return;
+    for (int k = 0; k < 3; k++) {
+        const double low = face_of(def, fill, k, 0), high = face_of(def, fill, k, 1);
+        group->low[k] = group->has_block ? fmin(group->low[k], low) : low;
+        group->high[k] = group->has_block ? fmax(group->high[k], high) : high;
+    }
+    group->has_block = true;
+}
+
+static void group_of(const WorldDef *def, const Fill *fill, Group *group)
+{
+    group->count = 0;
+    group->has_block = false;
+    group_add(def, group, fill);
+    for (int member = 0; member < group->count; member++)
+        for (int f = 0; f < def->fluid_count; f++)
+            for (int i = 0; i < def->fluids[f].fill_count; i++) {
+                const Fill *other = &def->fluids[f].fills[i];
+                if (!group_has(group, other) && fills_touch(def, group->fills[member], other))
+                    group_add(def, group, other);
+            }
+}
+
+/* That of the box. */
+static FillAxis box_axis(const WorldDef *def, int k)
+{
+    /* across a periodic side the lattice goes on without a seam */
+    const double size = def->box_size[k], whole = fmax(1, round(size / def->spacing));
+    const double s = def->periodic[k] ? size / whole : def->spacing;
+    const double points = def->periodic[k] ? whole : floor(size / s + on_face);
+    return (FillAxis){.first = k == 1 ? 0.5 * s : -0.5 * (points - 1) * s, .step = s, .end = (long)points};
+}
+
+/* How far the worst face of the group's blocks is from one of the layers', in layers. */
+static double misfit(const WorldDef *def, const Group *group, int k, double first, double step)
+{
+    double worst = 0;
+    for (int i = 0; i < group->count; i++) {
+        const Fill *fill = group->fills[i];
+        for (int side = 0; side < 2 && fill->kind == FILL_BLOCK; side++) {
+            const double layers = (face_of(def, fill, k, side) - first) / step + 0.5;
+            worst = fmax(worst, fabs(layers - round(layers)));
+        }
+    }
+    return worst;
+}
+
+/* Volume of a point over spacing^3; in two dimensions the area's over spacing^2. */
+static double cell_of(const WorldDef *def, const FillAxis axes[3])
+{
+    double cell = 1;
+    for (int k = 0; k < def->dimensions; k++)
+        cell *= axes[k].step / def->spacing;
+    return cell;
+}
+
+/* What an axis may have: the box's layers, or some number of whole ones between the outermost faces. */
+typedef struct Choice {
+    int count;
+    FillAxis axis[2 * SPREAD + 1];
+    /* how far the step is from the spacing, and faces inside the group from the layers */
+    double cost[2 * SPREAD + 1];
+} Choice;
+
+static FillAxis whole_layers(const WorldDef *def, const Group *group, int k, double n)
+{
+    const double step = (group->high[k] - group->low[k]) / n, first = group->low[k] + 0.5 * step;
+    const double wall = wall_low(def, k);
+    return (FillAxis){.first = first,
+                      .step = step,
+                      .begin = (long)ceil((wall - first) / step + 0.5 - on_face),
+                      .end = (long)floor((wall + def->box_size[k] - first) / step - 0.5 + on_face) + 1};
+}
+
+static void choice_add(const WorldDef *def, const Group *group, int k, const FillAxis *axis, Choice *choice)
+{
+    const double off = group->has_block ? misfit(def, group, k, axis->first, axis->step) : 0;
+    choice->cost[choice->count] = (off > on_face ? off : 0) + fabs(log(axis->step / def->spacing));
+    choice->axis[choice->count++] = *axis;
+}
+
+static void choose_from(const WorldDef *def, const Group *group, int k, Choice *choice)
+{
+    const FillAxis box = box_axis(def, k);
+    choice->count = 0;
+    if (!group->has_block || misfit(def, group, k, box.first, box.step) <= on_face) {
+        choice_add(def, group, k, &box, choice);
+        return;
+    }
+    const long about = lround((group->high[k] - group->low[k]) / def->spacing);
+    if (about < 1) {
+        choice_add(def, group, k, &(FillAxis){.first = group->low[k], .step = def->spacing}, choice);
+        return;
+    }
+    const long most = about < 50 ? 1 : about < 75 ? 2 : SPREAD; /* some 4 % */
+    for (long n = about > most ? about - most : 1; n <= about + most; n++) {
+        const FillAxis axis = whole_layers(def, group, k, (double)n);
+        choice_add(def, group, k, &axis, choice);
+    }
+}
+
+/* The layers whose points have the volume nearest to a particle's, and then are the most even. */
+static void group_axes(const WorldDef *def, const Group *group, FillAxis axes[3])
+{
+    static const double weight = 4; /* of the volume */
+    const int depth = def->dimensions == 3;
+    Choice choice[3] = {{0}};
+    double least = INFINITY;
+    for (int k = 0; k < 2 + depth; k++)
+        choose_from(def, group, k, &choice[k]);
+    if (!depth)
+        choice[2] = (Choice){.count = 1, .axis = {{.step = def->spacing, .end = 1}}};
+    for (int k = 0; k < 3; k++)
+        axes[k] = choice[k].axis[0];
+    for (int a = 0; a < choice[0].count; a++)
+        for (int b = 0; b < choice[1].count; b++)
+            for (int c = 0; c < choice[2].count; c++) {
+                const FillAxis try[3] = {choice[0].axis[a], choice[1].axis[b], choice[2].axis[c]};
+                const double cost = weight * fabs(log(cell_of(def, try))) + choice[0].cost[a] +
+                                    choice[1].cost[b] + choice[2].cost[c];
+                if (cost >= least)
+                    continue;
+                memcpy(axes, try, sizeof try);
+                least = cost;
+            }
+    for (int k = 0; k < 3; k++) {
+        axes[k].place = axes[k].first;
+        axes[k].advance = axes[k].step;
+    }
+}
+
+static bool touches(const WorldDef *def, double place, double wall)
+{
+    return fabs(place - wall) < near * def->spacing;
+}
+
+/* Spreads the layers along an axis where one side is free, from the other one on, so that a point has its
+   volume; upwards first. */
+static void keep_volume(const WorldDef *def, const Group *group, FillAxis axes[3])
+{
+    static const int order[3] = {1, 0, 2};
+    const double cell = cell_of(def, axes);
+    if (!group->has_block || fabs(cell - 1) < 1e-6 || !(cell > 0.5 && cell < 2))
+        return;
+    for (int j = 0; j < 3; j++) {
+        const int k = order[j];
+        const double low = group->low[k], high = group->high[k], wall = wall_low(def, k);
+        const double longer = (high - low) / cell;
+        const bool at_low = touches(def, low, wall), at_high = touches(def, high, wall + def->box_size[k]);
+        if (k >= def->dimensions || def->periodic[k] || (at_low && at_high))
+            continue;
+        const double from = at_low ? low : at_high ? high - longer : 0.5 * (low + high - longer);
+        if (from < wall - slack || from + longer > wall + def->box_size[k] + slack)
+            continue;
+        axes[k].advance = axes[k].step / cell;
+        axes[k].place = from + (axes[k].first - low) / cell;
+        return;
+    }
+}
+
+void fill_lattice(const WorldDef *def, const Fill *fill, FillAxis axes[3])
+{
+    Group group;
+    double low[3], high[3];
+    group_of(def, fill, &group);
+    group_axes(def, &group, axes);
+    keep_volume(def, &group, axes);
+    fill_bounds(fill, low, high);
+    for (int k = 0; k < def->dimensions; k++) {
+        axes[k].begin = (long)fmax((double)axes[k].begin, floor((low[k] - axes[k].first) / axes[k].step));
+        axes[k].end = (long)fmin((double)axes[k].end, ceil((high[k] - axes[k].first) / axes[k].step) + 1);
+    }
+}
+
+static double volume_of_blocks(const WorldDef *def, const Group *group)
+{
+    double volume = 0;
+    for (int i = 0; i < group->count; i++)
+        if (group->fills[i]->kind == FILL_BLOCK)
+            volume += fill_volume(group->fills[i], def->dimensions);
+    return volume;
+}
+
+/* The group with the most in blocks; without a block, has_block is false. */
+static void largest_group(const WorldDef *def, Group *largest)
+{
+    double most = 0;
+    *largest = (Group){.count = 0};
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].fill_count; i++) {
+            Group group;
+            if (group_has(largest, &def->fluids[f].fills[i]))
+                continue;
+            group_of(def, &def->fluids[f].fills[i], &group);
+            const double volume = volume_of_blocks(def, &group);
+            if (volume > most) {
+                *largest = group;
+                most = volume;
+            }
+        }
+}
+
+/* The root of a number near 1, by Newton: the C library's last bit depends on the processor. */
+static double root_near_one(double x, int power)
+{
+    double root = 1;
+    for (int i = 0; i < 8; i++)
+        root -= power == 2 ? (root - x / root) / 2 : (root - x / (root * root)) / 3;
+    return root;
+}
+
+/* The spacing at which the lattice that `spacing` gives has a particle's volume a point; its steps differ
+   from it by up to the part `uneven`, and faces inside the group are `off` its layers. 0: with it the lattice
+   is another one. */
+static double fit_at(const WorldDef *def, const Group *group, double spacing, double *uneven, double *off)
+{
+    WorldDef at = *def;
+    FillAxis axes[3];
+    at.spacing = spacing;
+    group_axes(&at, group, axes);
+    at.spacing *= root_near_one(cell_of(&at, axes), def->dimensions);
+    group_axes(&at, group, axes);
+    *uneven = *off = 0;
+    for (int k = 0; k < def->dimensions; k++) {
+        const double misses = misfit(def, group, k, axes[k].first, axes[k].step);
+        *uneven = fmax(*uneven, fabs(axes[k].step / at.spacing - 1));
+        *off = fmax(*off, misses > on_face ? misses : 0);
+    }
+    return fabs(cell_of(&at, axes) - 1) < 1e-9 ? at.spacing : 0;
+}
+
+double fill_lattice_fit(const WorldDef *def, double *uneven)
+{
+    Group group;
+    double off;
+    *uneven = 0;
+    largest_group(def, &group);
+    return group.has_block ? fit_at(def, &group, def->spacing, uneven, &off) : def->spacing;
+}
+
+double fill_lattice_spacing(const WorldDef *def)
+{
+    enum { TRIES = 200 };
+    Group group;
+    FillAxis axes[3];
+    largest_group(def, &group);
+    group_axes(def, &group, axes);
+    if (!group.has_block || fabs(cell_of(def, axes) - 1) < 1e-6)
+        return def->spacing;
+    double best = def->spacing, least = INFINITY;
+    for (int j = -TRIES; j <= TRIES; j++) {
+        double uneven, off;
+        const double fit = fit_at(def, &group, def->spacing * (1 + 0.1 * j / TRIES), &uneven, &off);
+        const double cost = fabs(fit / def->spacing - 1) + uneven + 0.2 * off;
+        if (fit > 0 && cost < least) {
+            best = fit;
+            least = cost;
+        }
+    }
+    return best;
+}

@@ -1,0 +1,126 @@
+#include "sim/matter/flow.h"
+
+#include <math.h>
+
+long emit_layers(const Emit *emit, double spacing, double begin, double end, long *first)
+{
+    const double each = spacing / emit->speed, slack = 1e-9;
+    const double from = begin - emit->start;
+    const double to = emit->duration > 0 ? fmin(end - emit->start, emit->duration) : end - emit->start;
+    *first = (long)fmax(0, ceil(from / each - slack));
+    const long after = (long)ceil(to / each - slack);
+    return after > *first ? after - *first : 0;
+}
+
+/* Two directions across the emitter's; in two dimensions the second leaves the plane. */
+static void across(const Emit *emit, int dimensions, double a[3], double b[3])
+{
+    const double *d = emit->direction, norm = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double u[3] = {d[0] / norm, d[1] / norm, d[2] / norm};
+    if (dimensions == 2) {
+        a[0] = -u[1], a[1] = u[0], a[2] = 0;
+        b[0] = b[1] = 0, b[2] = 1;
+        return;
+    }
+    int least = 0; /* the axis that is most across */
+    for (int k = 1; k < 3; k++)
+        if (fabs(u[k]) < fabs(u[least]))
+            least = k;
+    double e[3] = {0};
+    e[least] = 1;
+    cross_product(u, e, a);
+    const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    for (int k = 0; k < 3; k++)
+        a[k] /= length;
+    cross_product(u, a, b);
+}
+
+void emit_place(const Emit *emit, int dimensions, double spacing, long index, double time, EmitLayer *layer)
+{
+    const double *d = emit->direction, norm = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double out = emit->start + (double)index * spacing / emit->speed, way = (time - out) * emit->speed;
+    const double radius = (1 + 1e-9) * emit->radius;
+    const long reach = (long)(radius / spacing), deep = dimensions == 3 ? reach : 0;
+    double a[3], b[3];
+    across(emit, dimensions, a, b);
+    layer->count = 0;
+    for (int k = 0; k < 3; k++)
+        layer->velocity[k] = (float)(emit->speed * d[k] / norm);
+    for (long j = -deep; j <= deep; j++)
+        for (long i = -reach; i <= reach; i++) {
+            const double p = (double)i * spacing, q = (double)j * spacing;
+            if (p * p + q * q > radius * radius)
+                continue;
+            for (int k = 0; layer->position && k < 3; k++)
+                layer->position[3 * layer->count + (size_t)k] =
+                    (float)(emit->centre[k] + way * d[k] / norm + p * a[k] + q * b[k]);
+            layer->count++;
+        }
+}
+
+static void guide_make(const WorldDef *def, int fluid, const Emit *emit, Guide *guide)
+{
+    const double *d = emit->direction, norm = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    *guide = (Guide){.fluid = fluid,
+                     .radius = (float)(emit->radius + 0.5 * def->spacing),
+                     .depth = (float)(def->support * def->spacing)};
+    for (int k = 0; k < 3; k++) {
+        guide->centre[k] = (float)emit->centre[k];
+        guide->direction[k] = (float)(d[k] / norm);
+        guide->velocity[k] = (float)(emit->speed * d[k] / norm);
+    }
+}
+
+int flow_guides(const WorldDef *def, double time, Guide guides[GUIDES_MAX])
+{
+    int count = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++) {
+            const Emit *emit = &def->fluids[f].emits[i];
+            if (time >= emit->start && (emit->duration == 0 || time < emit->start + emit->duration))
+                guide_make(def, f, emit, &guides[count++]);
+        }
+    return count;
+}
+
+bool flow_emits(const WorldDef *def)
+{
+    int emits = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        emits += def->fluids[f].emit_count;
+    return emits > 0;
+}
+
+size_t flow_capacity(const WorldDef *def, size_t initial)
+{
+    const size_t most = (size_t)def->most;
+    return flow_emits(def) && most > initial ? most : initial;
+}
+
+static bool emit_check(const Emit *emit, int dimensions, double spacing)
+{
+    const double *d = emit->direction, norm2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    return emit->speed > 0 && emit->speed < INFINITY && emit->radius > 0 && emit->radius < INFINITY &&
+           emit->radius < 1e4 * spacing && norm2 > 0 && norm2 < INFINITY && emit->duration >= 0 &&
+           emit->start >= 0 && (dimensions == 3 || (d[2] == 0 && emit->centre[2] == 0));
+}
+
+bool flow_check(const WorldDef *def, Error *error)
+{
+    if (def->drain_count < 0 || def->drain_count > DRAINS_MAX)
+        return error_set(error, "a world has up to %d drains, not %d", DRAINS_MAX, def->drain_count);
+    if (flow_emits(def) && def->most < 1)
+        return error_set(error, "a world with emitters may hold at least 1 particle, not %d", def->most);
+    for (int f = 0; f < def->fluid_count; f++) {
+        const FluidDef *fluid = &def->fluids[f];
+        if (fluid->emit_count < 0 || fluid->emit_count > EMITS_MAX)
+            return error_set(error, "a fluid has up to %d emitters, not %d", EMITS_MAX, fluid->emit_count);
+        for (int i = 0; i < fluid->emit_count; i++)
+            if (!emit_check(&fluid->emits[i], def->dimensions, def->spacing))
+                return error_set(
+                    error,
+                    "fluid %d, emitter %d: speed, radius and direction must not be zero, nor the radius 10,000 spacings, nor may it leave the plane of a 2D scene",
+                    f, i);
+    }
+    return true;
+}

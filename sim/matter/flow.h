@@ -1,0 +1,62 @@
+/* Fluid that comes and goes: emitters, which send out a lattice layer by layer, and drains. */
+#ifndef SLOSH_FLOW_H
+#define SLOSH_FLOW_H
+
+#include "sim/base/error.h"
+#include "sim/box/periodic.h"
+#include "sim/matter/world_def.h"
+
+/* One layer on its way into a world. */
+typedef struct EmitLayer {
+    size_t count;
+    float *position; /* 3 a particle, box's frame, m */
+    float velocity[3];
+    int fluid;
+    uint32_t first_id; /* of those that find room, in the order given */
+} EmitLayer;
+
+/* Layers that the emitter sends out in [begin, end) s: the first of them and how many. */
+long emit_layers(const Emit *emit, double spacing, double begin, double end, long *first);
+
+/* Layer `index` as it is at `time`, had it always moved as it does when it comes out: points of a square
+   lattice over the disk, in two dimensions over the line that it is there. Fills count, velocity and, unless
+   it is NULL, position, which must have room. */
+void emit_place(const Emit *emit, int dimensions, double spacing, long index, double time, EmitLayer *layer);
+
+/* Where an emitter holds its fluid to its course: a cylinder from the disk on, as deep as the support radius.
+   Free particles with nothing behind them would be pushed back, and layers that are not in step push them
+   more. */
+typedef struct Guide {
+    int fluid;
+    float centre[3], direction[3], radius, depth, velocity[3];
+} Guide;
+
+enum { GUIDES_MAX = FLUIDS_MAX * EMITS_MAX };
+
+/* Those of the emitters that are at work at `time`; returns how many. */
+int flow_guides(const WorldDef *def, double time, Guide guides[GUIDES_MAX]);
+
+/* Whether the guide holds a particle of that fluid at x. */
+static inline bool guide_holds(const Guide *guide, const Periodic *periodic, int fluid, const float x[3])
+{
+    float along = 0, r2 = 0;
+    float d[3] = {x[0] - guide->centre[0], x[1] - guide->centre[1], x[2] - guide->centre[2]};
+    periodic_nearest(periodic, d);
+    for (int k = 0; k < 3; k++) {
+        along += d[k] * guide->direction[k];
+        r2 += d[k] * d[k];
+    }
+    return fluid == guide->fluid && along >= 0 && along < guide->depth &&
+           r2 - along * along < guide->radius * guide->radius;
+}
+
+/* Whether the def has emitters. */
+bool flow_emits(const WorldDef *def);
+
+/* Most particles of fluid that the world may ever hold, if it begins with `initial`. */
+size_t flow_capacity(const WorldDef *def, size_t initial);
+
+/* False with the reason: emitters or drains out of range. */
+bool flow_check(const WorldDef *def, Error *error);
+
+#endif

@@ -1,0 +1,142 @@
+#include "sim/matter/seed.h"
+
+#include "sim/matter/fill.h"
+#include "sim/matter/fill_lattice.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A point on a face of a block belongs to it at the low side only, to this part of a spacing. */
+static const double slack = 1e-6;
+
+/* The solids of a def as they stand at the start. */
+typedef struct Stand {
+    const WorldDef *def;
+    BoxState pose[SOLIDS_MAX];
+} Stand;
+
+/* Whether x is clear of all solids, by half a spacing as of the walls. */
+static bool is_free(const Stand *stand, const double x[3])
+{
+    const WorldDef *def = stand->def;
+    for (int k = 0; k < def->solid_count; k++) {
+        double d[3];
+        const double reach = solid_reach(&def->solids[k]) + def->spacing;
+        for (int a = 0; a < 3; a++)
+            d[a] = x[a] - stand->pose[k].position[a];
+        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > reach * reach)
+            continue;
+        quat_rotate_inverse(stand->pose[k].orientation, d, d);
+        if (solid_distance(&def->solids[k], def->dimensions, d) < (0.5 - slack) * def->spacing)
+            return false;
+    }
+    return true;
+}
+
+static bool fill_covers(const WorldDef *def, const Fill *fill, const double x[3])
+{
+    return fill_holds(fill, def->dimensions, x, slack * def->spacing);
+}
+
+/* Whether a fill that stands before fill `index` of fluid `fluid` has the point. */
+static bool taken_before(const WorldDef *def, int fluid, int index, const double x[3])
+{
+    for (int f = 0; f <= fluid; f++)
+        for (int i = 0; i < (f == fluid ? index : def->fluids[f].fill_count); i++)
+            if (fill_covers(def, &def->fluids[f].fills[i], x))
+                return true;
+    return false;
+}
+
+static size_t seed_fill(const Stand *stand, int fluid, int index, float *position)
+{
+    const WorldDef *def = stand->def;
+    const Fill *fill = &def->fluids[fluid].fills[index];
+    FillAxis axes[3];
+    size_t count = 0;
+    fill_lattice(def, fill, axes);
+    const FillAxis *ax = &axes[0], *ay = &axes[1], *az = &axes[2];
+    for (long iz = az->begin; iz < az->end; iz++)
+        for (long iy = ay->begin; iy < ay->end; iy++)
+            for (long ix = ax->begin; ix < ax->end; ix++) {
+                const double x[3] = {ax->first + (double)ix * ax->step, ay->first + (double)iy * ay->step,
+                                     az->first + (double)iz * az->step};
+                const double at[3] = {ax->place + (double)ix * ax->advance,
+                                      ay->place + (double)iy * ay->advance,
+                                      az->place + (double)iz * az->advance};
+                if (!fill_covers(def, fill, x) || taken_before(def, fluid, index, x) || !is_free(stand, at))
+                    continue;
+                for (size_t k = 0; position && k < 3; k++)
+                    position[3 * count + k] = (float)at[k];
+                count++;
+            }
+    return count;
+}
+
+static void stand_make(const WorldDef *def, Stand *stand)
+{
+    stand->def = def;
+    for (int k = 0; k < def->solid_count; k++)
+        solid_pose(&def->solids[k], 0, &stand->pose[k]);
+}
+
+void seed_counts(const WorldDef *def, size_t counts[FLUIDS_MAX])
+{
+    Stand stand;
+    stand_make(def, &stand);
+    for (int f = 0; f < def->fluid_count; f++) {
+        counts[f] = 0;
+        for (int i = 0; i < def->fluids[f].fill_count; i++)
+            counts[f] += seed_fill(&stand, f, i, NULL);
+    }
+}
+
+size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
+{
+    size_t count = 0;
+    Stand stand;
+    stand_make(def, &stand);
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].fill_count; i++) {
+            const size_t added = seed_fill(&stand, f, i, position ? position + 3 * count : NULL);
+            if (fluid)
+                memset(fluid + count, f, added);
+            count += added;
+        }
+    return count;
+}
+
+/* A number in [-1, 1) that point and axis decide: M. Nobile's mix of 32 bits, "lowbias32". */
+static double scatter(uint32_t point, uint32_t axis)
+{
+    uint32_t bits = point * 3 + axis + 1;
+    bits = (bits ^ bits >> 16) * 0x7feb352dU;
+    bits = (bits ^ bits >> 15) * 0x846ca68bU;
+    return (double)((bits ^ bits >> 16) >> 8) * 0x1p-23 - 1;
+}
+
+void seed_jitter(const WorldDef *def, float *position, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < (uint32_t)def->dimensions; k++)
+            position[3 * i + k] += (float)(def->jitter * def->spacing * scatter((uint32_t)i, k));
+}
+
+size_t seed_count(const WorldDef *def, double spacing)
+{
+    double volume = 0;
+    for (int k = 0; k < def->dimensions; k++)
+        if (def->box_size[k] / spacing > 1e7)
+            return SIZE_MAX;
+    WorldDef at = *def;
+    at.spacing = spacing;
+    for (int k = 0; k < at.solid_count; k++)
+        if (at.solids[k].thickness == 0)
+            at.solids[k].thickness = at.support * spacing;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].fill_count; i++)
+            volume += fill_volume(&def->fluids[f].fills[i], def->dimensions);
+    if (volume / pow(spacing, def->dimensions) > 0x1p32)
+        return SIZE_MAX;
+    return seed_lattice(&at, NULL, NULL);
+}

@@ -1,0 +1,158 @@
+#include "sim/matter/solid.h"
+
+#include <math.h>
+
+const char *solid_name(SolidKind kind)
+{
+    static const char *const names[] = {
+#define X(NAME, name, help) name,
+        SOLID_LIST(X)
+#undef X
+    };
+    return names[kind];
+}
+
+static double length(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* The shortest turn from +y to `axis`. */
+static void turn_from_y(const double axis[3], double q[4])
+{
+    const double norm = length(axis), a[3] = {axis[0] / norm, axis[1] / norm, axis[2] / norm};
+    if (a[1] < -1 + 1e-12) { /* straight down: about z, which keeps a scene's plane */
+        q[0] = q[1] = q[3] = 0, q[2] = 1;
+        return;
+    }
+    const double w = sqrt(0.5 * (1 + a[1])); /* cos of half the angle; y x a = (a_z, 0, -a_x) */
+    q[0] = 0.5 * a[2] / w, q[1] = 0, q[2] = -0.5 * a[0] / w, q[3] = w;
+}
+
+static void rest_orientation(const SolidDef *solid, double q[4])
+{
+    q[0] = q[1] = q[2] = 0, q[3] = 1;
+    if (solid->kind == SOLID_CYLINDER || solid->kind == SOLID_BOWL) {
+        turn_from_y(solid->axis, q);
+    } else if (solid->kind == SOLID_BOX && solid->angle_deg != 0) {
+        const double angle = solid->angle_deg * (M_PI / 180), norm = length(solid->axis);
+        const double turn[3] = {solid->axis[0] / norm * angle, solid->axis[1] / norm * angle,
+                                solid->axis[2] / norm * angle};
+        quat_turn(turn, q);
+    }
+}
+
+void solid_pose(const SolidDef *solid, double time, BoxState *pose)
+{
+    double rest[4];
+    rest_orientation(solid, rest);
+    box_state_at(solid->motions, solid->motion_count, 0, time, pose);
+    for (int k = 0; k < 3; k++)
+        pose->position[k] += solid->centre[k];
+    quat_multiply(pose->orientation, rest, pose->orientation);
+}
+
+static double block_distance(const double half[3], int dimensions, const double x[3])
+{
+    const int axes = dimensions == 2 ? 2 : 3;
+    double outside = 0, inside = -INFINITY;
+    for (int k = 0; k < axes; k++) {
+        const double d = fabs(x[k]) - half[k];
+        outside += d > 0 ? d * d : 0;
+        inside = fmax(inside, d);
+    }
+    return inside > 0 ? sqrt(outside) : inside;
+}
+
+static double cylinder_distance(const SolidDef *solid, const double x[3])
+{
+    const double side = sqrt(x[0] * x[0] + x[2] * x[2]) - solid->radius,
+                 end = fabs(x[1]) - 0.5 * solid->height;
+    return side > 0 && end > 0 ? sqrt(side * side + end * end) : fmax(side, end);
+}
+
+/* Below the rim the nearest point is on one of the two spheres, above it on the rim's ring. */
+static double bowl_distance(const SolidDef *solid, const double x[3])
+{
+    const double inner = solid->radius, outer = inner + solid->thickness;
+    if (x[1] > 0) {
+        const double across = sqrt(x[0] * x[0] + x[2] * x[2]), ring = fmin(fmax(across, inner), outer);
+        return sqrt((across - ring) * (across - ring) + x[1] * x[1]);
+    }
+    const double wall = fabs(length(x) - 0.5 * (inner + outer)) - 0.5 * solid->thickness;
+    return wall > 0 ? wall : fmax(wall, x[1]);
+}
+
+double solid_distance(const SolidDef *solid, int dimensions, const double x[3])
+{
+    const double half[3] = {0.5 * solid->size[0], 0.5 * solid->size[1], 0.5 * solid->size[2]};
+    switch (solid->kind) {
+    case SOLID_BOX:
+        return block_distance(half, dimensions, x);
+    case SOLID_CYLINDER:
+        return cylinder_distance(solid, x);
+    case SOLID_BOWL:
+        return bowl_distance(solid, x);
+    default:
+        return length(x) - solid->radius;
+    }
+}
+
+/* By differences: for the few particles that come to lie in a solid. */
+void solid_normal(const SolidDef *solid, int dimensions, const double x[3], double normal[3])
+{
+    const double step = 1e-6 * solid_reach(solid);
+    const int axes = dimensions == 2 ? 2 : 3;
+    normal[2] = 0;
+    for (int k = 0; k < axes; k++) {
+        double low[3] = {x[0], x[1], x[2]}, high[3] = {x[0], x[1], x[2]};
+        low[k] -= step;
+        high[k] += step;
+        normal[k] = solid_distance(solid, dimensions, high) - solid_distance(solid, dimensions, low);
+    }
+    const double norm = length(normal);
+    for (int k = 0; k < 3; k++)
+        normal[k] = norm > 0 ? normal[k] / norm : k == 1;
+}
+
+double solid_reach(const SolidDef *solid)
+{
+    switch (solid->kind) {
+    case SOLID_BOX:
+        return 0.5 * length(solid->size);
+    case SOLID_CYLINDER:
+        return hypot(solid->radius, 0.5 * solid->height);
+    case SOLID_BOWL:
+        return solid->radius + solid->thickness;
+    default:
+        return solid->radius;
+    }
+}
+
+/* How far its motions carry it along the axis, m. */
+static double way_along(const SolidDef *solid, int axis)
+{
+    double way = 0;
+    for (int i = 0; i < solid->motion_count; i++) {
+        const Motion *motion = &solid->motions[i];
+        const double along = fabs(motion->axis[axis]) / length(motion->axis);
+        if (motion->kind == MOTION_SHAKE)
+            way += motion->amplitude * along;
+        if (motion->kind == MOTION_ACCELERATE && along > 0)
+            way = INFINITY;
+    }
+    return way;
+}
+
+bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, double high)
+{
+    bool turned = solid->kind != SOLID_BOX || solid->angle_deg != 0;
+    for (int i = 0; i < solid->motion_count; i++)
+        turned |= !motion_translates(&solid->motions[i]);
+    SolidDef flat = *solid;
+    if (dimensions == 2)
+        flat.size[2] = 0;
+    const double half = turned ? solid_reach(&flat) : 0.5 * solid->size[axis];
+    const double reach = (1 - 1e-9) * half + way_along(solid, axis);
+    return solid->centre[axis] - reach >= low && solid->centre[axis] + reach <= high;
+}

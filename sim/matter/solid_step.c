@@ -1,0 +1,225 @@
+#include "sim/matter/solid_step.h"
+
+#include "sim/box/frame_step.h"
+
+#include <math.h>
+
+static void store(const double v[3], float out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = (float)v[k];
+}
+
+void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose)
+{
+    static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    BoxState at;
+    solid_pose(solid, time, &at);
+    store(at.position, pose->x);
+    store(at.velocity, pose->v);
+    store(at.angular_velocity, pose->w);
+    for (int column = 0; column < 3; column++) {
+        double turned[3];
+        quat_rotate(at.orientation, axes[column], turned);
+        for (int row = 0; row < 3; row++)
+            pose->r[row][column] = (float)turned[row];
+    }
+}
+
+void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep *step)
+{
+    solid_pose_at(solid, begin, &step->begin);
+    solid_pose_at(solid, end, &step->end);
+    step->still = solid->motion_count == 0;
+    for (int k = 0; k < 3; k++) {
+        const float dt = (float)(end - begin);
+        step->change[k] = (step->end.v[k] - step->begin.v[k]) / dt;
+        step->alpha[k] = (step->end.w[k] - step->begin.w[k]) / dt;
+    }
+}
+
+void solid_step_mean(SolidStep *first, SolidStep *second)
+{
+    for (int k = 0; k < 3; k++) {
+        first->change[k] = second->change[k] = 0.5f * (first->change[k] + second->change[k]);
+        first->alpha[k] = second->alpha[k] = 0.5f * (first->alpha[k] + second->alpha[k]);
+    }
+}
+
+void solid_to_box(const SolidPose *pose, const float in_solid[3], float x[3])
+{
+    for (int k = 0; k < 3; k++)
+        x[k] = pose->x[k] +
+               (pose->r[k][0] * in_solid[0] + pose->r[k][1] * in_solid[1] + pose->r[k][2] * in_solid[2]);
+}
+
+void solid_from_box(const SolidPose *pose, const float x[3], float in_solid[3])
+{
+    const float d[3] = {x[0] - pose->x[0], x[1] - pose->x[1], x[2] - pose->x[2]};
+    for (int k = 0; k < 3; k++)
+        in_solid[k] = pose->r[0][k] * d[0] + pose->r[1][k] * d[1] + pose->r[2][k] * d[2];
+}
+
+float solid_clearance(const SolidDef *solid, const SolidPose *pose, int dimensions, const float x[3],
+                      float far)
+{
+    const float reach = (float)solid_reach(solid) + far;
+    float r2 = 0, in_solid[3];
+    for (int k = 0; k < 3; k++)
+        r2 += (x[k] - pose->x[k]) * (x[k] - pose->x[k]);
+    if (r2 > reach * reach)
+        return sqrtf(r2) - reach + far;
+    solid_from_box(pose, x, in_solid);
+    const double at[3] = {in_solid[0], in_solid[1], dimensions == 2 ? 0 : in_solid[2]};
+    return (float)solid_distance(solid, dimensions, at);
+}
+
+void solid_velocity_at(const SolidPose *pose, const float x[3], float v[3])
+{
+    const float arm[3] = {x[0] - pose->x[0], x[1] - pose->x[1], x[2] - pose->x[2]};
+    frame_cross(pose->w, arm, v);
+    for (int k = 0; k < 3; k++)
+        v[k] += pose->v[k];
+}
+
+void solid_acceleration_at(const SolidStep *step, const float x[3], float a[3])
+{
+    const SolidPose *pose = &step->end;
+    const float arm[3] = {x[0] - pose->x[0], x[1] - pose->x[1], x[2] - pose->x[2]};
+    float swirl[3], euler[3], inward[3];
+    frame_cross(pose->w, arm, swirl);
+    frame_cross(pose->w, swirl, inward);
+    frame_cross(step->alpha, arm, euler);
+    for (int k = 0; k < 3; k++)
+        a[k] = step->change[k] + euler[k] + inward[k];
+}
+
+/* A particle's way through the solid's frame, which the solid's own motion bends. */
+typedef struct Way {
+    const SolidDef *solid;
+    int dimensions;
+    double from[3], to[3];
+} Way;
+
+static void along(const Way *way, double t, double x[3])
+{
+    for (int k = 0; k < 3; k++)
+        x[k] = way->from[k] + t * (way->to[k] - way->from[k]);
+}
+
+static double distance_on(const Way *way, double t)
+{
+    double x[3];
+    along(way, t, x);
+    return solid_distance(way->solid, way->dimensions, x);
+}
+
+/* The first part of the way, 0 .. 1, where it meets the surface; more than 1: it does not. Goes forward by
+   the distance to the surface, which it can't meet sooner. */
+static double meeting(const Way *way, double length, double slack)
+{
+    double t = 0;
+    for (int i = 0; i < 64 && t <= 1; i++) {
+        const double d = distance_on(way, t);
+        if (d <= slack)
+            return t;
+        t += d / length;
+    }
+    return t;
+}
+
+/* Where the surface bends towards the way its tangent plane is within it, a little. */
+static void leave(Way *way, double slack, double normal[3])
+{
+    const double depth = -solid_distance(way->solid, way->dimensions, way->to);
+    if (depth <= 0)
+        return;
+    solid_normal(way->solid, way->dimensions, way->to, normal);
+    for (int k = 0; k < 3; k++)
+        way->to[k] += (depth + slack) * normal[k];
+}
+
+/* Puts `to` a little above the plane that touches the surface where the way meets it, unless it is there.
+   False when the way keeps clear of the solid. */
+static bool hold(Way *way, double normal[3])
+{
+    const double reach = solid_reach(way->solid), slack = 1e-6 * reach;
+    const double d[3] = {way->to[0] - way->from[0], way->to[1] - way->from[1], way->to[2] - way->from[2]};
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double at_end = distance_on(way, 1);
+    if (at_end >= 0 && distance_on(way, 0) + at_end >= length)
+        return false;
+    const double t = length > 0 ? meeting(way, length, slack) : 0;
+    if (t > 1)
+        return false;
+    double entry[3], depth = 0;
+    along(way, t, entry);
+    solid_normal(way->solid, way->dimensions, entry, normal);
+    for (int k = 0; k < 3; k++)
+        depth += (entry[k] - way->to[k]) * normal[k];
+    depth += slack - solid_distance(way->solid, way->dimensions, entry);
+    if (depth <= 0 && at_end >= 0) /* it was at the surface and leaves it */
+        return false;
+    if (depth <= 0) {
+        solid_normal(way->solid, way->dimensions, way->to, normal);
+        depth = slack - at_end;
+    }
+    for (int k = 0; k < 3; k++)
+        way->to[k] += depth * normal[k];
+    leave(way, slack, normal);
+    return true;
+}
+
+/* Whether a ball about the solid keeps clear of all that lies as near to x as `before` does, the solid's own
+   way included. */
+static bool out_of_reach(const SolidStep *step, const float before[3], const float x[3], float reach)
+{
+    float r2 = 0, way2 = 0, own2 = 0;
+    for (int k = 0; k < 3; k++) {
+        const float r = x[k] - step->end.x[k], way = x[k] - before[k],
+                    own = step->end.x[k] - step->begin.x[k];
+        r2 += r * r;
+        way2 += way * way;
+        own2 += own * own;
+    }
+    const float most = reach + sqrtf(way2) + sqrtf(own2);
+    return r2 > most * most;
+}
+
+static void place(const SolidPose *pose, const Way *way, const double normal[3], float x[3], float v[3])
+{
+    float in_solid[3], out[3], wall[3], into = 0;
+    store(way->to, in_solid);
+    solid_to_box(pose, in_solid, x);
+    solid_velocity_at(pose, x, wall);
+    for (int k = 0; k < 3; k++) {
+        out[k] = pose->r[k][0] * (float)normal[0] + pose->r[k][1] * (float)normal[1] +
+                 pose->r[k][2] * (float)normal[2];
+        into += (v[k] - wall[k]) * out[k];
+    }
+    for (int k = 0; k < 3 && into < 0; k++)
+        v[k] -= into * out[k];
+}
+
+bool solid_guard(const SolidDef *solid, const SolidStep *step, int dimensions, const float before[3],
+                 float x[3], float v[3])
+{
+    const float reach = (float)solid_reach(solid);
+    if (out_of_reach(step, before, x, reach))
+        return false;
+    Way way = {.solid = solid, .dimensions = dimensions};
+    float from[3], to[3];
+    solid_from_box(&step->begin, before, from);
+    solid_from_box(&step->end, x, to);
+    for (int k = 0; k < 3; k++) {
+        way.from[k] = k < dimensions ? from[k] : 0;
+        way.to[k] = k < dimensions ? to[k] : 0;
+    }
+    double normal[3];
+    bool held = false;
+    for (int i = 0; i < 3 && hold(&way, normal); i++) { /* again: an inner edge has two sides */
+        place(&step->end, &way, normal, x, v);
+        held = true;
+    }
+    return held;
+}

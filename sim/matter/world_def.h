@@ -1,0 +1,124 @@
+/* What a solver needs to know of a scene: plain data, SI units, the box's frame unless said otherwise. */
+#ifndef SLOSH_WORLD_DEF_H
+#define SLOSH_WORLD_DEF_H
+
+#include "sim/base/time_table.h"
+#include "sim/box/box_filter.h"
+#include "sim/box/box_motion.h"
+#include "sim/matter/solid.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { FLUIDS_MAX = 8, FILLS_MAX = 16, EMITS_MAX = 4, DRAINS_MAX = 8, NAME_SIZE = 32 };
+
+typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER } FillKind;
+
+/* A region that is full of a fluid at the start: it takes the points of one lattice that all fills share,
+   with the scene's spacing, half a spacing from the floor and centred between the walls. */
+typedef struct Fill {
+    FillKind kind;
+    double min[3], max[3];    /* block, m */
+    double centre[3], radius; /* ball and cylinder, m */
+    double axis[3], height;   /* cylinder: its direction, of any length but zero; m. 3D only */
+} Fill;
+
+/* A disk that sends out fluid at rest density, with a velocity along its normal, in the box's frame. A
+   particle comes out where there is room for it. */
+typedef struct Emit {
+    int kind;            /* 0: a disk */
+    double centre[3];    /* m */
+    double direction[3]; /* of any length but zero */
+    double radius;       /* m */
+    double speed;        /* m/s */
+    double start;        /* s */
+    double duration;     /* s; 0: for ever */
+} Emit;
+
+typedef struct FluidDef {
+    char name[NAME_SIZE];
+    double density;            /* rest density rho0, kg/m3 */
+    double viscosity;          /* dynamic, mu, Pa s; in a world, of a fluid with a table: the present one */
+    TimeTable viscosity_table; /* mu over time; without rows it is `viscosity` at any time */
+    double surface_tension;    /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
+    double velocity[3];        /* at the start, in the box's frame, m/s */
+    double taylor_green; /* with it the vortices of sim/matter/vortices.h, of that speed, m/s; 0: none */
+    float color[3];      /* linear RGB 0..1: for the views, no solver reads it */
+    int fill_count;
+    Fill fills[FILLS_MAX];
+    int emit_count;
+    Emit emits[EMITS_MAX];
+} FluidDef;
+
+/* A ready initial state in place of the fills: for tests, and for what is not a lattice. */
+typedef struct InitialState {
+    size_t count;
+    const float *position; /* 3 * count, x y z of each particle */
+    const float *velocity; /* 3 * count, or NULL for rest in the box's frame */
+    const uint8_t *fluid;  /* count, or NULL for the first fluid */
+    const float *density;  /* count, kg/m3, for a method whose particles carry it; NULL: at rest */
+} InitialState;
+
+typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;
+
+typedef struct WorldDef {
+    int dimensions;     /* 3, or 2: all in the plane z = 0, a metre deep; the box's depth is then the
+                           spacing, whatever box_size says */
+    double box_size[3]; /* inner width, height, depth, m */
+    bool periodic[3];  /* the sides across this axis are one: see sim/box/periodic.h; such a box does not turn
+                        */
+    double gravity[3]; /* in the world's frame, m/s2 */
+    double spacing;    /* of the lattice at rest, m */
+    double support;    /* support radius h over spacing */
+    double jitter; /* of the lattice that fills give: each point moves by up to so many spacings along each
+                      axis, the same way in each run */
+    char method[NAME_SIZE];  /* see method_list */
+    char backend[NAME_SIZE]; /* see backend_list */
+    int threads;             /* 0: one a processor */
+    int grid_layers;    /* of backend fragment's grid, four particles a cell each; 0: what a lattice needs */
+    int lost_limit;     /* so many particles may find no place in it in a step */
+    double sound_speed; /* c, m/s: p = c^2 (rho - rho0) */
+    char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel/kernel.h */
+    bool negative_pressure;         /* false: p = max(0, p) */
+    bool reproducible;              /* the same bits each time on compute too; the others always are */
+    char kernel[NAME_SIZE];         /* of wcsph: see wcsph_kernels in sim/kernel/kernel.h */
+    double artificial_viscosity;    /* alpha of wcsph, for fluids without a viscosity */
+    int viscosity_form;             /* a ViscosityForm of sim/matter/viscosity.h, of wcsph */
+    double delta_sph;               /* delta of wcsph's density diffusion; 0: none */
+    double shifting;                /* chi of wcsph's particle shifting (Backend.shift); 0: none */
+    int tension_model;              /* a TensionModel of sim/matter/tension.h */
+    int wall_slip; /* a Slip of sim/matter/solid.h: how viscous fluid passes the walls of the box */
+    double lid[3]; /* velocity of the wall at the top, in its plane, m/s: for walls without slip */
+    StepMode step_mode;
+    double dt;         /* simulated time of a frame, s; mode fixed */
+    int substeps;      /* steps in a frame; mode fixed */
+    double cfl_number; /* of its limits; mode cfl, whose frame is one step: see sim/world/step_control.h */
+    double max_dt;     /* greatest step, s; mode cfl */
+    int retries; /* times that the step is halved after trouble before the world gives up; 0: no sentinel */
+    int fluid_count;
+    FluidDef fluids[FLUIDS_MAX];
+    int motion_count;
+    Motion motions[MOTIONS_MAX];
+    int drain_count;
+    Fill drains[DRAINS_MAX]; /* fluid that comes into one of these is taken out */
+    int most;                /* particles that emitters may fill the world up to */
+    int solid_count;
+    SolidDef solids[SOLIDS_MAX];
+    BoxLimits limits;            /* of the box in the hand */
+    const InitialState *initial; /* NULL: the fills; read by world_create only */
+} WorldDef;
+
+/* mu at `time` (s), and the greatest at any time, Pa s. A fluid whose table is above 0 somewhere counts as
+   viscous throughout, so that the terms of a world do not change with time. */
+double fluid_viscosity_at(const FluidDef *fluid, double time);
+double fluid_viscosity_most(const FluidDef *fluid);
+
+/* Puts the viscosities of fluids with a table to those of `time` (s). */
+void world_def_at(WorldDef *def, double time);
+
+/* The defaults of every field but the box, the spacing, the fluids: what a scene that says nothing gets. The
+   reason for each number stands beside it in world_def.c. */
+WorldDef world_def_default(void);
+
+#endif

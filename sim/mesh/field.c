@@ -1,0 +1,269 @@
+#include "sim/mesh/field.h"
+
+#include "sim/base/parallel.h"
+#include "sim/kernel/kernel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SLAB = 8 }; /* slices: a slab of 128^2 of them stays in a core's cache */
+
+size_t volume_grid_cells(const VolumeGrid *grid)
+{
+    return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2];
+}
+
+static bool counts(const FieldParticles *particles, size_t i)
+{
+    const float *p = particles->position + 4 * i;
+    const bool scalar = !particles->scalar || isfinite(particles->scalar[i]);
+    return scalar && isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]) && isfinite(p[3]);
+}
+
+bool field_bounds(const FieldParticles *particles, double low[3], double high[3])
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] = INFINITY;
+        high[k] = -INFINITY;
+    }
+    for (size_t i = 0; i < particles->count; i++)
+        for (int k = 0; counts(particles, i) && k < 3; k++) {
+            low[k] = fmin(low[k], particles->position[4 * i + k]);
+            high[k] = fmax(high[k], particles->position[4 * i + k]);
+        }
+    return low[0] <= high[0];
+}
+
+double field_at(const FieldParticles *particles, const double r[3], double *weighted)
+{
+    double sum = 0, sum_weighted = 0;
+    for (size_t i = 0; i < particles->count; i++) {
+        const float *p = particles->position + 4 * i;
+        const double d[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+        if (!counts(particles, i))
+            continue;
+        const double distance = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        const double weight = p[3] * kernel_poly6(distance, particles->support);
+        sum += weight;
+        sum_weighted += particles->scalar ? weight * particles->scalar[i] : 0;
+    }
+    if (weighted)
+        *weighted = sum_weighted;
+    return sum;
+}
+
+/* ---- which particles reach into which slab ---- */
+
+/* The first whole number from x on, and the first above x, of 0 .. size. */
+static int whole_from(double x, int size)
+{
+    const double bounded = x < 0 ? 0 : x > size ? size : x;
+    return (int)bounded + (bounded > (int)bounded);
+}
+
+static int whole_above(double x, int size)
+{
+    return x < 0 ? 0 : x >= size ? size : (int)x + 1;
+}
+
+/* The values within h of coordinate x along an axis: first <= i < end, none where first >= end. */
+static void reached(const FieldParticles *particles, const VolumeGrid *grid, int axis, float x, int *first,
+                    int *end)
+{
+    const double at = (x - grid->corner[axis]) / grid->cell - 0.5, reach = particles->support / grid->cell;
+    *first = whole_from(at - reach, grid->size[axis]);
+    *end = whole_above(at + reach, grid->size[axis]);
+}
+
+/* The slabs that a particle reaches into: first <= s < end. */
+static void reached_slabs(const FieldParticles *particles, const VolumeGrid *grid, size_t i, size_t *first,
+                          size_t *end)
+{
+    int slice = 0, slice_end = 0;
+    if (counts(particles, i))
+        reached(particles, grid, 2, particles->position[4 * i + 2], &slice, &slice_end);
+    *first = (size_t)slice / SLAB;
+    *end = slice < slice_end ? (size_t)(slice_end - 1) / SLAB + 1 : *first;
+}
+
+static bool grow(void **array, size_t *capacity, size_t count, size_t width)
+{
+    if (count <= *capacity)
+        return true;
+    void *larger = realloc(*array, count * width);
+    if (!larger)
+        return false;
+    *array = larger;
+    *capacity = count;
+    return true;
+}
+
+void field_slabs_free(FieldSlabs *slabs)
+{
+    free(slabs->begin);
+    free(slabs->member);
+    *slabs = (FieldSlabs){0};
+}
+
+/* A counting sort: `begin` first counts the members of each slab, then says where the next one goes. */
+static bool sort(FieldSlabs *slabs, size_t count, const FieldParticles *particles, const VolumeGrid *grid)
+{
+    size_t first, end, total = 0;
+    if (!grow((void **)&slabs->begin, &slabs->slab_capacity, count + 1, sizeof *slabs->begin))
+        return false;
+    memset(slabs->begin, 0, (count + 1) * sizeof *slabs->begin);
+    for (size_t i = 0; i < particles->count; i++) {
+        reached_slabs(particles, grid, i, &first, &end);
+        for (size_t s = first; s < end; s++)
+            slabs->begin[s]++;
+    }
+    for (size_t s = 0; s <= count; s++) {
+        const size_t here = slabs->begin[s];
+        slabs->begin[s] = total;
+        total += here;
+    }
+    if (!grow((void **)&slabs->member, &slabs->member_capacity, total, sizeof *slabs->member))
+        return false;
+    for (size_t i = 0; i < particles->count; i++) {
+        reached_slabs(particles, grid, i, &first, &end);
+        for (size_t s = first; s < end; s++)
+            slabs->member[slabs->begin[s]++] = (uint32_t)i;
+    }
+    memmove(slabs->begin + 1, slabs->begin, count * sizeof *slabs->begin);
+    slabs->begin[0] = 0;
+    return true;
+}
+
+/* ---- the sums of a slab ---- */
+
+typedef struct Sum {
+    const FieldParticles *particles;
+    const VolumeGrid *grid;
+    const FieldSlabs *slabs;
+    float *field, *weighted;
+} Sum;
+
+/* A particle as a row of the grid sees it: V W = most (1 - q^2)^3, q = r / h; Müller 2003, eq. 20. */
+typedef struct Bump {
+    int first[3], end[3]; /* the values that it is added to */
+    float at[3];          /* its place among the values, cells */
+    float most, inverse;  /* V W(0); 1 / (h / cell)^2 */
+} Bump;
+
+enum { LANES = 8, ROW = 256 }; /* values along x at a time, of a bump */
+
+typedef float Lanes __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
+typedef int32_t LaneMask __attribute__((vector_size(4 * LANES)));
+
+/* Inlined into a function for each instruction set; lanes are independent, so the bits are the same. */
+#define INLINE static inline __attribute__((always_inline))
+
+/* Adds most (1 - q^2)^3, where q^2 = square + 1 - left. */
+INLINE void add_row(float *restrict row, const float *restrict square, int count, float left, float most)
+{
+    int i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        const Lanes t = left - *(const Lanes *)(square + i), u = (Lanes)((LaneMask)t & (t > 0));
+        *(Lanes *)(row + i) += most * (u * u * u);
+    }
+    for (; i < count; i++) {
+        const float t = left - square[i], u = t > 0 ? t : 0;
+        row[i] += most * (u * u * u);
+    }
+}
+
+/* Adds to the values first <= i < first + count of each row; if there is room to as many as fill whole
+   registers, since those beyond the bump get nothing. */
+INLINE void add_rows(float *values, const VolumeGrid *grid, const Bump *bump, int first, int count)
+{
+    float square[ROW];
+    const int width = grid->size[0], height = grid->size[1], whole = (count + LANES - 1) / LANES * LANES;
+    count = first + whole <= width ? whole : count;
+    for (int i = 0; i < count; i++) {
+        const float d = (float)(first + i) - bump->at[0];
+        square[i] = bump->inverse * d * d;
+    }
+    for (int k = bump->first[2]; k < bump->end[2]; k++)
+        for (int j = bump->first[1]; j < bump->end[1]; j++) {
+            const float dy = (float)j - bump->at[1], dz = (float)k - bump->at[2];
+            const float left = 1 - (dy * dy + dz * dz) * bump->inverse;
+            if (left > 0)
+                add_row(values + (size_t)width * ((size_t)j + (size_t)height * (size_t)k) + first, square,
+                        count, left, bump->most);
+        }
+}
+
+INLINE void add_pieces(float *values, const VolumeGrid *grid, const Bump *bump)
+{
+    for (int i = bump->first[0]; i < bump->end[0]; i += ROW)
+        add_rows(values, grid, bump, i, bump->end[0] - i < ROW ? bump->end[0] - i : ROW);
+}
+
+#if defined(__x86_64__)
+static __attribute__((target("avx2"))) void add_wide(float *values, const VolumeGrid *grid, const Bump *bump)
+{
+    add_pieces(values, grid, bump);
+}
+#endif
+
+static void add_bump(float *values, const VolumeGrid *grid, const Bump *bump)
+{
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) {
+        add_wide(values, grid, bump);
+        return;
+    }
+#endif
+    add_pieces(values, grid, bump);
+}
+
+static void sum_member(const Sum *sum, size_t i, int slice, int slice_end)
+{
+    const FieldParticles *particles = sum->particles;
+    const VolumeGrid *grid = sum->grid;
+    const float *p = particles->position + 4 * i;
+    const double reach = particles->support / grid->cell;
+    Bump bump = {.most = (float)(p[3] * kernel_poly6(0, particles->support)),
+                 .inverse = (float)(1 / (reach * reach))};
+    for (int k = 0; k < 3; k++) {
+        reached(particles, grid, k, p[k], &bump.first[k], &bump.end[k]);
+        bump.at[k] = (float)((p[k] - grid->corner[k]) / grid->cell - 0.5);
+    }
+    bump.first[2] = bump.first[2] > slice ? bump.first[2] : slice;
+    bump.end[2] = bump.end[2] < slice_end ? bump.end[2] : slice_end;
+    if (sum->field)
+        add_bump(sum->field, grid, &bump);
+    if (!sum->weighted)
+        return;
+    bump.most *= particles->scalar[i];
+    add_bump(sum->weighted, grid, &bump);
+}
+
+static void sum_slab(void *context, size_t slab, size_t slab_end)
+{
+    const Sum *sum = context;
+    const size_t slice_cells = (size_t)sum->grid->size[0] * (size_t)sum->grid->size[1];
+    for (; slab < slab_end; slab++) {
+        const int depth = sum->grid->size[2], slice = (int)slab * SLAB;
+        const int slice_end = slice + SLAB < depth ? slice + SLAB : depth;
+        const size_t from = slice_cells * (size_t)slice, cells = slice_cells * (size_t)(slice_end - slice);
+        if (sum->field)
+            memset(sum->field + from, 0, cells * sizeof *sum->field);
+        if (sum->weighted)
+            memset(sum->weighted + from, 0, cells * sizeof *sum->weighted);
+        for (size_t m = sum->slabs->begin[slab]; m < sum->slabs->begin[slab + 1]; m++)
+            sum_member(sum, sum->slabs->member[m], slice, slice_end);
+    }
+}
+
+bool field_sum(const FieldParticles *particles, const VolumeGrid *grid, int threads, FieldSlabs *slabs,
+               float *field, float *weighted, Error *error)
+{
+    const size_t count = ((size_t)grid->size[2] + SLAB - 1) / SLAB;
+    if (!sort(slabs, count, particles, grid))
+        return error_set(error, "no memory to sum the field of %zu particles", particles->count);
+    Sum sum = {particles, grid, slabs, field, particles->scalar ? weighted : NULL};
+    parallel_ranges(threads, count, 1, sum_slab, &sum);
+    return true;
+}

@@ -1,0 +1,93 @@
+/* A backend: where the particles live and who computes. One const table of coarse operations a backend;
+   nothing here is called per particle. */
+#ifndef SLOSH_BACKEND_H
+#define SLOSH_BACKEND_H
+
+#include "sim/box/frame_step.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/solid_step.h"
+#include "sim/world/solver.h"
+#include "sim/world/step_control.h"
+#include "sim/world/world.h"
+#include "sim/world/world_state.h"
+
+struct ParticleBuffers; /* sim/gl/particle_buffers.h */
+
+typedef struct Backend {
+    const char *name, *help;
+    /* Its steps run behind the caller's back in a GL context, current wherever a world of it is used, and
+       `watch` is asked once a frame. */
+    bool gpu;
+    /* Whether it has all that the def names, or the reason; needs no context. NULL: it has all. */
+    bool (*can)(const WorldDef *def, Error *error);
+    /* The state of `initial->count` particles, with room for `capacity`; NULL with the reason. `solver`
+       outlives it. */
+    void *(*create)(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
+                    Error *error);
+    void (*destroy)(void *state);
+    /* After solver_change; false with the reason when what its new terms need is not to be had. */
+    bool (*adapt)(void *state, Error *error);
+    /* After solver_vary: the viscosities, and nothing else of it, are others. NULL: it reads them there. */
+    void (*vary)(void *state);
+    /* Reads its shaders again; false: those before stay. NULL: it has none. */
+    bool (*reload)(void *state, Error *error);
+    /* Puts the solids there: `pose` has one for each. For a world with solids, before all else. */
+    void (*pose)(void *state, const SolidPose *pose);
+    /* Free flight over `step`, then the last guard of walls and solids, which come to their end poses. */
+    void (*drift)(void *state, const FrameStep *step);
+    /* Sorts the particles by cell; in a cell by id, but on compute only where the def says reproducible. */
+    void (*grid)(void *state);
+    /* Number density, volume and pressure of every particle; Müller 2003, eq. 3 and 12. Of wcsph: volume and
+       pressure by the density that it carries. */
+    void (*density)(void *state);
+    /* wcsph: density += dt times its rate by the equation of continuity; volume and pressure after it. */
+    void (*continuity)(void *state, float dt);
+    /* Acceleration by pressure, viscosity, walls and solids; eq. 10 and 14. */
+    void (*force)(void *state, const ApparentGravity *gravity);
+    /* wcsph with shifting: moves particles down the gradient of their number density as it was at the last
+       `grid`, by a velocity of chi c h / 2 times that over n0: Lind 2012. The last of a step before `drift`.
+     */
+    void (*shift)(void *state, float dt);
+    /* v += (acceleration + gravity) dt. */
+    void (*kick)(void *state, const float gravity[3], float dt);
+    /* What the kicks since the last call or `load` found; waits for them. */
+    StepWatch (*watch)(void *state);
+    /* Gives what the guides hold their velocities. */
+    void (*guide)(void *state, const Guide *guides, int count);
+    void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
+    bool (*read)(void *state, const ParticleArrays *out); /* false when memory is short */
+    /* Begins to gather what sim/world/gauge.h says, with the gravity in the box's frame, m/s2; false when it
+       cannot. Then whether it has come, without waiting: sums of the gauge, the mean divided. */
+    bool (*gauge)(void *state, const double gravity[3]);
+    bool (*gauged)(void *state, WorldGauge *gauge);
+    /* The same at once, for sim/world/energy_watch.h; NULL: it would wait. */
+    void (*energy)(void *state, const double gravity[3], WorldGauge *gauge);
+    /* Between steps: adds those particles of a layer that are in the box and not next to
+       others, at most `most`, and returns how many; takes out what is in a region, and returns how many. */
+    size_t (*emit)(void *state, const EmitLayer *layer, size_t most);
+    size_t (*drain)(void *state, const Fill *regions, int count);
+    /* Copies the particles into columns of as many; takes `count` of them, no more than its capacity, in any
+       order, whereupon `pose`, `grid` and `density` must follow. False, and nothing done, when memory is
+       short. */
+    bool (*save)(void *state, const ParticleColumns *to);
+    bool (*load)(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+    /* Keeps the particles where they are, on the device, and goes back to those, as `load` does; both NULL:
+       by `save` and `load`. */
+    bool (*mark)(void *state, Error *error);
+    void (*back)(void *state, size_t count, size_t guarded);
+    /* The particles in GL buffers of its own, PARTICLE_* of `attributes` among them; they stay until the next
+       step or call. NULL: the backend has none. */
+    void (*share)(void *state, unsigned attributes, struct ParticleBuffers *out);
+    void (*info)(const void *state, WorldInfo *info); /* threads, state_bytes, guarded */
+} Backend;
+
+extern const Backend backend_cpu;
+
+/* Adds one to the list, once: those that need more than sim has. It outlives all worlds. Not for several
+   threads at once. */
+void backend_add(const Backend *backend);
+
+/* NULL when there is none of that name. */
+const Backend *backend_find(const char *name);
+
+#endif

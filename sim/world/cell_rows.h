@@ -1,0 +1,23 @@
+/* Which particles stand next to a cell of the grid, across periodic sides too. */
+#ifndef SLOSH_CELL_ROWS_H
+#define SLOSH_CELL_ROWS_H
+
+#include "sim/world/solver.h"
+
+/* Particles [begin, end), as seen by who stands at x + shift; m. */
+typedef struct CellRow {
+    uint32_t begin, end;
+    float shift[3]; /* 0 but across a periodic side */
+} CellRow;
+
+enum { CELL_ROWS = 18 };
+
+/* All that stand in the cells next to `cell`, itself included, of particles sorted by cell: `start` has the
+   first of each cell, and one more. Returns how many rows it fills. */
+int cell_rows(const Solver *solver, const uint32_t *start, uint32_t cell, CellRow rows[CELL_ROWS]);
+
+/* Whether another row has all that stand in this one: across a side of which the box is two cells wide, both
+   neighbours of a cell are the same. For who takes the nearest image of a pair, whatever the row's shift. */
+bool cell_row_again(const Solver *solver, const CellRow *row);
+
+#endif

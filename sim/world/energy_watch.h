@@ -1,0 +1,17 @@
+/* Whether a closed world gains energy: a step that is too long for friction heats fluid at rest, and no
+   particle need move far for it. Closed is a world whose box is at rest, without emitters, drains, solids
+   that move, a lid, surface tension (whose energy is not known) or gravity along a periodic axis. On the CPU
+   only: the sums of a GPU come when they come, and no two runs would go back at the same step. */
+#ifndef SLOSH_ENERGY_WATCH_H
+#define SLOSH_ENERGY_WATCH_H
+
+#include "sim/world/world_struct.h"
+
+/* After each step that is sound, and of the initial state. False when energy has grown, with the reason in
+   world->seen; looks at the ends of frames only. */
+bool energy_sound(World *world);
+
+/* Something has done work, or changed what energy is: the next frame is the first to compare with. */
+void energy_forget(World *world);
+
+#endif

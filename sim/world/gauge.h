@@ -1,0 +1,41 @@
+/* What each particle adds to a world's gauge (sim/world/world.h): for the backends, which gather these and
+   nothing else of a state that is asked for. */
+#ifndef SLOSH_GAUGE_H
+#define SLOSH_GAUGE_H
+
+#include "sim/world/solver.h"
+#include "sim/world/world.h"
+
+#include <math.h>
+
+/* Energy of compression over m c^2, of x = rho / rho0 - 1: the integral of p / rho^2, p = c^2 (rho - rho0),
+   or with `continuity` p = rho0 c^2 / 7 ((rho / rho0)^7 - 1). Written so that small x keep their digits. */
+static inline double gauge_compression_energy(bool continuity, double x)
+{
+    if (continuity)
+        return x * x * (5.0 / 2 + x * (10.0 / 3 + x * (5.0 / 2 + x * (1 + x / 6))) + 1 / (1 + x)) / 7;
+    return log1p(x) - x / (1 + x);
+}
+
+/* Sums, of which the mean is not divided by the count yet. A particle at x (m) with the velocity v (m/s) and
+   that compression; `gravity` in the box's frame, m/s2. */
+static inline void gauge_add(WorldGauge *gauge, const Solver *solver, const double gravity[3], int fluid,
+                             double compression, const float x[3], const float v[3])
+{
+    const double m = (double)solver->mass[fluid], c = (double)solver->sound_speed;
+    const double pressed = compression > 0 ? compression : 0;
+    double speed2 = 0, height = 0;
+    for (int k = 0; k < 3; k++) {
+        speed2 += (double)v[k] * (double)v[k];
+        height -= gravity[k] * (double)x[k];
+    }
+    gauge->density_error_mean += pressed;
+    gauge->density_error_max = fmax(gauge->density_error_max, pressed);
+    gauge->kinetic_energy += 0.5 * m * speed2;
+    gauge->potential_energy += m * height;
+    gauge->compression_energy +=
+        m * c * c *
+        gauge_compression_energy(solver->continuity, solver->negative_pressure ? compression : pressed);
+}
+
+#endif

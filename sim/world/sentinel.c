@@ -1,0 +1,125 @@
+#include "sim/world/sentinel.h"
+
+#include <stdio.h>
+
+static const double CALM_STEPS = 200;
+
+bool sentinel_mark(World *world, Error *error)
+{
+    const Backend *backend = world->backend;
+    if (world->def.retries == 0)
+        return true;
+    if (!backend->mark)
+        return world_save(world, &world->good, error);
+    world_save_numbers(world, &world->good.numbers);
+    world->good.count = world->count;
+    return backend->mark(world->state, error);
+}
+
+bool world_sound(World *world)
+{
+    StepState *s = &world->stepping;
+    if (world->kicked) {
+        const StepWatch watch = world->backend->watch(world->state);
+        const StepTrouble trouble = step_trouble_of(&watch, world->def.retries > 0);
+        s->max_speed = watch.max_speed;
+        s->max_acceleration = watch.max_acceleration;
+        world->seen = world->seen ? world->seen : trouble;
+        world->kicked = false;
+    }
+    return world->seen == STEP_TROUBLE_NONE;
+}
+
+void sentinel_relieve(World *world)
+{
+    StepState *s = &world->stepping;
+    if (s->refine <= 1 || s->calm < CALM_STEPS * s->refine)
+        return;
+    s->refine /= 2;
+    s->tries--;
+    s->calm = 0;
+}
+
+static void restore(World *world)
+{
+    const WorldNumbers *numbers = &world->good.numbers;
+    world->since_step = world->step;
+    world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
+    world->filter = numbers->filter;
+    world->box = numbers->box;
+    if (world->energy.until > 0) /* else forgotten since, by a change that stays */
+        world->energy = numbers->energy;
+    world->stepping.max_speed = numbers->stepping.max_speed;
+    world->stepping.max_acceleration = numbers->stepping.max_acceleration;
+    world->stepping.frame_left = -1;
+    world->stepping.calm = 0;
+    if (world->backend->back)
+        world->backend->back(world->state, world->good.count, (size_t)numbers->guarded);
+    else
+        world->backend->load(world->state, &world->good.particles, world->good.count,
+                             (size_t)numbers->guarded);
+    world_put_back(world, numbers, world->good.count);
+}
+
+static bool give_up(World *world, StepTrouble trouble, double time, Error *error)
+{
+    const int retries = world->def.retries;
+    const StepState *s = &world->stepping;
+    const double dt =
+        world->def.step_mode == STEP_CFL ? s->dt * s->refine : world->def.dt / world->def.substeps;
+    char also[96] = "", advice[200];
+    step_advice(&world->def, &world->solver.friction, trouble, dt, s->max_speed, advice);
+    if (retries > 0)
+        snprintf(also, sizeof also, ", with 1/%d of the step too; the state at t = %g s is kept",
+                 1 << retries, world_time_at(world, (double)world->step));
+    return error_set(error, "the simulation blew up at t = %g s: %s%s; %s", time, step_trouble_words(trouble),
+                     also, advice);
+}
+
+static void grouped(size_t number, char text[32])
+{
+    char digits[24];
+    const int count = snprintf(digits, sizeof digits, "%zu", number);
+    for (int i = 0; i < count; i++) {
+        *text++ = digits[i];
+        if (i + 1 < count && (count - i - 1) % 3 == 0)
+            *text++ = ',';
+    }
+    *text = 0;
+}
+
+/* A smaller step does not mend it: no retry. */
+static bool give_up_lost(World *world, Error *error)
+{
+    WorldInfo info = {0};
+    char lost[32], limit[32];
+    world->backend->info(world->state, &info);
+    if (world->def.retries > 0)
+        restore(world);
+    grouped(info.lost, lost);
+    grouped(world->solver.lost_limit, limit);
+    return error_set(error, "%s %s; raise solver.grid_layers (%d) or solver.lost_limit (%s)", lost,
+                     step_trouble_words(STEP_TROUBLE_LOST), world->solver.grid_layers, limit);
+}
+
+bool sentinel_back(World *world, double time, Error *error)
+{
+    const StepTrouble trouble = world->seen;
+    StepState *s = &world->stepping;
+    WorldTrouble *told = &world->trouble;
+    if (trouble == STEP_TROUBLE_LOST)
+        return give_up_lost(world, error);
+    if (world->def.retries == 0)
+        return give_up(world, trouble, time, error);
+    restore(world);
+    if (s->tries >= world->def.retries)
+        return give_up(world, trouble, time, error);
+    s->refine *= 2;
+    s->tries++;
+    told->count++;
+    told->what = trouble;
+    told->time = time;
+    told->back_to = world->since_time;
+    told->tries = (int)s->tries;
+    return true;
+}

@@ -1,0 +1,92 @@
+/* What a def means in numbers: computed once, constant while a world lives but for viscosities over time;
+ * every backend reads it. */
+#ifndef SLOSH_SOLVER_H
+#define SLOSH_SOLVER_H
+
+#include "sim/base/error.h"
+#include "sim/box/periodic.h"
+#include "sim/box/wall.h"
+#include "sim/box/wall_drag.h"
+#include "sim/kernel/lattice.h"
+#include "sim/matter/boundary.h"
+#include "sim/matter/tension.h"
+#include "sim/matter/viscosity.h"
+#include "sim/matter/world_def.h"
+#include "sim/world/step_control.h"
+
+/* Times in which sound crosses a support radius: after so many the density that shifted particles carry,
+   which does not know of shifts and would drift by a percent a second, comes back to that of their places. */
+#define SHIFT_RETURN 20.0F
+
+/* The grid of cells of side h: cell (i, j, k) holds floor(x / h) = first + (i, j, k), of one global lattice
+   whatever the box; one empty layer on each side saves the neighbour search its bounds. Along a periodic axis
+   a whole number of cells, of side h at least, fills the box from its low side on. */
+typedef struct CellGrid {
+    float origin[3], inverse[3]; /* floor((x - origin) * inverse); m, 1/m */
+    int first[3];
+    int size[3]; /* the empty layers included; x runs fastest */
+    size_t count;
+} CellGrid;
+
+typedef struct Solver {
+    float support_radius;      /* h, m */
+    float rest_number_density; /* n0, 1/m3 */
+    bool poly6;                /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
+    float kernel_scale;        /* its value at r = 0, calibrated, 1/m3 */
+    float pressure_scale;      /* -dW_spiky/dr = pressure_scale * (1 - r/h)^2, 1/m4, calibrated */
+    float viscosity_scale;     /* Laplacian = viscosity_scale * (1 - r/h), 1/m5, calibrated */
+    float spacing;             /* m */
+    int fluid_count;
+    float mass[FLUIDS_MAX];      /* of a particle: rho0 / n0, kg */
+    float density[FLUIDS_MAX];   /* rho0, kg/m3 */
+    float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0 compression, Pa */
+    float compression;           /* relative change of density over that of n / n0, see Lattice */
+    float viscosity[FLUIDS_MAX]; /* mu, Pa s; of the step in hand where it varies */
+    bool viscous;                /* some mu is not zero, now or ever */
+    bool varies;                 /* some mu is a table over time */
+    bool negative_pressure;
+    bool reproducible;
+    bool continuity; /* wcsph: the particles carry their density; the next eight are its own */
+    WcsphKernel kernel;
+    float radial;           /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
+    float gradient;         /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f in sim/cpu/pairs_wcsph.c */
+    float tait[FLUIDS_MAX]; /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
+    bool artificial;
+    float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
+    float diffusion;                        /* 2 delta c (h / 2), m2/s; 0: none */
+    float sound_speed;                      /* m/s */
+    float shifting;                         /* chi c h / 2, m2/s; 0: none: see sim/cpu/shift.c */
+    TensionModel tension_model;             /* none where no fluid has a tension */
+    float tension[FLUIDS_MAX];              /* sigma, N/m; of cohesion times its scale */
+    float colour;                           /* colour_scale */
+    CellGrid cells;
+    Periodic periodic;
+    int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
+    Lattice lattice;
+    Walls walls;
+    StepFriction friction;
+    bool no_slip;          /* walls hold fluid: the def says so and some fluid is viscous */
+    bool lid;              /* and the one at the top moves, */
+    float lid_velocity[3]; /* so, m/s */
+    WallDrag drag;         /* made once `no_slip` is first true */
+    int dimensions;
+    bool emits, drains; /* fluid may come; go */
+    int grid_layers;    /* of backend fragment's grid: each holds four particles a cell */
+    size_t lost_limit;  /* so many may find no place in it */
+    int solid_count;
+    SolidDef solids[SOLIDS_MAX];
+    Boundary boundary; /* of the solids */
+} Solver;
+
+/* False with the reason: a def out of range, too many cells, no memory. */
+bool solver_create(Solver *solver, const WorldDef *def, Error *error);
+/* Takes what may change while a world lives: viscosities, sound speed, negative pressure. False with the
+   reason, no memory among them: nothing has changed. */
+bool solver_change(Solver *solver, const WorldDef *def, Error *error);
+
+/* Takes the viscosities of the def, which differ from those before by the time alone; true where one does. */
+bool solver_vary(Solver *solver, const WorldDef *def);
+
+void solver_destroy(Solver *solver);
+
+#endif

@@ -1,0 +1,154 @@
+#include "sim/world/step_control.h"
+
+#include "sim/matter/viscosity.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double GROWTH = 1.1, FIRST = 0.1;
+static const float COMPRESSION_MOST = 5;
+
+const char *step_limit_name(StepLimit limit)
+{
+    static const char *const names[] = {
+#define X(NAME, name, help) name,
+        STEP_LIMITS(X)
+#undef X
+    };
+    return names[limit];
+}
+
+const char *step_trouble_words(StepTrouble trouble)
+{
+    static const char *const words[] = {
+#define X(NAME, text) text,
+        STEP_TROUBLES(X)
+#undef X
+    };
+    return words[trouble];
+}
+
+StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel)
+{
+    if (!watch->bounded)
+        return STEP_TROUBLE_SPEED;
+    if (sentinel && watch->max_compression > COMPRESSION_MOST)
+        return STEP_TROUBLE_DENSITY;
+    return watch->lost > watch->lost_limit ? STEP_TROUBLE_LOST : STEP_TROUBLE_NONE;
+}
+
+StepFriction step_friction(const WorldDef *def)
+{
+    const bool continuity = strcmp(def->method, "wcsph") == 0;
+    const double h = def->support * def->spacing;
+    const Kernel *summed = density_kernel_find(def->density_kernel), *kernel = wcsph_kernel_find(def->kernel);
+    Lattice lattice;
+    if (continuity)
+        lattice_calibrate(def->dimensions, def->spacing, h, kernel, kernel, &lattice);
+    else
+        lattice_calibrate(def->dimensions, def->spacing, h, summed, density_kernel_find("spiky"), &lattice);
+    if (!continuity)
+        return (StepFriction){friction_rate(&lattice, def->spacing, FRICTION_MUELLER, h, summed), 0};
+    const Friction form = def->viscosity_form == VISCOSITY_RADIAL ? FRICTION_RADIAL : FRICTION_MORRIS;
+    return (StepFriction){friction_rate(&lattice, def->spacing, form, h, NULL),
+                          def->artificial_viscosity > 0
+                              ? friction_rate(&lattice, def->spacing, FRICTION_ARTIFICIAL, h, NULL)
+                              : 0};
+}
+
+/* A light particle between those of the most viscous fluid. */
+static double greatest_kinematic_viscosity(const WorldDef *def)
+{
+    double greatest = 0, most = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        most = fmax(most, def->fluids[f].viscosity);
+    for (int f = 0; f < def->fluid_count; f++)
+        greatest = fmax(greatest, 0.5 * (def->fluids[f].viscosity + most) / def->fluids[f].density);
+    return greatest;
+}
+
+double step_towards(double dt, double left)
+{
+    const double steps = ceil(left / dt - 1e-6);
+    return steps >= 1 && steps <= 4 ? fmin(dt, left / steps) : dt;
+}
+
+double density_ratio(const WorldDef *def)
+{
+    double least = INFINITY, most = 0;
+    for (int f = 0; f < def->fluid_count; f++) {
+        least = fmin(least, def->fluids[f].density);
+        most = fmax(most, def->fluids[f].density);
+    }
+    return most / least;
+}
+
+double step_sound(const WorldDef *def)
+{
+    const bool continuity = strcmp(def->method, "wcsph") == 0;
+    return def->sound_speed * (continuity ? sqrt(fmax(1, density_ratio(def) / 10)) : 1);
+}
+
+double artificial_kinematic(const WorldDef *def)
+{
+    return 0.25 * def->artificial_viscosity * def->sound_speed * def->support * def->spacing;
+}
+
+/* Whether artificial viscosity acts on some fluid. */
+static bool any_inviscid(const WorldDef *def)
+{
+    bool any = false;
+    for (int f = 0; f < def->fluid_count; f++)
+        any |= fluid_viscosity_most(&def->fluids[f]) == 0;
+    return any;
+}
+
+double step_viscous(const WorldDef *def, const StepFriction *friction)
+{
+    const double rate = fmax(friction->laminar * greatest_kinematic_viscosity(def),
+                             any_inviscid(def) ? friction->artificial * artificial_kinematic(def) : 0);
+    return rate > 0 ? 2 / rate : INFINITY;
+}
+
+void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble trouble, double dt,
+                 double max_speed, char words[200])
+{
+    const double crossing = def->support * def->spacing / step_sound(def), c = def->sound_speed;
+    const char *shorter = def->step_mode == STEP_CFL ? "a smaller solver.step.number"
+                                                     : "a smaller solver.step.dt, more solver.step.substeps";
+    if (dt > STEP_SOUND_STANDS * crossing)
+        snprintf(
+            words, 200,
+            "the step is %.2g times what sound takes to cross a support radius, %.1g at most holds; use %s or a lower solver.sound_speed",
+            dt / crossing, STEP_SOUND_STANDS, shorter);
+    else if (dt > STEP_VISCOUS_STANDS * step_viscous(def, friction))
+        snprintf(words, 200, "friction stands %.3g ms, the step is %.3g ms; use %s or a lower viscosity",
+                 1e3 * STEP_VISCOUS_STANDS * step_viscous(def, friction), 1e3 * dt, shorter);
+    else if (trouble == STEP_TROUBLE_DENSITY || 2 * max_speed > c)
+        snprintf(words, 200,
+                 "flow of %.3g m/s is much for a solver.sound_speed of %.3g m/s; use a higher one, and %s",
+                 max_speed, c, shorter);
+    else
+        snprintf(words, 200, "use %s", shorter);
+}
+
+double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,
+                double before, StepLimit *binding)
+{
+    const double h = def->support * def->spacing, number = def->cfl_number;
+    const double courant = number * h / (step_sound(def) + max_speed);
+    const double most[STEP_LIMIT_COUNT] = {
+        [STEP_LIMIT_DT] = INFINITY,
+        [STEP_LIMIT_COURANT] = courant,
+        [STEP_LIMIT_FORCE] = max_acceleration > 0 ? number * sqrt(h / max_acceleration) : INFINITY,
+        [STEP_LIMIT_VISCOUS] = fmin(2 * number, STEP_VISCOUS_STANDS) * step_viscous(def, friction),
+        [STEP_LIMIT_MAX_DT] = def->max_dt,
+        [STEP_LIMIT_GROWTH] = before > 0 ? GROWTH * before : FIRST * courant,
+    };
+    *binding = STEP_LIMIT_DT;
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        if (most[i] < most[*binding])
+            *binding = (StepLimit)i;
+    return most[*binding];
+}

@@ -1,0 +1,117 @@
+/* How large a step may be, and what to do when it was too large. Pure: numbers in, numbers out. */
+#ifndef SLOSH_STEP_CONTROL_H
+#define SLOSH_STEP_CONTROL_H
+
+#include "sim/matter/world_def.h"
+
+#include <stdbool.h>
+
+/* X(ENUM, name, help): what bounds a step */
+#define STEP_LIMITS(X)                                                                                       \
+    X(DT, "dt", "the scene's fixed step")                                                                    \
+    X(COURANT, "courant", "number h / (c + greatest speed); wcsph's c grows with density ratios above 10")   \
+    X(FORCE, "force", "number sqrt(h / greatest acceleration)")                                              \
+    X(VISCOUS, "viscous", "2 number, at most 0.7, of the longest step that friction stands")                 \
+    X(MAX_DT, "max_dt", "the scene's greatest step")                                                         \
+    X(GROWTH, "growth", "a tenth more than the step before")
+
+typedef enum StepLimit {
+#define X(NAME, name, help) STEP_LIMIT_##NAME,
+    STEP_LIMITS(X)
+#undef X
+        STEP_LIMIT_COUNT
+} StepLimit;
+
+const char *step_limit_name(StepLimit limit);
+
+/* How a world steps. Doubles only: part of its saved state. */
+typedef struct StepState {
+    double dt;               /* of the step in hand or the last one, s */
+    double limit;            /* a StepLimit: what bounds it */
+    double max_speed;        /* m/s, after the last step */
+    double max_acceleration; /* m/s2, in the last step */
+    double frame_left;       /* steps until the frame ends; -1: it is to be begun again */
+    double refine;           /* 1, 2, 4, ...: the step is divided by that after trouble */
+    double tries;            /* halvings that have not been taken back */
+    double calm;             /* steps since the last trouble or relief */
+} StepState;
+
+/* What a substep found, over all particles. */
+typedef struct StepWatch {
+    bool bounded;           /* no particle moves further than the support radius in the step, none is NaN */
+    float max_speed;        /* m/s */
+    float max_acceleration; /* m/s2, gravity included */
+    float max_compression;  /* of number density over that at rest */
+    size_t lost,
+        lost_limit; /* particles without a place in the grid, at most in one step, and how many may be */
+} StepWatch;
+
+/* X(ENUM, words): trouble that the sentinel finds */
+#define STEP_TROUBLES(X)                                                                                     \
+    X(NONE, "")                                                                                              \
+    X(SPEED, "a particle moves further than the support radius in one step")                                 \
+    X(DENSITY, "fluid is pressed to more than five times its density")                                       \
+    X(ENERGY, "energy grows by a tenth without work done")                                                   \
+    X(LOST, "particles found no place in the grid of backend fragment")
+
+typedef enum StepTrouble {
+#define X(NAME, words) STEP_TROUBLE_##NAME,
+    STEP_TROUBLES(X)
+#undef X
+        STEP_TROUBLE_COUNT
+} StepTrouble;
+
+const char *step_trouble_words(StepTrouble trouble);
+/* Without a `sentinel` only what no step can go on from. */
+StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel);
+
+/* The rate of friction (sim/matter/viscosity.h) for a def's method, kernel, support and dimensions, 1/m2.
+   Takes some milliseconds: once a world. */
+typedef struct StepFriction {
+    double laminar, artificial; /* the latter 0 where the def has none */
+} StepFriction;
+
+StepFriction step_friction(const WorldDef *def);
+
+/* The greatest density of a def's fluids over the least. */
+double density_ratio(const WorldDef *def);
+
+/* The speed of sound that bounds a step, m/s. Light particles of wcsph between heavy ones are pushed by the
+   pressure of those: above 1 : 10 a step has to be shorter by the root of the ratio (sim/README.md). */
+double step_sound(const WorldDef *def);
+
+/* The viscosity that wcsph's artificial one stands for, alpha c h / 4, m2/s. */
+double artificial_kinematic(const WorldDef *def);
+
+/* The longest step that friction stands on the lattice at rest, s: what is longer makes differences of
+   velocity grow. With the def's present viscosities; of a pair of fluids their mean counts, over the lighter
+   one's density. INFINITY without friction. */
+double step_viscous(const WorldDef *def, const StepFriction *friction);
+
+/* The longest step that sound stands, in h / c: 2 / omega of its stiffest wave on the lattice, 2.0 to 2.6 c /
+   h by kernel and support. Of mueller's, which damps nothing, longer ones than STEP_SOUND_CALM heat fluid
+   that has no friction: sim/README.md. */
+#define STEP_SOUND_STANDS 0.9
+#define STEP_SOUND_CALM   0.5
+
+/* So much of it stands a fluid that is out of order; measured: 0.8 to 1.1, of wcsph in 3D at supports below
+   3, stirred hard, 0.6 (sim/README.md). */
+#define STEP_VISCOUS_STANDS 0.7
+
+/* What binds a step of `dt` s in which a world blew up, at the greatest speed before (m/s), and what to
+   change: words for an error. */
+void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble trouble, double dt,
+                 double max_speed, char words[200]);
+
+/* The adaptive step (mode cfl; Monaghan, "Smoothed particle hydrodynamics", 1992, eq. 10.1 f.): the least of
+   its limits at the speed and acceleration of the step before, never much longer than that one (`before`, s;
+   0: there was none), so that what a blow frees has time to show. */
+double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,
+                double before, StepLimit *binding);
+
+/* The step of at most `dt` that reaches what is `left` (s) in whole steps, once it is four or fewer: all of
+   one length, so that the last one is no sliver after which steps would have to grow again. `dt` where it is
+   further or behind. */
+double step_towards(double dt, double left);
+
+#endif

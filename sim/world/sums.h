@@ -1,0 +1,29 @@
+/* What each particle adds to a world's sums: for the backends. */
+#ifndef SLOSH_SUMS_H
+#define SLOSH_SUMS_H
+
+#include "sim/world/world.h"
+
+#include <math.h>
+
+/* A particle of mass m (kg) at x (m) with the velocity v (m/s). `centre` is not divided by the mass yet. */
+static inline void sums_add(WorldSums *sums, double m, const double x[3], const double v[3])
+{
+    double speed2 = 0, l2 = 0;
+    sums->mass += m;
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        const double l = m * (x[a] * v[b] - x[b] * v[a]);
+        sums->momentum[k] += m * v[k];
+        sums->angular_momentum[k] += l;
+        sums->centre[k] += m * x[k];
+        speed2 += v[k] * v[k];
+        l2 += l * l;
+    }
+    sums->momentum_scale += m * sqrt(speed2);
+    sums->angular_scale += sqrt(l2);
+    sums->kinetic_energy += 0.5 * m * speed2;
+    sums->max_speed = fmax(sums->max_speed, sqrt(speed2));
+}
+
+#endif

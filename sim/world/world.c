@@ -1,0 +1,395 @@
+#include "sim/world/world.h"
+
+#include "sim/base/parallel.h"
+#include "sim/world/energy_watch.h"
+#include "sim/world/sentinel.h"
+#include "sim/world/world_struct.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BACKENDS_MAX = 4 };
+static const Backend *backends[BACKENDS_MAX] = {&backend_cpu};
+static int backend_count = 1;
+static const Method *const methods[] = {&method_mueller, &method_wcsph};
+enum { METHODS = sizeof methods / sizeof methods[0] };
+
+void backend_add(const Backend *backend)
+{
+    if (!backend_find(backend->name) && backend_count < BACKENDS_MAX)
+        backends[backend_count++] = backend;
+}
+
+const Backend *backend_find(const char *name)
+{
+    for (int i = 0; i < backend_count; i++)
+        if (strcmp(backends[i]->name, name) == 0)
+            return backends[i];
+    return NULL;
+}
+
+const Method *method_find(const char *name)
+{
+    for (int i = 0; i < METHODS; i++)
+        if (strcmp(methods[i]->name, name) == 0)
+            return methods[i];
+    return NULL;
+}
+
+const Named *world_backends(void)
+{
+    static Named list[BACKENDS_MAX + 1];
+    for (int i = 0; i < backend_count; i++)
+        list[i] = (Named){backends[i]->name, backends[i]->help};
+    return list;
+}
+
+const Named *world_methods(void)
+{
+    static Named list[METHODS + 1];
+    for (int i = 0; i < METHODS; i++)
+        list[i] = (Named){methods[i]->name, methods[i]->help};
+    return list;
+}
+
+int world_processors(void)
+{
+    return parallel_processors();
+}
+
+/* The pose at `time` with the hand's part as `filter` has it. */
+static void box_at(const World *world, const BoxFilter *filter, double time, BoxState *box)
+{
+    box_state_at(world->def.motions, world->def.motion_count, world->def.box_size[1], time, box);
+    box_filter_apply(filter, world->def.box_size[1], box);
+}
+
+void world_settle(World *world)
+{
+    SolidPose pose[SOLIDS_MAX];
+    for (int i = 0; i < world->def.solid_count; i++)
+        solid_pose_at(&world->def.solids[i], world_time_at(world, (double)world->step), &pose[i]);
+    if (world->def.solid_count > 0)
+        world->backend->pose(world->state, pose);
+    world->backend->grid(world->state);
+    world->backend->density(world->state);
+}
+
+static bool names_check(const WorldDef *def, Error *error)
+{
+    if (!backend_find(def->backend))
+        return error_set(error, "unknown backend '%s'; `slosh info` lists them", def->backend);
+    return method_find(def->method) ||
+           error_set(error, "unknown method '%s'; `slosh info` lists them", def->method);
+}
+
+bool world_can(const WorldDef *def, Error *error)
+{
+    if (!names_check(def, error))
+        return false;
+    const Backend *backend = backend_find(def->backend);
+    return !backend->can || backend->can(def, error);
+}
+
+void world_vary(World *world, double time)
+{
+    if (!world->solver.varies)
+        return;
+    world_def_at(&world->def, time);
+    if (solver_vary(&world->solver, &world->def) && world->backend->vary)
+        world->backend->vary(world->state);
+}
+
+void world_stop_at(World *world, double time)
+{
+    world->stop = time;
+}
+
+World *world_create(const WorldDef *def, Error *error)
+{
+    World *world = calloc(1, sizeof *world);
+    if (!world) {
+        error_set(error, "no memory");
+        return NULL;
+    }
+    world->def = *def;
+    if (def->dimensions == 2)
+        world->def.box_size[2] = def->spacing;
+    world->backend = backend_find(def->backend);
+    world->method = method_find(def->method);
+    if (!names_check(def, error) || !solver_create(&world->solver, def, error) || !world_can(def, error) ||
+        !world_start(world, error)) {
+        world_destroy(world);
+        return NULL;
+    }
+    world_vary(world, 0);
+    world->filter = box_filter_at_rest();
+    world->target = (BoxTarget){.orientation = {0, 0, 0, 1}};
+    world->stepping = (StepState){.dt = def->dt / def->substeps, .refine = 1};
+    world->trouble.retries = def->retries;
+    box_at(world, &world->filter, 0, &world->box);
+    world_settle(world);
+    energy_sound(world);
+    if (sentinel_mark(world, error)) /* what it needs is there before the first step */
+        return world;
+    world_destroy(world);
+    return NULL;
+}
+
+void world_destroy(World *world)
+{
+    if (!world)
+        return;
+    if (world->backend && world->state)
+        world->backend->destroy(world->state);
+    solver_destroy(&world->solver);
+    world_state_free(&world->good);
+    free(world->layer);
+    free(world);
+}
+
+/* Multiplied, not added up: as long as dt is the same, the time of a step depends on its number alone. */
+double world_time_at(const World *world, double step)
+{
+    return world->since_time + (step - (double)world->since_step) * world->stepping.dt;
+}
+
+/* Carries box and filter to the end of the substep. */
+static void substep_prepare(World *world, StageClock *clock, Substep *step)
+{
+    const double at = (double)world->step, dt = world->stepping.dt;
+    const BoxState begin = world->box;
+    BoxState middle;
+    box_filter_step(&world->filter, &world->target, &world->def.limits, 0.5 * dt);
+    box_at(world, &world->filter, world_time_at(world, at + 0.5), &middle);
+    box_filter_step(&world->filter, &world->target, &world->def.limits, 0.5 * dt);
+    box_at(world, &world->filter, world_time_at(world, at + 1), &world->box);
+
+    step->backend = world->backend;
+    step->state = world->state;
+    step->clock = clock;
+    step->dt = dt;
+    step->shifts = world->solver.shifting > 0;
+    frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
+    frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
+    step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
+    for (int i = 0; i < world->def.solid_count; i++)
+        for (int half = 0; half < 2; half++)
+            solid_step_make(&world->def.solids[i], world_time_at(world, at + 0.5 * half),
+                            world_time_at(world, at + 0.5 * half + 0.5), &step->solids[half][i]);
+    for (int i = 0; i < world->def.solid_count; i++)
+        solid_step_mean(&step->solids[0][i], &step->solids[1][i]);
+    step->first_half.solids = world->def.solid_count > 0 ? step->solids[0] : NULL;
+    step->second_half.solids = world->def.solid_count > 0 ? step->solids[1] : NULL;
+    apparent_gravity(world->def.gravity, &begin, &middle, &world->box, dt, &step->apparent);
+    double gravity[3];
+    quat_rotate_inverse(middle.orientation, world->def.gravity, gravity);
+    for (int k = 0; k < 3; k++)
+        step->gravity[k] = (float)gravity[k];
+}
+
+/* The size of the next step; where it is another than the last one's, the time counts on from here. */
+static void choose_step(World *world)
+{
+    const WorldDef *def = &world->def;
+    StepState *s = &world->stepping;
+    StepLimit limit = STEP_LIMIT_DT;
+    const double before = world->step > 0 ? s->refine * s->dt : 0;
+    double dt = def->step_mode == STEP_CFL ? step_cfl(def, &world->solver.friction, s->max_speed,
+                                                      s->max_acceleration, before, &limit) /
+                                                 s->refine
+                                           : def->dt / def->substeps / s->refine;
+    s->limit = limit;
+    if (def->step_mode == STEP_CFL)
+        dt = step_towards(dt, world->stop - world_time_at(world, (double)world->step));
+    if (dt == s->dt)
+        return;
+    world->since_time = world_time_at(world, (double)world->step);
+    world->since_step = world->step;
+    s->dt = dt;
+}
+
+/* False when memory is short. */
+static bool begin_step(World *world, Error *error)
+{
+    StepState *s = &world->stepping;
+    if (s->frame_left < 1) {
+        sentinel_relieve(world);
+        if (!sentinel_mark(world, error))
+            return false;
+        s->frame_left = world->def.step_mode == STEP_CFL ? 1 : world->def.substeps * s->refine;
+    }
+    world_vary(world, world_time_at(world, (double)world->step)); /* bounds the step */
+    choose_step(world);
+    world_vary(world, world_time_at(world, (double)world->step + 0.5));
+    return true;
+}
+
+bool world_on_gpu(const WorldDef *def)
+{
+    const Backend *backend = backend_find(def->backend);
+    return backend && backend->gpu;
+}
+
+bool world_reload(World *world, Error *error)
+{
+    return !world->backend->reload || world->backend->reload(world->state, error);
+}
+
+static void count_step(World *world)
+{
+    world->step++;
+    world->limited[(int)world->stepping.limit]++;
+}
+
+bool world_substep(World *world, StageClock *clock, Error *error)
+{
+    Substep step;
+    StepState *s = &world->stepping;
+    if (s->frame_left < 1 && !world_sound(world)) {
+        const double time = world_time_at(world, (double)world->step);
+        count_step(world); /* so that no two states have one number */
+        return sentinel_back(world, time, error);
+    }
+    if (!begin_step(world, error))
+        return false;
+    if (world->layer || world->def.drain_count > 0)
+        STAGE (clock, STAGE_INTEGRATE)
+            world_flow(world);
+    substep_prepare(world, clock, &step);
+    world->method->substep(&step);
+    world->kicked = true;
+    count_step(world);
+    if (!world->backend->gpu && (!world_sound(world) || !energy_sound(world)))
+        return sentinel_back(world, world_time_at(world, (double)world->step), error);
+    s->frame_left--;
+    s->calm++;
+    return true;
+}
+
+bool world_step(World *world, StageClock *clock, Error *error)
+{
+    bool good = true;
+    do
+        good = world_substep(world, clock, error);
+    while (good && world->stepping.frame_left != 0);
+    return good;
+}
+
+/* What of it moves within the plane: the place without z, the turn about z. */
+static void target_into_plane(BoxTarget *target)
+{
+    double *q = target->orientation;
+    const double norm = hypot(q[2], q[3]);
+    target->position[2] = q[0] = q[1] = 0;
+    q[2] = norm > 0 ? q[2] / norm : 0;
+    q[3] = norm > 0 ? q[3] / norm : 1;
+}
+
+static bool target_take(World *world, const BoxTarget *target)
+{
+    const double *q = target->orientation, *x = target->position;
+    const double norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(norm > 0) || !isfinite(norm) || !isfinite(x[0] + x[1] + x[2]))
+        return false;
+    world->target = *target;
+    for (int k = 0; k < 4; k++)
+        world->target.orientation[k] /= norm;
+    if (world->def.dimensions == 2)
+        target_into_plane(&world->target);
+    if (world->solver.periodic.any) /* such a box does not turn */
+        memcpy(world->target.orientation, (double[4]){0, 0, 0, 1}, sizeof world->target.orientation);
+    return true;
+}
+
+void world_set_target(World *world, const BoxTarget *target)
+{
+    target_take(world, target);
+}
+
+void world_carry(World *world, const BoxTarget *target)
+{
+    if (!target_take(world, target))
+        return;
+    energy_forget(world);
+    world->filter = box_filter_at_rest();
+    memcpy(world->filter.position, world->target.position, sizeof world->filter.position);
+    memcpy(world->filter.orientation, world->target.orientation, sizeof world->filter.orientation);
+    box_at(world, &world->filter, world_time_at(world, (double)world->step), &world->box);
+}
+
+bool world_adopt(World *world, const WorldDef *def, Error *error)
+{
+    if (!world_can(def, error) || !solver_change(&world->solver, def, error))
+        return false;
+    if (!world->backend->adapt(world->state, error)) {
+        Error none;
+        solver_change(&world->solver, &world->def, &none);
+        return false;
+    }
+    world->def = *def;
+    return true;
+}
+
+bool world_change(World *world, const WorldDef *def, Error *error)
+{
+    WorldDef after = world->def;
+    memcpy(after.gravity, def->gravity, sizeof after.gravity);
+    for (int f = 0; f < after.fluid_count; f++) {
+        after.fluids[f].viscosity = def->fluids[f].viscosity;
+        after.fluids[f].viscosity_table = def->fluids[f].viscosity_table;
+    }
+    after.sound_speed = def->sound_speed;
+    after.negative_pressure = def->negative_pressure;
+    after.dt = def->dt;
+    after.substeps = def->substeps;
+    after.cfl_number = def->cfl_number;
+    after.max_dt = def->max_dt;
+    after.limits = def->limits;
+    if (!world_adopt(world, &after, error))
+        return false;
+    energy_forget(world);
+    world_vary(world, world_time_at(world, (double)world->step));
+    return true;
+}
+
+void world_info(const World *world, WorldInfo *info)
+{
+    *info = (WorldInfo){
+        .time = world_time_at(world, (double)world->step),
+        .step = world->step,
+        .count = world->count,
+        .capacity = world->capacity,
+        .emitted = world->emitted,
+        .drained = world->drained,
+        .full = world->layer && world->count == world->capacity,
+        .support_radius = world->def.support * world->def.spacing,
+        .spacing = world->def.spacing,
+        .box = world->box,
+        .within_frame = world->stepping.frame_left != 0,
+        .dt = world->stepping.dt,
+        .limit = (StepLimit)world->stepping.limit,
+        .trouble = world->trouble,
+        .courant = world->step > 0
+                       ? world->stepping.dt * (world->def.sound_speed + world->stepping.max_speed) /
+                             (world->def.support * world->def.spacing)
+                       : 0,
+    };
+    memcpy(info->limited, world->limited, sizeof info->limited);
+    memcpy(info->box_size, world->def.box_size, sizeof info->box_size);
+    memcpy(info->hand.position, world->filter.position, sizeof info->hand.position);
+    memcpy(info->hand.orientation, world->filter.orientation, sizeof info->hand.orientation);
+    quat_rotate_inverse(world->box.orientation, world->def.gravity, info->gravity);
+    world->backend->info(world->state, info);
+}
+
+void world_sums(World *world, WorldSums *sums)
+{
+    world->backend->sums(world->state, sums);
+}
+
+bool world_read(World *world, const ParticleArrays *out)
+{
+    return world->backend->read(world->state, out);
+}

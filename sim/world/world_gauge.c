@@ -1,0 +1,25 @@
+/* What is plotted of a world while it runs: asked for now, answered when it is there. */
+#include "sim/world/world_struct.h"
+
+void world_gauge_ask(World *world)
+{
+    double gravity[3];
+    if (world->gauge_asked)
+        return;
+    quat_rotate_inverse(world->box.orientation, world->def.gravity, gravity);
+    world->gauge_asked = world->backend->gauge(world->state, gravity);
+    world->gauge_time = world_time_at(world, (double)world->step);
+}
+
+bool world_gauge(World *world, WorldGauge *gauge)
+{
+    *gauge = (WorldGauge){.time = world->gauge_time};
+    if (!world->gauge_asked || !world->backend->gauged(world->state, gauge))
+        return false;
+    world->gauge_asked = false;
+    gauge->total_known = true;
+    for (int f = 0; f < world->def.fluid_count; f++)
+        if (world->def.tension_model != TENSION_NONE && world->def.fluids[f].surface_tension > 0)
+            gauge->total_known = false;
+    return true;
+}

@@ -1,0 +1,47 @@
+#include "sim/world/world.h"
+
+#include <stdlib.h>
+
+/* FNV-1a, 64 bits. */
+static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+{
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ ((const unsigned char *)bytes)[i]) * 0x100000001b3u;
+    return hash;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+uint64_t world_hash(World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    const size_t n = info.count;
+    ParticleArrays out = {
+        .position = malloc((n + 1) * 4 * sizeof(float)),
+        .velocity = malloc((n + 1) * 4 * sizeof(float)),
+        .id = malloc((n + 1) * sizeof(uint32_t)),
+    };
+    uint64_t *order = malloc((n + 1) * sizeof *order); /* id, place */
+    uint64_t hash = 0;
+    if (out.position && out.velocity && out.id && order && world_read(world, &out)) {
+        for (size_t i = 0; i < n; i++)
+            order[i] = (uint64_t)out.id[i] << 32 | i;
+        qsort(order, n, sizeof *order, ascending);
+        hash = 0xcbf29ce484222325u;
+        for (size_t k = 0; k < n; k++) {
+            const size_t i = order[k] & 0xffffffffu;
+            hash = hash_bytes(hash, &out.position[4 * i], 3 * sizeof(float));
+            hash = hash_bytes(hash, &out.velocity[4 * i], 3 * sizeof(float));
+        }
+    }
+    free(out.position);
+    free(out.velocity);
+    free(out.id);
+    free(order);
+    return hash;
+}

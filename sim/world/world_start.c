@@ -1,0 +1,160 @@
+/* How a world begins: its particles, from the fills or as they are given. */
+#include "sim/matter/seed.h"
+#include "sim/matter/vortices.h"
+#include "sim/world/world_struct.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The arrays behind an InitialState made from fills. */
+typedef struct Seeds {
+    float *position, *velocity;
+    uint8_t *fluid;
+    float *density; /* NULL: at rest */
+} Seeds;
+
+static void seeds_free(Seeds *seeds)
+{
+    free(seeds->position);
+    free(seeds->velocity);
+    free(seeds->fluid);
+    free(seeds->density);
+}
+
+/* The lattice leaves gaps next to solids that are not of it. A method whose particles carry their density
+   would take them for fluid that is there, and hold them open; what is missing is about what the solid would
+   add, were the particle in the lattice's place, less what it adds where it is. */
+static void thin_at_solids(const Solver *solver, const WorldDef *def, const Seeds *seeds, size_t count)
+{
+    BoxState pose[SOLIDS_MAX];
+    for (int k = 0; k < def->solid_count; k++)
+        solid_pose(&def->solids[k], 0, &pose[k]);
+    for (size_t i = 0; i < count; i++) {
+        double missing = 0;
+        for (int k = 0; k < def->solid_count; k++) {
+            double d[3];
+            for (int a = 0; a < 3; a++)
+                d[a] = seeds->position[3 * i + (size_t)a] - pose[k].position[a];
+            const double reach = solid_reach(&def->solids[k]) + def->support * def->spacing;
+            if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > reach * reach)
+                continue;
+            quat_rotate_inverse(pose[k].orientation, d, d);
+            const double layers = solid_distance(&def->solids[k], def->dimensions, d) / def->spacing;
+            const float is = (float)(layers * def->spacing),
+                        rest = (float)((floor(layers - 0.5 + 1e-6) + 0.5) * def->spacing);
+            if (is > rest)
+                missing += wall_face_density(&solver->walls, rest) - wall_face_density(&solver->walls, is);
+        }
+        seeds->density[i] =
+            (float)(def->fluids[seeds->fluid[i]].density * (1 - missing / solver->rest_number_density));
+    }
+}
+
+/* Moved points stay within the walls, and come in across periodic sides. */
+static void jitter(const Solver *solver, const WorldDef *def, const Seeds *seeds, size_t count)
+{
+    seed_jitter(def, seeds->position, count);
+    for (size_t i = 0; i < count; i++) {
+        float *x = seeds->position + 3 * i, v[3] = {0};
+        walls_guard(&solver->walls, x, v);
+        periodic_wrap(&solver->periodic, x);
+    }
+}
+
+/* With the pressure that holds them, where particles carry their density: p = c^2 (rho - rho0). */
+static void add_vortices(const WorldDef *def, const Seeds *seeds, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const FluidDef *fluid = &def->fluids[seeds->fluid[i]];
+        const double p = vortices_add(def, fluid, seeds->position + 3 * i, seeds->velocity + 3 * i);
+        if (seeds->density && (p > 0 || def->negative_pressure))
+            seeds->density[i] += (float)(p / (def->sound_speed * def->sound_speed));
+    }
+}
+
+static bool seeds_make(const Solver *solver, const WorldDef *def, Seeds *seeds, InitialState *initial,
+                       Error *error)
+{
+    const bool swirls = vortices_any(def);
+    const bool thins = solver->continuity && (def->solid_count > 0 || swirls);
+    const size_t count = seed_count(def, def->spacing);
+    if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)
+        return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
+                                      : "the fluids' fills hold no particle; use a smaller spacing");
+    seeds->position = malloc((count + 1) * 3 * sizeof *seeds->position);
+    seeds->velocity = malloc((count + 1) * 3 * sizeof *seeds->velocity);
+    seeds->fluid = malloc(count + 1);
+    seeds->density = thins ? malloc((count + 1) * sizeof *seeds->density) : NULL;
+    if (!seeds->position || !seeds->velocity || !seeds->fluid || (thins && !seeds->density))
+        return error_set(error, "no memory for %zu particles; use a larger spacing", count);
+
+    seed_lattice(def, seeds->position, seeds->fluid);
+    if (def->jitter > 0)
+        jitter(solver, def, seeds, count);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < 3; k++)
+            seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
+    if (thins)
+        thin_at_solids(solver, def, seeds, count);
+    if (swirls)
+        add_vortices(def, seeds, count);
+    *initial = (InitialState){count, seeds->position, seeds->velocity, seeds->fluid, seeds->density};
+    return true;
+}
+
+static bool initial_check(const WorldDef *def, const InitialState *initial, Error *error)
+{
+    if (initial->count == 0 || initial->count > INT32_MAX)
+        return error_set(error, "an initial state needs 1 to 2^31 - 1 particles");
+    for (size_t i = 0; i < initial->count; i++) {
+        const float *x = initial->position + 3 * i;
+        if (def->dimensions == 2 && (x[2] != 0 || (initial->velocity && initial->velocity[3 * i + 2] != 0)))
+            return error_set(error, "particle %zu is not in the plane of a 2D scene", i);
+        if (!isfinite(x[0] + x[1] + x[2]))
+            return error_set(error, "the position of particle %zu is not finite", i);
+        if (initial->density && !(initial->density[i] > 0 && isfinite(initial->density[i])))
+            return error_set(error, "the density of particle %zu is not positive", i);
+        if (initial->fluid && initial->fluid[i] >= def->fluid_count)
+            return error_set(error, "particle %zu belongs to fluid %d, and there are %d", i,
+                             initial->fluid[i], def->fluid_count);
+    }
+    return true;
+}
+
+/* Room for the largest layer of all emitters. */
+static bool layer_create(World *world, Error *error)
+{
+    const WorldDef *def = &world->def;
+    size_t most = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++) {
+            EmitLayer layer = {0};
+            emit_place(&def->fluids[f].emits[i], def->dimensions, def->spacing, 0, 0, &layer);
+            most = layer.count > most ? layer.count : most;
+        }
+    world->layer = most > 0 ? malloc(3 * most * sizeof *world->layer) : NULL;
+    return most == 0 || world->layer || error_set(error, "no memory for the emitters' layers");
+}
+
+bool world_start(World *world, Error *error)
+{
+    Seeds seeds = {0};
+    InitialState initial = {0};
+    const bool given = world->def.initial;
+    if (given)
+        initial = *world->def.initial;
+    bool ok = given ? initial_check(&world->def, &initial, error)
+                    : seeds_make(&world->solver, &world->def, &seeds, &initial, error);
+    if (ok) {
+        world->count = world->initial = initial.count;
+        world->capacity = flow_capacity(&world->def, initial.count);
+        world->state =
+            world->backend->create(&world->solver, &initial, world->capacity, world->def.threads, error);
+        for (size_t i = 0; i < initial.count; i++)
+            world->mass += (double)world->solver.mass[initial.fluid ? initial.fluid[i] : 0];
+        ok = world->state && layer_create(world, error);
+    }
+    seeds_free(&seeds);
+    world->def.initial = NULL;
+    return ok;
+}

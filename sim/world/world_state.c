@@ -1,0 +1,201 @@
+#include "sim/world/world_state.h"
+
+#include "sim/world/sentinel.h"
+#include "sim/world/world_struct.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void world_state_free(WorldState *state)
+{
+    const ParticleColumns *p = &state->particles;
+    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->compression, p->id, p->fluid};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        free(all[k]);
+    *state = (WorldState){.count = 0};
+}
+
+bool world_state_reserve(WorldState *state, size_t count)
+{
+    ParticleColumns *p = &state->particles;
+    float **const floats[] = {&p->x, &p->y, &p->z, &p->vx, &p->vy, &p->vz, &p->compression};
+    bool all = true;
+    if (count > state->capacity) {
+        world_state_free(state);
+        for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
+            all &= (*floats[k] = malloc(count * sizeof(float))) != NULL;
+        p->id = malloc(count * sizeof *p->id);
+        p->fluid = malloc(count * sizeof *p->fluid);
+        all &= p->id && p->fluid;
+        state->capacity = count;
+    }
+    state->count = count;
+    if (!all)
+        world_state_free(state);
+    return all;
+}
+
+void world_save_numbers(World *world, WorldNumbers *numbers)
+{
+    const WorldDef *def = &world->def;
+    WorldInfo info;
+    world_sound(world);
+    world_info(world, &info);
+    *numbers = (WorldNumbers){
+        .version = WORLD_STATE_VERSION,
+        .step = (double)world->step,
+        .since_step = (double)world->since_step,
+        .since_time = world->since_time,
+        .guarded = (double)info.guarded,
+        .emitted = (double)world->emitted,
+        .drained = (double)world->drained,
+        .stepping = world->stepping,
+        .target = world->target,
+        .filter = world->filter,
+        .box = world->box,
+        .sound_speed = def->sound_speed,
+        .negative_pressure = def->negative_pressure,
+        .dt = def->dt,
+        .substeps = def->substeps,
+        .cfl_number = def->cfl_number,
+        .max_dt = def->max_dt,
+        .limits = def->limits,
+        .energy = world->energy,
+    };
+    memcpy(numbers->gravity, def->gravity, sizeof numbers->gravity);
+    for (int f = 0; f < def->fluid_count; f++) {
+        numbers->viscosity[f] = fluid_viscosity_at(&def->fluids[f], info.time);
+        numbers->table[f] = def->fluids[f].viscosity_table;
+    }
+}
+
+bool world_save(World *world, WorldState *state, Error *error)
+{
+    if (!world_sound(world))
+        return error_set(error,
+                         "the state at t = %g s is not sound: %s; go on until the simulation has gone back",
+                         world_time_at(world, (double)world->step), step_trouble_words(world->seen));
+    if (!world_state_reserve(state, world->count) || !world->backend->save(world->state, &state->particles))
+        return error_set(error, "no memory for the state of %zu particles", world->count);
+    world_save_numbers(world, &state->numbers);
+    return true;
+}
+
+static bool numbers_check(const WorldNumbers *numbers, Error *error)
+{
+    double all[WORLD_NUMBERS];
+    memcpy(all, numbers, sizeof all);
+    if (numbers->version != WORLD_STATE_VERSION)
+        return error_set(error, "a saved state of version %g; this is version %d", numbers->version,
+                         WORLD_STATE_VERSION);
+    for (int i = 0; i < WORLD_NUMBERS; i++)
+        if (!isfinite(all[i]))
+            return error_set(error, "the saved state is damaged: a number of it is not finite");
+    if (!(numbers->step >= numbers->since_step && numbers->since_step >= 0 && numbers->step < 0x1p53 &&
+          numbers->stepping.dt > 0 && numbers->stepping.refine >= 1 && numbers->stepping.limit >= 0 &&
+          numbers->stepping.limit < STEP_LIMIT_COUNT && numbers->substeps >= 1 &&
+          numbers->substeps < 0x1p31 && numbers->guarded >= 0 && numbers->emitted >= 0 &&
+          numbers->emitted < 0x1p31 && numbers->drained >= 0))
+        return error_set(error, "the saved state is damaged: its steps do not count");
+    return true;
+}
+
+/* Every id once, every number finite. */
+static bool particles_check(const World *world, const WorldState *state, Error *error)
+{
+    const WorldNumbers *numbers = &state->numbers;
+    const double born = (double)world->initial + numbers->emitted;
+    if ((double)state->count != born - numbers->drained || state->count > world->capacity)
+        return error_set(error, "the saved state has %zu particles, the scene %zu", state->count,
+                         world->count);
+    const ParticleColumns *p = &state->particles;
+    bool *seen = calloc((size_t)born + 1, sizeof *seen), whole = true;
+    if (!seen)
+        return error_set(error, "no memory");
+    const bool carried = world->solver.continuity;
+    for (size_t i = 0; i < state->count && whole; i++) {
+        whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) &&
+                (!carried || (p->compression[i] > -1 && isfinite(p->compression[i]))) && p->id[i] < born &&
+                !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
+        if (whole)
+            seen[p->id[i]] = true;
+    }
+    free(seen);
+    return whole || error_set(error, "the saved state is damaged: its particles are not those of the scene");
+}
+
+static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
+{
+    WorldDef def = *present;
+    memcpy(def.gravity, numbers->gravity, sizeof def.gravity);
+    def.sound_speed = numbers->sound_speed;
+    def.negative_pressure = numbers->negative_pressure != 0;
+    def.dt = numbers->dt;
+    def.substeps = (int)numbers->substeps;
+    def.cfl_number = numbers->cfl_number;
+    def.max_dt = numbers->max_dt;
+    def.limits = numbers->limits;
+    for (int f = 0; f < def.fluid_count; f++) {
+        def.fluids[f].viscosity = numbers->viscosity[f];
+        def.fluids[f].viscosity_table = numbers->table[f];
+    }
+    return def;
+}
+
+void world_put_back(World *world, const WorldNumbers *numbers, size_t count)
+{
+    world->kicked = false;
+    world->seen = STEP_TROUBLE_NONE;
+    world->count = count;
+    world->emitted = (uint64_t)numbers->emitted;
+    world->drained = (uint64_t)numbers->drained;
+    world_settle(world);
+}
+
+bool world_load(World *world, const WorldState *state, Error *error)
+{
+    const WorldNumbers *numbers = &state->numbers;
+    if (!numbers_check(numbers, error) || !particles_check(world, state, error))
+        return false;
+    const WorldDef before = world->def, def = def_of(&world->def, numbers);
+    Error none;
+    if (!world_adopt(world, &def, error))
+        return false;
+    if (!world->backend->load(world->state, &state->particles, state->count, (size_t)numbers->guarded)) {
+        world_adopt(world, &before, &none);
+        return error_set(error, "no memory for the state of %zu particles", state->count);
+    }
+    world->step = (uint64_t)numbers->step;
+    world->since_step = (uint64_t)numbers->since_step;
+    world->since_time = numbers->since_time;
+    world->stepping = numbers->stepping;
+    world->target = numbers->target;
+    world->filter = numbers->filter;
+    world->box = numbers->box;
+    world->energy = world->backend->energy ? numbers->energy : (EnergyMark){0};
+    world_vary(world, world_time_at(world, numbers->step));
+    world_put_back(world, numbers, state->count);
+    return sentinel_mark(world, error);
+}
+
+bool world_move(World **world, const char *backend, Error *error)
+{
+    World *from = *world, *to = NULL;
+    WorldState state = {.count = 0};
+    WorldDef def = from->def;
+    snprintf(def.backend, sizeof def.backend, "%s", backend);
+    const bool moved =
+        (to = world_create(&def, error)) && world_save(from, &state, error) && world_load(to, &state, error);
+    world_state_free(&state);
+    if (!moved) {
+        world_destroy(to);
+        return false;
+    }
+    to->trouble = from->trouble;
+    memcpy(to->limited, from->limited, sizeof to->limited);
+    world_destroy(from);
+    *world = to;
+    return true;
+}

@@ -1,0 +1,85 @@
+/* The one saved state of a world (DESIGN 2): all that its next step reads. Snapshots, resume, going back
+   after trouble and a change of backend use it and nothing else: save, load, step is step, to the bit. */
+#ifndef SLOSH_WORLD_STATE_H
+#define SLOSH_WORLD_STATE_H
+
+#include "sim/world/step_control.h"
+#include "sim/world/world.h"
+
+#include <stddef.h>
+
+/* What sim/world/energy_watch.h compares with; zero: nothing yet. */
+typedef struct EnergyMark {
+    double least; /* energy of a closed world, J */
+    double until; /* the step after which another takes its place */
+    double next;  /* the step that looks again, sooner if a particle is much faster than */
+    double speed; /* at the last look, m/s */
+} EnergyMark;
+
+/* What is not of a particle. Doubles only, so that it is also an array of WORLD_NUMBERS of them: files keep
+   it as that. */
+typedef struct WorldNumbers {
+    double version;               /* WORLD_STATE_VERSION */
+    double step, since_step;      /* substeps; where the present dt began */
+    double since_time;            /* s, then */
+    double guarded;               /* as WorldInfo has it */
+    double emitted, drained;      /* the same */
+    StepState stepping;           /* how it steps */
+    BoxTarget target;             /* of the hand */
+    BoxFilter filter;             /* where its part of the pose is */
+    BoxState box;                 /* the pose, in the world's frame */
+    double gravity[3];            /* these down to the limits may change while a world lives */
+    double sound_speed;           /* m/s */
+    double negative_pressure;     /* 0 or 1 */
+    double dt, substeps;          /* of a frame, s */
+    double cfl_number, max_dt;    /* of mode cfl, s */
+    BoxLimits limits;             /* of the hand */
+    double viscosity[FLUIDS_MAX]; /* Pa s */
+    TimeTable table[FLUIDS_MAX];  /* of viscosity over time */
+    EnergyMark energy;            /* stands last: files may end before it */
+} WorldNumbers;
+
+enum {
+    WORLD_STATE_VERSION = 3,
+    WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double),
+    WORLD_NUMBERS_LEAST = offsetof(WorldNumbers, energy) / sizeof(double)
+};
+
+/* What is of a particle, a column each. */
+typedef struct ParticleColumns {
+    float *x, *y, *z;    /* box's frame, m */
+    float *vx, *vy, *vz; /* box's frame, m/s */
+    uint32_t *id;        /* place in the initial state */
+    uint8_t *fluid;      /* index into WorldDef.fluids */
+    float
+        *compression; /* rho / rho0 - 1, of a method whose particles carry their density; else NULL, or not
+                         read. rho itself, in single precision, would lose what a slow flow adds in a step */
+} ParticleColumns;
+
+/* Zero-initialise it; owns its columns. Particles stand in any order, `id` tells who is who. */
+typedef struct WorldState {
+    WorldNumbers numbers;
+    size_t count, capacity; /* particles; room for them */
+    ParticleColumns particles;
+} WorldState;
+
+/* Room for so many particles; what was in it is lost. False when memory is short: then it is empty. */
+bool world_state_reserve(WorldState *state, size_t count);
+void world_state_free(WorldState *state); /* a zeroed one is allowed */
+
+/* The numbers alone, for who has the particles from world_read. */
+void world_save_numbers(World *world, WorldNumbers *numbers);
+
+/* Copies the world's state. False with the reason: memory is short, or it is not sound (world_sound). */
+bool world_save(World *world, WorldState *state, Error *error);
+
+/* Puts a world that was made from the same def, but for what may change while it lives, into that state.
+   False with the reason: another version, other particles, numbers that are none; the world is as it was. */
+bool world_load(World *world, const WorldState *state, Error *error);
+
+/* Carries the world over to another backend, where it goes on from the same state; *world is then another
+   one. A context must be current as world_on_gpu says, for either. False with the reason: nothing has
+   changed. */
+bool world_move(World **world, const char *backend, Error *error);
+
+#endif

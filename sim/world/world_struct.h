@@ -1,0 +1,58 @@
+/* Inside a world: for the files that make one up. */
+#ifndef SLOSH_WORLD_STRUCT_H
+#define SLOSH_WORLD_STRUCT_H
+
+#include "sim/world/method.h"
+#include "sim/world/world_state.h"
+
+struct World {
+    WorldDef def; /* `initial` is not kept */
+    Solver solver;
+    const Backend *backend;
+    const Method *method;
+    void *state;                     /* the backend's */
+    size_t count, initial, capacity; /* particles: now, at the start, at most */
+    uint64_t emitted, drained;       /* since the start */
+    float *layer;                    /* room for an emitter's layer; NULL without emitters */
+    uint64_t step;
+    uint64_t since_step; /* when the present step size began, */
+    double since_time;   /* at this time, s */
+    StepState stepping;
+    double stop;      /* s: a state falls on it in mode cfl; behind: none does */
+    bool kicked;      /* since the watch was last asked */
+    StepTrouble seen; /* then, since the last good state */
+    WorldState good;  /* what the sentinel goes back to */
+    WorldTrouble trouble;
+    uint64_t limited[STEP_LIMIT_COUNT]; /* steps since the start, by what bounded them */
+    BoxTarget target;                   /* of the hand */
+    BoxFilter filter;                   /* at the present time */
+    BoxState box;                       /* at the present time, the hand's part included */
+    double mass;                        /* of the initial fluid, kg */
+    EnergyMark energy;                  /* of sim/world/energy_watch.h */
+    bool gauge_asked;                   /* and not answered yet, */
+    double gauge_time;                  /* of the state at this time, s */
+};
+
+/* Makes the backend's state from the def's initial state or fills, with a solver that is there. */
+bool world_start(World *world, Error *error);
+
+/* Lets fluid in that emitters send out in the step ahead, and out where it drains. */
+void world_flow(World *world);
+
+/* What follows from the particles alone: the solids' places, grid, densities. */
+void world_settle(World *world);
+
+/* Particles that the backend has got back or taken: how many, and all that follows from them. */
+void world_put_back(World *world, const WorldNumbers *numbers, size_t count);
+
+/* Viscosities that are tables are those of `time` (s) from here on. */
+void world_vary(World *world, double time);
+
+/* s, of a step by its number, as far as the present step size holds. */
+double world_time_at(const World *world, double step);
+
+/* The def, whose constant part is the world's own, becomes the world's. False with the reason: nothing has
+   changed. */
+bool world_adopt(World *world, const WorldDef *def, Error *error);
+
+#endif
