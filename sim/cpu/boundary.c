@@ -12,7 +12,7 @@ static size_t rest_of(const Cpu *cpu, size_t i)
 /* Matter that two solids share counts once, for the first of them. */
 static bool in_earlier_solid(const Cpu *cpu, int solid, const float x[3])
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     for (int k = 0; k < solid; k++)
         if (solid_clearance(&s->solids[k], &cpu->solid[k].end, s->dimensions, x, 0) < 0)
             return true;
@@ -21,7 +21,7 @@ static bool in_earlier_solid(const Cpu *cpu, int solid, const float x[3])
 
 static void place_one(Cpu *cpu, size_t i)
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     const size_t b = rest_of(cpu, i);
     const int solid = s->boundary.solid[b];
@@ -55,17 +55,18 @@ static void place_solids(const Place *place)
 {
     Cpu *cpu = place->cpu;
     bool any = false;
-    for (int k = 0; k < cpu->solver->solid_count; k++)
+    for (int k = 0; k < cpu->constants->solid_count; k++)
         any |= place->which[k];
     if (any)
-        parallel_ranges(cpu->threads, cpu->solver->boundary.count, 4 * CPU_GRAIN, place_range, (void *)place);
+        parallel_ranges(cpu->threads, cpu->constants->boundary.count, 4 * CPU_GRAIN, place_range,
+                        (void *)place);
 }
 
 void cpu_boundary_move(Cpu *cpu, const SolidStep *steps)
 {
     Place place = {.cpu = cpu};
     bool moves = false; /* this one, or one before it, which may uncover it */
-    for (int k = 0; k < cpu->solver->solid_count; k++) {
+    for (int k = 0; k < cpu->constants->solid_count; k++) {
         cpu->solid[k] = steps[k];
         moves |= !steps[k].still;
         place.which[k] = moves;
@@ -75,7 +76,7 @@ void cpu_boundary_move(Cpu *cpu, const SolidStep *steps)
 
 void cpu_boundary_append(Cpu *cpu)
 {
-    const Boundary *boundary = &cpu->solver->boundary;
+    const Boundary *boundary = &cpu->constants->boundary;
     for (size_t b = 0; b < boundary->count; b++) {
         const size_t i = cpu->owned + b;
         cpu->now.id[i] = BOUNDARY_ID + (uint32_t)b;
@@ -102,7 +103,7 @@ void cpu_pose(void *state, const SolidPose *pose)
 {
     Cpu *cpu = state;
     Place place = {.cpu = cpu};
-    for (int k = 0; k < cpu->solver->solid_count; k++) {
+    for (int k = 0; k < cpu->constants->solid_count; k++) {
         cpu->solid[k] = (SolidStep){.begin = pose[k], .end = pose[k]};
         place.which[k] = true;
     }
@@ -126,7 +127,7 @@ typedef struct Seen {
 
 static void see(const Cpu *cpu, const PairArgs *args, const float x[3], uint32_t j, Seen *seen)
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
     const float q2 = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / (s->support_radius * s->support_radius);
     const int fluid = cpu->now.fluid[j];
@@ -153,7 +154,7 @@ typedef struct BoundaryPass {
 static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
 {
     Cpu *cpu = pass->cpu;
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     const int solid = p->fluid[i] - FLUIDS_MAX;
     if (cpu->cell[i] == s->cells.count)
@@ -162,7 +163,7 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
     const bool sticks = s->viscous && s->solids[solid].slip == SLIP_NONE;
     Seen seen = {0};
     CellRow rows[CELL_ROWS];
-    const int row_count = cell_rows(args->solver, args->cell_start, cpu->cell[i], rows);
+    const int row_count = cell_rows(args->constants, args->cell_start, cpu->cell[i], rows);
     for (int row = 0; row < row_count; row++) {
         const float *shift = rows[row].shift, from[3] = {x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]};
         for (uint32_t k = cpu->owned_before[rows[row].begin]; k < cpu->owned_before[rows[row].end]; k++)
@@ -200,12 +201,12 @@ static void fill_range(void *context, size_t begin, size_t end)
 void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity)
 {
     BoundaryPass pass = {cpu, gravity};
-    parallel_ranges(cpu->threads, cpu->solver->boundary.count, CPU_GRAIN, fill_range, &pass);
+    parallel_ranges(cpu->threads, cpu->constants->boundary.count, CPU_GRAIN, fill_range, &pass);
 }
 
 void cpu_boundary_restore(Cpu *cpu)
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     Place place = {.cpu = cpu};
     for (int k = 0; k < s->solid_count; k++)
         place.which[k] = s->viscous && s->solids[k].slip == SLIP_NONE;
@@ -214,7 +215,7 @@ void cpu_boundary_restore(Cpu *cpu)
 
 bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3])
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     bool held = false;
     for (int k = 0; k < s->solid_count; k++)
         held |= solid_guard(&s->solids[k], &steps[k], s->dimensions, before, x, v);

@@ -22,7 +22,7 @@ static bool particles_create(Cpu *cpu, CpuParticles *p)
         ok &= (*floats[k] = array(cpu, cpu->capacity, sizeof(float))) != NULL;
     p->id = array(cpu, cpu->capacity, sizeof *p->id);
     p->fluid = array(cpu, cpu->capacity, sizeof *p->fluid);
-    if (cpu->solver->continuity)
+    if (cpu->constants->continuity)
         ok &= (p->compression = array(cpu, cpu->capacity, sizeof(float))) != NULL;
     return ok && p->id && p->fluid;
 }
@@ -56,7 +56,7 @@ static void cpu_destroy(void *state)
 static bool cpu_adapt(void *state, Error *error)
 {
     Cpu *cpu = state;
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const struct {
         float **array;
         bool needed;
@@ -86,7 +86,7 @@ static bool cpu_adapt(void *state, Error *error)
 
 static bool arrays_create(Cpu *cpu, Error *error)
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     float **const floats[] = {&cpu->volume, &cpu->pressure, &cpu->pressure_term,
                               &cpu->ax,     &cpu->ay,       &cpu->az};
     uint32_t **const integers[] = {&cpu->cell, &cpu->spare_cell, &cpu->rank, &cpu->order};
@@ -109,7 +109,7 @@ static bool arrays_create(Cpu *cpu, Error *error)
                      cpu->capacity - s->boundary.count, s->cells.count);
 }
 
-static void particles_set(const Solver *solver, CpuParticles *p, const InitialState *initial)
+static void particles_set(const Constants *constants, CpuParticles *p, const InitialState *initial)
 {
     for (size_t i = 0; i < initial->count; i++) {
         p->x[i] = initial->position[3 * i];
@@ -118,7 +118,7 @@ static void particles_set(const Solver *solver, CpuParticles *p, const InitialSt
         p->id[i] = (uint32_t)i;
         p->fluid[i] = initial->fluid ? initial->fluid[i] : 0;
         if (p->compression && initial->density)
-            p->compression[i] = (float)(initial->density[i] / (double)solver->density[p->fluid[i]] - 1);
+            p->compression[i] = (float)(initial->density[i] / (double)constants->density[p->fluid[i]] - 1);
         if (!initial->velocity)
             continue;
         p->vx[i] = initial->velocity[3 * i];
@@ -127,7 +127,7 @@ static void particles_set(const Solver *solver, CpuParticles *p, const InitialSt
     }
 }
 
-static void *cpu_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
+static void *cpu_create(const Constants *constants, const InitialState *initial, size_t capacity, int threads,
                         Error *error)
 {
     Cpu *cpu = calloc(1, sizeof *cpu);
@@ -135,18 +135,18 @@ static void *cpu_create(const Solver *solver, const InitialState *initial, size_
         error_set(error, "no memory");
         return NULL;
     }
-    cpu->solver = solver;
+    cpu->constants = constants;
     cpu->watch.bounded = true;
-    cpu->pairs = pair_ops_choose(solver->periodic.any);
+    cpu->pairs = pair_ops_choose(constants->periodic.any);
     cpu->threads = threads > 0 ? threads : parallel_processors();
     cpu->count = cpu->owned = initial->count;
-    cpu->capacity = capacity + solver->boundary.count;
+    cpu->capacity = capacity + constants->boundary.count;
     if (!arrays_create(cpu, error)) {
         cpu_destroy(cpu);
         return NULL;
     }
-    particles_set(solver, &cpu->now, initial);
-    if (solver->boundary.count > 0)
+    particles_set(constants, &cpu->now, initial);
+    if (constants->boundary.count > 0)
         cpu_boundary_append(cpu);
     return cpu;
 }
@@ -155,7 +155,7 @@ PairArgs cpu_pair_args(const Cpu *cpu)
 {
     const CpuParticles *p = &cpu->now;
     return (PairArgs){
-        .solver = cpu->solver,
+        .constants = cpu->constants,
         .cell_start = cpu->cell_start,
         .cell = cpu->cell,
         .id = p->id,

@@ -9,7 +9,7 @@
 typedef ParticleColumns CpuParticles; /* what moves when particles are sorted */
 
 typedef struct Cpu {
-    const Solver *solver;
+    const Constants *constants;
     const PairOps *pairs;
     int threads;
     size_t count, owned;         /* particles: boundary particles of solids included; of the fluids alone */
@@ -79,7 +79,7 @@ static inline size_t cpu_owned(const Cpu *cpu, size_t k)
 /* What the pair sums need of particle i's fluid, of the terms that the scene names. */
 static inline void cpu_fill_terms(Cpu *cpu, size_t i)
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const int fluid = cpu->now.fluid[i];
     if (cpu->viscosity)
         cpu->viscosity[i] = s->viscosity[fluid];
@@ -92,7 +92,7 @@ static inline void cpu_fill_terms(Cpu *cpu, size_t i)
 }
 
 /* The grid's cell of x, m. */
-uint32_t cpu_cell_of(const Solver *solver, const float x[3]);
+uint32_t cpu_cell_of(const Constants *constants, const float x[3]);
 
 void cpu_grid(void *state);
 void cpu_density(void *state);
@@ -133,7 +133,7 @@ void cpu_energy(void *state, const double gravity[3], WorldGauge *gauge);
 /* rho / rho0 - 1: carried, or calibrated so that p = c^2 (rho - rho0) holds. */
 static inline float cpu_compression(const Cpu *cpu, size_t i)
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     if (cpu->now.compression)
         return cpu->now.compression[i];
     return s->compression * (1 / (cpu->volume[i] * s->rest_number_density) - 1);

@@ -9,10 +9,10 @@ static const float ROOM = 0.9f; /* least distance to others, in spacings */
 /* Whether nobody is near: of those whom the grid has, and of those that came since. */
 static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
 {
-    const float least = ROOM * cpu->solver->spacing;
-    const uint32_t cell = cpu_cell_of(cpu->solver, x);
+    const float least = ROOM * cpu->constants->spacing;
+    const uint32_t cell = cpu_cell_of(cpu->constants, x);
     CellRow rows[CELL_ROWS];
-    const int row_count = cell_rows(args->solver, args->cell_start, cell, rows);
+    const int row_count = cell_rows(args->constants, args->cell_start, cell, rows);
     for (int row = 0; row < row_count; row++) {
         const float *shift = rows[row].shift;
         for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
@@ -24,14 +24,14 @@ static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
     }
     for (size_t j = cpu->gridded; j < cpu->count; j++) {
         float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
-        periodic_nearest(&cpu->solver->periodic, d);
+        periodic_nearest(&cpu->constants->periodic, d);
         if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < least * least)
             return false;
     }
-    for (int k = 0; k < cpu->solver->solid_count; k++) {
-        const float half = 0.5f * cpu->solver->spacing;
-        if (solid_clearance(&cpu->solver->solids[k], &cpu->solid[k].end, cpu->solver->dimensions, x, half) <
-            half * 0.999f)
+    for (int k = 0; k < cpu->constants->solid_count; k++) {
+        const float half = 0.5f * cpu->constants->spacing;
+        if (solid_clearance(&cpu->constants->solids[k], &cpu->solid[k].end, cpu->constants->dimensions, x,
+                            half) < half * 0.999f)
             return false;
     }
     return true;
@@ -59,7 +59,7 @@ size_t cpu_emit(void *state, const EmitLayer *layer, size_t most)
     size_t number = 0;
     for (size_t k = 0; k < layer->count && number < most; k++) {
         const float *x = layer->position + 3 * k;
-        if (walls_contain(&cpu->solver->walls, x) && has_room(cpu, &args, x))
+        if (walls_contain(&cpu->constants->walls, x) && has_room(cpu, &args, x))
             append(cpu, layer, x, number++);
     }
     return number;
@@ -78,7 +78,7 @@ static void guide_range(void *context, size_t begin, size_t end)
     for (size_t i = begin; i < end; i++) {
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
         for (int k = 0; k < pass->count; k++)
-            if (guide_holds(&pass->guides[k], &pass->cpu->solver->periodic, p->fluid[i], x)) {
+            if (guide_holds(&pass->guides[k], &pass->cpu->constants->periodic, p->fluid[i], x)) {
                 const float *v = pass->guides[k].velocity;
                 p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
             }
@@ -118,7 +118,7 @@ size_t cpu_drain(void *state, const Fill *regions, int count)
     size_t gone = 0;
     for (size_t i = 0; i < cpu->count;) {
         const double x[3] = {p->x[i], p->y[i], p->z[i]};
-        if (p->fluid[i] >= FLUIDS_MAX || !drains(regions, count, cpu->solver->dimensions, x)) {
+        if (p->fluid[i] >= FLUIDS_MAX || !drains(regions, count, cpu->constants->dimensions, x)) {
             i++;
             continue;
         }

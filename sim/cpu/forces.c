@@ -7,7 +7,7 @@
    `volume`. */
 static void finish_density(Cpu *cpu, size_t i)
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]};
     const float n = cpu->volume[i] + walls_number_density(&s->walls, x);
@@ -33,7 +33,7 @@ static void density_range(void *state, size_t begin, size_t end)
 void cpu_density(void *state)
 {
     Cpu *cpu = state;
-    if (cpu->solver->continuity)
+    if (cpu->constants->continuity)
         cpu_equation_of_state(cpu);
     else
         parallel_ranges(cpu->threads, cpu->count, CPU_GRAIN, density_range, cpu);
@@ -49,7 +49,7 @@ typedef struct ForcePass {
    not turn a push into a pull; fluid under tension pulls by itself. */
 static void wall_force(const Cpu *cpu, size_t i, const float g[3], const WallSums *sums, float out[3])
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const float *m = sums->moment, density = s->density[cpu->now.fluid[i]];
     const float layer = density * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     const float fade = layer > 0 ? fminf(fmaxf(cpu->pressure[i] / layer, 0), 1) : 0;
@@ -71,7 +71,7 @@ static void add_walls(const ForcePass *pass, size_t i)
     const CpuParticles *p = &cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]};
     WallSums sums;
-    if (!walls_at(&cpu->solver->walls, x, &sums))
+    if (!walls_at(&cpu->constants->walls, x, &sums))
         return;
     float g[3], force[3];
     apparent_gravity_at(pass->gravity, x, g);
@@ -85,7 +85,7 @@ static void add_walls(const ForcePass *pass, size_t i)
 static void force_run(const ForcePass *pass, const PairArgs *args, size_t begin, size_t end)
 {
     const Cpu *cpu = pass->cpu;
-    if (cpu->solver->continuity) {
+    if (cpu->constants->continuity) {
         cpu->pairs->wcsph_force(args, begin, end);
         cpu->pairs->images_force(args, begin, end);
     } else {
@@ -101,7 +101,7 @@ static void force_range(void *context, size_t begin, size_t end)
 {
     const ForcePass *pass = context;
     Cpu *cpu = pass->cpu;
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     PairArgs args = cpu_pair_args(cpu);
     args.gravity = pass->gravity;
     for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);) {

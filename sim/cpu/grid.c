@@ -10,9 +10,9 @@ typedef struct CellMap {
     int size[3];
 } CellMap;
 
-static CellMap cell_map(const Solver *solver)
+static CellMap cell_map(const Constants *constants)
 {
-    const CellGrid *cells = &solver->cells;
+    const CellGrid *cells = &constants->cells;
     CellMap map;
     for (int k = 0; k < 3; k++) {
         map.origin[k] = cells->origin[k];
@@ -38,22 +38,22 @@ static uint32_t cell_at(const CellMap *map, float x, float y, float z)
     return (iz * (uint32_t)map->size[1] + iy) * (uint32_t)map->size[0] + ix;
 }
 
-uint32_t cpu_cell_of(const Solver *solver, const float x[3])
+uint32_t cpu_cell_of(const Constants *constants, const float x[3])
 {
-    const CellMap map = cell_map(solver);
+    const CellMap map = cell_map(constants);
     return cell_at(&map, x[0], x[1], x[2]);
 }
 
 static void count_cells(void *state, size_t begin, size_t end)
 {
     Cpu *cpu = state;
-    const CellMap map = cell_map(cpu->solver);
+    const CellMap map = cell_map(cpu->constants);
     const CpuParticles *p = &cpu->now;
     for (size_t i = begin; i < end; i++) {
         const bool aside =
             cpu->boundary_at && p->x[i] == ASIDE; /* in a cell of their own that nobody reads */
         const uint32_t cell =
-            aside ? (uint32_t)cpu->solver->cells.count : cell_at(&map, p->x[i], p->y[i], p->z[i]);
+            aside ? (uint32_t)cpu->constants->cells.count : cell_at(&map, p->x[i], p->y[i], p->z[i]);
         cpu->spare_cell[i] = cell;
         cpu->rank[i] = __atomic_fetch_add(&cpu->cell_start[cell + 1], 1, __ATOMIC_RELAXED);
     }
@@ -110,7 +110,7 @@ static void move_particles(void *state, size_t begin, size_t end)
 void cpu_grid(void *state)
 {
     Cpu *cpu = state;
-    const size_t cells = cpu->solver->cells.count;
+    const size_t cells = cpu->constants->cells.count;
 
     memset(cpu->cell_start, 0, (cells + 2) * sizeof *cpu->cell_start);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, count_cells, cpu);

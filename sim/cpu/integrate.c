@@ -21,9 +21,9 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end)
         frame_advance(drift->step, x, v);
         if (solids)
             held += cpu_guard_solids(cpu, solids, before, x, v);
-        held += walls_guard(&cpu->solver->walls, x, v);
-        if (cpu->solver->periodic.any)
-            periodic_wrap(&cpu->solver->periodic, x);
+        held += walls_guard(&cpu->constants->walls, x, v);
+        if (cpu->constants->periodic.any)
+            periodic_wrap(&cpu->constants->periodic, x);
         p->x[i] = x[0];
         p->y[i] = x[1];
         p->z[i] = x[2];
@@ -75,7 +75,7 @@ static void atomic_greatest(float *greatest, float value)
 static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
 {
     Cpu *cpu = kick->cpu;
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     const float *g = kick->gravity, dt = kick->dt;
     for (size_t i = begin; i < end; i++) {
@@ -95,10 +95,10 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
 {
     Cpu *cpu = kick->cpu;
     const CpuParticles *p = &cpu->now;
-    const float fastest = cpu->solver->support_radius / kick->dt;
+    const float fastest = cpu->constants->support_radius / kick->dt;
     float speed2 = 0, acceleration2 = 0, volume = INFINITY;
     bool bounded = true; /* false for NaN as well */
-    if (cpu->solver->no_slip)
+    if (cpu->constants->no_slip)
         hold_by_walls(kick, begin, end);
     for (size_t i = begin; i < end; i++) {
         const float ax = cpu->ax[i] + kick->gravity[0], ay = cpu->ay[i] + kick->gravity[1],
@@ -117,7 +117,7 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
     }
     atomic_greatest(&cpu->watch.max_speed, sqrtf(speed2));
     atomic_greatest(&cpu->watch.max_acceleration, sqrtf(acceleration2));
-    atomic_greatest(&cpu->watch.max_compression, 1 / (volume * cpu->solver->rest_number_density));
+    atomic_greatest(&cpu->watch.max_compression, 1 / (volume * cpu->constants->rest_number_density));
     if (!bounded)
         __atomic_store_n(&cpu->watch.bounded, false, __ATOMIC_RELAXED);
 }

@@ -34,9 +34,9 @@ SIMD_INLINE f8 height(f8 q, const WcsphKernel kernel)
 /* `body(args, begin, end, kernel)` with the kernel as a constant, so that each has a loop of its own. */
 #define FOR_KERNEL(args, begin, end, body)                                                                   \
     do {                                                                                                     \
-        if ((args)->solver->kernel == KERNEL_WENDLAND_C2)                                                    \
+        if ((args)->constants->kernel == KERNEL_WENDLAND_C2)                                                 \
             body(args, begin, end, KERNEL_WENDLAND_C2);                                                      \
-        else if ((args)->solver->kernel == KERNEL_QUINTIC)                                                   \
+        else if ((args)->constants->kernel == KERNEL_QUINTIC)                                                \
             body(args, begin, end, KERNEL_QUINTIC);                                                          \
         else                                                                                                 \
             body(args, begin, end, KERNEL_CUBIC);                                                            \

@@ -54,7 +54,7 @@ SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
 #ifdef PAIRS_PERIODIC
     CellRow row[CELL_ROWS];
     rows->first = 0;
-    rows->last = cell_rows(args->solver, args->cell_start, cell, row);
+    rows->last = cell_rows(args->constants, args->cell_start, cell, row);
     for (int k = 0; k < rows->last; k++) {
         rows->begin[k] = row[k].begin;
         rows->end[k] = row[k].end;
@@ -62,8 +62,8 @@ SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
             rows->shift[a][k] = row[k].shift[a];
     }
 #else
-    rows->first = args->solver->first_row;
-    rows->last = args->solver->last_row;
+    rows->first = args->constants->first_row;
+    rows->last = args->constants->last_row;
     for (int row = rows->first; row < rows->last; row++)
         pair_row(args, cell, row, &rows->begin[row], &rows->end[row]);
 #endif
@@ -98,7 +98,7 @@ static __attribute__((noinline, unused)) void separate(const PairArgs *args, siz
     for (int k = 0; k < LANES; k++)
         if (bits >> k & 1) {
             float direction[3] = {0};
-            direction_of_ids(args->id[i], args->id[j + (uint32_t)k], args->solver->dimensions, direction);
+            direction_of_ids(args->id[i], args->id[j + (uint32_t)k], args->constants->dimensions, direction);
             d->x[k] = direction[0] * least;
             d->y[k] = direction[1] * least;
             d->z[k] = direction[2] * least;

@@ -8,7 +8,7 @@
    scale comes last. */
 SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, const bool poly6)
 {
-    const float h = args->solver->support_radius;
+    const float h = args->constants->support_radius;
     const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1), zero = f8_splat(0);
     Rows rows = {.cell = UINT32_MAX};
 
@@ -28,13 +28,13 @@ SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, c
                 sum += f8_masked(near, t * t * t);
             }
         }
-        args->number_density[i] = args->solver->kernel_scale * f8_sum(sum);
+        args->number_density[i] = args->constants->kernel_scale * f8_sum(sum);
     }
 }
 
 static void density(const PairArgs *args, size_t begin, size_t end)
 {
-    if (args->solver->poly6)
+    if (args->constants->poly6)
         density_range(args, begin, end, true);
     else
         density_range(args, begin, end, false);
@@ -47,7 +47,7 @@ static void density(const PairArgs *args, size_t begin, size_t end)
 SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const bool viscous,
                              const bool many)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 one = f8_splat(1), pressure_scale = f8_splat(s->pressure_scale);
@@ -103,7 +103,7 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
 
 static void force(const PairArgs *args, size_t begin, size_t end)
 {
-    if (!args->solver->viscous)
+    if (!args->constants->viscous)
         force_range(args, begin, end, false, false);
     else if (!args->viscosity)
         force_range(args, begin, end, true, false);

@@ -10,7 +10,7 @@ enum { LANES = 8 }; /* see sim/cpu/simd.h */
 
 /* Arrays of particles sorted by cell; readable for LANES - 1 entries past the last. */
 typedef struct PairArgs {
-    const Solver *solver;
+    const Constants *constants;
     const uint32_t *cell_start; /* first particle of each cell; cells + 1 */
     const uint32_t *cell;       /* of each particle */
     const uint32_t *id;
@@ -53,7 +53,7 @@ const PairOps *pair_ops_choose(bool periodic);
    with periodic sides. */
 static inline void pair_row(const PairArgs *args, uint32_t cell, int row, uint32_t *begin, uint32_t *end)
 {
-    const int *size = args->solver->cells.size;
+    const int *size = args->constants->cells.size;
     const long middle = (long)cell + ((long)(row / 3 - 1) * size[1] + (row % 3 - 1)) * size[0];
     *begin = args->cell_start[middle - 1];
     *end = args->cell_start[middle + 2];

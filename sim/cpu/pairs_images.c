@@ -26,9 +26,9 @@ SIMD_INLINE f8 image_shape(f8 q, f8 apart, const WcsphKernel kernel)
 SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Rows rows, const Image *image,
                           const WcsphKernel kernel)
 {
-    const float h = args->solver->support_radius, least = 1e-6f * h;
+    const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const f8 apart = f8_splat(args->solver->spacing / h);
+    const f8 apart = f8_splat(args->constants->spacing / h);
     const f8 xi = f8_splat(image->x[0]), yi = f8_splat(image->x[1]), zi = f8_splat(image->x[2]);
     const f8 ui = f8_splat(image->sign[0] * args->vx[i]), vi = f8_splat(image->sign[1] * args->vy[i]),
              wi = f8_splat(image->sign[2] * args->vz[i]);
@@ -61,7 +61,7 @@ typedef struct Rise {
 
 static void rise_of(const PairArgs *args, size_t i, const Image *image, const float g[3], Rise *rise)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     const float x[3] = {args->x[i], args->y[i], args->z[i]};
     const float weight =
         s->density[args->fluid[i]] / (s->rest_number_density * s->rest_number_density); /* rho0 V0^2 */
@@ -91,9 +91,9 @@ typedef struct Found {
 SIMD_INLINE Found image_push(const PairArgs *args, size_t i, const Rows rows, const Image *image,
                              const Rise rise, const WcsphKernel kernel, const bool shifts)
 {
-    const float h = args->solver->support_radius, least = 1e-6f * h;
+    const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const f8 apart = f8_splat(args->solver->spacing / h);
+    const f8 apart = f8_splat(args->constants->spacing / h);
     const f8 xi = f8_splat(image->x[0]), yi = f8_splat(image->x[1]), zi = f8_splat(image->x[2]);
     const f8 pi = f8_splat(args->pressure_term[i]);
     Found sum = {f8_splat(0), f8_splat(0), f8_splat(0), f8_splat(0),
@@ -124,7 +124,7 @@ SIMD_INLINE Found image_push(const PairArgs *args, size_t i, const Rows rows, co
 SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, const Found found,
                            const bool shifts)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     const float *sign = image->sign;
     args->fx[i] += sign[0] * s->gradient * f8_sum(found.fx);
     args->fy[i] += sign[1] * s->gradient * f8_sum(found.fy);
@@ -140,7 +140,7 @@ SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, c
 
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     Rows rows = {.cell = UINT32_MAX};
     Image image[IMAGES_MAX];
     for (size_t i = begin; i < end; i++) {
@@ -158,7 +158,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 
 SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     Rows rows = {.cell = UINT32_MAX};
     Image image[IMAGES_MAX];
     for (size_t i = begin; i < end; i++) {

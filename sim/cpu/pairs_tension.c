@@ -10,7 +10,7 @@ SIMD_INLINE f8 cohesion(f8 r, f8 h, f8 repulsion)
 
 static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 wide = f8_splat(h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 repulsion = f8_splat(h * h * h * h * h * h / 64);
@@ -51,7 +51,7 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
    c the fluid's own colour. */
 static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     const float h = s->support_radius, dims = s->last_row - s->first_row > 3 ? 3 : 2;
     const f8 h2 = f8_splat(h * h), inner = f8_splat(dims * h * h), outer = f8_splat(dims + 4);
     Rows rows = {.cell = UINT32_MAX};
@@ -89,7 +89,7 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
 
 void PAIR_NAME(tension)(const PairArgs *args, size_t begin, size_t end)
 {
-    if (args->solver->tension_model == TENSION_COHESION)
+    if (args->constants->tension_model == TENSION_COHESION)
         add_cohesion(args, begin, end);
     else
         add_colour_field(args, begin, end);

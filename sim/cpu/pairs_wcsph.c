@@ -24,7 +24,7 @@ static void renormalise(const float m[6], const float b[3], float out[3])
    level the gaps that the fluid's order leaves there. */
 SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const float scale = s->gradient / s->rest_number_density; /* m is 1 in the lattice */
@@ -74,7 +74,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
                             const bool diffusive)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 diffusion = f8_splat(s->diffusion), half = f8_splat(0.5f);
@@ -124,7 +124,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
                              const bool viscous, const bool radial, const bool artificial, const bool shifts)
 {
-    const Solver *s = args->solver;
+    const Constants *s = args->constants;
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 soft = f8_splat(h * h / 400), scale = f8_splat(s->radial);
@@ -209,7 +209,7 @@ SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const W
 SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
                               const bool artificial, const bool shifts)
 {
-    if (args->viscosity && args->solver->radial > 0)
+    if (args->viscosity && args->constants->radial > 0)
         wcsph_range(args, begin, end, kernel, true, true, artificial, shifts);
     else if (args->viscosity)
         wcsph_range(args, begin, end, kernel, true, false, artificial, shifts);

@@ -17,7 +17,7 @@ static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
     case SCALAR_SPEED:
         return sqrtf(p->vx[i] * p->vx[i] + p->vy[i] * p->vy[i] + p->vz[i] * p->vz[i]);
     case SCALAR_DENSITY:
-        return cpu->solver->density[p->fluid[i]] * (1 + cpu_compression(cpu, i));
+        return cpu->constants->density[p->fluid[i]] * (1 + cpu_compression(cpu, i));
     case SCALAR_PRESSURE:
         return cpu->pressure[i];
     case SCALAR_COMPRESSION:
@@ -69,16 +69,16 @@ bool cpu_read(void *state, const ParticleArrays *out)
 /* Others with r < h, boundary particles of solids not among them. */
 static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
 {
-    const float h2 = args->solver->support_radius * args->solver->support_radius;
+    const float h2 = args->constants->support_radius * args->constants->support_radius;
     int count = -1; /* not itself */
     CellRow rows[CELL_ROWS];
-    const int row_count = cell_rows(args->solver, args->cell_start, args->cell[i], rows);
+    const int row_count = cell_rows(args->constants, args->cell_start, args->cell[i], rows);
     for (int row = 0; row < row_count; row++) {
-        if (cell_row_again(args->solver, &rows[row]))
+        if (cell_row_again(args->constants, &rows[row]))
             continue;
         for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
             float d[3] = {args->x[i] - args->x[j], args->y[i] - args->y[j], args->z[i] - args->z[j]};
-            periodic_nearest(&args->solver->periodic, d); /* who has gone through a side since the grid */
+            periodic_nearest(&args->constants->periodic, d); /* who has gone through a side since the grid */
             count += d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < h2 && cpu->now.fluid[j] < FLUIDS_MAX;
         }
     }
@@ -89,7 +89,7 @@ static void add_particle(const Cpu *cpu, const PairArgs *args, size_t i, WorldSu
 {
     const CpuParticles *p = &cpu->now;
     const double x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-    sums_add(sums, cpu->solver->mass[p->fluid[i]], x, v);
+    sums_add(sums, cpu->constants->mass[p->fluid[i]], x, v);
     sums->neighbours_mean += neighbours_of(cpu, args, i);
 }
 

@@ -15,7 +15,7 @@ static float share_of(float full)
 
 void cpu_shift_share(Cpu *cpu, size_t i)
 {
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const float share = share_of(cpu->full[i] / ((float)s->dimensions * s->rest_number_density));
     for (int k = 0; k < 3; k++)
         cpu->uneven[k][i] *= share;
@@ -33,7 +33,7 @@ static void shift_range(void *context, size_t begin, size_t end)
 {
     const Shift *pass = context;
     const Cpu *cpu = pass->cpu;
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     float *const x[3] = {p->x, p->y, p->z};
     const float most = 0.1f * s->spacing, scale = s->shifting * pass->dt / s->rest_number_density;

@@ -11,7 +11,7 @@ static float tait(float b, float e)
 static void state_range(void *context, size_t begin, size_t end)
 {
     Cpu *cpu = context;
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     for (size_t i = begin; i < end; i++) {
         const int fluid = p->fluid[i];
@@ -43,7 +43,7 @@ static void continuity_range(void *context, size_t begin, size_t end)
 {
     const Continuity *pass = context;
     Cpu *cpu = pass->cpu;
-    const Solver *s = cpu->solver;
+    const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     const PairArgs args = cpu_pair_args(cpu);
     for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop);) {

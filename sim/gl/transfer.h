@@ -3,7 +3,7 @@
 #ifndef SLOSH_GL_TRANSFER_H
 #define SLOSH_GL_TRANSFER_H
 
-#include "sim/world/solver.h"
+#include "sim/world/constants.h"
 #include "sim/world/world_state.h"
 
 /* Owns its arrays. */
@@ -20,12 +20,12 @@ bool transfer_make(Transfer *transfer, size_t count);
 void transfer_free(Transfer *transfer);
 
 /* In: positions without volumes, velocities and names. */
-void transfer_set_initial(Transfer *transfer, const Solver *solver, const InitialState *initial);
-void transfer_set_columns(Transfer *transfer, const Solver *solver, const ParticleColumns *from);
+void transfer_set_initial(Transfer *transfer, const Constants *constants, const InitialState *initial);
+void transfer_set_columns(Transfer *transfer, const Constants *constants, const ParticleColumns *from);
 
 /* Out: as world_save, world_read and world_sums want it, `neighbours_mean` excepted. */
-void transfer_get_columns(const Transfer *transfer, const Solver *solver, const ParticleColumns *to);
-void transfer_get_arrays(const Transfer *transfer, const Solver *solver, const ParticleArrays *out);
-void transfer_get_sums(const Transfer *transfer, const Solver *solver, WorldSums *sums);
+void transfer_get_columns(const Transfer *transfer, const Constants *constants, const ParticleColumns *to);
+void transfer_get_arrays(const Transfer *transfer, const Constants *constants, const ParticleArrays *out);
+void transfer_get_sums(const Transfer *transfer, const Constants *constants, WorldSums *sums);
 
 #endif

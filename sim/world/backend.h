@@ -6,7 +6,7 @@
 #include "sim/box/frame_step.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/solid_step.h"
-#include "sim/world/solver.h"
+#include "sim/world/constants.h"
 #include "sim/world/step_control.h"
 #include "sim/world/world.h"
 #include "sim/world/world_state.h"
@@ -22,12 +22,13 @@ typedef struct Backend {
     bool (*can)(const WorldDef *def, Error *error);
     /* The state of `initial->count` particles, with room for `capacity`; NULL with the reason. `solver`
        outlives it. */
-    void *(*create)(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
+    void *(*create)(const Constants *constants, const InitialState *initial, size_t capacity, int threads,
                     Error *error);
     void (*destroy)(void *state);
-    /* After solver_change; false with the reason when what its new terms need is not to be had. */
+    /* After constants_change; false with the reason when what its new terms need is not to be had. */
     bool (*adapt)(void *state, Error *error);
-    /* After solver_vary: the viscosities, and nothing else of it, are others. NULL: it reads them there. */
+    /* After constants_vary: the viscosities, and nothing else of it, are others. NULL: it reads them there.
+     */
     void (*vary)(void *state);
     /* Reads its shaders again; false: those before stay. NULL: it has none. */
     bool (*reload)(void *state, Error *error);

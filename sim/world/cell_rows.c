@@ -1,7 +1,7 @@
 #include "sim/world/cell_rows.h"
 
 /* The cell at `place` along one axis, where it is none of the box's own: across a periodic side. */
-static int across(const Solver *s, int k, int place, float *shift)
+static int across(const Constants *s, int k, int place, float *shift)
 {
     const int cells = s->cells.size[k] - 2;
     *shift = 0;
@@ -12,16 +12,16 @@ static int across(const Solver *s, int k, int place, float *shift)
 }
 
 /* `count` cells from `first` on along x. */
-static CellRow row_from(const Solver *solver, const uint32_t *start, int first, int count, const int at[3],
-                        const float shift[3])
+static CellRow row_from(const Constants *constants, const uint32_t *start, int first, int count,
+                        const int at[3], const float shift[3])
 {
-    const int *size = solver->cells.size;
+    const int *size = constants->cells.size;
     const size_t cell = ((size_t)at[2] * (size_t)size[1] + (size_t)at[1]) * (size_t)size[0] + (size_t)first;
     return (CellRow){
         .begin = start[cell], .end = start[cell + (size_t)count], .shift = {shift[0], shift[1], shift[2]}};
 }
 
-int cell_rows(const Solver *s, const uint32_t *start, uint32_t cell, CellRow rows[CELL_ROWS])
+int cell_rows(const Constants *s, const uint32_t *start, uint32_t cell, CellRow rows[CELL_ROWS])
 {
     const int *size = s->cells.size, x = (int)(cell % (uint32_t)size[0]);
     const int y = (int)(cell / (uint32_t)size[0]) % size[1], z = (int)(cell / (uint32_t)size[0]) / size[1];
@@ -40,7 +40,7 @@ int cell_rows(const Solver *s, const uint32_t *start, uint32_t cell, CellRow row
     return count;
 }
 
-bool cell_row_again(const Solver *s, const CellRow *row)
+bool cell_row_again(const Constants *s, const CellRow *row)
 {
     for (int k = 0; k < 3; k++)
         if (row->shift[k] != 0 && s->cells.size[k] - 2 == 2)

@@ -2,7 +2,7 @@
 #ifndef SLOSH_CELL_ROWS_H
 #define SLOSH_CELL_ROWS_H
 
-#include "sim/world/solver.h"
+#include "sim/world/constants.h"
 
 /* Particles [begin, end), as seen by who stands at x + shift; m. */
 typedef struct CellRow {
@@ -14,10 +14,10 @@ enum { CELL_ROWS = 18 };
 
 /* All that stand in the cells next to `cell`, itself included, of particles sorted by cell: `start` has the
    first of each cell, and one more. Returns how many rows it fills. */
-int cell_rows(const Solver *solver, const uint32_t *start, uint32_t cell, CellRow rows[CELL_ROWS]);
+int cell_rows(const Constants *constants, const uint32_t *start, uint32_t cell, CellRow rows[CELL_ROWS]);
 
 /* Whether another row has all that stand in this one: across a side of which the box is two cells wide, both
    neighbours of a cell are the same. For who takes the nearest image of a pair, whatever the row's shift. */
-bool cell_row_again(const Solver *solver, const CellRow *row);
+bool cell_row_again(const Constants *constants, const CellRow *row);
 
 #endif

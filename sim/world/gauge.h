@@ -3,7 +3,7 @@
 #ifndef SLOSH_GAUGE_H
 #define SLOSH_GAUGE_H
 
-#include "sim/world/solver.h"
+#include "sim/world/constants.h"
 #include "sim/world/world.h"
 
 #include <math.h>
@@ -19,10 +19,10 @@ static inline double gauge_compression_energy(bool continuity, double x)
 
 /* Sums, of which the mean is not divided by the count yet. A particle at x (m) with the velocity v (m/s) and
    that compression; `gravity` in the box's frame, m/s2. */
-static inline void gauge_add(WorldGauge *gauge, const Solver *solver, const double gravity[3], int fluid,
-                             double compression, const float x[3], const float v[3])
+static inline void gauge_add(WorldGauge *gauge, const Constants *constants, const double gravity[3],
+                             int fluid, double compression, const float x[3], const float v[3])
 {
-    const double m = (double)solver->mass[fluid], c = (double)solver->sound_speed;
+    const double m = (double)constants->mass[fluid], c = (double)constants->sound_speed;
     const double pressed = compression > 0 ? compression : 0;
     double speed2 = 0, height = 0;
     for (int k = 0; k < 3; k++) {
@@ -35,7 +35,7 @@ static inline void gauge_add(WorldGauge *gauge, const Solver *solver, const doub
     gauge->potential_energy += m * height;
     gauge->compression_energy +=
         m * c * c *
-        gauge_compression_energy(solver->continuity, solver->negative_pressure ? compression : pressed);
+        gauge_compression_energy(constants->continuity, constants->negative_pressure ? compression : pressed);
 }
 
 #endif

@@ -68,7 +68,7 @@ static bool give_up(World *world, StepTrouble trouble, double time, Error *error
     const double dt =
         world->def.step_mode == STEP_CFL ? s->dt * s->refine : world->def.dt / world->def.substeps;
     char also[96] = "", advice[200];
-    step_advice(&world->def, &world->solver.friction, trouble, dt, s->max_speed, advice);
+    step_advice(&world->def, &world->constants.friction, trouble, dt, s->max_speed, advice);
     if (retries > 0)
         snprintf(also, sizeof also, ", with 1/%d of the step too; the state at t = %g s is kept",
                  1 << retries, world_time_at(world, (double)world->step));
@@ -97,9 +97,9 @@ static bool give_up_lost(World *world, Error *error)
     if (world->def.retries > 0)
         restore(world);
     grouped(info.lost, lost);
-    grouped(world->solver.lost_limit, limit);
+    grouped(world->constants.lost_limit, limit);
     return error_set(error, "%s %s; raise solver.grid_layers (%d) or solver.lost_limit (%s)", lost,
-                     step_trouble_words(STEP_TROUBLE_LOST), world->solver.grid_layers, limit);
+                     step_trouble_words(STEP_TROUBLE_LOST), world->constants.grid_layers, limit);
 }
 
 bool sentinel_back(World *world, double time, Error *error)

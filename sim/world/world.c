@@ -94,10 +94,10 @@ bool world_can(const WorldDef *def, Error *error)
 
 void world_vary(World *world, double time)
 {
-    if (!world->solver.varies)
+    if (!world->constants.varies)
         return;
     world_def_at(&world->def, time);
-    if (solver_vary(&world->solver, &world->def) && world->backend->vary)
+    if (constants_vary(&world->constants, &world->def) && world->backend->vary)
         world->backend->vary(world->state);
 }
 
@@ -118,8 +118,8 @@ World *world_create(const WorldDef *def, Error *error)
         world->def.box_size[2] = def->spacing;
     world->backend = backend_find(def->backend);
     world->method = method_find(def->method);
-    if (!names_check(def, error) || !solver_create(&world->solver, def, error) || !world_can(def, error) ||
-        !world_start(world, error)) {
+    if (!names_check(def, error) || !constants_create(&world->constants, def, error) ||
+        !world_can(def, error) || !world_start(world, error)) {
         world_destroy(world);
         return NULL;
     }
@@ -143,7 +143,7 @@ void world_destroy(World *world)
         return;
     if (world->backend && world->state)
         world->backend->destroy(world->state);
-    solver_destroy(&world->solver);
+    constants_destroy(&world->constants);
     world_state_free(&world->good);
     free(world->layer);
     free(world);
@@ -170,7 +170,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->state = world->state;
     step->clock = clock;
     step->dt = dt;
-    step->shifts = world->solver.shifting > 0;
+    step->shifts = world->constants.shifting > 0;
     frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
     frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
@@ -196,7 +196,7 @@ static void choose_step(World *world)
     StepState *s = &world->stepping;
     StepLimit limit = STEP_LIMIT_DT;
     const double before = world->step > 0 ? s->refine * s->dt : 0;
-    double dt = def->step_mode == STEP_CFL ? step_cfl(def, &world->solver.friction, s->max_speed,
+    double dt = def->step_mode == STEP_CFL ? step_cfl(def, &world->constants.friction, s->max_speed,
                                                       s->max_acceleration, before, &limit) /
                                                  s->refine
                                            : def->dt / def->substeps / s->refine;
@@ -298,7 +298,7 @@ static bool target_take(World *world, const BoxTarget *target)
         world->target.orientation[k] /= norm;
     if (world->def.dimensions == 2)
         target_into_plane(&world->target);
-    if (world->solver.periodic.any) /* such a box does not turn */
+    if (world->constants.periodic.any) /* such a box does not turn */
         memcpy(world->target.orientation, (double[4]){0, 0, 0, 1}, sizeof world->target.orientation);
     return true;
 }
@@ -321,11 +321,11 @@ void world_carry(World *world, const BoxTarget *target)
 
 bool world_adopt(World *world, const WorldDef *def, Error *error)
 {
-    if (!world_can(def, error) || !solver_change(&world->solver, def, error))
+    if (!world_can(def, error) || !constants_change(&world->constants, def, error))
         return false;
     if (!world->backend->adapt(world->state, error)) {
         Error none;
-        solver_change(&world->solver, &world->def, &none);
+        constants_change(&world->constants, &world->def, &none);
         return false;
     }
     world->def = *def;

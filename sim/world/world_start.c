@@ -24,7 +24,7 @@ static void seeds_free(Seeds *seeds)
 /* The lattice leaves gaps next to solids that are not of it. A method whose particles carry their density
    would take them for fluid that is there, and hold them open; what is missing is about what the solid would
    add, were the particle in the lattice's place, less what it adds where it is. */
-static void thin_at_solids(const Solver *solver, const WorldDef *def, const Seeds *seeds, size_t count)
+static void thin_at_solids(const Constants *constants, const WorldDef *def, const Seeds *seeds, size_t count)
 {
     BoxState pose[SOLIDS_MAX];
     for (int k = 0; k < def->solid_count; k++)
@@ -43,21 +43,22 @@ static void thin_at_solids(const Solver *solver, const WorldDef *def, const Seed
             const float is = (float)(layers * def->spacing),
                         rest = (float)((floor(layers - 0.5 + 1e-6) + 0.5) * def->spacing);
             if (is > rest)
-                missing += wall_face_density(&solver->walls, rest) - wall_face_density(&solver->walls, is);
+                missing +=
+                    wall_face_density(&constants->walls, rest) - wall_face_density(&constants->walls, is);
         }
         seeds->density[i] =
-            (float)(def->fluids[seeds->fluid[i]].density * (1 - missing / solver->rest_number_density));
+            (float)(def->fluids[seeds->fluid[i]].density * (1 - missing / constants->rest_number_density));
     }
 }
 
 /* Moved points stay within the walls, and come in across periodic sides. */
-static void jitter(const Solver *solver, const WorldDef *def, const Seeds *seeds, size_t count)
+static void jitter(const Constants *constants, const WorldDef *def, const Seeds *seeds, size_t count)
 {
     seed_jitter(def, seeds->position, count);
     for (size_t i = 0; i < count; i++) {
         float *x = seeds->position + 3 * i, v[3] = {0};
-        walls_guard(&solver->walls, x, v);
-        periodic_wrap(&solver->periodic, x);
+        walls_guard(&constants->walls, x, v);
+        periodic_wrap(&constants->periodic, x);
     }
 }
 
@@ -72,11 +73,11 @@ static void add_vortices(const WorldDef *def, const Seeds *seeds, size_t count)
     }
 }
 
-static bool seeds_make(const Solver *solver, const WorldDef *def, Seeds *seeds, InitialState *initial,
+static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *seeds, InitialState *initial,
                        Error *error)
 {
     const bool swirls = vortices_any(def);
-    const bool thins = solver->continuity && (def->solid_count > 0 || swirls);
+    const bool thins = constants->continuity && (def->solid_count > 0 || swirls);
     const size_t count = seed_count(def, def->spacing);
     if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)
         return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
@@ -90,12 +91,12 @@ static bool seeds_make(const Solver *solver, const WorldDef *def, Seeds *seeds, 
 
     seed_lattice(def, seeds->position, seeds->fluid);
     if (def->jitter > 0)
-        jitter(solver, def, seeds, count);
+        jitter(constants, def, seeds, count);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < 3; k++)
             seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
     if (thins)
-        thin_at_solids(solver, def, seeds, count);
+        thin_at_solids(constants, def, seeds, count);
     if (swirls)
         add_vortices(def, seeds, count);
     *initial = (InitialState){count, seeds->position, seeds->velocity, seeds->fluid, seeds->density};
@@ -144,14 +145,14 @@ bool world_start(World *world, Error *error)
     if (given)
         initial = *world->def.initial;
     bool ok = given ? initial_check(&world->def, &initial, error)
-                    : seeds_make(&world->solver, &world->def, &seeds, &initial, error);
+                    : seeds_make(&world->constants, &world->def, &seeds, &initial, error);
     if (ok) {
         world->count = world->initial = initial.count;
         world->capacity = flow_capacity(&world->def, initial.count);
         world->state =
-            world->backend->create(&world->solver, &initial, world->capacity, world->def.threads, error);
+            world->backend->create(&world->constants, &initial, world->capacity, world->def.threads, error);
         for (size_t i = 0; i < initial.count; i++)
-            world->mass += (double)world->solver.mass[initial.fluid ? initial.fluid[i] : 0];
+            world->mass += (double)world->constants.mass[initial.fluid ? initial.fluid[i] : 0];
         ok = world->state && layer_create(world, error);
     }
     seeds_free(&seeds);

@@ -114,7 +114,7 @@ static bool particles_check(const World *world, const WorldState *state, Error *
     bool *seen = calloc((size_t)born + 1, sizeof *seen), whole = true;
     if (!seen)
         return error_set(error, "no memory");
-    const bool carried = world->solver.continuity;
+    const bool carried = world->constants.continuity;
     for (size_t i = 0; i < state->count && whole; i++) {
         whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) &&
                 (!carried || (p->compression[i] > -1 && isfinite(p->compression[i]))) && p->id[i] < born &&

@@ -7,7 +7,7 @@
 
 struct World {
     WorldDef def; /* `initial` is not kept */
-    Solver solver;
+    Constants constants;
     const Backend *backend;
     const Method *method;
     void *state;                     /* the backend's */

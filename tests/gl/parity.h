@@ -28,7 +28,7 @@ static inline WorldDef stirred_def(int dimensions)
 }
 
 /* The magnitudes of what particle j does to i by pressure, viscosity and tension, N. */
-static inline double pair_terms(const Solver *s, const State *state, size_t i, size_t j, double r)
+static inline double pair_terms(const Constants *s, const State *state, size_t i, size_t j, double r)
 {
     const double h = (double)s->support_radius,
                  gradient = -s->lattice.gradient_scale * s->lattice.pressure_kernel->derivative(r, h);
@@ -55,7 +55,7 @@ static inline double pair_terms(const Solver *s, const State *state, size_t i, s
 }
 
 /* The sum of these and of its weight over its mass, m/s2. */
-static inline double scale_of(const Solver *s, const State *state, size_t i)
+static inline double scale_of(const Constants *s, const State *state, size_t i)
 {
     double sum = 0;
     for (size_t j = 0; j < state->count; j++) {
@@ -120,22 +120,23 @@ static inline void compare_step(const char *label, World *cpu, World *gpu)
     State a = fixture_read(cpu), b = fixture_read(gpu);
     Worst density = {0}, change = {0}, rate = {0}, place = {0};
     for (size_t i = 0; i < a.count; i++) {
-        worst_take(&density, (double)(fabsf(a.density[i] - b.density[i]) / cpu->solver.density[a.fluid[i]]),
+        worst_take(&density,
+                   (double)(fabsf(a.density[i] - b.density[i]) / cpu->constants.density[a.fluid[i]]),
                    (uint32_t)i, a.position + 4 * i);
         float off[3];
         for (size_t k = 0; k < 3; k++)
             off[k] = a.position[4 * i + k] - b.position[4 * i + k];
-        periodic_nearest(&cpu->solver.periodic, off);
+        periodic_nearest(&cpu->constants.periodic, off);
         worst_take(&place, hypot(hypot((double)off[0], (double)off[1]), (double)off[2]), (uint32_t)i,
                    a.position + 4 * i);
         double velocity = 0;
         for (size_t k = 4 * i; k < 4 * i + 3; k++)
             velocity = hypot(velocity, (double)(a.velocity[k] - b.velocity[k]));
-        worst_take(&change, velocity / (cpu->def.dt * scale_of(&cpu->solver, &a, i)), (uint32_t)i,
+        worst_take(&change, velocity / (cpu->def.dt * scale_of(&cpu->constants, &a, i)), (uint32_t)i,
                    a.position + 4 * i);
         assert_true(b.velocity[4 * i + 3] == 0);
     }
-    if (cpu->solver.continuity)
+    if (cpu->constants.continuity)
         rate = compare_rates(cpu, gpu, before, &a);
     printf("%dD, %s: density off by %.1e of rest, its rate by %.1e, acceleration by %.1e of its terms\n",
            cpu->def.dimensions, label, density.off, rate.off, change.off);

@@ -322,11 +322,11 @@ static void a_table_is_a_number_each_step(void **state)
     const unsigned force = compute->program[COMPUTE_FORCE], kick = compute->program[COMPUTE_KICK];
     const size_t bytes = compute->bytes;
     fixture_step(cpu, 60);
-    assert_true(cpu->solver.viscosity[0] > 1 && cpu->solver.viscosity[0] < 4);
+    assert_true(cpu->constants.viscosity[0] > 1 && cpu->constants.viscosity[0] < 4);
     copy_state(cpu, gpu);
     compare_step("a viscosity by a table", cpu, gpu);
     fixture_step(gpu, 100);
-    assert_true(gpu->solver.viscosity[0] < 1e-6F);
+    assert_true(gpu->constants.viscosity[0] < 1e-6F);
     assert_true(compute->program[COMPUTE_FORCE] == force && compute->program[COMPUTE_KICK] == kick);
     assert_true(compute->bytes == bytes);
     world_destroy(cpu);

@@ -90,7 +90,7 @@ static void require_cell(const Fragment *f, const uint32_t *places, size_t cell,
 static size_t check_buckets(World *gpu)
 {
     enum { MEMBERS = 400 };
-    const Solver *s = &gpu->solver;
+    const Constants *s = &gpu->constants;
     const Fragment *f = gpu->state;
     State at = fixture_read(gpu);
     uint32_t *places = fragment_buckets_read(f), *members = calloc(s->cells.count, sizeof *members * MEMBERS);
@@ -266,12 +266,12 @@ static void a_table_is_taken(void **state)
     const Fragment *fragment = gpu->state;
     const unsigned force = fragment->program[FRAGMENT_FORCE];
     fixture_step(cpu, 100);
-    assert_true(cpu->solver.viscosity[0] > 1 && cpu->solver.viscosity[0] < 3);
+    assert_true(cpu->constants.viscosity[0] > 1 && cpu->constants.viscosity[0] < 3);
     copy_state(cpu, gpu);
     compare_step("a viscosity by a table", cpu, gpu);
     fixture_step(gpu, 10);
     assert_true(fragment->program[FRAGMENT_FORCE] == force &&
-                gpu->solver.viscosity[0] < cpu->solver.viscosity[0]);
+                gpu->constants.viscosity[0] < cpu->constants.viscosity[0]);
     world_destroy(cpu);
     world_destroy(gpu);
 }

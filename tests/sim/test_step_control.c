@@ -2,7 +2,7 @@
    with the last good state. */
 #include "fixture.h"
 
-#include "sim/world/solver.h"
+#include "sim/world/constants.h"
 #include "sim/world/step_control.h"
 #include "sim/world/world_state.h"
 
@@ -469,13 +469,13 @@ static void layers_follow_the_support(void **state)
                  {2, 0, 4, 3.1}, {3, 1, 1, 2.1}, {2, 9, 9, 2.1}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         WorldDef def = fixture_def(1, 1, 1);
-        Solver solver;
+        Constants constants;
         def.dimensions = cases[i].dimensions;
         def.support = cases[i].support;
         def.grid_layers = cases[i].given;
-        assert_true(solver_create(&solver, &def, &error));
-        assert_int_equal(solver.grid_layers, cases[i].layers);
-        solver_destroy(&solver);
+        assert_true(constants_create(&constants, &def, &error));
+        assert_int_equal(constants.grid_layers, cases[i].layers);
+        constants_destroy(&constants);
     }
 }
 

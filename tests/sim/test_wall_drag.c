@@ -2,7 +2,7 @@
    oscillating floor. */
 #include "fixture.h"
 
-#include "sim/world/solver.h"
+#include "sim/world/constants.h"
 
 #include <complex.h>
 
@@ -44,7 +44,7 @@ static WorldDef no_slip_box(const Method *method, double side, double full)
 }
 
 /* D by adding up all lattice particles behind some face at once, with the greatest factor. */
-static double drag_brute(const Solver *s, DragWeight weight, int faces, const double d[3],
+static double drag_brute(const Constants *s, DragWeight weight, int faces, const double d[3],
                          const double offset[3])
 {
     const double h = (double)s->support_radius, spacing = (double)s->spacing;
@@ -81,13 +81,13 @@ static void tables_equal_sums(void **state)
     uint32_t seed = 3;
     for (int m = 0; m < METHODS; m++) {
         WorldDef def = no_slip_box(&methods[m], 2, 1);
-        Solver solver;
+        Constants constants;
         Error error = {0};
-        assert_true(solver_create(&solver, &def, &error));
+        assert_true(constants_create(&constants, &def, &error));
         const DragWeight weight = strcmp(def.method, "wcsph") != 0 ? DRAG_MUELLER
                                   : def.viscosity_form             ? DRAG_RADIAL
                                                                    : DRAG_MORRIS;
-        const double scale = drag_brute(&solver, weight, 1, (double[3]){0.05}, (double[3]){0});
+        const double scale = drag_brute(&constants, weight, 1, (double[3]){0.05}, (double[3]){0});
         assert_true(scale > 0);
         for (int n = 0; n < 120; n++) {
             const int faces = 1 + n % def.dimensions, places = 200;
@@ -100,13 +100,13 @@ static void tables_equal_sums(void **state)
             for (int k = 0; k < 3; k++)
                 high[k] = k == 1 ? 2 - low[k] : -low[k];
             for (int i = 0; i < places; i++)
-                mean += drag_brute(&solver, weight, faces, d,
+                mean += drag_brute(&constants, weight, faces, d,
                                    (double[3]){fixture_random(&seed), fixture_random(&seed),
                                                fixture_random(&seed)}) /
                         places;
-            const double exact = drag_brute(&solver, weight, faces, d, (double[3]){0});
-            const double at_low = (double)wall_drag_at(&solver.drag, low),
-                         at_high = (double)wall_drag_at(&solver.drag, high);
+            const double exact = drag_brute(&constants, weight, faces, d, (double[3]){0});
+            const double at_low = (double)wall_drag_at(&constants.drag, low),
+                         at_high = (double)wall_drag_at(&constants.drag, high);
             const double off = fmax(fabs(at_low - exact), fabs(at_high - exact));
             const double most = faces == 1 ? 0.002 : weight != DRAG_RADIAL ? 0.05 : faces == 2 ? 0.08 : 0.15;
             if (off > most * (scale + exact))
@@ -116,7 +116,7 @@ static void tables_equal_sums(void **state)
                 fail_msg("%s, %d faces at %g %g %g: %g of a face's, the mean is %g", def.method, faces, d[0],
                          d[1], d[2], at_low / scale, mean / scale);
         }
-        solver_destroy(&solver);
+        constants_destroy(&constants);
     }
 }
 
@@ -373,18 +373,18 @@ static void slip_and_inviscid_fluid_have_no_tables(void **state)
     Error error = {0};
     WorldDef def = no_slip_box(&methods[0], 1, 1);
     for (int with = 0; with < 4; with++) {
-        Solver solver;
+        Constants constants;
         def.wall_slip = with & 1 ? SLIP_NONE : SLIP_FREE;
         def.fluids[0].viscosity = with & 2 ? 1 : 0;
-        assert_true(solver_create(&solver, &def, &error));
-        assert_true(solver.no_slip == (with == 3));
-        assert_true((solver.drag.table[0] != NULL) == (with == 3));
-        solver_destroy(&solver);
+        assert_true(constants_create(&constants, &def, &error));
+        assert_true(constants.no_slip == (with == 3));
+        assert_true((constants.drag.table[0] != NULL) == (with == 3));
+        constants_destroy(&constants);
     }
     def.wall_slip = 2;
-    Solver solver;
-    assert_false(solver_create(&solver, &def, &error));
-    solver_destroy(&solver);
+    Constants constants;
+    assert_false(constants_create(&constants, &def, &error));
+    constants_destroy(&constants);
 }
 
 /* A fluid that becomes viscous is held as one that has been so from the start, and let go when it no longer

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* std140: all members are multiples of 16 bytes. */
-typedef struct Constants {
+typedef struct ConstantBlock {
     float kernel[4], scales[4];
     int32_t cell_first[4], cell_size[4], rows[4];
     float half_size[4];
@@ -14,7 +14,7 @@ typedef struct Constants {
     int32_t wall_offset[4];
     float fluids[FLUIDS_MAX][4];
     float cell_origin[4], cell_inverse[4], box_low[4], box_whole[4];
-} Constants;
+} ConstantBlock;
 
 typedef struct Step {
     float rotation[3][4], omega0[4], omega1[4], shift[4], velocity_change[4];
@@ -27,7 +27,7 @@ static void set4(float out[4], float x, float y, float z, float w)
     out[0] = x, out[1] = y, out[2] = z, out[3] = w;
 }
 
-static void walls_constants(const Walls *walls, Constants *c)
+static void walls_constants(const Walls *walls, ConstantBlock *c)
 {
     set4(c->half_size, walls->half_size[0], walls->half_size[1], walls->half_size[2], walls->range);
     for (int t = 0; t < walls->dimensions; t++) {
@@ -37,7 +37,7 @@ static void walls_constants(const Walls *walls, Constants *c)
     }
 }
 
-static void set_fluids(const Solver *s, float fluids[FLUIDS_MAX][4])
+static void set_fluids(const Constants *s, float fluids[FLUIDS_MAX][4])
 {
     for (int f = 0; f < s->fluid_count; f++)
         set4(fluids[f], s->mass[f], s->density[f], s->stiffness[f], s->viscosity[f]);
@@ -45,8 +45,8 @@ static void set_fluids(const Solver *s, float fluids[FLUIDS_MAX][4])
 
 void compute_constants(Compute *compute)
 {
-    const Solver *s = compute->solver;
-    Constants c = {0};
+    const Constants *s = compute->constants;
+    ConstantBlock c = {0};
     set4(c.kernel, s->support_radius, 1 / s->support_radius, s->rest_number_density, s->spacing);
     set4(c.scales, s->kernel_scale, s->pressure_scale, s->viscosity_scale, s->compression);
     for (int k = 0; k < 3; k++) {
@@ -67,13 +67,13 @@ void compute_constants(Compute *compute)
     }
     walls_constants(&s->walls, &c);
     set_fluids(s, c.fluids);
-    if (!compute->constants) {
-        glCreateBuffers(1, &compute->constants);
-        glNamedBufferStorage(compute->constants, sizeof c, NULL, GL_DYNAMIC_STORAGE_BIT);
+    if (!compute->constant_block) {
+        glCreateBuffers(1, &compute->constant_block);
+        glNamedBufferStorage(compute->constant_block, sizeof c, NULL, GL_DYNAMIC_STORAGE_BIT);
         glCreateBuffers(1, &compute->step);
         glNamedBufferStorage(compute->step, sizeof(Step), NULL, GL_DYNAMIC_STORAGE_BIT);
     }
-    glNamedBufferSubData(compute->constants, 0, sizeof c, &c);
+    glNamedBufferSubData(compute->constant_block, 0, sizeof c, &c);
     compute_term_constants(compute);
 }
 
@@ -81,15 +81,15 @@ void compute_vary(void *state)
 {
     const Compute *compute = state;
     float fluids[FLUIDS_MAX][4] = {0};
-    set_fluids(compute->solver, fluids);
-    glNamedBufferSubData(compute->constants, offsetof(Constants, fluids), sizeof fluids, fluids);
+    set_fluids(compute->constants, fluids);
+    glNamedBufferSubData(compute->constant_block, offsetof(ConstantBlock, fluids), sizeof fluids, fluids);
 }
 
 void compute_set_count(Compute *compute, size_t count)
 {
     const int32_t number = (int32_t)count;
     compute->count = count;
-    glNamedBufferSubData(compute->constants, offsetof(Constants, cell_first) + 3 * sizeof number,
+    glNamedBufferSubData(compute->constant_block, offsetof(ConstantBlock, cell_first) + 3 * sizeof number,
                          sizeof number, &number);
 }
 

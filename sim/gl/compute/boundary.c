@@ -35,7 +35,7 @@ static void pose_set(const SolidPose *from, Pose *to)
         copy3(from->r[row], to->r[row]);
 }
 
-static void shape_set(const Solver *s, const SolidDef *solid, Solid *out)
+static void shape_set(const Constants *s, const SolidDef *solid, Solid *out)
 {
     const double endless = 1e30; /* half the depth of a box in the plane */
     out->velocity[3] = solid->slip == SLIP_NONE;
@@ -55,7 +55,7 @@ static void shape_set(const Solver *s, const SolidDef *solid, Solid *out)
 
 static void steps_set(Compute *c, const SolidStep *steps)
 {
-    const Solver *s = c->solver;
+    const Constants *s = c->constants;
     SolidsBlock block = {.counts = {s->solid_count, (int32_t)s->boundary.count}};
     for (int k = 0; k < s->solid_count; k++) {
         Solid *solid = &block.solids[k];
@@ -73,10 +73,10 @@ static void steps_set(Compute *c, const SolidStep *steps)
 
 bool compute_boundary_create(Compute *c)
 {
-    const Boundary *boundary = &c->solver->boundary;
+    const Boundary *boundary = &c->constants->boundary;
     ComputeBoundary *b = &c->boundary;
     const size_t n = boundary->count;
-    if (c->solver->solid_count == 0)
+    if (c->constants->solid_count == 0)
         return true;
     float *rest = malloc((n + 1) * 4 * sizeof *rest);
     if (!rest)
@@ -89,7 +89,7 @@ bool compute_boundary_create(Compute *c)
     b->cell = compute_buffer(c, "boundary cells", 4 * n);
     b->rank = compute_buffer(c, "boundary ranks", 4 * n);
     b->order = compute_buffer(c, "boundary order", 4 * n);
-    b->start = compute_buffer(c, "boundary cell starts", 4 * (c->solver->cells.count + 2));
+    b->start = compute_buffer(c, "boundary cell starts", 4 * (c->constants->cells.count + 2));
     b->position = compute_buffer(c, "boundary positions", 16 * n);
     b->velocity = compute_buffer(c, "boundary velocities", 16 * n);
     b->state = compute_buffer(c, "boundary pressures", 8 * n);
@@ -111,7 +111,7 @@ void compute_boundary_bind(const Compute *c)
 {
     enum { FIRST = 12, BLOCK = 6 };
     const ComputeBoundary *b = &c->boundary;
-    if (c->solver->solid_count == 0)
+    if (c->constants->solid_count == 0)
         return;
     glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK, b->block);
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, FIRST, 4,
@@ -122,7 +122,7 @@ void compute_pose(void *state, const SolidPose *pose)
 {
     Compute *c = state;
     SolidStep steps[SOLIDS_MAX] = {0};
-    for (int k = 0; k < c->solver->solid_count; k++)
+    for (int k = 0; k < c->constants->solid_count; k++)
         steps[k] = (SolidStep){.begin = pose[k], .end = pose[k], .still = true};
     steps_set(c, steps);
     c->boundary.due = true;
@@ -131,7 +131,7 @@ void compute_pose(void *state, const SolidPose *pose)
 void compute_boundary_move(Compute *c, const SolidStep *steps)
 {
     bool moves = false;
-    for (int k = 0; k < c->solver->solid_count; k++)
+    for (int k = 0; k < c->constants->solid_count; k++)
         moves |= !steps[k].still;
     if (!moves)
         return;
@@ -142,7 +142,7 @@ void compute_boundary_move(Compute *c, const SolidStep *steps)
 void compute_boundary_grid(Compute *c)
 {
     ComputeBoundary *b = &c->boundary;
-    const size_t cells = c->solver->cells.count, n = c->solver->boundary.count;
+    const size_t cells = c->constants->cells.count, n = c->constants->boundary.count;
     if (!b->due)
         return;
     b->due = false;
@@ -164,5 +164,5 @@ void compute_boundary_fill(const Compute *c)
     compute_boundary_bind(c);
     compute_bind(
         (const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity, b->rest}, 6);
-    compute_run(c, COMPUTE_BOUNDARY_FILL, c->solver->boundary.count);
+    compute_run(c, COMPUTE_BOUNDARY_FILL, c->constants->boundary.count);
 }

@@ -18,7 +18,7 @@ static const char *const pass_names[] = {
 static bool no_memory(const Compute *c, Error *error)
 {
     return error_set(error, "the GPU has no memory for %zu particles and %zu cells; use a larger spacing",
-                     c->count, c->solver->cells.count);
+                     c->count, c->constants->cells.count);
 }
 
 static void particles_destroy(ComputeParticles *particles)
@@ -31,10 +31,10 @@ static void particles_destroy(ComputeParticles *particles)
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,         c->rank,      c->order,     c->start,
-                              c->totals[0],    c->totals[1], c->totals[2], c->pressure,
-                              c->acceleration, c->walls,     c->constants, c->step,
-                              c->terms,        c->slope,     c->drag,      c->uneven};
+    const GLuint buffers[] = {c->cell,         c->rank,      c->order,          c->start,
+                              c->totals[0],    c->totals[1], c->totals[2],      c->pressure,
+                              c->acceleration, c->walls,     c->constant_block, c->step,
+                              c->terms,        c->slope,     c->drag,           c->uneven};
     particles_destroy(&c->now);
     particles_destroy(&c->spare);
     particles_destroy(&c->marked);
@@ -74,7 +74,7 @@ bool compute_particles_create(Compute *c, ComputeParticles *particles, Error *er
 
 static bool buffers_create(Compute *c, Error *error)
 {
-    const size_t n = c->capacity, cells = c->solver->cells.count;
+    const size_t n = c->capacity, cells = c->constants->cells.count;
     if (!compute_particles_create(c, &c->now, error) || !compute_particles_create(c, &c->spare, error))
         return false;
     c->cell = compute_buffer(c, "particle cells", 4 * n);
@@ -97,8 +97,8 @@ static bool buffers_create(Compute *c, Error *error)
 
 static void walls_upload(Compute *c)
 {
-    const Walls *walls = &c->solver->walls;
-    if (c->solver->continuity) /* it has none */
+    const Walls *walls = &c->constants->walls;
+    if (c->constants->continuity) /* it has none */
         return;
     c->walls = compute_buffer(c, "wall tables", walls_entries(walls, walls->dimensions) * sizeof(WallSums));
     for (int t = 0; t < walls->dimensions && !c->full; t++) {
@@ -118,7 +118,7 @@ unsigned compute_program(ComputePass pass, const char *defines, Error *error)
 /* Whether the programs are to have it: by the scene's terms, or since somebody asked for it. */
 static bool pass_wanted(const Compute *c, ComputePass pass)
 {
-    return pass == COMPUTE_GAUGE ? c->program[pass] != 0 : compute_pass_named(c->solver, pass);
+    return pass == COMPUTE_GAUGE ? c->program[pass] != 0 : compute_pass_named(c->constants, pass);
 }
 
 /* Terms that the scene does not name are not compiled in. What was compiled stays where the new does not
@@ -128,7 +128,7 @@ static bool programs_create(Compute *c, Error *error)
     char defines[COMPUTE_DEFINES_MAX];
     unsigned program[COMPUTE_PASS_COUNT] = {0};
     bool ok = true;
-    compute_defines(c->solver, defines);
+    compute_defines(c->constants, defines);
     for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++)
         if (pass_wanted(c, (ComputePass)p))
             ok = (program[p] = compute_program((ComputePass)p, defines, error)) != 0;
@@ -147,7 +147,7 @@ static size_t larger(size_t a, size_t b)
 }
 
 /* Of the largest array: two vec4 a particle where there is shifting, else one; start of cells; walls. */
-static size_t most_bytes(const Solver *s, size_t capacity)
+static size_t most_bytes(const Constants *s, size_t capacity)
 {
     const size_t particles = (s->shifting > 0 ? 32 : 16) * capacity, cells = 4 * (s->cells.count + 2);
     const size_t walls = s->continuity ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
@@ -155,7 +155,7 @@ static size_t most_bytes(const Solver *s, size_t capacity)
 }
 
 /* Solids stand at the bindings 12 to 15, beside those of the pass that binds most. */
-static bool supported(const Solver *s, size_t capacity, Error *error)
+static bool supported(const Constants *s, size_t capacity, Error *error)
 {
     const bool solids = s->solid_count > 0;
     const GlLimits have = gl_limits();
@@ -167,8 +167,8 @@ static bool supported(const Solver *s, size_t capacity, Error *error)
     return gl_limits_allow(&have, &needs, error);
 }
 
-static void *compute_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
-                            Error *error)
+static void *compute_create(const Constants *constants, const InitialState *initial, size_t capacity,
+                            int threads, Error *error)
 {
     (void)threads;
     if (epoxy_gl_version() < 45) {
@@ -176,14 +176,14 @@ static void *compute_create(const Solver *solver, const InitialState *initial, s
                   epoxy_gl_version() % 10);
         return NULL;
     }
-    if (!supported(solver, capacity, error))
+    if (!supported(constants, capacity, error))
         return NULL;
     Compute *c = calloc(1, sizeof *c);
     if (!c) {
         error_set(error, "no memory");
         return NULL;
     }
-    c->solver = solver;
+    c->constants = constants;
     c->count = initial->count;
     c->capacity = capacity;
     if (!buffers_create(c, error) || !(compute_term_buffers(c) || no_memory(c, error))) {
@@ -209,7 +209,7 @@ static bool compute_adapt(void *state, Error *error)
 {
     Compute *c = state;
     char defines[COMPUTE_DEFINES_MAX];
-    compute_defines(c->solver, defines);
+    compute_defines(c->constants, defines);
     if (!compute_term_buffers(c))
         return error_set(error, "the GPU has no memory for another term; use a larger spacing");
     if (strcmp(defines, c->defines) != 0 && !programs_create(c, error))

@@ -78,7 +78,7 @@ typedef struct ComputeFlow {
 } ComputeFlow;
 
 typedef struct Compute {
-    const Solver *solver;
+    const Constants *constants;
     size_t count, capacity; /* particles; room for them */
     size_t gridded;         /* by `grid`: how many it has seen */
     ComputeBoundary boundary;
@@ -95,7 +95,7 @@ typedef struct Compute {
     Mailbox gauge;                        /* 8 float a group: see gauge.comp; none before the first `gauge` */
     size_t gauged;                        /* particles then */
     unsigned shown[COMPUTE_SHOWN];        /* for the views: uint or float; 0 until it is asked for */
-    unsigned constants, step;             /* uniform blocks */
+    unsigned constant_block, step;        /* uniform blocks */
     unsigned program[COMPUTE_PASS_COUNT];
     bool full;                             /* the GPU's memory */
     size_t bytes, guarded_before, guarded; /* of all these buffers; before the last load, and since */
@@ -140,8 +140,8 @@ void compute_swap(Compute *compute);
 /* terms.c: the lines that stand before the shaders (the numbers of the scalars, the terms that the scene
    names); whether the scene needs a pass; buffers that a term needs and that are not there; the uniform block
    of terms. */
-void compute_defines(const Solver *solver, char out[COMPUTE_DEFINES_MAX]);
-bool compute_pass_named(const Solver *solver, ComputePass pass);
+void compute_defines(const Constants *constants, char out[COMPUTE_DEFINES_MAX]);
+bool compute_pass_named(const Constants *constants, ComputePass pass);
 bool compute_term_buffers(Compute *compute);
 void compute_term_constants(Compute *compute);
 

@@ -22,9 +22,9 @@ static void put(const Compute *c, size_t offset, size_t bytes, const void *data)
 
 void compute_flow_create(Compute *c)
 {
-    if (c->solver->emits || c->solver->drains)
+    if (c->constants->emits || c->constants->drains)
         c->flow.block = compute_buffer(c, "flow", sizeof(FlowBlock));
-    if (c->solver->emits) {
+    if (c->constants->emits) {
         c->flow.layer = compute_buffer(c, "emitted layer", (size_t)12 * COMPUTE_LAYER);
         c->flow.marks = compute_buffer(c, "emitted layer's marks", (size_t)4 * (COMPUTE_LAYER + 1));
     }
@@ -123,7 +123,7 @@ static float not_below(double bound)
 static void drains_set(const Compute *c, const Fill *regions, int count)
 {
     FlowBlock block = {.counts = {count}};
-    const bool plane = c->solver->dimensions == 2;
+    const bool plane = c->constants->dimensions == 2;
     for (int k = 0; k < count; k++) {
         float *low = block.drains[k][0], *high = block.drains[k][1];
         const bool ball = regions[k].kind == FILL_BALL;

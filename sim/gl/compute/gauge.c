@@ -23,7 +23,7 @@ bool compute_gauge(void *state, const double gravity[3])
     if (!prepare(c))
         return false;
     glProgramUniform4f(c->program[COMPUTE_GAUGE], 0, (float)gravity[0], (float)gravity[1], (float)gravity[2],
-                       c->solver->sound_speed * c->solver->sound_speed);
+                       c->constants->sound_speed * c->constants->sound_speed);
     compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->now.name, c->gauge.buffer}, 4);
     compute_run(c, COMPUTE_GAUGE, (size_t)COMPUTE_GAUGE_GROUPS * COMPUTE_GROUP);
     c->gauged = c->count;

@@ -46,7 +46,7 @@ void compute_swap(Compute *c)
 void compute_grid(void *state)
 {
     Compute *c = state;
-    const size_t cells = c->solver->cells.count;
+    const size_t cells = c->constants->cells.count;
     unsigned order = c->order;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(c->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
@@ -55,7 +55,7 @@ void compute_grid(void *state)
     compute_scan(c, c->start, cells + 1);
     compute_bind((const unsigned[]){c->cell, c->rank, c->start, c->order}, 4);
     compute_run(c, COMPUTE_PLACE, c->count);
-    if (c->solver->reproducible) {
+    if (c->constants->reproducible) {
         compute_bind((const unsigned[]){c->now.name, c->cell, c->start, c->order, c->rank}, 5);
         compute_run(c, COMPUTE_SORT, c->count);
         order = c->rank; /* which is free now */

@@ -19,7 +19,7 @@ void compute_dispatch(size_t groups)
 
 void compute_run(const Compute *compute, ComputePass pass, size_t count)
 {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, compute->constants);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 1, compute->constant_block);
     glBindBufferBase(GL_UNIFORM_BUFFER, 2, compute->step);
     glBindBufferBase(GL_UNIFORM_BUFFER, 3, compute->terms);
     glBindBufferBase(GL_UNIFORM_BUFFER, 4, compute->watch.buffer);
@@ -64,7 +64,7 @@ void compute_continuity(void *state, float dt)
 void compute_density(void *state)
 {
     Compute *c = state;
-    if (c->solver->continuity) {
+    if (c->constants->continuity) {
         run_wcsph(c, COMPUTE_STATE);
         return;
     }
@@ -78,7 +78,7 @@ void compute_force(void *state, const ApparentGravity *gravity)
 {
     Compute *c = state;
     compute_set_force(c, gravity);
-    if (c->solver->solid_count > 0)
+    if (c->constants->solid_count > 0)
         compute_boundary_fill(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
                                     c->acceleration, c->uneven, c->walls},

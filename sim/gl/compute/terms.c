@@ -15,12 +15,12 @@ typedef struct Terms {
     float lid[4], shift[4];
 } Terms;
 
-static bool diffusive(const Solver *s)
+static bool diffusive(const Constants *s)
 {
     return s->continuity && s->diffusion > 0;
 }
 
-void compute_defines(const Solver *s, char out[COMPUTE_DEFINES_MAX])
+void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
 {
     const struct {
         bool named;
@@ -58,7 +58,7 @@ void compute_defines(const Solver *s, char out[COMPUTE_DEFINES_MAX])
             used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s 1\n", terms[k].name);
 }
 
-bool compute_pass_named(const Solver *s, ComputePass pass)
+bool compute_pass_named(const Constants *s, ComputePass pass)
 {
     switch (pass) {
     case COMPUTE_SORT:
@@ -100,7 +100,7 @@ static size_t drag_entries(const WallDrag *drag, int t)
 
 static void drag_upload(Compute *c)
 {
-    const WallDrag *drag = &c->solver->drag;
+    const WallDrag *drag = &c->constants->drag;
     size_t all = 0, at = 0;
     for (int t = 0; t < drag->dimensions; t++)
         all += drag_entries(drag, t);
@@ -114,7 +114,7 @@ static void drag_upload(Compute *c)
 
 bool compute_term_buffers(Compute *c)
 {
-    const Solver *s = c->solver;
+    const Constants *s = c->constants;
     if (diffusive(s) && !c->slope)
         c->slope = compute_buffer(c, "slopes of density", 16 * c->capacity);
     if (s->shifting > 0 && !c->uneven)
@@ -142,7 +142,7 @@ static void drag_constants(const WallDrag *drag, Terms *terms)
 
 void compute_term_constants(Compute *c)
 {
-    const Solver *s = c->solver;
+    const Constants *s = c->constants;
     Terms terms = {.scales = {s->gradient, s->diffusion, s->colour, s->radial}};
     for (int f = 0; f < s->fluid_count; f++) {
         terms.fluids[f][0] = s->tait[f];

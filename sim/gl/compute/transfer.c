@@ -27,7 +27,7 @@ bool compute_set_particles(Compute *c, const InitialState *initial)
     Transfer copy;
     if (!transfer_make(&copy, c->count))
         return false;
-    transfer_set_initial(&copy, c->solver, initial);
+    transfer_set_initial(&copy, c->constants, initial);
     upload(c, &copy);
     transfer_free(&copy);
     return true;
@@ -40,7 +40,7 @@ bool compute_save(void *state, const ParticleColumns *to)
     if (!transfer_make(&copy, c->count))
         return false;
     download(c, &copy);
-    transfer_get_columns(&copy, c->solver, to);
+    transfer_get_columns(&copy, c->constants, to);
     transfer_free(&copy);
     return true;
 }
@@ -52,7 +52,7 @@ bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t
     if (count > c->capacity || !transfer_make(&copy, count))
         return false;
     compute_set_count(c, count);
-    transfer_set_columns(&copy, c->solver, from);
+    transfer_set_columns(&copy, c->constants, from);
     upload(c, &copy);
     transfer_free(&copy);
     compute_watch_reset(c, guarded);
@@ -66,13 +66,13 @@ bool compute_read(void *state, const ParticleArrays *out)
     if (!transfer_make(&copy, c->count))
         return false;
     download(c, &copy);
-    transfer_get_arrays(&copy, c->solver, out);
+    transfer_get_arrays(&copy, c->constants, out);
     transfer_free(&copy);
     return true;
 }
 
 /* Others with r < h, of those that the last grid shows next to `cell`, where it had particle i. */
-static size_t neighbours_of(const Solver *s, const Transfer *copy, const uint32_t *start, size_t cell,
+static size_t neighbours_of(const Constants *s, const Transfer *copy, const uint32_t *start, size_t cell,
                             size_t i)
 {
     const float *x = copy->position + 4 * i, h2 = s->support_radius * s->support_radius;
@@ -96,7 +96,7 @@ static size_t neighbours_of(const Solver *s, const Transfer *copy, const uint32_
  * now. */
 static double neighbours_mean(const Compute *c, const Transfer *copy)
 {
-    const size_t cells = c->solver->cells.count;
+    const size_t cells = c->constants->cells.count;
     uint32_t *start = malloc((cells + 1) * sizeof *start);
     size_t sum = 0;
     if (!start)
@@ -104,7 +104,7 @@ static double neighbours_mean(const Compute *c, const Transfer *copy)
     glGetNamedBufferSubData(c->start, 0, (GLsizeiptr)((cells + 1) * sizeof *start), start);
     for (size_t cell = 0; cell < cells; cell++)
         for (size_t i = start[cell]; i < start[cell + 1]; i++)
-            sum += neighbours_of(c->solver, copy, start, cell, i);
+            sum += neighbours_of(c->constants, copy, start, cell, i);
     free(start);
     return c->count > 0 ? (double)sum / (double)c->count : 0;
 }
@@ -117,7 +117,7 @@ void compute_sums(void *state, WorldSums *sums)
     if (!transfer_make(&copy, c->count))
         return;
     download(c, &copy);
-    transfer_get_sums(&copy, c->solver, sums);
+    transfer_get_sums(&copy, c->constants, sums);
     sums->neighbours_mean = neighbours_mean(c, &copy);
     transfer_free(&copy);
 }

@@ -30,7 +30,7 @@ StepWatch compute_watch(void *state)
     const uint32_t *watched = mailbox_wait(&c->watch);
     if (!watched)
         return (StepWatch){.bounded = false};
-    const float fastest = c->solver->support_radius / c->longest, speed2 = float_of_bits(watched[0]);
+    const float fastest = c->constants->support_radius / c->longest, speed2 = float_of_bits(watched[0]);
     const StepWatch seen = {.bounded = watched[4] == 0 && speed2 <= fastest * fastest,
                             .max_speed = sqrtf(speed2),
                             .max_acceleration = sqrtf(float_of_bits(watched[1])),

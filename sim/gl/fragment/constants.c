@@ -52,7 +52,7 @@ static void put_walls(Text *to, const Walls *walls)
 }
 
 /* Terms that the scene does not name are not compiled in. */
-static void put_terms(Text *to, const Solver *s)
+static void put_terms(Text *to, const Constants *s)
 {
 #define X(NAME, name, unit) put(to, "#define SCALAR_" #NAME " %d\n", SCALAR_##NAME);
     SCALAR_LIST(X)
@@ -65,7 +65,7 @@ static void put_terms(Text *to, const Solver *s)
 
 void fragment_constants(const Fragment *f, char text[FRAGMENT_CONSTANTS_MAX])
 {
-    const Solver *s = f->solver;
+    const Constants *s = f->constants;
     const float h = s->support_radius;
     Text to = {text, FRAGMENT_CONSTANTS_MAX, 0};
     put_terms(&to, s);

@@ -61,11 +61,11 @@ static bool fits(const Fragment *f, Error *error)
         return error_set(error,
                          "%zu particles and %zu cells need textures larger than the %d x %d texels that "
                          "this driver allows; use a larger spacing",
-                         f->count, f->solver->cells.count, side, side);
+                         f->count, f->constants->cells.count, side, side);
     if (f->layers > FRAGMENT_LAYERS_MOST)
         return error_set(error, "backend fragment has up to %d layers; solver.grid_layers is %d",
                          FRAGMENT_LAYERS_MOST, f->layers);
-    const Walls *walls = &f->solver->walls;
+    const Walls *walls = &f->constants->walls;
     if (walls_entries(walls, walls->dimensions) * sizeof(WallSums) / sizeof(float) > (size_t)numbers)
         return error_set(error,
                          "the tables of the walls are larger than the textures of %d numbers that this "
@@ -80,8 +80,8 @@ static bool fill(Fragment *f, const InitialState *initial, Error *error)
            (fragment_set_particles(f, initial) || error_set(error, "no memory for %zu particles", f->count));
 }
 
-static void *fragment_create(const Solver *solver, const InitialState *initial, size_t capacity, int threads,
-                             Error *error)
+static void *fragment_create(const Constants *constants, const InitialState *initial, size_t capacity,
+                             int threads, Error *error)
 {
     (void)threads, (void)capacity;
     if (epoxy_gl_version() < 45) {
@@ -94,11 +94,11 @@ static void *fragment_create(const Solver *solver, const InitialState *initial, 
         error_set(error, "no memory");
         return NULL;
     }
-    f->solver = solver;
+    f->constants = constants;
     f->count = initial->count;
-    f->layers = solver->grid_layers;
+    f->layers = constants->grid_layers;
     shape_for(f->count, &f->bits, &f->width, &f->height);
-    shape_for(solver->cells.count, &f->bucket_bits, &f->bucket_width, &f->bucket_height);
+    shape_for(constants->cells.count, &f->bucket_bits, &f->bucket_width, &f->bucket_height);
     if (!fits(f, error)) {
         free(f);
         return NULL;
@@ -113,11 +113,11 @@ static void *fragment_create(const Solver *solver, const InitialState *initial, 
 static bool fragment_adapt(void *state, Error *error)
 {
     Fragment *f = state;
-    char constants[FRAGMENT_CONSTANTS_MAX];
-    fragment_constants(f, constants);
+    char constant_lines[FRAGMENT_CONSTANTS_MAX];
+    fragment_constants(f, constant_lines);
     if (!fragment_terms_create(f, error))
         return false;
-    if (strcmp(constants, f->constants) != 0)
+    if (strcmp(constant_lines, f->constant_lines) != 0)
         return fragment_programs_create(f, error);
     fragment_set_fluids(f);
     return true;

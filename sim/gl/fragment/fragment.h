@@ -67,7 +67,7 @@ typedef enum FragmentSampler {
 
 /* Texture names, unless said otherwise. Of a pair, [0] is the present one; a pass writes into [1]. */
 typedef struct Fragment {
-    const Solver *solver;
+    const Constants *constants;
     size_t count;
     int bits, width, height;                      /* of the textures of particles; width = 2^bits */
     int bucket_bits, bucket_width, bucket_height; /* of the buckets, likewise */
@@ -101,8 +101,8 @@ typedef struct Fragment {
     Mailbox gauge;                                                    /* 5 float: see gauge.frag */
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
     unsigned program[FRAGMENT_PASS_COUNT];
-    char constants[FRAGMENT_CONSTANTS_MAX]; /* with which they were compiled */
-    size_t bytes, guarded_before, guarded;  /* of all textures; before the last load, and since */
+    char constant_lines[FRAGMENT_CONSTANTS_MAX]; /* with which they were compiled */
+    size_t bytes, guarded_before, guarded;       /* of all textures; before the last load, and since */
 } Fragment;
 
 /* Textures and what draws into them. False with the reason. */

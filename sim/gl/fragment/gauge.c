@@ -38,7 +38,7 @@ bool fragment_gauge(void *state, const double gravity[3])
         return false;
     const float g[3] = {(float)gravity[0], (float)gravity[1], (float)gravity[2]};
     fragment_set3(f, FRAGMENT_GAUGE_FIRST, "gravity", g);
-    fragment_set1(f, FRAGMENT_GAUGE_FIRST, "c2", f->solver->sound_speed * f->solver->sound_speed);
+    fragment_set1(f, FRAGMENT_GAUGE_FIRST, "c2", f->constants->sound_speed * f->constants->sound_speed);
     gl_state_keep(&kept);
     reduce(f);
     gl_state_restore(&kept);

@@ -29,12 +29,12 @@ static void capture(unsigned program, const char *output)
     glLinkProgram(program);
 }
 
-static unsigned pass_create(FragmentPass pass, const char *constants, Error *error)
+static unsigned pass_create(FragmentPass pass, const char *constant_lines, Error *error)
 {
     char vertex[64], next[64], text[4096];
     snprintf(vertex, sizeof vertex, "sim/fragment/%s", passes[pass].vertex);
     snprintf(next, sizeof next, "sim/fragment/%s", passes[pass].next);
-    snprintf(text, sizeof text, "%s%s", passes[pass].defines, constants);
+    snprintf(text, sizeof text, "%s%s", passes[pass].defines, constant_lines);
     const char *const stages[] = {vertex, next, NULL};
     const unsigned program = program_create(passes[pass].next, stages, text, error);
     if (program && pass == FRAGMENT_WAITING)
@@ -54,7 +54,7 @@ int fragment_uniform(const Fragment *f, FragmentPass pass, const char *name)
 
 void fragment_set_fluids(const Fragment *f)
 {
-    const Solver *s = f->solver;
+    const Constants *s = f->constants;
     float fluids[FLUIDS_MAX][4];
     for (int k = 0; k < s->fluid_count; k++)
         memcpy(fluids[k], (const float[]){s->mass[k], s->density[k], s->stiffness[k], s->viscosity[k]},
@@ -75,7 +75,7 @@ bool fragment_gauge_programs(Fragment *f, Error *error)
 {
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++)
         if (is_gauge(p) && !f->program[p] &&
-            !(f->program[p] = pass_create((FragmentPass)p, f->constants, error)))
+            !(f->program[p] = pass_create((FragmentPass)p, f->constant_lines, error)))
             return false;
     fragment_set_fluids(f);
     return true;
@@ -84,12 +84,12 @@ bool fragment_gauge_programs(Fragment *f, Error *error)
 bool fragment_programs_create(Fragment *f, Error *error)
 {
     unsigned made[FRAGMENT_PASS_COUNT] = {0};
-    char constants[FRAGMENT_CONSTANTS_MAX];
-    fragment_constants(f, constants);
+    char constant_lines[FRAGMENT_CONSTANTS_MAX];
+    fragment_constants(f, constant_lines);
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
         if (is_gauge(p) && !f->program[p]) /* nobody asks for it */
             continue;
-        made[p] = pass_create((FragmentPass)p, constants, error);
+        made[p] = pass_create((FragmentPass)p, constant_lines, error);
         if (made[p])
             continue;
         while (p-- > 0)
@@ -100,7 +100,7 @@ bool fragment_programs_create(Fragment *f, Error *error)
         glDeleteProgram(f->program[p]);
         f->program[p] = made[p];
     }
-    memcpy(f->constants, constants, sizeof constants);
+    memcpy(f->constant_lines, constant_lines, sizeof constant_lines);
     fragment_set_fluids(f);
     return true;
 }

@@ -50,7 +50,8 @@ void fragment_density(void *state)
     const Fragment *f = state;
     sample_neighbours(f);
     fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
-    draw(f, FRAGMENT_DENSITY, (const unsigned[]){f->fields, f->near, f->moving}, f->solver->viscous ? 3 : 2);
+    draw(f, FRAGMENT_DENSITY, (const unsigned[]){f->fields, f->near, f->moving},
+         f->constants->viscous ? 3 : 2);
 }
 
 void fragment_force(void *state, const ApparentGravity *gravity)

@@ -95,7 +95,7 @@ static bool lists_create(Fragment *f)
 
 static void walls_create_texture(Fragment *f)
 {
-    const Walls *walls = &f->solver->walls;
+    const Walls *walls = &f->constants->walls;
     const size_t bytes = walls_entries(walls, walls->dimensions) * sizeof(WallSums);
     glCreateBuffers(1, &f->wall_buffer);
     glObjectLabel(GL_BUFFER, f->wall_buffer, -1, "wall tables");
@@ -134,7 +134,7 @@ static bool memory_sufficed(const Fragment *f, bool enough, Error *error)
     return enough || error_set(error,
                                "the GPU has no memory for %zu particles and %zu cells of %d layers; use a "
                                "larger spacing",
-                               f->count, f->solver->cells.count, f->layers);
+                               f->count, f->constants->cells.count, f->layers);
 }
 
 bool fragment_textures_create(Fragment *f, Error *error)
@@ -158,7 +158,7 @@ bool fragment_marked_create(Fragment *f, Error *error)
 
 bool fragment_terms_create(Fragment *f, Error *error)
 {
-    if (f->solver->viscous && !f->moving)
+    if (f->constants->viscous && !f->moving)
         f->moving = texture(f, "particle velocities and volumes", GL_RGBA32F, f->width, f->height);
     return memory_sufficed(f, true, error);
 }

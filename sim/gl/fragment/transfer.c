@@ -79,7 +79,7 @@ bool fragment_set_particles(Fragment *f, const InitialState *initial)
     Transfer copy;
     if (!transfer_make(&copy, f->count))
         return false;
-    transfer_set_initial(&copy, f->solver, initial);
+    transfer_set_initial(&copy, f->constants, initial);
     const bool done = upload(f, &copy);
     transfer_free(&copy);
     return done;
@@ -91,7 +91,7 @@ bool fragment_save(void *state, const ParticleColumns *to)
     Transfer copy;
     if (!download(f, &copy))
         return false;
-    transfer_get_columns(&copy, f->solver, to);
+    transfer_get_columns(&copy, f->constants, to);
     transfer_free(&copy);
     return true;
 }
@@ -102,7 +102,7 @@ bool fragment_load(void *state, const ParticleColumns *from, size_t count, size_
     Transfer copy;
     if (count != f->count || !transfer_make(&copy, count))
         return false;
-    transfer_set_columns(&copy, f->solver, from);
+    transfer_set_columns(&copy, f->constants, from);
     const bool loaded = upload(f, &copy);
     transfer_free(&copy);
     if (loaded)
@@ -116,7 +116,7 @@ bool fragment_read(void *state, const ParticleArrays *out)
     Transfer copy;
     if (!download(f, &copy))
         return false;
-    transfer_get_arrays(&copy, f->solver, out);
+    transfer_get_arrays(&copy, f->constants, out);
     transfer_free(&copy);
     return true;
 }
@@ -143,7 +143,7 @@ uint32_t fragment_bucket_at(const Fragment *f, const uint32_t *places, size_t ce
 static size_t neighbours_in_row(const Fragment *f, const Transfer *copy, const uint32_t *places, size_t first,
                                 size_t i)
 {
-    const float *x = copy->position + 4 * i, h2 = f->solver->support_radius * f->solver->support_radius;
+    const float *x = copy->position + 4 * i, h2 = f->constants->support_radius * f->constants->support_radius;
     size_t count = 0;
     for (size_t cell = first; cell < first + 3; cell++)
         for (int place = 0; place < 4 * f->layers; place++) {
@@ -159,13 +159,13 @@ static size_t neighbours_in_row(const Fragment *f, const Transfer *copy, const u
 
 static size_t neighbours_of_cell(const Fragment *f, const Transfer *copy, const uint32_t *places, size_t cell)
 {
-    const int *size = f->solver->cells.size;
+    const int *size = f->constants->cells.size;
     size_t sum = 0;
     for (int place = 0; place < 4 * f->layers; place++) {
         const uint32_t number = fragment_bucket_at(f, places, cell, place);
         if (number == 0)
             break;
-        for (int row = f->solver->first_row; row < f->solver->last_row; row++) {
+        for (int row = f->constants->first_row; row < f->constants->last_row; row++) {
             const long to = ((long)(row / 3 - 1) * size[1] + (row % 3 - 1)) * size[0] - 1;
             sum += neighbours_in_row(f, copy, places, (size_t)((long)cell + to), number - 1);
         }
@@ -178,7 +178,7 @@ static double neighbours_mean(const Fragment *f, const Transfer *copy)
 {
     uint32_t *places = fragment_buckets_read(f);
     size_t sum = 0;
-    for (size_t cell = 0; places && cell < f->solver->cells.count; cell++)
+    for (size_t cell = 0; places && cell < f->constants->cells.count; cell++)
         sum += neighbours_of_cell(f, copy, places, cell);
     free(places);
     return f->count > 0 ? (double)sum / (double)f->count : 0;
@@ -191,7 +191,7 @@ void fragment_sums(void *state, WorldSums *sums)
     *sums = (WorldSums){0};
     if (!download(f, &copy))
         return;
-    transfer_get_sums(&copy, f->solver, sums);
+    transfer_get_sums(&copy, f->constants, sums);
     sums->neighbours_mean = neighbours_mean(f, &copy);
     transfer_free(&copy);
 }

@@ -66,7 +66,7 @@ StepWatch fragment_watch(void *state)
     const uint32_t *found = mailbox_wait(&f->watched);
     if (!found)
         return (StepWatch){.bounded = false};
-    const float fastest = f->solver->support_radius / f->longest, speed2 = float_of_bits(found[0]);
+    const float fastest = f->constants->support_radius / f->longest, speed2 = float_of_bits(found[0]);
     f->lost = found[3];
     f->guarded = found[4];
     forget(f);
@@ -75,7 +75,7 @@ StepWatch fragment_watch(void *state)
                        .max_acceleration = sqrtf(float_of_bits(found[1])),
                        .max_compression = float_of_bits(found[2]),
                        .lost = f->lost,
-                       .lost_limit = f->solver->lost_limit};
+                       .lost_limit = f->constants->lost_limit};
 }
 
 static void copy_texture(const Fragment *f, unsigned from, unsigned to)

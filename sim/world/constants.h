@@ -1,7 +1,7 @@
 /* What a def means in numbers: computed once, constant while a world lives but for viscosities over time;
  * every backend reads it. */
-#ifndef SLOSH_SOLVER_H
-#define SLOSH_SOLVER_H
+#ifndef SLOSH_CONSTANTS_H
+#define SLOSH_CONSTANTS_H
 
 #include "sim/base/error.h"
 #include "sim/box/periodic.h"
@@ -28,7 +28,7 @@ typedef struct CellGrid {
     size_t count;
 } CellGrid;
 
-typedef struct Solver {
+typedef struct Constants {
     float support_radius;      /* h, m */
     float rest_number_density; /* n0, 1/m3 */
     bool poly6;                /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
@@ -76,17 +76,17 @@ typedef struct Solver {
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
     Boundary boundary; /* of the solids */
-} Solver;
+} Constants;
 
 /* False with the reason: a def out of range, too many cells, no memory. */
-bool solver_create(Solver *solver, const WorldDef *def, Error *error);
+bool constants_create(Constants *constants, const WorldDef *def, Error *error);
 /* Takes what may change while a world lives: viscosities, sound speed, negative pressure. False with the
    reason, no memory among them: nothing has changed. */
-bool solver_change(Solver *solver, const WorldDef *def, Error *error);
+bool constants_change(Constants *constants, const WorldDef *def, Error *error);
 
 /* Takes the viscosities of the def, which differ from those before by the time alone; true where one does. */
-bool solver_vary(Solver *solver, const WorldDef *def);
+bool constants_vary(Constants *constants, const WorldDef *def);
 
-void solver_destroy(Solver *solver);
+void constants_destroy(Constants *constants);
 
 #endif

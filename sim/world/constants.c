@@ -1,4 +1,4 @@
-#include "sim/world/solver.h"
+#include "sim/world/constants.h"
 
 #include "sim/matter/flow.h"
 
@@ -202,83 +202,83 @@ static bool cells_set(CellGrid *cells, const WorldDef *def, double h, Error *err
     return true;
 }
 
-static void fluids_set(Solver *solver, const WorldDef *def)
+static void fluids_set(Constants *constants, const WorldDef *def)
 {
-    const double compression = solver->lattice.stiffness_scale;
+    const double compression = constants->lattice.stiffness_scale;
     const double c2 = def->sound_speed * def->sound_speed * compression;
-    solver->compression = (float)compression;
-    solver->fluid_count = def->fluid_count;
-    solver->negative_pressure = def->negative_pressure;
-    solver->reproducible = def->reproducible;
-    solver->viscous = solver->varies = false;
+    constants->compression = (float)compression;
+    constants->fluid_count = def->fluid_count;
+    constants->negative_pressure = def->negative_pressure;
+    constants->reproducible = def->reproducible;
+    constants->viscous = constants->varies = false;
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
-    solver->diffusion = (float)(2 * def->delta_sph * c * reach);
-    solver->sound_speed = (float)c;
-    solver->shifting = solver->continuity ? (float)(def->shifting * c * reach) : 0;
-    solver->artificial = false;
+    constants->diffusion = (float)(2 * def->delta_sph * c * reach);
+    constants->sound_speed = (float)c;
+    constants->shifting = constants->continuity ? (float)(def->shifting * c * reach) : 0;
+    constants->artificial = false;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
         const bool viscous = fluid_viscosity_most(fluid) > 0;
         const double alpha = viscous ? 0 : def->artificial_viscosity;
-        solver->tait[f] = (float)(fluid->density * c * c / 7);
-        solver->artificial_viscosity[f] = (float)(0.5 * alpha * c * reach * fluid->density);
-        solver->artificial |= alpha > 0;
-        solver->mass[f] = (float)(fluid->density / solver->lattice.number_density);
-        solver->density[f] = (float)fluid->density;
-        solver->stiffness[f] = (float)(c2 * fluid->density);
-        solver->viscosity[f] = (float)fluid->viscosity;
-        solver->viscous |= viscous;
-        solver->varies |= fluid->viscosity_table.rows > 0;
+        constants->tait[f] = (float)(fluid->density * c * c / 7);
+        constants->artificial_viscosity[f] = (float)(0.5 * alpha * c * reach * fluid->density);
+        constants->artificial |= alpha > 0;
+        constants->mass[f] = (float)(fluid->density / constants->lattice.number_density);
+        constants->density[f] = (float)fluid->density;
+        constants->stiffness[f] = (float)(c2 * fluid->density);
+        constants->viscosity[f] = (float)fluid->viscosity;
+        constants->viscous |= viscous;
+        constants->varies |= fluid->viscosity_table.rows > 0;
     }
-    solver->no_slip = solver->viscous && def->wall_slip == SLIP_NONE;
-    solver->lid = solver->no_slip && length2(def->lid) > 0;
+    constants->no_slip = constants->viscous && def->wall_slip == SLIP_NONE;
+    constants->lid = constants->no_slip && length2(def->lid) > 0;
     for (int k = 0; k < 3; k++)
-        solver->lid_velocity[k] = (float)def->lid[k];
+        constants->lid_velocity[k] = (float)def->lid[k];
 }
 
-static DragWeight drag_weight_of(const Solver *solver)
+static DragWeight drag_weight_of(const Constants *constants)
 {
-    return !solver->continuity ? DRAG_MUELLER : solver->radial > 0 ? DRAG_RADIAL : DRAG_MORRIS;
+    return !constants->continuity ? DRAG_MUELLER : constants->radial > 0 ? DRAG_RADIAL : DRAG_MORRIS;
 }
 
 /* The tables of what the walls do, as far as the def needs them and they are not there. */
-static bool drag_set(Solver *solver, const WorldDef *def, Error *error)
+static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
 {
     bool needed = false;
     for (int f = 0; f < def->fluid_count; f++)
         needed |= def->wall_slip == SLIP_NONE && fluid_viscosity_most(&def->fluids[f]) > 0;
-    if (!needed || solver->drag.table[0] ||
-        wall_drag_create(&solver->drag, def->box_size, def->periodic, def->spacing,
-                         def->support * def->spacing, &solver->lattice, drag_weight_of(solver)))
+    if (!needed || constants->drag.table[0] ||
+        wall_drag_create(&constants->drag, def->box_size, def->periodic, def->spacing,
+                         def->support * def->spacing, &constants->lattice, drag_weight_of(constants)))
         return true;
     return error_set(error, "no memory for the friction of the walls");
 }
 
 /* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
-static void wcsph_set(Solver *solver, const WorldDef *def, const Kernel *kernel, double h)
+static void wcsph_set(Constants *constants, const WorldDef *def, const Kernel *kernel, double h)
 {
     static const double f_half[] = {[KERNEL_CUBIC] = 3,
                                     [KERNEL_WENDLAND_C2] = 2.5,
                                     [KERNEL_QUINTIC] = (1.5 * 1.5 * 1.5 * 1.5 - 6 * 0.0625) / 0.5};
-    const double r = 0.5 * h, scale = solver->lattice.gradient_scale;
-    solver->kernel = (WcsphKernel)(kernel - wcsph_kernels);
+    const double r = 0.5 * h, scale = constants->lattice.gradient_scale;
+    constants->kernel = (WcsphKernel)(kernel - wcsph_kernels);
     if (def->viscosity_form == VISCOSITY_RADIAL)
-        solver->radial = (float)solver->lattice.radial_scale;
-    solver->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[solver->kernel]);
+        constants->radial = (float)constants->lattice.radial_scale;
+    constants->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[constants->kernel]);
 }
 
-static void tension_set(Solver *solver, const WorldDef *def)
+static void tension_set(Constants *constants, const WorldDef *def)
 {
     const double h = def->support * def->spacing;
     const double scale =
         def->tension_model == TENSION_COHESION ? cohesion_scale(def->dimensions, def->spacing, h) : 1;
     bool any = false;
     for (int f = 0; f < def->fluid_count; f++) {
-        solver->tension[f] = (float)(scale * def->fluids[f].surface_tension);
+        constants->tension[f] = (float)(scale * def->fluids[f].surface_tension);
         any |= def->fluids[f].surface_tension > 0;
     }
-    solver->colour = (float)colour_scale(def->dimensions, h);
-    solver->tension_model = any ? (TensionModel)def->tension_model : TENSION_NONE;
+    constants->colour = (float)colour_scale(def->dimensions, h);
+    constants->tension_model = any ? (TensionModel)def->tension_model : TENSION_NONE;
 }
 
 /* The lattice puts ceil(support)^dimensions particles into a cell at most. */
@@ -288,9 +288,9 @@ static int layers_for(const WorldDef *def)
     return def->grid_layers > 0 ? def->grid_layers : (int)ceil(most / 4);
 }
 
-bool solver_create(Solver *solver, const WorldDef *def, Error *error)
+bool constants_create(Constants *constants, const WorldDef *def, Error *error)
 {
-    memset(solver, 0, sizeof *solver);
+    memset(constants, 0, sizeof *constants);
     const double h = def->support * def->spacing;
     const bool continuity = strcmp(def->method, "wcsph") == 0;
     const Kernel *kernel =
@@ -298,66 +298,67 @@ bool solver_create(Solver *solver, const WorldDef *def, Error *error)
     if (!kernel)
         return error_set(error, "unknown kernel '%s'; `slosh info` lists them",
                          continuity ? def->kernel : def->density_kernel);
-    if (!def_check(def, error) || !cells_set(&solver->cells, def, h, error))
+    if (!def_check(def, error) || !cells_set(&constants->cells, def, h, error))
         return false;
 
-    periodic_set(&solver->periodic, def);
-    solver->first_row = def->dimensions == 2 ? 3 : 0;
-    solver->last_row = def->dimensions == 2 ? 6 : 9;
+    periodic_set(&constants->periodic, def);
+    constants->first_row = def->dimensions == 2 ? 3 : 0;
+    constants->last_row = def->dimensions == 2 ? 6 : 9;
     lattice_calibrate(def->dimensions, def->spacing, h, kernel,
-                      continuity ? kernel : density_kernel_find("spiky"), &solver->lattice);
-    solver->friction = step_friction(def);
-    solver->continuity = continuity;
-    solver->poly6 = kernel->value == kernel_poly6;
-    solver->support_radius = (float)h;
-    solver->spacing = (float)def->spacing;
-    solver->rest_number_density = (float)solver->lattice.number_density;
-    solver->kernel_scale = (float)(kernel->value(0, h) * solver->lattice.density_scale);
-    solver->pressure_scale = (float)(-kernel_spiky_derivative(0, h) * solver->lattice.gradient_scale);
-    solver->viscosity_scale = (float)(kernel_viscosity_laplacian(0, h) * solver->lattice.laplacian_scale);
-    tension_set(solver, def);
+                      continuity ? kernel : density_kernel_find("spiky"), &constants->lattice);
+    constants->friction = step_friction(def);
+    constants->continuity = continuity;
+    constants->poly6 = kernel->value == kernel_poly6;
+    constants->support_radius = (float)h;
+    constants->spacing = (float)def->spacing;
+    constants->rest_number_density = (float)constants->lattice.number_density;
+    constants->kernel_scale = (float)(kernel->value(0, h) * constants->lattice.density_scale);
+    constants->pressure_scale = (float)(-kernel_spiky_derivative(0, h) * constants->lattice.gradient_scale);
+    constants->viscosity_scale =
+        (float)(kernel_viscosity_laplacian(0, h) * constants->lattice.laplacian_scale);
+    tension_set(constants, def);
     if (continuity)
-        wcsph_set(solver, def, kernel, h);
-    fluids_set(solver, def);
+        wcsph_set(constants, def, kernel, h);
+    fluids_set(constants, def);
     if (continuity)
-        walls_place(&solver->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
-    else if (!walls_create(&solver->walls, def->box_size, def->periodic, def->spacing, h, kernel,
-                           &solver->lattice))
+        walls_place(&constants->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
+    else if (!walls_create(&constants->walls, def->box_size, def->periodic, def->spacing, h, kernel,
+                           &constants->lattice))
         return error_set(error, "no memory for the tables of the walls");
-    solver->dimensions = def->dimensions;
-    solver->emits = flow_emits(def);
-    solver->drains = def->drain_count > 0;
-    solver->grid_layers = layers_for(def);
-    solver->lost_limit = (size_t)def->lost_limit;
-    solver->solid_count = def->solid_count;
-    memcpy(solver->solids, def->solids, sizeof solver->solids);
-    if (!boundary_create(&solver->boundary, def))
+    constants->dimensions = def->dimensions;
+    constants->emits = flow_emits(def);
+    constants->drains = def->drain_count > 0;
+    constants->grid_layers = layers_for(def);
+    constants->lost_limit = (size_t)def->lost_limit;
+    constants->solid_count = def->solid_count;
+    memcpy(constants->solids, def->solids, sizeof constants->solids);
+    if (!boundary_create(&constants->boundary, def))
         return error_set(error, "no memory for the boundary particles of the solids");
-    return drag_set(solver, def, error);
+    return drag_set(constants, def, error);
 }
 
-bool solver_change(Solver *solver, const WorldDef *def, Error *error)
+bool constants_change(Constants *constants, const WorldDef *def, Error *error)
 {
-    if (!def_check(def, error) || !drag_set(solver, def, error))
+    if (!def_check(def, error) || !drag_set(constants, def, error))
         return false;
-    fluids_set(solver, def);
+    fluids_set(constants, def);
     return true;
 }
 
-bool solver_vary(Solver *solver, const WorldDef *def)
+bool constants_vary(Constants *constants, const WorldDef *def)
 {
     bool other = false;
     for (int f = 0; f < def->fluid_count; f++) {
         const float now = (float)def->fluids[f].viscosity;
-        other |= solver->viscosity[f] != now;
-        solver->viscosity[f] = now;
+        other |= constants->viscosity[f] != now;
+        constants->viscosity[f] = now;
     }
     return other;
 }
 
-void solver_destroy(Solver *solver)
+void constants_destroy(Constants *constants)
 {
-    walls_destroy(&solver->walls);
-    boundary_destroy(&solver->boundary);
-    wall_drag_destroy(&solver->drag);
+    walls_destroy(&constants->walls);
+    boundary_destroy(&constants->boundary);
+    wall_drag_destroy(&constants->drag);
 }
