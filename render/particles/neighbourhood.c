@@ -17,8 +17,8 @@ bool neighbourhood_create(Neighbourhood *n, Error *error)
 {
     *n = (Neighbourhood){0};
     n->bin = compile("render/neighbourhood_bin.comp", error);
-    n->scan = n->bin ? compile("sim/scan.comp", error) : 0;
-    n->scan_add = n->scan ? compile("sim/scan_add.comp", error) : 0;
+    n->scan = n->bin ? compile("sim/compute/scan.comp", error) : 0;
+    n->scan_add = n->scan ? compile("sim/compute/scan_add.comp", error) : 0;
     n->place = n->scan_add ? compile("render/neighbourhood_place.comp", error) : 0;
     n->sort = n->place ? compile("render/neighbourhood_sort.comp", error) : 0;
     return n->sort != 0;

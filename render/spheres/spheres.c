@@ -38,15 +38,16 @@ static void spheres_destroy(void *state)
 
 static bool create_programs(Spheres *spheres, Error *error)
 {
-    static const char *const shading[] = {"common/screen.vert", "render/spheres_shade.frag", NULL};
-    spheres->visibility = program_create_pair("spheres", "render/spheres.vert", "render/spheres.frag", error);
-    spheres->points = spheres->visibility ? program_create_pair("spheres point", "render/spheres_point.vert",
-                                                                "render/spheres_point.frag", error)
+    static const char *const shading[] = {"common/screen.vert", "spheres/spheres_shade.frag", NULL};
+    spheres->visibility =
+        program_create_pair("spheres", "spheres/spheres.vert", "spheres/spheres.frag", error);
+    spheres->points = spheres->visibility ? program_create_pair("spheres point", "spheres/spheres_point.vert",
+                                                                "spheres/spheres_point.frag", error)
                                           : 0;
     spheres->shading = spheres->points ? program_create("spheres shade", shading,
                                                         spheres->solids ? "#define SOLIDS 1\n" : NULL, error)
                                        : 0;
-    spheres->casting = spheres->shading ? program_create_pair("spheres shadow", "render/spheres_shadow.vert",
+    spheres->casting = spheres->shading ? program_create_pair("spheres shadow", "render/ball_shadow.vert",
                                                               "render/depth_only.frag", error)
                                         : 0;
     if (spheres->casting)

@@ -10,7 +10,7 @@
 
 enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6, SMALL_MOST = 2 };
 
-/* A coarse map: see `grid` and `projection` in shaders/common/cull.glsl. */
+/* A coarse map: see `grid` and `projection` in shaders/splat/cull.glsl. */
 typedef struct Grid {
     GLuint columns, rows, side, reach;
     GLfloat projection[4];
@@ -27,15 +27,15 @@ static bool create_programs(Cull *cull, const char *body, Error *error)
     snprintf(light, sizeof light, "#define LIGHT 1\n%s", body);
     const char *defines[] = {body, light};
     for (int i = 0; i < 2; i++) {
-        cull->occlude[i] = compile("cull occlude", "render/cull_occlude.comp", defines[i], error);
+        cull->occlude[i] = compile("cull occlude", "splat/cull_occlude.comp", defines[i], error);
         cull->test[i] =
-            cull->occlude[i] ? compile("cull test", "render/cull_test.comp", defines[i], error) : 0;
+            cull->occlude[i] ? compile("cull test", "splat/cull_test.comp", defines[i], error) : 0;
         if (!cull->test[i])
             return false;
     }
-    cull->widen = compile("cull widen", "render/cull_widen.comp", NULL, error);
-    cull->sum = cull->widen ? compile("cull sum", "render/cull_sum.comp", NULL, error) : 0;
-    cull->list = cull->sum ? compile("cull list", "render/cull_list.comp", NULL, error) : 0;
+    cull->widen = compile("cull widen", "splat/cull_widen.comp", NULL, error);
+    cull->sum = cull->widen ? compile("cull sum", "splat/cull_sum.comp", NULL, error) : 0;
+    cull->list = cull->sum ? compile("cull list", "splat/cull_list.comp", NULL, error) : 0;
     return cull->list != 0;
 }
 
@@ -51,7 +51,7 @@ bool cull_create(Cull *cull, const char *body, Error *error)
 
 bool cull_create_limit(Cull *cull, Error *error)
 {
-    cull->limit = compile("cull limit", "render/cull_limit.comp", NULL, error);
+    cull->limit = compile("cull limit", "splat/cull_limit.comp", NULL, error);
     return cull->limit != 0;
 }
 

@@ -1,5 +1,5 @@
 /* Finds the particles whose sprites may be seen, before any is drawn: hidden ones lie behind a coarse map of
-   what is covered (shaders/common/cull.glsl). What is left is listed in the particles' order, and drawn
+   what is covered (shaders/splat/cull.glsl). What is left is listed in the particles' order, and drawn
    indirectly: nothing comes back to this side.
 
    Nothing that would change a pixel is left out. */
@@ -27,7 +27,7 @@ typedef struct Cull {
     float point_limit;      /* largest point that the driver draws, pixels */
 } Cull;
 
-/* For particles as common/splat_body.glsl has them with these defines. False when a shader does not
+/* For particles as splat/splat_body.glsl has them with these defines. False when a shader does not
  * compile; cull_destroy is needed in either case. */
 bool cull_create(Cull *cull, const char *body, Error *error);
 void cull_destroy(Cull *cull);

@@ -28,7 +28,7 @@ const char *ellipsoids_defines(const SplatDef *def)
 
 bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error)
 {
-    const char *file = ellipsoids_stretched(def) ? "render/ellipsoids.comp" : "render/drops.comp";
+    const char *file = ellipsoids_stretched(def) ? "splat/ellipsoids.comp" : "splat/drops.comp";
     *ellipsoids = (Ellipsoids){.def = *def};
     if (!ellipsoids_wanted(def))
         return true;

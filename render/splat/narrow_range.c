@@ -7,7 +7,7 @@
 
 static GLuint create_smoothing(const char *label, const char *defines, Error *error)
 {
-    static const char *const stages[] = {"common/screen.vert", "render/narrow_range.frag", NULL};
+    static const char *const stages[] = {"common/screen.vert", "splat/narrow_range.frag", NULL};
     char all[96];
     snprintf(all, sizeof all, "%s#define TAPS %d\n", defines, NARROW_RANGE_TAPS);
     return program_create(label, stages, all, error);
@@ -22,7 +22,7 @@ bool narrow_range_create(NarrowRange *filter, Error *error)
         filter->clean = create_smoothing("narrow range, clean-up", "#define CLEAN 1\n", error);
     if (filter->clean)
         filter->normals = program_create_pair("narrow range, normals", "common/screen.vert",
-                                              "render/narrow_range_normals.frag", error);
+                                              "splat/narrow_range_normals.frag", error);
     return filter->normals != 0;
 }
 

@@ -18,8 +18,8 @@ bool silhouette_by_discs(const SplatDef *def)
 
 bool silhouette_create(Silhouette *silhouette, const ViewDef *def, Error *error)
 {
-    static const char *const files[] = {"render/silhouette_near.frag", "render/silhouette_edges.frag",
-                                        "render/silhouette_blend.frag"};
+    static const char *const files[] = {"splat/silhouette_near.frag", "splat/silhouette_edges.frag",
+                                        "splat/silhouette_blend.frag"};
     const bool solids = def->solid_count > 0, discs = silhouette_by_discs(&def->splat);
     char defines[96];
     *silhouette = (Silhouette){0};

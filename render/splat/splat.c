@@ -76,12 +76,12 @@ static bool create_sprites(SplatView *splat, SplatSprite sprite, Error *error)
 {
     char blend[96];
     const char *const file =
-        splat_level_wanted(&splat->def) ? "render/splat_level_blend.frag" : "render/splat_blend.frag";
+        splat_level_wanted(&splat->def) ? "splat/splat_level_blend.frag" : "splat/splat_blend.frag";
     const char *const discs = silhouette_by_discs(&splat->def) ? "#define DISCS 1\n" : "";
     const bool listed = splat_culls(&splat->def);
     snprintf(blend, sizeof blend, "#define BLEND 1\n#define WEIGHTS %d\n%s", (int)splat->def.weights, discs);
     splat->depth[sprite] =
-        splat_sprites_program(&splat->sprites, sprite, listed, "render/splat_depth.frag", discs, error);
+        splat_sprites_program(&splat->sprites, sprite, listed, "splat/splat_depth.frag", discs, error);
     if (splat->depth[sprite])
         splat->blend[sprite] = splat_sprites_program(&splat->sprites, sprite, listed, file, blend, error);
     return splat->blend[sprite] != 0;
@@ -90,7 +90,7 @@ static bool create_sprites(SplatView *splat, SplatSprite sprite, Error *error)
 /* For the shadow map, where the light culls and where it cannot. */
 static GLuint create_casting(const SplatDef *def, const char *listed, Error *error)
 {
-    static const char *const stages[] = {"render/spheres_shadow.vert", "render/depth_only.frag", NULL};
+    static const char *const stages[] = {"render/ball_shadow.vert", "render/depth_only.frag", NULL};
     char defines[64];
     snprintf(defines, sizeof defines, "%s%s", ellipsoids_defines(def), listed);
     const GLuint program = program_create("splat shadow", stages, defines, error);
@@ -105,7 +105,7 @@ static bool create_programs(SplatView *splat, Error *error)
         if (splat_sprites_may(&splat->sprites, (SplatSprite)sprite) &&
             !create_sprites(splat, (SplatSprite)sprite, error))
             return false;
-    splat->limit = program_create_pair("splat limit", "common/screen.vert", "render/splat_limit.frag", error);
+    splat->limit = program_create_pair("splat limit", "common/screen.vert", "splat/splat_limit.frag", error);
     splat->casting = splat->limit ? create_casting(&splat->def, "", error) : 0;
     if (splat->casting && splat_culls(&splat->def))
         splat->casting_listed = create_casting(&splat->def, "#define LISTED 1\n", error);

@@ -40,8 +40,8 @@ static bool create_sprites(SplatLevel *level, const SplatSprites *sprites, Splat
 {
     const bool listed = splat_culls(&sprites->def);
     unsigned *const programs[] = {&level->next[sprite], &level->sum[sprite], &level->single[sprite]};
-    static const char *const files[] = {"render/splat_level_next.frag", "render/splat_level_sum.frag",
-                                        "render/splat_level_sum.frag"};
+    static const char *const files[] = {"splat/splat_level_next.frag", "splat/splat_level_sum.frag",
+                                        "splat/splat_level_sum.frag"};
     for (int i = 0; i < 3; i++) {
         *programs[i] = splat_sprites_program(sprites, sprite, listed, files[i],
                                              i == 2 ? "#define SINGLE 1\n" : "", error);
@@ -66,11 +66,11 @@ bool splat_level_create(SplatLevel *level, SplatSprites *sprites, Error *error)
             return false;
     if (splat_culls(&sprites->def) && !cull_create_limit(&sprites->cull, error))
         return false;
-    level->open = compile_screen("render/splat_level_open.frag", NULL, error);
+    level->open = compile_screen("splat/splat_level_open.frag", NULL, error);
     level->open_found =
-        level->open ? compile_screen("render/splat_level_open.frag", "#define FOUND 1\n", error) : 0;
-    level->step = level->open_found ? compile_screen("render/splat_level_step.frag", NULL, error) : 0;
-    level->root = level->step ? compile_screen("render/splat_level_root.frag", NULL, error) : 0;
+        level->open ? compile_screen("splat/splat_level_open.frag", "#define FOUND 1\n", error) : 0;
+    level->step = level->open_found ? compile_screen("splat/splat_level_step.frag", NULL, error) : 0;
+    level->root = level->step ? compile_screen("splat/splat_level_root.frag", NULL, error) : 0;
     level->asking = level->root ? compile_screen("render/depth_only.frag", NULL, error) : 0;
     return level->asking != 0;
 }

@@ -15,7 +15,7 @@ bool splat_shade_wants_thickness(const SplatDef *def)
 
 static unsigned create_program(const SplatShade *shade, const ViewDef *def, const char *more, Error *error)
 {
-    static const char *const stages[] = {"common/screen.vert", "render/splat_shade.frag", NULL};
+    static const char *const stages[] = {"common/screen.vert", "splat/splat_shade.frag", NULL};
     char defines[160];
     snprintf(defines, sizeof defines, "%s%s%s#define SHOW %d\n#define SHADING %d\n",
              def->solid_count > 0 ? "#define SOLIDS 1\n" : "", shade->clear ? "#define FLOOR_SHADOW 1\n" : "",

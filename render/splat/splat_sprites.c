@@ -62,7 +62,7 @@ bool splat_sprites_small(const Frame *frame)
 unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, bool listed,
                                const char *fragment, const char *defines, Error *error)
 {
-    const char *const stages[] = {"render/splat.vert", fragment, NULL};
+    const char *const stages[] = {"splat/splat.vert", fragment, NULL};
     char all[256];
     snprintf(all, sizeof all, "%s%s%s%s", ellipsoids_defines(&sprites->def),
              sprite == SPLAT_POINT ? "#define POINT 1\n" : "", listed ? "#define LISTED 1\n" : "", defines);

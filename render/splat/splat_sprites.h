@@ -29,10 +29,10 @@ bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite);
 /* For this frame: quad or point, for spheres of that radius (m) in a picture that many pixels high. */
 SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame, float radius, float height);
 
-/* Whether some sphere may be so small that it is drawn larger than it is: shaders/common/splat_small.glsl. */
+/* Whether some sphere may be so small that it is drawn larger than it is: shaders/splat/splat_small.glsl. */
 bool splat_sprites_small(const Frame *frame);
 
-/* A program of render/splat.vert and a fragment shader, for all particles or those listed by culling. The
+/* A program of splat/splat.vert and a fragment shader, for all particles or those listed by culling. The
    caller deletes it; 0 on failure. */
 unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, bool listed,
                                const char *fragment, const char *defines, Error *error);
@@ -41,7 +41,7 @@ unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, 
 void splat_sprites_draw(SplatSprites *sprites, SplatSprite sprite, unsigned program,
                         const ParticleBuffers *particles, const Frame *frame, const CullList *list);
 
-/* Draws a point a particle with any program; those of render/splat.vert are for splat_sprites_draw. */
+/* Draws a point a particle with any program; those of splat/splat.vert are for splat_sprites_draw. */
 void splat_sprites_draw_points(SplatSprites *sprites, unsigned program, const ParticleBuffers *particles,
                                const Frame *frame, const CullList *list);
 

@@ -15,7 +15,7 @@ bool thickness_create(Thickness *thickness, const SplatSprites *sprites, bool so
         if (!splat_sprites_may(sprites, (SplatSprite)sprite))
             continue;
         thickness->program[sprite] = splat_sprites_program(sprites, (SplatSprite)sprite, false,
-                                                           "render/thickness.frag", defines, error);
+                                                           "splat/thickness.frag", defines, error);
         if (!thickness->program[sprite])
             return false;
     }

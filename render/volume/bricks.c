@@ -12,13 +12,13 @@ bool bricks_create(Bricks *bricks, Error *error)
     glObjectLabel(GL_BUFFER, bricks->commands, -1, "brick commands");
     glNamedBufferStorage(bricks->commands, 5 * sizeof(GLuint), NULL, GL_DYNAMIC_STORAGE_BIT);
     bricks->greatest = program_create(
-        "bricks greatest", (const char *const[]){"render/bricks_greatest.comp", NULL}, NULL, error);
+        "bricks greatest", (const char *const[]){"volume/bricks_greatest.comp", NULL}, NULL, error);
     if (bricks->greatest)
-        bricks->list = program_create("bricks list", (const char *const[]){"render/bricks_list.comp", NULL},
+        bricks->list = program_create("bricks list", (const char *const[]){"volume/bricks_list.comp", NULL},
                                       NULL, error);
     if (bricks->list)
         bricks->faces =
-            program_create_pair("bricks faces", "render/bricks_faces.vert", "render/depth_only.frag", error);
+            program_create_pair("bricks faces", "volume/bricks_faces.vert", "render/depth_only.frag", error);
     return bricks->faces != 0;
 }
 

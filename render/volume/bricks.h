@@ -28,7 +28,7 @@ bool bricks_create(Bricks *bricks, Error *error);
 void bricks_destroy(Bricks *bricks);
 
 /* Fills the map from the volume, and lists the faces of bricks that exceed what the uniform block of
-   shaders/common/raycast.glsl says. That must be bound, and the field to texture unit 8. */
+   shaders/volume/raycast.glsl says. That must be bound, and the field to texture unit 8. */
 void bricks_make(Bricks *bricks, const Volume *volume);
 
 /* The side of a grid's bricks in cells, and their number along each axis. */

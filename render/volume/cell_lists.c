@@ -26,10 +26,10 @@ static GLuint compile(const char *label, const char *file, const char *defines, 
 bool cell_lists_create(CellLists *lists, bool scalar, Error *error)
 {
     *lists = (CellLists){0};
-    lists->count = compile("cell count", "render/cell_count.comp", NULL, error);
-    lists->scan = lists->count ? compile("cell scan", "render/cell_scan.comp", NULL, error) : 0;
+    lists->count = compile("cell count", "volume/cell_count.comp", NULL, error);
+    lists->scan = lists->count ? compile("cell scan", "volume/cell_scan.comp", NULL, error) : 0;
     lists->place = lists->scan
-                       ? compile("cell place", "render/cell_count.comp",
+                       ? compile("cell place", "volume/cell_count.comp",
                                  scalar ? "#define PLACE 1\n#define SCALAR 1\n" : "#define PLACE 1\n", error)
                        : 0;
     return lists->place != 0;

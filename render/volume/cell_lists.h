@@ -1,5 +1,5 @@
 /* Particles in the order of the cells of a grid as wide as the kernel's radius, made on the GPU: who is near
-   a place stands in three times three rows (shaders/common/field_sum.glsl). */
+   a place stands in three times three rows (shaders/volume/field_sum.glsl). */
 #ifndef SLOSH_CELL_LISTS_H
 #define SLOSH_CELL_LISTS_H
 

@@ -10,7 +10,7 @@
 bool fluid_numbers_create(FluidNumbers *numbers, Error *error)
 {
     *numbers = (FluidNumbers){
-        .program = program_create("fluid numbers", (const char *const[]){"render/fluid_numbers.comp", NULL},
+        .program = program_create("fluid numbers", (const char *const[]){"volume/fluid_numbers.comp", NULL},
                                   NULL, error)};
     return numbers->program != 0;
 }

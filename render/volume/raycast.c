@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As in shaders/common/raycast.glsl, std140. */
+/* As in shaders/volume/raycast.glsl, std140. */
 typedef struct RaycastBlock {
     float eye_to_volume[16], volume_to_eye[16];
     float cells[4], bricks[4], march[4], transfer[4], look[4];
@@ -21,7 +21,7 @@ typedef struct RaycastBlock {
 enum { ENTRY, EXIT, GATE, DEPTHS };
 enum { FACES_IN, FACES_OUT, MARCH, FRAMEBUFFERS };
 
-/* The longest step, in support radii: see step_from in shaders/common/raycast_ray.glsl. */
+/* The longest step, in support radii: see step_from in shaders/volume/raycast_ray.glsl. */
 static const double FAR_STEP = 0.5;
 
 struct Raycast {
@@ -55,7 +55,7 @@ void raycast_destroy(Raycast *raycast)
 /* Program text for what the def asks for, and for nothing else. */
 static GLuint create_program(const ViewDef *def, const char *field, Error *error)
 {
-    static const char *const stages[] = {"common/screen.vert", "render/raycast.frag", NULL};
+    static const char *const stages[] = {"common/screen.vert", "volume/raycast.frag", NULL};
     const RaycastDef *cast = &def->raycast;
     static const int shows[] = {
         [VOLUME_ENTRY] = 1, [VOLUME_EXIT] = 2, [VOLUME_LENGTH] = 3, [VOLUME_STEPS] = 4, [VOLUME_NORMALS] = 5};
@@ -88,7 +88,7 @@ Raycast *raycast_create(const ViewDef *def, const Voxelizer *voxelizer, Error *e
         raycast->program = create_program(def, voxelizer ? voxelizer_defines(voxelizer) : "", error);
     if (raycast->program)
         raycast->settle =
-            program_create_pair("raycast depth", "common/screen.vert", "render/raycast_depth.frag", error);
+            program_create_pair("raycast depth", "common/screen.vert", "volume/raycast_depth.frag", error);
     if (raycast->settle && bricks_create(&raycast->bricks, error))
         return raycast;
     raycast_destroy(raycast);

@@ -20,7 +20,7 @@ typedef struct Volume {
     VolumeGrid grid;
     double support;  /* h of the kernel, m */
     unsigned field;  /* GL_TEXTURE_3D, R32F, linear, 0 outside: F. 0 with method `direct`, where
-                        shaders/common/field.glsl sums at the sample */
+                        shaders/volume/field.glsl sums at the sample */
     unsigned scalar; /* the same for sum V W scalar, whose mean is this by F; 0 where none is carried. A
                         texture of its own, since most samples need F alone */
 } Volume;
@@ -58,10 +58,10 @@ bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuf
 /* False when the driver or the memory has no room for such a volume, or the method cannot make it. */
 bool voxelizer_fits(const Voxelizer *voxelizer, const VolumeGrid *grid, double support, Error *error);
 
-/* Lines of defines that shaders/common/field.glsl needs for this voxelizer's volumes; a constant. */
+/* Lines of defines that shaders/volume/field.glsl needs for this voxelizer's volumes; a constant. */
 const char *voxelizer_defines(const Voxelizer *voxelizer);
 
-/* Binds the newest volume for shaders/common/field.glsl: texture units 8 and 9, uniform block 2, storage 8
+/* Binds the newest volume for shaders/volume/field.glsl: texture units 8 and 9, uniform block 2, storage 8
  * to 10. */
 void voxelizer_bind(const Voxelizer *voxelizer);
 

@@ -7,7 +7,7 @@
 
 bool volume_slice_create(VolumeSlice *slice, const ViewDef *def, const Voxelizer *voxelizer, Error *error)
 {
-    static const char *const stages[] = {"render/volume_slice.vert", "render/volume_slice.frag", NULL};
+    static const char *const stages[] = {"volume/volume_slice.vert", "volume/volume_slice.frag", NULL};
     *slice = (VolumeSlice){.colormap = colormap_texture(def->colormap)};
     if (!slice->colormap)
         return error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);

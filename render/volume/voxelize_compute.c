@@ -28,8 +28,8 @@ static void compute_destroy(void *state)
 
 static bool create_programs(ByCompute *own, Error *error)
 {
-    static const char *const scatter[] = {"render/voxelize_scatter.comp", NULL};
-    static const char *const gather[] = {"render/voxelize_gather.comp", NULL};
+    static const char *const scatter[] = {"volume/voxelize_scatter.comp", NULL};
+    static const char *const gather[] = {"volume/voxelize_gather.comp", NULL};
     char defines[160];
     snprintf(defines, sizeof defines, "%s%s",
              own->atomics && own->method == VOLUME_SCATTER

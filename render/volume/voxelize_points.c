@@ -43,9 +43,9 @@ static int slices_a_pass(const ByPoints *own)
 /* Makes the program for at most `discs` slices a particle; only the geometry shader must know them. */
 static GLuint create_program(const ByPoints *own, int discs, Error *error)
 {
-    static const char *const plain[] = {"render/voxelize.vert", "render/voxelize.frag", NULL};
-    static const char *const with_geometry[] = {"render/voxelize.vert", "render/voxelize.geom",
-                                                "render/voxelize.frag", NULL};
+    static const char *const plain[] = {"volume/voxelize.vert", "volume/voxelize.frag", NULL};
+    static const char *const with_geometry[] = {"volume/voxelize.vert", "volume/voxelize.geom",
+                                                "volume/voxelize.frag", NULL};
     const int invocations = (discs + GEOMETRY_POINTS - 1) / GEOMETRY_POINTS;
     const char *scalar = own->scalar ? "#define SCALAR 1\n" : "";
     char defines[256];
@@ -63,7 +63,7 @@ static GLuint create_program(const ByPoints *own, int discs, Error *error)
 
 static bool create_programs(ByPoints *own, Error *error)
 {
-    static const char *const unpack[] = {"render/voxelize_unpack.comp", NULL};
+    static const char *const unpack[] = {"volume/voxelize_unpack.comp", NULL};
     own->discs = own->method == VOLUME_GEOMETRY ? 12 : 0;
     own->program = create_program(own, own->discs, error);
     if (!own->program || own->method != VOLUME_PLANES)

@@ -94,7 +94,7 @@ static bool read_attribute(const ParticleAttribute *from, size_t count, size_t w
     return true;
 }
 
-/* As volume_particle in shaders/common/volume_particle.glsl has it. */
+/* As volume_particle in shaders/volume/volume_particle.glsl has it. */
 static bool counts(const float at[4], const VoxelizeJob *job)
 {
     bool inside = at[3] > 0 && at[3] < 1e30F;

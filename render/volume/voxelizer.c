@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* As in shaders/common/volume.glsl, std140. */
+/* As in shaders/volume/volume.glsl, std140. */
 typedef struct VolumeBlock {
     float place[4], low[4], high[4];
     int32_t size[4], list_size[4];
@@ -196,7 +196,7 @@ static void fill_block(const Voxelizer *voxelizer, const VoxelizeJob *job, const
     glBindBufferBase(GL_UNIFORM_BUFFER, 2, voxelizer->block);
 }
 
-/* From the numbers of shaders/render/volume_bounds.comp. */
+/* From the numbers of shaders/volume/volume_bounds.comp. */
 static double ordered(GLuint value)
 {
     const GLuint bits = value & 0x80000000U ? value & 0x7fffffffU : ~value;
@@ -207,7 +207,7 @@ static double ordered(GLuint value)
 
 static bool prepare_bounds(Voxelizer *voxelizer, Error *error)
 {
-    static const char *const stages[] = {"render/volume_bounds.comp", NULL};
+    static const char *const stages[] = {"volume/volume_bounds.comp", NULL};
     if (!voxelizer->find_bounds)
         voxelizer->find_bounds = program_create("volume bounds", stages, NULL, error);
     return voxelizer->find_bounds != 0;

@@ -1,5 +1,5 @@
 // Positions by cell, within a cell by number, so that sums have one order whatever the atomic counters did. Each counts its place
-// for itself, as in sim/sort.comp; what is nowhere, or in too large a crowd, has any.
+// for itself, as in sim/compute/sort.comp; what is nowhere, or in too large a crowd, has any.
 #include "common/particles.glsl"
 #include "common/neighbourhood_grid.glsl"
 layout(std430, binding = 4) readonly buffer Cells { uint cell[]; };

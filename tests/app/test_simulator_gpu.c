@@ -222,11 +222,11 @@ static void broken_shaders_leave_the_last_good_ones(void **state)
     Rig rig;
     rig_open(&rig, true);
     assert_int_equal(system("rm -rf shaders && cp -r " SLOSH_SOURCE_DIR
-                            "/shaders . && echo 'float x = ;' >> shaders/sim/force.comp"),
+                            "/shaders . && echo 'float x = ;' >> shaders/sim/compute/force.comp"),
                      0);
     shader_source_set_directory("shaders");
     assert_false(simulator_reload(rig.simulator, &error));
-    assert_non_null(strstr(error.message, "sim/force.comp:"));
+    assert_non_null(strstr(error.message, "sim/compute/force.comp:"));
     simulator_single_step(rig.simulator);
     until_step(&rig, 5);
     assert_false(rig.status.failed);

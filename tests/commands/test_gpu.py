@@ -71,11 +71,11 @@ class Gpu(CommandTest):
 
     def test_a_broken_shader_is_named(self):
         shutil.copytree(SHADERS, self.path('shaders'))
-        with open(self.path('shaders/sim/force.comp'), 'a') as file:
+        with open(self.path('shaders/sim/compute/force.comp'), 'a') as file:
             file.write('float broken = ;\n')
-        lines = self.read('shaders/sim/force.comp').count(b'\n')
-        self.refused(1, rf'sim/force.comp:{lines}: .*syntax error', *ON, '--shaders', 'shaders')
-        os.remove(self.path('shaders/sim/drift.comp'))
+        lines = self.read('shaders/sim/compute/force.comp').count(b'\n')
+        self.refused(1, rf'sim/compute/force.comp:{lines}: .*syntax error', *ON, '--shaders', 'shaders')
+        os.remove(self.path('shaders/sim/compute/drift.comp'))
         self.refused(1, 'drift.comp', *ON, '--shaders', 'shaders')
 
     def test_short_memory_is_said(self):

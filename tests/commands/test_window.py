@@ -396,7 +396,7 @@ class Mouse(Window):
 
 class Shaders(Window):
     def change(self, old, new):
-        with open(self.path('shaders/render/spheres_shade.frag'), 'r+', encoding='utf-8') as file:
+        with open(self.path('shaders/spheres/spheres_shade.frag'), 'r+', encoding='utf-8') as file:
             text = file.read()
             self.assertIn(old, text)
             file.seek(0)

@@ -50,7 +50,7 @@ static double determinant(double m[3][3])
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* The constants of shaders/render/ellipsoids.comp. */
+/* The constants of shaders/splat/ellipsoids.comp. */
 static void round_off(double c[3][3], double share, bool flat)
 {
     const double more = 0.25 * (c[0][0] + c[1][1] + c[2][2]) + 0.1 * (1 - share) + 1e-3;

@@ -111,9 +111,9 @@ static void depths_may_be_rounded_otherwise(void **state)
     char directory[] = "/tmp/slosh_shadersXXXXXX", command[512];
     assert_non_null(mkdtemp(directory));
     snprintf(command, sizeof command,
-             "cp -r '%s'/shaders/common '%s'/shaders/render %s && "
-             "sed -i 's/? hit.depth :/? hit.depth * 0.999995 :/' %s/render/splat_depth.frag",
-             SLOSH_SOURCE_DIR, SLOSH_SOURCE_DIR, directory, directory);
+             "cp -r '%s'/shaders/. %s && "
+             "sed -i 's/? hit.depth :/? hit.depth * 0.999995 :/' %s/splat/splat_depth.frag",
+             SLOSH_SOURCE_DIR, directory, directory);
     assert_int_equal(system(command), 0);
     SplatScene scene = splat_scene((double[]){0.3, 0.6, 3}, (double[]){0, 0.5, 0}, 30, 0.2);
     scene.def.splat.weights = SPLAT_NO_WEIGHTS;

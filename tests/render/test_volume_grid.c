@@ -149,7 +149,7 @@ static void a_view_refuses_what_does_not_fit(void **state)
     renderer_destroy(renderer);
 }
 
-/* Runs shaders/common/field.glsl at so many places: F there, and the scalar's mean. */
+/* Runs shaders/volume/field.glsl at so many places: F there, and the scalar's mean. */
 static void sample(const Voxelizer *voxelizer, const float *at, float *values, int count)
 {
     static const char body[] = "layout(local_size_x = 1) in;\n"
@@ -159,7 +159,7 @@ static void sample(const Voxelizer *voxelizer, const float *at, float *values, i
                                "values[i] = vec2(field_at(at[i].xyz), field_scalar_at(at[i].xyz)); }\n";
     ShaderSource source;
     Error error = {0};
-    assert_true(shader_source_load(&source, "common/field.glsl", voxelizer_defines(voxelizer), &error));
+    assert_true(shader_source_load(&source, "volume/field.glsl", voxelizer_defines(voxelizer), &error));
     GLuint shader = glCreateShader(GL_COMPUTE_SHADER), program = glCreateProgram(), buffers[2];
     glShaderSource(shader, 2, (const GLchar *const[]){source.text, body}, NULL);
     glCompileShader(shader);

@@ -57,7 +57,7 @@ DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device"}  # rooms of ap
 # What is left to cut: circles by their first file, and drawers.
 CIRCLES_LEFT = ["app/base/output", "app/device/mapping", "app/scene/advise", "app/yaml/tree", "render/splat/silhouette",
                 "sim/cpu/pair_loop", "sim/world/backend"]
-DRAWERS_LEFT = ["shaders/common", "shaders/render", "shaders/sim", "tests/app", "tests/render"]
+DRAWERS_LEFT = ["tests/app", "tests/render"]
 
 
 def folder(floor, room):

@@ -1,4 +1,4 @@
-// What the views want to know of each particle besides place and velocity: shaders/sim/show.comp.
+// What the views want to know of each particle besides place and velocity: shaders/sim/compute/show.comp.
 #include "sim/fragment/own.glsl"
 uniform sampler2D fields;
 uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id

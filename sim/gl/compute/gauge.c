@@ -4,7 +4,7 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-enum { NUMBERS = 8 }; /* a group: shaders/sim/gauge.comp */
+enum { NUMBERS = 8 }; /* a group: shaders/sim/compute/gauge.comp */
 
 /* The first time. */
 static bool prepare(Compute *c)

@@ -1,0 +1,47 @@
+// Refraction, reflection and absorption at the surface of a clear fluid, for the shadings water and jelly. Wants
+// common/behind.glsl and common/surface.glsl.
+layout(location = 2) uniform vec2 medium; // index of refraction; attenuation distance, m
+
+// Unpolarised light from air. After: Fresnel; Born and Wolf, Principles of optics, 1.5.2.
+float fresnel(float cosine, float ior)
+{
+    float inner = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior)); // Snell
+    float s = (cosine - ior * inner) / (cosine + ior * inner), p = (ior * cosine - inner) / (ior * cosine + inner);
+    return 0.5 * (s * s + p * p);
+}
+
+// What comes through the fluid: bent by Snell's law where the ray enters it, seen where it leaves after as much fluid as on the
+// straight ray, and weakened by Beer and Lambert's law; van der Laan et al., Screen space fluid rendering with curvature flow, 2009.
+vec3 transmitted(Surface s)
+{
+    vec3 inner = refract(s.view, s.normal, 1.0 / medium.x);
+    vec3 seen = behind_at(s.place + s.thickness * inner, lens.z / -s.place.z, gl_FragCoord.xy);
+    return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / medium.y));
+}
+
+// What floats in it scatters a little light back, the more the thicker it is: without that, deep water would be black.
+vec3 scattered(Surface s)
+{
+    float share = 0.4 - 0.4 * exp2(-0.7 * s.thickness / medium.y), up = max(dot(s.normal, light_in_eye.xyz), 0.0);
+    return share * s.albedo * (ambient_light(s.normal) * (0.35 + 0.65 * s.lit) + light_color.rgb * (s.key * (0.3 + 0.7 * up)));
+}
+
+vec3 reflected(Surface s, vec3 mirror)
+{
+    float glint = lobe_32(max(dot(mirror, light_in_eye.xyz), 0.0));
+    glint *= glint, glint *= glint;
+    return environment(s.place, mirror) + 20.0 * s.key * glint * light_color.rgb;
+}
+
+// Adds to `inside`, what the surface lets out, what it mirrors.
+vec3 with_surface(Surface s, vec3 inside)
+{
+    float share = fresnel(max(-dot(s.view, s.normal), 0.0), medium.x);
+    return mix(inside, reflected(s, reflect(s.view, s.normal)), share);
+}
+
+// A normal of a mixture may look away from the eye at the rim: bent until it does not.
+vec3 facing(vec3 normal, vec3 view)
+{
+    return normalize(normal - (max(dot(normal, view), -0.01) + 0.01) * view);
+}

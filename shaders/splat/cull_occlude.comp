@@ -1,0 +1,80 @@
+// Writes each particle into the cells of the coarse map that it covers.
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+#include "common/ball.glsl"
+#include "splat/cull.glsl"
+#include "common/sphere.glsl"
+#include "splat/splat_body.glsl"
+
+layout(local_size_x = 64) in;
+layout(location = 3) uniform uint count;
+
+const float pixel_margin = 1.0 / 64.0; // rasterisers round corners to 1/256 of a pixel
+
+struct Disc {
+    vec2 middle, radii; // pixels
+    float w, slant;     // depth of the centre, m; tangent of the steepest ray's angle to the axis
+    float radius;       // m
+};
+
+#ifdef LIGHT
+Disc disc_of(uint index)
+{
+    vec4 at = light_pixel(index);
+    return Disc(at.xy, vec2(at.w - pixel_margin), at.z, 0.0, 0.0);
+}
+
+// Greatest depth of the sprite where it is at most `away` radii beside its centre; infinity where it may end before.
+float depth_within(Disc disc, vec2 away)
+{
+    return max(away.x, away.y) < 1.0 ? max(disc.w, 0.0) : uintBitsToFloat(nothing);
+}
+#else
+// The disc through the centre across the eye's axis, which is in the sphere or in the ball within an ellipsoid; nothing where
+// that reaches the near plane.
+Disc disc_of(uint index)
+{
+    Body body = body_of(index);
+    vec3 centre = body.centre;
+    float w = -centre.z, radius = body.inner;
+    vec2 scale = 0.5 * projection.xy / (w * lens.xy);
+    bool whole = body_nearest(body) > lens.z;
+#ifdef PAPER
+    float slant = 0.0; // the paper's rays go along the axis
+#else
+    float slant = (length(centre.xy) + radius) / w;
+#endif
+    return Disc(centre.xy * scale + 0.5 * projection.xy, whole ? radius * scale - pixel_margin : vec2(0.0), w, slant, radius);
+}
+
+// A ray that is r away from the centre in the disc's plane meets the sphere the latest when it leans outwards: as
+// splat_hit with u.d = -r slant.
+float depth_within(Disc disc, vec2 away)
+{
+    float r2 = dot(away, away), length2 = 1.0 + disc.slant * disc.slant;
+    float k = (sqrt(max(length2 - r2, 0.0)) - sqrt(r2) * disc.slant) / length2;
+    return r2 < 0.99 ? (disc.w - disc.radius * k) * 1.00001 : uintBitsToFloat(nothing);
+}
+#endif
+
+void main()
+{
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
+    if (index >= count)
+        return;
+    Disc disc = disc_of(index);
+    float side = float(grid.z), margin = 0.5 * (side - 1.0); // from a cell's middle to its outermost pixels' centres
+    vec2 reach = disc.radii - margin, per_radius = 1.0 / disc.radii;
+    if (is_nan(vec4(disc.middle, disc.radii)) || min(reach.x, reach.y) <= 0.0)
+        return;
+    vec2 own = floor(disc.middle / side); // of large spheres those around the centre will do
+    vec2 low = max(ceil((disc.middle - reach) / side - 0.5), max(own - 2.0, 0.0));
+    vec2 high = min(floor((disc.middle + reach) / side - 0.5), min(own + 2.0, vec2(grid.xy) - 1.0));
+    for (float y = low.y; y <= high.y; y++)
+        for (float x = low.x; x <= high.x; x++) {
+            vec2 away = abs((vec2(x, y) + 0.5) * side - disc.middle) + margin;
+            uint depth = floatBitsToUint(depth_within(disc, away * per_radius)), cell = uint(y) * grid.x + uint(x);
+            if (depth < nearest[cell])
+                atomicMin(nearest[cell], depth);
+        }
+}

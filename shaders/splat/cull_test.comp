@@ -1,0 +1,65 @@
+// Which particles may be seen: a word of 32 bits for as many particles in a row, another for those that may blend, and how many
+// these are.
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+#include "common/ball.glsl"
+#include "splat/cull.glsl"
+#include "common/sphere.glsl"
+#include "splat/splat_body.glsl"
+
+layout(local_size_x = 64) in;
+layout(location = 3) uniform uint count;
+layout(location = 4) uniform float eps;   // m
+layout(location = 5) uniform uint invert; // 1: the hidden ones instead
+layout(std430, binding = 5) writeonly buffer Kept { uvec4 kept[]; }; // bits to be seen, to blend; numbers of both
+
+// x0 x1 y0 y1 of the sprite, pixels; its nearest depth.
+#ifdef LIGHT
+vec4 sprite_of(uint index, out float depth)
+{
+    vec4 at = light_pixel(index);
+    depth = at.z;
+    return at.xxyy + (max(at.w, 0.5) + 1.0 / 64.0) * vec4(-1.0, 1.0, -1.0, 1.0);
+}
+#else
+vec4 sprite_of(uint index, out float depth)
+{
+    Body body = body_of(index);
+    depth = body_nearest(body);
+    return (body_bounds(body) * 0.5 + 0.5) * projection.xxyy;
+}
+#endif
+
+const uint HIDDEN = 4u;
+
+// Bit 0: may be nearest somewhere; bit 1: may blend; or HIDDEN. 0 for what is not in the picture, and for NaN.
+uint seen(uint index)
+{
+    float depth;
+    vec4 sprite = sprite_of(index, depth);
+    if (is_nan(sprite) || sprite.x >= sprite.y || sprite.z >= sprite.w)
+        return 0u;
+    ivec4 cells = clamp(ivec4(floor(sprite / float(grid.z))), ivec4(0), ivec4(grid.xxyy) - 1);
+    ivec2 middle = (cells.xz + cells.yw) / 2, reach = cells.yw - middle; // the wider side
+    if (max(reach.x, reach.y) > int(grid.w))
+        return 3u;
+    float behind = uintBitsToFloat(nearest[uint(middle.y) * grid.x + uint(middle.x)]);
+    if (depth > (behind + eps) * 1.00001)
+        return HIDDEN;
+    return depth <= behind * 1.00001 ? 3u : 2u;
+}
+
+void main()
+{
+    uint chunk = gl_GlobalInvocationID.x, first = chunk * 32u;
+    if (first >= count)
+        return;
+    uvec2 bits = uvec2(0u);
+    for (uint i = 0u; i < min(32u, count - first); i++) {
+        uint what = seen(first + i);
+        if (invert != 0u)
+            what = what == HIDDEN ? 3u : 0u;
+        bits |= uvec2(what & 1u, what >> 1 & 1u) << i;
+    }
+    kept[chunk] = uvec4(bits, bitCount(bits));
+}

@@ -1,0 +1,41 @@
+// Blends each pixel of a finished picture beside an outline with those across it. DISCS and ROWS: see render/splat/silhouette.h.
+#include "common/frame.glsl"
+#include "splat/silhouette.glsl"
+
+layout(binding = 3) uniform sampler2D picture;
+layout(binding = 4) uniform sampler2D edge_map;
+layout(location = 0) out vec4 color; // sRGB
+
+vec3 color_of(ivec2 pixel)
+{
+    return texelFetch(picture, pixel, 0).rgb;
+}
+
+#ifdef DISCS
+#include "splat/silhouette_discs.glsl"
+#endif
+#ifdef ROWS
+#include "splat/silhouette_rows.glsl"
+#endif
+
+vec3 encoded(vec3 linear)
+{
+    return mix(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 12.92 * linear, lessThan(linear, vec3(0.0031308)));
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 sides = texelFetch(edge_map, pixel, 0);
+    vec3 mixed = color_of(pixel);
+#ifdef DISCS
+    if (any(greaterThan(sides, vec4(0.75))))
+        mixed = mixed_by_discs(pixel, mixed, sides);
+    sides *= 1.0 - step(0.75, sides);
+#endif
+#ifdef ROWS
+    if (sides != vec4(0.0))
+        mixed = mixed_by_rows(pixel, mixed, sides);
+#endif
+    color = vec4(encoded(mixed), 1.0);
+}

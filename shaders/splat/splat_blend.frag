@@ -1,0 +1,77 @@
+// Pass 2, attribute blending: sums of weighted colours, normals and weights of the spheres within eps of the nearest one.
+// After: Adams et al. 2006, section 3.2. W1 (eq. 6) is 1 on the ray to the centre and 0 at the silhouette; W2 (eq. 7) 1 at the
+// nearest depth and 0 at eps behind it.
+#include "common/frame.glsl"
+#include "common/sphere.glsl"
+#include "splat/splat.glsl"
+#include "splat/splat_at.glsl"
+
+layout(binding = 1) uniform sampler2D nearest_map;
+layout(location = 1) uniform float eps; // m
+layout(location = 2) flat in vec3 color;
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 color_sum;
+layout(location = 1) out vec4 normal_sum;
+#ifdef DISCS
+layout(location = 7) flat in float gain; // see splat/splat_small.glsl
+layout(location = 2) out vec2 weight_sum; // and what is covered of the pixel, in parts of it; above 1e8: all
+#else
+layout(location = 2) out float weight_sum;
+#endif
+
+// Of half precision, as hardware has the sums, a colour times less has too few bits left to be divided by it again.
+const float least_weight = 1e-4;
+
+// Whether the pass before found this very depth. A driver that rounds otherwise there is off by up to 1e-3 of a radius at the
+// rim, where the root is steep, and a radius is mostly below 1e-2 of the depth: `slack` 1e-5 loses no pixel. Ways
+// to outlines want less, for those of all spheres within it add up.
+bool foremost(Splat hit, float nearest, float slack)
+{
+    return hit.depth <= nearest + slack * nearest;
+}
+
+float weight_of(Splat hit, float nearest)
+{
+#if WEIGHTS == 0
+    return foremost(hit, nearest, 1e-5) ? 1.0 : 0.0;
+#else
+    float w1 = 1.0 - sqrt(max(1.0 - hit.inside2, 0.0)); // eq. 6
+#if WEIGHTS == 1
+    return max(w1, least_weight);
+#else
+    return max(w1 * (nearest + eps - hit.depth) / eps, least_weight); // eq. 7
+#endif
+#endif
+}
+
+// The way from the ray to the outline on the screen, in the view's radii. On the screen 1 - rho falls by |beside.xy| / rho a
+// radius towards it.
+vec2 rim_of(Splat hit)
+{
+    float rho = sqrt(max(1.0 - hit.inside2, 0.0));
+    vec2 rim = hit.beside * ((1.0 - rho) * rho / max(dot(hit.beside, hit.beside), 1e-12));
+#ifdef DROPS
+    rim *= radius / particle.x;
+#endif
+    return rim;
+}
+
+void main()
+{
+    Splat hit = splat_here();
+    float nearest = texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x;
+    if (!splat_seen(hit) || hit.depth >= nearest + eps)
+        discard;
+    float weight = weight_of(hit, nearest);
+    vec2 rim = vec2(0.0);
+#ifdef DISCS
+    rim = foremost(hit, nearest, 1e-6) ? rim_of(hit) : vec2(0.0);
+#endif
+    color_sum = vec4(weight * color, rim.x);
+    normal_sum = vec4(weight * hit.normal, rim.y);
+#ifdef DISCS
+    weight_sum = vec2(weight, gain * hit.inside2);
+#else
+    weight_sum = weight;
+#endif
+}

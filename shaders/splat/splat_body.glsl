@@ -1,0 +1,94 @@
+// What stands for a particle in the view splat, in the eye's frame: a ball or with ELLIPSOID an ellipsoid. Wants
+// common/frame.glsl, common/particles.glsl, common/sphere.glsl and common/ball.glsl.
+#include "common/nan.glsl"
+#ifdef DISCS
+#include "splat/splat_small.glsl"
+#else
+#define drawn_radius(radius, centre) (radius)
+#endif
+
+struct Body {
+    vec3 centre;
+    float radius;
+    float inner; // radius of a ball around the centre within it
+#ifdef ELLIPSOID
+    mat3 inverse; // A
+    mat3 axes;    // its inverse times the radius: takes the unit sphere to the ellipsoid
+#endif
+};
+
+#ifdef ELLIPSOID
+Body body_of(uint index)
+{
+    vec4 a = ball_of(index), b = shape[3u * index + 1u], c = shape[3u * index + 2u];
+    mat3 turn = mat3(box_to_eye);
+    mat3 inverse = turn * mat3(b.x, c.xy, c.x, b.y, c.z, c.yz, b.z) * transpose(turn);
+    mat3 axes = a.w * mat3(cross(inverse[1], inverse[2]), cross(inverse[2], inverse[0]), cross(inverse[0], inverse[1]));
+    return Body((box_to_eye * vec4(a.xyz, 1.0)).xyz, a.w, 0.999 * a.w * b.w, inverse, axes);
+}
+
+float body_nearest(Body body) // least depth of it
+{
+    return -body.centre.z - length(body.axes[2]);
+}
+
+// The slopes x / w of the planes through the eye and along y that touch it, from x and w of its centre: with S = axes^2 and the
+// plane's normal (1, 0, m), (c.n)^2 = n S n. In this form nothing cancels when it is small and far. Where it reaches beside
+// the eye, those of a ball around it.
+vec2 ellipsoid_slopes(float a, float w, float saa, float saz, float szz, float around)
+{
+    if (w * w <= 1.01 * szz || w < 0.0)
+        return sphere_slopes(a, w, around);
+    float root = sqrt(max(w * w * saa + 2.0 * w * a * saz + a * a * szz - (saa * szz - saz * saz), 0.0));
+    return (a * w + saz + vec2(-root, root)) / (w * w - szz);
+}
+
+// x0 x1 y0 y1 on the screen, cut at its edges; empty (x0 = x1) when nothing is to be seen, as from within.
+vec4 body_bounds(Body body)
+{
+    vec3 c = body.centre, within = body.inverse * c, x = body.axes[0], y = body.axes[1], z = body.axes[2];
+    float grown = drawn_radius(body.radius, c) / max(body.radius, 1e-30);
+    x *= grown, y *= grown, z *= grown;
+    float w = -c.z, szz = dot(z, z), around = sqrt(dot(x, x) + dot(y, y) + szz);
+    float within2 = dot(within, within), c2 = dot(c, c);
+    if (is_nan(within2 + c2) || within2 <= body.radius * body.radius || c2 >= 1e30 || w + sqrt(szz) <= lens.z)
+        return vec4(0.0);
+    vec4 bounds = vec4(ellipsoid_slopes(c.x, w, dot(x, x), dot(x, z), szz, around) / lens.x,
+                       ellipsoid_slopes(c.y, w, dot(y, y), dot(y, z), szz, around) / lens.y);
+    return clamp(bounds, -1.0, 1.0);
+}
+#else
+Body body_of(uint index)
+{
+    vec4 ball = ball_of(index);
+    return Body((box_to_eye * vec4(ball.xyz, 1.0)).xyz, ball.w, ball.w);
+}
+
+float body_nearest(Body body)
+{
+    return -body.centre.z - body.radius;
+}
+
+vec4 body_bounds(Body body)
+{
+#ifdef PAPER
+    vec3 centre = body.centre;
+    float w = -centre.z;
+    if (is_nan(centre.xyzz) || w <= lens.z)
+        return vec4(0.0);
+    return clamp((centre.xxyy + drawn_radius(body.radius, centre) * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * lens.xxyy), -1.0, 1.0);
+#else
+    return sphere_bounds(sphere_at(body.centre, drawn_radius(body.radius, body.centre)));
+#endif
+}
+#endif
+
+// The scale s of splat/splat.glsl.
+float body_scale(Body body)
+{
+#ifdef PAPER
+    return -body.centre.z;
+#else
+    return max(-body.centre.z, 0.5 * body.radius);
+#endif
+}

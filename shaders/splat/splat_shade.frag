@@ -1,0 +1,90 @@
+// Pass 3, deferred shading of the blended surface. After: Adams et al. 2006, section 3.3. SHADING 0 phong, 1 water, 2 jelly;
+// SHOW 1 depth, 2 normals, 3 weight, 4 thickness show what came before it instead.
+#include "common/frame.glsl"
+#include "common/light.glsl"
+#ifdef SOLIDS
+#include "common/solid_light.glsl"
+#endif
+#include "common/environment.glsl"
+#include "common/behind.glsl"
+#include "common/surface.glsl"
+#include "common/clear.glsl"
+
+layout(binding = 1) uniform sampler2D nearest_map;
+layout(binding = 5) uniform sampler2D color_map;
+layout(binding = 6) uniform sampler2D normal_map;
+layout(binding = 7) uniform sampler2D weight_map;
+layout(binding = 10) uniform sampler2D thickness_map; // m, may be coarser
+layout(location = 1) uniform vec2 depths;             // nearest and farthest of a particle, m
+layout(location = 0) out vec4 color;
+#ifdef MIXING
+#include "splat/splat_cover.glsl"
+#endif
+
+float thickness_here()
+{
+    return textureLod(thickness_map, gl_FragCoord.xy * viewport.zw, 0.0).x;
+}
+
+#if SHADING == 0
+vec3 shaded(Surface s)
+{
+    return mix(s.albedo, phong(s), light_in_eye.w);
+}
+#elif SHADING == 1
+vec3 shaded(Surface s)
+{
+    vec3 inside = transmitted(s);
+    return mix(inside, with_surface(s, inside + scattered(s)), light_in_eye.w);
+}
+#else
+// The paper's "Phong shading together with refraction and reflection": the thicker, the cloudier.
+vec3 shaded(Surface s)
+{
+    float clear = 0.8 * exp2(-2.0 * s.thickness / medium.y);
+    vec3 inside = mix(mix(s.albedo, phong(s), light_in_eye.w), transmitted(s), clear);
+    return mix(inside, with_surface(s, inside), light_in_eye.w);
+}
+#endif
+
+Surface surface_at(vec3 ray, float depth, vec3 normal, vec3 albedo)
+{
+    Surface s = Surface(depth * ray, normalize(ray), normal, albedo, 0.0, 0.0, 0.0);
+    s.lit = s.key = fluid_light(s.place);
+#ifdef SOLIDS
+    s.key *= solid_light(s.place);
+#endif
+#if SHADING > 0
+    s.normal = facing(normal, s.view);
+    s.thickness = thickness_here();
+#endif
+    return s;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(nearest_map, pixel, 0).x, weight = texelFetch(weight_map, pixel, 0).x;
+    vec3 normal = texelFetch(normal_map, pixel, 0).xyz;
+    float length2 = dot(normal, normal);
+    if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0) // nothing, or just the rim of a lone sphere
+        discard;
+    gl_FragDepth = lens.z / depth;
+    normal *= inversesqrt(length2);
+#if SHOW == 1
+    color = vec4(vec3(1.0 - 0.9 * clamp((depth - depths.x) / (depths.y - depths.x), 0.0, 1.0)), 1.0);
+#elif SHOW == 2
+    color = vec4(0.5 + 0.5 * normal, 1.0);
+#elif SHOW == 3
+    color = vec4(vec3(weight / (1.0 + weight)), 1.0);
+#elif SHOW == 4
+    color = vec4(vec3(thickness_here() / max(box_size.x, max(box_size.y, box_size.z))), 1.0);
+#else
+    vec3 albedo = texelFetch(color_map, pixel, 0).rgb / weight;
+    float cover = 1.0;
+#ifdef MIXING
+    cover = cover_at(pixel, depth, albedo, normal);
+#endif
+    color = vec4(shaded(surface_at(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, normal, albedo)), cover);
+#endif
+}

@@ -1,0 +1,22 @@
+// The greatest value of the field in each brick, of the voxels at its faces too.
+#include "volume/raycast.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 8) uniform sampler3D field_map;
+layout(binding = 0, r32f) uniform writeonly image3D greatest_map;
+
+void main()
+{
+    ivec3 count = ivec3(bricks.xyz), size = ivec3(cells.xyz), side = ivec3(bricks.w);
+    int number = int(gl_GlobalInvocationID.x);
+    ivec3 brick = ivec3(number % count.x, number / count.x % count.y, number / (count.x * count.y));
+    if (brick.z >= count.z)
+        return;
+    ivec3 low = brick * side, high = min(low + side, size - 1);
+    float greatest = 0.0;
+    for (int z = low.z; z <= high.z; z++)
+        for (int y = low.y; y <= high.y; y++)
+            for (int x = low.x; x <= high.x; x++)
+                greatest = max(greatest, texelFetch(field_map, ivec3(x, y, z), 0).x);
+    imageStore(greatest_map, brick, vec4(greatest));
+}

@@ -1,0 +1,30 @@
+// How many particles each cell of the lists has; with PLACE these are put in their places. In between, cell_scan.comp turns numbers
+// into starts: the counter of a cell stands at its successor's place, and is the start of that in the end.
+#include "volume/volume_particle.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 8) buffer ListStarts { uint list_starts[]; };
+#ifdef PLACE
+layout(std430, binding = 9) writeonly buffer ListParticles { vec4 list_particles[]; };
+#ifdef SCALAR
+layout(std430, binding = 10) writeonly buffer ListScalars { float list_scalars[]; };
+#endif
+#endif
+
+void main()
+{
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
+    if (index >= uint(volume_size.w))
+        return;
+    vec4 at = volume_particle(index);
+    if (at.w <= 0.0)
+        return;
+    ivec3 cell = clamp(ivec3(floor(at.xyz * volume_scale.y)), ivec3(0), list_size.xyz - 1);
+    uint place = atomicAdd(list_starts[(cell.z * list_size.y + cell.y) * list_size.x + cell.x + 1], 1u);
+#ifdef PLACE
+    list_particles[place] = at;
+#ifdef SCALAR
+    list_scalars[place] = volume_scalar(index);
+#endif
+#endif
+}

@@ -1,0 +1,81 @@
+// Marches through the volume from where its faces are entered to where they are left, or to a solid: opaque to the surface, WATER beyond
+// it, or TRANSLUCENT gathering light. SHOW 1 entry, 2 exit, 3 length, 4 steps, 5 normals show what it goes by instead.
+// After: "SPH coupled with volume rendering", SIBGRAPI 2010, section IV.B; Krüger and Westermann 2003; Scharsach 2005.
+#include "common/frame.glsl"
+#include "common/light.glsl"
+#include "common/environment.glsl"
+#include "common/behind.glsl"
+#include "common/surface.glsl"
+#include "common/clear.glsl"
+#include "volume/raycast_ray.glsl"
+#ifdef SOLIDS
+#include "common/solid_light.glsl"
+#endif
+#include "volume/raycast_light.glsl"
+#include "volume/raycast_surface.glsl"
+#ifdef WATER
+#include "volume/raycast_water.glsl"
+#endif
+#ifdef TRANSLUCENT
+#include "volume/raycast_gather.glsl"
+#endif
+
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 color;
+layout(location = 1) out float found; // depth of what stands before what is behind, m; 0: nothing does
+
+#if SHOW == 1 || SHOW == 2 || SHOW == 3
+void show(Ray ray)
+{
+    vec3 at = ray_at(ray, SHOW == 1 ? ray.begin : ray.end);
+    float way = (ray.end - ray.begin) * ray.slant;
+    color = vec4(SHOW == 3 ? vec3(way / (cells.w * length(cells.xyz))) : at, 1.0);
+    found = ray.begin;
+}
+#elif defined TRANSLUCENT && SHOW != 5
+void show(Ray ray)
+{
+    float half_way;
+    color = gather(ray, half_way);
+#if SHOW == 4
+    color = vec4(texelFetch(colormap, ivec2(min(4 * steps, 255), 0), 0).rgb, 1.0);
+#endif
+    if (color.a <= 0.0)
+        discard;
+    found = half_way;
+}
+#else
+void show(Ray ray)
+{
+    float t = find_surface(ray), share;
+#if SHOW == 4
+    color = vec4(texelFetch(colormap, ivec2(min(4 * steps, 255), 0), 0).rgb, 1.0);
+    found = t < 0.0 ? ray.begin : t;
+#else
+    if (t < 0.0)
+        discard;
+    found = t;
+    vec3 normal = normal_at(ray, t), place = t * ray.to;
+#if SHOW == 5
+    color = vec4(0.5 + 0.5 * normal, 1.0);
+#else
+    vec3 albedo = albedo_at(ray_at(ray, t), share);
+    float lit = lit_at(place);
+    Surface surface = Surface(place, ray.to / ray.slant, normal, albedo, lit, key_at(place, lit), 0.0);
+#ifdef WATER
+    color = vec4(water(surface), 1.0);
+#else
+    color = vec4(mix(albedo, phong(surface), light_in_eye.w), 1.0);
+#endif
+#endif
+#endif
+}
+#endif
+
+void main()
+{
+    Ray ray = eye_ray();
+    if (ray.begin >= ray.end)
+        discard;
+    show(ray);
+}

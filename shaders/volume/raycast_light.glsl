@@ -1,0 +1,72 @@
+// Colour and light of places in the volume. Wants volume/raycast_ray.glsl, common/light.glsl.
+layout(binding = 2) uniform sampler2D colormap;
+
+#ifdef SCALAR
+#ifdef FIELD_DIRECT
+float scalar_at(vec3 at)
+{
+    vec2 sums = field_sum(at * cells.xyz);
+    return sums.x > 0.0 ? sums.y / sums.x : 0.0;
+}
+#else
+layout(binding = 9) uniform sampler3D field_scalar_map;
+
+// Its mean by the field.
+float scalar_at(vec3 at)
+{
+    float field = field_at(at);
+    return field > 0.0 ? textureLod(field_scalar_map, at, 0.0).x / field : 0.0;
+}
+#endif
+
+// `share`: where the scalar is in its range, 0..1.
+vec3 albedo_at(vec3 at, out float share)
+{
+    float value = scalar_at(at);
+    if (coloring.z > 0.5) { // numbers of fluids: neighbours in the list mix
+        float first = clamp(floor(value), 0.0, 6.0);
+        share = 1.0;
+        return mix(fluid_color[int(first)].rgb, fluid_color[int(first) + 1].rgb, clamp(value - first, 0.0, 1.0));
+    }
+    share = clamp((value - coloring.x) * coloring.y, 0.0, 1.0);
+    return texelFetch(colormap, ivec2(share * 255.0 + 0.5, 0), 0).rgb;
+}
+#else
+vec3 albedo_at(vec3 at, out float share)
+{
+    share = 1.0;
+    return fluid_color[0].rgb;
+}
+#endif
+
+#ifdef SHADOWS
+// What the fluid between a place and the light lets through: as fluid_light_at, with the fluid on the way instead of the depth below
+// the first lit surface.
+float lit_at(vec3 place)
+{
+    Ray ray = ray_from(place, light_in_eye.xyz);
+    const float longest = 8.0 * particle.x; // nothing to speak of is left
+    float dt = 2.0 * march.y, t = dt, way = 0.0, end = ray_end(ray);
+    while (t < end && way < longest) {
+        float f = min(field_at(ray_at(ray, t)), 1.0), on = f > 0.0 ? dt : max(dt, march.z);
+        way += on * f;
+        t += on;
+    }
+    return 0.12 + 0.88 * exp2(-0.55 * way / max(particle.x, 1e-9));
+}
+#else
+float lit_at(vec3 place)
+{
+    return fluid_light(place);
+}
+#endif
+
+// `lit`: what of the key light the fluid lets through; returns what of that solids do.
+float key_at(vec3 place, float lit)
+{
+#ifdef SOLIDS
+    return lit * solid_light(place);
+#else
+    return lit;
+#endif
+}

@@ -1,0 +1,94 @@
+// A ray through the volume, and the field on it. Wants common/frame.glsl.
+#include "volume/raycast.glsl"
+
+#ifdef FIELD_DIRECT
+#include "volume/volume.glsl"
+#include "volume/field_sum.glsl"
+
+float field_at(vec3 at)
+{
+    return field_sum(at * cells.xyz).x;
+}
+#else
+layout(binding = 8) uniform sampler3D field_map;
+
+float field_at(vec3 at)
+{
+    return textureLod(field_map, at, 0.0).x;
+}
+#endif
+layout(binding = 10) uniform sampler2D entry_map; // reversed depths of faces
+layout(binding = 11) uniform sampler2D exit_map;
+#ifdef SOLIDS
+layout(binding = 12) uniform sampler2D solid_depth;
+#endif
+
+// A place on it is told by t: m below the eye where it is a ray of the eye.
+struct Ray {
+    vec3 from, to;    // eye space, m, and along it for t = 1
+    vec3 origin, way; // the same in the volume
+    float slant;      // length of `to`
+    float begin, end; // t of what is to be marched through
+};
+
+vec3 ray_at(Ray ray, float t)
+{
+    return ray.origin + t * ray.way;
+}
+
+Ray ray_from(vec3 from, vec3 to)
+{
+    Ray ray;
+    ray.from = from, ray.to = to;
+    ray.origin = (eye_to_volume * vec4(from, 1.0)).xyz;
+    ray.way = mat3(eye_to_volume) * to;
+    ray.slant = length(to);
+    ray.begin = 0.0, ray.end = 0.0;
+    return ray;
+}
+
+// Where the ray leaves the volume, when it is in it at t = 0.
+float ray_end(Ray ray)
+{
+    vec3 end = (step(vec3(0.0), ray.way) - ray.origin) / ray.way; // infinite where it is parallel to a side
+    return min(min(end.x, end.y), end.z);
+}
+
+float solid_end()
+{
+#ifdef SOLIDS
+    return lens.z / max(texelFetch(solid_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30);
+#else
+    return 1e30;
+#endif
+}
+
+// That of this pixel, from where it enters what is occupied to where it leaves that, or to a solid.
+Ray eye_ray()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float entry = texelFetch(entry_map, pixel, 0).x, leave = texelFetch(exit_map, pixel, 0).x;
+    Ray ray = ray_from(vec3(0.0), ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)));
+    ray.begin = march.w > 0.0 ? march.w : lens.z / max(entry, 1e-30);
+    ray.end = min(lens.z / max(leave, 1e-30), solid_end());
+    return ray;
+}
+
+// How far one may go from where the field is f without passing where it is `level`, m. That of a fluid which ends at a plane rises
+// as the fourth power of the way into the kernel's reach at first; half of that way is safe in hollows and between drops too. Where
+// nothing is, steps are thus half the kernel's radius: no map of what is empty is read on the way, which costs more than it saves.
+float step_from(float f, float level)
+{
+    return max(march.y, march.z * (1.0 - sqrt(sqrt(f / level))));
+}
+
+// Of the field, per cell, in the eye's space: from four values at the corners of a tetrahedron.
+vec3 slope_at(vec3 at)
+{
+    const vec2 k = vec2(1.0, -1.0);
+    const float reach = 0.6; // cells
+    vec3 cell = reach / cells.xyz;
+    vec3 slope = k.xyy * field_at(at + k.xyy * cell) + k.yyx * field_at(at + k.yyx * cell) +
+                 k.yxy * field_at(at + k.yxy * cell) + k.xxx * field_at(at + k.xxx * cell);
+    return mat3(box_to_eye) * slope / (4.0 * reach);
+}

@@ -1,0 +1,42 @@
+// The first place on a ray where the field reaches the level. Wants volume/raycast_ray.glsl.
+int steps = 0;
+
+// Between t (below the level) and `beyond`: regula falsi, with the Illinois rule against an end that stays.
+float refined(Ray ray, float t, float f, float beyond, float g)
+{
+    float here = t;
+    f -= march.x, g -= march.x;
+    for (int i = 0; i < 4; i++) {
+        here = t + (beyond - t) * (f / (f - g));
+        float value = field_at(ray_at(ray, here)) - march.x;
+        if (value < 0.0)
+            t = here, f = value, g *= 0.5;
+        else
+            beyond = here, g = value, f *= 0.5;
+    }
+    return here;
+}
+
+// t of the surface; negative: none. A ray that starts in the fluid meets it there.
+float find_surface(Ray ray)
+{
+    float t = ray.begin, f = field_at(ray_at(ray, t)), per_m = 1.0 / ray.slant;
+    if (f >= march.x)
+        return t;
+    while (t < ray.end) {
+        float next = min(t + step_from(f, march.x) * per_m, ray.end), g = field_at(ray_at(ray, next));
+        steps++;
+        if (g >= march.x)
+            return refined(ray, t, f, next, g);
+        t = next, f = g;
+    }
+    return -1.0;
+}
+
+// Out of the fluid, unit; towards the eye where the field is even.
+vec3 normal_at(Ray ray, float t)
+{
+    vec3 outward = -slope_at(ray_at(ray, t));
+    float length2 = dot(outward, outward);
+    return length2 > 1e-12 ? outward * inversesqrt(length2) : -ray.to / ray.slant;
+}

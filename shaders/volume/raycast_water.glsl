@@ -1,0 +1,47 @@
+// Clear water: what is behind it, bent where the ray enters and where it leaves. Wants volume/raycast_surface.glsl and
+// common/clear.glsl.
+
+// As step_from, in the fluid: the field of one that ends at a plane falls to its end as it rises on the other side.
+float step_within(float f)
+{
+    float rest = clamp((1.0 - f) / max(1.0 - march.x, 0.1), 0.0, 1.0);
+    return max(march.y, march.z * (1.0 - sqrt(sqrt(rest))));
+}
+
+// t at which a ray from the surface into the fluid leaves it.
+float find_exit(Ray ray)
+{
+    float t = 0.0, f = march.x, g = f, end = ray_end(ray), next = march.y;
+    while (t < end) {
+        g = field_at(ray_at(ray, next));
+        steps++;
+        if (g < march.x)
+            return mix(t, next, clamp((f - march.x) / max(f - g, 1e-6), 0.0, 1.0));
+        t = next, f = g, next += step_within(g);
+    }
+    return min(t, max(end, 0.0));
+}
+
+// Snell's law twice; where the second surface reflects all, what it mirrors. Sets how much fluid is on the way.
+vec3 seen_through(inout Surface s)
+{
+    Ray ray = ray_from(s.place, refract(s.view, s.normal, 1.0 / medium.x));
+    s.thickness = find_exit(ray);
+    vec3 inwards = -normal_at(ray, s.thickness), leave = ray.from + s.thickness * ray.to;
+    inwards = dot(inwards, ray.to) < 0.0 ? inwards : -ray.to;
+    vec3 on = refract(ray.to, inwards, medium.x);
+    on = dot(on, on) > 0.0 ? on : reflect(ray.to, inwards);
+#ifdef SOLIDS
+    vec3 seen = behind_at(leave + 0.3 * max(box_size.x, box_size.y) * on, lens.z / -s.place.z, gl_FragCoord.xy);
+#else
+    vec3 seen = environment(leave, on);
+#endif
+    return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / medium.y)); // Beer and Lambert
+}
+
+vec3 water(Surface s)
+{
+    s.normal = facing(s.normal, s.view);
+    vec3 inside = seen_through(s);
+    return mix(inside, with_surface(s, inside + scattered(s)), light_in_eye.w);
+}

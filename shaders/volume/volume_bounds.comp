@@ -1,0 +1,25 @@
+// The least and greatest coordinates of the particles that count, as numbers whose order is that of the floats. One workgroup.
+#include "volume/volume_particle.glsl"
+
+layout(local_size_x = 256) in;
+layout(std430, binding = 8) buffer Bounds { uint low[3], high[3]; };
+
+uint ordered(float value)
+{
+    uint bits = floatBitsToUint(value);
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+void main()
+{
+    vec3 least = volume_high.xyz, most = volume_low.xyz;
+    for (uint i = gl_LocalInvocationID.x; i < uint(volume_size.w); i += 256u)
+        if (volume_particle(i).w > 0.0) {
+            least = min(least, particle_position(i));
+            most = max(most, particle_position(i));
+        }
+    for (int k = 0; k < 3; k++) {
+        atomicMin(low[k], ordered(least[k]));
+        atomicMax(high[k], ordered(most[k]));
+    }
+}

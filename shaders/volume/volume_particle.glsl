@@ -1,0 +1,30 @@
+// A particle as voxelization needs it.
+#include "volume/volume.glsl"
+#include "common/particles.glsl"
+#include "common/nan.glsl"
+
+// Centre in cells; what it adds at its centre, 0 where it counts for nothing.
+vec4 volume_particle(uint index)
+{
+    vec3 at = particle_position(index);
+    float volume = position_words[index * particle_strides.x + 3u];
+    bool counts = !is_nan(vec4(at, volume)) && all(greaterThanEqual(at, volume_low.xyz)) && all(lessThanEqual(at, volume_high.xyz)) &&
+                  volume > 0.0 && volume < 1e30;
+    return counts ? vec4(cells_of(at), volume * volume_scale.x) : vec4(0.0);
+}
+
+#ifdef SCALAR
+#include "common/particle_scalars.glsl"
+
+float volume_scalar(uint index)
+{
+    float value = particle_strides.y > 0u ? scalar_words[index * particle_strides.y] : 0.0;
+    return is_nan(value) || abs(value) >= 1e30 ? 0.0 : value;
+}
+#endif
+
+// First and last of the cells along an axis that a ball around `at` reaches.
+ivec2 cells_within(float at, float radius, int size)
+{
+    return ivec2(max(int(ceil(at - radius - 0.5)), 0), min(int(floor(at + radius - 0.5)), size - 1));
+}

@@ -1,0 +1,17 @@
+// One slice of the volume: a rectangle as wide as the grid, across an axis of the box.
+#include "common/frame.glsl"
+#include "volume/volume.glsl"
+
+layout(location = 1) uniform uint axis;
+layout(location = 2) uniform float place; // along the axis, m in the box's frame
+layout(location = 0) out vec3 box_point;
+
+void main()
+{
+    vec3 corner = vec3(gl_VertexID & 1, gl_VertexID >> 1, 0.0);
+    vec3 share = axis == 0u ? corner.zxy : axis == 1u ? corner.xzy : corner;
+    box_point = volume_place.xyz + share * vec3(volume_size.xyz) / volume_place.w;
+    box_point[axis] = place;
+    vec3 at = (box_to_eye * vec4(box_point, 1.0)).xyz;
+    gl_Position = vec4(at.xy / lens.xy, lens.z, -at.z);
+}

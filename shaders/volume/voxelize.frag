@@ -1,0 +1,30 @@
+// What a particle adds to a voxel, or with PACKED to four, one above the other; blending sums up.
+#include "volume/volume.glsl"
+
+#ifdef PACKED
+layout(location = 1) uniform int pass_slice;
+#define SUM vec4
+#else
+#define SUM float
+#endif
+layout(location = 0) flat in vec4 disc;
+layout(location = 0) out SUM field;
+#ifdef SCALAR
+layout(location = 1) flat in float carried;
+layout(location = 1) out SUM scalar;
+#endif
+
+void main()
+{
+    vec2 away = gl_FragCoord.xy - disc.xy;
+#ifdef PACKED
+    vec4 z = float(pass_slice) + vec4(0.5, 1.5, 2.5, 3.5) - disc.z;
+    vec4 t = max(1.0 - (dot(away, away) + z * z) * volume_high.w, 0.0);
+    field = disc.w * t * t * t;
+#else
+    field = disc.w * poly6_shape(disc.z - dot(away, away) * volume_high.w);
+#endif
+#ifdef SCALAR
+    scalar = field * carried;
+#endif
+}

@@ -1,0 +1,30 @@
+// One point for each slice of the volume that a particle cuts, in one draw.
+#include "volume/volume_particle.glsl"
+#include "volume/disc.glsl"
+
+layout(points, invocations = INVOCATIONS) in;
+layout(points, max_vertices = SLICES) out;
+layout(location = 0) in vec4 particle_at[];
+layout(location = 0) flat out vec4 disc;
+#ifdef SCALAR
+layout(location = 1) flat in float carried_in[];
+layout(location = 1) flat out float carried;
+#endif
+
+void main()
+{
+    vec4 at = particle_at[0];
+    ivec2 slices = cells_within(at.z, volume_low.w, volume_size.z);
+    int first = slices.x + gl_InvocationID * SLICES, end = at.w > 0.0 ? min(slices.y + 1, first + SLICES) : 0;
+    for (int slice = first; slice < end; slice++) {
+        disc = disc_of(at, slice);
+#ifdef SCALAR
+        carried = carried_in[0];
+#endif
+        gl_Position = disc_place(at, true);
+        gl_PointSize = disc_size(float(slice) + 0.5 - at.z);
+        gl_Layer = slice;
+        EmitVertex();
+        EndPrimitive();
+    }
+}

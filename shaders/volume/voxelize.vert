@@ -1,0 +1,41 @@
+// A particle becomes a disc in each slice that it cuts. LAYERS: an instance a slice; PASS: the slices of one pass, SLICES of them;
+// else volume/voxelize.geom makes them of what comes out here.
+#include "volume/volume_particle.glsl"
+#include "volume/disc.glsl"
+
+#ifdef PASS
+layout(location = 1) uniform int pass_slice; // the first
+#endif
+#if !defined(PASS) && !defined(LAYERS)
+layout(location = 0) out vec4 particle_at;
+#else
+layout(location = 0) flat out vec4 disc;
+#endif
+#ifdef SCALAR
+layout(location = 1) flat out float carried;
+#endif
+
+void main()
+{
+    vec4 at = volume_particle(uint(gl_VertexID));
+#ifdef SCALAR
+    carried = volume_scalar(uint(gl_VertexID));
+#endif
+#if defined(PASS)
+    int slice = pass_slice;
+    float away = max(max(float(slice) + 0.5 - at.z, at.z - float(slice + SLICES) + 0.5), 0.0); // to the nearest of the slices
+    disc = SLICES == 1 ? disc_of(at, slice) : at;
+    gl_Position = disc_place(at, at.w > 0.0 && away < volume_low.w);
+    gl_PointSize = disc_size(away);
+#elif defined(LAYERS)
+    ivec2 slices = cells_within(at.z, volume_low.w, volume_size.z);
+    int slice = slices.x + gl_InstanceID;
+    disc = disc_of(at, slice);
+    gl_Position = disc_place(at, at.w > 0.0 && slice <= slices.y);
+    gl_PointSize = disc_size(float(slice) + 0.5 - at.z);
+    gl_Layer = slice;
+#else
+    particle_at = at;
+    gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
+#endif
+}
