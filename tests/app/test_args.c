@@ -1,5 +1,5 @@
 /* The command line: what it becomes, and the words for what it cannot be. */
-#include "tests/app/scene_text.h"
+#include "tests/scene/scene_text.h"
 
 #include "app/lab/bench_table.h"
 #include "app/session/args_table.h"

@@ -1,5 +1,5 @@
 /* Formats of other programs: what stands in the bytes, and the world's frame by hand. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/output/export.h"
 #include "app/output/export_index.h"

@@ -6,7 +6,7 @@
 #include "app/scene/keys.h"
 #include "sim/gl/backends.h"
 #include "sim/world/world.h"
-#include "tests/app/scene_text.h"
+#include "tests/scene/scene_text.h"
 
 static void a_line_is_said_once(void **state)
 {

@@ -1,5 +1,5 @@
 /* Files that appear whole or not at all. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/base/interrupt.h"
 #include "app/base/output.h"

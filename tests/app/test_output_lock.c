@@ -1,6 +1,6 @@
 #define _GNU_SOURCE /* F_OFD_SETLK */
 /* One writer a file, whatever the names and whatever the file system can. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/base/output_lock.h"
 

@@ -1,5 +1,5 @@
 /* What the window measures of itself, against what was put in; and the script that shakes the box. */
-#include "near.h"
+#include "tests/near.h"
 
 #include "app/play/play_meter.h"
 #include "app/play/play_script.h"

@@ -1,6 +1,6 @@
 /* Lines on a file, a bar on a terminal, nothing when quiet. */
 #define _GNU_SOURCE
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/base/progress.h"
 

@@ -1,5 +1,5 @@
 /* Recordings: what is written comes back to the bit; what is wrong is named with its line. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/base/path.h"
 #include "app/recording/recording.h"

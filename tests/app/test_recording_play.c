@@ -1,5 +1,5 @@
 /* A session that was recorded comes out with the same bits when it is simulated again. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/session/recording_play.h"
 

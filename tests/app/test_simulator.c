@@ -1,6 +1,6 @@
 /* The solver's thread, from the thread of the window: time, commands, sessions, ends. The pictures' thread
    takes states meanwhile, as the window does; ThreadSanitizer watches. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/session/headless.h"
 #include "app/session/recording_play.h"

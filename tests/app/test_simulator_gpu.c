@@ -1,5 +1,5 @@
 /* The solver on the window's own thread, its backend on the GPU; and from one backend to another. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/session/headless.h"
 #include "app/session/recording_play.h"

@@ -1,5 +1,5 @@
 /* Snapshot files: what is written is read, and only whole steps are. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/output/snapshot.h"
 #include "sim/world/world.h"

@@ -1,5 +1,5 @@
 /* Videos by ffmpeg, folders of frames, single pictures. */
-#include "output_fixture.h"
+#include "tests/app/output_fixture.h"
 
 #include "app/output/pictures.h"
 #include "app/output/video.h"

@@ -5,7 +5,7 @@
 #include "sim/matter/boundary.h"
 #include "sim/matter/solid_step.h"
 
-#include "tests/app/near.h"
+#include "tests/near.h"
 
 static const SolidDef shapes[] = {
     {.kind = SOLID_SPHERE, .radius = 1},

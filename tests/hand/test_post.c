@@ -1,0 +1,646 @@
+/* From a device's report to the command that it causes: at once, while the window draws, and in step with the
+   mouse and the keys. */
+#include "tests/device/hid_stand_in.h"
+#include "tests/near.h"
+
+#include "app/held/hand_post.h"
+#include "sim/base/stage.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static const double size[3] = {1, 1, 1};
+static const double g = 9.80665;
+enum { PAD = 1, CAP = 2, SECOND_PAD = 101 /* which says what the first one says */ };
+
+/* What takes the commands. */
+typedef struct Sent {
+    uint64_t count;
+    BoxTarget last;
+} Sent;
+
+static uint64_t take(void *user, const BoxTarget *target)
+{
+    Sent *sent = user;
+    sent->last = *target;
+    return ++sent->count;
+}
+
+/* A window that looks along -z, and devices. */
+typedef struct Room {
+    HandPost *post;
+    Sent sent;
+    HandInput own;
+    HandNews news;
+    DeviceState pad, cap;
+} Room;
+
+static _Atomic int woken;
+
+static void wake(void)
+{
+    woken++;
+}
+
+static void look(Room *room)
+{
+    hand_post_look(room->post, &room->own, size, &room->news);
+}
+
+static void sleep_ms(double ms)
+{
+    const struct timespec time = {.tv_nsec = (long)(1e6 * ms)};
+    nanosleep(&time, NULL);
+}
+
+static void tell(Room *room, DeviceEventKind kind, int number, const char *problem)
+{
+    const bool pad = number == PAD || number == SECOND_PAD;
+    const DeviceEvent event = {.kind = kind,
+                               .number = number,
+                               .family = pad ? DEVICE_DUALSENSE : DEVICE_SPACEMOUSE,
+                               .vendor = pad ? 0x054c : 0x256f,
+                               .product = pad ? 0x0ce6 : 0xc635,
+                               .name = pad ? "DualSense" : "SpaceMouse Compact",
+                               .problem = problem,
+                               .state = pad ? &room->pad : &room->cap};
+    hand_post_hear(room->post, &event);
+}
+
+static void report(Room *room, int number)
+{
+    DeviceState *state = number == CAP ? &room->cap : &room->pad;
+    state->reports++;
+    state->time += 0.004;
+    tell(room, DEVICE_REPORTED, number, "");
+}
+
+static Room room_open(void)
+{
+    Mapping mapping;
+    mapping_default(&mapping);
+    woken = 0;
+    Room room = {.post = hand_post_create(&mapping, wake)};
+    assert_non_null(room.post);
+    room.own.right[0] = 1, room.own.up[1] = 1, room.own.away[2] = -1;
+    room.pad.has_motion = true;
+    room.pad.acceleration[1] = g;
+    return room;
+}
+
+/* `room` stays where it is from now on: what is sent goes there. */
+static void room_begin(Room *room)
+{
+    hand_post_open(room->post, take, &room->sent);
+    look(room);
+}
+
+static void room_close(Room *room)
+{
+    hand_post_destroy(room->post);
+}
+
+/* The pad is turned about z by so many degrees, and says so in 0.1 s. */
+static void turn_pad(Room *room, double degrees)
+{
+    const double rate = degrees * M_PI / 180 / 0.1;
+    double angle = atan2(room->pad.acceleration[0], room->pad.acceleration[1]);
+    room->pad.angular_velocity[2] = rate;
+    for (int i = 0; i < 25; i++) {
+        angle += rate * 0.004;
+        room->pad.acceleration[0] = g * sin(angle);
+        room->pad.acceleration[1] = g * cos(angle);
+        report(room, PAD);
+    }
+    room->pad.angular_velocity[2] = 0;
+    for (int i = 0; i < 25; i++)
+        report(room, PAD);
+}
+
+static void check_tilt(const Room *room, double degrees)
+{
+    const double half = degrees * M_PI / 360;
+    check_vector(room->sent.last.orientation, 0, 0, sin(half), 0.004, "orientation"); /* half a degree */
+}
+
+static void a_report_is_a_command_at_once(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, CAP, "");
+    look(&room);
+    assert_string_equal(room.news.words[0].text, "SpaceMouse Compact is in your hand");
+    room.cap.cap[0] = 1;
+    sleep_ms(1);
+    report(&room, CAP);
+    assert_int_equal(room.sent.count, 1);
+    assert_true(room.sent.last.position[0] > 0);
+    assert_int_equal(woken, 1); /* for the words on the screen, not for a pose */
+    look(&room);
+    assert_int_equal(room.news.sent_count, 1);
+    assert_int_equal(room.news.sent[0].number, 1);
+    assert_int_equal(hand_post_reports(room.post), 1);
+    look(&room);
+    assert_int_equal(room.news.words_count + room.news.sent_count, 0);
+    room_close(&room);
+}
+
+static void the_box_is_tilted_as_the_pad_is(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, -30);
+    check_tilt(&room, -30);
+
+    /* Seen from +x the picture's right is -z: so is the way of its tilt. */
+    room.own = (HandInput){.right = {0, 0, -1}, .up = {0, 1, 0}, .away = {-1, 0, 0}};
+    look(&room);
+    check_vector(room.sent.last.orientation, -sin(M_PI / 12), 0, 0, 0.004, "orientation");
+    room_close(&room);
+}
+
+/* Nobody read for a fifth of a second, then all at once: a turn about the vertical, which only the gyro
+ * tells. */
+static void late_reports_turn_as_they_were_measured(void **state)
+{
+    (void)state;
+    enum { LATE = 50 };
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    room.pad.angular_velocity[1] = M_PI / 6 / (LATE * 0.004);
+    room.pad.time += LATE * 0.004;
+    for (int i = 1; i <= LATE; i++) {
+        room.pad.late = (LATE - i) * 0.004;
+        room.pad.reports++;
+        tell(&room, DEVICE_REPORTED, PAD, "");
+    }
+    check_vector(room.sent.last.orientation, 0, sin(M_PI / 12), 0, 0.004, "orientation");
+    room_close(&room);
+}
+
+static void unplugged_the_box_stays(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.pad.left[0] = 1;
+    turn_pad(&room, 0);
+    turn_pad(&room, 20);
+    const Sent before = room.sent;
+    assert_true(before.last.position[0] > 0.4);
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    for (int i = 0; i < 10; i++)
+        look(&room);
+    assert_int_equal(room.sent.count, before.count);
+    report(&room, PAD); /* of one that is gone */
+    assert_int_equal(room.sent.count, before.count);
+    hand_post_home(room.post);
+    look(&room);
+    assert_int_equal(room.sent.count, before.count + 1);
+    check_vector(room.sent.last.position, 0, 0, 0, 0, "position");
+    check_tilt(&room, 0);
+    room_close(&room);
+}
+
+/* A cable that comes loose: the pose that stayed and that of the device are one and the same. */
+static void plugged_in_again_it_does_not_count_twice(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, 20);
+    for (int i = 0; i < 2; i++) {
+        tell(&room, DEVICE_UNPLUGGED, PAD, "");
+        look(&room);
+        tell(&room, DEVICE_PLUGGED, PAD, "");
+        look(&room);
+        check_tilt(&room, 20); /* until it has said how it is turned */
+        turn_pad(&room, 0);
+        check_tilt(&room, 20);
+    }
+    turn_pad(&room, -20);
+    check_tilt(&room, 0);
+    room_close(&room);
+}
+
+static void of_two_one_is_back(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, 10);
+    tell(&room, DEVICE_PLUGGED, SECOND_PAD, "");
+    report(&room, SECOND_PAD);
+    check_tilt(&room, 20);
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    tell(&room, DEVICE_UNPLUGGED, SECOND_PAD, "");
+    look(&room);
+    check_tilt(&room, 20);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    report(&room, PAD);
+    check_tilt(&room, 10);
+    room_close(&room);
+}
+
+/* What the user has turned since then stays. */
+static void turned_meanwhile_it_stays_so(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, 10);
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    room.own.turn_drag[0] = 0.2;
+    look(&room);
+    room.own.turn_drag[0] = 0;
+    const BoxTarget left = room.sent.last;
+    assert_true(fabs(left.orientation[1]) > 0.09);
+    turn_pad(&room, -10); /* level, and unheard of */
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    look(&room);
+    check_vector(room.sent.last.orientation, left.orientation[0], left.orientation[1], left.orientation[2],
+                 0.004, "orientation");
+    room_close(&room);
+}
+
+static void two_devices_at_once(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    tell(&room, DEVICE_PLUGGED, CAP, "");
+    turn_pad(&room, 0);
+    room.cap.cap[1] = 1;
+    turn_pad(&room, 20);
+    report(&room, CAP);
+    sleep_ms(2);
+    report(&room, CAP);
+    check_tilt(&room, 20);
+    const double up = room.sent.last.position[1];
+    assert_true(up > 0);
+    tell(&room, DEVICE_UNPLUGGED, CAP, ""); /* the pad goes on */
+    turn_pad(&room, 10);
+    check_tilt(&room, 30);
+    check_near(room.sent.last.position[1], up, 1e-9, "how far up");
+    room_close(&room);
+}
+
+static void buttons_are_commands_once(void **state)
+{
+    (void)state;
+    enum { TRIANGLE = 1 << 7, OPTIONS = 1 << 13 };
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.pad.buttons = TRIANGLE | OPTIONS;
+    report(&room, PAD);
+    report(&room, PAD);
+    look(&room);
+    assert_int_equal(room.news.command_count, 2);
+    assert_int_equal(room.news.commands[0], PLAY_NEUTRAL);
+    assert_int_equal(room.news.commands[1], PLAY_PAUSE);
+    look(&room);
+    assert_int_equal(room.news.command_count, 0);
+    assert_true(woken >= 2);
+    room_close(&room);
+}
+
+static void neutral_and_home(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 0);
+    turn_pad(&room, 25);
+    hand_post_neutral(room.post);
+    look(&room);
+    check_tilt(&room, 0);
+    turn_pad(&room, -10);
+    check_tilt(&room, -10);
+    room.own.turn_drag[0] = 1, room.own.move_drag[0] = 0.2;
+    look(&room);
+    hand_post_home(room.post);
+    room.own.turn_drag[0] = room.own.move_drag[0] = 0;
+    look(&room);
+    check_tilt(&room, 0);
+    check_vector(room.sent.last.position, 0, 0, 0, 1e-12, "position");
+    room_close(&room);
+}
+
+static void what_may_not_be_opened_is_told(void **state)
+{
+    (void)state;
+    HandDevice devices[HAND_POST_DEVICES_MAX];
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_REFUSED, PAD, "permission denied; install the rule");
+    look(&room);
+    assert_true(room.news.words[0].wrong);
+    assert_string_equal(room.news.words[0].text, "DualSense: permission denied; install the rule");
+    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    assert_string_equal(devices[0].problem, "permission denied; install the rule");
+    assert_false(hand_post_claims(room.post, 0x054c, 0x0ce6)); /* the window may have it */
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    assert_int_equal(hand_post_devices(room.post, devices), 0);
+    look(&room);
+    assert_string_equal(room.news.words[0].text, "DualSense is gone");
+    tell(&room, DEVICE_REFUSED, PAD, "permission denied; install the rule");
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    assert_string_equal(devices[0].problem, "");
+    assert_true(hand_post_claims(room.post, 0x054c, 0x0ce6));
+    assert_false(hand_post_claims(room.post, 0x054c, 0x09cc));
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    assert_false(hand_post_claims(room.post, 0x054c, 0x0ce6));
+    assert_int_equal(hand_post_devices(room.post, devices), 0);
+    room_close(&room);
+}
+
+static void more_than_there_is_room_for(void **state)
+{
+    (void)state;
+    HandDevice devices[HAND_POST_DEVICES_MAX];
+    Room room = room_open();
+    room_begin(&room);
+    for (int number = 1; number < 30; number++)
+        tell(&room, DEVICE_PLUGGED, number, "");
+    assert_int_equal(hand_post_devices(room.post, devices), HAND_POST_DEVICES_MAX);
+    for (int number = 1; number < 30; number += 2)
+        tell(&room, DEVICE_UNPLUGGED, number, "");
+    assert_int_equal(hand_post_devices(room.post, devices), HAND_POST_DEVICES_MAX / 2);
+    for (int i = 0; i < HAND_POST_DEVICES_MAX / 2; i++)
+        assert_int_equal(devices[i].number, 2 * (i + 1)); /* in the order of coming */
+    room_close(&room);
+}
+
+static void tuned_in_the_panel(void **state)
+{
+    (void)state;
+    HandDevice devices[HAND_POST_DEVICES_MAX];
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    hand_post_tune(room.post, PAD, 0.5, 0.4);
+    turn_pad(&room, 0);
+    turn_pad(&room, 20);
+    check_tilt(&room, 10);
+    tell(&room, DEVICE_UNPLUGGED, PAD, "");
+    tell(&room, DEVICE_PLUGGED, PAD, ""); /* the same again */
+    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    check_near(devices[0].map.gain, 0.5, 0, "gain");
+    check_near(devices[0].map.dead_zone, 0.4, 0, "dead zone");
+    room_close(&room);
+}
+
+static void the_camera_is_the_windows(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.pad.right[0] = 1, room.pad.triggers[1] = 1;
+    for (int i = 0; i < 10; i++)
+        report(&room, PAD);
+    look(&room);
+    assert_true(room.news.camera[0] > 0 && room.news.camera[1] == 0);
+    check_near(room.news.camera[2], room.news.camera[0], 1e-12, "zoom");
+    assert_true(woken > 1 && room.sent.count == 0);
+    room_close(&room);
+}
+
+/* A key that is held moves the box by the clock, however many reports come in between. */
+static void keys_go_on_between_reports(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    const double before = wall_ms();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.own.move_rate[0] = 0.5;
+    look(&room);
+    const double began = wall_ms();
+    for (int i = 0; i < 50; i++) {
+        sleep_ms(1);
+        report(&room, PAD);
+    }
+    const double ended = wall_ms();
+    look(&room);
+    const double way = room.sent.last.position[0], a_ms = 0.5e-3 * HAND_SPEED;
+    assert_true(way >= a_ms * (ended - began) - 1e-6 && way <= a_ms * (wall_ms() - before) + 1e-6);
+    room_close(&room);
+}
+
+/* What the mouse did since the last picture is told with that picture, and not again with each report. */
+static void a_drag_counts_once(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    room.own.move_drag[0] = 0.25;
+    room.own.turn_drag[0] = 0.2;
+    look(&room);
+    const BoxTarget told = room.sent.last;
+    check_near(told.position[0], 0.25, 1e-9, "x");
+    check_near(told.orientation[1], sin(0.1), 1e-9, "turned");
+    for (int i = 0; i < 5; i++)
+        report(&room, PAD);
+    assert_memory_equal(&room.sent.last, &told, sizeof told);
+    room_close(&room);
+}
+
+/* The numbers of commands begin anew with a scene: its meter must not hear of those before. */
+static void a_new_scene_knows_no_older_commands(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 10);
+    assert_true(room.sent.count > 0);
+    hand_post_open(room.post, take, &room.sent);
+    look(&room);
+    assert_int_equal(room.news.sent_count, 0);
+    room_close(&room);
+}
+
+static void closed_it_sends_nothing(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    tell(&room, DEVICE_PLUGGED, CAP, "");
+    room.cap.cap[0] = 1;
+    report(&room, CAP); /* before any scene */
+    hand_post_open(room.post, take, &room.sent);
+    report(&room, CAP); /* before the first picture: nobody knows what is right */
+    assert_int_equal(room.sent.count, 0);
+    look(&room);
+    sleep_ms(1);
+    report(&room, CAP);
+    assert_true(room.sent.count > 0);
+    const uint64_t count = room.sent.count;
+    hand_post_close(room.post);
+    sleep_ms(1);
+    report(&room, CAP);
+    look(&room);
+    assert_int_equal(room.sent.count, count);
+    room_close(&room);
+}
+
+enum { REPORTS = 4000 };
+
+static void *report_on(void *user)
+{
+    Room *room = user;
+    for (int i = 0; i < REPORTS; i++) {
+        room->pad.angular_velocity[2] = i % 200 < 100 ? 1 : -1;
+        report(room, PAD);
+        if (i % 10 == 0)
+            sleep_ms(1);
+    }
+    return NULL;
+}
+
+/* Between two looks of the window lies a picture that keeps a processor busy. Half the bar, so that a machine
+   at its limits passes. */
+static void soon_though_the_window_draws(void **state)
+{
+    (void)state;
+    pthread_t thread;
+    Room room = room_open();
+    room_begin(&room);
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    assert_int_equal(pthread_create(&thread, NULL, report_on, &room), 0);
+    while (hand_post_reports(room.post) < REPORTS) {
+        HandDevice devices[HAND_POST_DEVICES_MAX];
+        const double until = wall_ms() + 30;
+        while (wall_ms() < until && hand_post_reports(room.post) < REPORTS) {
+        }
+        look(&room);
+        hand_post_devices(room.post, devices);
+    }
+    pthread_join(thread, NULL);
+    const double median = hand_post_latency(room.post, 0.5), p99 = hand_post_latency(room.post, 0.99);
+    print_message("report to command: median %.4f ms, p99 %.4f ms, %d reports\n", median, p99, REPORTS);
+    assert_true(room.sent.count > REPORTS / 2);
+    assert_true(median > 0 && median < 1 && p99 < 2);
+    room_close(&room);
+}
+
+enum { PUSHES = 500 };
+
+/* When the box was sent somewhere. */
+static _Atomic double sent_ms;
+
+static uint64_t take_time(void *user, const BoxTarget *target)
+{
+    (void)user, (void)target;
+    sent_ms = wall_ms();
+    return 1;
+}
+
+static _Atomic bool drawing;
+
+/* The window's thread: pictures of 30 ms, and a look between two. */
+static void *draw_on(void *user)
+{
+    Room *room = user;
+    while (drawing) {
+        const double until = wall_ms() + 30;
+        while (wall_ms() < until && drawing) {
+        }
+        look(room);
+    }
+    return NULL;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* From the bytes in the system's hands to the command: another thread has to wake up, to parse and to turn
+   the box, while one more draws. The median, since other programs may have the processors when it shall wake.
+ */
+static void soon_from_the_bytes_on(void **state)
+{
+    (void)state;
+    static double ms[PUSHES];
+    pthread_t window;
+    Error error = {{0}};
+    Room room = room_open();
+    hand_post_open(room.post, take_time, NULL);
+    look(&room);
+    StandInDevice *pad = plug(0, 0x054c, 0x0ce6, false);
+    const DevicesSetup setup = {.port = &stand_in_port, .listener = hand_post_hear, .user = room.post};
+    const Report turning = axes_report(LAYOUT_DUALSENSE_USB, (const int[6]){0, 640, 0, 0, 8192, 0}, false);
+    Devices *devices = devices_start(&setup, &error);
+    assert_non_null(devices);
+    drawing = true;
+    assert_int_equal(pthread_create(&window, NULL, draw_on, &room), 0);
+    for (int i = -2; i < PUSHES; i++) { /* the first one has no time before it to turn in */
+        const double until = wall_ms() + 2000, began = wall_ms();
+        sent_ms = 0;
+        push(pad, &turning);
+        while (sent_ms == 0 && wall_ms() < until && i >= 0)
+            sleep_ms(0.05);
+        if (i >= 0)
+            ms[i] = (sent_ms > 0 ? sent_ms : until) - began;
+        sleep_ms(i < 0 ? 100 : 1);
+    }
+    drawing = false;
+    pthread_join(window, NULL);
+    devices_stop(devices);
+    room_close(&room);
+    qsort(ms, PUSHES, sizeof *ms, ascending);
+    print_message("bytes to command: median %.3f ms, p90 %.3f ms, p99 %.3f ms\n", ms[PUSHES / 2],
+                  ms[PUSHES * 9 / 10], ms[PUSHES * 99 / 100]);
+    assert_true(ms[PUSHES / 2] < 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_report_is_a_command_at_once),
+        cmocka_unit_test(the_box_is_tilted_as_the_pad_is),
+        cmocka_unit_test(unplugged_the_box_stays),
+        cmocka_unit_test(plugged_in_again_it_does_not_count_twice),
+        cmocka_unit_test(of_two_one_is_back),
+        cmocka_unit_test(turned_meanwhile_it_stays_so),
+        cmocka_unit_test(two_devices_at_once),
+        cmocka_unit_test(buttons_are_commands_once),
+        cmocka_unit_test(neutral_and_home),
+        cmocka_unit_test(what_may_not_be_opened_is_told),
+        cmocka_unit_test(more_than_there_is_room_for),
+        cmocka_unit_test(tuned_in_the_panel),
+        cmocka_unit_test(the_camera_is_the_windows),
+        cmocka_unit_test(keys_go_on_between_reports),
+        cmocka_unit_test(late_reports_turn_as_they_were_measured),
+        cmocka_unit_test(a_drag_counts_once),
+        cmocka_unit_test(a_new_scene_knows_no_older_commands),
+        cmocka_unit_test(closed_it_sends_nothing),
+        cmocka_unit_test(soon_though_the_window_draws),
+        cmocka_unit_test(soon_from_the_bytes_on),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,184 @@
+/* Scene files on disk: those that are shipped, where they are looked for, and what is no file. */
+#include "tests/scene/scene_text.h"
+
+#include "app/base/path.h"
+#include "sim/matter/seed.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static Scene scene;
+static Error error;
+static char folder[] = "/tmp/slosh_scene_XXXXXX";
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return rmdir(folder);
+}
+
+static bool load(const char *name, size_t particles)
+{
+    SceneSettings settings = {.particles = particles};
+    return scene_load(name, &settings, &scene, NULL, &error);
+}
+
+/* Calls `visit` with the name of every shipped scene, without ".yaml"; returns how many there are. */
+static int each_scene(void (*visit)(const char *name))
+{
+    DIR *scenes = opendir(SLOSH_SOURCE_DIR "/scenes");
+    assert_non_null(scenes);
+    int count = 0;
+    for (struct dirent *entry; (entry = readdir(scenes));) {
+        char name[64];
+        const size_t length = strlen(entry->d_name);
+        if (length < 6 || length >= sizeof name || strcmp(entry->d_name + length - 5, ".yaml") != 0)
+            continue;
+        memcpy(name, entry->d_name, length - 5);
+        name[length - 5] = 0;
+        visit(name);
+        count++;
+    }
+    closedir(scenes);
+    return count;
+}
+
+static void check_scene(const char *name)
+{
+    if (!load(name, 0))
+        fail_msg("%s", error.message);
+    size_t count = seed_count(&scene.world, scene.world.spacing);
+    if (count == 0) /* what emitters may fill it up to */
+        count = (size_t)scene.world.most;
+    if (strcmp(name, "two_spheres") == 0) /* a picture of splatting, no flow */
+        assert_int_equal(count, 2);
+    else
+        assert_true(count >= (scene.world.dimensions == 2 ? 1000u : 5000u) && count <= 30000);
+    assert_true(*scene.title);
+    /* A substep must not let sound and the fastest flow (a third of it) cross much more than half of h. */
+    const double h = scene.world.support * scene.world.spacing,
+                 substep = scene.world.dt / scene.world.substeps;
+    if (substep * scene.world.sound_speed * 4 / 3 > h)
+        fail_msg("%s: the substep is too long for its sound_speed", name);
+}
+
+static void every_shipped_scene_loads(void **state)
+{
+    (void)state;
+    assert_true(each_scene(check_scene) >= 4);
+}
+
+/* Of those that fill something: how many the others have is a matter of their time. */
+static void check_particles(const char *name)
+{
+    if (load(name, 0) && seed_count(&scene.world, scene.world.spacing) == 0) {
+        assert_false(load(name, 5000));
+        assert_non_null(strstr(error.message, "the scene fills nothing at the start"));
+        return;
+    }
+    static const size_t wanted[] = {1000, 8192, 20000, 100000, 400000};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        if (!load(name, wanted[i]))
+            fail_msg("%s", error.message);
+        const double count = (double)seed_count(&scene.world, scene.world.spacing);
+        const double coarse = scene.world.solid_count > 0 ? 0.08 : 0.06; /* solids take whole layers away */
+        const double miss = fabs(count / (double)wanted[i] - 1), allowed = wanted[i] < 5000 ? coarse : 0.025;
+        if (miss > allowed)
+            fail_msg("%s: --particles %zu gives %g", name, wanted[i], count);
+    }
+}
+
+static void particles_come_near_in_every_scene(void **state)
+{
+    (void)state;
+    assert_true(each_scene(check_particles) >= 4);
+}
+
+static void scenes_are_found_beside_the_sources(void **state)
+{
+    (void)state;
+    char here[1024];
+    assert_non_null(getcwd(here, sizeof here));
+    assert_int_equal(chdir(folder), 0);
+    const bool found = load("box_slosh", 0) && load("box_slosh.yaml", 0) &&
+                       load("scenes/box_slosh.yaml", 0) && load("scenes/box_slosh", 0);
+    assert_int_equal(chdir(here), 0);
+    if (!found)
+        fail_msg("%s", error.message);
+    assert_string_equal(scene.path, SLOSH_SOURCE_DIR "/scenes/box_slosh.yaml");
+}
+
+static void a_file_here_goes_first(void **state)
+{
+    (void)state;
+    char path[256];
+    snprintf(path, sizeof path, "%s/mine.yaml", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(LEAST "title: Mine\n", file);
+    fclose(file);
+    const bool loaded = load(path, 0);
+    unlink(path);
+    assert_true(loaded);
+    assert_string_equal(scene.title, "Mine");
+    assert_string_equal(scene.path, path);
+}
+
+static void what_is_no_file_is_refused(void **state)
+{
+    (void)state;
+    assert_false(load("no_such_scene", 0));
+    assert_string_equal(error.message, "no_such_scene: no such file, neither here nor in " SLOSH_SOURCE_DIR
+                                       " nor in " SLOSH_SOURCE_DIR "/scenes; name a scene file");
+    assert_false(load("/no/such.yaml", 0));
+    assert_string_equal(error.message, "/no/such.yaml: no such file; name a scene file");
+    assert_false(load(folder, 0));
+    assert_non_null(strstr(error.message, ": a directory; name a scene file in it"));
+    assert_false(load("", 0));
+    assert_non_null(strstr(error.message, "the scene's name is empty"));
+    assert_false(load("/dev/zero", 0));
+    assert_string_equal(error.message, "/dev/zero: larger than 1 MiB; a scene file is a page of YAML");
+    assert_false(load("/dev/null", 0));
+    assert_non_null(strstr(error.message, "/dev/null:1:1: the scene is empty"));
+}
+
+static void an_unreadable_file_is_refused(void **state)
+{
+    (void)state;
+    if (geteuid() == 0) {
+        print_message("skipped: root may read every file\n");
+        skip();
+    }
+    char path[256];
+    snprintf(path, sizeof path, "%s/locked.yaml", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fclose(file);
+    chmod(path, 0);
+    const bool loaded = load(path, 0);
+    unlink(path);
+    assert_false(loaded);
+    assert_non_null(strstr(error.message, "cannot be opened (Permission denied)"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_shipped_scene_loads),
+        cmocka_unit_test(particles_come_near_in_every_scene),
+        cmocka_unit_test(scenes_are_found_beside_the_sources),
+        cmocka_unit_test(a_file_here_goes_first),
+        cmocka_unit_test(what_is_no_file_is_refused),
+        cmocka_unit_test(an_unreadable_file_is_refused),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
