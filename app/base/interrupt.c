@@ -1,6 +1,6 @@
 #include "app/base/interrupt.h"
 
-#include "app/base/output.h"
+#include "app/base/output_pending.h"
 
 #include <signal.h>
 #include <stddef.h>

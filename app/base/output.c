@@ -2,7 +2,6 @@
 #include "app/base/output.h"
 
 #include "app/base/file_place.h"
-#include "app/base/output_pending.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -2,6 +2,7 @@
 #ifndef SLOSH_OUTPUT_H
 #define SLOSH_OUTPUT_H
 
+#include "app/base/output_pending.h"
 #include "sim/base/error.h"
 
 #include <stdbool.h>
@@ -10,7 +11,8 @@
 typedef struct Output {
     char path[1024];   /* the name that was asked for */
     char target[1024]; /* the file that gets replaced: where `path` leads when it is a link, which stays */
-    char temp[1056];   /* target.PID.tmp, in the same folder: write here until the commit; empty: none */
+    char temp[OUTPUT_TEMP_SIZE]; /* target.PID.tmp, in the same folder: write here until the commit; empty:
+                                    none */
 } Output;
 
 /* Creates the empty temporary file, and so finds out at once whether the file can be written. False with the
@@ -34,9 +36,5 @@ void output_discard(Output *output);
 
 /* Whether a file could be written there, without leaving one. */
 bool output_check(const char *path, Error *error);
-
-/* Removes the temporary files and folders of all outputs in the making. May be called from a signal handler.
- */
-void output_discard_all(void);
 
 #endif

@@ -2,7 +2,6 @@
 #include "app/base/output_folder.h"
 
 #include "app/base/output.h"
-#include "app/base/output_pending.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -2,15 +2,16 @@
 #ifndef SLOSH_OUTPUT_FOLDER_H
 #define SLOSH_OUTPUT_FOLDER_H
 
+#include "app/base/output_pending.h"
 #include "sim/base/error.h"
 
 /* One folder in the making. Zero-initialise it. Its files are called after it, NAME-0123.vtp in NAME, so that
    an older one is known to be ours and can be replaced. */
 typedef struct OutputFolder {
-    char path[1024];    /* the name that was asked for */
-    char target[1024];  /* where it leads when it is a link, which stays */
-    char temp[1056];    /* target.PID.tmp: fill this one until the commit; empty: none */
-    const char *suffix; /* ".vtp" */
+    char path[1024];             /* the name that was asked for */
+    char target[1024];           /* where it leads when it is a link, which stays */
+    char temp[OUTPUT_TEMP_SIZE]; /* target.PID.tmp: fill this one until the commit; empty: none */
+    const char *suffix;          /* ".vtp" */
 } OutputFolder;
 
 /* Creates the temporary folder. False with the reason: no such folder to put it in, one that may not be

@@ -1,12 +1,10 @@
 #define _GNU_SOURCE /* getdents64 */
 #include "app/base/output_pending.h"
 
-#include "app/base/output.h"
-
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <stddef.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -16,7 +14,7 @@ enum { PENDING_MAX = 8 };
 /* The one state that a signal handler can reach. */
 static struct {
     volatile sig_atomic_t used;
-    char temp[sizeof(((Output *)NULL)->temp)];
+    char temp[OUTPUT_TEMP_SIZE];
 } pending[PENDING_MAX];
 
 void output_pending_add(const char *temp)

@@ -1,7 +1,6 @@
 #include "app/device/mapping.h"
 
 #include "app/device/device_table.h"
-#include "app/device/mapping_keys.h"
 #include "sim/box/box_motion.h"
 
 #include <math.h>

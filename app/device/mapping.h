@@ -78,6 +78,9 @@ void mapping_default(Mapping *mapping);
 /* The product's own entry, or its family's. */
 DeviceMap *mapping_of(Mapping *mapping, DeviceFamily family, uint16_t vendor, uint16_t product);
 
+/* NULL: the family has no button of that name. */
+ButtonMap *device_map_button(DeviceMap *map, const char *name);
+
 /* Names of the family's axes, and their values in a state: -1 .. 1. */
 const char *mapping_axis_name(DeviceFamily family, int axis);
 void mapping_axis_values(DeviceFamily family, const DeviceState *state, double values[MAPPING_AXES]);

@@ -12,6 +12,5 @@ const char *mapping_as_name(int as);           /* NULL after the last */
 const char *mapping_command_name(int command); /* of what a press can do; "" for the others, NULL after the
                                                   last */
 const char *mapping_to_words(int to);          /* "moves the box to the right" */
-ButtonMap *device_map_button(DeviceMap *map, const char *name); /* NULL: the family has none of that name */
 
 #endif

@@ -4,7 +4,7 @@
 #include "app/scene/check.h"
 #include "app/scene/keys.h"
 #include "app/scene/value.h"
-#include "app/yaml/tree.h"
+#include "app/yaml/yaml.h"
 
 #include <stdint.h>
 #include <stdio.h>

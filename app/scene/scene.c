@@ -5,7 +5,7 @@
 #include "app/scene/check.h"
 #include "app/scene/particles.h"
 #include "app/scene/read.h"
-#include "app/yaml/tree.h"
+#include "app/yaml/yaml.h"
 #include "render/renderer.h"
 #include "sim/matter/fill_lattice.h"
 #include "sim/matter/flow.h"

@@ -1,12 +1,11 @@
 #include "app/yaml/tree.h"
 
-#include "app/yaml/yaml.h"
-
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+typedef struct TreeBlock TreeBlock;
 struct TreeBlock {
     TreeBlock *next;
     size_t used;
@@ -41,21 +40,6 @@ void tree_free(Tree *tree)
         tree->blocks = next;
     }
     tree->root = NULL;
-}
-
-bool tree_read(Tree *tree, const char *path, const char *bytes, size_t size, Error *error)
-{
-    *tree = (Tree){.path = path};
-    if (!yaml_read(tree, NULL, bytes, size, &tree->root, error))
-        return false;
-    if (!tree->root)
-        return error_set(error, "%s:1:1: the scene is empty; it needs at least box, particles and fluids",
-                         path);
-    if (tree->root->kind != NODE_MAPPING)
-        return tree_error(
-            tree, tree->root, error,
-            "a scene is a mapping; write `box:`, `particles:` and `fluids:` at the left margin");
-    return true;
 }
 
 const Node *node_child(const Node *mapping, const char *key)

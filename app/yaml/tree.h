@@ -35,20 +35,22 @@ typedef struct Tree {
     struct TreeBlock *blocks; /* owned: nodes and texts */
 } Tree;
 
-/* Reads one YAML document. False with "path:line:column: ..."; tree_free is needed in either case. */
-bool tree_read(Tree *tree, const char *path, const char *bytes, size_t size, Error *error);
+/* Zeroed memory that lives as long as the tree; NULL when there is none left. */
+void *tree_alloc(Tree *tree, size_t size);
 void tree_free(Tree *tree);
-
-/* Puts the value of "path=value" at its place, which is a path like `fluids[0].density`: mappings that are
-   missing on the way are made, and an index one past the end of a list appends. `said` is
-   what messages call it, such as "--backend cpu", and must outlive the tree; NULL: "--set path=value". False
-   with "--set path=value: ...". */
-bool tree_set(Tree *tree, const char *setting, const char *said, Error *error);
 
 /* The child of a mapping by key, of a sequence by index; NULL when there is none. */
 const Node *node_child(const Node *mapping, const char *key);
 const Node *node_element(const Node *sequence, size_t index);
 size_t node_count(const Node *node);
+
+typedef struct PathPart {
+    long index; /* of a list, from 0; -1: a key */
+    char key[64];
+} PathPart;
+
+/* Takes the next part off a path like `fluids[0].density`; false when it is none. */
+bool path_next(const char **path, PathPart *part);
 
 /* The node at a path like `fluids[0].fill`, or the nearest one above it: something that a message can point
  * at. */

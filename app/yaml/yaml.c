@@ -274,3 +274,18 @@ bool yaml_read(Tree *tree, const char *said, const char *bytes, size_t size, Nod
     fy_diag_destroy(reader.diag);
     return ok;
 }
+
+bool tree_read(Tree *tree, const char *path, const char *bytes, size_t size, Error *error)
+{
+    *tree = (Tree){.path = path};
+    if (!yaml_read(tree, NULL, bytes, size, &tree->root, error))
+        return false;
+    if (!tree->root)
+        return error_set(error, "%s:1:1: the scene is empty; it needs at least box, particles and fluids",
+                         path);
+    if (tree->root->kind != NODE_MAPPING)
+        return tree_error(
+            tree, tree->root, error,
+            "a scene is a mapping; write `box:`, `particles:` and `fluids:` at the left margin");
+    return true;
+}

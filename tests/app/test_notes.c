@@ -4,6 +4,7 @@
 
 #include "app/play/play_scene.h"
 #include "app/scene/keys.h"
+#include "app/yaml/yaml.h"
 #include "sim/gl/backends.h"
 #include "sim/world/world.h"
 #include "tests/scene/scene_text.h"

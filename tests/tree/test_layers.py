@@ -55,8 +55,7 @@ DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device"}  # rooms of ap
 
 
 # What is left to cut: circles by their first file.
-CIRCLES_LEFT = ["app/base/output", "app/device/mapping", "app/scene/advise", "app/yaml/tree", "render/splat/silhouette",
-                "sim/cpu/pair_loop", "sim/world/backend"]
+CIRCLES_LEFT = ["app/scene/advise", "render/splat/silhouette", "sim/cpu/pair_loop", "sim/world/backend"]
 
 
 def folder(floor, room):
