@@ -295,7 +295,7 @@ void play_shake(Play *play)
     const double now = wall_ms();
     if (play->setup->shake_seconds <= 0 || !play->has_particles)
         return;
-    while (play_script_next(&play->script, now, play->width, play->height, &event))
+    while (window_shake_next(&play->script, now, play->width, play->height, &event))
         play_event(play, &event);
     if (now - play->script.began_ms >= 1000 * play->setup->shake_seconds)
         play->quit = true;

@@ -6,12 +6,12 @@
 #include "app/hand/play_commands.h"
 #include "app/held/hand_post.h"
 #include "app/output/video.h"
-#include "app/play/panel.h"
+#include "app/panel/panel.h"
 #include "app/play/play.h"
 #include "app/play/play_meter.h"
 #include "app/play/play_scene.h"
-#include "app/play/play_script.h"
-#include "app/play/window.h"
+#include "app/window/shake.h"
+#include "app/window/window.h"
 #include "render/frame/text.h"
 #include "render/renderer.h"
 #include "render/ui/ui.h"
@@ -96,7 +96,7 @@ typedef struct Play {
     size_t rendered, panels;
     uint64_t reports_shown; /* of motion devices, when their bars were last drawn anew */
     double bars_ms;         /* wall time of that */
-    PlayScript script;
+    WindowShake script;
     uint64_t shaders_stamp; /* of the files of --shaders when they were read */
     double shaders_due_ms;  /* wall time of the next look at them */
     size_t scenes_opened;

@@ -3,7 +3,7 @@
 #include "tests/render/ui_fixture.h"
 
 #include "app/hand/play_commands.h"
-#include "app/play/panel.h"
+#include "app/panel/panel.h"
 #include "app/scene/keys.h"
 #include "app/scene/live.h"
 

@@ -2,7 +2,7 @@
 #include "tests/near.h"
 
 #include "app/play/play_meter.h"
-#include "app/play/play_script.h"
+#include "app/window/shake.h"
 
 #include <math.h>
 
@@ -78,12 +78,12 @@ static void the_process_has_an_age(void **state)
 static void the_script_keeps_its_times(void **state)
 {
     (void)state;
-    PlayScript script = {0};
+    WindowShake script = {0};
     WindowEvent event;
     int events = 0;
     double last = 0, least = 1e9, most = 0;
     for (double now = 5000; now <= 7000; now += 37)
-        while (play_script_next(&script, now, 400, 300, &event)) {
+        while (window_shake_next(&script, now, 400, 300, &event)) {
             assert_int_equal(event.kind, events == 0 ? WINDOW_BUTTON : WINDOW_MOVE);
             assert_true(event.when_ms <= now && event.when_ms > last);
             assert_true(event.x > 0 && event.x < 400 && event.y > 0 && event.y < 300);

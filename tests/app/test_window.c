@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "app/play/window.h"
+#include "app/window/window.h"
 
 static void check_ids(const char *guid, uint16_t vendor, uint16_t product)
 {

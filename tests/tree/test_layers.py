@@ -46,12 +46,14 @@ APP = {
     "session": "base scene recording hand held output",
     "case": "base metric scene",
     "lab": "base metric scene held session case",
-    "play": "base scene recording hand device held output session lab",
+    "window": "",
+    "panel": "scene hand held session",
+    "play": "base scene recording hand device held output session lab window panel",
     "command": "base metric yaml scene recording hand device held output session case lab play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]
-DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device"}  # rooms of app without render and sim/gl
+DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device", "window"}  # rooms of app without render and sim/gl
 
 
 # What is left to cut: circles by their first file.

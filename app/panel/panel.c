@@ -1,7 +1,7 @@
-#include "app/play/panel.h"
+#include "app/panel/panel.h"
 
 #include "app/hand/play_commands.h"
-#include "app/play/panel_parts.h"
+#include "app/panel/panel_parts.h"
 
 #include <math.h>
 #include <stdio.h>

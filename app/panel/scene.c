@@ -1,5 +1,5 @@
 /* The scene's live keys, from the table of keys. */
-#include "app/play/panel_parts.h"
+#include "app/panel/panel_parts.h"
 #include "app/scene/keys.h"
 #include "render/frame/legend.h"
 

@@ -1,4 +1,4 @@
-#include "app/play/play_script.h"
+#include "app/window/shake.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -7,7 +7,7 @@
 
 static const double EVENT_MS = 8, SWING_HZ = 1.3, HEAVE_HZ = 0.7;
 
-bool play_script_next(PlayScript *script, double now_ms, int width, int height, WindowEvent *event)
+bool window_shake_next(WindowShake *script, double now_ms, int width, int height, WindowEvent *event)
 {
     if (script->began_ms == 0)
         script->began_ms = now_ms;

@@ -1,5 +1,5 @@
 /* The motion devices: what they say now, what it does, and how much. */
-#include "app/play/panel_parts.h"
+#include "app/panel/panel_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,29 +2,29 @@
 #ifndef SLOSH_PANEL_PARTS_H
 #define SLOSH_PANEL_PARTS_H
 
-#include "app/play/panel.h"
+#include "app/panel/panel.h"
 
 enum { PANEL_SIM_COLOR = 0x4aa3c7ff, PANEL_UPLOAD_COLOR = 0x8f86c9ff };
 #define PANEL_RENDER_COLOR 0xd99a4effU
 
-/* panel_stages.c: simulation against rendering, and each stage's share. */
+/* stages.c: simulation against rendering, and each stage's share. */
 void panel_stages(Ui *ui, const PanelData *data);
 
-/* panel_history.c: the last times from picture to picture, and of the solver's frames. */
+/* history.c: the last times from picture to picture, and of the solver's frames. */
 void panel_history(Ui *ui, const PanelData *data);
 
-/* panel_gauges.c: error of density, energy and Courant number over time; whether they are shown. */
+/* gauges.c: error of density, energy and Courant number over time; whether they are shown. */
 bool panel_gauges(Ui *ui, const PanelData *data);
 
-/* panel_device.c: motion devices, while there are any. */
+/* device.c: motion devices, while there are any. */
 void panel_devices(Ui *ui, const PanelData *data, PanelEvents *events);
 
-/* panel_scene.c: what colours mean; then every other live key, by the first part of its path. `start` is the
+/* scene.c: what colours mean; then every other live key, by the first part of its path. `start` is the
    scene as it was opened: a slider reaches from a tenth to ten times the value there. */
 void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);
 void panel_scene(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events);
 
-/* panel_key.c: the widget of a live key, and what it asks for. `base` and `start` are what the key's offset
+/* key.c: the widget of a live key, and what it asks for. `base` and `start` are what the key's offset
    counts from; `path` is its path with indices, `label` what stands before it. */
 typedef struct PanelKey {
     const struct Key *key;

@@ -1,4 +1,4 @@
-#include "app/play/window.h"
+#include "app/window/window.h"
 
 #include "sim/base/stage.h"
 

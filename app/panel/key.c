@@ -1,5 +1,5 @@
 /* One live key as a widget. */
-#include "app/play/panel_parts.h"
+#include "app/panel/panel_parts.h"
 #include "app/scene/keys.h"
 #include "render/frame/legend.h"
 

@@ -1,5 +1,5 @@
 /* How right the simulation is just now, as plots over the last seconds. */
-#include "app/play/panel_parts.h"
+#include "app/panel/panel_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* The overlay that lists all that a user can do. */
 #include "app/hand/play_commands.h"
-#include "app/play/panel.h"
+#include "app/panel/panel.h"
 
 #include <math.h>
 #include <stdio.h>

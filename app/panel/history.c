@@ -1,4 +1,4 @@
-#include "app/play/panel_parts.h"
+#include "app/panel/panel_parts.h"
 
 #include <math.h>
 #include <stdio.h>
