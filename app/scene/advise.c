@@ -26,20 +26,25 @@ void advise(const Tree *tree, const char *path, Notes *notes, const char *format
         notes_add(notes, "%s%s%s: %s", tree ? tree->path : "", tree ? ": " : "", path, what);
 }
 
-/* What a key that stands in the scene lacks to have an effect; NULL: nothing. */
-static const char *lacks(const Scene *scene, const char *path, bool said)
+enum { NEED_SIZE = 128 };
+
+/* Whether the key at `path` has no effect, and what the scene lacks for it. */
+static bool lacks(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
     const Key *key = scene_key_find(path);
     const KeyOwner *owner = key ? key_owner(key) : NULL;
-    return owner && !owner->used(scene, said) ? owner->need : NULL;
+    if (!owner || key_owner_used(owner, scene, said))
+        return false;
+    key_owner_need(owner, need, NEED_SIZE);
+    return true;
 }
 
 #define NO_EFFECT "%s has no effect; it needs %s"
 
 void scene_unused(const Scene *scene, const char *path, Notes *notes)
 {
-    const char *need = lacks(scene, path, true);
-    if (need)
+    char need[NEED_SIZE];
+    if (lacks(scene, path, true, need))
         notes_add(notes, NO_EFFECT, path, need);
 }
 
@@ -54,10 +59,10 @@ static void walk(const Tree *tree, const Node *node, const char *path, const Sce
         else
             snprintf(below, sizeof below, "%.180s[%d]", path, index);
         const Key *key = scene_key_find(below);
-        const char *need = lacks(scene, below, child->said != NULL);
+        char need[NEED_SIZE];
         if (!key || key->type == KEY_MAPPING || key->type == KEY_LIST || key->type == KEY_VARIANT)
             walk(tree, child, below, scene, notes);
-        else if (need)
+        else if (lacks(scene, below, child->said != NULL, need))
             advise(tree, below, notes, NO_EFFECT, below, need);
     }
 }

@@ -2,90 +2,21 @@
 
 #include "app/metric/metric_list.h"
 #include "app/scene/lists.h"
-#include "sim/matter/flow.h"
+#include "sim/base/key_rows.h"
 #include "sim/matter/tension.h"
 
-#include <math.h>
+#include <assert.h>
+#include <pthread.h>
 #include <stddef.h>
 #include <string.h>
 
-#define WORLD(field)   offsetof(Scene, world.field)
-#define VIEW(field)    offsetof(Scene, view.field)
-#define FLUID(field)   offsetof(FluidDef, field)
-#define FILL(field)    offsetof(Fill, field)
-#define MOTION(field)  offsetof(Motion, field)
-#define SOLID(field)   offsetof(SolidDef, field)
-#define EMIT(field)    offsetof(Emit, field)
-#define PLACE(at)      .offset = (at), .aux = KEY_NOWHERE
-#define BOUNDS(lo, hi) .min = (lo), .max = (hi)
-#define NOT_STORED     .offset = KEY_NOWHERE, .aux = KEY_NOWHERE
-
-enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
-
-/* The rows by type. */
-#define MAPPING(PATH, ...)                                                                                   \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_MAPPING, .unit = "", NOT_STORED, .help = __VA_ARGS__                       \
-    }
-#define VARIANT(PATH, AUX, VALUE, HELP)                                                                      \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_VARIANT, .unit = "", .help = HELP, .offset = KEY_NOWHERE, .aux = AUX,      \
-        .variant = VALUE                                                                                     \
-    }
-#define NUMBER(PATH, FLAGS, UNIT, LO, HI, AT, ...)                                                           \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_NUMBER, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),           \
-        .help = __VA_ARGS__                                                                                  \
-    }
-#define CURVE(PATH, FLAGS, UNIT, LO, HI, AT, TABLE, HELP)                                                    \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_CURVE, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), .offset = AT,         \
-        .aux = TABLE, .help = HELP                                                                           \
-    }
-#define VEC3(PATH, FLAGS, UNIT, LO, HI, AT, HELP)                                                            \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_VEC3, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),             \
-        .help = HELP                                                                                         \
-    }
-#define AXES(PATH, AT, HELP)                                                                                 \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_AXES, .unit = "", PLACE(AT), .help = HELP                                  \
-    }
-#define NAMES(PATH, LO, HI, CHOICES, AT, COUNT, ...)                                                         \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_NAMES, .unit = "", BOUNDS(LO, HI), .choice = CHOICES, .offset = AT,        \
-        .aux = COUNT, .help = __VA_ARGS__                                                                    \
-    }
-#define INTEGER(PATH, FLAGS, LO, HI, AT, ...)                                                                \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_INTEGER, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), PLACE(AT),            \
-        .help = __VA_ARGS__                                                                                  \
-    }
-#define BOOLEAN(PATH, FLAGS, AT, ...)                                                                        \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_BOOLEAN, .flags = FLAGS, .unit = "", PLACE(AT), .help = __VA_ARGS__        \
-    }
-#define CHOICE(PATH, FLAGS, CHOICES, AT, ...)                                                                \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_CHOICE, .flags = FLAGS, .unit = "", .choice = CHOICES, PLACE(AT),          \
-        .help = __VA_ARGS__                                                                                  \
-    }
-#define TEXT(PATH, FLAGS, SIZE, AT, FALLBACK, HELP)                                                          \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_TEXT, .flags = FLAGS, .unit = "", BOUNDS(1, (SIZE)-1), .size = (SIZE),     \
-        .fallback = FALLBACK, PLACE(AT), .help = HELP                                                        \
-    }
-#define COLOR(PATH, FLAGS, AT, FALLBACK, HELP)                                                               \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_COLOR, .flags = FLAGS, .unit = "", BOUNDS(0, 1), .fallback = FALLBACK,     \
-        PLACE(AT), .help = HELP                                                                              \
-    }
-#define LIST(PATH, FLAGS, LO, HI, AT, COUNT, ELEMENT, INIT, HELP)                                            \
-    {                                                                                                        \
-        .path = PATH, .type = KEY_LIST, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), .offset = AT,            \
-        .aux = COUNT, .size = sizeof(ELEMENT), .init = INIT, .help = HELP                                    \
-    }
-
+#define WORLD(field)  offsetof(Scene, world.field)
+#define VIEW(field)   offsetof(Scene, view.field)
+#define FLUID(field)  offsetof(FluidDef, field)
+#define FILL(field)   offsetof(Fill, field)
+#define MOTION(field) offsetof(Motion, field)
+#define SOLID(field)  offsetof(SolidDef, field)
+#define EMIT(field)   offsetof(Emit, field)
 /* What each kind of motion names in MOTION_LIST; M is its path. A kind without such a line doesn't compile.
  */
 #define AXIS(M) VEC3(M ".axis", R, "", -1000, 1000, MOTION(axis), "direction, of any length but zero"),
@@ -135,104 +66,27 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW };
 #define SOLID_ROWS(KIND, NAME, HELP)                                                                         \
     VARIANT("solids[]." NAME, SOLID(kind), SOLID_##KIND, HELP), FIELDS_##KIND("solids[]." NAME)
 
-/* The owners of keys, each with the question whether it is in use. The window's user may change backend and
-   view at any time; and a file may say how every view and the chart shall be, for when it comes to that. */
-static bool is(const char *name, const char *wanted)
-{
-    return strcmp(name, wanted) == 0;
-}
-
-static bool backend_is(const Scene *scene, const char *name)
-{
-    return scene->purpose == SCENE_FOR_WINDOW || is(scene->world.backend, name);
-}
-
-static bool view_is(const Scene *scene, bool said, const char *name)
-{
-    return scene->purpose == SCENE_FOR_WINDOW || !said || is(scene->view.kind, name);
-}
-
-static bool mueller_used(const Scene *scene, bool said)
-{
-    (void)said;
-    return is(scene->world.method, "mueller");
-}
-
-static bool wcsph_used(const Scene *scene, bool said)
-{
-    (void)said;
-    return is(scene->world.method, "wcsph");
-}
-
-static bool cpu_used(const Scene *scene, bool said)
-{
-    (void)said;
-    return backend_is(scene, "cpu");
-}
-
-static bool fragment_used(const Scene *scene, bool said)
-{
-    (void)said;
-    return backend_is(scene, "fragment");
-}
-
-static bool mode_fixed_used(const Scene *scene, bool said)
-{
-    (void)said;
-    return scene->world.step_mode == STEP_FIXED;
-}
-
-static bool mode_cfl_used(const Scene *scene, bool said)
-{
-    (void)said;
-    return scene->world.step_mode == STEP_CFL;
-}
-
-static bool emitters_used(const Scene *scene, bool said)
-{
-    (void)said;
-    return flow_emits(&scene->world);
-}
-
-static bool tension_used(const Scene *scene, bool said)
-{
-    (void)said;
-    return scene->world.tension_model != TENSION_NONE;
-}
-
-static bool view_splat_used(const Scene *scene, bool said)
-{
-    return view_is(scene, said, "splat");
-}
-
-static bool view_volume_used(const Scene *scene, bool said)
-{
-    return view_is(scene, said, "volume");
-}
-
-/* Who runs a scene for its numbers may wait for these in the output. */
-static bool chart_used(const Scene *scene, bool said)
-{
-    return scene->purpose == SCENE_FOR_CHART || (!said && scene->purpose != SCENE_FOR_NUMBERS);
-}
-
-static const KeyOwner mueller = {"mueller", "solver.method: mueller", mueller_used};
-static const KeyOwner wcsph = {"wcsph", "solver.method: wcsph", wcsph_used};
-static const KeyOwner cpu = {"cpu", "solver.backend: cpu", cpu_used};
-static const KeyOwner fragment = {"fragment", "solver.backend: fragment", fragment_used};
-static const KeyOwner mode_fixed = {"fixed", "solver.step.mode: fixed", mode_fixed_used};
-static const KeyOwner mode_cfl = {"cfl", "solver.step.mode: cfl", mode_cfl_used};
-static const KeyOwner emitters = {"with emitters", "an emitter (fluids[].emit)", emitters_used};
-static const KeyOwner tension = {"with solver.surface_tension", "a model (solver.surface_tension)",
-                                 tension_used};
-static const KeyOwner view_splat = {NULL, "view.kind: splat", view_splat_used};
-static const KeyOwner view_volume = {NULL, "view.kind: volume", view_volume_used};
-static const KeyOwner chart = {"slosh chart", "slosh chart, which alone reads it", chart_used};
+/* The owners of keys. */
+static const KeyOwner mueller = {.name = "mueller", .key = "solver.method", .value = "mueller"};
+static const KeyOwner wcsph = {.name = "wcsph", .key = "solver.method", .value = "wcsph"};
+static const KeyOwner cpu = {.name = "cpu", .key = "solver.backend", .value = "cpu"};
+static const KeyOwner fragment = {.name = "fragment", .key = "solver.backend", .value = "fragment"};
+static const KeyOwner mode_fixed = {.name = "fixed", .key = "solver.step.mode", .value = "fixed"};
+static const KeyOwner mode_cfl = {.name = "cfl", .key = "solver.step.mode", .value = "cfl"};
+static const KeyOwner emitters = {
+    .name = "with emitters", .key = "fluids[].emit", .need = "an emitter (fluids[].emit)"};
+static const KeyOwner tension = {.name = "with solver.surface_tension",
+                                 .key = "solver.surface_tension",
+                                 .need = "a model (solver.surface_tension)"};
+static const KeyOwner view_splat = {.key = "view.kind", .value = "splat"};
+static const KeyOwner view_volume = {.key = "view.kind", .value = "volume"};
+static const KeyOwner chart = {
+    .name = "slosh chart", .command = "chart", .need = "slosh chart, which alone reads it"};
 
 /* Bounds are wide: they catch slips of the unit and of the sign, not taste. */
 /* clang-format off */
-static const Key keys[] = {
-    TEXT("title", L, sizeof((Scene *)0)->title, offsetof(Scene, title), "the file's name", "what the scene shows"),
+static const Key all_keys[] = {
+    TEXT("title", L | I, sizeof((Scene *)0)->title, offsetof(Scene, title), "the file's name", "what the scene shows"),
 
     MAPPING("box", "the box that holds the fluid; its origin is the centre of its floor, y is up"),
     VEC3("box.size", R, "m", 0.001, 1000, WORLD(box_size), "inner width (x), height (y), depth (z); [width, height] makes a scene of two dimensions, whose vectors may have two numbers"),
@@ -302,7 +156,7 @@ static const Key keys[] = {
 
     MAPPING("solver", "how the fluid is computed"),
     CHOICE("solver.method", 0, method_choice, WORLD(method), "the equations"),
-    CHOICE("solver.preset", 0, preset_choice, offsetof(Scene, preset),
+    CHOICE("solver.preset", I, preset_choice, offsetof(Scene, preset),
            "fills in what the scene does not name; accurate: wcsph with the settings that slosh validate measures"),
     CHOICE("solver.density_kernel", 0, density_kernel_choice, WORLD(density_kernel), "the kernel that density is summed by", .owner = &mueller),
     CHOICE("solver.kernel", 0, wcsph_kernel_choice, WORLD(kernel), "its kernel", .owner = &wcsph),
@@ -314,7 +168,7 @@ static const Key keys[] = {
     NUMBER("solver.shifting", 0, "", 0, 1, WORLD(shifting),
            "keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none", .owner = &wcsph),
     CHOICE("solver.backend", L, backend_choice, WORLD(backend), "what computes them"),
-    INTEGER("solver.threads", 0, 0, 1024, WORLD(threads), "how many; 0: one a processor", .owner = &cpu),
+    INTEGER("solver.threads", I, 0, 1024, WORLD(threads), "how many; 0: one a processor", .owner = &cpu),
     INTEGER("solver.grid_layers", 0, 0, 63, WORLD(grid_layers),
             "layers of its grid, four particles a cell each; 0: as many as a lattice at rest needs, 7 at support 2.1; 1: paper 003's", .owner = &fragment),
     INTEGER("solver.lost_limit", 0, 0, 2000000000, WORLD(lost_limit),
@@ -335,7 +189,7 @@ static const Key keys[] = {
     NUMBER("solver.step.max_dt", L, "s", 1e-7, 1, WORLD(max_dt), "greatest step", .owner = &mode_cfl),
     INTEGER("solver.step.retries", 0, 0, 10, WORLD(retries),
             "after trouble go back and halve the step, up to so many times; 0: stop at once"),
-    BOOLEAN("solver.step.realtime", L, offsetof(Scene, realtime),
+    BOOLEAN("solver.step.realtime", L | I, offsetof(Scene, realtime),
             "in the window, simulate as many frames as the clock asks for; false: as many as it can"),
 
     MAPPING("hand", "what the box may do when a hand moves it, by mouse, keys or gamepad"),
@@ -351,9 +205,9 @@ static const Key keys[] = {
     MOTION_LIST(MOTION_ROWS)
 
     NAMES("metrics", 1, SCENE_METRICS_MAX, metric_choice, offsetof(Scene, metrics), offsetof(Scene, metric_count),
-          "what is compared of two runs of the scene, [front, kinetic_energy] and so on; slosh info explains them", .owner = &chart),
+          "what is compared of two runs of the scene, [front, kinetic_energy] and so on; slosh info explains them", .owner = &chart, .flags = I),
 
-    MAPPING("view", "the picture"),
+    MAPPING("view", "the picture", .flags = I),
     CHOICE("view.kind", L, view_choice, VIEW(kind), "how the fluid is drawn"),
     CHOICE("view.color_by", L | KEY_INDEX, scalar_choice, VIEW(color_by), "what the colour shows"),
     CHOICE("view.colormap", L, colormap_choice, VIEW(colormap), "the colours of a scalar"),
@@ -424,29 +278,85 @@ static const Key keys[] = {
     VEC3("view.camera.from", R | L, "m", -1e5, 1e5, VIEW(camera.from), "the eye, in the world's frame"),
     VEC3("view.camera.to", R | L, "m", -1e5, 1e5, VIEW(camera.to), "the point looked at"),
     NUMBER("view.camera.fov", L, "degrees", 1, 170, VIEW(camera.fov_deg), "vertical field of view"),
+    KEYS_END,
 };
 /* clang-format on */
 
+/* The rows of one owner. */
+typedef struct KeyGroup {
+    const Key *rows;       /* ended by KEYS_END */
+    size_t at;             /* where the struct that they fill stands in a Scene */
+    const KeyOwner *owner; /* of rows that name none; NULL: whatever the scene is, they are read */
+} KeyGroup;
+
+static const KeyGroup groups[] = {
+    {all_keys, 0, NULL},
+};
+
+enum { KEYS_MAX = 512 };
+
+static Key table[KEYS_MAX];
+static int table_count;
+
+static size_t moved(size_t offset, size_t by)
+{
+    return offset == KEY_NOWHERE ? KEY_NOWHERE : offset + by;
+}
+
+/* The mapping that a row stands in; NULL: none. */
+static const Key *mapping_of(const Key *key)
+{
+    const Key *above = NULL;
+    for (const Key *row = table; row < table + table_count; row++) {
+        const size_t length = strlen(row->path);
+        if (row->type == KEY_MAPPING && strncmp(key->path, row->path, length) == 0 &&
+            key->path[length] == '.')
+            above = row;
+    }
+    return above;
+}
+
+/* Elements of lists have offsets of their own. */
+static void table_add(const Key *key, const KeyGroup *group)
+{
+    assert(table_count < KEYS_MAX);
+    Key *row = &table[table_count];
+    const Key *above = mapping_of(key);
+    const size_t by = strstr(key->path, "[]") ? 0 : group->at;
+    *row = *key;
+    row->offset = moved(key->offset, by);
+    row->aux = moved(key->aux, by);
+    row->flags |= above ? above->flags & KEY_IDLE : 0;
+    row->owner = key->owner ? key->owner : group->owner;
+    table_count++;
+}
+
+static void table_make(void)
+{
+    for (size_t g = 0; g < sizeof groups / sizeof *groups; g++)
+        for (const Key *key = groups[g].rows; key->path; key++)
+            table_add(key, &groups[g]);
+}
+
+const Key *scene_keys(int *count)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, table_make);
+    *count = table_count;
+    return table;
+}
+
 const KeyOwner *key_owner(const Key *key)
 {
-    for (const Key *row = keys; !key->owner && row < keys + sizeof keys / sizeof *keys; row++) {
-        const size_t length = strlen(row->path);
-        if (row->owner && strncmp(key->path, row->path, length) == 0 && key->path[length] == '.')
-            return row->owner;
-    }
-    return key->owner;
+    while (key && !key->owner)
+        key = mapping_of(key);
+    return key ? key->owner : NULL;
 }
 
 void key_help_text(const Key *key, char *text, size_t size)
 {
     const char *owner = key->owner && key->owner->name ? key->owner->name : "";
     snprintf(text, size, "%s%s%s", owner, *owner ? ": " : "", key->help);
-}
-
-const Key *scene_keys(int *count)
-{
-    *count = sizeof keys / sizeof *keys;
-    return keys;
 }
 
 /* Whether a path with indices ([0]) is that of a row, which has none ([]). */
@@ -464,7 +374,9 @@ static bool path_matches(const char *row, const char *path)
 
 const Key *scene_key_find(const char *path)
 {
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int i = 0; i < count; i++)
         if (path_matches(keys[i].path, path))
             return &keys[i];
     return NULL;

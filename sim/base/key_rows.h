@@ -1,0 +1,91 @@
+/* The macros by which a file writes rows of keys (sim/base/key.h), a line or two for a key. For such .c files
+   only. Rows of one owner are an array that KEYS_END ends:
+
+       #define AT(field) offsetof(WcsphDef, field)
+       const Key wcsph_keys[] = {
+           NUMBER("solver.delta_sph", 0, "", 0, 0.5, AT(delta_sph), "diffusion of density, 0.1 as a rule; 0:
+   none"), KEYS_END,
+       };
+
+   What follows a row's help sets further members: .owner = &mine, .fallback = "in words", .flags = I. */
+#ifndef SLOSH_KEY_ROWS_H
+#define SLOSH_KEY_ROWS_H
+
+#include "sim/base/key.h"
+
+#define KEYS_END                                                                                             \
+    {                                                                                                        \
+        .path = NULL                                                                                         \
+    }
+#define PLACE(at)      .offset = (at), .aux = KEY_NOWHERE
+#define BOUNDS(lo, hi) .min = (lo), .max = (hi)
+#define NOT_STORED     .offset = KEY_NOWHERE, .aux = KEY_NOWHERE
+
+/* The flags of most rows. */
+enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
+
+/* The rows by type. */
+#define MAPPING(PATH, ...)                                                                                   \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_MAPPING, .unit = "", NOT_STORED, .help = __VA_ARGS__                       \
+    }
+#define VARIANT(PATH, AUX, VALUE, HELP)                                                                      \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_VARIANT, .unit = "", .help = HELP, .offset = KEY_NOWHERE, .aux = AUX,      \
+        .variant = VALUE                                                                                     \
+    }
+#define NUMBER(PATH, FLAGS, UNIT, LO, HI, AT, ...)                                                           \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_NUMBER, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),           \
+        .help = __VA_ARGS__                                                                                  \
+    }
+#define CURVE(PATH, FLAGS, UNIT, LO, HI, AT, TABLE, HELP)                                                    \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_CURVE, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), .offset = AT,         \
+        .aux = TABLE, .help = HELP                                                                           \
+    }
+#define VEC3(PATH, FLAGS, UNIT, LO, HI, AT, HELP)                                                            \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_VEC3, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),             \
+        .help = HELP                                                                                         \
+    }
+#define AXES(PATH, AT, HELP)                                                                                 \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_AXES, .unit = "", PLACE(AT), .help = HELP                                  \
+    }
+#define NAMES(PATH, LO, HI, CHOICES, AT, COUNT, ...)                                                         \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_NAMES, .unit = "", BOUNDS(LO, HI), .choice = CHOICES, .offset = AT,        \
+        .aux = COUNT, .help = __VA_ARGS__                                                                    \
+    }
+#define INTEGER(PATH, FLAGS, LO, HI, AT, ...)                                                                \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_INTEGER, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), PLACE(AT),            \
+        .help = __VA_ARGS__                                                                                  \
+    }
+#define BOOLEAN(PATH, FLAGS, AT, ...)                                                                        \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_BOOLEAN, .flags = FLAGS, .unit = "", PLACE(AT), .help = __VA_ARGS__        \
+    }
+#define CHOICE(PATH, FLAGS, CHOICES, AT, ...)                                                                \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_CHOICE, .flags = FLAGS, .unit = "", .choice = CHOICES, PLACE(AT),          \
+        .help = __VA_ARGS__                                                                                  \
+    }
+#define TEXT(PATH, FLAGS, SIZE, AT, FALLBACK, HELP)                                                          \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_TEXT, .flags = FLAGS, .unit = "", BOUNDS(1, (SIZE)-1), .size = (SIZE),     \
+        .fallback = FALLBACK, PLACE(AT), .help = HELP                                                        \
+    }
+#define COLOR(PATH, FLAGS, AT, FALLBACK, HELP)                                                               \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_COLOR, .flags = FLAGS, .unit = "", BOUNDS(0, 1), .fallback = FALLBACK,     \
+        PLACE(AT), .help = HELP                                                                              \
+    }
+#define LIST(PATH, FLAGS, LO, HI, AT, COUNT, ELEMENT, INIT, HELP)                                            \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_LIST, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), .offset = AT,            \
+        .aux = COUNT, .size = sizeof(ELEMENT), .init = INIT, .help = HELP                                    \
+    }
+
+#endif
