@@ -1,6 +1,7 @@
 #include "render/frame/solids.h"
 
 #include "render/frame/solid_mesh.h"
+#include "shaders/shared/solid_block.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -8,10 +9,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-/* As in shaders/common/solids.glsl, std140. */
-typedef struct SolidBlock {
-    float to_eye[16], to_light[16], color[4];
-} SolidBlock;
+_Static_assert(SOLIDS_DRAWN_MAX == SOLIDS_MAX, "the shaders draw all solids of a scene");
 
 struct Solids {
     GLuint program, casting;
@@ -32,7 +30,7 @@ Solids *solids_create(Error *error)
     glCreateVertexArrays(1, &solids->vertex_array);
     glCreateBuffers(1, &solids->poses);
     glObjectLabel(GL_BUFFER, solids->poses, -1, "solid poses");
-    glNamedBufferStorage(solids->poses, SOLIDS_MAX * sizeof(SolidBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(solids->poses, sizeof(SolidBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
     solids->program = program_create_pair("solids", "render/solids.vert", "render/solids.frag", error);
     if (solids->program)
         solids->casting = program_create_pair("solids shadow", "render/solids_shadow.vert",
@@ -121,7 +119,7 @@ static void follow_shapes(Solids *solids, const ViewDef *def, double slab)
 void solids_place(Solids *solids, const ParticleBuffers *particles, const Frame *frame)
 {
     const ViewDef *def = frame->def;
-    SolidBlock blocks[SOLIDS_MAX] = {0};
+    SolidBlock block = {0};
     follow_shapes(solids, def, frame->slab);
     for (int i = 0; i < def->solid_count; i++) {
         BoxState pose;
@@ -129,12 +127,12 @@ void solids_place(Solids *solids, const ParticleBuffers *particles, const Frame 
         solid_pose(&def->solids[i], particles->time, &pose);
         camera_box_matrix(&pose, to_world);
         matrix_multiply(frame->box_to_world, to_world, to_world);
-        matrix_multiply(frame->camera.view, to_world, blocks[i].to_eye);
-        matrix_multiply(frame->world_to_light, to_world, blocks[i].to_light);
+        matrix_multiply(frame->camera.view, to_world, block.solids[i].to_eye);
+        matrix_multiply(frame->world_to_light, to_world, block.solids[i].to_light);
         for (int k = 0; k < 3; k++)
-            blocks[i].color[k] = def->solids[i].color[k];
+            block.solids[i].color[k] = def->solids[i].color[k];
     }
-    glNamedBufferSubData(solids->poses, 0, (GLsizeiptr)sizeof blocks, blocks);
+    glNamedBufferSubData(solids->poses, 0, sizeof block, &block);
 }
 
 /* All are closed: of a face, one side is never seen. */
@@ -143,7 +141,7 @@ static void draw_meshes(const Solids *solids, GLuint program, GLenum hidden)
     glEnable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
     glCullFace(hidden);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, solids->poses);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SOLID_BLOCK, solids->poses);
     glUseProgram(program);
     glBindVertexArray(solids->vertex_array);
     glDrawElements(GL_TRIANGLES, solids->index_count, GL_UNSIGNED_INT, NULL);

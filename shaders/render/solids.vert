@@ -1,5 +1,5 @@
 #include "common/frame.glsl"
-#include "common/solids.glsl"
+#include "shaders/shared/solid_block.h"
 
 layout(location = 0) in vec3 position; // in the solid's own frame, m
 layout(location = 1) in vec3 normal;

@@ -1,5 +1,5 @@
 // Solids as the light sees them.
-#include "common/solids.glsl"
+#include "shaders/shared/solid_block.h"
 
 layout(location = 0) in vec3 position; // in the solid's own frame, m
 layout(location = 2) in uint solid;

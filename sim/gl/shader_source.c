@@ -107,6 +107,13 @@ static bool ends_group(const char *line)
     return strncmp(line, "#endif", 6) == 0 || strncmp(line, "#el", 3) == 0;
 }
 
+/* Headers that C includes too are named from the root of the tree, as C names them. */
+static const char *below_shaders(const char *path)
+{
+    static const char folder[] = "shaders/";
+    return path + (strncmp(path, folder, sizeof folder - 1) == 0 ? sizeof folder - 1 : 0);
+}
+
 /* A line that is no include is copied. */
 static bool append_source_line(ShaderSource *source, const char *line, size_t size, int file, int number,
                                Error *error)
@@ -118,7 +125,7 @@ static bool append_source_line(ShaderSource *source, const char *line, size_t si
                                                append_line_mark(source, number + 1, file))) ||
                error_set(error, "out of memory for shaders");
     snprintf(from, sizeof from, "%s:%d: ", source->file[file], number);
-    return append_file(source, path, from, error) &&
+    return append_file(source, below_shaders(path), from, error) &&
            (append_line_mark(source, number + 1, file) || error_set(error, "out of memory for shaders"));
 }
 

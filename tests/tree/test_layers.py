@@ -60,6 +60,10 @@ DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device", "window"}  # r
 CIRCLES_LEFT = ["app/scene/advise", "render/splat/silhouette", "sim/cpu/pair_loop", "sim/world/backend"]
 
 
+# What GLSL includes too: C fills it. Views and backends have their own in a folder of their name.
+SHADERS = {"sim/gl": "shared sim", "render": "shared render"}
+
+
 def folder(floor, room):
     return f"{floor}/{room}" if room else floor
 
@@ -78,7 +82,8 @@ def may():
             if floor == "sim/gl":
                 own.append("sim/gl")
             down = [w for w in under if not (floor == "app" and room in DRAWS_NOTHING and not w.startswith("sim/"))]
-            allowed[folder(floor, room)] = [*down, *own, folder(floor, room)]
+            blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), room] if floor in SHADERS]
+            allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks]
     return allowed
 
 

@@ -1,0 +1,12 @@
+/* Where all shaders of pictures find what more than one of them reads. Those of one view stand in its folder.
+ */
+#ifndef SLOSH_BINDINGS_H
+#define SLOSH_BINDINGS_H
+
+/* Uniform blocks */
+#define FRAME_BLOCK   0
+#define SOLID_BLOCK   1
+#define VOLUME_BLOCK  2
+#define RAYCAST_BLOCK 3
+
+#endif

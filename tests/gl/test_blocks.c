@@ -1,0 +1,128 @@
+/* The blocks that C and GLSL share: each member has the offset in C that the driver gives it. */
+#include "tests/gl/compare.h"
+
+#include "shaders/shared/solid_block.h"
+#include "sim/gl/shader_source.h"
+
+#include <epoxy/gl.h>
+#include <stddef.h>
+
+typedef struct Member {
+    const char *name;
+    size_t offset;
+} Member;
+
+typedef struct Block {
+    const char *path; /* of the header, below shaders/ */
+    const char *name;
+    size_t size;
+    const Member *members; /* all; of an array the first element */
+    size_t count;
+} Block;
+
+#define MEMBER(block, member)                                                                                \
+    {                                                                                                        \
+#member, offsetof(block, member)                                                                     \
+    }
+#define BLOCK(path, name, ...)                                                                               \
+    {                                                                                                        \
+        path, #name, sizeof(name), (const Member[]){__VA_ARGS__},                                            \
+            sizeof((const Member[]){__VA_ARGS__}) / sizeof(Member)                                           \
+    }
+
+#define SOLID(member) MEMBER(SolidBlock, member)
+
+static const Block blocks[] = {
+    BLOCK("shared/solid_block.h", SolidBlock, SOLID(solids[0].to_eye), SOLID(solids[0].to_light),
+          SOLID(solids[0].color), SOLID(solids[1].to_eye), SOLID(solids[15].color)),
+};
+
+/* A block of std140 is active, with all members, where no shader reads any of them. */
+static GLuint program_with(const char *path)
+{
+    static const char end[] = "layout(local_size_x = 1) in;\nvoid main() {}\n";
+    ShaderSource source;
+    Error error = {0};
+    GLint linked = GL_FALSE;
+    if (!shader_source_load(&source, path, NULL, &error))
+        fail_msg("%s", error.message);
+    const char *texts[] = {source.text, end};
+    const GLuint shader = glCreateShader(GL_COMPUTE_SHADER), program = glCreateProgram();
+    glShaderSource(shader, 2, texts, NULL);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
+    glLinkProgram(program);
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    glDeleteShader(shader);
+    shader_source_free(&source);
+    if (!linked)
+        fail_msg("%s does not stand alone", path);
+    return program;
+}
+
+static GLint ask(GLuint program, GLenum interface, GLuint resource, GLenum what)
+{
+    GLint value = -1;
+    glGetProgramResourceiv(program, interface, resource, 1, &what, 1, NULL, &value);
+    return value;
+}
+
+/* An array's later elements follow from its first, and from the size of the whole. */
+static bool is_later_element(const char *name)
+{
+    const char *bracket = strchr(name, '[');
+    return bracket && strncmp(bracket, "[0]", 3) != 0;
+}
+
+static const Member *find_member(const Block *block, const char *name)
+{
+    for (size_t i = 0; i < block->count; i++)
+        if (strcmp(block->members[i].name, name) == 0)
+            return &block->members[i];
+    return NULL;
+}
+
+/* The number of members of the table that the driver knows; all others than it knows are wrong. */
+static size_t compare_members(const Block *block, GLuint program, GLuint resource)
+{
+    enum { VARIABLES_MAX = 256 };
+    const GLenum what = GL_ACTIVE_VARIABLES;
+    const GLint count = ask(program, GL_UNIFORM_BLOCK, resource, GL_NUM_ACTIVE_VARIABLES);
+    GLint variables[VARIABLES_MAX];
+    size_t found = 0;
+    assert_in_range(count, 1, VARIABLES_MAX);
+    glGetProgramResourceiv(program, GL_UNIFORM_BLOCK, resource, 1, &what, count, NULL, variables);
+    for (GLint i = 0; i < count; i++) {
+        char name[64] = "";
+        glGetProgramResourceName(program, GL_UNIFORM, (GLuint)variables[i], sizeof name, NULL, name);
+        const Member *member = find_member(block, name);
+        const GLint offset = ask(program, GL_UNIFORM, (GLuint)variables[i], GL_OFFSET);
+        if (member && member->offset != (size_t)offset)
+            fail_msg("%s.%s is at %zu in C, at %d in GLSL", block->name, name, member->offset, offset);
+        if (!member && !is_later_element(name))
+            fail_msg("%s.%s is not in the table of this test", block->name, name);
+        found += member != NULL;
+    }
+    return found;
+}
+
+static void blocks_are_the_same_in_c_and_glsl(void **state)
+{
+    (void)state;
+    for (const Block *block = blocks; block < blocks + sizeof blocks / sizeof *blocks; block++) {
+        const GLuint program = program_with(block->path);
+        const GLuint resource = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, block->name);
+        assert_true(resource != GL_INVALID_INDEX);
+        assert_int_equal(compare_members(block, program, resource), block->count);
+        assert_int_equal(ask(program, GL_UNIFORM_BLOCK, resource, GL_BUFFER_DATA_SIZE), block->size);
+        glDeleteProgram(program);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(blocks_are_the_same_in_c_and_glsl, no_gl_errors),
+    };
+    return cmocka_run_group_tests_name("gl.blocks", tests, compare_setup, context_teardown);
+}
