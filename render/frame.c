@@ -3,19 +3,13 @@
 #include "render/frame/legend.h"
 #include "render/splat/ellipsoids.h"
 #include "render/splat/splat_level.h"
+#include "shaders/shared/frame_block.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <string.h>
 
-/* As in shaders/common/frame.glsl, std140. */
-typedef struct FrameBlock {
-    float box_to_eye[16], box_to_light[16], eye_to_light[16], world_to_light[16], eye_to_world[16];
-    float lens[4], viewport[4], light_in_eye[4], up_in_eye[4];
-    float light_color[4], sky_color[4], ground_color[4], background[4];
-    float floor_place[4], floor_map[4], light_to[4], particle[4], coloring[4], box_size[4], edge_color[4];
-    float fluid_color[FLUIDS_MAX][4];
-} FrameBlock;
+_Static_assert(FRAME_FLUIDS_MAX == FLUIDS_MAX, "shaders have a colour for each fluid");
 
 /* Of the softness of shadows on the floor, in sides of the shadow map. */
 static const float LIGHT_RADIUS = 0.035F;
@@ -222,16 +216,26 @@ unsigned frame_uniforms_create(void)
     return buffer;
 }
 
-static void set(float out[4], double x, double y, double z, double w)
+static void set2(float out[2], double x, double y)
 {
-    out[0] = (float)x, out[1] = (float)y, out[2] = (float)z, out[3] = (float)w;
+    out[0] = (float)x, out[1] = (float)y;
 }
 
-static void rotate(const float matrix[16], const float v[3], double w, float out[4])
+static void set3(float out[3], double x, double y, double z)
+{
+    out[0] = (float)x, out[1] = (float)y, out[2] = (float)z;
+}
+
+static void set4(float out[4], double x, double y, double z, double w)
+{
+    set3(out, x, y, z);
+    out[3] = (float)w;
+}
+
+static void rotate(const float matrix[16], const float v[3], float out[3])
 {
     for (int row = 0; row < 3; row++)
         out[row] = matrix[row] * v[0] + matrix[4 + row] * v[1] + matrix[8 + row] * v[2];
-    out[3] = (float)w;
 }
 
 static void fill_matrices(FrameBlock *block, const Frame *frame)
@@ -249,43 +253,67 @@ static void fill_colors(FrameBlock *block, const Frame *frame)
     const double *back = frame->def->background;
     double bright = 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2];
     double ink = bright > 0.18 ? 0.03 : 0.75; /* edges stand off the background */
-    set(block->background, back[0], back[1], back[2], 1);
-    set(block->light_color, 0.98, 0.94, 0.88, 0);
-    set(block->sky_color, 0.46 + 0.10 * back[0], 0.50 + 0.10 * back[1], 0.54 + 0.12 * back[2], 0);
-    set(block->ground_color, 0.20 + 0.06 * back[0], 0.19 + 0.06 * back[1], 0.18 + 0.06 * back[2], 0);
-    set(block->edge_color, ink, ink, ink, 0.85);
+    set3(block->background, back[0], back[1], back[2]);
+    set3(block->light_color, 0.98, 0.94, 0.88);
+    set3(block->sky_color, 0.46 + 0.10 * back[0], 0.50 + 0.10 * back[1], 0.54 + 0.12 * back[2]);
+    set3(block->ground_color, 0.20 + 0.06 * back[0], 0.19 + 0.06 * back[1], 0.18 + 0.06 * back[2]);
+    set4(block->edge_color, ink, ink, ink, 0.85);
     for (int i = 0; i < FLUIDS_MAX; i++) {
         bool known = i < frame->def->fluid_count;
         const float *color = frame->def->fluid_color[i];
-        set(block->fluid_color[i], known ? color[0] : 0.1, known ? color[1] : 0.35, known ? color[2] : 0.7,
-            1);
+        set4(block->fluid_color[i], known ? color[0] : 0.1, known ? color[1] : 0.35, known ? color[2] : 0.7,
+             1);
     }
 }
 
-static void fill_places(FrameBlock *block, const Frame *frame, const double box_size[3], double spacing)
+static void fill_view(FrameBlock *block, const Frame *frame)
+{
+    const Camera *camera = &frame->camera;
+    set2(block->view_tangent, camera->tangent[0], camera->tangent[1]);
+    block->near_plane = camera->near_plane;
+    set2(block->picture_size, frame->width, frame->height);
+    set2(block->pixel_size, 1.0 / frame->width, 1.0 / frame->height);
+}
+
+static void fill_light(FrameBlock *block, const Frame *frame)
 {
     static const float up[3] = {0, 1, 0};
-    const Camera *camera = &frame->camera;
-    set(block->lens, camera->tangent[0], camera->tangent[1], camera->near_plane, frame->light_depth);
-    set(block->viewport, frame->width, frame->height, 1.0 / frame->width, 1.0 / frame->height);
-    rotate(camera->view, frame->to_light, frame->plain ? 0 : 1, block->light_in_eye);
-    rotate(camera->view, up, 0, block->up_in_eye);
-    set(block->floor_place, frame->floor_height, frame->floor_center[0], frame->floor_center[1],
-        frame->floor_radius);
-    set(block->floor_map, frame->floor_map_corner[0], frame->floor_map_corner[1], frame->floor_map_size[0],
-        frame->floor_map_size[1]);
-    set(block->light_to, frame->to_light[0], frame->to_light[1], frame->to_light[2], LIGHT_RADIUS);
-    set(block->particle, frame->particle_radius, spacing, frame->shadow_radius, 0);
-    set(block->coloring, frame->range[0], 1 / (frame->range[1] - frame->range[0]), frame->by_fluid, 0);
-    set(block->box_size, box_size[0], box_size[1], box_size[2], 0);
+    block->light_depth = frame->light_depth;
+    block->light_radius = LIGHT_RADIUS;
+    block->shading = frame->plain ? 0 : 1;
+    rotate(frame->camera.view, frame->to_light, block->light_in_eye);
+    rotate(frame->camera.view, up, block->up_in_eye);
+}
+
+static void fill_floor(FrameBlock *block, const Frame *frame)
+{
+    block->floor_height = frame->floor_height;
+    block->floor_radius = frame->floor_radius;
+    memcpy(block->floor_center, frame->floor_center, sizeof block->floor_center);
+    memcpy(block->floor_map_corner, frame->floor_map_corner, sizeof block->floor_map_corner);
+    memcpy(block->floor_map_size, frame->floor_map_size, sizeof block->floor_map_size);
+}
+
+static void fill_particles(FrameBlock *block, const Frame *frame, const double box_size[3], double spacing)
+{
+    set3(block->box_size, box_size[0], box_size[1], box_size[2]);
+    block->particle_radius = frame->particle_radius;
+    block->particle_spacing = (float)spacing;
+    block->shadow_radius = frame->shadow_radius;
+    block->range_low = (float)frame->range[0];
+    block->range_scale = (float)(1 / (frame->range[1] - frame->range[0]));
+    block->by_fluid = frame->by_fluid;
 }
 
 void frame_uniforms_update(unsigned buffer, const Frame *frame, const double box_size[3], double spacing)
 {
-    FrameBlock block;
+    FrameBlock block = {0};
     fill_matrices(&block, frame);
     fill_colors(&block, frame);
-    fill_places(&block, frame, box_size, spacing);
+    fill_view(&block, frame);
+    fill_light(&block, frame);
+    fill_floor(&block, frame);
+    fill_particles(&block, frame, box_size, spacing);
     glNamedBufferSubData(buffer, 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, FRAME_BLOCK, buffer);
 }

@@ -57,7 +57,7 @@ void frame_bounds(const Frame *frame, int part[4]);
 /* Sets the scissor to frame->bounds. The caller ends it. */
 void frame_cut_to_bounds(const Frame *frame);
 
-/* The uniform block of shaders/common/frame.glsl; the caller deletes the buffer. */
+/* The uniform block of shaders/shared/frame_block.h; the caller deletes the buffer. */
 unsigned frame_uniforms_create(void);
 
 /* Fills the block and binds it for all passes. */

@@ -17,6 +17,6 @@ vec4 ball_of(uint index) // centre in the box's frame, radius
 #elif defined THICKNESS
     return vec4(particle_position(index), splat_radius);
 #else
-    return vec4(particle_position(index), particle.x);
+    return vec4(particle_position(index), particle_radius);
 #endif
 }

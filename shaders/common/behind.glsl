@@ -8,7 +8,7 @@ layout(binding = 15) uniform sampler2D behind_depth; // reversed
 
 vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame
 {
-    return background.rgb * environment_brightness((eye_to_world * vec4(origin, 1.0)).xyz, mat3(eye_to_world) * ray);
+    return background * environment_brightness((eye_to_world * vec4(origin, 1.0)).xyz, mat3(eye_to_world) * ray);
 }
 
 // What the eye sees of the scene without the fluid in the direction of a place, in the eye's frame. Beside the picture it is sky
@@ -16,12 +16,12 @@ vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame
 // then.
 vec3 behind_at(vec3 place, float surface, vec2 straight)
 {
-    vec2 at = 0.5 + 0.5 * place.xy / (-place.z * lens.xy);
-    if (is_nan(at.xyxy) || place.z >= -lens.z || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
+    vec2 at = 0.5 + 0.5 * place.xy / (-place.z * view_tangent);
+    if (is_nan(at.xyxy) || place.z >= -near_plane || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
         return environment(vec3(0.0), place);
 #ifdef SOLIDS
-    if (texelFetch(behind_depth, ivec2(at * viewport.xy), 0).x > surface)
-        at = straight * viewport.zw;
+    if (texelFetch(behind_depth, ivec2(at * picture_size), 0).x > surface)
+        at = straight * pixel_size;
 #endif
     return textureLod(behind_color, at, 0.0).rgb;
 }

@@ -15,22 +15,22 @@ float fresnel(float cosine, float ior)
 vec3 transmitted(Surface s)
 {
     vec3 inner = refract(s.view, s.normal, 1.0 / medium.x);
-    vec3 seen = behind_at(s.place + s.thickness * inner, lens.z / -s.place.z, gl_FragCoord.xy);
+    vec3 seen = behind_at(s.place + s.thickness * inner, near_plane / -s.place.z, gl_FragCoord.xy);
     return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / medium.y));
 }
 
 // What floats in it scatters a little light back, the more the thicker it is: without that, deep water would be black.
 vec3 scattered(Surface s)
 {
-    float share = 0.4 - 0.4 * exp2(-0.7 * s.thickness / medium.y), up = max(dot(s.normal, light_in_eye.xyz), 0.0);
-    return share * s.albedo * (ambient_light(s.normal) * (0.35 + 0.65 * s.lit) + light_color.rgb * (s.key * (0.3 + 0.7 * up)));
+    float share = 0.4 - 0.4 * exp2(-0.7 * s.thickness / medium.y), up = max(dot(s.normal, light_in_eye), 0.0);
+    return share * s.albedo * (ambient_light(s.normal) * (0.35 + 0.65 * s.lit) + light_color * (s.key * (0.3 + 0.7 * up)));
 }
 
 vec3 reflected(Surface s, vec3 mirror)
 {
-    float glint = lobe_32(max(dot(mirror, light_in_eye.xyz), 0.0));
+    float glint = lobe_32(max(dot(mirror, light_in_eye), 0.0));
     glint *= glint, glint *= glint;
-    return environment(s.place, mirror) + 20.0 * s.key * glint * light_color.rgb;
+    return environment(s.place, mirror) + 20.0 * s.key * glint * light_color;
 }
 
 // Adds to `inside`, what the surface lets out, what it mirrors.

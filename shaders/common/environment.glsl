@@ -13,20 +13,20 @@ float sky_brightness(vec3 ray)
 // Brightness and how much of it is left of the fading, at the place where the ray meets the floor.
 vec2 floor_brightness(vec3 origin, vec3 ray)
 {
-    vec2 xz = origin.xz + (floor_place.x - origin.y) / min(ray.y, -1e-6) * ray.xz;
+    vec2 xz = origin.xz + (floor_height - origin.y) / min(ray.y, -1e-6) * ray.xz;
     float lit = 1.0;
 #ifdef FLOOR_SHADOW
-    lit = textureLod(floor_light, (xz - floor_map.xy) / floor_map.zw, 0.0).x;
+    lit = textureLod(floor_light, (xz - floor_map_corner) / floor_map_size, 0.0).x;
 #endif
-    vec2 away = (xz - floor_place.yz) / max(floor_place.w, 1e-6);
+    vec2 away = (xz - floor_center) / max(floor_radius, 1e-6);
     float left = max(1.0 - dot(away, away), 0.0);
     return vec2(1.12 * (0.40 + 0.60 * lit), left * left);
 }
 
-// Of background.rgb.
+// Of background.
 float environment_brightness(vec3 origin, vec3 ray)
 {
     vec2 ground = floor_brightness(origin, ray);
-    bool above = ray.y < 0.0 && origin.y > floor_place.x;
-    return mix(sky_brightness(ray), ground.x, above && floor_place.w > 0.0 ? ground.y : 0.0);
+    bool above = ray.y < 0.0 && origin.y > floor_height;
+    return mix(sky_brightness(ray), ground.x, above && floor_radius > 0.0 ? ground.y : 0.0);
 }

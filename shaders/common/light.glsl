@@ -14,8 +14,8 @@ float nearest_to_light(vec2 at)
 // lit surface, as in a cloudy liquid, which is soft, needs no bias and costs one texel.
 float fluid_light_at(vec3 at)
 {
-    float below = (nearest_to_light(at.xy) - at.z) * lens.w;
-    return 0.12 + 0.88 * exp2(-0.55 * max(below - particle.z, 0.0) / max(particle.z, 1e-9));
+    float below = (nearest_to_light(at.xy) - at.z) * light_depth;
+    return 0.12 + 0.88 * exp2(-0.55 * max(below - shadow_radius, 0.0) / max(shadow_radius, 1e-9));
 }
 
 float fluid_light(vec3 in_eye)
@@ -25,5 +25,5 @@ float fluid_light(vec3 in_eye)
 
 vec3 ambient_light(vec3 normal)
 {
-    return mix(ground_color.rgb, sky_color.rgb, 0.5 + 0.5 * dot(normal, up_in_eye.xyz));
+    return mix(ground_color, sky_color, 0.5 + 0.5 * dot(normal, up_in_eye));
 }

@@ -30,7 +30,7 @@ vec3 sphere_offset(Sphere s, vec3 ray)
 vec3 sphere_constants(Sphere s)
 {
     float uz = (-s.scale - s.centre.z) / s.radius;
-    return vec3(1.0 - uz * uz, lens.z / s.scale, lens.z * s.radius * s.inverse / s.scale);
+    return vec3(1.0 - uz * uz, near_plane / s.scale, near_plane * s.radius * s.inverse / s.scale);
 }
 
 float sphere_depth(vec3 offset, vec3 constants, out float e)
@@ -57,8 +57,8 @@ vec2 sphere_slopes(float a, float w, float radius)
 vec4 sphere_bounds(Sphere s)
 {
     float w = -s.centre.z;
-    if (s.inverse == 0.0 || w + s.radius <= lens.z)
+    if (s.inverse == 0.0 || w + s.radius <= near_plane)
         return vec4(0.0);
-    vec4 bounds = vec4(sphere_slopes(s.centre.x, w, s.radius) / lens.x, sphere_slopes(s.centre.y, w, s.radius) / lens.y);
+    vec4 bounds = vec4(sphere_slopes(s.centre.x, w, s.radius) / view_tangent.x, sphere_slopes(s.centre.y, w, s.radius) / view_tangent.y);
     return clamp(bounds, -1.0, 1.0);
 }

@@ -18,8 +18,8 @@ float lobe_32(float cosine) // cosine^32
 // After: Phong, Illumination for computer generated pictures, 1975.
 vec3 phong(Surface s)
 {
-    float to_light = dot(s.normal, light_in_eye.xyz);
-    float glint = lobe_32(max(dot(2.0 * to_light * s.normal - light_in_eye.xyz, -s.view), 0.0));
+    float to_light = dot(s.normal, light_in_eye);
+    float glint = lobe_32(max(dot(2.0 * to_light * s.normal - light_in_eye, -s.view), 0.0));
     vec3 sky = ambient_light(s.normal) * (0.35 + 0.65 * s.lit);
-    return s.albedo * sky + light_color.rgb * (s.key * (s.albedo * max(to_light, 0.0) + 0.35 * glint));
+    return s.albedo * sky + light_color * (s.key * (s.albedo * max(to_light, 0.0) + 0.35 * glint));
 }

@@ -11,12 +11,12 @@ void main()
 {
     mat3 turn = mat3(eye_to_world);
     ray_corner = turn * ray_of_ndc(vec2(-1.0));
-    ray_x = turn[0] * (2.0 * viewport.z * lens.x);
-    ray_y = turn[1] * (2.0 * viewport.w * lens.y);
+    ray_x = turn[0] * (2.0 * pixel_size.x * view_tangent.x);
+    ray_y = turn[1] * (2.0 * pixel_size.y * view_tangent.y);
 #ifdef FLOOR_SHADOW
-    vec2 xz = floor_map.xy + floor_map.zw * vec2(gl_VertexID & 1, gl_VertexID >> 1);
-    vec3 at = (vec3(xz.x, floor_place.x, xz.y) - eye_to_world[3].xyz) * turn;
-    gl_Position = vec4(at.xy / lens.xy, lens.z, -at.z);
+    vec2 xz = floor_map_corner + floor_map_size * vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    vec3 at = (vec3(xz.x, floor_height, xz.y) - eye_to_world[3].xyz) * turn;
+    gl_Position = vec4(at.xy / view_tangent, near_plane, -at.z);
 #else
     gl_Position = vec4(2.0 * vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) - 1.0, 0.0, 1.0);
 #endif

@@ -12,13 +12,13 @@ vec3 corner_of_edge(int edge, int end)
     bits[axis] = end;
     bits[(axis + 1) % 3] = side & 1;
     bits[(axis + 2) % 3] = side >> 1;
-    return (vec3(bits) - vec3(0.5, 0.0, 0.5)) * box_size.xyz;
+    return (vec3(bits) - vec3(0.5, 0.0, 0.5)) * box_size;
 }
 
 // The end of the edge, pulled along it to before the eye.
 vec3 in_front(vec3 a, vec3 b)
 {
-    float clear = -2.0 * lens.z;
+    float clear = -2.0 * near_plane;
     return a.z <= clear ? a : b.z >= clear ? a : mix(a, b, (a.z - clear) / (a.z - b.z));
 }
 
@@ -28,14 +28,14 @@ void main()
     vec3 a = (box_to_eye * vec4(corner_of_edge(edge, end), 1.0)).xyz;
     vec3 b = (box_to_eye * vec4(corner_of_edge(edge, 1 - end), 1.0)).xyz;
     vec3 from = in_front(a, b), to = in_front(b, a);
-    if (max(from.z, to.z) > -lens.z) {
+    if (max(from.z, to.z) > -near_plane) {
         gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
         return;
     }
-    vec2 here = from.xy / (-from.z * lens.xy), there = to.xy / (-to.z * lens.xy);
-    vec2 along = (there - here) * viewport.xy;
+    vec2 here = from.xy / (-from.z * view_tangent), there = to.xy / (-to.z * view_tangent);
+    vec2 along = (there - here) * picture_size;
     vec2 normal = vec2(-along.y, along.x) / max(length(along), 1e-6) * (end == 0 ? 1.0 : -1.0);
     across = ((gl_VertexID & 2) == 0 ? -1.0 : 1.0) * (half_width + 1.0);
-    vec2 shift = normal * across * 2.0 * viewport.zw;
-    gl_Position = vec4((here + shift) * -from.z, lens.z, -from.z);
+    vec2 shift = normal * across * 2.0 * pixel_size;
+    gl_Position = vec4((here + shift) * -from.z, near_plane, -from.z);
 }

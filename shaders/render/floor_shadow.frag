@@ -14,11 +14,11 @@ const int taps = 24;
 
 void main()
 {
-    vec2 xz = floor_map.xy + gl_FragCoord.xy * texel * floor_map.zw;
-    vec2 at = (world_to_light * vec4(xz.x, floor_place.x, xz.y, 1.0)).xy;
+    vec2 xz = floor_map_corner + gl_FragCoord.xy * texel * floor_map_size;
+    vec2 at = (world_to_light * vec4(xz.x, floor_height, xz.y, 1.0)).xy;
     float covered = 0.0;
     for (int i = 0; i < taps; i++) { // a sunflower's seeds: even over the disc
-        float angle = 2.39996 * float(i), reach = sqrt((float(i) + 0.5) / float(taps)) * light_to.w;
+        float angle = 2.39996 * float(i), reach = sqrt((float(i) + 0.5) / float(taps)) * light_radius;
         vec2 tap = at + reach * vec2(cos(angle), sin(angle));
         float share = min(1.0, 1e6 * textureLod(shadow_map, tap, 0.0).x);
 #ifdef SOLIDS

@@ -11,7 +11,7 @@ void main()
 {
     index = uint(gl_VertexID) >> 2;
     vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
-    Sphere sphere = sphere_at(centre, particle.x);
+    Sphere sphere = sphere_at(centre, particle_radius);
     vec4 bounds = sphere_bounds(sphere);
     vec2 corner = vec2((gl_VertexID & 1) == 0 ? bounds.x : bounds.y, (gl_VertexID & 2) == 0 ? bounds.z : bounds.w);
     offset = sphere_offset(sphere, ray_of_ndc(corner));

@@ -15,12 +15,12 @@ void main()
 {
     index = uint(gl_VertexID);
     vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
-    float r = particle.x, w = -centre.z, q = w * w - r * r, out2 = dot(centre.xy, centre.xy);
+    float r = particle_radius, w = -centre.z, q = w * w - r * r, out2 = dot(centre.xy, centre.xy);
     float outwards = sqrt(out2), slant = inversesqrt(max(q + out2, 1e-30)), root = sqrt(max(q, 1e-30));
     vec2 direction = outwards > 1e-6 * w ? centre.xy / outwards : vec2(1.0, 0.0);
     vec2 axes = vec2(r / (q * slant), r / root);
     vec2 reach = sqrt(axes.x * axes.x * direction * direction + axes.y * axes.y * direction.yx * direction.yx);
-    float pixel = 2.0 * lens.y * viewport.w;
+    float pixel = 2.0 * view_tangent.y * pixel_size.y;
     float size = ceil(8.0 * (2.0 * max(reach.x, reach.y) / pixel)) / 8.0; // hardware rounds to such steps
 
     vec2 unit = vec2(size, -size) * pixel; // gl_PointCoord counts from the top
@@ -28,7 +28,7 @@ void main()
     across.yz = vec2(-direction.y, direction.x) * unit / axes.y;
     along.x = -0.5 * (along.y + along.z);
     across.x = -0.5 * (across.y + across.z);
-    depth = lens.z / q * vec3(w, r * slant * outwards, r * slant * root);
-    gl_Position = !is_nan(q + out2) && w > r + lens.z ? vec4(centre.xy * w / (q * lens.xy), 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
+    depth = near_plane / q * vec3(w, r * slant * outwards, r * slant * root);
+    gl_Position = !is_nan(q + out2) && w > r + near_plane ? vec4(centre.xy * w / (q * view_tangent), 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
     gl_PointSize = size;
 }

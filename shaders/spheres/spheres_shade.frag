@@ -15,19 +15,19 @@ layout(location = 0) out vec4 color;
 // `key`: what of the key light arrives; `lit`: the same with no solid in its way.
 vec3 shade(vec3 albedo, vec3 normal, vec3 to_eye, float lit, float key)
 {
-    float to_light = dot(normal, light_in_eye.xyz);
+    float to_light = dot(normal, light_in_eye);
     float crevice = 0.45 + 0.55 * max(dot(normal, to_eye), 0.0); // what neighbours take of the sky near the rim
-    float glint = max(dot(2.0 * to_light * normal - light_in_eye.xyz, to_eye), 0.0);
+    float glint = max(dot(2.0 * to_light * normal - light_in_eye, to_eye), 0.0);
     glint *= glint, glint *= glint, glint *= glint, glint *= glint;
     vec3 sky = ambient_light(normal) * (crevice * (0.35 + 0.65 * lit));
-    return albedo * sky + light_color.rgb * (key * (albedo * max(to_light, 0.0) + 0.10 * glint));
+    return albedo * sky + light_color * (key * (albedo * max(to_light, 0.0) + 0.10 * glint));
 }
 
 // Where the ray meets the sphere, as its normal there: that is u + k ray with u = (w ray - c) / r, w = -c.z and |normal| = 1,
 // of which no term cancels when the sphere is small and far.
 vec3 normal_at(vec3 centre, vec3 ray, float per_ray2)
 {
-    vec2 u = (-centre.z * ray.xy - centre.xy) / particle.x;
+    vec2 u = (-centre.z * ray.xy - centre.xy) / particle_radius;
     float slant = dot(u, ray.xy) * per_ray2;
     float k = slant + sqrt(max(slant * slant + (1.0 - dot(u, u)) * per_ray2, 0.0));
     return vec3(u - k * ray.xy, k);
@@ -45,10 +45,10 @@ void main()
     float per_ray = inversesqrt(dot(ray, ray));
     vec3 normal = normal_at(centre, ray, per_ray * per_ray);
     vec3 albedo = particle_color(index);
-    vec3 place = centre + particle.x * normal;
+    vec3 place = centre + particle_radius * normal;
     float lit = fluid_light(place), key = lit;
 #ifdef SOLIDS
     key *= solid_light(place);
 #endif
-    color = vec4(mix(albedo, shade(albedo, normal, -per_ray * ray, lit, key), light_in_eye.w), 1.0);
+    color = vec4(mix(albedo, shade(albedo, normal, -per_ray * ray, lit, key), shading), 1.0);
 }

@@ -12,6 +12,6 @@ vec4 light_pixel(uint index) // pixel, depth, half the side of its point where t
 {
     vec4 ball = ball_of(index);
     vec3 at = (box_to_light * vec4(ball.xyz, 1.0)).xyz;
-    return vec4(at.xy * projection.xy, 1.0 - at.z, projection.z * (ball.w / particle.x));
+    return vec4(at.xy * projection.xy, 1.0 - at.z, projection.z * (ball.w / particle_radius));
 }
 #endif

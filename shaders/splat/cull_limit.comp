@@ -15,5 +15,5 @@ void main()
     for (int y = low.y; y < high.y; y++)
         for (int x = low.x; x < high.x; x++)
             least = min(least, texelFetch(limit_map, ivec2(x, y), 0).x);
-    nearest[cell] = least > 0.0 ? floatBitsToUint(lens.z / least) : nothing;
+    nearest[cell] = least > 0.0 ? floatBitsToUint(near_plane / least) : nothing;
 }

@@ -37,8 +37,8 @@ Disc disc_of(uint index)
     Body body = body_of(index);
     vec3 centre = body.centre;
     float w = -centre.z, radius = body.inner;
-    vec2 scale = 0.5 * projection.xy / (w * lens.xy);
-    bool whole = body_nearest(body) > lens.z;
+    vec2 scale = 0.5 * projection.xy / (w * view_tangent);
+    bool whole = body_nearest(body) > near_plane;
 #ifdef PAPER
     float slant = 0.0; // the paper's rays go along the axis
 #else

@@ -72,6 +72,6 @@ void main()
     float middle = texelFetch(depth_map, pixel, 0).x;
     vec2 sums = vec2(0.0, 1.0);
     if (middle < 1e29)
-        sums = sum_up(middle, pixel, min(pixel, ivec2(viewport.xy) - 1 - pixel));
+        sums = sum_up(middle, pixel, min(pixel, ivec2(picture_size) - 1 - pixel));
     filtered = middle / (1.0 + sums.x / sums.y);
 }

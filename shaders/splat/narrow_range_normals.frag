@@ -10,7 +10,7 @@ layout(location = 0) out vec4 normal;
 // Of 1 / z per pixel along an axis, and the step: next to the picture's border and beyond it as on the other side.
 vec4 steps_along(ivec2 pixel, float z, ivec2 along)
 {
-    bvec2 inside = bvec2(all(greaterThanEqual(pixel, along)), all(lessThan(pixel + along, ivec2(viewport.xy))));
+    bvec2 inside = bvec2(all(greaterThanEqual(pixel, along)), all(lessThan(pixel + along, ivec2(picture_size))));
     vec2 sides = vec2(inside.x ? texelFetch(depth_map, pixel - along, 0).x : z,
                       inside.y ? texelFetch(depth_map, pixel + along, 0).x : z);
     vec4 steps = vec4(vec2(sides.x - z, z - sides.y) / (z * sides), abs(sides - z));
@@ -34,7 +34,7 @@ void main()
     if (z >= 1e29) {
         normal = vec4(0.0);
     } else if (slope_along(pixel, z, ivec2(1, 0), slopes.x) && slope_along(pixel, z, ivec2(0, 1), slopes.y)) {
-        slopes *= 0.5 * viewport.xy / lens.xy;
+        slopes *= 0.5 * picture_size / view_tangent;
         vec2 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)).xy;
         normal = vec4(normalize(vec3(-slopes, 1.0 / z - dot(ray, slopes))), 0.0);
     } else { // a thread or a drop of one pixel: as blended

@@ -12,12 +12,12 @@ struct Seen {
 // Beyond the picture's border as next to it.
 Seen seen_at(ivec2 pixel)
 {
-    pixel = clamp(pixel, ivec2(0), ivec2(viewport.xy) - 1);
+    pixel = clamp(pixel, ivec2(0), ivec2(picture_size) - 1);
     float z = texelFetch(nearest_map, pixel, 0).x;
 #ifdef SOLIDS
     float nearness = texelFetch(target_depth, pixel, 0).x;
-    if (nearness > lens.z / z * 1.00001)
-        return Seen(lens.z / nearness, false);
+    if (nearness > near_plane / z * 1.00001)
+        return Seen(near_plane / nearness, false);
 #endif
     return Seen(z, z < 1e29);
 }

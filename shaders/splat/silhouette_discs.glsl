@@ -7,7 +7,7 @@ const int SAMPLES = 16;
 // Centre, from that of the pixel, and radius of its foremost sphere's disc, in pixels.
 vec3 disc_of(ivec2 pixel, float depth)
 {
-    float radius = 0.5 * viewport.y / lens.y * particle.x / depth;
+    float radius = 0.5 * picture_size.y / view_tangent.y * particle_radius / depth;
     vec2 rim = radius * vec2(texelFetch(color_map, pixel, 0).a, texelFetch(normal_map, pixel, 0).a);
     float length2 = dot(rim, rim);
     return length2 > 0.0 ? vec3(rim * (1.0 - radius * inversesqrt(length2)), radius) : vec3(0.0, 0.0, 0.75);

@@ -4,7 +4,7 @@ const float MOST_SHARE = 0.5; // that others get of a pixel: the outlines on bot
 
 float edge(ivec2 pixel, int axis)
 {
-    return texelFetch(edge_map, clamp(pixel, ivec2(0), ivec2(viewport.xy) - 1), 0)[axis];
+    return texelFetch(edge_map, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0)[axis];
 }
 
 // Goes along the row of edges between `low` and its neighbours on `axis` (0: on the right, 1: above) from one pixel on. Returns how

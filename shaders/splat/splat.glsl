@@ -7,7 +7,7 @@
 #undef DROPS
 layout(location = 1) uniform float splat_radius; // of the kernel, m
 #else
-#define splat_radius particle.x
+#define splat_radius particle_radius
 #endif
 
 // Two passes find the same depth: what it is made of is `precise`, and `invariant` where vertices send it.
@@ -45,5 +45,5 @@ Splat splat_hit(vec4 at, vec2 scale, float radius)
 
 bool splat_seen(Splat hit)
 {
-    return hit.inside2 >= 0.0 && hit.depth >= lens.z;
+    return hit.inside2 >= 0.0 && hit.depth >= near_plane;
 }

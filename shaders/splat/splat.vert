@@ -19,7 +19,7 @@ layout(location = 7) flat out float gain; // see splat/splat_small.glsl
 layout(location = 2) uniform vec2 texels;
 layout(location = 2) flat out vec2 column;
 #else
-#define texels viewport.xy
+#define texels picture_size
 #endif
 
 #ifdef POINT
@@ -87,8 +87,8 @@ void main()
 #endif
     Body body = body_of(index);
     describe(body);
-    float nearest = max(body_nearest(body), lens.z);
-    place(body, body_bounds(body), min(lens.z / nearest * 1.00001, 1.0));
+    float nearest = max(body_nearest(body), near_plane);
+    place(body, body_bounds(body), min(near_plane / nearest * 1.00001, 1.0));
 #ifdef BLEND
     color = particle_color(index);
 #ifdef DISCS
@@ -96,6 +96,6 @@ void main()
 #endif
 #endif
 #ifdef THICKNESS
-    column = vec2(4.5 / 3.14159265 * particle.y * particle.y * particle.y / (splat_radius * splat_radius), lens.z / -body.centre.z);
+    column = vec2(4.5 / 3.14159265 * particle_spacing * particle_spacing * particle_spacing / (splat_radius * splat_radius), near_plane / -body.centre.z);
 #endif
 }

@@ -51,7 +51,7 @@ vec2 rim_of(Splat hit)
     float rho = sqrt(max(1.0 - hit.inside2, 0.0));
     vec2 rim = hit.beside * ((1.0 - rho) * rho / max(dot(hit.beside, hit.beside), 1e-12));
 #ifdef DROPS
-    rim *= radius / particle.x;
+    rim *= radius / particle_radius;
 #endif
     return rim;
 }

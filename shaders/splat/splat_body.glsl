@@ -51,10 +51,10 @@ vec4 body_bounds(Body body)
     x *= grown, y *= grown, z *= grown;
     float w = -c.z, szz = dot(z, z), around = sqrt(dot(x, x) + dot(y, y) + szz);
     float within2 = dot(within, within), c2 = dot(c, c);
-    if (is_nan(within2 + c2) || within2 <= body.radius * body.radius || c2 >= 1e30 || w + sqrt(szz) <= lens.z)
+    if (is_nan(within2 + c2) || within2 <= body.radius * body.radius || c2 >= 1e30 || w + sqrt(szz) <= near_plane)
         return vec4(0.0);
-    vec4 bounds = vec4(ellipsoid_slopes(c.x, w, dot(x, x), dot(x, z), szz, around) / lens.x,
-                       ellipsoid_slopes(c.y, w, dot(y, y), dot(y, z), szz, around) / lens.y);
+    vec4 bounds = vec4(ellipsoid_slopes(c.x, w, dot(x, x), dot(x, z), szz, around) / view_tangent.x,
+                       ellipsoid_slopes(c.y, w, dot(y, y), dot(y, z), szz, around) / view_tangent.y);
     return clamp(bounds, -1.0, 1.0);
 }
 #else
@@ -74,9 +74,9 @@ vec4 body_bounds(Body body)
 #ifdef PAPER
     vec3 centre = body.centre;
     float w = -centre.z;
-    if (is_nan(centre.xyzz) || w <= lens.z)
+    if (is_nan(centre.xyzz) || w <= near_plane)
         return vec4(0.0);
-    return clamp((centre.xxyy + drawn_radius(body.radius, centre) * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * lens.xxyy), -1.0, 1.0);
+    return clamp((centre.xxyy + drawn_radius(body.radius, centre) * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * view_tangent.xxyy), -1.0, 1.0);
 #else
     return sphere_bounds(sphere_at(body.centre, drawn_radius(body.radius, body.centre)));
 #endif

@@ -16,25 +16,25 @@ SplatChord splat_chord(vec4 at, vec2 scale)
     float length2 = 1.0 + dot(at.zw, at.zw), per = 1.0 / length2;
     float slant = (dot(at.xy, at.zw) - scale.y) * per;
     float e = slant * slant + (1.0 - scale.y * scale.y - dot(at.xy, at.xy)) * per;
-    return SplatChord(scale.x - particle.x * slant, e * length2, length2);
+    return SplatChord(scale.x - particle_radius * slant, e * length2, length2);
 #endif
 }
 
 // Of the chord's first point.
 float splat_entry(SplatChord chord)
 {
-    return chord.middle - particle.x * sqrt(max(chord.inside2, 0.0) / chord.length2);
+    return chord.middle - particle_radius * sqrt(max(chord.inside2, 0.0) / chord.length2);
 }
 
 bool splat_adds(SplatChord chord)
 {
-    return chord.inside2 > 0.0 && splat_entry(chord) >= lens.z;
+    return chord.inside2 > 0.0 && splat_entry(chord) >= near_plane;
 }
 
 // (x - c) / r at that depth, in the eye's frame.
 vec3 splat_offset(vec4 at, vec2 scale, float depth)
 {
-    float k = (scale.x - depth) / particle.x;
+    float k = (scale.x - depth) / particle_radius;
 #ifdef PAPER
     return vec3(at.xy, k);
 #else

@@ -22,5 +22,5 @@ void main()
     bool open = !found && start < 1e29;
     slope_sum = vec4(0.0);
 #endif
-    gl_FragDepth = open ? lens.z / (start + range) : 1.0; // nothing is before the near plane
+    gl_FragDepth = open ? near_plane / (start + range) : 1.0; // nothing is before the near plane
 }

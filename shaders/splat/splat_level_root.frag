@@ -22,5 +22,5 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float t = refined(texelFetch(value_map, pixel, 0));
-    root = texelFetch(march_map, pixel, 0).w > 0.0 ? texelFetch(start_map, pixel, 0).x + t * particle.x : 1e30;
+    root = texelFetch(march_map, pixel, 0).w > 0.0 ? texelFetch(start_map, pixel, 0).x + t * particle_radius : 1e30;
 }

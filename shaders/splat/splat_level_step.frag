@@ -59,7 +59,7 @@ void main()
     if (before.w > 0.0 || from >= 1e29)
         discard;
     vec4 value = texelFetch(value_map, pixel, 0), slope = texelFetch(slope_map, pixel, 0) * field.x;
-    float a = before.y, b = before.z * field.x, reach = field.x * particle.x, end = from + 4.0 * reach;
+    float a = before.y, b = before.z * field.x, reach = field.x * particle_radius, end = from + 4.0 * reach;
     for (int i = 0; i < 4; i++) {
         float t = crossing(hermite(vec2(a, value[i]), vec2(b, slope[i])), value[i], slope[i]);
         if (t <= 1.0) {
@@ -73,5 +73,5 @@ void main()
     bool gap = a <= 0.0;
     march = vec4(end, a, b / field.x, 0.0);
     start = gap ? 1e30 : end;
-    gl_FragDepth = gap ? 0.0 : lens.z / (end + 4.0 * field.y * particle.x);
+    gl_FragDepth = gap ? 0.0 : near_plane / (end + 4.0 * field.y * particle_radius);
 }

@@ -19,7 +19,7 @@ void main()
     SplatChord chord = splat_chord(splat_at(), scale);
     if (!splat_adds(chord))
         discard;
-    float first = (texelFetch(start_map, ivec2(gl_FragCoord.xy), 0).x - chord.middle) / particle.x;
+    float first = (texelFetch(start_map, ivec2(gl_FragCoord.xy), 0).x - chord.middle) / particle_radius;
 #ifdef SINGLE
     float a = chord.inside2 - chord.length2 * first * first, b = -2.0 * chord.length2 * first;
     if (a <= 0.0)

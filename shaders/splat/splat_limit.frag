@@ -6,5 +6,5 @@ layout(location = 1) uniform float eps; // m
 
 void main()
 {
-    gl_FragDepth = lens.z / (texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x + eps);
+    gl_FragDepth = near_plane / (texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x + eps);
 }

@@ -23,27 +23,27 @@ layout(location = 0) out vec4 color;
 
 float thickness_here()
 {
-    return textureLod(thickness_map, gl_FragCoord.xy * viewport.zw, 0.0).x;
+    return textureLod(thickness_map, gl_FragCoord.xy * pixel_size, 0.0).x;
 }
 
 #if SHADING == 0
 vec3 shaded(Surface s)
 {
-    return mix(s.albedo, phong(s), light_in_eye.w);
+    return mix(s.albedo, phong(s), shading);
 }
 #elif SHADING == 1
 vec3 shaded(Surface s)
 {
     vec3 inside = transmitted(s);
-    return mix(inside, with_surface(s, inside + scattered(s)), light_in_eye.w);
+    return mix(inside, with_surface(s, inside + scattered(s)), shading);
 }
 #else
 // The paper's "Phong shading together with refraction and reflection": the thicker, the cloudier.
 vec3 shaded(Surface s)
 {
     float clear = 0.8 * exp2(-2.0 * s.thickness / medium.y);
-    vec3 inside = mix(mix(s.albedo, phong(s), light_in_eye.w), transmitted(s), clear);
-    return mix(inside, with_surface(s, inside), light_in_eye.w);
+    vec3 inside = mix(mix(s.albedo, phong(s), shading), transmitted(s), clear);
+    return mix(inside, with_surface(s, inside), shading);
 }
 #endif
 
@@ -69,7 +69,7 @@ void main()
     float length2 = dot(normal, normal);
     if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0) // nothing, or just the rim of a lone sphere
         discard;
-    gl_FragDepth = lens.z / depth;
+    gl_FragDepth = near_plane / depth;
     normal *= inversesqrt(length2);
 #if SHOW == 1
     color = vec4(vec3(1.0 - 0.9 * clamp((depth - depths.x) / (depths.y - depths.x), 0.0, 1.0)), 1.0);

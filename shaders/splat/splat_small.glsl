@@ -5,7 +5,7 @@ const float SMALL = 0.8; // so that the sum over pixels of 1 - (distance / SMALL
 
 float drawn_radius(float radius, vec3 centre)
 {
-    return radius > 0.0 ? max(radius, SMALL * 2.0 * lens.y * viewport.w * -centre.z) : 0.0; // 0 stands for nothing
+    return radius > 0.0 ? max(radius, SMALL * 2.0 * view_tangent.y * pixel_size.y * -centre.z) : 0.0; // 0 stands for nothing
 }
 
 // What a sphere covers of a pixel is this times 1 - (distance / drawn radius)^2: the disc's area in all.

@@ -65,7 +65,7 @@ void show(Ray ray)
 #ifdef WATER
     color = vec4(water(surface), 1.0);
 #else
-    color = vec4(mix(albedo, phong(surface), light_in_eye.w), 1.0);
+    color = vec4(mix(albedo, phong(surface), shading), 1.0);
 #endif
 #endif
 #endif

@@ -8,5 +8,5 @@ void main()
     float t = texelFetch(found_map, ivec2(gl_FragCoord.xy), 0).x;
     if (t <= 0.0)
         discard;
-    gl_FragDepth = lens.z / t;
+    gl_FragDepth = near_plane / t;
 }

@@ -11,13 +11,13 @@ float noise()
 vec3 glow_at(Ray ray, float t, vec3 albedo, float skin)
 {
     vec3 place = ray.from + t * ray.to, skinned = vec3(0.0);
-    if (light_in_eye.w < 0.5)
+    if (shading < 0.5)
         return albedo;
     float lit = lit_at(place), key = key_at(place, lit);
     if (skin > 0.0)
         skinned = phong(Surface(place, ray.to / ray.slant, normal_at(ray, t), albedo, lit, key, 0.0));
-    vec3 sky = mix(ground_color.rgb, sky_color.rgb, 0.5) * (0.35 + 0.65 * lit);
-    return mix(albedo * (sky + 0.5 * key * light_color.rgb), skinned, skin);
+    vec3 sky = mix(ground_color, sky_color, 0.5) * (0.35 + 0.65 * lit);
+    return mix(albedo * (sky + 0.5 * key * light_color), skinned, skin);
 }
 
 // Of a part of the ray: optical depths of body and skin, and where it is in the mean.

@@ -23,12 +23,12 @@ float scalar_at(vec3 at)
 vec3 albedo_at(vec3 at, out float share)
 {
     float value = scalar_at(at);
-    if (coloring.z > 0.5) { // numbers of fluids: neighbours in the list mix
+    if (by_fluid != 0u) { // numbers of fluids: neighbours in the list mix
         float first = clamp(floor(value), 0.0, 6.0);
         share = 1.0;
         return mix(fluid_color[int(first)].rgb, fluid_color[int(first) + 1].rgb, clamp(value - first, 0.0, 1.0));
     }
-    share = clamp((value - coloring.x) * coloring.y, 0.0, 1.0);
+    share = clamp((value - range_low) * range_scale, 0.0, 1.0);
     return texelFetch(colormap, ivec2(share * 255.0 + 0.5, 0), 0).rgb;
 }
 #else
@@ -44,15 +44,15 @@ vec3 albedo_at(vec3 at, out float share)
 // the first lit surface.
 float lit_at(vec3 place)
 {
-    Ray ray = ray_from(place, light_in_eye.xyz);
-    const float longest = 8.0 * particle.x; // nothing to speak of is left
+    Ray ray = ray_from(place, light_in_eye);
+    const float longest = 8.0 * particle_radius; // nothing to speak of is left
     float dt = 2.0 * march.y, t = dt, way = 0.0, end = ray_end(ray);
     while (t < end && way < longest) {
         float f = min(field_at(ray_at(ray, t)), 1.0), on = f > 0.0 ? dt : max(dt, march.z);
         way += on * f;
         t += on;
     }
-    return 0.12 + 0.88 * exp2(-0.55 * way / max(particle.x, 1e-9));
+    return 0.12 + 0.88 * exp2(-0.55 * way / max(particle_radius, 1e-9));
 }
 #else
 float lit_at(vec3 place)

@@ -57,7 +57,7 @@ float ray_end(Ray ray)
 float solid_end()
 {
 #ifdef SOLIDS
-    return lens.z / max(texelFetch(solid_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30);
+    return near_plane / max(texelFetch(solid_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30);
 #else
     return 1e30;
 #endif
@@ -69,8 +69,8 @@ Ray eye_ray()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float entry = texelFetch(entry_map, pixel, 0).x, leave = texelFetch(exit_map, pixel, 0).x;
     Ray ray = ray_from(vec3(0.0), ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)));
-    ray.begin = march.w > 0.0 ? march.w : lens.z / max(entry, 1e-30);
-    ray.end = min(lens.z / max(leave, 1e-30), solid_end());
+    ray.begin = march.w > 0.0 ? march.w : near_plane / max(entry, 1e-30);
+    ray.end = min(near_plane / max(leave, 1e-30), solid_end());
     return ray;
 }
 

@@ -32,7 +32,7 @@ vec3 seen_through(inout Surface s)
     vec3 on = refract(ray.to, inwards, medium.x);
     on = dot(on, on) > 0.0 ? on : reflect(ray.to, inwards);
 #ifdef SOLIDS
-    vec3 seen = behind_at(leave + 0.3 * max(box_size.x, box_size.y) * on, lens.z / -s.place.z, gl_FragCoord.xy);
+    vec3 seen = behind_at(leave + 0.3 * max(box_size.x, box_size.y) * on, near_plane / -s.place.z, gl_FragCoord.xy);
 #else
     vec3 seen = environment(leave, on);
 #endif
@@ -43,5 +43,5 @@ vec3 water(Surface s)
 {
     s.normal = facing(s.normal, s.view);
     vec3 inside = seen_through(s);
-    return mix(inside, with_surface(s, inside + scattered(s)), light_in_eye.w);
+    return mix(inside, with_surface(s, inside + scattered(s)), shading);
 }

@@ -8,6 +8,6 @@ layout(location = 0) out vec4 color;
 
 void main()
 {
-    float share = clamp((field_at(box_point) - coloring.x) * coloring.y, 0.0, 1.0);
+    float share = clamp((field_at(box_point) - range_low) * range_scale, 0.0, 1.0);
     color = texelFetch(colormap, ivec2(share * 255.0 + 0.5, 0), 0);
 }

@@ -13,5 +13,5 @@ void main()
     box_point = volume_place.xyz + share * vec3(volume_size.xyz) / volume_place.w;
     box_point[axis] = place;
     vec3 at = (box_to_eye * vec4(box_point, 1.0)).xyz;
-    gl_Position = vec4(at.xy / lens.xy, lens.z, -at.z);
+    gl_Position = vec4(at.xy / view_tangent, near_plane, -at.z);
 }

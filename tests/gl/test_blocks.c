@@ -1,6 +1,7 @@
 /* The blocks that C and GLSL share: each member has the offset in C that the driver gives it. */
 #include "tests/gl/compare.h"
 
+#include "shaders/shared/frame_block.h"
 #include "shaders/shared/solid_block.h"
 #include "sim/gl/shader_source.h"
 
@@ -30,9 +31,18 @@ typedef struct Block {
             sizeof((const Member[]){__VA_ARGS__}) / sizeof(Member)                                           \
     }
 
+#define FRAME(member) MEMBER(FrameBlock, member)
 #define SOLID(member) MEMBER(SolidBlock, member)
 
 static const Block blocks[] = {
+    BLOCK("shared/frame_block.h", FrameBlock, FRAME(box_to_eye), FRAME(box_to_light), FRAME(eye_to_light),
+          FRAME(world_to_light), FRAME(eye_to_world), FRAME(view_tangent), FRAME(near_plane),
+          FRAME(light_depth), FRAME(picture_size), FRAME(pixel_size), FRAME(light_in_eye), FRAME(shading),
+          FRAME(up_in_eye), FRAME(shadow_radius), FRAME(light_color), FRAME(light_radius), FRAME(sky_color),
+          FRAME(particle_radius), FRAME(ground_color), FRAME(particle_spacing), FRAME(background),
+          FRAME(range_low), FRAME(box_size), FRAME(range_scale), FRAME(floor_center), FRAME(floor_height),
+          FRAME(floor_radius), FRAME(floor_map_corner), FRAME(floor_map_size), FRAME(edge_color),
+          FRAME(fluid_color[0]), FRAME(by_fluid)),
     BLOCK("shared/solid_block.h", SolidBlock, SOLID(solids[0].to_eye), SOLID(solids[0].to_light),
           SOLID(solids[0].color), SOLID(solids[1].to_eye), SOLID(solids[15].color)),
 };
