@@ -6,7 +6,7 @@
 #include "render/frame/shadow.h"
 #include "render/frame/solids.h"
 #include "render/frame/view.h"
-#include "render/splat/splat_names.h"
+#include "render/splat/splat_def.h"
 #include "render/volume/raycast_names.h"
 #include "render/volume/volume_names.h"
 
@@ -30,19 +30,11 @@ struct Renderer {
 
 ViewDef view_def_default(void)
 {
-    return (ViewDef){.kind = "spheres",
-                     .color_by = SCALAR_SPEED,
-                     .colormap = "viridis",
-                     .range_auto = true,
-                     .splat = splat_def_default(),
-                     .volume = volume_def_default(),
-                     .raycast = raycast_def_default(),
-                     .legend = true,
-                     .box = true,
-                     .floor = true,
-                     .camera_auto = true,
-                     .camera = {.fov_deg = 32},
-                     .background = {0.72, 0.76, 0.80}};
+    ViewDef def = view_def_shared();
+    def.splat = splat_def_default();
+    def.volume = volume_def_default();
+    def.raycast = raycast_def_default();
+    return def;
 }
 
 /* Letters for a picture that high, or none where the def wants no legend. */
@@ -191,8 +183,11 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
 static void draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer, ViewCounts *counts)
 {
     Frame frame;
-    double radius = renderer->view ? view_kind(renderer->view)->radius : 0;
-    frame_make(&frame, &renderer->def, particles, &renderer->target, radius, renderer->covered_left);
+    const ViewKind *kind = renderer->view ? view_kind(renderer->view) : NULL;
+    const Target *target = &renderer->target;
+    const double legend = legend_width_pixels(&renderer->def, target->height) / target->width;
+    frame_make(&frame, &renderer->def, particles, target, view_radii(kind, &renderer->def, particles),
+               (Covered){renderer->covered_left, legend});
     frame.timer = timer;
     frame.counts = counts;
     frame.plain = renderer->plain;

@@ -123,8 +123,8 @@ static void put_methods(Info *info)
 static void put_views(Info *info)
 {
     begin_list(info, "views", "views");
-    for (const ViewKind *const *view = view_list; *view; view++)
-        put_row(info, (*view)->name, (*view)->help);
+    for (int i = 0; view_at(i); i++)
+        put_row(info, view_at(i)->name, view_at(i)->help);
     put_row(info, "none", "draws nothing; for timing the solver alone");
     begin_list(info, "scalars", "scalars");
     for (int s = 0; s < SCALAR_COUNT; s++) {

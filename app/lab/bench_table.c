@@ -94,9 +94,9 @@ int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1])
     Sweep *views = &sweeps[count++], *particles = &sweeps[count++];
     *views = (Sweep){.key = "view.kind"};
     *particles = (Sweep){.key = "particles"};
-    for (const ViewKind *const *view = view_list; *view; view++)
-        if (!table->view || strcmp(table->view, (*view)->name) == 0)
-            add(views, (*view)->name);
+    for (int i = 0; view_at(i); i++)
+        if (!table->view || strcmp(table->view, view_at(i)->name) == 0)
+            add(views, view_at(i)->name);
     for (int i = 0; table->particles[i]; i++)
         add(particles, table->particles[i]);
     if (table->substeps[0]) {

@@ -7,7 +7,7 @@
 #include "render/frame/colormap.h"
 #include "render/frame/view.h"
 #include "render/renderer.h"
-#include "render/splat/splat_names.h"
+#include "render/splat/splat_def.h"
 #include "render/volume/raycast_names.h"
 #include "render/volume/volume_names.h"
 #include "sim/kernel/kernel.h"
@@ -72,9 +72,9 @@ const char *backend_choice(int index)
 const char *view_choice(int index)
 {
     int views = 0;
-    while (view_list[views])
+    while (view_at(views))
         views++;
-    return index < views ? view_list[index]->name : index == views ? "none" : NULL;
+    return index < views ? view_at(index)->name : index == views ? "none" : NULL;
 }
 
 const char *colormap_choice(int index)

@@ -9,6 +9,11 @@
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/timer.h"
 
+/* Of a particle, m. */
+typedef struct ParticleRadii {
+    float drawn, reach, shadow; /* Frame.particle_radius, particle_reach, shadow_radius */
+} ParticleRadii;
+
 typedef struct Frame {
     int width, height; /* pixels */
     const ViewDef *def;
@@ -46,10 +51,15 @@ typedef struct Frame {
 
 enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
 
-/* Fills all of `frame` but timer, counts, floor_light and plain. `radius` of a particle in spacings where the
-   def says 0; what lies over the left side of the picture, as in Covered. */
+/* Balls of the def's radius; of that many spacings where the def says 0. */
+ParticleRadii frame_balls(const ViewDef *def, const ParticleBuffers *particles, double spacings);
+
+/* Frame.slab: a scene of two dimensions is as deep as its particles. */
+double frame_slab(const ParticleBuffers *particles);
+
+/* Fills all of `frame` but timer, counts, floor_light and plain. */
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
-                double radius, double covered_left);
+                ParticleRadii radii, Covered covered);
 
 /* frame->bounds in pixels: x0 y0 x1 y1. */
 void frame_bounds(const Frame *frame, int part[4]);

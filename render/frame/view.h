@@ -1,4 +1,4 @@
-/* Views: the ways to show a fluid. One file a view, one list of them. */
+/* Views: the ways to show a fluid. One folder a view, one list of them: render/views.c. */
 #ifndef SLOSH_VIEW_H
 #define SLOSH_VIEW_H
 
@@ -8,9 +8,19 @@
 
 typedef struct View View;
 
+/* What a GPU stores for each particle to draw it. */
+typedef struct ViewShapes {
+    const char *words; /* "of ellipsoids": what messages add to the view's name */
+    int bytes;         /* of the largest block */
+} ViewShapes;
+
 typedef struct ViewKind {
     const char *name, *help;
     double radius; /* of a particle, in spacings, where ViewDef.radius is 0 */
+    /* Changes the radii, which are those of balls so far; NULL: particles are such balls. */
+    void (*radii)(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii);
+    /* Whether particles are drawn as something that takes a GPU more room than balls; NULL: they are not. */
+    const ViewShapes *(*shapes)(const ViewDef *def);
     /* The state behind a View, or NULL with the reason. It stays while the def has solids or has none: a view
        looks there for what it needs to stand with them. */
     void *(*create)(const ViewDef *def, Error *error);
@@ -30,6 +40,12 @@ typedef struct ViewKind {
 
 extern const ViewKind *const view_list[]; /* ended by NULL; the first is the default */
 
+/* Makes one known behind those of the list, up to the program's end: for what is no part of it, as tests. */
+void view_add(const ViewKind *kind);
+
+/* Kind number `index` of the list and of those added; NULL behind the last. */
+const ViewKind *view_at(int index);
+
 /* The kind of that name, or NULL. */
 const ViewKind *view_find(const char *name);
 
@@ -37,6 +53,9 @@ const ViewKind *view_find(const char *name);
 View *view_create(const ViewDef *def, Error *error);
 void view_destroy(View *view); /* NULL is allowed */
 const ViewKind *view_kind(const View *view);
+
+/* Of particles as that kind draws them; NULL: no view does. */
+ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const ParticleBuffers *particles);
 
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
 bool view_accepts(View *view, const ViewDef *def, Error *error);

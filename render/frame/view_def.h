@@ -132,4 +132,7 @@ typedef struct ViewDef {
     SolidDef solids[SOLIDS_MAX];
 } ViewDef;
 
+/* Defaults of all that views share: their own settings are zeros. */
+ViewDef view_def_shared(void);
+
 #endif

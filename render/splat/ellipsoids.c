@@ -6,16 +6,6 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-bool ellipsoids_stretched(const SplatDef *def)
-{
-    return def->shape == SPLAT_ELLIPSOID && !(def->level > 0);
-}
-
-bool ellipsoids_wanted(const SplatDef *def)
-{
-    return ellipsoids_stretched(def) || (def->drops && !(def->level > 0));
-}
-
 const char *ellipsoids_defines(const SplatDef *def)
 {
     if (ellipsoids_stretched(def))

@@ -9,6 +9,7 @@
 
 #include "render/frame/frame.h"
 #include "render/particles/neighbourhood.h"
+#include "render/splat/splat_def.h"
 
 typedef struct Ellipsoids {
     SplatDef def;
@@ -18,10 +19,6 @@ typedef struct Ellipsoids {
                         float */
     size_t capacity;
 } Ellipsoids;
-
-/* Neither at a level of the field above zero, which has a shape of its own: particles are spheres there. */
-bool ellipsoids_wanted(const SplatDef *def);
-bool ellipsoids_stretched(const SplatDef *def); /* not drops alone */
 
 /* For shaders that include common/ball.glsl; none is longer than 40 characters. */
 const char *ellipsoids_defines(const SplatDef *def);

@@ -1,20 +1,10 @@
 #include "render/splat/silhouette.h"
 
-#include "render/splat/splat_level.h"
+#include "render/splat/splat_def.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
 #include <stdio.h>
-
-bool silhouette_wanted(const SplatDef *def)
-{
-    return def->antialias && (def->show == SPLAT_SHADED || def->show == SPLAT_CULLED);
-}
-
-bool silhouette_by_discs(const SplatDef *def)
-{
-    return silhouette_wanted(def) && !splat_level_wanted(def);
-}
 
 bool silhouette_create(Silhouette *silhouette, const ViewDef *def, Error *error)
 {

@@ -28,13 +28,6 @@ typedef struct Silhouette {
     unsigned target; /* the target's colour as numbers, RGBA8 */
 } Silhouette;
 
-/* Whether outlines are smoothed: pictures of what comes before shading are left as they are. */
-bool silhouette_wanted(const SplatDef *def);
-
-/* Whether by discs; then pass 2 keeps them, and what spheres smaller than pixels cover of these (DISCS in
- * shaders). */
-bool silhouette_by_discs(const SplatDef *def);
-
 /* False when a shader does not compile; silhouette_destroy is needed in either case. */
 bool silhouette_create(Silhouette *silhouette, const ViewDef *def, Error *error);
 void silhouette_destroy(Silhouette *silhouette); /* one of zeros is allowed */

@@ -11,6 +11,7 @@
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -285,10 +286,38 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
                       (uint64_t)frame->width * (uint64_t)frame->height);
 }
 
+/* A field needs the solver's support radius: with less it ripples too much for a level. Its surface casts the
+   shadow of the balls that particles have at the level when alone, but half a spacing at least. */
+static void level_radii(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii)
+{
+    const double spacing = particles->spacing;
+    radii->drawn = (float)(def->radius > 0 ? def->radius * spacing : particles->support_radius);
+    radii->reach = radii->drawn;
+    const double gain = splat_level_gain(radii->drawn, spacing, frame_slab(particles) > 0);
+    const double alone = splat_level_alone(def->splat.level, gain, radii->drawn);
+    radii->shadow = (float)fmax(alone, 0.5 * spacing);
+}
+
+static void splat_radii(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii)
+{
+    if (def->splat.level > 0)
+        level_radii(def, particles, radii);
+    else if (ellipsoids_stretched(&def->splat))
+        radii->reach = radii->drawn * (float)ELLIPSOID_REACH;
+}
+
+static const ViewShapes *splat_shapes(const ViewDef *def)
+{
+    static const ViewShapes ellipsoids = {"of ellipsoids", 3 * 4 * sizeof(float)};
+    return def->splat.shape == SPLAT_ELLIPSOID ? &ellipsoids : NULL;
+}
+
 const ViewKind view_splat = {
     .name = "splat",
     .help = "one smooth surface, blended from spheres",
     .radius = 1, /* a spacing: neighbours at rest overlap so far that no hole is left */
+    .radii = splat_radii,
+    .shapes = splat_shapes,
     .create = splat_create,
     .destroy = splat_destroy,
     .prepare = splat_prepare,

@@ -5,8 +5,8 @@
 
 #include "render/frame/view.h"
 #include "render/splat/ellipsoids.h"
+#include "render/splat/splat_def.h"
 #include "render/splat/splat_maps.h"
-#include "render/splat/splat_names.h"
 
 extern const ViewKind view_splat;
 

@@ -10,11 +10,6 @@
    first guess may be off. */
 static const float APART = 0.375F, APART_BEHIND = 0.5F, SLACK = 0.1F;
 
-bool splat_level_wanted(const SplatDef *def)
-{
-    return def->level > 0 && def->show != SPLAT_CULLED;
-}
-
 float splat_level_range(const Frame *frame)
 {
     return 4 * APART * frame->particle_radius;

@@ -25,9 +25,6 @@ typedef struct SplatLevel {
     unsigned march_framebuffer, sum_framebuffer, single_framebuffer, next_framebuffer;
 } SplatLevel;
 
-/* Whether the def asks for it; what culling left out is shown of the spheres. */
-bool splat_level_wanted(const SplatDef *def);
-
 /* How far behind the first sphere the first round looks, m: the spheres that culling must leave it. */
 float splat_level_range(const Frame *frame);
 

@@ -1,17 +1,12 @@
 #include "render/splat/splat_shade.h"
 
-#include "render/splat/silhouette.h"
+#include "render/splat/splat_def.h"
 #include "render/splat/splat_sprites.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
-
-bool splat_shade_wants_thickness(const SplatDef *def)
-{
-    return def->show == SPLAT_THICKNESS || (def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG);
-}
 
 static unsigned create_program(const SplatShade *shade, const ViewDef *def, const char *more, Error *error)
 {

@@ -25,6 +25,4 @@ void splat_shade_destroy(SplatShade *shade);
    (splat_shade_wants_thickness), else 0. */
 void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame);
 
-bool splat_shade_wants_thickness(const SplatDef *def);
-
 #endif

@@ -1,17 +1,11 @@
 #include "render/splat/splat_sprites.h"
 
 #include "render/splat/ellipsoids.h"
-#include "render/splat/silhouette.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
-
-bool splat_culls(const SplatDef *def)
-{
-    return def->cull || def->show == SPLAT_CULLED;
-}
 
 bool splat_sprites_create(SplatSprites *sprites, const SplatDef *def, Error *error)
 {

@@ -3,9 +3,9 @@
 #ifndef SLOSH_SPLAT_SPRITES_H
 #define SLOSH_SPLAT_SPRITES_H
 
-#include "render/frame/view_def.h"
 #include "render/particles/particle_bind.h"
 #include "render/splat/cull.h"
+#include "render/splat/splat_def.h"
 
 typedef struct SplatSprites {
     SplatDef def;
@@ -19,9 +19,6 @@ typedef struct SplatSprites {
 /* False when a shader does not compile; splat_sprites_destroy is needed in either case. */
 bool splat_sprites_create(SplatSprites *sprites, const SplatDef *def, Error *error);
 void splat_sprites_destroy(SplatSprites *sprites);
-
-/* To see what culling left out wants it too. */
-bool splat_culls(const SplatDef *def);
 
 /* Whether some frame may be drawn with it: never SPLAT_AUTO. */
 bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite);

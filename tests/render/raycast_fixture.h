@@ -130,7 +130,8 @@ static inline RayPixel *ray_drawn(RayScene *scene, bool plain)
     static const float black[4] = {0};
     Target target = ray_target(scene);
     Raycast *raycast = ray_caster(&scene->def);
-    frame_make(&scene->frame, &scene->def, &scene->state, &target, 1, 0);
+    frame_make(&scene->frame, &scene->def, &scene->state, &target, frame_balls(&scene->def, &scene->state, 1),
+               (Covered){0});
     scene->frame.plain = plain;
     scene->frame.floor_light = no_shadows();
     unsigned uniforms = frame_uniforms_create();

@@ -123,7 +123,8 @@ static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bo
     scene->state.count = scene->particles->count;
     drawing.upload = upload_particles(scene->particles, &scene->state, &buffers);
     buffers.count = scene->empty ? 0 : buffers.count;
-    frame_make(&scene->frame, &scene->def, &buffers, &drawing.target, 1, 0);
+    frame_make(&scene->frame, &scene->def, &buffers, &drawing.target,
+               view_radii(&view_splat, &scene->def, &buffers), (Covered){0});
     scene->frame.plain = plain;
     scene->frame.floor_light = no_shadows();
     drawing.uniforms = frame_uniforms_create();

@@ -1,8 +1,5 @@
 #include "render/frame/frame.h"
 
-#include "render/frame/legend.h"
-#include "render/splat/ellipsoids.h"
-#include "render/splat/splat_level.h"
 #include "shaders/shared/frame_block.h"
 
 #include <epoxy/gl.h>
@@ -134,34 +131,16 @@ static void make_bounds(Frame *frame, const double size[3])
     frame->all_in_view = before && low[0] > -1 && low[1] > -1 && high[0] < 1 && high[1] < 1;
 }
 
-/* A scene of two dimensions is as deep as its particles. */
-static double flat_depth(const ParticleBuffers *particles)
+double frame_slab(const ParticleBuffers *particles)
 {
     const double depth = particles->box_size[2];
     return fabs(depth - particles->spacing) < 1e-6 * depth ? depth : 0;
 }
 
-static bool at_a_level(const ViewDef *def)
+ParticleRadii frame_balls(const ViewDef *def, const ParticleBuffers *particles, double spacings)
 {
-    return def->splat.level > 0 && strcmp(def->kind, "splat") == 0;
-}
-
-/* A field needs the solver's support radius: with less it ripples too much for a level. Its surface casts the
- * shadow of the balls that particles have at the level when alone, but half a spacing at least. */
-static void make_radii(Frame *frame, const ParticleBuffers *particles, double radius)
-{
-    const ViewDef *def = frame->def;
-    const double spacing = particles->spacing;
-    const double own = at_a_level(def) ? particles->support_radius : radius * spacing;
-    frame->particle_radius = (float)(def->radius > 0 ? def->radius * spacing : own);
-    frame->shadow_radius = frame->particle_radius;
-    const bool stretched = strcmp(def->kind, "splat") == 0 && ellipsoids_stretched(&def->splat);
-    frame->particle_reach = frame->particle_radius * (float)(stretched ? ELLIPSOID_REACH : 1);
-    if (at_a_level(def)) {
-        const double gain = splat_level_gain(frame->particle_radius, spacing, frame->slab > 0);
-        const double alone = splat_level_alone(def->splat.level, gain, frame->particle_radius);
-        frame->shadow_radius = (float)fmax(alone, 0.5 * spacing);
-    }
+    const float radius = (float)((def->radius > 0 ? def->radius : spacings) * particles->spacing);
+    return (ParticleRadii){radius, radius, radius};
 }
 
 /* A fifth of the longest side; in two dimensions the one layer's depth, for one sees through no more. */
@@ -171,19 +150,23 @@ static float usual_attenuation(const double size[3], double slab)
 }
 
 void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
-                double radius, double covered_left)
+                ParticleRadii radii, Covered covered)
 {
-    *frame = (Frame){.width = target->width, .height = target->height, .def = def, .target = target};
-    const Covered covered = {covered_left, legend_width_pixels(def, target->height) / target->width};
+    *frame = (Frame){.width = target->width,
+                     .height = target->height,
+                     .def = def,
+                     .target = target,
+                     .particle_radius = radii.drawn,
+                     .particle_reach = radii.reach,
+                     .shadow_radius = radii.shadow};
     camera_make(def, particles->box_size, &particles->box, (double)target->width / target->height, covered,
                 &frame->camera);
     camera_box_matrix(&particles->box, frame->box_to_world);
     float middle[3] = {0, (float)particles->box_size[1] / 2, 0}, center[3];
     matrix_transform(frame->box_to_world, middle, center);
     make_light(frame, particles->box_size, center);
-    frame->slab = flat_depth(particles);
+    frame->slab = frame_slab(particles);
     frame->attenuation = usual_attenuation(particles->box_size, frame->slab);
-    make_radii(frame, particles, radius);
     make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box, particles->time);
     make_range(frame, particles);

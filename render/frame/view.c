@@ -1,51 +1,73 @@
 #include "render/frame/view.h"
 
-#include "render/spheres/spheres.h"
-#include "render/splat/splat.h"
-#include "render/volume/volume_view.h"
 #include "sim/gl/limits.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-const ViewKind *const view_list[] = {&view_spheres, &view_splat, &view_volume, NULL};
+enum { ADDED_MAX = 4 };
+static const ViewKind *added[ADDED_MAX + 1];
 
 struct View {
     const ViewKind *kind;
     void *state;
 };
 
+static int count_of(const ViewKind *const *kinds)
+{
+    int count = 0;
+    while (kinds[count])
+        count++;
+    return count;
+}
+
+void view_add(const ViewKind *kind)
+{
+    const int count = count_of(added);
+    assert(count < ADDED_MAX && !view_find(kind->name));
+    added[count] = kind;
+}
+
+const ViewKind *view_at(int index)
+{
+    const int listed = count_of(view_list);
+    if (index < listed)
+        return view_list[index];
+    return index - listed < count_of(added) ? added[index - listed] : NULL;
+}
+
 const ViewKind *view_find(const char *name)
 {
-    for (int i = 0; view_list[i]; i++)
-        if (strcmp(view_list[i]->name, name) == 0)
-            return view_list[i];
+    for (int i = 0; view_at(i); i++)
+        if (strcmp(view_at(i)->name, name) == 0)
+            return view_at(i);
     return NULL;
 }
 
 static void unknown_view(const char *name, Error *error)
 {
     char known[256] = "";
-    for (int i = 0; view_list[i]; i++)
+    for (int i = 0; view_at(i); i++)
         snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i ? ", " : "",
-                 view_list[i]->name);
+                 view_at(i)->name);
     error_set(error, "unknown view \"%s\"; known are: %s", name, known);
 }
 
-/* Particles are drawn from storage blocks; common/particles.glsl, listed.glsl and ball.glsl have five. The
-   largest is the ellipsoids', three vec4 each. */
-static bool drawable(const ViewDef *def, Error *error)
+/* Particles are drawn from storage blocks; common/particles.glsl, listed.glsl and ball.glsl have five. A ball
+   is one vec4. */
+static bool drawable(const ViewKind *kind, const ViewDef *def, Error *error)
 {
-    const bool ellipsoids = strcmp(def->kind, "splat") == 0 && def->splat.shape == SPLAT_ELLIPSOID;
+    const ViewShapes *shapes = kind->shapes ? kind->shapes(def) : NULL;
     char who[NAME_SIZE + 32];
-    snprintf(who, sizeof who, "view %s%s", def->kind, ellipsoids ? " of ellipsoids" : "");
+    snprintf(who, sizeof who, "view %s%s%s", def->kind, shapes ? " " : "", shapes ? shapes->words : "");
     const GlLimits have = gl_limits();
     const GlNeeds needs = {.who = who,
                            .instead = "use another GPU or driver",
                            .least = {.vertex_blocks = 5,
                                      .bindings = 11,
-                                     .block_bytes = (int64_t)def->particles * (ellipsoids ? 48 : 16)}};
+                                     .block_bytes = (int64_t)def->particles * (shapes ? shapes->bytes : 16)}};
     return gl_limits_allow(&have, &needs, error);
 }
 
@@ -56,7 +78,7 @@ View *view_create(const ViewDef *def, Error *error)
         unknown_view(def->kind, error);
         return NULL;
     }
-    if (!drawable(def, error))
+    if (!drawable(kind, def, error))
         return NULL;
     View *view = malloc(sizeof *view);
     void *state = view ? kind->create(def, error) : NULL;
@@ -79,6 +101,14 @@ void view_destroy(View *view)
 const ViewKind *view_kind(const View *view)
 {
     return view->kind;
+}
+
+ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const ParticleBuffers *particles)
+{
+    ParticleRadii radii = frame_balls(def, particles, kind ? kind->radius : 0);
+    if (kind && kind->radii)
+        kind->radii(def, particles, &radii);
+    return radii;
 }
 
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame)

@@ -1,4 +1,4 @@
-#include "render/splat/splat_names.h"
+#include "render/splat/splat_def.h"
 
 const char *const splat_weights_names[] = {
     [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2"};
@@ -25,6 +25,41 @@ SplatDef splat_def_default(void)
                       .filter_range = 3,
                       .filter_iterations = 2,
                       .antialias = true};
+}
+
+bool splat_culls(const SplatDef *def)
+{
+    return def->cull || def->show == SPLAT_CULLED;
+}
+
+bool splat_level_wanted(const SplatDef *def)
+{
+    return def->level > 0 && def->show != SPLAT_CULLED;
+}
+
+bool ellipsoids_stretched(const SplatDef *def)
+{
+    return def->shape == SPLAT_ELLIPSOID && !(def->level > 0);
+}
+
+bool ellipsoids_wanted(const SplatDef *def)
+{
+    return ellipsoids_stretched(def) || (def->drops && !(def->level > 0));
+}
+
+bool splat_shade_wants_thickness(const SplatDef *def)
+{
+    return def->show == SPLAT_THICKNESS || (def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG);
+}
+
+bool silhouette_wanted(const SplatDef *def)
+{
+    return def->antialias && (def->show == SPLAT_SHADED || def->show == SPLAT_CULLED);
+}
+
+bool silhouette_by_discs(const SplatDef *def)
+{
+    return silhouette_wanted(def) && !splat_level_wanted(def);
 }
 
 bool splat_same_kind(const SplatDef *a, const SplatDef *b)
