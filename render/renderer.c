@@ -116,10 +116,7 @@ void renderer_destroy(Renderer *renderer)
 
 static bool follow_view(Renderer *renderer, const ViewDef *def, Error *error)
 {
-    const ViewDef *old = &renderer->def;
-    if (strcmp(def->kind, old->kind) == 0 && strcmp(def->colormap, old->colormap) == 0 &&
-        (def->solid_count > 0) == (old->solid_count > 0) && splat_same_kind(&def->splat, &old->splat) &&
-        volume_same_kind(&def->volume, &old->volume) && raycast_same_kind(def, old))
+    if (view_same(&renderer->def, def))
         return !renderer->view || view_accepts(renderer->view, def, error);
     View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
     if (!view && strcmp(def->kind, "none") != 0)

@@ -117,6 +117,13 @@ void view_prepare(View *view, const ParticleBuffers *particles, const Frame *fra
         view->kind->prepare(view->state, particles, frame);
 }
 
+bool view_same(const ViewDef *a, const ViewDef *b)
+{
+    const ViewKind *kind = view_find(a->kind);
+    return strcmp(a->kind, b->kind) == 0 && strcmp(a->colormap, b->colormap) == 0 &&
+           (a->solid_count > 0) == (b->solid_count > 0) && (!kind || !kind->same || kind->same(a, b));
+}
+
 bool view_accepts(View *view, const ViewDef *def, Error *error)
 {
     return !view->kind->accepts || view->kind->accepts(view->state, def, error);

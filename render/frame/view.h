@@ -28,7 +28,10 @@ typedef struct ViewKind {
     /* Once a picture, before the rest: what cast and draw need, within a stage of frame->timer. May be NULL.
      */
     void (*prepare)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* Whether it can draw by a def that differs from its own in numbers only; NULL: always. */
+    /* Whether a view made for `a` may draw `b`, both of this kind: they differ in what is read anew for each
+       picture; NULL: it may. */
+    bool (*same)(const ViewDef *a, const ViewDef *b);
+    /* Whether it can draw by such a def; NULL: always. */
     bool (*accepts)(void *state, const ViewDef *def, Error *error);
     /* Says in the frame what colours and legend show, where that is not the def's scalar; NULL: it is. */
     void (*show)(const ViewDef *def, Frame *frame);
@@ -58,6 +61,8 @@ const ViewKind *view_kind(const View *view);
 ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const ParticleBuffers *particles);
 
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
+/* Whether a view made for `a` may draw `b`. */
+bool view_same(const ViewDef *a, const ViewDef *b);
 bool view_accepts(View *view, const ViewDef *def, Error *error);
 void view_show(const View *view, const ViewDef *def, Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);

@@ -320,6 +320,7 @@ const ViewKind view_splat = {
     .shapes = splat_shapes,
     .create = splat_create,
     .destroy = splat_destroy,
+    .same = splat_same,
     .prepare = splat_prepare,
     .cast = splat_cast,
     .draw = splat_draw,

@@ -62,8 +62,9 @@ bool silhouette_by_discs(const SplatDef *def)
     return silhouette_wanted(def) && !splat_level_wanted(def);
 }
 
-bool splat_same_kind(const SplatDef *a, const SplatDef *b)
+bool splat_same(const ViewDef *one, const ViewDef *other)
 {
+    const SplatDef *a = &one->splat, *b = &other->splat;
     return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
            a->cull == b->cull && a->drops == b->drops && a->shading == b->shading &&
            (a->level > 0) == (b->level > 0) && a->filter == b->filter && a->antialias == b->antialias;

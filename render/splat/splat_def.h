@@ -33,7 +33,7 @@ bool silhouette_wanted(const SplatDef *def);
  * shaders). */
 bool silhouette_by_discs(const SplatDef *def);
 
-/* Whether they differ in numbers only: these a view reads anew for each picture. */
-bool splat_same_kind(const SplatDef *a, const SplatDef *b);
+/* ViewKind.same. */
+bool splat_same(const ViewDef *a, const ViewDef *b);
 
 #endif

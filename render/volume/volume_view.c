@@ -3,6 +3,7 @@
 #include "render/particles/particle_bind.h"
 #include "render/volume/fluid_numbers.h"
 #include "render/volume/raycast.h"
+#include "render/volume/raycast_names.h"
 #include "render/volume/volume_slice.h"
 #include "sim/gl/program.h"
 
@@ -140,12 +141,18 @@ static void show(const ViewDef *def, Frame *frame)
     frame->range[1] = steps ? 64 : 1.25;
 }
 
+static bool same(const ViewDef *a, const ViewDef *b)
+{
+    return volume_same_kind(&a->volume, &b->volume) && raycast_same_kind(a, b);
+}
+
 const ViewKind view_volume = {
     .name = "volume",
     .help = "the fluid's field on a grid of voxels, by raycasting: a surface, or translucent",
     .radius = 0.5,
     .create = create,
     .destroy = destroy,
+    .same = same,
     .accepts = accepts,
     .show = show,
     .cast = cast,

@@ -1,6 +1,9 @@
 /* A renderer whose size and def change while it lives draws what a new one would. */
 #include "tests/render/fixture.h"
 
+#include "render/splat/splat_def.h"
+#include "render/volume/volume_view.h"
+
 enum { MOST = 3 * 400 * 300 };
 
 typedef struct Stand {
@@ -93,11 +96,52 @@ static void defs_follow(void **state)
     stand_destroy(&stand);
 }
 
+static int created;
+
+static void *counted_create(const ViewDef *def, Error *error)
+{
+    created++;
+    return view_volume.create(def, error);
+}
+
+static int made_for(Renderer *renderer, const ViewDef *def)
+{
+    Error error = {0};
+    created = 0;
+    assert_true(renderer_set_def(renderer, def, &error));
+    return created;
+}
+
+/* A view is made anew for its own settings alone, and not for those that it reads for each picture. */
+static void views_are_kept(void **state)
+{
+    (void)state;
+    static ViewKind counted;
+    Error error = {0};
+    counted = view_volume, counted.name = "counted", counted.create = counted_create;
+    view_add(&counted);
+    ViewDef def = view_def_default();
+    text_set(def.kind, "counted");
+    Renderer *renderer = renderer_create(&def, 16, 16, &error);
+    assert_int_equal(created, 1);
+    def.splat.shading = SPLAT_WATER; /* another view's */
+    def.radius = 0.8;
+    assert_int_equal(made_for(renderer, &def), 0);
+    def.raycast.step = 2; /* its own */
+    assert_int_equal(made_for(renderer, &def), 0);
+    def.raycast.look = RAYCAST_WATER;
+    assert_int_equal(made_for(renderer, &def), 1);
+    def.color_by = SCALAR_FLUID;
+    assert_int_equal(made_for(renderer, &def), 1);
+    renderer_destroy(renderer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(sizes_follow, no_gl_errors),
         cmocka_unit_test_teardown(defs_follow, no_gl_errors),
+        cmocka_unit_test_teardown(views_are_kept, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
