@@ -10,23 +10,18 @@ SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, c
 {
     const float h = args->constants->support_radius;
     const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1), zero = f8_splat(0);
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
-        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const Place at = place_of(args, i);
         f8 sum = zero;
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++) {
-            ROW_ORIGIN;
-            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xr - f8_load(args->x + j);
-                const f8 dy = yr - f8_load(args->y + j);
-                const f8 dz = zr - f8_load(args->z + j);
-                const f8 q2 = (dx * dx + dy * dy + dz * dz) * inverse_h * inverse_h;
-                const f8 t = one - (poly6 ? q2 : f8_sqrt(q2));
-                const i8 near = (t > zero) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
-                sum += f8_masked(near, t * t * t);
-            }
+        NEIGHBOURS (rows, row, j) {
+            Separation d = separation(args, at, &rows, row, j);
+            const f8 q2 = d.r2 * inverse_h * inverse_h;
+            const f8 t = one - (poly6 ? q2 : f8_sqrt(q2));
+            const i8 near = (t > zero) & d.there;
+            sum += f8_masked(near, t * t * t);
         }
         args->number_density[i] = args->constants->kernel_scale * f8_sum(sum);
     }
@@ -52,10 +47,10 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 one = f8_splat(1), pressure_scale = f8_splat(s->pressure_scale);
     const float viscosity_scale = s->viscosity_scale * (many ? 0.5f : s->viscosity[0]);
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
-        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const Place at = place_of(args, i);
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
         const f8 pi = f8_splat(args->pressure_term[i]);
         const f8 mi = f8_splat(viscous && many ? args->viscosity[i] : 0);
@@ -63,36 +58,29 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
         f8 fx = f8_splat(0), fy = fx, fz = fx;
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++) {
-            ROW_ORIGIN;
-            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                Separation d = {.x = xr - f8_load(args->x + j),
-                                .y = yr - f8_load(args->y + j),
-                                .z = zr - f8_load(args->z + j)};
-                d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
-                const i8 near = (d.r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j))) &
-                                (lane_index != i8_splat((int32_t)((uint32_t)i - j)));
-                if (!i8_bits(near))
-                    continue;
-                const int coincident = i8_bits(near & (d.r2 < least2));
-                if (__builtin_expect(coincident, 0))
-                    separate(args, i, j, coincident, least, &d);
+        NEIGHBOURS (rows, row, j) {
+            Separation d = separation(args, at, &rows, row, j);
+            const i8 near = (d.r2 < h2) & d.there & others(i, j);
+            if (!i8_bits(near))
+                continue;
+            const int coincident = i8_bits(near & (d.r2 < least2));
+            if (__builtin_expect(coincident, 0))
+                d = separate(args, i, j, coincident, least, d);
 
-                const f8 r = f8_sqrt(f8_select(near, d.r2, h2));
-                const f8 t = one - r * inverse_h;
-                const f8 push =
-                    f8_masked(near, pressure_scale * (t * t) * (pi + f8_load(args->pressure_term + j)) / r);
-                fx += push * d.x;
-                fy += push * d.y;
-                fz += push * d.z;
-                if (viscous) {
-                    f8 drag = f8_masked(near, drag_scale * t * f8_load(args->volume + j));
-                    if (many)
-                        drag *= mi + f8_load(args->viscosity + j);
-                    fx += drag * (f8_load(args->vx + j) - ui);
-                    fy += drag * (f8_load(args->vy + j) - vi);
-                    fz += drag * (f8_load(args->vz + j) - wi);
-                }
+            const f8 r = f8_sqrt(f8_select(near, d.r2, h2));
+            const f8 t = one - r * inverse_h;
+            const f8 push =
+                f8_masked(near, pressure_scale * (t * t) * (pi + f8_load(args->pressure_term + j)) / r);
+            fx += push * d.x;
+            fy += push * d.y;
+            fz += push * d.z;
+            if (viscous) {
+                f8 drag = f8_masked(near, drag_scale * t * f8_load(args->volume + j));
+                if (many)
+                    drag *= mi + f8_load(args->viscosity + j);
+                fx += drag * (f8_load(args->vx + j) - ui);
+                fy += drag * (f8_load(args->vy + j) - vi);
+                fz += drag * (f8_load(args->vz + j) - wi);
             }
         }
         args->fx[i] = f8_sum(fx);

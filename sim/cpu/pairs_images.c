@@ -29,25 +29,20 @@ SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Rows rows, const
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 apart = f8_splat(args->constants->spacing / h);
-    const f8 xi = f8_splat(image->x[0]), yi = f8_splat(image->x[1]), zi = f8_splat(image->x[2]);
+    const Place at = place_at(image->x);
     const f8 ui = f8_splat(image->sign[0] * args->vx[i]), vi = f8_splat(image->sign[1] * args->vy[i]),
              wi = f8_splat(image->sign[2] * args->vz[i]);
     f8 sum = f8_splat(0);
-    for (int row = rows.first; row < rows.last; row++) {
-        ROW_ORIGIN;
-        for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-            const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
-                     dz = zr - f8_load(args->z + j);
-            const f8 r2 = dx * dx + dy * dy + dz * dz;
-            const i8 near = (r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
-            if (!i8_bits(near))
-                continue;
-            const f8 f =
-                image_shape(f8_sqrt(greater(f8_select(near, r2, h2), least2)) * inverse_h, apart, kernel);
-            const f8 flow = (ui - f8_load(args->vx + j)) * dx + (vi - f8_load(args->vy + j)) * dy +
-                            (wi - f8_load(args->vz + j)) * dz;
-            sum += f8_masked(near, f * flow);
-        }
+    NEIGHBOURS (rows, row, j) {
+        Separation d = separation(args, at, &rows, row, j);
+        const i8 near = (d.r2 < h2) & d.there;
+        if (!i8_bits(near))
+            continue;
+        const f8 f =
+            image_shape(f8_sqrt(greater(f8_select(near, d.r2, h2), least2)) * inverse_h, apart, kernel);
+        const f8 flow = (ui - f8_load(args->vx + j)) * d.x + (vi - f8_load(args->vy + j)) * d.y +
+                        (wi - f8_load(args->vz + j)) * d.z;
+        sum += f8_masked(near, f * flow);
     }
     return sum;
 }
@@ -76,10 +71,10 @@ static void rise_of(const PairArgs *args, size_t i, const Image *image, const fl
 }
 
 /* Of the image of j; it turns no push into a pull. */
-SIMD_INLINE f8 image_term(const Rise rise, f8 term, f8 dx, f8 dy, f8 dz)
+SIMD_INLINE f8 image_term(const Rise rise, f8 term, Separation d)
 {
     const f8 zero = f8_splat(0), share = lesser(greater(term * rise.inverse_layer, zero), f8_splat(1));
-    const f8 more = rise.g0 + rise.gx * dx + rise.gy * dy + rise.gz * dz;
+    const f8 more = rise.g0 + rise.gx * d.x + rise.gy * d.y + rise.gz * d.z;
     return greater(term + share * more, lesser(term, zero));
 }
 
@@ -94,28 +89,23 @@ SIMD_INLINE Found image_push(const PairArgs *args, size_t i, const Rows rows, co
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 apart = f8_splat(args->constants->spacing / h);
-    const f8 xi = f8_splat(image->x[0]), yi = f8_splat(image->x[1]), zi = f8_splat(image->x[2]);
+    const Place at = place_at(image->x);
     const f8 pi = f8_splat(args->pressure_term[i]);
     Found sum = {f8_splat(0), f8_splat(0), f8_splat(0), f8_splat(0),
                  f8_splat(0), f8_splat(0), f8_splat(0), f8_splat(0)};
-    for (int row = rows.first; row < rows.last; row++) {
-        ROW_ORIGIN;
-        for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-            const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
-                     dz = zr - f8_load(args->z + j);
-            const f8 r2 = dx * dx + dy * dy + dz * dz;
-            const i8 near = (r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
-            if (!i8_bits(near))
-                continue;
-            const f8 q = f8_sqrt(greater(f8_select(near, r2, h2), least2)) * inverse_h;
-            const f8 f = f8_masked(near, image_shape(q, apart, kernel));
-            const f8 push = f * (pi + image_term(rise, f8_load(args->pressure_term + j), dx, dy, dz));
-            sum.fx += push * dx, sum.fy += push * dy, sum.fz += push * dz;
-            if (shifts) {
-                sum.ex += f * dx, sum.ey += f * dy, sum.ez += f * dz;
-                sum.full += f * r2;
-                sum.dense += f8_masked(near, height(q, kernel));
-            }
+    NEIGHBOURS (rows, row, j) {
+        Separation d = separation(args, at, &rows, row, j);
+        const i8 near = (d.r2 < h2) & d.there;
+        if (!i8_bits(near))
+            continue;
+        const f8 q = f8_sqrt(greater(f8_select(near, d.r2, h2), least2)) * inverse_h;
+        const f8 f = f8_masked(near, image_shape(q, apart, kernel));
+        const f8 push = f * (pi + image_term(rise, f8_load(args->pressure_term + j), d));
+        sum.fx += push * d.x, sum.fy += push * d.y, sum.fz += push * d.z;
+        if (shifts) {
+            sum.ex += f * d.x, sum.ey += f * d.y, sum.ez += f * d.z;
+            sum.full += f * d.r2;
+            sum.dense += f8_masked(near, height(q, kernel));
         }
     }
     return sum;
@@ -141,7 +131,7 @@ SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, c
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
 {
     const Constants *s = args->constants;
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
     Image image[IMAGES_MAX];
     for (size_t i = begin; i < end; i++) {
         const float x[3] = {args->x[i], args->y[i], args->z[i]};
@@ -159,7 +149,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
 {
     const Constants *s = args->constants;
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
     Image image[IMAGES_MAX];
     for (size_t i = begin; i < end; i++) {
         const float x[3] = {args->x[i], args->y[i], args->z[i]};

@@ -14,31 +14,24 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 wide = f8_splat(h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 repulsion = f8_splat(h * h * h * h * h * h / 64);
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
-        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const Place at = place_of(args, i);
         const f8 ti = f8_splat(args->tension[i]), fi = f8_splat(args->kind[i]);
         f8 fx = f8_splat(0), fy = fx, fz = fx;
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++) {
-            ROW_ORIGIN;
-            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
-                         dz = zr - f8_load(args->z + j);
-                const f8 r2 = dx * dx + dy * dy + dz * dz;
-                const i8 near = (r2 < h2) & (r2 >= least2) & (f8_load(args->kind + j) == fi) &
-                                (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
-                if (!i8_bits(near))
-                    continue;
-                const f8 r = f8_sqrt(f8_select(near, r2, h2));
-                const f8 pull =
-                    f8_masked(near, (ti + f8_load(args->tension + j)) * f8_load(args->volume + j) *
-                                        cohesion(r, wide, repulsion) / r);
-                fx -= pull * dx;
-                fy -= pull * dy;
-                fz -= pull * dz;
-            }
+        NEIGHBOURS (rows, row, j) {
+            Separation d = separation(args, at, &rows, row, j);
+            const i8 near = (d.r2 < h2) & (d.r2 >= least2) & (f8_load(args->kind + j) == fi) & d.there;
+            if (!i8_bits(near))
+                continue;
+            const f8 r = f8_sqrt(f8_select(near, d.r2, h2));
+            const f8 pull = f8_masked(near, (ti + f8_load(args->tension + j)) * f8_load(args->volume + j) *
+                                                cohesion(r, wide, repulsion) / r);
+            fx -= pull * d.x;
+            fy -= pull * d.y;
+            fz -= pull * d.z;
         }
         const float scale = 0.5f * args->volume[i];
         args->fx[i] += scale * f8_sum(fx);
@@ -54,27 +47,22 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
     const Constants *s = args->constants;
     const float h = s->support_radius, dims = s->last_row - s->first_row > 3 ? 3 : 2;
     const f8 h2 = f8_splat(h * h), inner = f8_splat(dims * h * h), outer = f8_splat(dims + 4);
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
-        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const Place at = place_of(args, i);
         const f8 fi = f8_splat(args->kind[i]);
         f8 nx = f8_splat(0), ny = nx, nz = nx, bend = nx;
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++) {
-            ROW_ORIGIN;
-            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
-                         dz = zr - f8_load(args->z + j);
-                const f8 r2 = dx * dx + dy * dy + dz * dz, t = h2 - r2;
-                const i8 near = (r2 < h2) & (f8_load(args->kind + j) == fi) &
-                                (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
-                const f8 volume = f8_masked(near, f8_load(args->volume + j) * t);
-                nx -= volume * t * dx;
-                ny -= volume * t * dy;
-                nz -= volume * t * dz;
-                bend -= volume * (inner - outer * r2);
-            }
+        NEIGHBOURS (rows, row, j) {
+            Separation d = separation(args, at, &rows, row, j);
+            const f8 t = h2 - d.r2;
+            const i8 near = (d.r2 < h2) & (f8_load(args->kind + j) == fi) & d.there;
+            const f8 volume = f8_masked(near, f8_load(args->volume + j) * t);
+            nx -= volume * t * d.x;
+            ny -= volume * t * d.y;
+            nz -= volume * t * d.z;
+            bend -= volume * (inner - outer * d.r2);
         }
         const float n[3] = {s->colour * f8_sum(nx), s->colour * f8_sum(ny), s->colour * f8_sum(nz)};
         const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

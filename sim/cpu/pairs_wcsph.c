@@ -29,33 +29,28 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const float scale = s->gradient / s->rest_number_density; /* m is 1 in the lattice */
     const f8 first_solid = f8_splat(FLUIDS_MAX);
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
-        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const Place at = place_of(args, i);
         const f8 ri = f8_splat(args->relative[i]), fi = f8_splat(args->kind[i]);
         int solid = 0; /* it sees one */
         f8 xx = f8_splat(0), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx, bx = xx, by = xx, bz = xx;
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++) {
-            ROW_ORIGIN;
-            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
-                         dz = zr - f8_load(args->z + j);
-                const f8 r2 = dx * dx + dy * dy + dz * dz;
-                const i8 seen = (r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
-                const f8 kind = f8_load(args->kind + j);
-                solid |= i8_bits(seen & (kind >= first_solid));
-                const i8 near = seen & (r2 >= least2) & (kind == fi);
-                if (!i8_bits(near))
-                    continue;
-                const f8 f = f8_masked(near, shape(f8_sqrt(f8_select(near, r2, h2)) * inverse_h, kernel));
-                const f8 fx = f * dx, fy = f * dy, fz = f * dz, de = ri - f8_load(args->relative + j);
-                xx += fx * dx, yy += fy * dy, zz += fz * dz;
-                xy += fx * dy, yz += fy * dz, zx += fz * dx;
-                bx += fx * de, by += fy * de, bz += fz * de;
-            }
+        NEIGHBOURS (rows, row, j) {
+            Separation d = separation(args, at, &rows, row, j);
+            const i8 seen = (d.r2 < h2) & d.there;
+            const f8 kind = f8_load(args->kind + j);
+            solid |= i8_bits(seen & (kind >= first_solid));
+            const i8 near = seen & (d.r2 >= least2) & (kind == fi);
+            if (!i8_bits(near))
+                continue;
+            const f8 f = f8_masked(near, shape(f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h, kernel));
+            const f8 fx = f * d.x, fy = f * d.y, fz = f * d.z, de = ri - f8_load(args->relative + j);
+            xx += fx * d.x, yy += fy * d.y, zz += fz * d.z;
+            xy += fx * d.y, yz += fy * d.z, zx += fz * d.x;
+            bx += fx * de, by += fy * de, bz += fz * de;
         }
         float m[6] = {f8_sum(xx), f8_sum(yy), f8_sum(zz), f8_sum(xy), f8_sum(yz), f8_sum(zx)}, slope[3];
         const float b[3] = {scale * f8_sum(bx), scale * f8_sum(by), scale * f8_sum(bz)};
@@ -78,10 +73,10 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 diffusion = f8_splat(s->diffusion), half = f8_splat(0.5f);
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
-        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const Place at = place_of(args, i);
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
         const f8 ri = f8_splat(diffusive ? args->relative[i] : 0),
                  fi = f8_splat(diffusive ? args->kind[i] : 0);
@@ -91,28 +86,22 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         f8 sum = f8_splat(0);
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++) {
-            ROW_ORIGIN;
-            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                const f8 dx = xr - f8_load(args->x + j), dy = yr - f8_load(args->y + j),
-                         dz = zr - f8_load(args->z + j);
-                const f8 r2 = dx * dx + dy * dy + dz * dz;
-                const i8 near =
-                    (r2 < h2) & (r2 >= least2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j)));
-                if (!i8_bits(near))
-                    continue;
-                const f8 f = shape(f8_sqrt(f8_select(near, r2, h2)) * inverse_h, kernel);
-                f8 flow = (ui - f8_load(args->vx + j)) * dx + (vi - f8_load(args->vy + j)) * dy +
-                          (wi - f8_load(args->vz + j)) * dz;
-                if (diffusive) {
-                    const i8 same = f8_load(args->kind + j) == fi;
-                    const f8 along = (gx + f8_load(args->slope[0] + j)) * dx +
-                                     (gy + f8_load(args->slope[1] + j)) * dy +
-                                     (gz + f8_load(args->slope[2] + j)) * dz;
-                    flow -= f8_masked(same, diffusion * (f8_load(args->relative + j) - ri + half * along));
-                }
-                sum += f8_masked(near, f * flow);
+        NEIGHBOURS (rows, row, j) {
+            Separation d = separation(args, at, &rows, row, j);
+            const i8 near = (d.r2 < h2) & (d.r2 >= least2) & d.there;
+            if (!i8_bits(near))
+                continue;
+            const f8 f = shape(f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h, kernel);
+            f8 flow = (ui - f8_load(args->vx + j)) * d.x + (vi - f8_load(args->vy + j)) * d.y +
+                      (wi - f8_load(args->vz + j)) * d.z;
+            if (diffusive) {
+                const i8 same = f8_load(args->kind + j) == fi;
+                const f8 along = (gx + f8_load(args->slope[0] + j)) * d.x +
+                                 (gy + f8_load(args->slope[1] + j)) * d.y +
+                                 (gz + f8_load(args->slope[2] + j)) * d.z;
+                flow -= f8_masked(same, diffusion * (f8_load(args->relative + j) - ri + half * along));
             }
+            sum += f8_masked(near, f * flow);
         }
         args->rate[i] = -s->gradient * f8_sum(sum);
     }
@@ -128,10 +117,10 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 soft = f8_splat(h * h / 400), scale = f8_splat(s->radial);
-    Rows rows = {.cell = UINT32_MAX};
+    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
-        const f8 xi = f8_splat(args->x[i]), yi = f8_splat(args->y[i]), zi = f8_splat(args->z[i]);
+        const Place at = place_of(args, i);
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
         const f8 pi = f8_splat(args->pressure_term[i]), volume = f8_splat(args->volume[i]);
         const f8 mi = f8_splat(viscous ? args->viscosity[i] : 0),
@@ -139,51 +128,44 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
         f8 fx = f8_splat(0), fy = fx, fz = fx, ex = fx, ey = fx, ez = fx, full = fx, dense = fx;
 
         rows_of(args, args->cell[i], &rows);
-        for (int row = rows.first; row < rows.last; row++) {
-            ROW_ORIGIN;
-            for (uint32_t j = rows.begin[row]; j < rows.end[row]; j += LANES) {
-                Separation d = {.x = xr - f8_load(args->x + j),
-                                .y = yr - f8_load(args->y + j),
-                                .z = zr - f8_load(args->z + j)};
-                d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
-                const i8 near = (d.r2 < h2) & (lane_index < i8_splat((int32_t)(rows.end[row] - j))) &
-                                (lane_index != i8_splat((int32_t)((uint32_t)i - j)));
-                if (!i8_bits(near))
-                    continue;
-                const int coincident = i8_bits(near & (d.r2 < least2));
-                if (__builtin_expect(coincident, 0))
-                    separate(args, i, j, coincident, least, &d);
+        NEIGHBOURS (rows, row, j) {
+            Separation d = separation(args, at, &rows, row, j);
+            const i8 near = (d.r2 < h2) & d.there & others(i, j);
+            if (!i8_bits(near))
+                continue;
+            const int coincident = i8_bits(near & (d.r2 < least2));
+            if (__builtin_expect(coincident, 0))
+                d = separate(args, i, j, coincident, least, d);
 
-                const f8 q = f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h;
-                const f8 f = f8_masked(near, shape(q, kernel));
-                f8 push = pi + f8_load(args->pressure_term + j);
-                if (shifts) {
-                    ex += f * d.x, ey += f * d.y, ez += f * d.z;
-                    full += f * d.r2;
-                    dense += f8_masked(near, height(q, kernel));
-                }
-                if (viscous || artificial) {
-                    const f8 ux = f8_load(args->vx + j) - ui, uy = f8_load(args->vy + j) - vi,
-                             uz = f8_load(args->vz + j) - wi;
-                    const f8 both = volume * f8_load(args->volume + j);
-                    if (viscous && radial)
-                        push += both * (mi + f8_load(args->viscosity + j)) * scale *
-                                (ux * d.x + uy * d.y + uz * d.z);
-                    else if (viscous) {
-                        const f8 drag = f * both * (mi + f8_load(args->viscosity + j));
-                        fx += drag * ux;
-                        fy += drag * uy;
-                        fz += drag * uz;
-                    }
-                    if (artificial)
-                        push += both * (ai + f8_load(args->artificial + j)) *
-                                (ux * d.x + uy * d.y + uz * d.z) / (d.r2 + soft);
-                }
-                push *= f;
-                fx += push * d.x;
-                fy += push * d.y;
-                fz += push * d.z;
+            const f8 q = f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h;
+            const f8 f = f8_masked(near, shape(q, kernel));
+            f8 push = pi + f8_load(args->pressure_term + j);
+            if (shifts) {
+                ex += f * d.x, ey += f * d.y, ez += f * d.z;
+                full += f * d.r2;
+                dense += f8_masked(near, height(q, kernel));
             }
+            if (viscous || artificial) {
+                const f8 ux = f8_load(args->vx + j) - ui, uy = f8_load(args->vy + j) - vi,
+                         uz = f8_load(args->vz + j) - wi;
+                const f8 both = volume * f8_load(args->volume + j);
+                if (viscous && radial)
+                    push +=
+                        both * (mi + f8_load(args->viscosity + j)) * scale * (ux * d.x + uy * d.y + uz * d.z);
+                else if (viscous) {
+                    const f8 drag = f * both * (mi + f8_load(args->viscosity + j));
+                    fx += drag * ux;
+                    fy += drag * uy;
+                    fz += drag * uz;
+                }
+                if (artificial)
+                    push += both * (ai + f8_load(args->artificial + j)) * (ux * d.x + uy * d.y + uz * d.z) /
+                            (d.r2 + soft);
+            }
+            push *= f;
+            fx += push * d.x;
+            fy += push * d.y;
+            fz += push * d.z;
         }
         args->fx[i] = s->gradient * f8_sum(fx);
         args->fy[i] = s->gradient * f8_sum(fy);
