@@ -1,5 +1,10 @@
+// Boundary particles of solids (sim/matter/boundary.h), sorted by cell in a grid of their own: the fluids' buffers hold
+// fluid alone. BOUNDARY_ACCESS: what a pass does with them, if not to read.
 #include "sim/cells.glsl"
-// Boundary particles of solids (sim/matter/boundary.h), sorted by cell in a grid of their own: the fluids' buffers hold fluid alone.
+#ifdef SOLIDS
+#ifndef BOUNDARY_ACCESS
+#define BOUNDARY_ACCESS readonly
+#endif
 layout(std430, binding = 12) BOUNDARY_ACCESS buffer BoundaryPositions { vec4 boundary_position[]; }; // w: volume in friction
 layout(std430, binding = 13) BOUNDARY_ACCESS buffer BoundaryVelocities { vec4 boundary_velocity[]; }; // w: viscosity
 layout(std430, binding = 14) BOUNDARY_ACCESS buffer BoundaryStates { uvec2 boundary_state[]; }; // p V0^2, number
@@ -10,3 +15,4 @@ uvec2 boundary_row_of(ivec3 at, int row)
     ivec2 cells = row_cells(at, row);
     return uvec2(boundary_start[cells.x], boundary_start[cells.y]);
 }
+#endif

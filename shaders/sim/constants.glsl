@@ -30,6 +30,12 @@ layout(std140, binding = 2) uniform Step {
     vec4 felt_omega;
 };
 
+// Apparent gravity at x.
+vec3 felt_at(vec3 x)
+{
+    return felt_origin.xyz - cross(felt_alpha.xyz, x) - cross(felt_omega.xyz, cross(felt_omega.xyz, x));
+}
+
 // What the kicks have found so far: greatest speed, acceleration, compression; guarded; whether a particle went too far. A
 // pass that writes there reads there, too: it has no second block of the same buffer.
 #ifdef WRITES_WATCH

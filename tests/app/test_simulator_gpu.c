@@ -222,15 +222,15 @@ static void broken_shaders_leave_the_last_good_ones(void **state)
     Rig rig;
     rig_open(&rig, true);
     assert_int_equal(system("rm -rf shaders && cp -r " SLOSH_SOURCE_DIR
-                            "/shaders . && echo 'float x = ;' >> shaders/sim/compute/force.comp"),
+                            "/shaders . && echo 'float x = ;' >> shaders/sim/compute/kick.comp"),
                      0);
     shader_source_set_directory("shaders");
     assert_false(simulator_reload(rig.simulator, &error));
-    assert_non_null(strstr(error.message, "sim/compute/force.comp:"));
+    assert_non_null(strstr(error.message, "sim/compute/kick.comp:"));
     simulator_single_step(rig.simulator);
     until_step(&rig, 5);
     assert_false(rig.status.failed);
-    assert_int_equal(system("cp " SLOSH_SOURCE_DIR "/shaders/sim/force.comp shaders/sim/"), 0);
+    assert_int_equal(system("cp " SLOSH_SOURCE_DIR "/shaders/sim/compute/kick.comp shaders/sim/compute/"), 0);
     must(simulator_reload(rig.simulator, &error));
     shader_source_set_directory(NULL);
     rig_close(&rig);

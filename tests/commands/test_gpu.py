@@ -71,10 +71,10 @@ class Gpu(CommandTest):
 
     def test_a_broken_shader_is_named(self):
         shutil.copytree(SHADERS, self.path('shaders'))
-        with open(self.path('shaders/sim/compute/force.comp'), 'a') as file:
+        with open(self.path('shaders/sim/compute/kick.comp'), 'a') as file:
             file.write('float broken = ;\n')
-        lines = self.read('shaders/sim/compute/force.comp').count(b'\n')
-        self.refused(1, rf'sim/compute/force.comp:{lines}: .*syntax error', *ON, '--shaders', 'shaders')
+        lines = self.read('shaders/sim/compute/kick.comp').count(b'\n')
+        self.refused(1, rf'sim/compute/kick.comp:{lines}: .*syntax error', *ON, '--shaders', 'shaders')
         os.remove(self.path('shaders/sim/compute/drift.comp'))
         self.refused(1, 'drift.comp', *ON, '--shaders', 'shaders')
 

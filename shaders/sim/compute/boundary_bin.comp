@@ -3,7 +3,7 @@
 #include "sim/constants.glsl"
 #include "sim/in_box.glsl"
 #include "sim/solids.glsl"
-#include "sim/rows.glsl"
+#include "sim/cells.glsl"
 layout(std430, binding = 0) readonly buffer Rests { vec4 rest[]; }; // in the solid's frame; w: which solid
 layout(std430, binding = 1) writeonly buffer Cells { uint cell[]; };
 layout(std430, binding = 3) writeonly buffer Ranks { uint rank[]; };

@@ -2,40 +2,40 @@
 // smoothed particle hydrodynamics", 2012, eq. 27 and 23; fill_one of sim/cpu/boundary.c.
 #include "sim/constants.glsl"
 #include "sim/solids.glsl"
-#include "sim/rows.glsl"
 #define BOUNDARY_ACCESS
-#include "sim/boundary.glsl"
+#include "sim/walk.glsl"
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) readonly buffer Pressures { vec2 pressure[]; };
 layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = 5) readonly buffer Rests { vec4 rest[]; };
 
+// Weighted sums over the fluid.
+vec3 density_x = vec3(0), v = vec3(0);
+float weight = 0.0, seen = 0.0, viscosity = 0.0;
+
+void meet(uint j, vec3 d, float volume)
+{
+    float t = 1.0 - dot(d, d) * kernel.y * kernel.y;
+    if (t <= 0.0)
+        return;
+    vec4 fluid = fluids[name[j].y];
+    float w = t * t * t;
+    weight += w;
+    seen += w * pressure[j].x;
+    viscosity += w * fluid.w;
+    density_x += w * fluid.y * d;
+    v += w * velocity[j].xyz;
+}
+
 void main()
 {
     uint i = invocation();
     if (i >= boundary_start[cell_count()])
         return;
-    vec3 x = boundary_position[i].xyz, density_x = vec3(0), v = vec3(0);
-    float weight = 0.0, seen = 0.0, viscosity = 0.0;
+    vec3 x = boundary_position[i].xyz;
     ivec3 at = cell_of(x);
-    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
-        uvec2 range = row_of(at, row);
-        vec3 seen_from = row_seen(x, at, row);
-        for (uint j = range.x; j < range.y; j++) {
-            vec3 d = seen_from - position[j].xyz;
-            float t = 1.0 - dot(d, d) * kernel.y * kernel.y;
-            if (t <= 0.0)
-                continue;
-            vec4 fluid = fluids[name[j].y];
-            float w = t * t * t;
-            weight += w;
-            seen += w * pressure[j].x;
-            viscosity += w * fluid.w;
-            density_x += w * fluid.y * d;
-            v += w * velocity[j].xyz;
-        }
-    }
+    WALK_FLUID(x, at, meet)
     uint number = boundary_state[i].y;
     int k = int(rest[number].w);
     float p = 0.0, volume = 1.0 / kernel.z;
@@ -46,7 +46,7 @@ void main()
 #endif
     vec3 wall = solid_velocity_at(k, x);
     if (weight > 0.0) {
-        vec3 g = felt_origin.xyz - cross(felt_alpha.xyz, x) - cross(felt_omega.xyz, cross(felt_omega.xyz, x));
+        vec3 g = felt_at(x);
         p = (seen + dot(g - solid_acceleration_at(k, x), density_x)) / weight;
     }
 #ifndef NEGATIVE_PRESSURE

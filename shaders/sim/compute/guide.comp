@@ -13,10 +13,7 @@ void main()
         return;
     for (int k = 0; k < flow_counts.y; k++) {
         Guide guide = guides[k];
-        vec3 d = position[i].xyz - guide.centre.xyz;
-#ifdef PERIODIC
-        d = nearest(d);
-#endif
+        vec3 d = nearest(position[i].xyz - guide.centre.xyz);
         float along = dot(d, guide.direction.xyz), across2 = dot(d, d) - along * along;
         if (name[i].y == uint(guide.velocity.w) && along >= 0.0 && along < guide.direction.w &&
             across2 < guide.centre.w * guide.centre.w)

@@ -111,7 +111,7 @@ static void walls_upload(Compute *c)
 unsigned compute_program(ComputePass pass, const char *defines, Error *error)
 {
     char path[64];
-    snprintf(path, sizeof path, "sim/compute/%s.comp", pass_names[pass]);
+    snprintf(path, sizeof path, "sim/%s.comp", pass_names[pass]);
     return program_create(pass_names[pass], (const char *const[]){path, NULL}, defines, error);
 }
 

@@ -27,33 +27,34 @@ typedef struct ComputeParticles {
     unsigned name;     /* uvec2: id, fluid */
 } ComputeParticles;
 
-/* The passes: shaders/sim/NAME.comp. */
+/* The passes: shaders/sim/NAME.comp; those of a method stand in its folder. */
 #define COMPUTE_PASSES(X)                                                                                    \
-    X(DRIFT, "drift")                                                                                        \
-    X(BIN, "bin")                                                                                            \
-    X(SCAN, "scan")                                                                                          \
-    X(SCAN_ADD, "scan_add")                                                                                  \
-    X(PLACE, "place")                                                                                        \
-    X(SORT, "sort")                                                                                          \
-    X(MOVE, "move")                                                                                          \
-    X(DENSITY, "density")                                                                                    \
-    X(STATE, "state")                                                                                        \
-    X(SLOPE, "slope")                                                                                        \
-    X(CONTINUITY, "continuity")                                                                              \
-    X(FORCE, "force")                                                                                        \
-    X(SHIFT, "shift")                                                                                        \
-    X(KICK, "kick")                                                                                          \
-    X(GAUGE, "gauge")                                                                                        \
-    X(SHOW, "show")                                                                                          \
-    X(BOUNDARY_BIN, "boundary_bin")                                                                          \
-    X(BOUNDARY_PLACE, "boundary_place")                                                                      \
-    X(BOUNDARY_SORT, "boundary_sort")                                                                        \
-    X(BOUNDARY_FILL, "boundary_fill")                                                                        \
-    X(GUIDE, "guide")                                                                                        \
-    X(EMIT_MARK, "emit_mark")                                                                                \
-    X(EMIT_ADD, "emit_add")                                                                                  \
-    X(DRAIN_MARK, "drain_mark")                                                                              \
-    X(DRAIN_GATHER, "drain_gather")
+    X(DRIFT, "compute/drift")                                                                                \
+    X(BIN, "compute/bin")                                                                                    \
+    X(SCAN, "compute/scan")                                                                                  \
+    X(SCAN_ADD, "compute/scan_add")                                                                          \
+    X(PLACE, "compute/place")                                                                                \
+    X(SORT, "compute/sort")                                                                                  \
+    X(MOVE, "compute/move")                                                                                  \
+    X(DENSITY, "mueller/density")                                                                            \
+    X(MUELLER_FORCE, "mueller/force")                                                                        \
+    X(STATE, "wcsph/state")                                                                                  \
+    X(SLOPE, "wcsph/slope")                                                                                  \
+    X(CONTINUITY, "wcsph/continuity")                                                                        \
+    X(WCSPH_FORCE, "wcsph/force")                                                                            \
+    X(SHIFT, "wcsph/shift")                                                                                  \
+    X(KICK, "compute/kick")                                                                                  \
+    X(GAUGE, "compute/gauge")                                                                                \
+    X(SHOW, "compute/show")                                                                                  \
+    X(BOUNDARY_BIN, "compute/boundary_bin")                                                                  \
+    X(BOUNDARY_PLACE, "compute/boundary_place")                                                              \
+    X(BOUNDARY_SORT, "compute/boundary_sort")                                                                \
+    X(BOUNDARY_FILL, "compute/boundary_fill")                                                                \
+    X(GUIDE, "compute/guide")                                                                                \
+    X(EMIT_MARK, "compute/emit_mark")                                                                        \
+    X(EMIT_ADD, "compute/emit_add")                                                                          \
+    X(DRAIN_MARK, "compute/drain_mark")                                                                      \
+    X(DRAIN_GATHER, "compute/drain_gather")
 
 typedef enum ComputePass {
 #define X(NAME, name) COMPUTE_##NAME,

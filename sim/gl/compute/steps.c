@@ -83,7 +83,7 @@ void compute_force(void *state, const ApparentGravity *gravity)
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
                                     c->acceleration, c->uneven, c->walls},
                  8);
-    compute_run(c, COMPUTE_FORCE, c->count);
+    compute_run(c, c->constants->continuity ? COMPUTE_WCSPH_FORCE : COMPUTE_MUELLER_FORCE, c->count);
 }
 
 void compute_shift(void *state, float dt)

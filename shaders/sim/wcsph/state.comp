@@ -1,7 +1,7 @@
 // wcsph: volume and pressure by the density that particles carry, which stands ready for diffusion:
 // cpu_equation_of_state in sim/cpu/wcsph.c.
 #include "sim/constants.glsl"
-#include "sim/wcsph.glsl"
+#include "sim/wcsph/wcsph.glsl"
 layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; };     // p, p V^2

@@ -1,13 +1,9 @@
 // wcsph: the gradient of relative density within a fluid, exact where that is linear (Antuono 2010), and that density
 // itself, which neighbours read while `continuity` changes theirs: slope_range in sim/cpu/pairs_wcsph.c.
 #include "sim/constants.glsl"
-#include "sim/wcsph.glsl"
-#include "sim/rows.glsl"
+#include "sim/wcsph/wcsph.glsl"
+#include "sim/walk.glsl"
 #include "common/nan.glsl"
-#ifdef SOLIDS
-#define BOUNDARY_ACCESS readonly
-#include "sim/boundary.glsl"
-#endif
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; }; // w: rho / rho0 - 1
@@ -26,40 +22,37 @@ vec3 renormalise(vec3 diagonal, vec3 mixed, vec3 b)
                 czx * b.x + cyz * b.y + c.z * b.z) / det;
 }
 
+uint own_fluid;
+float own_relative;
+vec3 diagonal = vec3(0), mixed = vec3(0), b = vec3(0);
+bool next_to_solid = false; // there diffusion has to level the gaps that the fluid's order leaves
+
+void meet(uint j, vec3 d, float volume)
+{
+    float h = kernel.x, least = 1e-6 * h, r2 = dot(d, d);
+    if (r2 >= h * h || r2 < least * least || name[j].y != own_fluid)
+        return;
+    vec3 fd = shape(sqrt(r2) * kernel.y) * d;
+    diagonal += fd * d;
+    mixed += fd * d.yzx;
+    b += fd * (own_relative - velocity[j].w);
+}
+
+void meet_boundary(uint j, vec3 d, float volume) { next_to_solid = next_to_solid || dot(d, d) < kernel.x * kernel.x; }
+
 void main()
 {
     uint i = invocation();
     if (i >= particle_count())
         return;
-    vec3 x = position[i].xyz, diagonal = vec3(0), mixed = vec3(0), b = vec3(0);
-    float h = kernel.x, least = 1e-6 * h, e = velocity[i].w;
-    uint fluid = name[i].y;
+    vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
-    bool next_to_solid = false; // there diffusion has to level the gaps that the fluid's order leaves
-    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
-        uvec2 range = row_of(at, row);
-        vec3 seen_from = row_seen(x, at, row);
-        for (uint j = range.x; j < range.y; j++) {
-            vec3 d = seen_from - position[j].xyz;
-            float r2 = dot(d, d);
-            if (r2 >= h * h || r2 < least * least || name[j].y != fluid)
-                continue;
-            vec3 fd = shape(sqrt(r2) * kernel.y) * d;
-            diagonal += fd * d;
-            mixed += fd * d.yzx;
-            b += fd * (e - velocity[j].w);
-        }
-#ifdef SOLIDS
-        range = boundary_row_of(at, row);
-        for (uint j = range.x; j < range.y; j++) {
-            vec3 d = seen_from - boundary_position[j].xyz;
-            next_to_solid = next_to_solid || dot(d, d) < h * h;
-        }
-#endif
-    }
+    own_relative = velocity[i].w;
+    own_fluid = name[i].y;
+    WALK(x, at, meet, meet_boundary)
     float scale = term_scales.x / kernel.z;
     diagonal *= scale;
     if (rows.x == 3)
         diagonal.z = 0.5 * (diagonal.x + diagonal.y);
-    slope[i] = vec4(next_to_solid ? vec3(0) : renormalise(diagonal, mixed * scale, b * scale), e);
+    slope[i] = vec4(next_to_solid ? vec3(0) : renormalise(diagonal, mixed * scale, b * scale), own_relative);
 }

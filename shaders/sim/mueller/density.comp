@@ -1,17 +1,14 @@
-// Number density, volume, pressure: sim/cpu/pairs.c and finish_density in sim/cpu/forces.c.
+// mueller: number density, volume, pressure: sim/cpu/pairs.c and finish_density in sim/cpu/forces.c.
 #include "sim/constants.glsl"
 #include "sim/walls.glsl"
-#include "sim/rows.glsl"
-#ifdef SOLIDS
-#define BOUNDARY_ACCESS readonly
-#include "sim/boundary.glsl"
-#endif
+#include "sim/walk.glsl"
 layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
 
-// The kernel, but for its scale.
-float weight(vec3 d)
+float sum = 0.0; // of the kernel, but for its scale
+
+void meet(uint j, vec3 d, float volume)
 {
     float q2 = dot(d, d) * kernel.y * kernel.y;
 #ifdef POLY6
@@ -19,7 +16,7 @@ float weight(vec3 d)
 #else
     float t = max(1.0 - sqrt(q2), 0.0);
 #endif
-    return t * t * t;
+    sum += t * t * t;
 }
 
 void main()
@@ -29,18 +26,7 @@ void main()
         return;
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
-    float sum = 0.0;
-    for (int row = FIRST_ROW; row < LAST_ROW; row++) {
-        uvec2 range = row_of(at, row);
-        vec3 seen_from = row_seen(x, at, row);
-        for (uint j = range.x; j < range.y; j++)
-            sum += weight(seen_from - position[j].xyz);
-#ifdef SOLIDS
-        range = boundary_row_of(at, row);
-        for (uint j = range.x; j < range.y; j++)
-            sum += weight(seen_from - boundary_position[j].xyz);
-#endif
-    }
+    WALK(x, at, meet, meet)
     float n = scales.x * sum + walls_at(x, true).density;
     float p = fluids[name[i].y].z * (n / kernel.z - 1.0);
 #ifndef NEGATIVE_PRESSURE

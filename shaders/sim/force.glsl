@@ -1,0 +1,81 @@
+// What the forces of methods have in common: pairs within the support, surface tension, boundary particles of solids. A
+// method's force.comp says what a pair does, and adds what its walls do.
+#include "sim/terms.glsl"
+#include "sim/walk.glsl"
+#include "sim/pair_direction.glsl"
+layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = 3) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
+layout(std430, binding = 4) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = 5) writeonly buffer Accelerations { vec4 acceleration[]; };
+#include "sim/tension.glsl"
+
+// What a pair takes of one of the two.
+struct Side {
+    float pressure, volume, viscosity, artificial; // pressure: p V^2
+    vec3 v;
+};
+
+Side side_of(uint i, float volume)
+{
+    uint fluid = name[i].y;
+    return Side(pressure[i].y, volume, fluids[fluid].w, fluid_terms[fluid].y, velocity[i].xyz);
+}
+
+vec3 pair_force(Side own, Side other, vec3 d, float r2); // the method's: on `own`, which is d from `other`
+
+uint self;
+Side own;
+vec3 pair_sum = vec3(0), boundary_sum; // boundary_sum: of a row
+
+// Two at one place are taken for a little apart, along a direction that their ids decide.
+void separate(uint a, uint b, inout vec3 d, inout float r2)
+{
+    float least = 1e-6 * kernel.x;
+    if (r2 < 1e-12 * kernel.x * kernel.x) {
+        d = least * direction_of_ids(a, b);
+        r2 = least * least;
+    }
+}
+
+void meet(uint j, vec3 d, float volume)
+{
+    float r2 = dot(d, d);
+    if (r2 >= kernel.x * kernel.x || j == self)
+        return;
+    tension_meet(j, d, r2, volume);
+    separate(name[self].x, name[j].x, d, r2);
+    pair_sum += pair_force(own, side_of(j, volume), d, r2);
+}
+
+#ifdef SOLIDS
+#define BOUNDARY_ID 0x80000000u
+
+void meet_boundary(uint j, vec3 d, float volume)
+{
+    float r2 = dot(d, d);
+    if (r2 >= kernel.x * kernel.x)
+        return;
+    uvec2 state = boundary_state[j];
+    vec4 wall = boundary_velocity[j];
+    separate(name[self].x, BOUNDARY_ID + state.y, d, r2);
+    boundary_sum += pair_force(own, Side(uintBitsToFloat(state.x), volume, wall.w, 0.0, wall.xyz), d, r2);
+}
+#endif
+
+void add_boundary_row()
+{
+    pair_sum += boundary_sum;
+    boundary_sum = vec3(0);
+}
+
+// All of it on particle i at x, in the cell `at`.
+vec3 neighbours_force(uint i, vec3 x, ivec3 at)
+{
+    self = i;
+    own = side_of(i, position[i].w);
+    boundary_sum = vec3(0);
+    tension_begin(i);
+    WALK_ROWS(x, at, meet, meet_boundary, add_boundary_row())
+    return pair_sum + tension_force(i);
+}

@@ -1,0 +1,103 @@
+// wcsph: the density that particles carry, by the equation of continuity with diffusion and the walls' images, then volume and
+// pressure after it: rate_range in sim/cpu/pairs_wcsph.c, continuity_range in sim/cpu/wcsph.c, sim/cpu/pairs_images.c.
+#include "sim/constants.glsl"
+#include "sim/wcsph/wcsph.glsl"
+#include "sim/wcsph/images.glsl"
+#include "sim/walk.glsl"
+#ifdef SOLIDS
+#include "sim/solids.glsl"
+layout(std430, binding = 6) readonly buffer Rests { vec4 rest[]; }; // w: which solid
+#endif
+layout(std430, binding = 0) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = 1) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = 3) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
+layout(std430, binding = 4) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone
+#ifdef DIFFUSION
+layout(std430, binding = 5) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1 before this pass
+#endif
+layout(location = 0) uniform float dt;
+
+// The particle, and the one of its images that looks for neighbours: velocities, and sums of F v_ij . x_ij.
+uint self, own_fluid;
+vec3 own_velocity, image_velocity;
+float sum = 0.0, image_sum = 0.0;
+
+// Takes from the flow between two particles of one fluid what diffusion does.
+void diffuse(uint j, vec3 d, inout float flow)
+{
+#ifdef DIFFUSION
+    if (name[j].y != own_fluid)
+        return;
+    vec4 own = slope[self], other = slope[j];
+    flow -= term_scales.y * (other.w - own.w + 0.5 * dot(own.xyz + other.xyz, d));
+#endif
+}
+
+void meet(uint j, vec3 d, float volume)
+{
+    float h = kernel.x, least = 1e-6 * h, r2 = dot(d, d);
+    if (r2 >= h * h || r2 < least * least)
+        return;
+    float flow = dot(own_velocity - velocity[j].xyz, d);
+    diffuse(j, d, flow);
+    sum += shape(sqrt(r2) * kernel.y) * flow;
+}
+
+void meet_image(uint j, vec3 d, float volume)
+{
+    float r2 = dot(d, d);
+    if (r2 < kernel.x * kernel.x)
+        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - velocity[j].xyz, d);
+}
+
+#ifdef SOLIDS
+// Its solid's own velocity there, not the mirrored one.
+vec3 solid_velocity_of(uint j) { return solid_velocity_at(int(rest[boundary_state[j].y].w), boundary_position[j].xyz); }
+
+void meet_boundary(uint j, vec3 d, float volume)
+{
+    float h = kernel.x, least = 1e-6 * h, r2 = dot(d, d);
+    if (r2 < h * h && r2 >= least * least)
+        sum += shape(sqrt(r2) * kernel.y) * dot(own_velocity - solid_velocity_of(j), d);
+}
+
+void meet_boundary_image(uint j, vec3 d, float volume)
+{
+    float r2 = dot(d, d);
+    if (r2 < kernel.x * kernel.x)
+        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - solid_velocity_of(j), d);
+}
+#endif
+
+// What the images of the particle at x, in the cell `at`, find.
+void walk_images(vec3 x, ivec3 at)
+{
+    int end = images_end(x);
+    Image image;
+    for (int walls = 1; walls < end; walls++) {
+        if (!image_of(x, walls, image))
+            continue;
+        image_velocity = image.sign * own_velocity;
+        WALK(image.x, at, meet_image, meet_boundary_image)
+    }
+}
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 x = position[i].xyz;
+    ivec3 at = cell_of(x);
+    self = i;
+    own_velocity = velocity[i].xyz;
+    own_fluid = name[i].y;
+    WALK(x, at, meet, meet_boundary)
+    walk_images(x, at);
+    float rate = -term_scales.x * (sum + image_sum);
+    float e = velocity[i].w + rate / kernel.z * dt;
+    State state = state_of(e, own_fluid);
+    velocity[i].w = e;
+    position[i].w = state.volume;
+    pressure[i] = state.pressure;
+}

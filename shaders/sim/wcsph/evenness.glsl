@@ -1,0 +1,39 @@
+// What shifting goes by, summed up along with the forces: wcsph_range of sim/cpu/pairs_wcsph.c. Without shifting, nothing.
+#ifdef SHIFTING
+layout(std430, binding = 6) writeonly buffer Unevens { vec4 uneven[]; }; // see shift.comp
+
+// Sums of F x_ij and F r^2, those of an image, and of W.
+vec4 even_sum = vec4(0), even_image = vec4(0);
+float dense_sum = 1.0;
+
+void even_meet(float f, vec3 d, float r2)
+{
+    even_sum += f * vec4(d, r2);
+    dense_sum += height(sqrt(r2) * kernel.y);
+}
+
+void even_meet_image(float f, vec3 d, float r2)
+{
+    even_image += f * vec4(d, r2);
+    dense_sum += height(sqrt(r2) * kernel.y);
+}
+
+void even_end_image(vec3 sign)
+{
+    even_sum += term_scales.x * even_image * vec4(sign, 1.0);
+    even_image = vec4(0);
+}
+
+// cpu_shift_share of sim/cpu/shift.c.
+void even_write(uint i)
+{
+    float share = clamp((even_sum.w / (term_shift.z * kernel.z) - 0.8) / 0.15, 0.0, 1.0);
+    uneven[2u * i] = vec4(share * even_sum.xyz, share);
+    uneven[2u * i + 1u] = vec4(scales.x * dense_sum / kernel.z - 1.0, 0.0, 0.0, 0.0);
+}
+#else
+#define even_meet(f, d, r2)
+#define even_meet_image(f, d, r2)
+#define even_end_image(sign)
+#define even_write(i)
+#endif

@@ -1,0 +1,88 @@
+// wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/cpu/pairs_wcsph.c, and
+// sim/cpu/pairs_images.c.
+#include "sim/constants.glsl"
+#include "sim/force.glsl"
+#include "sim/wcsph/wcsph.glsl"
+#include "sim/wcsph/images.glsl"
+#include "sim/wcsph/evenness.glsl"
+
+// Pressure and laminar or artificial viscosity.
+vec3 pair_force(Side own, Side other, vec3 d, float r2)
+{
+    float f = term_scales.x * shape(sqrt(r2) * kernel.y), push = own.pressure + other.pressure;
+    even_meet(f, d, r2);
+    vec3 force = vec3(0), u = other.v - own.v;
+    float both = own.volume * other.volume;
+#if defined VISCOUS && defined RADIAL
+    push += both * (own.viscosity + other.viscosity) * term_scales.w * dot(u, d);
+#elif defined VISCOUS
+    force += f * both * (own.viscosity + other.viscosity) * u;
+#endif
+#ifdef ARTIFICIAL
+    push += both * (own.artificial + other.artificial) * dot(u, d) / (r2 + kernel.x * kernel.x / 400.0);
+#endif
+    return force + f * push * d;
+}
+
+// What pressure does on an image: of the hydrostatic part the rise from a particle to its own image is rise0 + 2 rise . d,
+// d from the other image to this one; rise_of of sim/cpu/pairs_images.c.
+vec3 image_push, rise;
+float rise0, inverse_layer;
+
+// p V0^2 of the image of a particle of such a term: image_term of sim/cpu/pairs_images.c.
+float image_term(float term, vec3 d)
+{
+    float share = clamp(term * inverse_layer, 0.0, 1.0);
+    return max(term + share * (rise0 + 2.0 * dot(rise, d)), min(term, 0.0));
+}
+
+void push_image(float term, vec3 d)
+{
+    float r2 = dot(d, d);
+    if (r2 >= kernel.x * kernel.x)
+        return;
+    float f = image_shape(sqrt(r2));
+    image_push += f * (own.pressure + image_term(term, d)) * d;
+    even_meet_image(f, d, r2);
+}
+
+void meet_image(uint j, vec3 d, float volume) { push_image(pressure[j].y, d); }
+
+#ifdef SOLIDS
+void meet_boundary_image(uint j, vec3 d, float volume) { push_image(uintBitsToFloat(boundary_state[j].x), d); }
+#endif
+
+// Pressure of the images behind the walls on the particle at x, in the cell `at`, of the fluid's rest density.
+vec3 images_force(vec3 x, ivec3 at, float density)
+{
+    float weight = density / (kernel.z * kernel.z);
+    vec3 g = felt_at(x), force = vec3(0);
+    float layer = weight * kernel.w * length(g);
+    inverse_layer = layer > 0.0 ? 1.0 / layer : 0.0;
+    int end = images_end(x);
+    Image image;
+    for (int walls = 1; walls < end; walls++) {
+        if (!image_of(x, walls, image))
+            continue;
+        rise = weight * mix(vec3(0), g, lessThan(image.sign, vec3(0)));
+        rise0 = dot(rise, x - image.x);
+        image_push = vec3(0);
+        WALK(image.x, at, meet_image, meet_boundary_image)
+        force += image.sign * image_push;
+        even_end_image(image.sign);
+    }
+    return term_scales.x * force;
+}
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 x = position[i].xyz;
+    ivec3 at = cell_of(x);
+    vec4 fluid = fluids[name[i].y];
+    vec3 force = neighbours_force(i, x, at) + images_force(x, at, fluid.y);
+    acceleration[i] = vec4(force / fluid.x, 0.0);
+    even_write(i);
+}
