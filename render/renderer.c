@@ -14,8 +14,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const WorldDef unknown;
+
 struct Renderer {
     ViewDef def;
+    WorldDef world;
     bool plain;
     double covered_left; /* part of the width */
     Target target;
@@ -37,6 +40,11 @@ ViewDef view_def_default(void)
     return def;
 }
 
+static Subject subject_of(const Renderer *renderer)
+{
+    return (Subject){&renderer->def, &renderer->world};
+}
+
 /* Letters for a picture that high, or none where the def wants no legend. */
 static bool follow_legend(Renderer *renderer, const ViewDef *def, int height, Error *error)
 {
@@ -52,9 +60,9 @@ static bool follow_legend(Renderer *renderer, const ViewDef *def, int height, Er
 }
 
 /* Made with the first solid. On failure all stays as it was. */
-static bool follow_solids(Renderer *renderer, const ViewDef *def, Error *error)
+static bool follow_solids(Renderer *renderer, const WorldDef *world, Error *error)
 {
-    if (def->solid_count == 0 || renderer->solids)
+    if (world->solid_count == 0 || renderer->solids)
         return true;
     renderer->solids = solids_create(error);
     if (renderer->solids && shadow_follow_solids(&renderer->shadow, true, error))
@@ -67,7 +75,7 @@ static bool follow_solids(Renderer *renderer, const ViewDef *def, Error *error)
 static void drop_unused_solids(Renderer *renderer)
 {
     Error none;
-    if (renderer->def.solid_count > 0)
+    if (renderer->world.solid_count > 0)
         return;
     solids_destroy(renderer->solids);
     renderer->solids = NULL;
@@ -77,15 +85,16 @@ static void drop_unused_solids(Renderer *renderer)
 static bool create_parts(Renderer *renderer, int width, int height, Error *error)
 {
     const ViewDef *def = &renderer->def;
+    const Subject subject = subject_of(renderer);
     if (!target_create(&renderer->target, width, height, error) || !shadow_create(&renderer->shadow, error) ||
         !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
-    return follow_legend(renderer, def, height, error) && follow_solids(renderer, def, error) &&
-           (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(def, error)) != NULL);
+    return follow_legend(renderer, def, height, error) && follow_solids(renderer, &renderer->world, error) &&
+           (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL);
 }
 
-Renderer *renderer_create(const ViewDef *def, int width, int height, Error *error)
+Renderer *renderer_create(const ViewDef *def, const WorldDef *world, int width, int height, Error *error)
 {
     Renderer *renderer = calloc(1, sizeof *renderer);
     if (!renderer) {
@@ -93,6 +102,7 @@ Renderer *renderer_create(const ViewDef *def, int width, int height, Error *erro
         return NULL;
     }
     renderer->def = *def;
+    renderer->world = *(world ? world : &unknown);
     if (create_parts(renderer, width, height, error))
         return renderer;
     renderer_destroy(renderer);
@@ -114,24 +124,30 @@ void renderer_destroy(Renderer *renderer)
     free(renderer);
 }
 
-static bool follow_view(Renderer *renderer, const ViewDef *def, Error *error)
+static bool follow_view(Renderer *renderer, const Subject *subject, Error *error)
 {
-    if (view_same(&renderer->def, def))
-        return !renderer->view || view_accepts(renderer->view, def, error);
-    View *view = strcmp(def->kind, "none") == 0 ? NULL : view_create(def, error);
-    if (!view && strcmp(def->kind, "none") != 0)
+    const Subject old = subject_of(renderer);
+    const bool none = strcmp(subject->def->kind, "none") == 0;
+    if (view_same(&old, subject))
+        return !renderer->view || view_accepts(renderer->view, subject, error);
+    View *view = none ? NULL : view_create(subject, error);
+    if (!view && !none)
         return false;
     view_destroy(renderer->view);
     renderer->view = view;
     return true;
 }
 
-bool renderer_set_def(Renderer *renderer, const ViewDef *def, Error *error)
+bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *world, Error *error)
 {
+    const Subject subject = {def, world ? world : &unknown};
     const bool followed = follow_legend(renderer, def, renderer->target.height, error) &&
-                          follow_solids(renderer, def, error) && follow_view(renderer, def, error);
-    if (followed)
+                          follow_solids(renderer, subject.world, error) &&
+                          follow_view(renderer, &subject, error);
+    if (followed) {
         renderer->def = *def;
+        renderer->world = *subject.world;
+    }
     drop_unused_solids(renderer);
     return followed;
 }
@@ -182,8 +198,10 @@ static void draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *
     Frame frame;
     const ViewKind *kind = renderer->view ? view_kind(renderer->view) : NULL;
     const Target *target = &renderer->target;
-    const double legend = legend_width_pixels(&renderer->def, target->height) / target->width;
-    frame_make(&frame, &renderer->def, particles, target, view_radii(kind, &renderer->def, particles),
+    const Subject subject = subject_of(renderer);
+    const double legend =
+        legend_width_pixels(&renderer->def, &renderer->world, target->height) / target->width;
+    frame_make(&frame, &subject, particles, target, view_radii(kind, &renderer->def, particles),
                (Covered){renderer->covered_left, legend});
     frame.timer = timer;
     frame.counts = counts;

@@ -20,14 +20,15 @@ typedef struct Renderer Renderer;
  */
 ViewDef view_def_default(void);
 
-/* Copies the def. NULL on failure: an unknown view or colormap, a size that the driver does not take, no
-   font. A def of kind "none" draws backdrop, solids, edges and legend only. */
-Renderer *renderer_create(const ViewDef *def, int width, int height, Error *error);
+/* Copies def and world; a world of NULL: nothing is known of it. NULL on failure: an unknown view or
+   colormap, a size that the driver does not take, no font. A def of kind "none" draws backdrop, solids, edges
+   and legend only. */
+Renderer *renderer_create(const ViewDef *def, const WorldDef *world, int width, int height, Error *error);
 void renderer_destroy(Renderer *renderer); /* NULL is allowed */
 
-/* From the next picture on; copies the def. On failure all stays as it was: an unknown view or colormap, a
+/* From the next picture on; copies both. On failure all stays as it was: an unknown view or colormap, a
    size that the driver does not take. Cheap where only numbers change. */
-bool renderer_set_def(Renderer *renderer, const ViewDef *def, Error *error);
+bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *world, Error *error);
 bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
 
 /* Draws one state into the renderer's own target; stages go to `timer` (NULL: not measured). Does not wait.

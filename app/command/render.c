@@ -25,7 +25,8 @@ typedef struct Shoot {
 
 static bool shoot_open(Shoot *shoot, const Session *session, const Args *args, Error *error)
 {
-    if (!studio_open(&shoot->studio, &session->scene.view, session->world, args->width, args->height, error))
+    if (!studio_open(&shoot->studio, &session->scene.view, &session->scene.world, session->world, args->width,
+                     args->height, error))
         return false;
     shoot->interpolates = args->interpolate && session->scene.world.step_mode == STEP_FIXED;
     if (shoot->interpolates &&

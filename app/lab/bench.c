@@ -146,8 +146,8 @@ static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
         return false;
     if (!stand->draws && !stand->sim_on_gpu)
         return true;
-    if (stand->draws &&
-        !studio_open(&stand->studio, &setup->scene->view, stand->world, setup->width, setup->height, error))
+    if (stand->draws && !studio_open(&stand->studio, &setup->scene->view, &setup->scene->world, stand->world,
+                                     setup->width, setup->height, error))
         return false;
     stand->timer = gl_timer_create(setup->clock);
     return stand->timer || error_set(error, "no memory for the clock of the stages");

@@ -50,7 +50,7 @@ void play_view_changed(Play *play)
 {
     Error error = {{0}};
     play->dirty = true;
-    if (!renderer_set_def(play->renderer, &play->open.scene.view, &error))
+    if (!renderer_set_def(play->renderer, &play->open.scene.view, &play->open.scene.world, &error))
         play_error(play, error.message);
 }
 
@@ -137,7 +137,8 @@ static void follow_shaders(Play *play)
     if (stamp == play->shaders_stamp || play->width < 1 || play->height < 1)
         return;
     play->shaders_stamp = stamp;
-    Renderer *renderer = renderer_create(&play->open.scene.view, play->width, play->height, &error);
+    Renderer *renderer =
+        renderer_create(&play->open.scene.view, &play->open.scene.world, play->width, play->height, &error);
     if (!renderer) {
         play_error(play, error.message);
         return;
@@ -190,8 +191,8 @@ static bool start(Play *play, Error *error)
     if (!make_post(play, error) || !play_open(play, setup->scene, setup->settings, error) ||
         !start_devices(play, error))
         return false;
-    play->renderer =
-        renderer_create(&play->open.scene.view, (int)fmax(play->width, 1), (int)fmax(play->height, 1), error);
+    play->renderer = renderer_create(&play->open.scene.view, &play->open.scene.world,
+                                     (int)fmax(play->width, 1), (int)fmax(play->height, 1), error);
     if (!play->renderer)
         return false;
     const double letters = LETTERS * window_scale(play->window);

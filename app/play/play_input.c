@@ -17,7 +17,8 @@ static Orbit present_orbit(const Play *play)
 {
     const ViewDef *view = &play->open.scene.view;
     const ParticleBuffers *particles = &play->particles;
-    const Covered covered = {play_covered_left(play), legend_width_pixels(view, play->height) / play->width};
+    const Covered covered = {play_covered_left(play),
+                             legend_width_pixels(view, &play->open.scene.world, play->height) / play->width};
     return play->orbiting && !view->camera_auto ? play->orbit
                                                 : orbit_begin(view, particles->box_size, &particles->box,
                                                               (double)play->width / play->height, covered);

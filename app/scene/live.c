@@ -98,8 +98,6 @@ static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_
         return false;
     if (after.view.color_by != scene->view.color_by)
         after.view.range_auto = true; /* a range is of one scalar */
-    memcpy(after.view.fluid_color[change->fluid], after.world.fluids[change->fluid].color,
-           sizeof after.view.fluid_color[change->fluid]);
     if (concerns_world)
         *concerns_world = in_world(&after, change, base);
     *scene = after;

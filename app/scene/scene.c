@@ -8,8 +8,6 @@
 #include "app/yaml/yaml.h"
 #include "render/renderer.h"
 #include "sim/matter/fill_lattice.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,15 +24,6 @@ static void title_default(Scene *scene)
     char *dot = strrchr(scene->title, '.');
     if (dot && dot != scene->title)
         *dot = 0;
-}
-
-static void view_fluids(Scene *scene)
-{
-    scene->view.fluid_count = scene->world.fluid_count;
-    for (int f = 0; f < scene->world.fluid_count; f++) {
-        memcpy(scene->view.fluid_name[f], scene->world.fluids[f].name, NAME_SIZE);
-        memcpy(scene->view.fluid_color[f], scene->world.fluids[f].color, sizeof scene->view.fluid_color[f]);
-    }
 }
 
 /* The file's scalar, or "" where it names none. */
@@ -87,17 +76,6 @@ static void solids_default(Scene *scene)
     for (int k = 0; k < world->solid_count; k++)
         if (world->solids[k].thickness == 0)
             world->solids[k].thickness = world->support * world->spacing;
-    scene->view.solid_count = world->solid_count;
-    memcpy(scene->view.solids, world->solids, sizeof scene->view.solids);
-}
-
-static void view_space(Scene *scene)
-{
-    const WorldDef *world = &scene->world;
-    memcpy(scene->view.box_size, world->box_size, sizeof scene->view.box_size);
-    scene->view.spacing = world->spacing;
-    scene->view.support_radius = world->support * world->spacing;
-    scene->view.particles = flow_capacity(world, seed_count(world, world->spacing));
 }
 
 /* The spacing at which the fills have their mass. */
@@ -132,8 +110,6 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
         return false;
     snprintf(out->path, sizeof out->path, "%s", tree->path);
     title_default(out);
-    view_fluids(out);
-    view_space(out);
     scene_advise(tree, out, notes);
     return true;
 }

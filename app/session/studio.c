@@ -6,10 +6,11 @@ unsigned studio_attributes(const ViewDef *view)
     return particle_attributes_for(view->color_by) | (ranges ? PARTICLE_RANGES : 0);
 }
 
-bool studio_open(Studio *studio, const ViewDef *view, const World *world, int width, int height, Error *error)
+bool studio_open(Studio *studio, const ViewDef *view, const WorldDef *def, const World *world, int width,
+                 int height, Error *error)
 {
     WorldInfo info;
-    *studio = (Studio){.renderer = renderer_create(view, width, height, error),
+    *studio = (Studio){.renderer = renderer_create(view, def, width, height, error),
                        .attributes = studio_attributes(view)};
     if (!studio->renderer || world_shares(world))
         return studio->renderer;

@@ -19,8 +19,8 @@ typedef struct Studio {
 unsigned studio_attributes(const ViewDef *view);
 
 /* For worlds like that one; needs a current context. On failure call studio_close as well. */
-bool studio_open(Studio *studio, const ViewDef *view, const World *world, int width, int height,
-                 Error *error);
+bool studio_open(Studio *studio, const ViewDef *view, const WorldDef *def, const World *world, int width,
+                 int height, Error *error);
 void studio_close(Studio *studio); /* a zeroed one is allowed */
 
 /* Uploads the world's state, unless it is on the GPU, and draws it; `clock` gets the upload, `timer` the GL

@@ -23,7 +23,7 @@ void behind_destroy(Behind *behind)
 
 static void follow(Behind *behind, const Frame *frame)
 {
-    const bool solids = frame->def->solid_count > 0;
+    const bool solids = frame->world->solid_count > 0;
     if (behind->target_number == frame->target->number && solids == (behind->depth != 0))
         return;
     behind_destroy(behind);

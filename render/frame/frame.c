@@ -58,16 +58,16 @@ static void add_shadow(const Frame *frame, const float at[3], float radius, floa
 /* Solids may leave the box; those that leave the light's map too have no shadow. */
 static void add_solids(const Frame *frame, double time, float low[2], float high[2])
 {
-    for (int i = 0; i < frame->def->solid_count; i++) {
+    for (int i = 0; i < frame->world->solid_count; i++) {
         BoxState pose;
         float at[3], in_light[3];
-        solid_pose(&frame->def->solids[i], time, &pose);
+        solid_pose(&frame->world->solids[i], time, &pose);
         for (int k = 0; k < 3; k++)
             at[k] = (float)pose.position[k];
         matrix_transform(frame->box_to_world, at, at);
         matrix_transform(frame->world_to_light, at, in_light);
         if (fabsf(in_light[0] - 0.5F) < 0.5F && fabsf(in_light[1] - 0.5F) < 0.5F)
-            add_shadow(frame, at, (float)solid_reach(&frame->def->solids[i]), low, high);
+            add_shadow(frame, at, (float)solid_reach(&frame->world->solids[i]), low, high);
     }
 }
 
@@ -149,12 +149,14 @@ static float usual_attenuation(const double size[3], double slab)
     return (float)(slab > 0 ? slab : fmax(size[0], fmax(size[1], size[2])) / 5);
 }
 
-void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
+void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *particles, const Target *target,
                 ParticleRadii radii, Covered covered)
 {
+    const ViewDef *def = subject->def;
     *frame = (Frame){.width = target->width,
                      .height = target->height,
                      .def = def,
+                     .world = subject->world,
                      .target = target,
                      .particle_radius = radii.drawn,
                      .particle_reach = radii.reach,
@@ -242,8 +244,8 @@ static void fill_colors(FrameBlock *block, const Frame *frame)
     set3(block->ground_color, 0.20 + 0.06 * back[0], 0.19 + 0.06 * back[1], 0.18 + 0.06 * back[2]);
     set4(block->edge_color, ink, ink, ink, 0.85);
     for (int i = 0; i < FLUIDS_MAX; i++) {
-        bool known = i < frame->def->fluid_count;
-        const float *color = frame->def->fluid_color[i];
+        bool known = i < frame->world->fluid_count;
+        const float *color = frame->world->fluids[i].color;
         set4(block->fluid_color[i], known ? color[0] : 0.1, known ? color[1] : 0.35, known ? color[2] : 0.7,
              1);
     }

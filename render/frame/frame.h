@@ -17,6 +17,7 @@ typedef struct ParticleRadii {
 typedef struct Frame {
     int width, height; /* pixels */
     const ViewDef *def;
+    const WorldDef *world;
     const Target *target;
     GlTimer *timer;     /* NULL: not measured */
     ViewCounts *counts; /* NULL: not counted */
@@ -58,7 +59,7 @@ ParticleRadii frame_balls(const ViewDef *def, const ParticleBuffers *particles, 
 double frame_slab(const ParticleBuffers *particles);
 
 /* Fills all of `frame` but timer, counts, floor_light and plain. */
-void frame_make(Frame *frame, const ViewDef *def, const ParticleBuffers *particles, const Target *target,
+void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *particles, const Target *target,
                 ParticleRadii radii, Covered covered);
 
 /* frame->bounds in pixels: x0 y0 x1 y1. */

@@ -21,13 +21,13 @@ float legend_text_pixels(int height)
     return pixels < 11 ? 11 : pixels;
 }
 
-double legend_width_pixels(const ViewDef *def, int height)
+double legend_width_pixels(const ViewDef *def, const WorldDef *world, int height)
 {
     double letters = 0;
-    if (!def->legend || (def->color_by == SCALAR_FLUID && def->fluid_count == 0))
+    if (!def->legend || (def->color_by == SCALAR_FLUID && world->fluid_count == 0))
         return 0;
-    for (int i = 0; i < def->fluid_count; i++)
-        letters = fmax(letters, (double)strlen(def->fluid_name[i]));
+    for (int i = 0; i < world->fluid_count; i++)
+        letters = fmax(letters, (double)strlen(world->fluids[i].name));
     double width_em = def->color_by == SCALAR_FLUID ? 3.3 + 0.6 * letters : SCALAR_WIDTH_EM;
     return (width_em + 1) * legend_text_pixels(height);
 }
@@ -137,17 +137,17 @@ static uint32_t fluid_rgba(const float linear[3])
 
 static void draw_fluids(Text *text, const Frame *frame)
 {
-    const ViewDef *def = frame->def;
+    const WorldDef *world = frame->world;
     float widest = 0;
-    for (int i = 0; i < def->fluid_count; i++)
-        widest = fmaxf(widest, text_width(text, 1, def->fluid_name[i]) / text_height(text));
-    Layout layout = make_layout(text, frame, widest + 3.3F, 1.6F * (float)def->fluid_count + 0.9F);
+    for (int i = 0; i < world->fluid_count; i++)
+        widest = fmaxf(widest, text_width(text, 1, world->fluids[i].name) / text_height(text));
+    Layout layout = make_layout(text, frame, widest + 3.3F, 1.6F * (float)world->fluid_count + 0.9F);
     float em = layout.em, x = layout.left + 0.8F * em;
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
-    for (int i = 0; i < def->fluid_count; i++) {
+    for (int i = 0; i < world->fluid_count; i++) {
         float y = layout.top + (0.75F + 1.6F * (float)i) * em;
-        text_rectangle(text, x, y, x + em, y + em, 0.5F * em, fluid_rgba(def->fluid_color[i]));
-        text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, def->fluid_name[i]);
+        text_rectangle(text, x, y, x + em, y + em, 0.5F * em, fluid_rgba(world->fluids[i].color));
+        text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, world->fluids[i].name);
     }
 }
 
@@ -159,6 +159,6 @@ void legend_draw(Text *text, const Frame *frame, double time)
     text_draw(text, layout.em, (float)frame->height - 2 * layout.em, 1, layout.faint, TEXT_LEFT, label);
     if (!frame->by_fluid)
         draw_scalar(text, frame);
-    else if (frame->def->fluid_count > 0)
+    else if (frame->world->fluid_count > 0)
         draw_fluids(text, frame);
 }

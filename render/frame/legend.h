@@ -19,6 +19,6 @@ float legend_text_pixels(int height);
 
 /* How wide the legend is with its margin, at the right side of a picture that high; 0 without one. An
    estimate for the fluids' names, which only a font could measure. */
-double legend_width_pixels(const ViewDef *def, int height);
+double legend_width_pixels(const ViewDef *def, const WorldDef *world, int height);
 
 #endif

@@ -89,28 +89,28 @@ static void keep_mesh(Solids *solids, const SolidMesh *mesh)
     set_attribute(array, 2, 1, true, offsetof(SolidVertex, solid));
 }
 
-static bool meshes_fit(const Solids *solids, const ViewDef *def, double slab)
+static bool meshes_fit(const Solids *solids, const WorldDef *world, double slab)
 {
-    bool fit = solids->count == def->solid_count && solids->slab == slab;
-    for (int i = 0; fit && i < def->solid_count; i++)
-        fit = solid_mesh_same(&solids->shapes[i], &def->solids[i]);
+    bool fit = solids->count == world->solid_count && solids->slab == slab;
+    for (int i = 0; fit && i < world->solid_count; i++)
+        fit = solid_mesh_same(&solids->shapes[i], &world->solids[i]);
     return fit;
 }
 
-static void follow_shapes(Solids *solids, const ViewDef *def, double slab)
+static void follow_shapes(Solids *solids, const WorldDef *world, double slab)
 {
     SolidMesh mesh = {0};
     bool whole = true;
-    if (meshes_fit(solids, def, slab))
+    if (meshes_fit(solids, world, slab))
         return;
-    for (int i = 0; whole && i < def->solid_count; i++)
-        whole = solid_mesh_add(&mesh, &def->solids[i], slab, (uint32_t)i);
+    for (int i = 0; whole && i < world->solid_count; i++)
+        whole = solid_mesh_add(&mesh, &world->solids[i], slab, (uint32_t)i);
     solids->index_count = whole ? (GLsizei)mesh.index_count : 0;
     if (whole && mesh.index_count > 0) {
         keep_mesh(solids, &mesh);
-        for (int i = 0; i < def->solid_count; i++)
-            solids->shapes[i] = def->solids[i];
-        solids->count = def->solid_count;
+        for (int i = 0; i < world->solid_count; i++)
+            solids->shapes[i] = world->solids[i];
+        solids->count = world->solid_count;
         solids->slab = slab;
     }
     solid_mesh_destroy(&mesh);
@@ -118,19 +118,19 @@ static void follow_shapes(Solids *solids, const ViewDef *def, double slab)
 
 void solids_place(Solids *solids, const ParticleBuffers *particles, const Frame *frame)
 {
-    const ViewDef *def = frame->def;
+    const WorldDef *world = frame->world;
     SolidBlock block = {0};
-    follow_shapes(solids, def, frame->slab);
-    for (int i = 0; i < def->solid_count; i++) {
+    follow_shapes(solids, world, frame->slab);
+    for (int i = 0; i < world->solid_count; i++) {
         BoxState pose;
         float to_world[16];
-        solid_pose(&def->solids[i], particles->time, &pose);
+        solid_pose(&world->solids[i], particles->time, &pose);
         camera_box_matrix(&pose, to_world);
         matrix_multiply(frame->box_to_world, to_world, to_world);
         matrix_multiply(frame->camera.view, to_world, block.solids[i].to_eye);
         matrix_multiply(frame->world_to_light, to_world, block.solids[i].to_light);
         for (int k = 0; k < 3; k++)
-            block.solids[i].color[k] = def->solids[i].color[k];
+            block.solids[i].color[k] = world->solids[i].color[k];
     }
     glNamedBufferSubData(solids->poses, 0, sizeof block, &block);
 }

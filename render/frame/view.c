@@ -1,6 +1,8 @@
 #include "render/frame/view.h"
 
 #include "sim/gl/limits.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -57,8 +59,11 @@ static void unknown_view(const char *name, Error *error)
 
 /* Particles are drawn from storage blocks; common/particles.glsl, listed.glsl and ball.glsl have five. A ball
    is one vec4. */
-static bool drawable(const ViewKind *kind, const ViewDef *def, Error *error)
+static bool drawable(const ViewKind *kind, const Subject *subject, Error *error)
 {
+    const ViewDef *def = subject->def;
+    const WorldDef *world = subject->world;
+    const size_t particles = world->spacing > 0 ? flow_capacity(world, seed_count(world, world->spacing)) : 0;
     const ViewShapes *shapes = kind->shapes ? kind->shapes(def) : NULL;
     char who[NAME_SIZE + 32];
     snprintf(who, sizeof who, "view %s%s%s", def->kind, shapes ? " " : "", shapes ? shapes->words : "");
@@ -67,21 +72,22 @@ static bool drawable(const ViewKind *kind, const ViewDef *def, Error *error)
                            .instead = "use another GPU or driver",
                            .least = {.vertex_blocks = 5,
                                      .bindings = 11,
-                                     .block_bytes = (int64_t)def->particles * (shapes ? shapes->bytes : 16)}};
+                                     .block_bytes = (int64_t)particles * (shapes ? shapes->bytes : 16)}};
     return gl_limits_allow(&have, &needs, error);
 }
 
-View *view_create(const ViewDef *def, Error *error)
+View *view_create(const Subject *subject, Error *error)
 {
+    const ViewDef *def = subject->def;
     const ViewKind *kind = view_find(def->kind);
     if (!kind) {
         unknown_view(def->kind, error);
         return NULL;
     }
-    if (!drawable(kind, def, error))
+    if (!drawable(kind, subject, error))
         return NULL;
     View *view = malloc(sizeof *view);
-    void *state = view ? kind->create(def, error) : NULL;
+    void *state = view ? kind->create(subject, error) : NULL;
     if (!state) {
         free(view);
         return NULL;
@@ -117,16 +123,17 @@ void view_prepare(View *view, const ParticleBuffers *particles, const Frame *fra
         view->kind->prepare(view->state, particles, frame);
 }
 
-bool view_same(const ViewDef *a, const ViewDef *b)
+bool view_same(const Subject *a, const Subject *b)
 {
-    const ViewKind *kind = view_find(a->kind);
-    return strcmp(a->kind, b->kind) == 0 && strcmp(a->colormap, b->colormap) == 0 &&
-           (a->solid_count > 0) == (b->solid_count > 0) && (!kind || !kind->same || kind->same(a, b));
+    const ViewKind *kind = view_find(a->def->kind);
+    return strcmp(a->def->kind, b->def->kind) == 0 && strcmp(a->def->colormap, b->def->colormap) == 0 &&
+           (a->world->solid_count > 0) == (b->world->solid_count > 0) &&
+           (!kind || !kind->same || kind->same(a, b));
 }
 
-bool view_accepts(View *view, const ViewDef *def, Error *error)
+bool view_accepts(View *view, const Subject *subject, Error *error)
 {
-    return !view->kind->accepts || view->kind->accepts(view->state, def, error);
+    return !view->kind->accepts || view->kind->accepts(view->state, subject, error);
 }
 
 void view_show(const View *view, const ViewDef *def, Frame *frame)

@@ -21,18 +21,18 @@ typedef struct ViewKind {
     void (*radii)(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii);
     /* Whether particles are drawn as something that takes a GPU more room than balls; NULL: they are not. */
     const ViewShapes *(*shapes)(const ViewDef *def);
-    /* The state behind a View, or NULL with the reason. It stays while the def has solids or has none: a view
-       looks there for what it needs to stand with them. */
-    void *(*create)(const ViewDef *def, Error *error);
+    /* The state behind a View, or NULL with the reason. It stays while the world has solids or has none: a
+       view looks there for what it needs to stand with them. */
+    void *(*create)(const Subject *subject, Error *error);
     void (*destroy)(void *state);
     /* Once a picture, before the rest: what cast and draw need, within a stage of frame->timer. May be NULL.
      */
     void (*prepare)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* Whether a view made for `a` may draw `b`, both of this kind: they differ in what is read anew for each
-       picture; NULL: it may. */
-    bool (*same)(const ViewDef *a, const ViewDef *b);
-    /* Whether it can draw by such a def; NULL: always. */
-    bool (*accepts)(void *state, const ViewDef *def, Error *error);
+    /* Whether a view made for `a` may draw `b`, both with defs of this kind: they differ in what is read anew
+       for each picture; NULL: it may. */
+    bool (*same)(const Subject *a, const Subject *b);
+    /* Whether it can draw such a one; NULL: always. */
+    bool (*accepts)(void *state, const Subject *subject, Error *error);
     /* Says in the frame what colours and legend show, where that is not the def's scalar; NULL: it is. */
     void (*show)(const ViewDef *def, Frame *frame);
     /* Draws what casts shadows, into the map of render/frame/shadow.h. */
@@ -53,7 +53,7 @@ const ViewKind *view_at(int index);
 const ViewKind *view_find(const char *name);
 
 /* NULL on failure: an unknown kind or colormap, a shader that does not compile. */
-View *view_create(const ViewDef *def, Error *error);
+View *view_create(const Subject *subject, Error *error);
 void view_destroy(View *view); /* NULL is allowed */
 const ViewKind *view_kind(const View *view);
 
@@ -62,8 +62,8 @@ ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const Particl
 
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
 /* Whether a view made for `a` may draw `b`. */
-bool view_same(const ViewDef *a, const ViewDef *b);
-bool view_accepts(View *view, const ViewDef *def, Error *error);
+bool view_same(const Subject *a, const Subject *b);
+bool view_accepts(View *view, const Subject *subject, Error *error);
 void view_show(const View *view, const ViewDef *def, Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);

@@ -119,18 +119,13 @@ typedef struct ViewDef {
     bool camera_auto; /* the camera shows the whole box; else `camera` */
     CameraDef camera;
     double background[3]; /* linear RGB 0..1, at the horizon */
-    /* Filled from the fluids by the scene loader, for colours and legend. */
-    int fluid_count;
-    char fluid_name[FLUIDS_MAX][NAME_SIZE];
-    float fluid_color[FLUIDS_MAX][3];
-    /* Filled from the scene by the loader: what a view may need to know before the first state. 0: not known.
-     */
-    double box_size[3], spacing, support_radius; /* m */
-    size_t particles;                            /* as many as there may be */
-    /* Filled from the scene's solids by the loader. */
-    int solid_count;
-    SolidDef solids[SOLIDS_MAX];
 } ViewDef;
+
+/* What there is to be shown, and how. */
+typedef struct Subject {
+    const ViewDef *def;
+    const WorldDef *world; /* all 0 where it is not known */
+} Subject;
 
 /* Defaults of all that views share: their own settings are zeros. */
 ViewDef view_def_shared(void);

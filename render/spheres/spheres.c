@@ -55,14 +55,15 @@ static bool create_programs(Spheres *spheres, Error *error)
     return spheres->casting != 0;
 }
 
-static void *spheres_create(const ViewDef *def, Error *error)
+static void *spheres_create(const Subject *subject, Error *error)
 {
+    const ViewDef *def = subject->def;
     Spheres *spheres = calloc(1, sizeof *spheres);
     if (!spheres) {
         error_set(error, "out of memory for the view");
         return NULL;
     }
-    spheres->solids = def->solid_count > 0;
+    spheres->solids = subject->world->solid_count > 0;
     spheres->colormap = colormap_texture(def->colormap);
     if (!spheres->colormap)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);

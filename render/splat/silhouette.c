@@ -6,11 +6,11 @@
 #include <epoxy/gl.h>
 #include <stdio.h>
 
-bool silhouette_create(Silhouette *silhouette, const ViewDef *def, Error *error)
+bool silhouette_create(Silhouette *silhouette, const Subject *subject, Error *error)
 {
     static const char *const files[] = {"splat/silhouette_near.frag", "splat/silhouette_edges.frag",
                                         "splat/silhouette_blend.frag"};
-    const bool solids = def->solid_count > 0, discs = silhouette_by_discs(&def->splat);
+    const bool solids = subject->world->solid_count > 0, discs = silhouette_by_discs(&subject->def->splat);
     char defines[96];
     *silhouette = (Silhouette){0};
     glCreateVertexArrays(1, &silhouette->screen);

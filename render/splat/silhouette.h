@@ -29,7 +29,7 @@ typedef struct Silhouette {
 } Silhouette;
 
 /* False when a shader does not compile; silhouette_destroy is needed in either case. */
-bool silhouette_create(Silhouette *silhouette, const ViewDef *def, Error *error);
+bool silhouette_create(Silhouette *silhouette, const Subject *subject, Error *error);
 void silhouette_destroy(Silhouette *silhouette); /* one of zeros is allowed */
 
 /* Works on the target's colour. `blended` as pass 2 left them, `nearest` the map of depths that was shaded.

@@ -113,38 +113,39 @@ static bool create_programs(SplatView *splat, Error *error)
     return splat_culls(&splat->def) ? splat->casting_listed != 0 : splat->casting != 0;
 }
 
-static bool create_shading(SplatView *splat, const ViewDef *def, Error *error)
+static bool create_shading(SplatView *splat, const Subject *subject, Error *error)
 {
-    if (splat_shade_wants_thickness(&def->splat) &&
-        !thickness_create(&splat->thickness, &splat->sprites, def->solid_count > 0, error))
+    if (splat_shade_wants_thickness(&splat->def) &&
+        !thickness_create(&splat->thickness, &splat->sprites, subject->world->solid_count > 0, error))
         return false;
-    return splat_shade_create(&splat->shade, def, error);
+    return splat_shade_create(&splat->shade, subject, error);
 }
 
 /* Those that only some settings have, and shading. */
-static bool create_passes(SplatView *splat, const ViewDef *def, Error *error)
+static bool create_passes(SplatView *splat, const Subject *subject, Error *error)
 {
     const SplatDef *own = &splat->def;
     return (!splat_level_wanted(own) || splat_level_create(&splat->level, &splat->sprites, error)) &&
            (own->filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, error)) &&
-           (!silhouette_wanted(own) || silhouette_create(&splat->silhouette, def, error)) &&
-           create_shading(splat, def, error);
+           (!silhouette_wanted(own) || silhouette_create(&splat->silhouette, subject, error)) &&
+           create_shading(splat, subject, error);
 }
 
-static void *splat_create(const ViewDef *def, Error *error)
+static void *splat_create(const Subject *subject, Error *error)
 {
+    const char *colormap = subject->def->colormap;
     SplatView *splat = calloc(1, sizeof *splat);
     if (!splat) {
         error_set(error, "out of memory for the view");
         return NULL;
     }
-    splat->def = def->splat;
-    splat->colormap = colormap_texture(def->colormap);
+    splat->def = subject->def->splat;
+    splat->colormap = colormap_texture(colormap);
     if (!splat->colormap)
-        error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
-    if (splat->colormap && splat_sprites_create(&splat->sprites, &def->splat, error) &&
-        ellipsoids_create(&splat->ellipsoids, &def->splat, error) && create_programs(splat, error) &&
-        create_passes(splat, def, error))
+        error_set(error, "unknown colormap \"%s\"; viridis is the default", colormap);
+    if (splat->colormap && splat_sprites_create(&splat->sprites, &splat->def, error) &&
+        ellipsoids_create(&splat->ellipsoids, &splat->def, error) && create_programs(splat, error) &&
+        create_passes(splat, subject, error))
         return splat;
     splat_destroy(splat);
     return NULL;

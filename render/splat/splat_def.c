@@ -62,9 +62,9 @@ bool silhouette_by_discs(const SplatDef *def)
     return silhouette_wanted(def) && !splat_level_wanted(def);
 }
 
-bool splat_same(const ViewDef *one, const ViewDef *other)
+bool splat_same(const Subject *one, const Subject *other)
 {
-    const SplatDef *a = &one->splat, *b = &other->splat;
+    const SplatDef *a = &one->def->splat, *b = &other->def->splat;
     return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
            a->cull == b->cull && a->drops == b->drops && a->shading == b->shading &&
            (a->level > 0) == (b->level > 0) && a->filter == b->filter && a->antialias == b->antialias;

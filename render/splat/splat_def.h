@@ -34,6 +34,6 @@ bool silhouette_wanted(const SplatDef *def);
 bool silhouette_by_discs(const SplatDef *def);
 
 /* ViewKind.same. */
-bool splat_same(const ViewDef *a, const ViewDef *b);
+bool splat_same(const Subject *a, const Subject *b);
 
 #endif

@@ -8,24 +8,27 @@
 #include <math.h>
 #include <stdio.h>
 
-static unsigned create_program(const SplatShade *shade, const ViewDef *def, const char *more, Error *error)
+static unsigned create_program(const SplatShade *shade, const Subject *subject, const char *more,
+                               Error *error)
 {
+    const SplatDef *def = &subject->def->splat;
     static const char *const stages[] = {"common/screen.vert", "splat/splat_shade.frag", NULL};
     char defines[160];
     snprintf(defines, sizeof defines, "%s%s%s#define SHOW %d\n#define SHADING %d\n",
-             def->solid_count > 0 ? "#define SOLIDS 1\n" : "", shade->clear ? "#define FLOOR_SHADOW 1\n" : "",
-             more, (int)def->splat.show, (int)def->splat.shading);
+             subject->world->solid_count > 0 ? "#define SOLIDS 1\n" : "",
+             shade->clear ? "#define FLOOR_SHADOW 1\n" : "", more, (int)def->show, (int)def->shading);
     return program_create("splat shade", stages, defines, error);
 }
 
-bool splat_shade_create(SplatShade *shade, const ViewDef *def, Error *error)
+bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error)
 {
-    const bool discs = silhouette_by_discs(&def->splat);
-    *shade = (SplatShade){.clear = def->splat.show == SPLAT_SHADED && def->splat.shading != SPLAT_PHONG};
+    const SplatDef *def = &subject->def->splat;
+    const bool discs = silhouette_by_discs(def);
+    *shade = (SplatShade){.clear = def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG};
     glCreateVertexArrays(1, &shade->screen);
-    shade->program = create_program(shade, def, "", error);
+    shade->program = create_program(shade, subject, "", error);
     if (shade->program && discs)
-        shade->mixing = create_program(shade, def, "#define MIXING 1\n", error);
+        shade->mixing = create_program(shade, subject, "#define MIXING 1\n", error);
     return discs ? shade->mixing != 0 : shade->program != 0;
 }
 

@@ -17,7 +17,7 @@ typedef struct SplatShade {
 } SplatShade;
 
 /* False when a shader does not compile; splat_shade_destroy is needed in either case. */
-bool splat_shade_create(SplatShade *shade, const ViewDef *def, Error *error);
+bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error);
 void splat_shade_destroy(SplatShade *shade);
 
 /* Writes colour and depth of the surface. Solids are in the target already: the test of depth says who hides

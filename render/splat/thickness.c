@@ -83,7 +83,7 @@ void thickness_draw(Thickness *thickness, SplatSprites *sprites, const ParticleB
     glViewport(0, 0, width, height);
     glProgramUniform1f(thickness->program[sprite], 1, support);
     glProgramUniform2f(thickness->program[sprite], 2, (float)width, (float)height);
-    if (frame->def->solid_count > 0) {
+    if (frame->world->solid_count > 0) {
         glProgramUniform2i(thickness->program[sprite], 3, frame->width, frame->height);
         glBindTextureUnit(1, frame->target->depth);
     }

@@ -53,29 +53,30 @@ void raycast_destroy(Raycast *raycast)
 }
 
 /* Program text for what the def asks for, and for nothing else. */
-static GLuint create_program(const ViewDef *def, const char *field, Error *error)
+static GLuint create_program(const Subject *subject, const char *field, Error *error)
 {
     static const char *const stages[] = {"common/screen.vert", "volume/raycast.frag", NULL};
-    const RaycastDef *cast = &def->raycast;
+    const RaycastDef *cast = &subject->def->raycast;
     static const int shows[] = {
         [VOLUME_ENTRY] = 1, [VOLUME_EXIT] = 2, [VOLUME_LENGTH] = 3, [VOLUME_STEPS] = 4, [VOLUME_NORMALS] = 5};
     char defines[256];
-    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s", shows[def->volume.show],
-             def->solid_count > 0 ? "#define SOLIDS 1\n" : "", field,
+    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s", shows[subject->def->volume.show],
+             subject->world->solid_count > 0 ? "#define SOLIDS 1\n" : "", field,
              cast->look == RAYCAST_TRANSLUCENT ? "#define TRANSLUCENT 1\n" : "",
              cast->shadows ? "#define SHADOWS 1\n" : "",
              cast->look == RAYCAST_WATER ? "#define WATER 1\n#define FLOOR_SHADOW 1\n" : "");
     return program_create("raycast", stages, defines, error);
 }
 
-Raycast *raycast_create(const ViewDef *def, const Voxelizer *voxelizer, Error *error)
+Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Error *error)
 {
+    const ViewDef *def = subject->def;
     Raycast *raycast = calloc(1, sizeof *raycast);
     if (!raycast) {
         error_set(error, "out of memory for raycasting");
         return NULL;
     }
-    raycast->solids = def->solid_count > 0;
+    raycast->solids = subject->world->solid_count > 0;
     raycast->look = def->raycast.look;
     glCreateVertexArrays(1, &raycast->screen);
     glCreateBuffers(1, &raycast->block);
@@ -85,7 +86,7 @@ Raycast *raycast_create(const ViewDef *def, const Voxelizer *voxelizer, Error *e
     if (!raycast->colormap)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     else
-        raycast->program = create_program(def, voxelizer ? voxelizer_defines(voxelizer) : "", error);
+        raycast->program = create_program(subject, voxelizer ? voxelizer_defines(voxelizer) : "", error);
     if (raycast->program)
         raycast->settle =
             program_create_pair("raycast depth", "common/screen.vert", "volume/raycast_depth.frag", error);

@@ -16,7 +16,7 @@ typedef struct Raycast Raycast;
 
 /* For volumes of that voxelizer; NULL: for textures of the field alone. NULL when a shader does not compile
    or the colormap is unknown. */
-Raycast *raycast_create(const ViewDef *def, const Voxelizer *voxelizer, Error *error);
+Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Error *error);
 void raycast_destroy(Raycast *raycast); /* NULL is allowed */
 
 /* Draws into frame->target, within the stage `raycast`. Not before target_begin, and the solids are in the

@@ -17,10 +17,10 @@ RaycastDef raycast_def_default(void)
                         .skip = true};
 }
 
-bool raycast_same_kind(const ViewDef *a, const ViewDef *b)
+bool raycast_same_kind(const Subject *a, const Subject *b)
 {
-    const RaycastDef *x = &a->raycast, *y = &b->raycast;
+    const RaycastDef *x = &a->def->raycast, *y = &b->def->raycast;
     return x->look == y->look && x->shadows == y->shadows &&
-           (a->color_by == SCALAR_FLUID) == (b->color_by == SCALAR_FLUID) &&
-           (a->fluid_count > 1) == (b->fluid_count > 1);
+           (a->def->color_by == SCALAR_FLUID) == (b->def->color_by == SCALAR_FLUID) &&
+           (a->world->fluid_count > 1) == (b->world->fluid_count > 1);
 }

@@ -9,6 +9,6 @@ extern const char *const raycast_look_names[]; /* by RaycastLook */
 RaycastDef raycast_def_default(void);
 
 /* Whether the rays of both differ in numbers only: these are read anew for each picture. */
-bool raycast_same_kind(const ViewDef *a, const ViewDef *b);
+bool raycast_same_kind(const Subject *a, const Subject *b);
 
 #endif

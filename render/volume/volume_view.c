@@ -33,23 +33,25 @@ static void destroy(void *state)
 }
 
 /* The box's volume: what the fluid's may become. */
-static bool accepts(void *state, const ViewDef *def, Error *error)
+static bool accepts(void *state, const Subject *subject, Error *error)
 {
     VolumeView *view = state;
-    ParticleBuffers space = {.spacing = def->spacing, .support_radius = def->support_radius};
+    const WorldDef *world = subject->world;
+    const VolumeDef *def = &subject->def->volume;
+    ParticleBuffers space = {.spacing = world->spacing, .support_radius = world->support * world->spacing};
     VolumeGrid grid;
     for (int k = 0; k < 3; k++)
-        space.box_size[k] = def->box_size[k];
-    if (!(def->spacing > 0))
+        space.box_size[k] = world->box_size[k];
+    if (!(world->spacing > 0))
         return true;
-    return volume_grid_for(&def->volume, &space, &grid, error) &&
-           voxelizer_fits(view->voxelizer, &grid, def->support_radius, error) &&
-           voxelizer_prepare(view->voxelizer, &def->volume, &grid, error);
+    return volume_grid_for(def, &space, &grid, error) &&
+           voxelizer_fits(view->voxelizer, &grid, space.support_radius, error) &&
+           voxelizer_prepare(view->voxelizer, def, &grid, error);
 }
 
-static bool create_raycast(VolumeView *view, const ViewDef *def, Error *error)
+static bool create_raycast(VolumeView *view, const Subject *subject, Error *error)
 {
-    view->raycast = raycast_create(def, view->voxelizer, error);
+    view->raycast = raycast_create(subject, view->voxelizer, error);
     if (!view->raycast)
         return false;
     glCreateVertexArrays(1, &view->casting_vao);
@@ -61,29 +63,32 @@ static bool create_raycast(VolumeView *view, const ViewDef *def, Error *error)
 }
 
 /* Fluids are carried where the picture has the colours of several, a scalar where it has that one's. */
-static bool carries_fluids(const ViewDef *def)
+static bool carries_fluids(const Subject *subject)
 {
-    return def->volume.show == VOLUME_SHADED && def->color_by == SCALAR_FLUID && def->fluid_count > 1;
+    return subject->def->volume.show == VOLUME_SHADED && subject->def->color_by == SCALAR_FLUID &&
+           subject->world->fluid_count > 1;
 }
 
-static bool carries(const ViewDef *def)
+static bool carries(const Subject *subject)
 {
-    return def->volume.show == VOLUME_SHADED && (def->color_by != SCALAR_FLUID || carries_fluids(def));
+    return subject->def->volume.show == VOLUME_SHADED &&
+           (subject->def->color_by != SCALAR_FLUID || carries_fluids(subject));
 }
 
-static void *create(const ViewDef *def, Error *error)
+static void *create(const Subject *subject, Error *error)
 {
+    const ViewDef *def = subject->def;
     VolumeView *view = calloc(1, sizeof *view);
     if (!view) {
         error_set(error, "out of memory for the view");
         return NULL;
     }
-    view->voxelizer = voxelizer_create(def->volume.method, carries(def), error);
+    view->voxelizer = voxelizer_create(def->volume.method, carries(subject), error);
     const bool slice = def->volume.show == VOLUME_SLICE;
-    if (view->voxelizer && accepts(view, def, error) &&
-        (!carries_fluids(def) || fluid_numbers_create(&view->numbers, error)) &&
+    if (view->voxelizer && accepts(view, subject, error) &&
+        (!carries_fluids(subject) || fluid_numbers_create(&view->numbers, error)) &&
         (slice ? volume_slice_create(&view->slice, def, view->voxelizer, error)
-               : create_raycast(view, def, error)))
+               : create_raycast(view, subject, error)))
         return view;
     destroy(view);
     return NULL;
@@ -141,9 +146,9 @@ static void show(const ViewDef *def, Frame *frame)
     frame->range[1] = steps ? 64 : 1.25;
 }
 
-static bool same(const ViewDef *a, const ViewDef *b)
+static bool same(const Subject *a, const Subject *b)
 {
-    return volume_same_kind(&a->volume, &b->volume) && raycast_same_kind(a, b);
+    return volume_same_kind(&a->def->volume, &b->def->volume) && raycast_same_kind(a, b);
 }
 
 const ViewKind view_volume = {

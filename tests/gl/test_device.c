@@ -203,9 +203,10 @@ static void no_particle_crosses_in_a_frame(void **state)
 {
     (void)state;
     static const char *const backends[] = {"compute", "fragment"};
+    WorldDef def;
     World *worlds[2];
     for (int k = 0; k < 2; k++) {
-        const WorldDef def = column_def(backends[k]);
+        def = column_def(backends[k]);
         assert_true(def.retries > 0);
         worlds[k] = fixture_world(&def);
     }
@@ -213,7 +214,7 @@ static void no_particle_crosses_in_a_frame(void **state)
         Error error = {0};
         Studio studio;
         const ViewDef view = view_of(&views[i]);
-        if (!studio_open(&studio, &view, worlds[0], 64, 64, &error))
+        if (!studio_open(&studio, &view, &def, worlds[0], 64, 64, &error))
             fail_msg("%s", error.message);
         for (int k = 0; k < 2; k++)
             count_frames(backends[k], &views[i], &studio, worlds[k]);

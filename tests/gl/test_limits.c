@@ -107,7 +107,7 @@ static void worlds_ask(void **state)
 static void assert_no_view(const ViewDef *def, const char *sentence)
 {
     Error error = {0};
-    assert_null(renderer_create(def, 16, 16, &error));
+    assert_null(renderer_create(def, NULL, 16, 16, &error));
     if (!strstr(error.message, sentence))
         fail_msg("%s", error.message);
 }
@@ -116,6 +116,14 @@ static void views_ask(void **state)
 {
     (void)state;
     ViewDef def = view_def_default();
+    const WorldDef world = {
+        .dimensions = 3,
+        .box_size = {1, 1, 1},
+        .spacing = 0.1,
+        .support = 2.1,
+        .fluid_count = 1,
+        .fluids = {{.fill_count = 1,
+                    .fills = {{.min = {-0.5, 0, -0.5}, .max = {0.5, 1, 0.5}}}}}}; /* 1000 particles */
     Error error = {0};
     limit(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0);
     assert_no_view(&def, "view spheres needs 5 storage blocks in a vertex shader, and this driver has 0");
@@ -123,16 +131,15 @@ static void views_ask(void **state)
     assert_no_view(&def, "bindings of storage buffers, and this driver has 8");
     limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 40000);
     snprintf(def.kind, sizeof def.kind, "splat");
-    def.particles = 1000;
-    Renderer *renderer = renderer_create(&def, 16, 16, &error);
+    Renderer *renderer = renderer_create(&def, &world, 16, 16, &error);
     assert_non_null(renderer);
     def.splat.shape = SPLAT_ELLIPSOID; /* live */
-    assert_false(renderer_set_def(renderer, &def, &error));
+    assert_false(renderer_set_def(renderer, &def, &world, &error));
     assert_non_null(strstr(error.message, "view splat of ellipsoids needs a buffer of 48000 bytes"));
     renderer_destroy(renderer);
     snprintf(def.kind, sizeof def.kind, "none");
     limit(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0);
-    renderer_destroy(renderer_create(&def, 16, 16, &error));
+    renderer_destroy(renderer_create(&def, &world, 16, 16, &error));
     limit(0, 0);
 }
 

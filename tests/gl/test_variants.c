@@ -501,22 +501,19 @@ static void draw_views(const WorldDef *def, bool solids)
     static ViewDef views[VIEWS_MAX];
     ViewDef base = view_def_default();
     Error error = {0};
-    base.spacing = def->spacing;
-    base.support_radius = def->spacing * def->support;
-    memcpy(base.box_size, def->box_size, sizeof base.box_size);
-    base.fluid_count = 1;
+    WorldDef shown = *def;
     base.volume.cells = 16;
     if (solids)
-        with_a_ball(base.solids, &base.solid_count);
+        with_a_ball(shown.solids, &shown.solid_count);
     const int count = texts_only ? views_of(base, views) : few_views_of(base, views);
     World *world = fixture_world(def);
     fixture_step(world, 1);
     most = (GlLimits){0};
-    Renderer *renderer = renderer_create(&base, 48, 32, &error);
+    Renderer *renderer = renderer_create(&base, &shown, 48, 32, &error);
     assert_non_null(renderer);
     for (int k = 0; k < count; k++) {
         ParticleBuffers particles;
-        if (!renderer_set_def(renderer, &views[k], &error))
+        if (!renderer_set_def(renderer, &views[k], &shown, &error))
             fail_msg("%s %d: %s", views[k].kind, k, error.message);
         world_share(world, particle_attributes_for(views[k].color_by) | PARTICLE_RANGES, &particles);
         for (int frame = 0; frame < 2; frame++) /* nobody else's barriers in between */

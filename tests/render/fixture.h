@@ -136,21 +136,21 @@ static inline Particles *particles_wave(double spacing)
 }
 
 /* Takes out those whose centres are in a solid, or nearer to one than half a spacing. */
-static inline void particles_spare(Particles *particles, const ViewDef *def, double spacing)
+static inline void particles_spare(Particles *particles, const WorldDef *world, double spacing)
 {
     size_t count = particles->count;
     particles->count = 0;
     for (size_t i = 0; i < count; i++) {
         const float *at = &particles->position[4 * i];
         bool outside = true;
-        for (int k = 0; outside && k < def->solid_count; k++) {
+        for (int k = 0; outside && k < world->solid_count; k++) {
             BoxState pose;
             double x[3] = {at[0], at[1], at[2]};
-            solid_pose(&def->solids[k], 0, &pose);
+            solid_pose(&world->solids[k], 0, &pose);
             for (int axis = 0; axis < 3; axis++)
                 x[axis] -= pose.position[axis];
             quat_rotate_inverse(pose.orientation, x, x);
-            outside = solid_distance(&def->solids[k], 3, x) > spacing / 2;
+            outside = solid_distance(&world->solids[k], 3, x) > spacing / 2;
         }
         if (outside)
             particles_add(particles, at[0], at[1], at[2], particles->speed[i], particles->fluid[i]);
@@ -168,12 +168,19 @@ static inline ViewDef bare_view(void)
     ViewDef def = view_def_default();
     def.legend = def.box = def.floor = false;
     def.splat.drops = false;
-    def.fluid_count = 2;
-    text_set(def.fluid_name[0], "water");
-    text_set(def.fluid_name[1], "oil");
-    memcpy(def.fluid_color[0], (float[3]){0.03F, 0.22F, 0.55F}, sizeof def.fluid_color[0]);
-    memcpy(def.fluid_color[1], (float[3]){0.85F, 0.45F, 0.05F}, sizeof def.fluid_color[1]);
     return def;
+}
+
+/* A world of two fluids. */
+static inline WorldDef bare_world(void)
+{
+    WorldDef world = {0};
+    world.fluid_count = 2;
+    text_set(world.fluids[0].name, "water");
+    text_set(world.fluids[1].name, "oil");
+    memcpy(world.fluids[0].color, (float[3]){0.03F, 0.22F, 0.55F}, sizeof world.fluids[0].color);
+    memcpy(world.fluids[1].color, (float[3]){0.85F, 0.45F, 0.05F}, sizeof world.fluids[1].color);
+    return world;
 }
 
 static inline ParticleBuffers box_state(size_t count, double spacing)

@@ -15,6 +15,7 @@ typedef double (*FieldAt)(const double at[3], const void *context);
 
 typedef struct RayScene {
     ViewDef def;
+    WorldDef world;
     ParticleBuffers state;
     Volume volume;
     int width, height;
@@ -30,7 +31,7 @@ typedef struct RayPixel {
 
 static inline RayScene ray_scene(const double from[3], const double to[3], double fov_deg)
 {
-    RayScene scene = {.def = bare_view(), .width = 160, .height = 120};
+    RayScene scene = {.def = bare_view(), .world = bare_world(), .width = 160, .height = 120};
     text_set(scene.def.kind, "volume");
     scene.def.color_by = SCALAR_FLUID;
     scene.def.camera_auto = false;
@@ -108,19 +109,22 @@ static inline RayPixel *ray_read(const Target *target)
 }
 
 /* The one that draws that def: shaders take long to compile, so the last is kept. */
-static inline Raycast *ray_caster(const ViewDef *def)
+static inline Raycast *ray_caster(const Subject *subject)
 {
     static Raycast *raycast;
-    static ViewDef kept;
+    static ViewDef def;
+    static WorldDef world;
+    const Subject kept = {&def, &world};
     Error error = {0};
-    if (raycast && raycast_same_kind(def, &kept) && volume_same_kind(&def->volume, &kept.volume) &&
-        (def->solid_count > 0) == (kept.solid_count > 0))
+    if (raycast && raycast_same_kind(subject, &kept) &&
+        volume_same_kind(&subject->def->volume, &def.volume) &&
+        (subject->world->solid_count > 0) == (world.solid_count > 0))
         return raycast;
     raycast_destroy(raycast);
-    raycast = raycast_create(def, NULL, &error);
+    raycast = raycast_create(subject, NULL, &error);
     if (!raycast)
         fail_msg("%s", error.message);
-    kept = *def;
+    def = *subject->def, world = *subject->world;
     return raycast;
 }
 
@@ -128,9 +132,10 @@ static inline Raycast *ray_caster(const ViewDef *def)
 static inline RayPixel *ray_drawn(RayScene *scene, bool plain)
 {
     static const float black[4] = {0};
+    const Subject subject = {&scene->def, &scene->world};
     Target target = ray_target(scene);
-    Raycast *raycast = ray_caster(&scene->def);
-    frame_make(&scene->frame, &scene->def, &scene->state, &target, frame_balls(&scene->def, &scene->state, 1),
+    Raycast *raycast = ray_caster(&subject);
+    frame_make(&scene->frame, &subject, &scene->state, &target, frame_balls(&scene->def, &scene->state, 1),
                (Covered){0});
     scene->frame.plain = plain;
     scene->frame.floor_light = no_shadows();

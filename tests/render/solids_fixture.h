@@ -8,13 +8,14 @@ enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT };
 
 typedef struct Scene {
     ViewDef def;
+    WorldDef world;
     ParticleBuffers state;
     Particles *particles;
 } Scene;
 
 static inline Scene scene_create(void)
 {
-    Scene scene = {bare_view(), box_state(0, 0.1), calloc(1, sizeof(Particles))};
+    Scene scene = {bare_view(), bare_world(), box_state(0, 0.1), calloc(1, sizeof(Particles))};
     assert_non_null(scene.particles);
     scene.def.camera_auto = false;
     scene.def.camera = (CameraDef){{1.2, 1.1, 3}, {0, 0.5, 0}, 28};
@@ -23,7 +24,7 @@ static inline Scene scene_create(void)
 
 static inline SolidDef *scene_add(Scene *scene, SolidKind kind, double x, double y, double z)
 {
-    SolidDef *solid = &scene->def.solids[scene->def.solid_count++];
+    SolidDef *solid = &scene->world.solids[scene->world.solid_count++];
     *solid = (SolidDef){
         .kind = kind, .centre = {x, y, z}, .size = {0.5, 0.3, 0.2}, .radius = 0.25, .axis = {0, 1, 0}};
     solid->height = 0.4, solid->thickness = 0.05;
@@ -47,7 +48,7 @@ static inline void draw(Scene *scene, Renderer *renderer)
 static inline Renderer *drawn(Scene *scene)
 {
     Error error = {0};
-    Renderer *renderer = renderer_create(&scene->def, WIDTH, HEIGHT, &error);
+    Renderer *renderer = renderer_create(&scene->def, &scene->world, WIDTH, HEIGHT, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     draw(scene, renderer);

@@ -8,13 +8,14 @@ typedef struct Stand {
     Upload *upload;
     ParticleBuffers buffers;
     ViewDef def;
+    WorldDef world;
     Renderer *renderer;
 } Stand;
 
-static Renderer *create_renderer(const ViewDef *def)
+static Renderer *create_renderer(const ViewDef *def, const WorldDef *world)
 {
     Error error = {0};
-    Renderer *renderer = renderer_create(def, WIDTH, HEIGHT, &error);
+    Renderer *renderer = renderer_create(def, world, WIDTH, HEIGHT, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     return renderer;
@@ -22,11 +23,11 @@ static Renderer *create_renderer(const ViewDef *def)
 
 static Stand stand_create(void)
 {
-    Stand stand = {.particles = particles_wave(0.1), .def = bare_view()};
+    Stand stand = {.particles = particles_wave(0.1), .def = bare_view(), .world = bare_world()};
     ParticleBuffers box = box_state(stand.particles->count, 0.1);
     stand.upload = upload_particles(stand.particles, &box, &stand.buffers);
     stand.def.floor = true;
-    stand.renderer = create_renderer(&stand.def);
+    stand.renderer = create_renderer(&stand.def, &stand.world);
     return stand;
 }
 
@@ -49,7 +50,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *buffers, uint8_t *rg
 static void check(Stand *stand)
 {
     static uint8_t drawn[BYTES], anew[BYTES];
-    Renderer *renderer = create_renderer(&stand->def);
+    Renderer *renderer = create_renderer(&stand->def, &stand->world);
     draw(renderer, &stand->buffers, anew);
     renderer_destroy(renderer);
     for (int picture = 0; picture < 4; picture++) {
@@ -61,7 +62,7 @@ static void check(Stand *stand)
 static void set_def(Stand *stand)
 {
     Error error = {0};
-    assert_true(renderer_set_def(stand->renderer, &stand->def, &error));
+    assert_true(renderer_set_def(stand->renderer, &stand->def, &stand->world, &error));
 }
 
 static void test_still(void **state)

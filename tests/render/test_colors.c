@@ -52,7 +52,8 @@ static void center_color(ViewDef *def, double speed, unsigned fluid, uint8_t col
     particles_add(particles, 0.8, 0.5, 0, 1.7, 1 - fluid); /* another, aside */
     particles_add(particles, 0, 0.5, 0, speed, fluid);
     Upload *upload = upload_particles(particles, &box, &buffers);
-    Renderer *renderer = renderer_create(def, WIDTH, HEIGHT, &error);
+    const WorldDef world = bare_world();
+    Renderer *renderer = renderer_create(def, &world, WIDTH, HEIGHT, &error);
     assert_non_null(renderer);
     renderer_set_plain(renderer, true);
     renderer_draw(renderer, &buffers, NULL);
@@ -95,11 +96,12 @@ static void test_fluids_own_colors(void **state)
     (void)state;
     uint8_t color[3] = {0};
     ViewDef def = bare_view();
+    const WorldDef world = bare_world();
     def.color_by = SCALAR_FLUID;
     for (unsigned fluid = 0; fluid < 2; fluid++) {
         uint8_t wanted[3];
         for (int k = 0; k < 3; k++)
-            wanted[k] = (uint8_t)(255 * (1.055 * pow(def.fluid_color[fluid][k], 1 / 2.4) - 0.055) + 0.5);
+            wanted[k] = (uint8_t)(255 * (1.055 * pow(world.fluids[fluid].color[k], 1 / 2.4) - 0.055) + 0.5);
         center_color(&def, 0, fluid, color);
         assert_color(color, wanted);
     }
@@ -111,14 +113,14 @@ static void test_unknown_names(void **state)
     Error error = {0};
     ViewDef def = bare_view();
     text_set(def.colormap, "jet");
-    assert_null(renderer_create(&def, WIDTH, HEIGHT, &error));
+    assert_null(renderer_create(&def, NULL, WIDTH, HEIGHT, &error));
     assert_non_null(strstr(error.message, "jet"));
     def = bare_view();
     text_set(def.kind, "cubes");
-    assert_null(renderer_create(&def, WIDTH, HEIGHT, &error));
+    assert_null(renderer_create(&def, NULL, WIDTH, HEIGHT, &error));
     assert_non_null(strstr(error.message, "spheres"));
     def = bare_view();
-    assert_null(renderer_create(&def, 0, HEIGHT, &error));
+    assert_null(renderer_create(&def, NULL, 0, HEIGHT, &error));
     assert_non_null(strstr(error.message, "0 x 72"));
 }
 

@@ -12,6 +12,7 @@ typedef struct Golden {
     const char *name;
     int width, height;
     ViewDef def;
+    WorldDef world;
     BoxState box;
 } Golden;
 
@@ -21,13 +22,13 @@ static Image draw(const Golden *golden)
     Image image;
     ParticleBuffers buffers;
     Particles *particles = particles_wave(SPACING);
-    particles_spare(particles, &golden->def, SPACING);
+    particles_spare(particles, &golden->world, SPACING);
     for (size_t i = 0; i < particles->count; i++)
         particles->position[4 * i + 3] = (float)(SPACING * SPACING * SPACING);
     ParticleBuffers box = box_state(particles->count, SPACING);
     box.box = golden->box;
     Upload *upload = upload_particles(particles, &box, &buffers);
-    Renderer *renderer = renderer_create(&golden->def, golden->width, golden->height, &error);
+    Renderer *renderer = renderer_create(&golden->def, &golden->world, golden->width, golden->height, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     assert_true(image_create(&image, golden->width, golden->height));
@@ -75,7 +76,7 @@ static void check(const Golden *golden)
 
 static Golden golden_create(const char *name, int width, int height)
 {
-    Golden golden = {name, width, height, bare_view(), {.orientation = {0, 0, 0, 1}}};
+    Golden golden = {name, width, height, bare_view(), bare_world(), {.orientation = {0, 0, 0, 1}}};
     golden.def.box = golden.def.floor = true;
     return golden;
 }
@@ -149,8 +150,8 @@ static void test_solids(void **state)
          .color = {0.55F, 0.60F, 0.62F}},
     };
     Golden golden = golden_create("solids", 320, 240);
-    golden.def.solid_count = 4;
-    memcpy(golden.def.solids, solids, sizeof solids);
+    golden.world.solid_count = 4;
+    memcpy(golden.world.solids, solids, sizeof solids);
     golden.box = (BoxState){.position = {0, 0.05, 0}, .orientation = {0, 0.1, 0.05, sqrt(0.9875)}};
     check(&golden);
 }
@@ -205,8 +206,8 @@ static void clear_splat(const char *name, SplatShading shading)
     text_set(golden.def.kind, "splat");
     golden.def.color_by = SCALAR_FLUID;
     golden.def.splat.shading = shading;
-    golden.def.solid_count = 2;
-    memcpy(golden.def.solids, solids, sizeof solids);
+    golden.world.solid_count = 2;
+    memcpy(golden.world.solids, solids, sizeof solids);
     check(&golden);
 }
 
@@ -255,8 +256,8 @@ static void cast_volume(const char *name, RaycastLook look)
     golden.def.raycast.look = look;
     golden.def.raycast.jitter = false;
     golden.def.volume.cells = 64;
-    golden.def.solid_count = 1;
-    golden.def.solids[0] = ball;
+    golden.world.solid_count = 1;
+    golden.world.solids[0] = ball;
     check(&golden);
 }
 

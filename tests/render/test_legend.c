@@ -135,7 +135,7 @@ static void test_legend_is_drawn(void **state)
         def.range[1] = 1;
         none.scalar[SCALAR_SPEED].buffer = 1; /* only asked whether it is there: nothing is drawn from it */
         uint8_t *rgb = malloc(3 * (size_t)width * (size_t)height);
-        Renderer *renderer = renderer_create(&def, width, height, &error);
+        Renderer *renderer = renderer_create(&def, NULL, width, height, &error);
         assert_non_null(renderer);
         renderer_draw(renderer, &none, NULL);
         renderer_read(renderer, rgb);

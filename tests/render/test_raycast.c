@@ -350,7 +350,7 @@ static void solids_hide_and_are_hidden(void **state)
 {
     (void)state;
     RayScene scene = ball_scene((double[]){0.05, 0.48, 2}, ball.centre, 20);
-    scene.def.solid_count = 1;
+    scene.world.solid_count = 1;
     const int middle = 60 * scene.width + 80;
     free(ray_drawn(&scene, true)); /* for the near plane */
     const float near = scene.frame.camera.near_plane, depths[] = {1.5F, 2.03F, 2.5F};

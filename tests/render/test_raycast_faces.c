@@ -50,8 +50,8 @@ static void bricks_by_brute_force(void **state)
     assert_true(side == BRICK_CELLS && bricks[0] == 5 && bricks[1] == 1 && bricks[2] == 3);
     free(ray_drawn(&scene, true));
     float *values = field_of(&scene.volume, &count), drawn[5 * 1 * 3];
-    glGetTextureImage(raycast_maps(ray_caster(&scene.def)).greatest, 0, GL_RED, GL_FLOAT, sizeof drawn,
-                      drawn);
+    glGetTextureImage(raycast_maps(ray_caster(&(Subject){&scene.def, &scene.world})).greatest, 0, GL_RED,
+                      GL_FLOAT, sizeof drawn, drawn);
     for (int i = 0; i < 15; i++) {
         const int brick[3] = {i % 5, 0, i / 5};
         const float wanted = greatest_in(values, &odd, brick, side);

@@ -9,6 +9,7 @@
 
 typedef struct Picture {
     ViewDef def;
+    WorldDef world;
     Particles *particles;
     int width, height;
 } Picture;
@@ -16,7 +17,7 @@ typedef struct Picture {
 /* A block; its right half is of the second fluid and faster. */
 static Picture picture_of_block(void)
 {
-    Picture picture = {.def = bare_view(), .width = 120, .height = 90};
+    Picture picture = {.def = bare_view(), .world = bare_world(), .width = 120, .height = 90};
     picture.particles = calloc(1, sizeof *picture.particles);
     assert_non_null(picture.particles);
     for (int i = -10; i < 10; i++)
@@ -40,7 +41,8 @@ static Image drawn(const Picture *picture, bool plain)
     for (size_t i = 0; i < picture->particles->count; i++)
         picture->particles->position[4 * i + 3] = (float)(SPACING * SPACING * SPACING);
     Upload *upload = upload_particles(picture->particles, &state, &buffers);
-    Renderer *renderer = renderer_create(&picture->def, picture->width, picture->height, &error);
+    Renderer *renderer =
+        renderer_create(&picture->def, &picture->world, picture->width, picture->height, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     assert_true(image_create(&image, picture->width, picture->height));
@@ -82,7 +84,7 @@ static void colors_of_scalars_and_fluids(void **state)
             picture.def.color_by = by_fluid ? SCALAR_FLUID : SCALAR_SPEED;
             for (int side = 0; side < 2; side++)
                 for (int k = 0; k < 3; k++)
-                    colors[side][k] = by_fluid ? srgb(picture.def.fluid_color[side][k])
+                    colors[side][k] = by_fluid ? srgb(picture.world.fluids[side].color[k])
                                                : map[3 * (int)((side ? 0.75 : 0.25) * 255 + 0.5) + k];
             Image image = drawn(&picture, true);
             expect_pixel(&image, 40, 50, colors[0], volume_method_names[methods[i]]);
@@ -162,7 +164,7 @@ static void coverage_is_counted(void **state)
     Image image = drawn(&picture, true);
     ParticleBuffers box = box_state(picture.particles->count, SPACING);
     Upload *upload = upload_particles(picture.particles, &box, &buffers);
-    Renderer *renderer = renderer_create(&picture.def, picture.width, picture.height, &error);
+    Renderer *renderer = renderer_create(&picture.def, &picture.world, picture.width, picture.height, &error);
     assert_non_null(renderer);
     renderer_count(renderer, &buffers, &counts);
     renderer_destroy(renderer);

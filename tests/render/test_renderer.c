@@ -37,7 +37,7 @@ static void assert_like_new(Renderer *renderer, const Stand *stand, const ViewDe
     static uint8_t seen[MOST], wanted[MOST];
     Error error = {0};
     draw(renderer, stand, seen);
-    Renderer *fresh = renderer_create(def, width, height, &error);
+    Renderer *fresh = renderer_create(def, NULL, width, height, &error);
     assert_non_null(fresh);
     draw(fresh, stand, wanted);
     renderer_destroy(fresh);
@@ -51,7 +51,7 @@ static void sizes_follow(void **state)
     Error error = {0};
     Stand stand = stand_create();
     const ViewDef def = view_def_default();
-    Renderer *renderer = renderer_create(&def, 64, 64, &error);
+    Renderer *renderer = renderer_create(&def, NULL, 64, 64, &error);
     for (int i = 0; i < 6; i++) {
         assert_true(renderer_resize(renderer, 7 + i, 9, &error)); /* never drawn */
         assert_true(renderer_resize(renderer, sizes[i][0], sizes[i][1], &error));
@@ -70,26 +70,26 @@ static void defs_follow(void **state)
     Error error = {0};
     Stand stand = stand_create();
     ViewDef def = view_def_default();
-    Renderer *renderer = renderer_create(&def, 320, 200, &error);
+    Renderer *renderer = renderer_create(&def, NULL, 320, 200, &error);
     ViewDef changed = def;
     text_set(changed.colormap, "gray");
-    assert_true(renderer_set_def(renderer, &changed, &error));
+    assert_true(renderer_set_def(renderer, &changed, NULL, &error));
     assert_like_new(renderer, &stand, &changed, 320, 200);
     changed.color_by = SCALAR_FLUID;
     changed.legend = changed.floor = false;
     changed.radius = 0.8;
     changed.background[0] = 0.1;
-    assert_true(renderer_set_def(renderer, &changed, &error));
+    assert_true(renderer_set_def(renderer, &changed, NULL, &error));
     assert_like_new(renderer, &stand, &changed, 320, 200);
     text_set(changed.kind, "none");
-    assert_true(renderer_set_def(renderer, &changed, &error));
+    assert_true(renderer_set_def(renderer, &changed, NULL, &error));
     assert_like_new(renderer, &stand, &changed, 320, 200);
-    assert_true(renderer_set_def(renderer, &def, &error));
+    assert_true(renderer_set_def(renderer, &def, NULL, &error));
     assert_like_new(renderer, &stand, &def, 320, 200);
 
     ViewDef bad = def;
     text_set(bad.colormap, "mud");
-    assert_false(renderer_set_def(renderer, &bad, &error));
+    assert_false(renderer_set_def(renderer, &bad, NULL, &error));
     assert_non_null(strstr(error.message, "mud"));
     assert_like_new(renderer, &stand, &def, 320, 200);
     renderer_destroy(renderer);
@@ -98,17 +98,17 @@ static void defs_follow(void **state)
 
 static int created;
 
-static void *counted_create(const ViewDef *def, Error *error)
+static void *counted_create(const Subject *subject, Error *error)
 {
     created++;
-    return view_volume.create(def, error);
+    return view_volume.create(subject, error);
 }
 
 static int made_for(Renderer *renderer, const ViewDef *def)
 {
     Error error = {0};
     created = 0;
-    assert_true(renderer_set_def(renderer, def, &error));
+    assert_true(renderer_set_def(renderer, def, NULL, &error));
     return created;
 }
 
@@ -122,7 +122,7 @@ static void views_are_kept(void **state)
     view_add(&counted);
     ViewDef def = view_def_default();
     text_set(def.kind, "counted");
-    Renderer *renderer = renderer_create(&def, 16, 16, &error);
+    Renderer *renderer = renderer_create(&def, NULL, 16, 16, &error);
     assert_int_equal(created, 1);
     def.splat.shading = SPLAT_WATER; /* another view's */
     def.radius = 0.8;

@@ -14,7 +14,7 @@ static void make_camera(const Scene *scene, Camera *camera)
 static void into_solid(const Scene *scene, const double world[3], bool is_point, double out[3])
 {
     BoxState pose;
-    solid_pose(&scene->def.solids[0], scene->state.time, &pose);
+    solid_pose(&scene->world.solids[0], scene->state.time, &pose);
     for (int k = 0; k < 3; k++)
         out[k] = world[k] - (is_point ? scene->state.box.position[k] : 0);
     quat_rotate_inverse(scene->state.box.orientation, out, out);
@@ -50,7 +50,7 @@ static void make_ray(const Scene *scene, const Camera *camera, const double plac
    exact, so steps of that length never pass the surface. */
 static double trace(const Scene *scene, const double eye[3], const double ray[3])
 {
-    const SolidDef *solid = &scene->def.solids[0];
+    const SolidDef *solid = &scene->world.solids[0];
     const double length = sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
     double t = 0;
     while (t < 10) {
@@ -210,10 +210,10 @@ static void test_the_nearer_solid_is_seen(void **state)
         scene.def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 40};
         scene_add(&scene, SOLID_BOX, 0, 0.5, 0.3);
         scene_add(&scene, SOLID_SPHERE, 0, 0.5, -0.3);
-        memcpy(scene.def.solids[1].color, (float[]){0, 1, 0}, sizeof(float[3]));
+        memcpy(scene.world.solids[1].color, (float[]){0, 1, 0}, sizeof(float[3]));
         if (first == 1) {
-            scene.def.solids[2] = scene.def.solids[0];
-            memmove(scene.def.solids, scene.def.solids + 1, 2 * sizeof(SolidDef));
+            scene.world.solids[2] = scene.world.solids[0];
+            memmove(scene.world.solids, scene.world.solids + 1, 2 * sizeof(SolidDef));
         }
         assert_true(solid_in_the_middle(&scene));
         free(scene.particles);

@@ -7,6 +7,7 @@ enum { WIDTH = 160, HEIGHT = 120 };
 
 typedef struct Scene {
     ViewDef def;
+    WorldDef world;
     ParticleBuffers state;
     Particles *particles;
     double radius; /* m */
@@ -14,7 +15,10 @@ typedef struct Scene {
 
 static Scene scene_create(const double from[3], const double to[3], double fov_deg, double radius)
 {
-    Scene scene = {.def = bare_view(), .particles = calloc(1, sizeof(Particles)), .radius = radius};
+    Scene scene = {.def = bare_view(),
+                   .world = bare_world(),
+                   .particles = calloc(1, sizeof(Particles)),
+                   .radius = radius};
     assert_non_null(scene.particles);
     scene.def.camera_auto = false;
     memcpy(scene.def.camera.from, from, sizeof scene.def.camera.from);
@@ -31,7 +35,7 @@ static void draw_depth(Scene *scene, float *depth)
     ParticleBuffers buffers;
     scene->state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
-    Renderer *renderer = renderer_create(&scene->def, WIDTH, HEIGHT, &error);
+    Renderer *renderer = renderer_create(&scene->def, &scene->world, WIDTH, HEIGHT, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     renderer_draw(renderer, &buffers, NULL);

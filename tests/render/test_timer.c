@@ -152,15 +152,16 @@ static void picture_stages(const char *view)
     Error error = {0};
     ParticleBuffers buffers;
     ViewDef def = view_def_default();
+    WorldDef world = {0};
     text_set(def.kind, view);
     def.splat.shading = SPLAT_WATER; /* has all stages */
     def.splat.filter = SPLAT_NARROW_RANGE;
-    def.solid_count = 1; /* what only some scenes have */
-    def.solids[0] = (SolidDef){.radius = 0.2, .centre = {0, 0.7, 0}};
+    world.solid_count = 1; /* what only some scenes have */
+    world.solids[0] = (SolidDef){.radius = 0.2, .centre = {0, 0.7, 0}};
     Particles *particles = particles_wave(0.08);
     ParticleBuffers box = box_state(particles->count, 0.08);
     Upload *upload = upload_particles(particles, &box, &buffers);
-    Renderer *renderer = renderer_create(&def, 640, 480, &error);
+    Renderer *renderer = renderer_create(&def, &world, 640, 480, &error);
     GlTimer *timer = gl_timer_create(GL_CLOCK_FINISH);
     assert_non_null(renderer);
     double best = 1;

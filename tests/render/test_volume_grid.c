@@ -128,24 +128,24 @@ static void a_view_refuses_what_does_not_fit(void **state)
     ViewDef def = bare_view();
     Error error = {0};
     text_set(def.kind, "volume");
-    memcpy(def.box_size, (double[3]){2, 1, 1}, sizeof def.box_size);
-    def.spacing = 0.05, def.support_radius = 0.105;
+    const WorldDef world = {.box_size = {2, 1, 1}, .spacing = 0.05, .support = 2.1};
+    const Subject subject = {&def, &world};
     def.volume.cells = 4096;
-    assert_null(view_create(&def, &error));
+    assert_null(view_create(&subject, &error));
     assert_non_null(strstr(error.message, "view.volume.cells"));
     def.volume.cells = 64;
-    Renderer *renderer = renderer_create(&def, 64, 64, &error);
+    Renderer *renderer = renderer_create(&def, &world, 64, 64, &error);
     assert_non_null(renderer);
     def.volume.cells = 4096;
-    assert_false(renderer_set_def(renderer, &def, &error));
+    assert_false(renderer_set_def(renderer, &def, &world, &error));
     def.volume.cells = 96;
-    assert_true(renderer_set_def(renderer, &def, &error));
+    assert_true(renderer_set_def(renderer, &def, &world, &error));
     def.volume.bounds = VOLUME_FLUID; /* whose shader was not wanted before */
     program_set_directory("no/such/folder");
-    assert_false(renderer_set_def(renderer, &def, &error));
+    assert_false(renderer_set_def(renderer, &def, &world, &error));
     assert_non_null(strstr(error.message, "volume_bounds.comp"));
     program_set_directory(NULL);
-    assert_true(renderer_set_def(renderer, &def, &error));
+    assert_true(renderer_set_def(renderer, &def, &world, &error));
     renderer_destroy(renderer);
 }
 
@@ -248,15 +248,15 @@ static void memory_that_is_short_is_said_before_a_picture(void **state)
     View *view = NULL;
     ViewDef def = bare_view();
     text_set(def.kind, "volume");
-    memcpy(def.box_size, (double[3]){2, 1, 1}, sizeof def.box_size);
-    def.spacing = 0.05, def.support_radius = 0.105;
+    const WorldDef world = {.box_size = {2, 1, 1}, .spacing = 0.05, .support = 2.1};
+    const Subject subject = {&def, &world};
     def.volume.cells = 250, def.volume.method = VOLUME_SLABS, def.color_by = SCALAR_FLUID; /* 25 MB */
     for (rlim_t left = 10 << 20; !view && !sums && left < 300 << 20; left += 12 << 20) {
         struct rlimit usual;
         Error error = {0};
         if (!leave_memory(left, &usual))
             skip();
-        view = view_create(&def, &error);
+        view = view_create(&subject, &error);
         assert_int_equal(setrlimit(RLIMIT_AS, &usual), 0);
         texture += strstr(error.message, "no memory for a volume of") != NULL;
         sums += strstr(error.message, "no memory for the sums of a volume") != NULL;

@@ -25,7 +25,7 @@ static void picture_of(const ViewDef *def, VolumeScene *scene, uint8_t *rgb)
     ParticleBuffers buffers;
     scene->state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
-    Renderer *renderer = renderer_create(def, SIZE, SIZE, &error);
+    Renderer *renderer = renderer_create(def, NULL, SIZE, SIZE, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     renderer_draw(renderer, &buffers, NULL);
@@ -133,14 +133,14 @@ static void methods_are_swapped_while_it_runs(void **state)
     ViewDef def = slice_def(&scene, (double[]){-0.7, 0.3, 2}, (double[]){-0.7, 0.2, 0});
     def.volume.slice = 0.2;
     uint8_t first[3 * SIZE * SIZE], rgb[3 * SIZE * SIZE];
-    Renderer *renderer = renderer_create(&def, SIZE, SIZE, &error);
+    Renderer *renderer = renderer_create(&def, NULL, SIZE, SIZE, &error);
     assert_non_null(renderer);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read(renderer, first);
     for (int turn = 0; turn < 2 * VOLUME_DIRECT; turn++) {
         def.volume.method = (VolumeMethod)(turn % VOLUME_DIRECT); /* direct does not interpolate */
         def.volume.bounds = (VolumeBounds)(turn / VOLUME_DIRECT);
-        assert_true(renderer_set_def(renderer, &def, &error));
+        assert_true(renderer_set_def(renderer, &def, NULL, &error));
         renderer_draw(renderer, &buffers, NULL);
         renderer_read(renderer, rgb);
         int apart = 0;

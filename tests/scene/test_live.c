@@ -89,14 +89,13 @@ static void each_type_reaches_its_field(void **state)
     assert_true(scene_set_live(&scene, "view.legend=false", NULL, &error) && !scene.view.legend);
 }
 
-static void a_fluids_colour_reaches_the_view(void **state)
+static void a_fluids_colour_is_its_own(void **state)
 {
     (void)state;
-    const float other = scene.view.fluid_color[0][0];
+    const float other = scene.world.fluids[0].color[0];
     assert_false(set("fluids[1].color=[1, 0, 1]"));
     assert_true(scene.world.fluids[1].color[0] == 1 && scene.world.fluids[1].color[1] == 0);
-    assert_memory_equal(scene.view.fluid_color[1], scene.world.fluids[1].color, sizeof(float[3]));
-    assert_true(scene.view.fluid_color[0][0] == other);
+    assert_true(scene.world.fluids[0].color[0] == other);
 }
 
 /* A path of the row, with the second element of each list. */
@@ -221,7 +220,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(each_type_reaches_its_field, setup),
-        cmocka_unit_test_setup(a_fluids_colour_reaches_the_view, setup),
+        cmocka_unit_test_setup(a_fluids_colour_is_its_own, setup),
         cmocka_unit_test_setup(the_table_says_which, setup),
         cmocka_unit_test_setup(messages_are_those_of_set, setup),
         cmocka_unit_test_setup(paths_must_name_one_key, setup),

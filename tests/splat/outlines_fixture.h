@@ -15,7 +15,7 @@ static inline void draw_at(const Scene *scene, int width, int height, uint8_t *r
     ParticleBuffers state = scene->state;
     state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &state, &buffers);
-    Renderer *renderer = renderer_create(&scene->def, width, height, &error);
+    Renderer *renderer = renderer_create(&scene->def, &scene->world, width, height, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     renderer_draw(renderer, &buffers, NULL);

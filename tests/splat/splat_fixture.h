@@ -17,6 +17,7 @@ static __attribute__((unused)) float splat_shapes[12 * PARTICLES_MAX];
 
 typedef struct SplatScene {
     ViewDef def;
+    WorldDef world;
     ParticleBuffers state;
     Particles *particles;
     int width, height;
@@ -35,8 +36,11 @@ typedef struct SplatPixel {
 
 static inline SplatScene splat_scene(const double from[3], const double to[3], double fov_deg, double radius)
 {
-    SplatScene scene = {
-        .def = bare_view(), .particles = calloc(1, sizeof(Particles)), .width = 160, .height = 120};
+    SplatScene scene = {.def = bare_view(),
+                        .world = bare_world(),
+                        .particles = calloc(1, sizeof(Particles)),
+                        .width = 160,
+                        .height = 120};
     assert_non_null(scene.particles);
     text_set(scene.def.kind, "splat");
     scene.def.color_by = SCALAR_FLUID;
@@ -117,13 +121,13 @@ static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bo
 {
     Error error = {0};
     ParticleBuffers buffers;
-    SplatDrawing drawing = {.view = view_splat.create(&scene->def, &error)};
+    SplatDrawing drawing = {.view = view_splat.create(&(Subject){&scene->def, &scene->world}, &error)};
     if (!drawing.view || !target_create(&drawing.target, scene->width, scene->height, &error))
         fail_msg("%s", error.message);
     scene->state.count = scene->particles->count;
     drawing.upload = upload_particles(scene->particles, &scene->state, &buffers);
     buffers.count = scene->empty ? 0 : buffers.count;
-    frame_make(&scene->frame, &scene->def, &buffers, &drawing.target,
+    frame_make(&scene->frame, &(Subject){&scene->def, &scene->world}, &buffers, &drawing.target,
                view_radii(&view_splat, &scene->def, &buffers), (Covered){0});
     scene->frame.plain = plain;
     scene->frame.floor_light = no_shadows();
@@ -288,7 +292,7 @@ static inline SplatPixel splat_wanted(const SplatScene *scene, int x, int y)
     }
     for (size_t i = 0; i < scene->particles->count; i++) {
         const SplatHit hit = hit_of(scene, i, x, y);
-        const float *color = scene->def.fluid_color[scene->particles->fluid[i]];
+        const float *color = scene->world.fluids[scene->particles->fluid[i]].color;
         if (!hit_counts(scene, &hit) || hit.depth >= pixel.depth + eps)
             continue;
         const double weight = weight_of(scene, &hit, pixel.depth, eps);

@@ -119,7 +119,7 @@ static inline SplatPixel level_wanted(const SplatScene *scene, int x, int y)
         const double r = level_distance(chord, pixel.depth), s = pixel.depth - chord->middle;
         const double weight = ray.volume * kernel_poly6(r, ray.h);
         const double change = ray.volume * kernel_poly6_derivative(r, ray.h) / r;
-        const float *color = scene->def.fluid_color[scene->particles->fluid[chord->particle]];
+        const float *color = scene->world.fluids[scene->particles->fluid[chord->particle]].color;
         pixel.weight += weight;
         slope += change * chord->length2 * s * ray.h;
         for (int k = 0; k < 3; k++) {

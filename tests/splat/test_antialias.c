@@ -154,7 +154,7 @@ static Scene threads(void)
                       0.08 * thread + 0.13 * along * (thread % 4), 0, 1, 0);
     }
     for (int k = 0; k < 3; k++)
-        scene.def.background[k] = 0.02, scene.def.fluid_color[0][k] = 1;
+        scene.def.background[k] = 0.02, scene.world.fluids[0].color[k] = 1;
     scene.def.splat.level = 0.3;
     return scene;
 }

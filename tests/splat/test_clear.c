@@ -164,8 +164,8 @@ static double thickness_before_solid(double depth)
 {
     SplatScene scene = ball_scene(RADIUS / 15, NULL);
     memcpy(scene.def.camera.from, (double[]){0, 0.5, 3}, sizeof scene.def.camera.from);
-    scene.def.solid_count = 1;
-    scene.def.solids[0] = (SolidDef){.radius = 0.1, .centre = {0, -50, 0}};
+    scene.world.solid_count = 1;
+    scene.world.solids[0] = (SolidDef){.radius = 0.1, .centre = {0, -50, 0}};
     SplatDrawing drawing = splat_open(&scene, NULL, false);
     solid_depth = (float)(scene.frame.camera.near_plane / depth);
     splat_close(&drawing);
@@ -265,7 +265,7 @@ static double compare_bending(double ior)
     scene.width = scene.height = SIDE;
     scene.def.splat.ior = ior;
     for (int k = 0; k < 3; k++)
-        scene.def.fluid_color[0][k] = 1;
+        scene.world.fluids[0].color[k] = 1;
     SplatDrawing drawing = splat_open(&scene, lay_coordinates, true);
     SplatPixel *pixels = splat_read(&scene, &drawing);
     const Map map = read_thickness(&drawing);
@@ -323,7 +323,7 @@ static void absorption_by_beer_and_lambert(void **state)
     SplatScene scene = ball_scene(0.03, NULL);
     scene.width = scene.height = SIDE;
     scene.def.splat.attenuation = 0.4;
-    memcpy(scene.def.fluid_color[0], colour, sizeof colour);
+    memcpy(scene.world.fluids[0].color, colour, sizeof colour);
     SplatDrawing drawing = splat_open(&scene, lay_grey, true);
     SplatPixel *pixels = splat_read(&scene, &drawing);
     const Map map = read_thickness(&drawing);
@@ -360,7 +360,7 @@ static void absorption_in_two_dimensions(void **state)
     scene.width = scene.height = SIDE;
     scene.state.box_size[2] = spacing;
     scene.def.splat.shading = SPLAT_WATER;
-    memcpy(scene.def.fluid_color[0], colour, sizeof colour);
+    memcpy(scene.world.fluids[0].color, colour, sizeof colour);
     for (int i = 0; i < 20 * 20; i++)
         particles_add(scene.particles, spacing * (i % 20 - 9.5), spacing * (i / 20 + 0.5), 0, 1, 0);
     SplatDrawing drawing = splat_open(&scene, lay_grey, true);
@@ -406,7 +406,7 @@ static void reflection_by_fresnel(void **state)
     SplatScene scene = ball_scene(0.03, NULL);
     scene.width = scene.height = SIDE;
     scene.def.splat.attenuation = 1e-3;
-    memset(scene.def.fluid_color[0], 0, sizeof scene.def.fluid_color[0]);
+    memset(scene.world.fluids[0].color, 0, sizeof scene.world.fluids[0].color);
     SplatDrawing drawing = splat_open(&scene, lay_grey, false);
     SplatPixel *pixels = splat_read(&scene, &drawing);
     const Map map = read_thickness(&drawing);

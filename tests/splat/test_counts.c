@@ -16,7 +16,7 @@ static ViewCounts counts_with(const Particles *particles, ViewDef def)
     ParticleBuffers state = box_state(particles->count, radius), buffers;
     ViewCounts counts;
     Upload *upload = upload_particles(particles, &state, &buffers);
-    Renderer *renderer = renderer_create(&def, WIDTH, HEIGHT, &error);
+    Renderer *renderer = renderer_create(&def, NULL, WIDTH, HEIGHT, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     renderer_count(renderer, &buffers, &counts);

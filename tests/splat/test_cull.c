@@ -122,7 +122,7 @@ static void draw_with_shadows(SplatScene *scene, uint8_t *rgb)
     ParticleBuffers buffers;
     scene->state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
-    Renderer *renderer = renderer_create(&scene->def, scene->width, scene->height, &error);
+    Renderer *renderer = renderer_create(&scene->def, &scene->world, scene->width, scene->height, &error);
     assert_non_null(renderer);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read(renderer, rgb);

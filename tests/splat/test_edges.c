@@ -64,7 +64,7 @@ static double covered_share(SplatScene *scene, int side)
     float *depth = calloc(pixels, sizeof *depth);
     scene->state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
-    Renderer *renderer = renderer_create(&scene->def, side, side, &error);
+    Renderer *renderer = renderer_create(&scene->def, &scene->world, side, side, &error);
     assert_true(depth && renderer);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read_depth(renderer, depth);

@@ -120,7 +120,7 @@ static int covered(SplatScene *scene, int width, int height)
     scene->state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
     buffers.count = scene->empty ? 0 : buffers.count;
-    Renderer *renderer = renderer_create(&scene->def, width, height, &error);
+    Renderer *renderer = renderer_create(&scene->def, &scene->world, width, height, &error);
     assert_true(depth && renderer);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read_depth(renderer, depth);

@@ -235,11 +235,11 @@ static void the_level_changes_live(void **state)
     SplatScene scene = heap(0);
     scene.state.count = scene.particles->count;
     Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
-    Renderer *renderer = renderer_create(&scene.def, 160, 120, &error);
+    Renderer *renderer = renderer_create(&scene.def, &scene.world, 160, 120, &error);
     assert_non_null(renderer);
     for (int i = 0; i < 4; i++) {
         scene.def.splat.level = levels[i];
-        assert_true(renderer_set_def(renderer, &scene.def, &error));
+        assert_true(renderer_set_def(renderer, &scene.def, &scene.world, &error));
         renderer_draw(renderer, &buffers, NULL);
         renderer_read(renderer, rgb[i]);
     }

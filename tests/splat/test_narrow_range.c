@@ -59,17 +59,19 @@ static void filter_map(Map *map)
     Error error = {0};
     Target target;
     ViewDef def = bare_view();
+    const WorldDef world = bare_world();
     ParticleBuffers buffers = box_state(0, radius);
     assert_true(target_create(&target, W, H, &error));
     def.splat = map->splat, def.radius = 1;
     def.camera_auto = false, def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 40};
-    frame_make(&map->frame, &def, &buffers, &target, frame_balls(&def, &buffers, 1), (Covered){0});
+    frame_make(&map->frame, &(Subject){&def, &world}, &buffers, &target, frame_balls(&def, &buffers, 1),
+               (Covered){0});
     memcpy(map->frame.bounds, (float[4]){-1, 1, -1, 1}, sizeof map->frame.bounds);
     const unsigned uniforms = frame_uniforms_create();
     frame_uniforms_update(uniforms, &map->frame, buffers.box_size, buffers.spacing);
     target_begin(&target);
     run(map, &target, map->depth, map->normal);
-    map->frame.def = NULL, map->frame.target = NULL;
+    map->frame.def = NULL, map->frame.world = NULL, map->frame.target = NULL;
     glDeleteBuffers(1, &uniforms);
     target_destroy(&target);
 }

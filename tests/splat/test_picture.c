@@ -131,7 +131,7 @@ static void solids_through_clear_fluid(void **state)
         int red = 0;
         scene.def.splat.shading = SPLAT_WATER;
         for (int k = 0; k < 3; k++)
-            scene.def.fluid_color[0][k] = 1;
+            scene.world.fluids[0].color[k] = 1;
         scene.state.spacing = 0.1;
         for (int i = 0; i < 8 * 8 * 8; i++)
             particles_add(scene.particles, -0.28 + 0.08 * (i % 8), 0.22 + 0.08 * (i / 8 % 8),
@@ -238,7 +238,7 @@ static void scalars_colour_it(void **state)
 static void change(Renderer *renderer, Scene *scene, uint8_t rgb[3 * PIXELS])
 {
     Error error = {0};
-    if (!renderer_set_def(renderer, &scene->def, &error))
+    if (!renderer_set_def(renderer, &scene->def, &scene->world, &error))
         fail_msg("%s", error.message);
     draw(scene, renderer);
     renderer_read(renderer, rgb);

@@ -27,13 +27,13 @@ static void darkening(const Scene *scene, bool antialias, double *mean, double *
     text_set(none.kind, "none");
     state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &state, &buffers);
-    Renderer *renderer = renderer_create(&none, W, H, &error);
+    Renderer *renderer = renderer_create(&none, &scene->world, W, H, &error);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read(renderer, clear);
     for (int i = 0; i < 16; i++) {
         def.camera.from[0] = def.camera.to[0] = (i % 8) * pixel / 8;
         def.camera.from[1] = def.camera.to[1] = 0.5 + (0.37 * i + (i > 7)) * pixel / 2;
-        assert_true(renderer_set_def(renderer, &def, &error));
+        assert_true(renderer_set_def(renderer, &def, &scene->world, &error));
         renderer_draw(renderer, &buffers, NULL);
         renderer_read(renderer, rgb);
         double light = 0;
@@ -86,8 +86,8 @@ static void small_drops_leave_no_hole(void **state)
     Scene scene = drops(0.4);
     const size_t count = scene.particles->count;
     const double r = scene.state.spacing;
-    scene.def.fluid_color[1][0] = 0.03F, scene.def.fluid_color[1][1] = 0.22F,
-    scene.def.fluid_color[1][2] = 0.55F;
+    scene.world.fluids[1].color[0] = 0.03F, scene.world.fluids[1].color[1] = 0.22F,
+    scene.world.fluids[1].color[2] = 0.55F;
     const int wide = (int)(1.2 / r), high = (int)(0.8 / r);
     for (int i = 0; i < wide * high; i++)
         particles_add(scene.particles, -0.6 + r * (i % wide), 0.1 + r * floor((double)i / wide), -0.5, 1, 0);
@@ -111,7 +111,7 @@ static void a_far_body_is_opaque(void **state)
     Scene scene = scene_of(30);
     scene.def.camera = (CameraDef){{2.3, 3, 11}, {-0.7, 0.2, 0}, 20};
     scene.def.radius = 0.5;
-    memcpy(scene.def.fluid_color[1], scene.def.fluid_color[0], sizeof(float[3]));
+    memcpy(scene.world.fluids[1].color, scene.world.fluids[0].color, sizeof(float[3]));
     memcpy(scene.def.background, (double[]){1, 0, 0}, sizeof scene.def.background);
     draw_at(&scene, W, H, far, NULL);
     int inside = 0;

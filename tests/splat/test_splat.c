@@ -93,9 +93,9 @@ static void a_colour_holds_to_the_rim(void **state)
         int covered = 0;
         for (int k = 0; k < scene.width * scene.height; k++)
             for (int c = 0; pixels[k].weight > 0 && c < 3; c++, covered++)
-                if (fabs(pixels[k].color[c] / pixels[k].weight - scene.def.fluid_color[0][c]) > 1e-3)
+                if (fabs(pixels[k].color[c] / pixels[k].weight - scene.world.fluids[0].color[c]) > 1e-3)
                     fail_msg("colour %g, not %g, where the weight is %g",
-                             pixels[k].color[c] / pixels[k].weight, scene.def.fluid_color[0][c],
+                             pixels[k].color[c] / pixels[k].weight, scene.world.fluids[0].color[c],
                              pixels[k].weight);
         assert_true(covered > 3 * 30000);
         free(pixels);
