@@ -3,6 +3,7 @@
 #include "render/frame/behind.h"
 #include "render/frame/colormap.h"
 #include "render/volume/bricks.h"
+#include "shaders/volume/raycast_block.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -10,12 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* As in shaders/volume/raycast.glsl, std140. */
-typedef struct RaycastBlock {
-    float eye_to_volume[16], volume_to_eye[16];
-    float cells[4], bricks[4], march[4], transfer[4], look[4];
-} RaycastBlock;
 
 /* GATE: a copy of what says which pixels have a ray at all, for the test of depth before the shader. */
 enum { ENTRY, EXIT, GATE, DEPTHS };
@@ -138,11 +133,6 @@ static void follow_target(Raycast *raycast, const Target *target)
     raycast->target_number = target->number;
 }
 
-static void set(float out[4], double x, double y, double z, double w)
-{
-    out[0] = (float)x, out[1] = (float)y, out[2] = (float)z, out[3] = (float)w;
-}
-
 /* The grid's sides are along the box's axes: scale, move, and then the box's pose. */
 static void fill_matrices(RaycastBlock *block, const VolumeGrid *grid, const Frame *frame)
 {
@@ -166,10 +156,30 @@ static bool near_is_inside(const RaycastBlock *block, const Frame *frame)
     const float reach = near * sqrtf(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
     bool inside = true;
     for (int k = 0; k < 3; k++) {
-        const float at = block->eye_to_volume[12 + k], margin = reach / (block->cells[k] * block->cells[3]);
+        const float at = block->eye_to_volume[12 + k],
+                    margin = reach / (block->volume_cells[k] * block->cell_size);
         inside = inside && at > -margin && at < 1 + margin;
     }
     return inside;
+}
+
+static void fill_march(RaycastBlock *block, const RaycastDef *cast, const Volume *volume)
+{
+    block->surface_level = (float)cast->level;
+    block->step_length = (float)(cast->step * volume->grid.cell);
+    block->far_step = (float)(FAR_STEP * volume->support);
+    block->enough_light = (float)(1 - cast->threshold);
+    block->jitter = cast->jitter;
+}
+
+/* Of translucent fluid: the opacity is that of one spacing of it. */
+static void fill_opacity(RaycastBlock *block, const RaycastDef *cast, double spacing)
+{
+    block->ramp_begin = (float)cast->ramp[0];
+    block->ramp_scale = (float)(1 / fmax(cast->ramp[1] - cast->ramp[0], 1e-6));
+    block->extinction = (float)(-log(fmax(1 - cast->opacity, 1e-30)) / spacing);
+    block->skin_depth = (float)-log(fmax(1 - cast->skin, 1e-30));
+    block->scalar_share = (float)cast->by_scalar;
 }
 
 static void fill_block(RaycastBlock *block, const Volume *volume, const ParticleBuffers *particles,
@@ -181,14 +191,16 @@ static void fill_block(RaycastBlock *block, const Volume *volume, const Particle
     const int side = bricks_of(grid, count);
     const bool surface = cast->look != RAYCAST_TRANSLUCENT;
     fill_matrices(block, grid, frame);
-    set(block->cells, grid->size[0], grid->size[1], grid->size[2], grid->cell);
-    set(block->bricks, count[0], count[1], count[2], side);
-    set(block->march, cast->level, cast->step * grid->cell, FAR_STEP * volume->support,
-        near_is_inside(block, frame) ? frame->camera.near_plane : 0);
-    set(block->transfer, cast->ramp[0], 1 / fmax(cast->ramp[1] - cast->ramp[0], 1e-6),
-        -log(fmax(1 - cast->opacity, 1e-30)) / particles->spacing,
-        cast->skip ? surface ? cast->level : cast->ramp[0] : -1);
-    set(block->look, 1 - cast->threshold, cast->jitter, cast->by_scalar, -log(fmax(1 - cast->skin, 1e-30)));
+    for (int k = 0; k < 3; k++) {
+        block->volume_cells[k] = (float)grid->size[k];
+        block->brick_count[k] = (float)count[k];
+    }
+    block->cell_size = (float)grid->cell;
+    block->brick_side = (float)side;
+    block->brick_least = (float)(cast->skip ? surface ? cast->level : cast->ramp[0] : -1);
+    fill_march(block, cast, volume);
+    fill_opacity(block, cast, particles->spacing);
+    block->near_start = near_is_inside(block, frame) ? frame->camera.near_plane : 0;
 }
 
 /* The nearest front face and the farthest back face in each pixel. */
@@ -285,17 +297,17 @@ static void write_depth(const Raycast *raycast, const Frame *frame)
 static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuffers *particles,
                       const Frame *frame)
 {
-    RaycastBlock block;
+    RaycastBlock block = {0};
     follow_target(raycast, frame->target);
     fill_block(&block, volume, particles, frame);
     glNamedBufferSubData(raycast->block, 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 3, raycast->block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, RAYCAST_BLOCK, raycast->block);
     glBindTextures(8, 2, (GLuint[]){volume->field, volume->scalar});
     bricks_make(&raycast->bricks, volume);
     draw_faces(raycast, frame);
     if (raycast->look == RAYCAST_WATER)
         look_through(raycast, frame);
-    march(raycast, frame, block.march[3] > 0);
+    march(raycast, frame, block.near_start > 0);
     write_depth(raycast, frame);
 }
 

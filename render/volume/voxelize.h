@@ -1,5 +1,5 @@
 /* What the methods of voxelization share; for render/volume/voxelizer.c and tests. The block of
-   shaders/volume/volume.glsl is bound while they run. */
+   shaders/volume/volume_block.h is bound while they run. */
 #ifndef SLOSH_VOXELIZE_H
 #define SLOSH_VOXELIZE_H
 

@@ -3,6 +3,7 @@
 #include "render/particles/particle_bind.h"
 #include "render/volume/cell_lists.h"
 #include "render/volume/voxelize.h"
+#include "shaders/volume/volume_block.h"
 #include "sim/gl/program.h"
 #include "sim/kernel/kernel.h"
 
@@ -11,13 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-/* As in shaders/volume/volume.glsl, std140. */
-typedef struct VolumeBlock {
-    float place[4], low[4], high[4];
-    int32_t size[4], list_size[4];
-    float scale[4];
-} VolumeBlock;
 
 struct Voxelizer {
     VolumeMethod method;
@@ -180,20 +174,20 @@ static bool follow_grid(Voxelizer *voxelizer, const VolumeGrid *grid, Error *err
 
 static void fill_block(const Voxelizer *voxelizer, const VoxelizeJob *job, const VolumeGrid *grid)
 {
-    VolumeBlock block = {.place[3] = (float)(1 / grid->cell),
-                         .low[3] = (float)job->radius,
-                         .high[3] = (float)(1 / (job->radius * job->radius)),
-                         .size[3] = (int32_t)job->particles->count};
+    VolumeBlock block = {.cells_per_m = (float)(1 / grid->cell),
+                         .kernel_radius = (float)job->radius,
+                         .radius2_inverse = (float)(1 / (job->radius * job->radius)),
+                         .kernel_peak = (float)job->amplitude,
+                         .particle_count = (GLuint)job->particles->count};
     for (int k = 0; k < 3; k++) {
-        block.place[k] = (float)grid->corner[k];
-        block.low[k] = (float)job->low[k];
-        block.high[k] = (float)job->high[k];
-        block.size[k] = grid->size[k];
+        block.volume_corner[k] = (float)grid->corner[k];
+        block.volume_low[k] = (float)job->low[k];
+        block.volume_high[k] = (float)job->high[k];
+        block.volume_size[k] = grid->size[k];
     }
-    block.scale[0] = (float)job->amplitude;
-    block.scale[1] = (float)cell_lists_size(grid, job->radius, block.list_size);
+    block.list_scale = (float)cell_lists_size(grid, job->radius, block.list_size);
     glNamedBufferSubData(voxelizer->block, 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 2, voxelizer->block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, VOLUME_BLOCK, voxelizer->block);
 }
 
 /* From the numbers of shaders/volume/volume_bounds.comp. */
@@ -305,7 +299,7 @@ bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuf
 
 void voxelizer_bind(const Voxelizer *voxelizer)
 {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 2, voxelizer->block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, VOLUME_BLOCK, voxelizer->block);
     glBindTextures(8, 2, (GLuint[]){voxelizer->volume.field, voxelizer->volume.scalar});
     if (voxelizer->method == VOLUME_DIRECT)
         voxelize_compute_bind(voxelizer->state);

@@ -4,9 +4,7 @@
 #define SLOSH_BINDINGS_H
 
 /* Uniform blocks */
-#define FRAME_BLOCK   0
-#define SOLID_BLOCK   1
-#define VOLUME_BLOCK  2
-#define RAYCAST_BLOCK 3
+#define FRAME_BLOCK 0
+#define SOLID_BLOCK 1
 
 #endif

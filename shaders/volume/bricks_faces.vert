@@ -7,7 +7,7 @@ layout(std430, binding = 4) readonly buffer Faces { uint faces[]; };
 void main()
 {
     uint face = faces[gl_VertexID >> 2], side = face % 6u, number = face / 6u, axis = side >> 1, up = side & 1u;
-    uvec3 count = uvec3(bricks.xyz), corner = uvec3(number % count.x, number / count.x % count.y, number / (count.x * count.y));
+    uvec3 count = uvec3(brick_count), corner = uvec3(number % count.x, number / count.x % count.y, number / (count.x * count.y));
     uvec2 across = uvec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
     corner[axis] += up;
     corner[(axis + 1u) % 3u] += up == 1u ? across.x : across.y;

@@ -7,7 +7,7 @@ layout(binding = 0, r32f) uniform writeonly image3D greatest_map;
 
 void main()
 {
-    ivec3 count = ivec3(bricks.xyz), size = ivec3(cells.xyz), side = ivec3(bricks.w);
+    ivec3 count = ivec3(brick_count), size = ivec3(volume_cells), side = ivec3(brick_side);
     int number = int(gl_GlobalInvocationID.x);
     ivec3 brick = ivec3(number % count.x, number / count.x % count.y, number / (count.x * count.y));
     if (brick.z >= count.z)

@@ -8,14 +8,14 @@ layout(std430, binding = 5) buffer Command { uint indices, instances, first, bas
 
 bool holds(ivec3 brick)
 {
-    if (any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, ivec3(bricks.xyz))))
+    if (any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, ivec3(brick_count))))
         return false;
-    return texelFetch(greatest_map, brick, 0).x > transfer.w;
+    return texelFetch(greatest_map, brick, 0).x > brick_least;
 }
 
 void main()
 {
-    ivec3 count = ivec3(bricks.xyz);
+    ivec3 count = ivec3(brick_count);
     int number = int(gl_GlobalInvocationID.x);
     ivec3 brick = ivec3(number % count.x, number / count.x % count.y, number / (count.x * count.y));
     if (brick.z >= count.z || !holds(brick))

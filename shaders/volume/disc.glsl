@@ -4,7 +4,7 @@
 vec4 disc_of(vec4 at, int slice)
 {
     float away = float(slice) + 0.5 - at.z;
-    return vec4(at.xy, 1.0 - away * away * volume_high.w, at.w);
+    return vec4(at.xy, 1.0 - away * away * radius2_inverse, at.w);
 }
 
 // Where the point is; outside of everything where it is not `there`.
@@ -16,5 +16,5 @@ vec4 disc_place(vec4 at, bool there)
 // Pixels across, with a margin since rasterisers round places to 1/256 of a pixel.
 float disc_size(float away)
 {
-    return 2.0 * sqrt(max(volume_low.w * volume_low.w - away * away, 0.0)) + 1.0 / 64.0;
+    return 2.0 * sqrt(max(kernel_radius * kernel_radius - away * away, 0.0)) + 1.0 / 64.0;
 }

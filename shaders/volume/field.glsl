@@ -14,7 +14,7 @@ layout(binding = 8) uniform sampler3D field_map;
 
 float field_at(vec3 box_point)
 {
-    return textureLod(field_map, cells_of(box_point) / vec3(volume_size.xyz), 0.0).x;
+    return textureLod(field_map, cells_of(box_point) / vec3(volume_size), 0.0).x;
 }
 #endif
 
@@ -29,7 +29,7 @@ layout(binding = 9) uniform sampler3D field_scalar_map;
 
 vec2 field_sums_at(vec3 box_point)
 {
-    return vec2(field_at(box_point), textureLod(field_scalar_map, cells_of(box_point) / vec3(volume_size.xyz), 0.0).x);
+    return vec2(field_at(box_point), textureLod(field_scalar_map, cells_of(box_point) / vec3(volume_size), 0.0).x);
 }
 #endif
 

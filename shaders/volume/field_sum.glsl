@@ -9,8 +9,8 @@ layout(std430, binding = 10) readonly buffer ListScalars { float list_scalars[];
 vec2 field_sum(vec3 at)
 {
     vec2 sum = vec2(0.0);
-    ivec3 middle = ivec3(floor(at * volume_scale.y));
-    ivec3 low = max(middle - 1, ivec3(0)), high = min(middle + 1, list_size.xyz - 1);
+    ivec3 middle = ivec3(floor(at * list_scale));
+    ivec3 low = max(middle - 1, ivec3(0)), high = min(middle + 1, list_size - 1);
     if (low.x > high.x)
         return sum;
     for (int z = low.z; z <= high.z; z++)
@@ -20,7 +20,7 @@ vec2 field_sum(vec3 at)
             for (uint i = list_starts[row + low.x]; i < end; i++) {
                 vec4 other = list_particles[i];
                 vec3 d = at - other.xyz;
-                float part = other.w * poly6_shape(1.0 - dot(d, d) * volume_high.w);
+                float part = other.w * poly6_shape(1.0 - dot(d, d) * radius2_inverse);
 #ifdef SCALAR
                 sum += vec2(part, part * list_scalars[i]);
 #else

@@ -29,7 +29,7 @@ void show(Ray ray)
 {
     vec3 at = ray_at(ray, SHOW == 1 ? ray.begin : ray.end);
     float way = (ray.end - ray.begin) * ray.slant;
-    color = vec4(SHOW == 3 ? vec3(way / (cells.w * length(cells.xyz))) : at, 1.0);
+    color = vec4(SHOW == 3 ? vec3(way / (cell_size * length(volume_cells))) : at, 1.0);
     found = ray.begin;
 }
 #elif defined TRANSLUCENT && SHOW != 5

@@ -28,7 +28,7 @@ struct Piece {
 // The field's place on the ramp of the transfer function.
 float ramp_of(float f)
 {
-    return clamp((f - transfer.x) * transfer.y, 0.0, 1.0);
+    return clamp((f - ramp_begin) * ramp_scale, 0.0, 1.0);
 }
 
 // Marches on from t, where the field is f, until there is enough to be worth shading. Extinction is taken as linear between samples,
@@ -38,16 +38,16 @@ Piece next_piece(Ray ray, float dt, inout float t, inout float f, inout float ne
     const float enough = 0.1; // a tenth of the opacity, and half of the skin
     Piece piece = Piece(0.0, 0.0, 0.0);
     float ramp = ramp_of(f);
-    while (t < ray.end && piece.body < enough && piece.skin <= look.w * 0.5) {
+    while (t < ray.end && piece.body < enough && piece.skin <= skin_depth * 0.5) {
         next = min(next, ray.end);
         f = field_at(ray_at(ray, next));
-        float after = ramp_of(f), body = 0.5 * (ramp + after) * (next - t) * ray.slant * transfer.z,
-              skin = abs(after - ramp) * look.w;
+        float after = ramp_of(f), body = 0.5 * (ramp + after) * (next - t) * ray.slant * extinction,
+              skin = abs(after - ramp) * skin_depth;
         piece.body += body;
         piece.skin += skin;
         piece.at += (body + skin) * 0.5 * (t + next);
         steps++;
-        ramp = after, t = next, next += max(dt, f < transfer.x ? step_from(f, transfer.x) / ray.slant : 0.0);
+        ramp = after, t = next, next += max(dt, f < ramp_begin ? step_from(f, ramp_begin) / ray.slant : 0.0);
     }
     piece.at /= max(piece.body + piece.skin, 1e-30);
     return piece;
@@ -56,16 +56,16 @@ Piece next_piece(Ray ray, float dt, inout float t, inout float f, inout float ne
 // Premultiplied colour and opacity. `half_way`: t at which half of the light is lost; 0: never.
 vec4 gather(Ray ray, out float half_way)
 {
-    float dt = march.y / ray.slant;
+    float dt = step_length / ray.slant;
     vec3 sum = vec3(0.0);
     float left = 1.0, t = ray.begin, share, f = field_at(ray_at(ray, t));
-    float next = t + dt * (look.y > 0.5 ? noise() : 1.0);
+    float next = t + dt * (jitter != 0u ? noise() : 1.0);
     half_way = 0.0;
-    while (t < ray.end && left > look.x) {
+    while (t < ray.end && left > enough_light) {
         Piece piece = next_piece(ray, dt, t, f, next);
         float depth = piece.body + piece.skin;
         vec3 albedo = albedo_at(ray_at(ray, piece.at), share);
-        float passed = exp(-depth * mix(1.0, share, look.z));
+        float passed = exp(-depth * mix(1.0, share, scalar_share));
         if (depth > 0.0)
             sum += left * (1.0 - passed) * glow_at(ray, piece.at, albedo, piece.skin / depth);
         left *= passed;

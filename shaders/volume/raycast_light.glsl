@@ -5,7 +5,7 @@ layout(binding = 2) uniform sampler2D colormap;
 #ifdef FIELD_DIRECT
 float scalar_at(vec3 at)
 {
-    vec2 sums = field_sum(at * cells.xyz);
+    vec2 sums = field_sum(at * volume_cells);
     return sums.x > 0.0 ? sums.y / sums.x : 0.0;
 }
 #else
@@ -46,9 +46,9 @@ float lit_at(vec3 place)
 {
     Ray ray = ray_from(place, light_in_eye);
     const float longest = 8.0 * particle_radius; // nothing to speak of is left
-    float dt = 2.0 * march.y, t = dt, way = 0.0, end = ray_end(ray);
+    float dt = 2.0 * step_length, t = dt, way = 0.0, end = ray_end(ray);
     while (t < end && way < longest) {
-        float f = min(field_at(ray_at(ray, t)), 1.0), on = f > 0.0 ? dt : max(dt, march.z);
+        float f = min(field_at(ray_at(ray, t)), 1.0), on = f > 0.0 ? dt : max(dt, far_step);
         way += on * f;
         t += on;
     }

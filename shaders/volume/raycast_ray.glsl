@@ -7,7 +7,7 @@
 
 float field_at(vec3 at)
 {
-    return field_sum(at * cells.xyz).x;
+    return field_sum(at * volume_cells).x;
 }
 #else
 layout(binding = 8) uniform sampler3D field_map;
@@ -69,7 +69,7 @@ Ray eye_ray()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float entry = texelFetch(entry_map, pixel, 0).x, leave = texelFetch(exit_map, pixel, 0).x;
     Ray ray = ray_from(vec3(0.0), ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)));
-    ray.begin = march.w > 0.0 ? march.w : near_plane / max(entry, 1e-30);
+    ray.begin = near_start > 0.0 ? near_start : near_plane / max(entry, 1e-30);
     ray.end = min(near_plane / max(leave, 1e-30), solid_end());
     return ray;
 }
@@ -79,7 +79,7 @@ Ray eye_ray()
 // nothing is, steps are thus half the kernel's radius: no map of what is empty is read on the way, which costs more than it saves.
 float step_from(float f, float level)
 {
-    return max(march.y, march.z * (1.0 - sqrt(sqrt(f / level))));
+    return max(step_length, far_step * (1.0 - sqrt(sqrt(f / level))));
 }
 
 // Of the field, per cell, in the eye's space: from four values at the corners of a tetrahedron.
@@ -87,7 +87,7 @@ vec3 slope_at(vec3 at)
 {
     const vec2 k = vec2(1.0, -1.0);
     const float reach = 0.6; // cells
-    vec3 cell = reach / cells.xyz;
+    vec3 cell = reach / volume_cells;
     vec3 slope = k.xyy * field_at(at + k.xyy * cell) + k.yyx * field_at(at + k.yyx * cell) +
                  k.yxy * field_at(at + k.yxy * cell) + k.xxx * field_at(at + k.xxx * cell);
     return mat3(box_to_eye) * slope / (4.0 * reach);

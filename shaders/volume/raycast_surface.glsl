@@ -5,10 +5,10 @@ int steps = 0;
 float refined(Ray ray, float t, float f, float beyond, float g)
 {
     float here = t;
-    f -= march.x, g -= march.x;
+    f -= surface_level, g -= surface_level;
     for (int i = 0; i < 4; i++) {
         here = t + (beyond - t) * (f / (f - g));
-        float value = field_at(ray_at(ray, here)) - march.x;
+        float value = field_at(ray_at(ray, here)) - surface_level;
         if (value < 0.0)
             t = here, f = value, g *= 0.5;
         else
@@ -21,12 +21,12 @@ float refined(Ray ray, float t, float f, float beyond, float g)
 float find_surface(Ray ray)
 {
     float t = ray.begin, f = field_at(ray_at(ray, t)), per_m = 1.0 / ray.slant;
-    if (f >= march.x)
+    if (f >= surface_level)
         return t;
     while (t < ray.end) {
-        float next = min(t + step_from(f, march.x) * per_m, ray.end), g = field_at(ray_at(ray, next));
+        float next = min(t + step_from(f, surface_level) * per_m, ray.end), g = field_at(ray_at(ray, next));
         steps++;
-        if (g >= march.x)
+        if (g >= surface_level)
             return refined(ray, t, f, next, g);
         t = next, f = g;
     }

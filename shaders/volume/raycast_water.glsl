@@ -4,19 +4,19 @@
 // As step_from, in the fluid: the field of one that ends at a plane falls to its end as it rises on the other side.
 float step_within(float f)
 {
-    float rest = clamp((1.0 - f) / max(1.0 - march.x, 0.1), 0.0, 1.0);
-    return max(march.y, march.z * (1.0 - sqrt(sqrt(rest))));
+    float rest = clamp((1.0 - f) / max(1.0 - surface_level, 0.1), 0.0, 1.0);
+    return max(step_length, far_step * (1.0 - sqrt(sqrt(rest))));
 }
 
 // t at which a ray from the surface into the fluid leaves it.
 float find_exit(Ray ray)
 {
-    float t = 0.0, f = march.x, g = f, end = ray_end(ray), next = march.y;
+    float t = 0.0, f = surface_level, g = f, end = ray_end(ray), next = step_length;
     while (t < end) {
         g = field_at(ray_at(ray, next));
         steps++;
-        if (g < march.x)
-            return mix(t, next, clamp((f - march.x) / max(f - g, 1e-6), 0.0, 1.0));
+        if (g < surface_level)
+            return mix(t, next, clamp((f - surface_level) / max(f - g, 1e-6), 0.0, 1.0));
         t = next, f = g, next += step_within(g);
     }
     return min(t, max(end, 0.0));

@@ -12,8 +12,8 @@ uint ordered(float value)
 
 void main()
 {
-    vec3 least = volume_high.xyz, most = volume_low.xyz;
-    for (uint i = gl_LocalInvocationID.x; i < uint(volume_size.w); i += 256u)
+    vec3 least = volume_high, most = volume_low;
+    for (uint i = gl_LocalInvocationID.x; i < particle_count; i += 256u)
         if (volume_particle(i).w > 0.0) {
             least = min(least, particle_position(i));
             most = max(most, particle_position(i));

@@ -8,9 +8,9 @@ vec4 volume_particle(uint index)
 {
     vec3 at = particle_position(index);
     float volume = position_words[index * particle_strides.x + 3u];
-    bool counts = !is_nan(vec4(at, volume)) && all(greaterThanEqual(at, volume_low.xyz)) && all(lessThanEqual(at, volume_high.xyz)) &&
+    bool counts = !is_nan(vec4(at, volume)) && all(greaterThanEqual(at, volume_low)) && all(lessThanEqual(at, volume_high)) &&
                   volume > 0.0 && volume < 1e30;
-    return counts ? vec4(cells_of(at), volume * volume_scale.x) : vec4(0.0);
+    return counts ? vec4(cells_of(at), volume * kernel_peak) : vec4(0.0);
 }
 
 #ifdef SCALAR

@@ -10,7 +10,7 @@ void main()
 {
     vec3 corner = vec3(gl_VertexID & 1, gl_VertexID >> 1, 0.0);
     vec3 share = axis == 0u ? corner.zxy : axis == 1u ? corner.xzy : corner;
-    box_point = volume_place.xyz + share * vec3(volume_size.xyz) / volume_place.w;
+    box_point = volume_corner + share * vec3(volume_size) / cells_per_m;
     box_point[axis] = place;
     vec3 at = (box_to_eye * vec4(box_point, 1.0)).xyz;
     gl_Position = vec4(at.xy / view_tangent, near_plane, -at.z);

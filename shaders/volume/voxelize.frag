@@ -19,10 +19,10 @@ void main()
     vec2 away = gl_FragCoord.xy - disc.xy;
 #ifdef PACKED
     vec4 z = float(pass_slice) + vec4(0.5, 1.5, 2.5, 3.5) - disc.z;
-    vec4 t = max(1.0 - (dot(away, away) + z * z) * volume_high.w, 0.0);
+    vec4 t = max(1.0 - (dot(away, away) + z * z) * radius2_inverse, 0.0);
     field = disc.w * t * t * t;
 #else
-    field = disc.w * poly6_shape(disc.z - dot(away, away) * volume_high.w);
+    field = disc.w * poly6_shape(disc.z - dot(away, away) * radius2_inverse);
 #endif
 #ifdef SCALAR
     scalar = field * carried;

@@ -14,7 +14,7 @@ layout(location = 1) flat out float carried;
 void main()
 {
     vec4 at = particle_at[0];
-    ivec2 slices = cells_within(at.z, volume_low.w, volume_size.z);
+    ivec2 slices = cells_within(at.z, kernel_radius, volume_size.z);
     int first = slices.x + gl_InvocationID * SLICES, end = at.w > 0.0 ? min(slices.y + 1, first + SLICES) : 0;
     for (int slice = first; slice < end; slice++) {
         disc = disc_of(at, slice);

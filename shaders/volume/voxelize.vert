@@ -25,10 +25,10 @@ void main()
     int slice = pass_slice;
     float away = max(max(float(slice) + 0.5 - at.z, at.z - float(slice + SLICES) + 0.5), 0.0); // to the nearest of the slices
     disc = SLICES == 1 ? disc_of(at, slice) : at;
-    gl_Position = disc_place(at, at.w > 0.0 && away < volume_low.w);
+    gl_Position = disc_place(at, at.w > 0.0 && away < kernel_radius);
     gl_PointSize = disc_size(away);
 #elif defined(LAYERS)
-    ivec2 slices = cells_within(at.z, volume_low.w, volume_size.z);
+    ivec2 slices = cells_within(at.z, kernel_radius, volume_size.z);
     int slice = slices.x + gl_InstanceID;
     disc = disc_of(at, slice);
     gl_Position = disc_place(at, at.w > 0.0 && slice <= slices.y);

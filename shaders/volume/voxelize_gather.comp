@@ -11,7 +11,7 @@ layout(binding = 1, r32f) uniform writeonly image3D scalar;
 void main()
 {
     ivec3 cell = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(cell, volume_size.xyz)))
+    if (any(greaterThanEqual(cell, volume_size)))
         return;
     vec2 sum = field_sum(vec3(cell) + 0.5);
     imageStore(field, cell, vec4(sum.x));

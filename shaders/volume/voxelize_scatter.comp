@@ -27,23 +27,23 @@ void main()
 {
     uint all = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
     uint index = all / discs;
-    if (index >= uint(volume_size.w))
+    if (index >= particle_count)
         return;
     vec4 at = volume_particle(index);
-    ivec2 slices = cells_within(at.z, volume_low.w, volume_size.z);
+    ivec2 slices = cells_within(at.z, kernel_radius, volume_size.z);
     int slice = slices.x + int(all % discs);
     if (at.w <= 0.0 || slice > slices.y)
         return;
 #ifdef SCALAR
     float carried = volume_scalar(index);
 #endif
-    float z = float(slice) + 0.5 - at.z, reach2 = volume_low.w * volume_low.w - z * z;
+    float z = float(slice) + 0.5 - at.z, reach2 = kernel_radius * kernel_radius - z * z;
     ivec2 rows = cells_within(at.y, sqrt(max(reach2, 0.0)), volume_size.y);
     for (int row = rows.x; row <= rows.y; row++) {
         float y = float(row) + 0.5 - at.y, rest2 = reach2 - y * y;
         ivec2 columns = cells_within(at.x, sqrt(max(rest2, 0.0)), volume_size.x);
         for (int column = columns.x; column <= columns.y; column++) {
-            float x = float(column) + 0.5 - at.x, part = at.w * poly6_shape((rest2 - x * x) * volume_high.w);
+            float x = float(column) + 0.5 - at.x, part = at.w * poly6_shape((rest2 - x * x) * radius2_inverse);
             ADD(field, ivec3(column, row, slice), part);
 #ifdef SCALAR
             ADD(scalar, ivec3(column, row, slice), part * carried);

@@ -3,6 +3,8 @@
 
 #include "shaders/shared/frame_block.h"
 #include "shaders/shared/solid_block.h"
+#include "shaders/volume/raycast_block.h"
+#include "shaders/volume/volume_block.h"
 #include "sim/gl/shader_source.h"
 
 #include <epoxy/gl.h>
@@ -31,8 +33,10 @@ typedef struct Block {
             sizeof((const Member[]){__VA_ARGS__}) / sizeof(Member)                                           \
     }
 
-#define FRAME(member) MEMBER(FrameBlock, member)
-#define SOLID(member) MEMBER(SolidBlock, member)
+#define FRAME(member)   MEMBER(FrameBlock, member)
+#define RAYCAST(member) MEMBER(RaycastBlock, member)
+#define VOLUME(member)  MEMBER(VolumeBlock, member)
+#define SOLID(member)   MEMBER(SolidBlock, member)
 
 static const Block blocks[] = {
     BLOCK("shared/frame_block.h", FrameBlock, FRAME(box_to_eye), FRAME(box_to_light), FRAME(eye_to_light),
@@ -45,6 +49,15 @@ static const Block blocks[] = {
           FRAME(fluid_color[0]), FRAME(by_fluid)),
     BLOCK("shared/solid_block.h", SolidBlock, SOLID(solids[0].to_eye), SOLID(solids[0].to_light),
           SOLID(solids[0].color), SOLID(solids[1].to_eye), SOLID(solids[15].color)),
+    BLOCK("volume/raycast_block.h", RaycastBlock, RAYCAST(eye_to_volume), RAYCAST(volume_to_eye),
+          RAYCAST(volume_cells), RAYCAST(cell_size), RAYCAST(brick_count), RAYCAST(brick_side),
+          RAYCAST(brick_least), RAYCAST(surface_level), RAYCAST(step_length), RAYCAST(far_step),
+          RAYCAST(near_start), RAYCAST(ramp_begin), RAYCAST(ramp_scale), RAYCAST(extinction),
+          RAYCAST(skin_depth), RAYCAST(scalar_share), RAYCAST(enough_light), RAYCAST(jitter)),
+    BLOCK("volume/volume_block.h", VolumeBlock, VOLUME(volume_corner), VOLUME(cells_per_m),
+          VOLUME(volume_low), VOLUME(kernel_radius), VOLUME(volume_high), VOLUME(radius2_inverse),
+          VOLUME(volume_size), VOLUME(particle_count), VOLUME(list_size), VOLUME(list_scale),
+          VOLUME(kernel_peak)),
 };
 
 /* A block of std140 is active, with all members, where no shader reads any of them. */
