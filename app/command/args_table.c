@@ -1,7 +1,9 @@
 #include "app/session/args_table.h"
 
 #include "app/base/path.h"
+#include "app/hand/play_commands.h"
 #include "app/lab/bench_table.h"
+#include "app/scene/keys.h"
 #include "app/scene/lists.h"
 
 #include <stddef.h>
@@ -42,7 +44,13 @@ const CommandRow command_rows[] = {
      "motion devices: which there are, what they say, and how to open them", 0, 0, NULL, 0, 0},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
      0, 1, NULL, 1280, 720},
-    {COMMAND_HELP, "help", "[COMMAND]", "says what a command does and takes", 0, 0, NULL, 0, 0},
+    {COMMAND_HELP, "help", "[COMMAND|keys|window]", "says what a command does and takes", 0, 0, NULL, 0, 0},
+    {0},
+};
+
+const HelpTopic help_topics[] = {
+    {"keys", "every key of a scene", scene_keys_print},
+    {"window", "what keys, mouse and gamepad do in the window", play_commands_print},
     {0},
 };
 
@@ -142,9 +150,12 @@ static void help_program(FILE *file)
     for (const CommandRow *row = command_rows; row->name; row++)
         fprintf(file, "  slosh %-8s %-42s %s\n", row->name, row->usage, row->help);
     fprintf(file, "  slosh %-51s %s\n", "--version", "says which slosh this is");
+    fprintf(file, "\n");
+    for (const HelpTopic *topic = help_topics; topic->name; topic++)
+        fprintf(file, "`slosh help %s`: %s.\n", topic->name, topic->help);
     fprintf(
         file,
-        "\n`slosh help COMMAND` lists its options. SCENE is a file, or the name of one that comes with slosh:\n");
+        "`slosh help COMMAND` lists its options. SCENE is a file, or the name of one that comes with slosh:\n");
     SceneNames scenes;
     scene_path_names(&scenes);
     int column = 0;

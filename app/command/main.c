@@ -1,5 +1,6 @@
 #include "app/command/cmd.h"
 #include "app/command/file_clash.h"
+#include "app/session/args_table.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/debug.h"
 #include "sim/gl/shader_source.h"
@@ -51,7 +52,10 @@ static int run_command(const Args *args)
     case COMMAND_COUNT:
         break;
     }
-    args_help(args->help_for, stdout);
+    if (args->help_topic)
+        args->help_topic->print(stdout);
+    else
+        args_help(args->help_for, stdout);
     return 0;
 }
 

@@ -1,5 +1,5 @@
 /* The one list of what a user can do in the window. The window's bindings, the help overlay, the panel's
-   buttons and the table of app/README.md come from it. Pure: of GLFW only the numbers of keys and buttons are
+   buttons and `slosh help window` come from it. Pure: of GLFW only the numbers of keys and buttons are
    used. */
 #ifndef SLOSH_PLAY_COMMANDS_H
 #define SLOSH_PLAY_COMMANDS_H
@@ -92,7 +92,7 @@ int play_key_on_layout(int key, const char *label);
 /* How to give the command: "Space, Pause or gamepad Start", "Ctrl+S", "Shift + left drag"; cut at `size`. */
 void play_command_keys_text(const PlayCommandRow *row, char *text, size_t size);
 
-/* The list as a Markdown table, for app/README.md. */
+/* The list as a Markdown table: `slosh help window`. */
 void play_commands_print(FILE *file);
 
 #endif

@@ -1,6 +1,5 @@
 /* The one table of the keys that a scene may have (sim/base/key.h): all owners' rows one after another. The
-   loader,
-   `--set`, `slosh info`, the panel and the table of scenes/README.md are made from it. */
+   loader, `--set`, `slosh info`, the panel and `slosh help keys` are made from it. */
 #ifndef SLOSH_SCENE_KEYS_H
 #define SLOSH_SCENE_KEYS_H
 
@@ -37,7 +36,7 @@ void scene_default(Scene *scene);
 double srgb_to_linear(double value);
 double linear_to_srgb(double value);
 
-/* The table as Markdown, for scenes/README.md. */
+/* The table as Markdown: `slosh help keys`. */
 void scene_keys_print(FILE *file);
 
 /* "path = value unit" for every setting of the scene as it was resolved. */

@@ -328,20 +328,30 @@ static bool unknown_command(const Parser *parser, const char *name)
     return fail(parser, "unknown command '%.60s'; `slosh help` lists them, and the scenes", name);
 }
 
-/* `slosh help [COMMAND]` */
+static const HelpTopic *topic_find(const char *name)
+{
+    for (const HelpTopic *topic = help_topics; topic->name; topic++)
+        if (strcmp(topic->name, name) == 0)
+            return topic;
+    return NULL;
+}
+
+/* `slosh help [COMMAND|TOPIC]` */
 static bool parse_help(Parser *parser)
 {
     if (parser->at == parser->argc)
         return true;
     const char *name = parser->argv[parser->at++];
     const CommandRow *row = command_find(name);
+    const HelpTopic *topic = topic_find(name);
     parser->row = NULL;
-    if (!row)
+    if (!row && !topic)
         return unknown_command(parser, name);
     if (parser->at < parser->argc)
         return fail(parser, "one argument too many: '%.60s'; write slosh help COMMAND",
                     parser->argv[parser->at]);
-    parser->args->help_for = row->command;
+    parser->args->help_for = row ? row->command : COMMAND_HELP;
+    parser->args->help_topic = topic;
     return true;
 }
 

@@ -52,6 +52,7 @@ typedef struct Sweep {
 /* Holds pointers into itself and into argv: it isn't to be copied. */
 typedef struct Args {
     Command command, help_for;
+    const struct HelpTopic *help_topic; /* help of no command; NULL: of help_for */
     int scene_count;
     const char *scenes[ARGS_SCENES_MAX];
     SceneSettings

@@ -42,9 +42,16 @@ typedef struct OptionRow {
     const char *(*names)(int index); /* what the value may be, for the help: NULL after the last */
 } OptionRow;
 
+/* What `slosh help NAME` prints besides commands: a table as Markdown, which docs/ holds too. */
+typedef struct HelpTopic {
+    const char *name, *help;
+    void (*print)(FILE *file);
+} HelpTopic;
+
 /* Each ended by a row without a name. */
 extern const CommandRow command_rows[];
 extern const OptionRow option_rows[];
+extern const HelpTopic help_topics[];
 
 const CommandRow *command_row(Command command);
 

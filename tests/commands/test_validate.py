@@ -1,11 +1,14 @@
 """slosh validate: the coarse set keeps its tolerances, figures are written, a miss is an exit code, Ctrl-C ends cleanly."""
 import json
 import os
+import runpy
 import signal
 import subprocess
 import time
 
 import command
+
+TOOLS_DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../tools/docs')
 
 
 class Validate(command.CommandTest):
@@ -26,7 +29,10 @@ class Validate(command.CommandTest):
                 self.assertIn(key, c)
             self.assertTrue(c['passed'] and c['error'] <= c['tolerance'], c)
             self.assertIn(c['metric'], done.stdout)
+        table = runpy.run_path(TOOLS_DOCS)['validation_part']([self.path('out.json')])
+        self.assertEqual(table.count('\n'), 2 + len(cases))
         for name in names:
+            self.assertIn(f'| `{name}` |', table)
             with open(os.path.join(self.folder, 'plots', name + '.svg'), encoding='utf-8') as file:
                 self.assertIn('</svg>', file.read())
 

@@ -436,12 +436,12 @@ static void files(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
-static void the_example_in_the_readme(void **state)
+static void the_example_in_the_docs(void **state)
 {
     (void)state;
     char text[1 << 16];
     Mapping mapping;
-    FILE *file = fopen(SLOSH_SOURCE_DIR "/app/README.md", "r");
+    FILE *file = fopen(SLOSH_SOURCE_DIR "/docs/devices.md", "r");
     assert_non_null(file);
     text[fread(text, 1, sizeof text - 1, file)] = 0;
     fclose(file);
@@ -522,7 +522,7 @@ int main(void)
         cmocka_unit_test(a_pose_with_gain),
         cmocka_unit_test(buttons_by_name_whatever_their_bit),
         cmocka_unit_test(files),
-        cmocka_unit_test(the_example_in_the_readme),
+        cmocka_unit_test(the_example_in_the_docs),
         cmocka_unit_test(damaged_files),
         cmocka_unit_test(in_words),
     };

@@ -1,6 +1,19 @@
-/* The table of motion devices, and what must agree with it: the udev rule, the README. */
-#include "tests/app/readme_table.h"
+/* The table of motion devices, and what must agree with it: the udev rule, docs/devices.md. */
 #include "tests/device/report_fixture.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static char *file_text(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 20) - 1, file) > 0);
+    fclose(file);
+    return text;
+}
 
 static int count_rows(void)
 {
@@ -43,7 +56,7 @@ static void what_does_not_move_is_left_out(void **state)
 static void the_udev_rule_names_them_all(void **state)
 {
     (void)state;
-    char *rule = readme_text(SLOSH_SOURCE_DIR "/tools/70-slosh.rules");
+    char *rule = file_text(SLOSH_SOURCE_DIR "/tools/70-slosh.rules");
     int lines = 0;
     for (const DeviceRow *row = device_rows; row->name; row++) {
         char line[80];
@@ -60,17 +73,17 @@ static void the_udev_rule_names_them_all(void **state)
     free(rule);
 }
 
-static void the_readme_names_them_all(void **state)
+static void the_page_names_them_all(void **state)
 {
     (void)state;
-    char *readme = readme_text(SLOSH_SOURCE_DIR "/app/README.md");
+    char *page = file_text(SLOSH_SOURCE_DIR "/docs/devices.md");
     for (const DeviceRow *row = device_rows; row->name; row++) {
         char id[8];
         snprintf(id, sizeof id, "%04x", row->product);
-        if (!strstr(readme, id))
-            fail_msg("app/README.md lacks %s, %s", id, row->name);
+        if (!strstr(page, id))
+            fail_msg("docs/devices.md lacks %s, %s", id, row->name);
     }
-    free(readme);
+    free(page);
 }
 
 int main(void)
@@ -79,7 +92,7 @@ int main(void)
         cmocka_unit_test(each_product_stands_once),
         cmocka_unit_test(what_does_not_move_is_left_out),
         cmocka_unit_test(the_udev_rule_names_them_all),
-        cmocka_unit_test(the_readme_names_them_all),
+        cmocka_unit_test(the_page_names_them_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

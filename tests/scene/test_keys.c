@@ -1,6 +1,5 @@
 /* The table of keys: every row's range holds on both sides, and what is made from the table agrees with it.
  */
-#include "tests/app/readme_table.h"
 #include "tests/scene/scene_text.h"
 
 #include "app/base/suggest.h"
@@ -237,12 +236,6 @@ static void what_is_printed_can_be_set(void **state)
     free(first);
 }
 
-static void readme_has_the_table(void **state)
-{
-    (void)state;
-    check_readme_table(scene_keys_print, "scenes/README.md", "app/scene/keys.c");
-}
-
 static void nearest_names(void **state)
 {
     (void)state;
@@ -261,13 +254,9 @@ int main(void)
 {
     backends_add();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_range_holds_on_both_sides),
-        cmocka_unit_test(every_list_has_its_bounds),
-        cmocka_unit_test(every_name_of_a_choice_is_taken),
-        cmocka_unit_test(every_row_is_whole),
-        cmocka_unit_test(what_is_printed_can_be_set),
-        cmocka_unit_test(readme_has_the_table),
-        cmocka_unit_test(nearest_names),
+        cmocka_unit_test(every_range_holds_on_both_sides), cmocka_unit_test(every_list_has_its_bounds),
+        cmocka_unit_test(every_name_of_a_choice_is_taken), cmocka_unit_test(every_row_is_whole),
+        cmocka_unit_test(what_is_printed_can_be_set),      cmocka_unit_test(nearest_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

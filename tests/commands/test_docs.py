@@ -1,0 +1,83 @@
+"""The pages of docs/ and the READMEs: what the program makes of them is new, examples load, commands are there."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+
+import command
+from command import CommandTest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = [*ROOT.glob('docs/**/*.md'), *(path for path in ROOT.glob('**/README.md') if 'build' not in path.parts)]
+
+# What an example is put into: the parts that it names itself take the place of these.
+PARTS = {'box': 'box: {size: [1, 1, 1]}\n', 'particles': 'particles: {spacing: 0.05}\n',
+         'fluids': 'fluids:\n  - fill: [{block: {min: [-0.2, 0, -0.2], max: [0.2, 0.5, 0.2]}}]\n'}
+
+
+def example_parts(text):
+    """The lines of each key at the left margin."""
+    return {part[0].split(':')[0]: ''.join(part) for part in
+            [re.findall(r'.*\n', part) for part in re.split(r'^(?=\w)', text, flags=re.M) if part]}
+
+
+def command_blocks(text):
+    """What stands between fences without a language, and `slosh ...` within a line."""
+    fence = re.compile(r'^ *```(\w*)\n(.*?)^ *```$', re.S | re.M)
+    blocks = [block for language, block in fence.findall(text) if not language]
+    return blocks + [words.replace('\n', ' ') for words in re.findall(r'`(slosh [^`]*)`', fence.sub('', text))]
+
+
+def help_of(*words):
+    return subprocess.run([command.PROGRAM, 'help', *words], capture_output=True, text=True, check=True).stdout
+
+
+class Docs(CommandTest):
+    def test_what_the_program_makes_is_new(self):
+        done = subprocess.run([ROOT / 'tools/docs', '--check'], env={**os.environ, 'SLOSH': command.PROGRAM},
+                              capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, '', ''))
+
+    def test_every_command_has_its_help(self):
+        commands = set(re.findall(r'^  slosh (\w+)', help_of(), re.M)) - {'help'}
+        parts = re.findall(r'<!-- made: help (\w+) -->', (ROOT / 'docs/commands.md').read_text())
+        self.assertEqual(sorted(parts), sorted(commands))
+
+    def test_examples_of_keys_load(self):
+        examples = re.findall(r'```yaml\n(.*?)```', (ROOT / 'docs/keys.md').read_text(), re.S)
+        self.assertGreater(len(examples), 15)
+        for k, example in enumerate(examples):
+            self.write(f'{k}.yaml', ''.join({**PARTS, **example_parts(example)}.values()))
+            code, said = self.slosh('run', f'{k}.yaml', '-o', 'out.h5part', '--time', '0', '--quiet')
+            self.assertEqual(code, 0, said + example)
+            self.assertTrue('no effect' not in said or example.startswith('metrics:'), said)
+
+    def test_every_case_is_in_the_table(self):
+        """All that run by themselves: cavity_1000 needs --full."""
+        code, said = self.slosh('validate', 'nosuch')
+        self.assertEqual(code, 2)
+        names = set(re.search(r'these are there: (.*)', said)[1].split(', ')) - {'cavity_1000'}
+        figures = json.loads((ROOT / 'docs/validation.json').read_text())['cases']
+        self.assertEqual({figure['case'] for figure in figures}, names)
+
+    def test_commands_and_their_options_are_there(self):
+        commands = re.findall(r'^  slosh (\w+)', help_of(), re.M)
+        scenes = {path.stem for path in ROOT.glob('scenes/*.yaml')}
+        options = {name: set(re.findall(r'^  (--?[a-z-]+) ', help_of(name), re.M)) for name in commands}
+        seen = 0
+        for page in PAGES:
+            for line in re.sub(r'\\\n', ' ', '\n'.join(command_blocks(page.read_text()))).splitlines():
+                for words in re.findall(r'(?:^|[ /])slosh ([^;&|#]*)', re.sub(r'"[^"]*"|\[[^\]]*\]', 'X', line)):
+                    name, *rest = words.split() or ['play']
+                    if name not in commands and not name.startswith('-'):
+                        self.assertTrue(name in scenes or '.' in name or name.isupper(), f'{page}: slosh {words}')
+                        name = 'play'
+                    seen += 1
+                    for option in re.findall(r'(?<![^ ])--?[a-z][a-z-]*', ' '.join(rest)):
+                        self.assertIn(option, options[name], f'{page}: slosh {words}')
+        self.assertGreater(seen, 50)
+
+
+if __name__ == '__main__':
+    command.main()
