@@ -1,3 +1,5 @@
+/* Hidden spheres are drawn too. Leaving them out gained nothing on the software driver: exact occluders cost
+   1.2 ms and hide nothing, since through the gaps of touching spheres one sees several layers deep. */
 #include "render/spheres/spheres.h"
 
 #include "render/frame/colormap.h"
