@@ -2,6 +2,7 @@
  */
 #include "app/base/path.h"
 #include "sim/matter/seed.h"
+#include "sim/world/world.h"
 #include "tests/scene/scene_text.h"
 
 #include <stdlib.h>
@@ -22,7 +23,6 @@ static void least_scene_gets_the_defaults(void **state)
     assert_string_equal(scene.world.fluids[0].name, "fluid 1");
     assert_int_equal(seed_count(&scene.world, scene.world.spacing), 500);
     assert_true(scene.view.camera_auto && scene.view.range_auto);
-    assert_string_equal(scene.view.fluid_name[0], "fluid 1");
 }
 
 static const char full[] =
@@ -71,8 +71,6 @@ static void every_value_reaches_its_field(void **state)
     /* sRGB 0.5 is 0.2140 in linear light (IEC 61966-2-1) */
     assert_true(heavy->color[0] == 1 && heavy->color[2] == 0);
     assert_float_equal(heavy->color[1], 0.21404, 1e-4);
-    assert_float_equal(s.view.fluid_color[0][1], 0.21404, 1e-4);
-    assert_int_equal(s.view.fluid_count, 2);
     const Motion *shake = &s.world.motions[0], *turn = &s.world.motions[1];
     assert_true(s.world.motion_count == 2 && shake->kind == MOTION_SHAKE && turn->kind == MOTION_TURN);
     assert_true(shake->axis[2] == 2 && shake->amplitude == 0.1 && shake->frequency == 0.5 &&
