@@ -96,15 +96,21 @@ static void draw_vector(Ui *ui, const PanelKey *row, const UiField *field, Panel
         emit(row, events, "[%.9g, %.9g, %.9g]", value[0], value[1], value[2]);
 }
 
+enum { CHOICES_MAX = 32 };
+
 static void draw_choice(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
 {
     const Key *key = row->key;
     const char *value = (const char *)row->base + key->offset;
     int chosen = key->flags & KEY_INDEX ? *(const int *)value : 0;
-    while (!(key->flags & KEY_INDEX) && key->choice(chosen + 1) && strcmp(key->choice(chosen), value) != 0)
+    while (!(key->flags & KEY_INDEX) && key_choice(key, chosen + 1) &&
+           strcmp(key_choice(key, chosen), value) != 0)
         chosen++;
-    if (ui_choice(ui, field, &chosen, key->choice))
-        emit(row, events, "%s", key->choice(chosen));
+    const char *names[CHOICES_MAX + 1] = {NULL};
+    for (int i = 0; i < CHOICES_MAX && key_choice(key, i); i++)
+        names[i] = key_choice(key, i);
+    if (ui_choice(ui, field, &chosen, names))
+        emit(row, events, "%s", key_choice(key, chosen));
 }
 
 static void draw_color(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)

@@ -7,8 +7,7 @@
 
 enum { PATH_SIZE = 256 };
 
-static Advice *const advices[] = {advise_fills, advise_step, advise_sound,      advise_kernel,
-                                  advise_ratio, advise_slip, advise_artificial, NULL};
+static Advice *const advices[] = {advise_fills, advise_step, advise_method, advise_sound, advise_slip, NULL};
 
 void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
 {

@@ -5,10 +5,8 @@
 #include "app/scene/advise.h"
 
 void advise_step(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_method(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_sound(const Tree *tree, const Scene *scene, Notes *notes);
-void advise_kernel(const Tree *tree, const Scene *scene, Notes *notes);
-void advise_ratio(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_slip(const Tree *tree, const Scene *scene, Notes *notes);
-void advise_artificial(const Tree *tree, const Scene *scene, Notes *notes);
 
 #endif

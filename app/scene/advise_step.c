@@ -3,16 +3,6 @@
 #include "sim/world/step_control.h"
 
 #include <math.h>
-#include <string.h>
-
-/* The def with each viscosity the greatest that its table has. */
-static WorldDef most_viscous(const WorldDef *def)
-{
-    WorldDef most = *def;
-    for (int f = 0; f < def->fluid_count; f++)
-        most.fluids[f].viscosity = fluid_viscosity_most(&def->fluids[f]);
-    return most;
-}
 
 /* What binds the step by friction, as a key and its value. */
 static void name_friction(const WorldDef *most, const StepFriction *friction, char name[64])
@@ -22,7 +12,7 @@ static void name_friction(const WorldDef *most, const StepFriction *friction, ch
     for (int f = 1; f < most->fluid_count; f++)
         thickest = most->fluids[f].viscosity > most->fluids[thickest].viscosity ? f : thickest;
     if (step_viscous(most, &laminar) > step_viscous(most, friction))
-        snprintf(name, 64, "solver.artificial_viscosity %g", most->artificial_viscosity);
+        snprintf(name, 64, "solver.artificial_viscosity %g", friction->alpha);
     else
         snprintf(name, 64, "fluids[%d].viscosity %g Pa s", thickest, most->fluids[thickest].viscosity);
 }
@@ -47,32 +37,9 @@ static void advise_viscous(const Tree *tree, const WorldDef *def, const StepFric
         1e3 * step, what, 1e3 * stands, substeps_for(def, stands));
 }
 
-/* Of fluid that has next to no friction: a thousandth of what a step stands hides the heat, 5e-4 a step at
- * 0.65. */
-static void advise_heat(const Tree *tree, const WorldDef *def, const StepFriction *friction, Notes *notes)
-{
-    const bool fixed = def->step_mode == STEP_FIXED;
-    const double crossing = def->support * def->spacing / step_sound(def),
-                 step = fixed ? def->dt / def->substeps : fmin(def->cfl_number * crossing, def->max_dt);
-    if (strcmp(def->method, "mueller") != 0 || step <= STEP_SOUND_CALM * crossing * (1 + 1e-9) ||
-        step > 0.001 * step_viscous(def, friction))
-        return;
-    const char *path = fixed ? "solver.step.dt" : "solver.step.number";
-    char better[64];
-    if (fixed)
-        snprintf(better, sizeof better, "%g substeps or more", substeps_for(def, STEP_SOUND_CALM * crossing));
-    else
-        snprintf(better, sizeof better, "at most %g", STEP_SOUND_CALM);
-    advise(
-        tree, path, notes,
-        "steps of %.2g h / sound_speed heat fluid that has no viscosity: 0.3 %% of a column's energy in 4,000 "
-        "steps at 0.5, 2 %% at 0.6, 5 %% at 0.65; use %s, or a viscosity",
-        step / crossing, better);
-}
-
 void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
 {
-    const WorldDef def = most_viscous(&scene->world);
+    const WorldDef def = world_def_most_viscous(&scene->world);
     const StepFriction friction = step_friction(&def);
     const double step = def.dt / def.substeps, crossing = def.support * def.spacing / step_sound(&def);
     if (def.step_mode == STEP_FIXED && step > STEP_SOUND_STANDS * crossing)
@@ -85,8 +52,6 @@ void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
             substeps_for(&def, STEP_SOUND_CALM * crossing));
     else if (def.step_mode == STEP_FIXED)
         advise_viscous(tree, &def, &friction, notes);
-    if (def.step_mode == STEP_CFL || step <= STEP_SOUND_STANDS * crossing)
-        advise_heat(tree, &def, &friction, notes);
 }
 
 /* How high a place is against gravity, m above the box's origin. */

@@ -4,6 +4,7 @@
 #include "app/scene/lists.h"
 #include "sim/base/key_rows.h"
 #include "sim/matter/tension.h"
+#include "sim/world/method.h"
 
 #include <assert.h>
 #include <pthread.h>
@@ -67,8 +68,6 @@
     VARIANT("solids[]." NAME, SOLID(kind), SOLID_##KIND, HELP), FIELDS_##KIND("solids[]." NAME)
 
 /* The owners of keys. */
-static const KeyOwner mueller = {.name = "mueller", .key = "solver.method", .value = "mueller"};
-static const KeyOwner wcsph = {.name = "wcsph", .key = "solver.method", .value = "wcsph"};
 static const KeyOwner cpu = {.name = "cpu", .key = "solver.backend", .value = "cpu"};
 static const KeyOwner fragment = {.name = "fragment", .key = "solver.backend", .value = "fragment"};
 static const KeyOwner mode_fixed = {.name = "fixed", .key = "solver.step.mode", .value = "fixed"};
@@ -158,15 +157,10 @@ static const Key all_keys[] = {
     CHOICE("solver.method", 0, method_choice, WORLD(method), "the equations"),
     CHOICE("solver.preset", I, preset_choice, offsetof(Scene, preset),
            "fills in what the scene does not name; accurate: wcsph with the settings that slosh validate measures"),
-    CHOICE("solver.density_kernel", 0, density_kernel_choice, WORLD(density_kernel), "the kernel that density is summed by", .owner = &mueller),
-    CHOICE("solver.kernel", 0, wcsph_kernel_choice, WORLD(kernel), "its kernel", .owner = &wcsph),
-    NUMBER("solver.artificial_viscosity", 0, "", 0, 1, WORLD(artificial_viscosity),
-           "alpha, for fluids without a viscosity; 0: none", .owner = &wcsph),
-    CHOICE("solver.viscosity_form", KEY_INDEX, viscosity_choice, WORLD(viscosity_form),
-           "what friction by a fluid's viscosity acts along; radial: right at free surfaces, for half the step", .owner = &wcsph),
-    NUMBER("solver.delta_sph", 0, "", 0, 0.5, WORLD(delta_sph), "diffusion of density, 0.1 as a rule; 0: none", .owner = &wcsph),
-    NUMBER("solver.shifting", 0, "", 0, 1, WORLD(shifting),
-           "keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none", .owner = &wcsph),
+    KEYS_END,
+};
+
+static const Key keys_behind[] = {
     CHOICE("solver.backend", L, backend_choice, WORLD(backend), "what computes them"),
     INTEGER("solver.threads", I, 0, 1024, WORLD(threads), "how many; 0: one a processor", .owner = &cpu),
     INTEGER("solver.grid_layers", 0, 0, 63, WORLD(grid_layers),
@@ -204,7 +198,7 @@ static const Key all_keys[] = {
          "how the box moves; all together, turns from the outermost to the innermost"),
     MOTION_LIST(MOTION_ROWS)
 
-    NAMES("metrics", 1, SCENE_METRICS_MAX, metric_choice, offsetof(Scene, metrics), offsetof(Scene, metric_count),
+    NAMES_OF("metrics", 1, SCENE_METRICS_MAX, metric_kinds, offsetof(Scene, metrics), offsetof(Scene, metric_count),
           "what is compared of two runs of the scene, [front, kinetic_energy] and so on; slosh info explains them", .owner = &chart, .flags = I),
 
     MAPPING("view", "the picture", .flags = I),
@@ -282,17 +276,6 @@ static const Key all_keys[] = {
 };
 /* clang-format on */
 
-/* The rows of one owner. */
-typedef struct KeyGroup {
-    const Key *rows;       /* ended by KEYS_END */
-    size_t at;             /* where the struct that they fill stands in a Scene */
-    const KeyOwner *owner; /* of rows that name none; NULL: whatever the scene is, they are read */
-} KeyGroup;
-
-static const KeyGroup groups[] = {
-    {all_keys, 0, NULL},
-};
-
 enum { KEYS_MAX = 512 };
 
 static Key table[KEYS_MAX];
@@ -317,25 +300,45 @@ static const Key *mapping_of(const Key *key)
 }
 
 /* Elements of lists have offsets of their own. */
-static void table_add(const Key *key, const KeyGroup *group)
+static void table_add(const Key *key, size_t at, const KeyOwner *owner)
 {
     assert(table_count < KEYS_MAX);
     Key *row = &table[table_count];
     const Key *above = mapping_of(key);
-    const size_t by = strstr(key->path, "[]") ? 0 : group->at;
+    const size_t by = strstr(key->path, "[]") ? 0 : at;
     *row = *key;
     row->offset = moved(key->offset, by);
     row->aux = moved(key->aux, by);
     row->flags |= above ? above->flags & KEY_IDLE : 0;
-    row->owner = key->owner ? key->owner : group->owner;
+    row->owner = key->owner ? key->owner : owner;
     table_count++;
 }
 
+static void add_rows(const Key *rows, size_t at, const KeyOwner *owner)
+{
+    for (const Key *key = rows; key && key->path; key++)
+        table_add(key, at, owner);
+}
+
+/* The own settings of each method. */
+static void add_methods(void)
+{
+    static KeyOwner owners[METHODS_MAX];
+    const Method *const *method = method_list();
+    for (int i = 0; method[i]; i++) {
+        owners[i] = (KeyOwner){.name = method[i]->name, .key = "solver.method", .value = method[i]->name};
+        add_rows(method[i]->keys, offsetof(Scene, world.of_method) + (size_t)i * sizeof(MethodDef),
+                 &owners[i]);
+    }
+}
+
+/* All groups, in the order in which people see them: rows, where the struct that they fill stands in a Scene,
+   and the owner of rows that name none (NULL: whatever the scene is, they are read). */
 static void table_make(void)
 {
-    for (size_t g = 0; g < sizeof groups / sizeof *groups; g++)
-        for (const Key *key = groups[g].rows; key->path; key++)
-            table_add(key, &groups[g]);
+    add_rows(all_keys, 0, NULL);
+    add_methods();
+    add_rows(keys_behind, 0, NULL);
 }
 
 const Key *scene_keys(int *count)

@@ -38,30 +38,9 @@ const char *method_choice(int index)
     return named(world_methods(), index);
 }
 
-const char *density_kernel_choice(int index)
-{
-    const Kernel *kernel = density_kernels;
-    for (int i = 0; i < index && kernel->name; i++)
-        kernel++;
-    return kernel->name;
-}
-
-const char *wcsph_kernel_choice(int index)
-{
-    const Kernel *kernel = wcsph_kernels;
-    for (int i = 0; i < index && kernel->name; i++)
-        kernel++;
-    return kernel->name;
-}
-
 const char *tension_choice(int index)
 {
     return index <= TENSION_COHESION ? tension_kinds[index].name : NULL;
-}
-
-const char *viscosity_choice(int index)
-{
-    return index <= VISCOSITY_RADIAL ? viscosity_kinds[index].name : NULL;
 }
 
 const char *backend_choice(int index)

@@ -5,10 +5,7 @@
 /* The name at `index`, NULL from the end of the list on. */
 const char *preset_choice(int index);
 const char *method_choice(int index);
-const char *density_kernel_choice(int index);
-const char *wcsph_kernel_choice(int index);
 const char *tension_choice(int index);
-const char *viscosity_choice(int index);
 const char *backend_choice(int index);
 const char *view_choice(int index); /* the views, then "none" */
 const char *colormap_choice(int index);

@@ -45,7 +45,7 @@ static void names_text(const Key *key, const int *places, int count, char *text,
 {
     size_t used = (size_t)snprintf(text, size, "[");
     for (int k = 0; k < count && used < size; k++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s", k ? ", " : "", key->choice(places[k]));
+        used += (size_t)snprintf(text + used, size - used, "%s%s", k ? ", " : "", key_choice(key, places[k]));
     if (used < size)
         snprintf(text + used, size - used, "]");
 }
@@ -54,7 +54,7 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
 {
     *text = 0;
     if (key->type == KEY_CHOICE && key->offset == KEY_NOWHERE)
-        snprintf(text, size, "%s", key->choice(0));
+        snprintf(text, size, "%s", key_choice(key, 0));
     if (key->offset == KEY_NOWHERE)
         return;
     const char *field = (const char *)base + key->offset;
@@ -75,7 +75,7 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
         snprintf(text, size, "%s", field);
         break;
     case KEY_CHOICE:
-        snprintf(text, size, "%s", key->flags & KEY_INDEX ? key->choice(*(const int *)field) : field);
+        snprintf(text, size, "%s", key->flags & KEY_INDEX ? key_choice(key, *(const int *)field) : field);
         break;
     case KEY_VEC3:
         print_triple(text, size, "%.9g", (const double *)field);
@@ -109,7 +109,7 @@ void key_range_text(const Key *key, char *text, size_t size)
     if (key->type == KEY_CHOICE || key->type == KEY_NAMES) {
         size_t used = 0;
         const char *name;
-        for (int i = 0; (name = key->choice(i)) && used < size; i++)
+        for (int i = 0; (name = key_choice(key, i)) && used < size; i++)
             used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", name);
     } else if (key->type == KEY_BOOLEAN) {
         snprintf(text, size, "true, false");

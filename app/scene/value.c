@@ -126,7 +126,7 @@ static bool read_choice(const Value *value)
         return tree_error(value->tree, node, value->error, "%s must be one of: %s", value->shown, names);
     Suggestion near = suggest_for(node->text);
     const char *name;
-    for (int i = 0; (name = key->choice(i)); i++) {
+    for (int i = 0; (name = key_choice(key, i)); i++) {
         suggest_offer(&near, name);
         if (strcmp(name, node->text) != 0)
             continue;
@@ -146,7 +146,7 @@ static int name_of(const Value *value, const Node *node, const char *names)
 {
     const char *name, *word = node->kind == NODE_SCALAR && node->text ? node->text : "";
     Suggestion near = suggest_for(word);
-    for (int i = 0; (name = value->key->choice(i)); i++) {
+    for (int i = 0; (name = key_choice(value->key, i)); i++) {
         suggest_offer(&near, name);
         if (strcmp(name, word) == 0)
             return i;
@@ -166,7 +166,7 @@ static bool read_names(const Value *value, int *count)
     if (list->kind != NODE_SEQUENCE)
         return tree_error(value->tree, list, value->error,
                           "%s must be a list, such as [%s]; its names are: %s", value->shown,
-                          value->key->choice(0), names);
+                          key_choice(value->key, 0), names);
     const size_t entries = node_count(list);
     if ((double)entries < value->key->min || (double)entries > value->key->max)
         return tree_error(value->tree, list, value->error, "%s has %zu %s; it must have %g to %g",

@@ -685,28 +685,28 @@ bool ui_checkbox(Ui *ui, const UiField *field, bool *value)
     return changed;
 }
 
-static bool choose(int *chosen, const char *(*name)(int index))
+static bool choose(int *chosen, const char *const *names)
 {
     bool changed = false;
-    for (int i = 0; name(i); i++)
-        if (ImGui::Selectable(name(i), i == *chosen) && i != *chosen) {
+    for (int i = 0; names[i]; i++)
+        if (ImGui::Selectable(names[i], i == *chosen) && i != *chosen) {
             *chosen = i;
             changed = true;
         }
     return changed;
 }
 
-bool ui_choice(Ui *ui, const UiField *field, int *chosen, const char *(*name)(int index))
+bool ui_choice(Ui *ui, const UiField *field, int *chosen, const char *const *names)
 {
     Current current(ui->context);
     const ImGuiStyle &style = ImGui::GetStyle();
     ImGui::SetNextItemWidth(begin_field(ui, field));
-    const bool open = ImGui::BeginCombo("##", name(*chosen));
-    const bool changed = open && choose(chosen, name);
+    const bool open = ImGui::BeginCombo("##", names[*chosen]);
+    const bool changed = open && choose(chosen, names);
     if (open)
         ImGui::EndCombo();
     end_field(ui, field,
-              ImGui::CalcTextSize(name(*chosen)).x + 2 * style.FramePadding.x + ImGui::GetFrameHeight());
+              ImGui::CalcTextSize(names[*chosen]).x + 2 * style.FramePadding.x + ImGui::GetFrameHeight());
     return changed;
 }
 

@@ -106,8 +106,7 @@ bool ui_button(Ui *ui, const UiField *field, bool lit);
 
 /* These return true when the user has changed the value. */
 bool ui_checkbox(Ui *ui, const UiField *field, bool *value);
-bool ui_choice(Ui *ui, const UiField *field, int *chosen,
-               const char *(*name)(int index)); /* NULL ends the names */
+bool ui_choice(Ui *ui, const UiField *field, int *chosen, const char *const *names); /* NULL ends the names */
 bool ui_color(Ui *ui, const UiField *field, float srgb[3]);
 
 /* One to three numbers side by side, by dragging along the scale, or typed after Ctrl+click or a double

@@ -58,9 +58,14 @@ typedef struct Key {
     size_t aux; /* offset of what goes with it: the count of a list or of names (int), a variant's kind (int),
                    a range's "auto" (bool); a curve's TimeTable; a mapping's bool that is false once the
                    mapping is there */
-    size_t size;                      /* of a text's field, of a list's element: bytes */
-    int variant;                      /* value of the kind */
-    const char *(*choice)(int index); /* names of a KEY_CHOICE or KEY_NAMES, NULL after the last */
+    size_t size; /* of a text's field, of a list's element: bytes */
+    int variant; /* value of the kind */
+    /* The names of a KEY_CHOICE or KEY_NAMES: an array of structs (or of pointers alone) that begin with the
+       name and are `stride` bytes long, ended by a NULL name; or, for a list that is put together, a
+       function. */
+    const void *names;
+    size_t stride;
+    const char *(*choice)(int index); /* NULL after the last */
     void (*init)(void *element,
                  int index); /* list: defaults of an element, which is zeroed; `index`: its place */
     const char
@@ -68,5 +73,8 @@ typedef struct Key {
     const char *help;      /* one line */
     const KeyOwner *owner; /* of the key and of those below it; NULL: that of the mapping above, if any */
 } Key;
+
+/* The name at `index` of a row's list; NULL after the last, and of a row without a list. */
+const char *key_choice(const Key *key, int index);
 
 #endif

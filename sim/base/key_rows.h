@@ -53,10 +53,10 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
     {                                                                                                        \
         .path = PATH, .type = KEY_AXES, .unit = "", PLACE(AT), .help = HELP                                  \
     }
-#define NAMES(PATH, LO, HI, CHOICES, AT, COUNT, ...)                                                         \
+#define NAMES_OF(PATH, LO, HI, LIST, AT, COUNT, ...)                                                         \
     {                                                                                                        \
-        .path = PATH, .type = KEY_NAMES, .unit = "", BOUNDS(LO, HI), .choice = CHOICES, .offset = AT,        \
-        .aux = COUNT, .help = __VA_ARGS__                                                                    \
+        .path = PATH, .type = KEY_NAMES, .unit = "", BOUNDS(LO, HI), .names = LIST,                          \
+        .stride = sizeof *(LIST), .offset = AT, .aux = COUNT, .help = __VA_ARGS__                            \
     }
 #define INTEGER(PATH, FLAGS, LO, HI, AT, ...)                                                                \
     {                                                                                                        \
@@ -71,6 +71,12 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
     {                                                                                                        \
         .path = PATH, .type = KEY_CHOICE, .flags = FLAGS, .unit = "", .choice = CHOICES, PLACE(AT),          \
         .help = __VA_ARGS__                                                                                  \
+    }
+/* CHOICE with a function, this one with an array that begins with names. */
+#define CHOICE_OF(PATH, FLAGS, LIST, AT, ...)                                                                \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_CHOICE, .flags = FLAGS, .unit = "", .names = LIST,                         \
+        .stride = sizeof *(LIST), PLACE(AT), .help = __VA_ARGS__                                             \
     }
 #define TEXT(PATH, FLAGS, SIZE, AT, FALLBACK, HELP)                                                          \
     {                                                                                                        \

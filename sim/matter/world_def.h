@@ -12,6 +12,13 @@
 #include <stdint.h>
 
 enum { FLUIDS_MAX = 8, FILLS_MAX = 16, EMITS_MAX = 4, DRAINS_MAX = 8, NAME_SIZE = 32 };
+enum { METHODS_MAX = 8, METHOD_DEF_SIZE = 256 };
+
+/* Room for a method's own settings, a struct that only the method knows: see method_def in
+ * sim/world/method.h. */
+typedef struct MethodDef {
+    _Alignas(8) unsigned char bytes[METHOD_DEF_SIZE];
+} MethodDef;
 
 typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER } FillKind;
 
@@ -79,15 +86,10 @@ typedef struct WorldDef {
     int grid_layers;    /* of backend fragment's grid, four particles a cell each; 0: what a lattice needs */
     int lost_limit;     /* so many particles may find no place in it in a step */
     double sound_speed; /* c, m/s: p = c^2 (rho - rho0) */
-    char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel/kernel.h */
-    bool negative_pressure;         /* false: p = max(0, p) */
-    bool reproducible;              /* the same bits each time on compute too; the others always are */
-    char kernel[NAME_SIZE];         /* of wcsph: see wcsph_kernels in sim/kernel/kernel.h */
-    double artificial_viscosity;    /* alpha of wcsph, for fluids without a viscosity */
-    int viscosity_form;             /* a ViscosityForm of sim/matter/viscosity.h, of wcsph */
-    double delta_sph;               /* delta of wcsph's density diffusion; 0: none */
-    double shifting;                /* chi of wcsph's particle shifting (Backend.shift); 0: none */
-    int tension_model;              /* a TensionModel of sim/matter/tension.h */
+    bool negative_pressure;           /* false: p = max(0, p) */
+    bool reproducible;                /* the same bits each time on compute too; the others always are */
+    MethodDef of_method[METHODS_MAX]; /* own settings of each method of the list, in its order */
+    int tension_model;                /* a TensionModel of sim/matter/tension.h */
     int wall_slip; /* a Slip of sim/matter/solid.h: how viscous fluid passes the walls of the box */
     double lid[3]; /* velocity of the wall at the top, in its plane, m/s: for walls without slip */
     StepMode step_mode;
@@ -114,11 +116,10 @@ typedef struct WorldDef {
 double fluid_viscosity_at(const FluidDef *fluid, double time);
 double fluid_viscosity_most(const FluidDef *fluid);
 
+/* The def with each viscosity the greatest that its table has. */
+WorldDef world_def_most_viscous(const WorldDef *def);
+
 /* Puts the viscosities of fluids with a table to those of `time` (s). */
 void world_def_at(WorldDef *def, double time);
-
-/* The defaults of every field but the box, the spacing, the fluids: what a scene that says nothing gets. The
-   reason for each number stands beside it in world_def.c. */
-WorldDef world_def_default(void);
 
 #endif

@@ -3,9 +3,9 @@
    corners across its diagonal, they are thus kept apart on both sides of it. After: C. Montani, R. Scateni,
    R. Scopigno, "A modified look-up table for implicit disambiguation of marching cubes", 1994.
 
-   Where a loop is cut into triangles no cut may lie in a face: the neighbour could have the same one, and four
-   triangles would meet there. Own code, since GTS 0.7.6, the one C library for it, takes 14 times as long, and
-   its mesh of noise is not closed. */
+   Where a loop is cut into triangles no cut may lie in a face: the neighbour could have the same one, and
+   four triangles would meet there. Own code, since GTS 0.7.6, the one C library for it, takes 14 times as
+   long, and its mesh of noise is not closed. */
 #include "sim/mesh/isosurface.h"
 
 #include <stdlib.h>

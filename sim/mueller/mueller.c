@@ -1,6 +1,33 @@
 /* after: M. Müller, D. Charypar, M. Gross, "Particle-based fluid simulation for interactive applications",
  * 2003 */
-#include "sim/world/method.h"
+#include "sim/mueller/mueller.h"
+
+#include "sim/base/key_rows.h"
+#include "sim/matter/viscosity.h"
+#include "sim/world/substep.h"
+
+static const MuellerDef usual = {
+    .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see sim/README.md */
+};
+
+static const Key keys[] = {
+    CHOICE_OF("solver.density_kernel", 0, density_kernels, offsetof(MuellerDef, density_kernel),
+              "the kernel that density is summed by"),
+    KEYS_END,
+};
+
+static MethodKernels mueller_kernels(const WorldDef *def)
+{
+    return (MethodKernels){density_kernel_find(mueller_def(def)->density_kernel),
+                           density_kernel_find("spiky")};
+}
+
+static StepFriction mueller_friction(const WorldDef *def, const Lattice *lattice)
+{
+    return (StepFriction){.laminar =
+                              friction_rate(lattice, def->spacing, FRICTION_MUELLER,
+                                            def->support * def->spacing, mueller_kernels(def).density)};
+}
 
 /* Symplectic Euler with the drift in two halves around the kick (position Verlet): the same single evaluation
    of the forces and the same stability, but second order, and exact for free flight under gravity. */
@@ -26,5 +53,11 @@ static void mueller_substep(const Substep *step)
 const Method method_mueller = {
     .name = "mueller",
     .help = "Müller 2003: density by summation, p = c^2 (rho - rho0); symplectic Euler",
+    .keys = keys,
+    .def = &usual,
+    .def_size = sizeof usual,
+    .kernels = mueller_kernels,
+    .friction = mueller_friction,
+    .advise = mueller_advise,
     .substep = mueller_substep,
 };

@@ -1,5 +1,87 @@
 /* after: J. J. Monaghan, "Simulating free surface flows with SPH", 1994 */
-#include "sim/world/method.h"
+#include "sim/wcsph/wcsph.h"
+
+#include "sim/base/key_rows.h"
+#include "sim/matter/viscosity.h"
+#include "sim/world/substep.h"
+
+#define AT(field) offsetof(WcsphDef, field)
+
+static const WcsphDef usual = {
+    .kernel = "cubic",
+    .artificial_viscosity = 0.05, /* calms what the walls' lattice stirs up, half of what breaks waves */
+};
+
+/* clang-format off */
+static const Key keys[] = {
+    CHOICE_OF("solver.kernel", 0, wcsph_kernels, AT(kernel), "its kernel"),
+    NUMBER("solver.artificial_viscosity", 0, "", 0, 1, AT(artificial_viscosity),
+           "alpha, for fluids without a viscosity; 0: none"),
+    CHOICE_OF("solver.viscosity_form", KEY_INDEX, viscosity_kinds, AT(viscosity_form),
+           "what friction by a fluid's viscosity acts along; radial: right at free surfaces, for half the step"),
+    NUMBER("solver.delta_sph", 0, "", 0, 0.5, AT(delta_sph), "diffusion of density, 0.1 as a rule; 0: none"),
+    NUMBER("solver.shifting", 0, "", 0, 1, AT(shifting),
+           "keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none"),
+    KEYS_END,
+};
+/* clang-format on */
+
+static bool wcsph_check(const WorldDef *def, Error *error)
+{
+    const WcsphDef *own = wcsph_def(def);
+    if (own->viscosity_form != VISCOSITY_MORRIS && own->viscosity_form != VISCOSITY_RADIAL)
+        return error_set(error, "the form of viscosity is morris or radial");
+    return (own->shifting >= 0 && own->shifting <= 1) || error_set(error, "shifting is 0 to 1");
+}
+
+static MethodKernels wcsph_kernels_of(const WorldDef *def)
+{
+    const Kernel *kernel = wcsph_kernel_find(wcsph_def(def)->kernel);
+    return (MethodKernels){kernel, kernel};
+}
+
+static StepFriction wcsph_friction(const WorldDef *def, const Lattice *lattice)
+{
+    const WcsphDef *own = wcsph_def(def);
+    const double h = def->support * def->spacing;
+    const Friction form = own->viscosity_form == VISCOSITY_RADIAL ? FRICTION_RADIAL : FRICTION_MORRIS;
+    StepFriction friction = {.laminar = friction_rate(lattice, def->spacing, form, h, NULL),
+                             .alpha = own->artificial_viscosity};
+    if (own->artificial_viscosity > 0)
+        friction.artificial = friction_rate(lattice, def->spacing, FRICTION_ARTIFICIAL, h, NULL);
+    return friction;
+}
+
+/* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
+static void kernel_set(Constants *constants, const WorldDef *def)
+{
+    static const double f_half[] = {[KERNEL_CUBIC] = 3,
+                                    [KERNEL_WENDLAND_C2] = 2.5,
+                                    [KERNEL_QUINTIC] = (1.5 * 1.5 * 1.5 * 1.5 - 6 * 0.0625) / 0.5};
+    const Kernel *kernel = wcsph_kernels_of(def).density;
+    const double h = def->support * def->spacing, r = 0.5 * h, scale = constants->lattice.gradient_scale;
+    constants->kernel = (WcsphKernel)(kernel - wcsph_kernels);
+    if (wcsph_def(def)->viscosity_form == VISCOSITY_RADIAL)
+        constants->radial = (float)constants->lattice.radial_scale;
+    constants->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[constants->kernel]);
+}
+
+static void wcsph_constants(Constants *constants, const WorldDef *def)
+{
+    const WcsphDef *own = wcsph_def(def);
+    const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
+    kernel_set(constants, def);
+    constants->diffusion = (float)(2 * own->delta_sph * c * reach);
+    constants->shifting = (float)(own->shifting * c * reach);
+    constants->artificial = false;
+    for (int f = 0; f < def->fluid_count; f++) {
+        const FluidDef *fluid = &def->fluids[f];
+        const double alpha = fluid_viscosity_most(fluid) > 0 ? 0 : own->artificial_viscosity;
+        constants->tait[f] = (float)(fluid->density * c * c / 7);
+        constants->artificial_viscosity[f] = (float)(0.5 * alpha * c * reach * fluid->density);
+        constants->artificial |= alpha > 0;
+    }
+}
 
 /* Leapfrog as the symmetric composition drift, continuity, kick, continuity, drift (halves but for the kick):
    each part is exact by itself where the others hold still, so that the whole is of second order, runs
@@ -32,5 +114,14 @@ static void wcsph_substep(const Substep *step)
 const Method method_wcsph = {
     .name = "wcsph",
     .help = "Monaghan 1994: density by continuity, Tait's equation of state; leapfrog",
+    .keys = keys,
+    .def = &usual,
+    .def_size = sizeof usual,
+    .carries_density = true,
+    .check = wcsph_check,
+    .kernels = wcsph_kernels_of,
+    .friction = wcsph_friction,
+    .constants = wcsph_constants,
+    .advise = wcsph_advise,
     .substep = wcsph_substep,
 };

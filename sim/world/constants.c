@@ -1,6 +1,7 @@
 #include "sim/world/constants.h"
 
 #include "sim/matter/flow.h"
+#include "sim/world/method.h"
 
 #include <math.h>
 #include <string.h>
@@ -153,10 +154,11 @@ static bool def_check(const WorldDef *def, Error *error)
         return error_set(error, "dt and sound_speed must be positive, substeps at least 1");
     if (def->wall_slip != SLIP_FREE && def->wall_slip != SLIP_NONE)
         return error_set(error, "the walls' slip is free or none");
-    if (def->viscosity_form != VISCOSITY_MORRIS && def->viscosity_form != VISCOSITY_RADIAL)
-        return error_set(error, "the form of viscosity is morris or radial");
-    if (!(def->shifting >= 0 && def->shifting <= 1) || !(def->jitter >= 0 && def->jitter <= 0.5))
-        return error_set(error, "shifting is 0 to 1, jitter 0 to 0.5");
+    if (!(def->jitter >= 0 && def->jitter <= 0.5))
+        return error_set(error, "jitter is 0 to 0.5");
+    for (const Method *const *method = method_list(); *method; method++)
+        if ((*method)->check && !(*method)->check(def, error))
+            return false;
     if (length2(def->lid) > 0 && (def->wall_slip != SLIP_NONE || def->lid[1] != 0 || def->periodic[1] ||
                                   !isfinite(length2(def->lid)) || (def->dimensions == 2 && def->lid[2] != 0)))
         return error_set(error,
@@ -211,18 +213,10 @@ static void fluids_set(Constants *constants, const WorldDef *def)
     constants->negative_pressure = def->negative_pressure;
     constants->reproducible = def->reproducible;
     constants->viscous = constants->varies = false;
-    const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
-    constants->diffusion = (float)(2 * def->delta_sph * c * reach);
-    constants->sound_speed = (float)c;
-    constants->shifting = constants->continuity ? (float)(def->shifting * c * reach) : 0;
-    constants->artificial = false;
+    constants->sound_speed = (float)def->sound_speed;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
         const bool viscous = fluid_viscosity_most(fluid) > 0;
-        const double alpha = viscous ? 0 : def->artificial_viscosity;
-        constants->tait[f] = (float)(fluid->density * c * c / 7);
-        constants->artificial_viscosity[f] = (float)(0.5 * alpha * c * reach * fluid->density);
-        constants->artificial |= alpha > 0;
         constants->mass[f] = (float)(fluid->density / constants->lattice.number_density);
         constants->density[f] = (float)fluid->density;
         constants->stiffness[f] = (float)(c2 * fluid->density);
@@ -234,6 +228,14 @@ static void fluids_set(Constants *constants, const WorldDef *def)
     constants->lid = constants->no_slip && length2(def->lid) > 0;
     for (int k = 0; k < 3; k++)
         constants->lid_velocity[k] = (float)def->lid[k];
+}
+
+/* What is the method's own. */
+static void own_set(Constants *constants, const WorldDef *def)
+{
+    const Method *method = method_find(def->method);
+    if (method->constants)
+        method->constants(constants, def);
 }
 
 static DragWeight drag_weight_of(const Constants *constants)
@@ -252,19 +254,6 @@ static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
                          def->support * def->spacing, &constants->lattice, drag_weight_of(constants)))
         return true;
     return error_set(error, "no memory for the friction of the walls");
-}
-
-/* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
-static void wcsph_set(Constants *constants, const WorldDef *def, const Kernel *kernel, double h)
-{
-    static const double f_half[] = {[KERNEL_CUBIC] = 3,
-                                    [KERNEL_WENDLAND_C2] = 2.5,
-                                    [KERNEL_QUINTIC] = (1.5 * 1.5 * 1.5 * 1.5 - 6 * 0.0625) / 0.5};
-    const double r = 0.5 * h, scale = constants->lattice.gradient_scale;
-    constants->kernel = (WcsphKernel)(kernel - wcsph_kernels);
-    if (def->viscosity_form == VISCOSITY_RADIAL)
-        constants->radial = (float)constants->lattice.radial_scale;
-    constants->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[constants->kernel]);
 }
 
 static void tension_set(Constants *constants, const WorldDef *def)
@@ -292,22 +281,20 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
 {
     memset(constants, 0, sizeof *constants);
     const double h = def->support * def->spacing;
-    const bool continuity = strcmp(def->method, "wcsph") == 0;
-    const Kernel *kernel =
-        continuity ? wcsph_kernel_find(def->kernel) : density_kernel_find(def->density_kernel);
+    const Method *method = method_find(def->method);
+    const MethodKernels kernels = method->kernels(def);
+    const Kernel *kernel = kernels.density;
     if (!kernel)
-        return error_set(error, "unknown kernel '%s'; `slosh info` lists them",
-                         continuity ? def->kernel : def->density_kernel);
+        return error_set(error, "unknown kernel; `slosh info` lists them");
     if (!def_check(def, error) || !cells_set(&constants->cells, def, h, error))
         return false;
 
     periodic_set(&constants->periodic, def);
     constants->first_row = def->dimensions == 2 ? 3 : 0;
     constants->last_row = def->dimensions == 2 ? 6 : 9;
-    lattice_calibrate(def->dimensions, def->spacing, h, kernel,
-                      continuity ? kernel : density_kernel_find("spiky"), &constants->lattice);
+    lattice_calibrate(def->dimensions, def->spacing, h, kernel, kernels.slope, &constants->lattice);
     constants->friction = step_friction(def);
-    constants->continuity = continuity;
+    constants->continuity = method->carries_density;
     constants->poly6 = kernel->value == kernel_poly6;
     constants->support_radius = (float)h;
     constants->spacing = (float)def->spacing;
@@ -317,10 +304,9 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     constants->viscosity_scale =
         (float)(kernel_viscosity_laplacian(0, h) * constants->lattice.laplacian_scale);
     tension_set(constants, def);
-    if (continuity)
-        wcsph_set(constants, def, kernel, h);
     fluids_set(constants, def);
-    if (continuity)
+    own_set(constants, def);
+    if (constants->continuity)
         walls_place(&constants->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
     else if (!walls_create(&constants->walls, def->box_size, def->periodic, def->spacing, h, kernel,
                            &constants->lattice))
@@ -342,6 +328,7 @@ bool constants_change(Constants *constants, const WorldDef *def, Error *error)
     if (!def_check(def, error) || !drag_set(constants, def, error))
         return false;
     fluids_set(constants, def);
+    own_set(constants, def);
     return true;
 }
 

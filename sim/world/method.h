@@ -1,41 +1,70 @@
-/* A method: which stages a substep runs, in which order, with which equations. */
+/* A method: its own settings, what it makes of a def, and the order of its substep. */
 #ifndef SLOSH_METHOD_H
 #define SLOSH_METHOD_H
 
-#include "sim/matter/solid_step.h"
-#include "sim/world/backend.h"
+#include "sim/base/error.h"
+#include "sim/base/key.h"
+#include "sim/kernel/kernel.h"
+#include "sim/kernel/lattice.h"
+#include "sim/matter/world_def.h"
 
-/* What a substep works on: the poses of the box at its begin, middle and end among it. */
-typedef struct Substep {
-    const Backend *backend;
-    void *state;
-    StageClock *clock; /* may be NULL */
-    double dt;         /* s */
-    bool shifts;       /* particles, by Backend.shift */
-    FrameStep first_half, second_half;
-    int guide_count; /* of the emitters at work */
-    Guide guides[GUIDES_MAX];
-    SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */
-    ApparentGravity apparent;        /* in the middle */
-    float gravity[3];                /* in the box's axes in the middle, m/s2 */
-} Substep;
+struct Constants; /* sim/world/constants.h */
+struct Substep;   /* sim/world/substep.h */
+
+/* What a method's density is made with, and what its forces are the slope of. */
+typedef struct MethodKernels {
+    const Kernel *density, *slope;
+} MethodKernels;
+
+/* The rate of friction (sim/matter/viscosity.h) for a def's method, kernel, support and dimensions, 1/m2. */
+typedef struct StepFriction {
+    double laminar, artificial; /* the latter 0 where the def has none */
+    double alpha;               /* of the artificial viscosity */
+} StepFriction;
+
+/* Where a method says what of a scene will not hold or has no effect, though nothing in it is wrong. */
+typedef struct MethodAdvice {
+    const WorldDef *def; /* each viscosity the greatest that its table has */
+    const StepFriction *friction;
+    void *to;
+    void (*say)(void *to, const char *key, const char *what); /* about the value of the key */
+    bool (*chosen)(void *to, const char *key); /* whether the key's value is not of solver.preset */
+} MethodAdvice;
+
+void method_say(const MethodAdvice *advice, const char *key, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 typedef struct Method {
     const char *name, *help;
-    void (*substep)(const Substep *step);
+    const Key *keys;      /* of its own settings, ended by a row without a path; NULL: it has none */
+    const void *def;      /* the struct of these settings with its defaults */
+    size_t def_size;      /* bytes; at most METHOD_DEF_SIZE */
+    bool carries_density; /* its particles do, and walls are mirrors; else density is summed, and walls are
+                             tables */
+    /* False with the reason: a setting is not in order, whichever the method. */
+    bool (*check)(const WorldDef *def, Error *error);
+    MethodKernels (*kernels)(const WorldDef *def);
+    StepFriction (*friction)(const WorldDef *def, const Lattice *lattice);
+    /* Its own part of the constants, behind all others; again when what is live has changed. NULL: none. */
+    void (*constants)(struct Constants *constants, const WorldDef *def);
+    void (*advise)(const MethodAdvice *advice); /* NULL: never */
+    void (*substep)(const struct Substep *step);
 } Method;
 
-/* The kick of a step, and what emitters make of it. */
-static inline void substep_kick(const Substep *step)
-{
-    step->backend->kick(step->state, step->gravity, (float)step->dt);
-    if (step->guide_count > 0)
-        step->backend->guide(step->state, step->guides, step->guide_count);
-}
+/* All methods, ended by NULL; those of the program, and what was added. */
+const Method *const *method_list(void);
 
-extern const Method method_mueller, method_wcsph;
+/* Adds one behind the others, unless it is there: before the first scene is read. */
+void method_add(const Method *method);
 
 /* NULL when there is none of that name. */
 const Method *method_find(const char *name);
+
+/* The method's own settings in a def; not const, as memchr's result is not. NULL where the method is not in
+ * the list. */
+void *method_def(const WorldDef *def, const Method *method);
+
+/* Fills in the defaults of all methods' settings. */
+void methods_default(WorldDef *def);
 
 #endif

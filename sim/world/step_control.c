@@ -1,10 +1,7 @@
 #include "sim/world/step_control.h"
 
-#include "sim/matter/viscosity.h"
-
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const double GROWTH = 1.1, FIRST = 0.1;
 static const float COMPRESSION_MOST = 5;
@@ -40,21 +37,12 @@ StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel)
 
 StepFriction step_friction(const WorldDef *def)
 {
-    const bool continuity = strcmp(def->method, "wcsph") == 0;
-    const double h = def->support * def->spacing;
-    const Kernel *summed = density_kernel_find(def->density_kernel), *kernel = wcsph_kernel_find(def->kernel);
+    const Method *method = method_find(def->method);
+    const MethodKernels kernels = method->kernels(def);
     Lattice lattice;
-    if (continuity)
-        lattice_calibrate(def->dimensions, def->spacing, h, kernel, kernel, &lattice);
-    else
-        lattice_calibrate(def->dimensions, def->spacing, h, summed, density_kernel_find("spiky"), &lattice);
-    if (!continuity)
-        return (StepFriction){friction_rate(&lattice, def->spacing, FRICTION_MUELLER, h, summed), 0};
-    const Friction form = def->viscosity_form == VISCOSITY_RADIAL ? FRICTION_RADIAL : FRICTION_MORRIS;
-    return (StepFriction){friction_rate(&lattice, def->spacing, form, h, NULL),
-                          def->artificial_viscosity > 0
-                              ? friction_rate(&lattice, def->spacing, FRICTION_ARTIFICIAL, h, NULL)
-                              : 0};
+    lattice_calibrate(def->dimensions, def->spacing, def->support * def->spacing, kernels.density,
+                      kernels.slope, &lattice);
+    return method->friction(def, &lattice);
 }
 
 /* A light particle between those of the most viscous fluid. */
@@ -86,13 +74,13 @@ double density_ratio(const WorldDef *def)
 
 double step_sound(const WorldDef *def)
 {
-    const bool continuity = strcmp(def->method, "wcsph") == 0;
-    return def->sound_speed * (continuity ? sqrt(fmax(1, density_ratio(def) / 10)) : 1);
+    const bool carries = method_find(def->method)->carries_density;
+    return def->sound_speed * (carries ? sqrt(fmax(1, density_ratio(def) / 10)) : 1);
 }
 
-double artificial_kinematic(const WorldDef *def)
+double artificial_kinematic(const WorldDef *def, double alpha)
 {
-    return 0.25 * def->artificial_viscosity * def->sound_speed * def->support * def->spacing;
+    return 0.25 * alpha * def->sound_speed * def->support * def->spacing;
 }
 
 /* Whether artificial viscosity acts on some fluid. */
@@ -106,8 +94,9 @@ static bool any_inviscid(const WorldDef *def)
 
 double step_viscous(const WorldDef *def, const StepFriction *friction)
 {
-    const double rate = fmax(friction->laminar * greatest_kinematic_viscosity(def),
-                             any_inviscid(def) ? friction->artificial * artificial_kinematic(def) : 0);
+    const double rate =
+        fmax(friction->laminar * greatest_kinematic_viscosity(def),
+             any_inviscid(def) ? friction->artificial * artificial_kinematic(def, friction->alpha) : 0);
     return rate > 0 ? 2 / rate : INFINITY;
 }
 

@@ -3,6 +3,7 @@
 #define SLOSH_STEP_CONTROL_H
 
 #include "sim/matter/world_def.h"
+#include "sim/world/method.h"
 
 #include <stdbool.h>
 
@@ -65,23 +66,19 @@ const char *step_trouble_words(StepTrouble trouble);
 /* Without a `sentinel` only what no step can go on from. */
 StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel);
 
-/* The rate of friction (sim/matter/viscosity.h) for a def's method, kernel, support and dimensions, 1/m2.
-   Takes some milliseconds: once a world. */
-typedef struct StepFriction {
-    double laminar, artificial; /* the latter 0 where the def has none */
-} StepFriction;
-
+/* Of a def's method. Takes some milliseconds: once a world. */
 StepFriction step_friction(const WorldDef *def);
 
 /* The greatest density of a def's fluids over the least. */
 double density_ratio(const WorldDef *def);
 
-/* The speed of sound that bounds a step, m/s. Light particles of wcsph between heavy ones are pushed by the
-   pressure of those: above 1 : 10 a step has to be shorter by the root of the ratio (sim/README.md). */
+/* The speed of sound that bounds a step, m/s. Light particles that carry their density, between heavy ones,
+   are pushed by the pressure of those: above 1 : 10 a step has to be shorter by the root of the ratio
+   (sim/README.md). */
 double step_sound(const WorldDef *def);
 
-/* The viscosity that wcsph's artificial one stands for, alpha c h / 4, m2/s. */
-double artificial_kinematic(const WorldDef *def);
+/* The viscosity that an artificial one stands for, alpha c h / 4, m2/s. */
+double artificial_kinematic(const WorldDef *def, double alpha);
 
 /* The longest step that friction stands on the lattice at rest, s: what is longer makes differences of
    velocity grow. With the def's present viscosities; of a pair of fluids their mean counts, over the lighter

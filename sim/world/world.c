@@ -3,6 +3,7 @@
 #include "sim/base/parallel.h"
 #include "sim/world/energy_watch.h"
 #include "sim/world/sentinel.h"
+#include "sim/world/substep.h"
 #include "sim/world/world_struct.h"
 
 #include <math.h>
@@ -12,8 +13,6 @@
 enum { BACKENDS_MAX = 4 };
 static const Backend *backends[BACKENDS_MAX] = {&backend_cpu};
 static int backend_count = 1;
-static const Method *const methods[] = {&method_mueller, &method_wcsph};
-enum { METHODS = sizeof methods / sizeof methods[0] };
 
 void backend_add(const Backend *backend)
 {
@@ -29,14 +28,6 @@ const Backend *backend_find(const char *name)
     return NULL;
 }
 
-const Method *method_find(const char *name)
-{
-    for (int i = 0; i < METHODS; i++)
-        if (strcmp(methods[i]->name, name) == 0)
-            return methods[i];
-    return NULL;
-}
-
 const Named *world_backends(void)
 {
     static Named list[BACKENDS_MAX + 1];
@@ -47,8 +38,9 @@ const Named *world_backends(void)
 
 const Named *world_methods(void)
 {
-    static Named list[METHODS + 1];
-    for (int i = 0; i < METHODS; i++)
+    static Named list[METHODS_MAX + 1];
+    const Method *const *methods = method_list();
+    for (int i = 0; methods[i]; i++)
         list[i] = (Named){methods[i]->name, methods[i]->help};
     return list;
 }

@@ -165,6 +165,10 @@ typedef struct Named {
     const char *name, *help;
 } Named;
 
+/* The defaults of every field but the box, the spacing, the fluids: what a scene that says nothing gets. The
+   reason for each number stands beside it in world_default.c. */
+WorldDef world_def_default(void);
+
 const Named *world_methods(void);
 const Named *world_backends(void);
 

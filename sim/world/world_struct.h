@@ -2,6 +2,7 @@
 #ifndef SLOSH_WORLD_STRUCT_H
 #define SLOSH_WORLD_STRUCT_H
 
+#include "sim/world/backend.h"
 #include "sim/world/method.h"
 #include "sim/world/world_state.h"
 

@@ -3,6 +3,7 @@
 
 #include "app/case/case.h"
 #include "app/metric/metric.h"
+#include "sim/world/world.h"
 
 enum { MOST = 4000 };
 

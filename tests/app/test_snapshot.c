@@ -2,6 +2,7 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/output/snapshot.h"
+#include "sim/mueller/mueller.h"
 #include "sim/world/world.h"
 
 #include <hdf5.h>
@@ -181,7 +182,7 @@ static void volumes_are_those_of_the_solver(void **state)
         SnapshotScene read;
         SnapshotStep step;
         snprintf(scene.world.method, NAME_SIZE, "%s", cases[k][0]);
-        snprintf(scene.world.density_kernel, NAME_SIZE, "%s", cases[k][1]);
+        snprintf(mueller_def(&scene.world)->density_kernel, NAME_SIZE, "%s", cases[k][1]);
         World *world = world_create(&scene.world, &error);
         Snapshot *file = snapshot_create("a.h5part", &scene, &error);
         assert_true(world && file);

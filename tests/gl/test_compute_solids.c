@@ -2,6 +2,7 @@
 #include "tests/gl/compare.h"
 
 #include "sim/gl/compute/compute.h"
+#include "sim/wcsph/wcsph.h"
 
 /* Two viscous fluids about one solid of each kind, moving ones among them, in a box that moves. */
 static WorldDef solids_def(int dimensions)
@@ -54,8 +55,8 @@ static WorldDef wcsph_def(void)
 {
     WorldDef def = solids_def(2);
     snprintf(def.method, sizeof def.method, "wcsph");
-    def.delta_sph = 0.1;
-    def.artificial_viscosity = 0.2;
+    wcsph_def(&def)->delta_sph = 0.1;
+    wcsph_def(&def)->artificial_viscosity = 0.2;
     def.fluids[1].viscosity = 0;
     def.dt = 0.0005;
     return def;

@@ -4,6 +4,7 @@
 #include "sim/gl/compute/compute.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/program.h"
+#include "sim/wcsph/wcsph.h"
 
 #include <epoxy/gl.h>
 #include <sys/stat.h>
@@ -143,11 +144,11 @@ static WorldDef def_of(const Case *c)
     WorldDef def = stirred_def(c->dimensions);
     snprintf(def.method, sizeof def.method, "%s", c->method);
     if (c->kernel)
-        snprintf(def.kernel, sizeof def.kernel, "%s", c->kernel);
+        snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "%s", c->kernel);
     def.spacing = c->dimensions == 2 ? 0.025 : 0.09;
     def.support = c->support;
-    def.delta_sph = c->delta;
-    def.artificial_viscosity = c->artificial;
+    wcsph_def(&def)->delta_sph = c->delta;
+    wcsph_def(&def)->artificial_viscosity = c->artificial;
     def.tension_model = (int)c->tension;
     def.negative_pressure = c->negative;
     if (c->solids)
@@ -156,8 +157,8 @@ static WorldDef def_of(const Case *c)
         def.periodic[k] = strchr(c->sides, "xyz"[k]) != NULL;
     if (c->sides)
         def.motion_count = 1; /* such a box does not turn */
-    def.shifting = c->shifting;
-    def.viscosity_form = (int)c->form;
+    wcsph_def(&def)->shifting = c->shifting;
+    wcsph_def(&def)->viscosity_form = (int)c->form;
     def.lid[0] = c->lid;
     def.wall_slip = c->no_slip ? SLIP_NONE : SLIP_FREE;
     for (int f = 0; f < 2; f++) {

@@ -5,6 +5,7 @@
 #include "sim/gl/backends.h"
 #include "sim/gl/fragment/fragment.h"
 #include "sim/gl/shader_source.h"
+#include "sim/mueller/mueller.h"
 
 #include <epoxy/gl.h>
 
@@ -22,7 +23,7 @@ static void other_terms(WorldDef *def)
     def->fluid_count = 1;
     def->fluids[0].viscosity = 0;
     def->negative_pressure = true;
-    snprintf(def->density_kernel, sizeof def->density_kernel, "poly6");
+    snprintf(mueller_def(def)->density_kernel, sizeof mueller_def(def)->density_kernel, "poly6");
 }
 
 static void steps_are_those_of_the_cpu(void **state)

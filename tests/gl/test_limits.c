@@ -3,6 +3,7 @@
 
 #include "render/renderer.h"
 #include "sim/gl/limits.h"
+#include "sim/wcsph/wcsph.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -97,7 +98,7 @@ static void worlds_ask(void **state)
     snprintf(def.method, sizeof def.method, "wcsph");
     limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 16000);
     world_destroy(fixture_world(&def));
-    def.shifting = 0.1;
+    wcsph_def(&def)->shifting = 0.1;
     assert_no_world(&def,
                     "needs a buffer of 32000 bytes for this scene, and this driver allows shaders 16000");
     limit(0, 0);

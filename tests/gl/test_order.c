@@ -1,6 +1,7 @@
 /* The order in which work groups and their invocations come to their turn is the driver's: a world that asks
    to be reproducible has the same bits in any. The test gives the solver's shaders other numbers for what
    they are. */
+#include "sim/wcsph/wcsph.h"
 #include "tests/gl/compare.h"
 
 #include <epoxy/egl.h>
@@ -68,7 +69,7 @@ static WorldDef splash_def(const char *method)
     def.dt = 0.002;
     def.most = 3000;
     def.fluids[0].viscosity = 1;
-    def.delta_sph = def.shifting = strcmp(method, "wcsph") == 0 ? 0.1 : 0;
+    wcsph_def(&def)->delta_sph = wcsph_def(&def)->shifting = strcmp(method, "wcsph") == 0 ? 0.1 : 0;
     fixture_block(&def, 0, -0.6, 0, -0.3, 0.1, 0.5, 0.3);
     def.solids[def.solid_count++] = (SolidDef){
         .kind = SOLID_SPHERE, .centre = {0.3, 0.2, 0}, .radius = 0.15, .axis = {0, 1, 0}, .slip = SLIP_NONE};

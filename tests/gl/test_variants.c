@@ -8,6 +8,8 @@
 #include "sim/gl/limits.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
+#include "sim/mueller/mueller.h"
+#include "sim/wcsph/wcsph.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -387,7 +389,8 @@ static void mueller_lives(const char *backend)
 {
     const WorldDef base = pool_def(backend);
     LIVE(base, d.reproducible = true, d.fluids[0].viscosity = 0);
-    LIVE(base, d.dimensions = 2, set_name(d.density_kernel, "poly6"), d.negative_pressure = true);
+    LIVE(base, d.dimensions = 2, set_name(mueller_def(&d)->density_kernel, "poly6"),
+         d.negative_pressure = true);
 }
 
 static void mueller_has_more_on_compute(void)
@@ -408,12 +411,15 @@ static void wcsph_lives(void)
     WorldDef base = pool_def("compute");
     set_name(base.method, "wcsph");
     base.dt = 0.0005;
-    LIVE(base, d.viscosity_form = VISCOSITY_RADIAL, d.negative_pressure = true);
-    LIVE(base, d.delta_sph = 0.1, set_name(d.kernel, "wendland_c2"));
-    LIVE(base, d.delta_sph = 0.1, d.shifting = 0.1, set_name(d.kernel, "wendland_c2"), d.reproducible = true);
-    LIVE(base, d.delta_sph = 0.1, d.shifting = 0.1, set_name(d.kernel, "quintic"), d.periodic[0] = true);
-    LIVE(base, d.fluids[0].viscosity = 0, d.artificial_viscosity = 0.1);
-    LIVE(base, with_a_ball(d.solids, &d.solid_count), d.shifting = 0.1, d.delta_sph = 0.1, add_flow(&d));
+    LIVE(base, wcsph_def(&d)->viscosity_form = VISCOSITY_RADIAL, d.negative_pressure = true);
+    LIVE(base, wcsph_def(&d)->delta_sph = 0.1, set_name(wcsph_def(&d)->kernel, "wendland_c2"));
+    LIVE(base, wcsph_def(&d)->delta_sph = 0.1, wcsph_def(&d)->shifting = 0.1,
+         set_name(wcsph_def(&d)->kernel, "wendland_c2"), d.reproducible = true);
+    LIVE(base, wcsph_def(&d)->delta_sph = 0.1, wcsph_def(&d)->shifting = 0.1,
+         set_name(wcsph_def(&d)->kernel, "quintic"), d.periodic[0] = true);
+    LIVE(base, d.fluids[0].viscosity = 0, wcsph_def(&d)->artificial_viscosity = 0.1);
+    LIVE(base, with_a_ball(d.solids, &d.solid_count), wcsph_def(&d)->shifting = 0.1,
+         wcsph_def(&d)->delta_sph = 0.1, add_flow(&d));
     LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
 }
 
@@ -557,7 +563,7 @@ static void worlds_live(void **state)
     set_name(def.method, "wcsph");
     def.dt = 0.0005;
     live(&def); /* without diffusion */
-    def.delta_sph = def.shifting = 0.1;
+    wcsph_def(&def)->delta_sph = wcsph_def(&def)->shifting = 0.1;
     def.reproducible = true;
     live(&def);
     worlds_only = false;

@@ -18,11 +18,7 @@ static const UiScale linear = {.low = 0, .high = 100, .least = -5, .most = 1000,
 static const UiWindow form_window = {
     .id = "form", .place = {40, 30}, .width = 300, .height_most = 500, .label_share = 0.4F};
 
-static const char *fruit(int index)
-{
-    static const char *const names[] = {"apple", "pear", "plum"};
-    return index < 3 ? names[index] : NULL;
-}
+static const char *const fruit[] = {"apple", "pear", "plum", NULL};
 
 static void draw_form(void *user, Desk *desk)
 {

@@ -163,11 +163,11 @@ static void every_name_of_a_choice_is_taken(void **state)
     static Scene scene;
     Error error;
     for (int i = 0; i < count; i++)
-        for (int c = 0; keys[i].choice && keys[i].choice(c); c++) {
+        for (int c = 0; key_choice(&keys[i], c); c++) {
             const bool list = keys[i].type == KEY_NAMES;
             char path[128], setting[256], text[128], name[64];
             path_in_scene(keys[i].path, path);
-            snprintf(name, sizeof name, list ? "[%s]" : "%s", keys[i].choice(c));
+            snprintf(name, sizeof name, list ? "[%s]" : "%s", key_choice(&keys[i], c));
             snprintf(setting, sizeof setting, "%s=%s", path, name);
             if (!parse_set(everything, setting, &scene, &error))
                 fail_msg("%s", error.message);

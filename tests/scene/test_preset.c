@@ -1,9 +1,11 @@
 /* solver.preset: fills in what a scene does not name, by method and dimensions, and nothing else. */
+#include "sim/wcsph/wcsph.h"
 #include "tests/scene/scene_text.h"
 
 #include "app/case/run.h"
 #include "app/scene/keys.h"
 #include "app/scene/preset.h"
+#include "sim/world/world.h"
 
 #include <stdlib.h>
 
@@ -27,10 +29,10 @@ static void it_fills_in_what_is_not_named(void **state)
     (void)state;
     const WorldDef *def = world_of(ACCURATE, NULL);
     assert_string_equal(def->method, "wcsph");
-    assert_string_equal(def->kernel, "wendland_c2");
+    assert_string_equal(wcsph_def(def)->kernel, "wendland_c2");
     assert_float_equal(def->support, 2.6, 0);
-    assert_float_equal(def->delta_sph, 0.1, 0);
-    assert_float_equal(def->artificial_viscosity, 0.02, 0);
+    assert_float_equal(wcsph_def(def)->delta_sph, 0.1, 0);
+    assert_float_equal(wcsph_def(def)->artificial_viscosity, 0.02, 0);
     assert_int_equal(def->step_mode, STEP_CFL);
     assert_true(def->reproducible);
     assert_float_equal(world_of(PLANE, NULL)->support, 3.5, 0);
@@ -41,11 +43,11 @@ static void it_gives_way_to_scene_and_command_line(void **state)
 {
     (void)state;
     const WorldDef *def = world_of(ACCURATE "  kernel: quintic\n  step: {mode: fixed}\n", NULL);
-    assert_string_equal(def->kernel, "quintic");
+    assert_string_equal(wcsph_def(def)->kernel, "quintic");
     assert_int_equal(def->step_mode, STEP_FIXED);
-    assert_float_equal(def->delta_sph, 0.1, 0);
-    assert_float_equal(world_of(ACCURATE, "solver.delta_sph=0")->delta_sph, 0, 0);
-    assert_string_equal(world_of(LEAST, "solver.preset=accurate")->kernel, "wendland_c2");
+    assert_float_equal(wcsph_def(def)->delta_sph, 0.1, 0);
+    assert_float_equal(wcsph_def(world_of(ACCURATE, "solver.delta_sph=0"))->delta_sph, 0, 0);
+    assert_string_equal(wcsph_def(world_of(LEAST, "solver.preset=accurate"))->kernel, "wendland_c2");
 }
 
 /* What the method has no use for stays at its default: nothing to warn of. */
@@ -55,9 +57,9 @@ static void a_method_gets_its_own_keys(void **state)
     const WorldDef *def = world_of(ACCURATE "  method: mueller\n", NULL), none = world_def_default();
     assert_string_equal(def->method, "mueller");
     assert_int_equal(def->step_mode, STEP_CFL);
-    assert_string_equal(def->kernel, none.kernel);
-    assert_float_equal(def->delta_sph, none.delta_sph, 0);
-    assert_int_equal(def->viscosity_form, none.viscosity_form);
+    assert_string_equal(wcsph_def(def)->kernel, wcsph_def(&none)->kernel);
+    assert_float_equal(wcsph_def(def)->delta_sph, wcsph_def(&none)->delta_sph, 0);
+    assert_int_equal(wcsph_def(def)->viscosity_form, wcsph_def(&none)->viscosity_form);
 }
 
 /* A scene that says `play`, or nothing, is what it was before there were presets. */

@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "sim/matter/tension.h"
+#include "sim/wcsph/wcsph.h"
 #include "sim/world/world_state.h"
 
 static Error error;
@@ -34,7 +35,7 @@ static WorldDef dam(const char *method)
     def.retries = 3;
     def.dt = 0.001;
     snprintf(def.method, sizeof def.method, "%s", method);
-    snprintf(def.kernel, sizeof def.kernel, "wendland_c2");
+    snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "wendland_c2");
     fixture_block(&def, 0, -0.5, 0, -1, -0.2, 0.5, 1);
     return def;
 }

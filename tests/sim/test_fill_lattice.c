@@ -5,6 +5,7 @@
 #include "sim/matter/fill.h"
 #include "sim/matter/fill_lattice.h"
 #include "sim/matter/seed.h"
+#include "sim/wcsph/wcsph.h"
 
 static float position[3 * 40000];
 static uint8_t fluid[40000];
@@ -167,7 +168,7 @@ static double stirred(const char *method, double spacing)
     def.spacing = spacing;
     def.support = 2.6;
     def.sound_speed = 20;
-    def.delta_sph = 0.1;
+    wcsph_def(&def)->delta_sph = 0.1;
     def.dt = 0.01;
     def.substeps = 25;
     def.fluids[0].viscosity = 1;

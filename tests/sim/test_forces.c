@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "sim/kernel/lattice.h"
+#include "sim/mueller/mueller.h"
 
 enum { COUNT = 900 };
 static const double dt = 1e-4;
@@ -10,7 +11,7 @@ static const double dt = 1e-4;
 static WorldDef two_fluids(const char *density_kernel, bool negative_pressure)
 {
     WorldDef def = fixture_def(6, 6, 6);
-    strcpy(def.density_kernel, density_kernel);
+    strcpy(mueller_def(&def)->density_kernel, density_kernel);
     def.negative_pressure = negative_pressure;
     def.sound_speed = 12;
     def.dt = dt;
@@ -55,7 +56,7 @@ static double distance(const Reference *r, int i, int j, double d[3])
  */
 static void brute_accelerations(const WorldDef *def, const Cloud *cloud, Reference *r)
 {
-    const Kernel *kernel = density_kernel_find(def->density_kernel);
+    const Kernel *kernel = density_kernel_find(mueller_def(def)->density_kernel);
     const double h = def->support * def->spacing, s3 = pow(def->spacing, 3),
                  c2 = def->sound_speed * def->sound_speed;
     Lattice lattice;

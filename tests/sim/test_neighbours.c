@@ -2,6 +2,7 @@
 #include "fixture.h"
 
 #include "sim/kernel/lattice.h"
+#include "sim/mueller/mueller.h"
 
 typedef struct Cloud {
     size_t count;
@@ -97,7 +98,7 @@ static void density_equals_brute(const char *name)
 {
     const Kernel *kernel = density_kernel_find(name);
     WorldDef def = fixture_def(4, 4, 4);
-    strcpy(def.density_kernel, name);
+    strcpy(mueller_def(&def)->density_kernel, name);
     enum { COUNT = 1500 };
     float x[3 * COUNT];
     make_random(x, COUNT, (double[3]){1.5, 1.5, 1.5});

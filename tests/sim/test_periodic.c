@@ -5,6 +5,7 @@
 #include "sim/box/periodic.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/vortices.h"
+#include "sim/wcsph/wcsph.h"
 #include "sim/world/world_state.h"
 
 /* Scattered particles in a box that is periodic along the axes given; the others have walls. */
@@ -156,8 +157,8 @@ static void check_shifted(const double size[3], int dimensions, const char *meth
     cloud_make_in(size, &a, dimensions, axes, method, nowhere);
     cloud_make_in(size, &b, dimensions, axes, method, shift);
     a.def.dt = b.def.dt = 1e-4;
-    a.def.delta_sph = b.def.delta_sph = continuity ? 0.1 : 0;
-    a.def.shifting = b.def.shifting = continuity ? 0.1 : 0;
+    wcsph_def(&a.def)->delta_sph = wcsph_def(&b.def)->delta_sph = continuity ? 0.1 : 0;
+    wcsph_def(&a.def)->shifting = wcsph_def(&b.def)->shifting = continuity ? 0.1 : 0;
     a.def.tension_model = b.def.tension_model = TENSION_COHESION;
     a.def.fluids[0].surface_tension = b.def.fluids[0].surface_tension = 1;
     World *one = fixture_world(&a.def), *other = fixture_world(&b.def);
@@ -278,8 +279,8 @@ static void momentum_is_conserved(void **state)
         Cloud c;
         cloud_make(&c, 2, "xy", method ? "wcsph" : "mueller", nowhere);
         c.def.dt = 2e-4;
-        c.def.shifting = method ? 0.1 : 0;
-        c.def.delta_sph = method ? 0.1 : 0;
+        wcsph_def(&c.def)->shifting = method ? 0.1 : 0;
+        wcsph_def(&c.def)->delta_sph = method ? 0.1 : 0;
         World *world = fixture_world(&c.def);
         WorldSums before, after;
         world_sums(world, &before);
@@ -344,7 +345,7 @@ static void a_saved_state_goes_on_to_the_bit(void **state)
     Cloud c;
     cloud_make(&c, 2, "xy", "wcsph", nowhere);
     c.def.dt = 2e-4;
-    c.def.shifting = c.def.delta_sph = 0.1;
+    wcsph_def(&c.def)->shifting = wcsph_def(&c.def)->delta_sph = 0.1;
     World *one = fixture_world(&c.def), *other = fixture_world(&c.def);
     WorldState saved = {.count = 0};
     Error error;

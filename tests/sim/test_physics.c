@@ -1,5 +1,6 @@
 /* What must hold whatever the scene: momenta in free flight, pressure in a column at rest, density ratios. */
 #include "fixture.h"
+#include "sim/mueller/mueller.h"
 
 /* A ball that flies and spins, pressed a little so that it works inside; no gravity, no viscosity, no walls
  * near. */
@@ -135,7 +136,7 @@ static double speed_after_a_jolt(const char *density_kernel)
     const int side = fixture_count(12, 8), count = side * side * side;
     const double pitch = 0.099, width = side * pitch;
     WorldDef def = fixture_def(width, width, width);
-    strcpy(def.density_kernel, density_kernel);
+    strcpy(mueller_def(&def)->density_kernel, density_kernel);
     memset(def.gravity, 0, sizeof def.gravity);
     def.sound_speed = 60;
     def.dt = 0.001;

@@ -4,6 +4,7 @@
 
 #include "sim/kernel/kernel.h"
 #include "sim/kernel/lattice.h"
+#include "sim/wcsph/wcsph.h"
 #include "sim/world/world_state.h"
 
 static Error error;
@@ -159,7 +160,7 @@ static void momenta_are_kept(void **state)
     for (int m = 0; m < fixture_methods(); m++) {
         WorldDef def = plane_def(methods[m], 20, 20);
         memset(def.gravity, 0, sizeof def.gravity);
-        def.artificial_viscosity = 0;
+        wcsph_def(&def)->artificial_viscosity = 0;
         def.dt = 5e-4;
         def.fluids[0].fills[0] = (Fill){.kind = FILL_BALL, .centre = {0, 10, 0}, .radius = 0.8};
         def.fluids[0].fill_count = 1;

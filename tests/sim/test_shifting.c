@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "sim/kernel/lattice.h"
+#include "sim/wcsph/wcsph.h"
 
 enum { WIDE = 12, HIGH = 10, ALL = WIDE * HIGH };
 static const double H = 0.3, SOUND = 15;
@@ -18,11 +19,11 @@ static WorldDef def_of(double scatter, bool periodic, double shifting)
     def.dimensions = 2;
     def.support = 3;
     def.sound_speed = SOUND;
-    def.shifting = shifting;
+    wcsph_def(&def)->shifting = shifting;
     def.negative_pressure = true;
     def.periodic[0] = def.periodic[1] = periodic;
     snprintf(def.method, sizeof def.method, "wcsph");
-    snprintf(def.kernel, sizeof def.kernel, "wendland_c2");
+    snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "wendland_c2");
     memset(def.gravity, 0, sizeof def.gravity);
     for (int i = 0; i < ALL; i++) {
         const int row = i / WIDE;

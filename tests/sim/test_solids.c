@@ -3,6 +3,7 @@
 
 #include "sim/base/stage.h"
 #include "sim/matter/boundary.h"
+#include "sim/wcsph/wcsph.h"
 #include "sim/world/world_state.h"
 
 /* Distance of a particle from a solid's surface at the world's time. */
@@ -153,7 +154,7 @@ static void a_tank_with_solids_comes_to_rest(void **state)
     static const int steps[] = {2000, 5000};
     for (int m = 0; m < 2; m++) {
         WorldDef def = tank_with_solids(methods[m]);
-        def.delta_sph = 0.1;
+        wcsph_def(&def)->delta_sph = 0.1;
         const RestError error = rest_error(&def, steps[m]);
         printf(
             "%s: tank with three solids: pressure off by %.2f %% of rho0 g H (rms), by %.2f %% next to them "
@@ -317,7 +318,7 @@ static WorldDef busy_def(const char *method)
     def.spacing = 0.06;
     def.sound_speed = 20;
     def.dt = 0.002;
-    def.delta_sph = 0.05;
+    wcsph_def(&def)->delta_sph = 0.05;
     def.fluids[0].viscosity = 2;
     def.retries = 3;
     fixture_block(&def, 0, -0.6, 0, -0.4, 0.2, 0.5, 0.4);

@@ -2,6 +2,7 @@
    with the last good state. */
 #include "fixture.h"
 
+#include "sim/wcsph/wcsph.h"
 #include "sim/world/constants.h"
 #include "sim/world/step_control.h"
 #include "sim/world/world_state.h"
@@ -46,9 +47,8 @@ static void friction_of_several_fluids(void **state)
 {
     (void)state;
     WorldDef def = fixture_def(1, 1, 1);
-    const StepFriction friction = {.laminar = 100, .artificial = 50};
+    StepFriction friction = {.laminar = 100, .artificial = 50};
     def.support = 2.1;
-    def.artificial_viscosity = 0;
     assert_true(isinf(step_viscous(&def, &friction)));
     def.fluid_count = 2;
     def.fluids[0] = (FluidDef){.density = 10, .viscosity = 2};
@@ -56,7 +56,7 @@ static void friction_of_several_fluids(void **state)
     assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 1.6)) < 1e-12);
     def.fluids[0].viscosity = 0;
     assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 1.5)) < 1e-12);
-    def.artificial_viscosity = 1;
+    friction.alpha = 1;
     def.sound_speed = 100; /* alpha c h / 4 = 5.25 m2/s */
     assert_true(fabs(step_viscous(&def, &friction) - 2 / (50 * 5.25)) < 1e-12);
     def.fluids[0].viscosity_table = (TimeTable){.rows = 1, .value = {1}};
@@ -84,7 +84,7 @@ static void light_fluid_rests_upon_heavy(void **state)
     def.fluid_count = 2;
     def.fluids[1] = (FluidDef){.name = "light", .density = 1};
     snprintf(def.method, sizeof def.method, "wcsph");
-    snprintf(def.kernel, sizeof def.kernel, "wendland_c2");
+    snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "wendland_c2");
     fixture_block(&def, 0, -0.25, 0, -0.5, 0.25, 0.3, 0.5);
     fixture_block(&def, 1, -0.25, 0.3, -0.5, 0.25, 0.6, 0.5);
     assert_true(fabs(step_sound(&def) - 200) < 1e-9);
@@ -123,9 +123,9 @@ static WorldDef stirred_def(const Stirred *s, const InitialState *initial)
     def.support = s->support;
     def.sound_speed = 2;
     snprintf(def.method, sizeof def.method, "%s", s->method);
-    snprintf(def.kernel, sizeof def.kernel, "%s", s->kernel);
-    def.viscosity_form = s->form;
-    def.artificial_viscosity = s->alpha;
+    snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "%s", s->kernel);
+    wcsph_def(&def)->viscosity_form = s->form;
+    wcsph_def(&def)->artificial_viscosity = s->alpha;
     def.wall_slip = s->walls ? SLIP_NONE : SLIP_FREE;
     if (s->two) {
         def.fluids[1] = def.fluids[0];

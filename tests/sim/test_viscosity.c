@@ -4,6 +4,7 @@
 
 #include "sim/kernel/lattice.h"
 #include "sim/matter/viscosity.h"
+#include "sim/wcsph/wcsph.h"
 
 enum { KERNELS = 6 };
 
@@ -78,10 +79,10 @@ static double power(ViscosityForm form, double a, double b)
     def.dimensions = 2;
     memset(def.gravity, 0, sizeof def.gravity);
     snprintf(def.method, sizeof def.method, "wcsph");
-    snprintf(def.kernel, sizeof def.kernel, "wendland_c2");
+    snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "wendland_c2");
     def.support = 3;
     def.sound_speed = 0.01;
-    def.viscosity_form = (int)form;
+    wcsph_def(&def)->viscosity_form = (int)form;
     def.fluids[0].viscosity = 100;
     def.dt = 1e-3;
     for (size_t i = 0; i < (size_t)SIDE * SIDE; i++) {
@@ -136,7 +137,7 @@ static void only_its_forms_are_taken(void **state)
     WorldDef def = fixture_def(1, 1, 1);
     Error error = {{0}};
     fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.3, 0.5);
-    def.viscosity_form = 2;
+    wcsph_def(&def)->viscosity_form = 2;
     assert_null(world_create(&def, &error));
     assert_non_null(strstr(error.message, "morris or radial"));
 }

@@ -2,18 +2,19 @@
    oscillating floor. */
 #include "fixture.h"
 
+#include "sim/wcsph/wcsph.h"
 #include "sim/world/constants.h"
 
 #include <complex.h>
 
-typedef struct Method {
+typedef struct Tried {
     const char *name, *kernel;
     int dimensions;
     double support;
     ViscosityForm form; /* of wcsph */
-} Method;
+} Tried;
 
-static const Method methods[] = {
+static const Tried methods[] = {
     {"mueller", "cubic", 2, 2.6, VISCOSITY_MORRIS},     {"mueller", "cubic", 3, 2.1, VISCOSITY_MORRIS},
     {"mueller", "cubic", 3, 3, VISCOSITY_MORRIS},       {"wcsph", "cubic", 2, 2.6, VISCOSITY_MORRIS},
     {"wcsph", "wendland_c2", 3, 2.6, VISCOSITY_MORRIS}, {"wcsph", "quintic", 2, 3, VISCOSITY_MORRIS},
@@ -28,16 +29,16 @@ static bool taken(int m)
 }
 
 /* A closed box, full to the height `full`, without gravity; 1 m2/s. */
-static WorldDef no_slip_box(const Method *method, double side, double full)
+static WorldDef no_slip_box(const Tried *method, double side, double full)
 {
     WorldDef def = fixture_def(side, side, side);
     memset(def.gravity, 0, sizeof def.gravity);
     def.dimensions = method->dimensions;
     def.support = method->support;
     strcpy(def.method, method->name);
-    strcpy(def.kernel, method->kernel);
+    strcpy(wcsph_def(&def)->kernel, method->kernel);
     def.wall_slip = SLIP_NONE;
-    def.viscosity_form = (int)method->form;
+    wcsph_def(&def)->viscosity_form = (int)method->form;
     def.fluids[0].viscosity = 1000;
     fixture_block(&def, 0, -side / 2, 0, -side / 2, side / 2, full, side / 2);
     return def;
@@ -84,9 +85,9 @@ static void tables_equal_sums(void **state)
         Constants constants;
         Error error = {0};
         assert_true(constants_create(&constants, &def, &error));
-        const DragWeight weight = strcmp(def.method, "wcsph") != 0 ? DRAG_MUELLER
-                                  : def.viscosity_form             ? DRAG_RADIAL
-                                                                   : DRAG_MORRIS;
+        const DragWeight weight = strcmp(def.method, "wcsph") != 0  ? DRAG_MUELLER
+                                  : wcsph_def(&def)->viscosity_form ? DRAG_RADIAL
+                                                                    : DRAG_MORRIS;
         const double scale = drag_brute(&constants, weight, 1, (double[3]){0.05}, (double[3]){0});
         assert_true(scale > 0);
         for (int n = 0; n < 120; n++) {
@@ -134,7 +135,7 @@ static double parabola(double y, double width)
 }
 
 /* Viscous accelerations along x, m/s2, in the first layers of the floor, in the middle of the box. */
-static void layers(const Method *method, Profile *profile, double out[4])
+static void layers(const Tried *method, Profile *profile, double out[4])
 {
     enum { SIDE = 16, ALL = SIDE * SIDE * SIDE };
     static float x[3 * ALL], v[3 * ALL];
@@ -151,7 +152,7 @@ static void layers(const Method *method, Profile *profile, double out[4])
         v[3 * i] = (float)profile((double)x[3 * i + 1], 0.1 * SIDE);
     }
     def.dt = 1e-4;
-    def.artificial_viscosity = 0;
+    wcsph_def(&def)->artificial_viscosity = 0;
     def.sound_speed = 1;
     def.initial = &initial;
     World *world = fixture_world(&def);

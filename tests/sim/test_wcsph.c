@@ -5,6 +5,7 @@
 #include "sim/kernel/kernel.h"
 #include "sim/kernel/lattice.h"
 #include "sim/matter/viscosity.h"
+#include "sim/wcsph/wcsph.h"
 #include "sim/world/world_state.h"
 
 enum { COUNT = 600 };
@@ -44,12 +45,12 @@ static WorldDef two_fluids(const char *kernel)
     WorldDef def = fixture_def(6, 6, 6);
     memset(def.gravity, 0, sizeof def.gravity);
     strcpy(def.method, "wcsph");
-    strcpy(def.kernel, kernel);
+    strcpy(wcsph_def(&def)->kernel, kernel);
     def.negative_pressure = true;
     def.sound_speed = 30;
     def.dt = dt;
-    def.artificial_viscosity = alpha;
-    def.delta_sph = delta;
+    wcsph_def(&def)->artificial_viscosity = alpha;
+    wcsph_def(&def)->delta_sph = delta;
     def.fluid_count = 2;
     def.fluids[1] = (FluidDef){.name = "oil", .density = 300, .viscosity = 40};
     return def;
@@ -186,7 +187,8 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
             const double damping = both * (ai + aj) * dot(v, x) / (d * d + r->h * r->h / 400);
             for (int k = 0; k < 3; k++) {
                 const double friction = both * (fi->viscosity + fj->viscosity);
-                const double drag = friction * (def->viscosity_form ? r->radial * dot(v, x) * x[k] : v[k]);
+                const double drag =
+                    friction * (wcsph_def(def)->viscosity_form ? r->radial * dot(v, x) * x[k] : v[k]);
                 force[k] += f * ((push - damping) * x[k] - drag);
                 r->scale[i] += fabs(f * push * x[k]) + fabs(f * damping * x[k]) + fabs(f * drag);
             }
@@ -210,7 +212,7 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
 static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *r)
 {
     Lattice lattice;
-    r->kernel = wcsph_kernel_find(def->kernel);
+    r->kernel = wcsph_kernel_find(wcsph_def(def)->kernel);
     r->h = def->support * def->spacing;
     lattice_calibrate(3, def->spacing, r->h, r->kernel, r->kernel, &lattice);
     r->n0 = lattice.number_density;
@@ -231,7 +233,7 @@ static void step_equals_brute_force(const char *kernel, ViscosityForm form, doub
     static Reference r;
     static double a[COUNT][3];
     WorldDef def = two_fluids(kernel);
-    def.viscosity_form = (int)form;
+    wcsph_def(&def)->viscosity_form = (int)form;
     make_cloud(&cloud, width, middle);
     def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, cloud.density};
     World *world = fixture_world(&def);
@@ -305,7 +307,7 @@ static void momentum_and_energy(void **state)
     static uint8_t fluid[N];
     WorldDef def = two_fluids("wendland_c2");
     def.support = 2.6;
-    def.artificial_viscosity = def.delta_sph = 0;
+    wcsph_def(&def)->artificial_viscosity = wcsph_def(&def)->delta_sph = 0;
     def.fluids[1].viscosity = 0;
     def.dt = 5e-4;
     for (int i = 0; i < N; i++) {
@@ -375,7 +377,7 @@ static void column_rests(double diffusion, int steps)
     strcpy(def.method, "wcsph");
     def.sound_speed = fixture_coarse(60, 40); /* ten times sqrt(g H) */
     def.dt = 0.001;
-    def.delta_sph = diffusion;
+    wcsph_def(&def)->delta_sph = diffusion;
     def.fluids[0].viscosity = 3000; /* settles within a few seconds */
     hydrostatic_column(&def, column, x, density);
     def.initial = &(InitialState){.count = count, .position = x, .density = density};
@@ -459,7 +461,7 @@ static WorldDef splash(int threads)
     strcpy(def.method, "wcsph");
     def.threads = threads;
     def.sound_speed = 20;
-    def.delta_sph = 0.1;
+    wcsph_def(&def)->delta_sph = 0.1;
     def.fluid_count = 2;
     def.fluids[1] = (FluidDef){.name = "oil", .density = 600, .viscosity = 2};
     fixture_block(&def, 0, -0.75, 0, -0.4, -0.1, 0.7, 0.4);

@@ -1,6 +1,7 @@
 /* wcsph in time: the order of its step, slow flows, diffusion, what viscosity keeps, changes while it lives.
  */
 #include "fixture.h"
+#include "sim/wcsph/wcsph.h"
 
 enum { SIDE = 10, N = SIDE * SIDE * SIDE };
 
@@ -15,7 +16,7 @@ static WorldDef free_block(Block *block, double rate)
     WorldDef def = fixture_def(6, 6, 6);
     strcpy(def.method, "wcsph");
     memset(def.gravity, 0, sizeof def.gravity);
-    def.artificial_viscosity = 0;
+    wcsph_def(&def)->artificial_viscosity = 0;
     for (int i = 0; i < N; i++) {
         const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
         for (int k = 0; k < 3; k++) {
@@ -45,7 +46,7 @@ static State after_pulsation(int steps)
 {
     static Block block;
     WorldDef def = free_block(&block, 0.5);
-    strcpy(def.kernel, "wendland_c2"); /* smooth, or the order is the kernel's */
+    strcpy(wcsph_def(&def)->kernel, "wendland_c2"); /* smooth, or the order is the kernel's */
     def.negative_pressure = true;
     def.dt = 0.06 / steps;
     World *world = world_of(def, &block);
@@ -130,7 +131,7 @@ static double noise_after(double delta, double *mean)
     for (int i = 0; i < N; i++)
         block.density[i] = (float)(1000 + 5 * (fixture_random(&seed) - 0.5));
     def.sound_speed = 20;
-    def.delta_sph = delta;
+    wcsph_def(&def)->delta_sph = delta;
     def.negative_pressure = true;
     def.dt = 0.001;
     World *world = world_of(def, &block);
@@ -170,7 +171,7 @@ static void diffusion_leaves_an_even_slope(void **state)
         def.support = dimensions == 2 ? 2.6 : 2.1;
         memset(def.gravity, 0, sizeof def.gravity);
         strcpy(def.method, "wcsph");
-        def.delta_sph = 0.1;
+        wcsph_def(&def)->delta_sph = 0.1;
         def.dt = 1e-4;
         def.initial = &initial;
         World *world = fixture_world(&def);
@@ -204,7 +205,7 @@ static void viscosity_keeps_momentum(void **state)
     def.fluid_count = 2;
     def.fluids[0].viscosity = 20;
     def.fluids[1] = (FluidDef){.name = "light", .density = 100};
-    def.artificial_viscosity = 0.3;
+    wcsph_def(&def)->artificial_viscosity = 0.3;
     def.dt = 0.001;
     for (int i = 0; i < N; i++) {
         block.fluid[i] = (uint8_t)(i / SIDE % 2);
@@ -231,7 +232,7 @@ static void it_changes_while_it_lives(void **state)
     strcpy(def.method, "wcsph");
     def.fluid_count = 2;
     def.fluids[1] = (FluidDef){.name = "oil", .density = 800, .viscosity = 1};
-    def.delta_sph = 0.1;
+    wcsph_def(&def)->delta_sph = 0.1;
     fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.3, 0.5);
     fixture_block(&def, 1, -0.5, 0.3, -0.5, 0.5, 0.6, 0.5);
     World *changed = fixture_world(&def);

@@ -1,5 +1,6 @@
 /* The walls of the box with wcsph: what rests goes on resting, and no energy comes from them. */
 #include "fixture.h"
+#include "sim/wcsph/wcsph.h"
 
 enum { MOST = 4000 };
 
@@ -15,13 +16,13 @@ static WorldDef tank_def(const Tank *tank)
     WorldDef def = fixture_def(1, 1.5, 1);
     def.dimensions = tank->dimensions;
     strcpy(def.method, "wcsph");
-    strcpy(def.kernel, tank->kernel);
+    strcpy(wcsph_def(&def)->kernel, tank->kernel);
     def.spacing = 1.0 / tank->layers;
     def.support = tank->support;
     def.sound_speed = 31.3; /* ten times sqrt(g H) */
     def.dt = 0.3 * def.support * def.spacing / def.sound_speed;
-    def.artificial_viscosity = 0.02;
-    def.delta_sph = 0.1;
+    wcsph_def(&def)->artificial_viscosity = 0.02;
+    wcsph_def(&def)->delta_sph = 0.1;
     def.reproducible = false;
     return def;
 }
@@ -130,7 +131,7 @@ static void walls_keep_energy(void **state)
         WorldDef def = tank_def(&tank);
         memset(def.gravity, 0, sizeof def.gravity);
         def.box_size[1] = 1;
-        def.artificial_viscosity = def.delta_sph = 0;
+        wcsph_def(&def)->artificial_viscosity = wcsph_def(&def)->delta_sph = 0;
         def.negative_pressure = true;
         def.dt /= 4;
         World *world = tank_world(&tank, &def);
@@ -158,7 +159,7 @@ static void pressure_goes_on_behind_walls(void **state)
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         const Tank tank = {dimensions, 12, 3, 0, "wendland_c2"};
         WorldDef def = tank_def(&tank);
-        def.artificial_viscosity = def.delta_sph = 0;
+        wcsph_def(&def)->artificial_viscosity = wcsph_def(&def)->delta_sph = 0;
         def.dt = 1e-5;
         World *world = tank_world(&tank, &def);
         fixture_step(world, 1);

@@ -1,0 +1,21 @@
+/* The settings of the method mueller. */
+#ifndef SLOSH_MUELLER_H
+#define SLOSH_MUELLER_H
+
+#include "sim/world/method.h"
+
+typedef struct MuellerDef {
+    char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel/kernel.h */
+} MuellerDef;
+
+extern const Method method_mueller;
+
+static inline MuellerDef *mueller_def(const WorldDef *def)
+{
+    return method_def(def, &method_mueller);
+}
+
+/* What of a scene will not hold under mueller. */
+void mueller_advise(const MethodAdvice *advice);
+
+#endif

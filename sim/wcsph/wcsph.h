@@ -1,0 +1,25 @@
+/* The settings of the method wcsph. */
+#ifndef SLOSH_WCSPH_H
+#define SLOSH_WCSPH_H
+
+#include "sim/world/method.h"
+
+typedef struct WcsphDef {
+    char kernel[NAME_SIZE];      /* see wcsph_kernels in sim/kernel/kernel.h */
+    double artificial_viscosity; /* alpha, for fluids without a viscosity */
+    int viscosity_form;          /* a ViscosityForm of sim/matter/viscosity.h */
+    double delta_sph;            /* delta of the diffusion of density; 0: none */
+    double shifting;             /* chi of the shifting of particles (Backend.shift); 0: none */
+} WcsphDef;
+
+extern const Method method_wcsph;
+
+static inline WcsphDef *wcsph_def(const WorldDef *def)
+{
+    return method_def(def, &method_wcsph);
+}
+
+/* What of a scene does not go together under wcsph. */
+void wcsph_advise(const MethodAdvice *advice);
+
+#endif

@@ -1,0 +1,59 @@
+/* The list of methods, which alone names them outside their folders, and what is asked of them all. */
+#include "sim/world/method.h"
+
+#include <assert.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+extern const Method method_mueller, method_wcsph;
+
+static const Method *methods[METHODS_MAX + 1] = {&method_mueller, &method_wcsph};
+
+void method_add(const Method *method)
+{
+    int at = 0;
+    while (methods[at] && methods[at] != method)
+        at++;
+    assert(at < METHODS_MAX && method->def_size <= METHOD_DEF_SIZE);
+    methods[at] = method;
+}
+
+const Method *const *method_list(void)
+{
+    return methods;
+}
+
+const Method *method_find(const char *name)
+{
+    for (int i = 0; methods[i]; i++)
+        if (strcmp(methods[i]->name, name) == 0)
+            return methods[i];
+    return NULL;
+}
+
+void *method_def(const WorldDef *def, const Method *method)
+{
+    int at = 0;
+    while (methods[at] && methods[at] != method)
+        at++;
+    return at < METHODS_MAX ? (void *)(uintptr_t)&def->of_method[at] : NULL;
+}
+
+void methods_default(WorldDef *def)
+{
+    for (int i = 0; methods[i]; i++)
+        if (methods[i]->def_size > 0)
+            memcpy(&def->of_method[i], methods[i]->def, methods[i]->def_size);
+}
+
+void method_say(const MethodAdvice *advice, const char *key, const char *format, ...)
+{
+    char what[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    advice->say(advice->to, key, what);
+}

@@ -1,0 +1,31 @@
+/* What the substep of a method works on. */
+#ifndef SLOSH_SUBSTEP_H
+#define SLOSH_SUBSTEP_H
+
+#include "sim/matter/solid_step.h"
+#include "sim/world/backend.h"
+
+/* What a substep works on: the poses of the box at its begin, middle and end among it. */
+typedef struct Substep {
+    const Backend *backend;
+    void *state;
+    StageClock *clock; /* may be NULL */
+    double dt;         /* s */
+    bool shifts;       /* particles, by Backend.shift */
+    FrameStep first_half, second_half;
+    int guide_count; /* of the emitters at work */
+    Guide guides[GUIDES_MAX];
+    SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */
+    ApparentGravity apparent;        /* in the middle */
+    float gravity[3];                /* in the box's axes in the middle, m/s2 */
+} Substep;
+
+/* The kick of a step, and what emitters make of it. */
+static inline void substep_kick(const Substep *step)
+{
+    step->backend->kick(step->state, step->gravity, (float)step->dt);
+    if (step->guide_count > 0)
+        step->backend->guide(step->state, step->guides, step->guide_count);
+}
+
+#endif
