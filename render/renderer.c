@@ -6,9 +6,6 @@
 #include "render/frame/shadow.h"
 #include "render/frame/solids.h"
 #include "render/frame/view.h"
-#include "render/splat/splat_def.h"
-#include "render/volume/raycast_names.h"
-#include "render/volume/volume_names.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -34,9 +31,7 @@ struct Renderer {
 ViewDef view_def_default(void)
 {
     ViewDef def = view_def_shared();
-    def.splat = splat_def_default();
-    def.volume = volume_def_default();
-    def.raycast = raycast_def_default();
+    views_default(&def);
     return def;
 }
 

@@ -1,6 +1,6 @@
 /* What the machine can hold, and what there is to hold. */
 #include "app/scene/check_parts.h"
-#include "render/volume/volume.h"
+#include "render/frame/view.h"
 #include "sim/matter/boundary.h"
 #include "sim/matter/fill.h"
 #include "sim/matter/flow.h"
@@ -104,17 +104,14 @@ static bool check_boundary(const Check *check, size_t fluid)
                sum);
 }
 
-/* What no driver would take; what this one does not is found with it. */
-static bool check_volume(const Check *check)
+static bool check_view(const Check *check)
 {
-    const WorldDef *world = &check->scene->world;
-    const VolumeDef *volume = &check->scene->view.volume;
-    ParticleBuffers space = {.spacing = world->spacing, .support_radius = world->support * world->spacing};
-    VolumeGrid grid;
+    const ViewKind *kind = view_find(check->scene->view.kind);
+    const Subject subject = {&check->scene->view, &check->scene->world};
+    const char *key = "view.kind";
     Error error;
-    memcpy(space.box_size, world->box_size, sizeof space.box_size);
-    return strcmp(check->scene->view.kind, "volume") != 0 || volume_grid_for(volume, &space, &grid, &error) ||
-           FAIL(check, volume->cell > 0 ? "view.volume.cell" : "view.volume.cells", "%s", error.message);
+    return !kind || !kind->check || kind->check(&subject, &key, &error) ||
+           FAIL(check, key, "%s", error.message);
 }
 
 bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
@@ -122,7 +119,7 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
     const Check check = {tree, scene, error};
     const double spacing = scene->world.spacing;
     if (!scene_check_widths(&check) || !scene_check_periodic(&check) || !check_boundary(&check, 0) ||
-        !check_volume(&check))
+        !check_view(&check))
         return false;
     if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
         return false;

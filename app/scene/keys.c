@@ -2,6 +2,7 @@
 
 #include "app/metric/metric_list.h"
 #include "app/scene/lists.h"
+#include "render/frame/view.h"
 #include "sim/base/key_rows.h"
 #include "sim/matter/tension.h"
 #include "sim/world/method.h"
@@ -77,8 +78,6 @@ static const KeyOwner emitters = {
 static const KeyOwner tension = {.name = "with solver.surface_tension",
                                  .key = "solver.surface_tension",
                                  .need = "a model (solver.surface_tension)"};
-static const KeyOwner view_splat = {.key = "view.kind", .value = "splat"};
-static const KeyOwner view_volume = {.key = "view.kind", .value = "volume"};
 static const KeyOwner chart = {
     .name = "slosh chart", .command = "chart", .need = "slosh chart, which alone reads it"};
 
@@ -208,61 +207,10 @@ static const Key keys_behind[] = {
     {.path = "view.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = VIEW(range),
      .aux = VIEW(range_auto), .help = "auto, or [low, high] in the scalar's unit; auto where view.color_by is set to another scalar than the file's"},
     NUMBER("view.radius", L, "spacings", 0, 10, VIEW(radius), "of a particle; 0: the view's own"),
-    MAPPING("view.splat", "of the view splat: the fluid as one surface, after Adams, Lenaerts and Dutré 2006", .owner = &view_splat),
-    NUMBER("view.splat.level", L, "", 0, 1, VIEW(splat.level),
-           "of the field that is the surface (0.1 and so on); 0: the spheres; above, radius 0 is the solver's support radius, "
-           "and eps, weights, drops and ellipsoids have no part in it"),
-    NUMBER("view.splat.eps", L | O, "radii", 0, 10, VIEW(splat.eps), "how far below the surface spheres still blend"),
-    CHOICE("view.splat.weights", L | KEY_INDEX, splat_weights_choice, VIEW(splat.weights),
-           "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
-    CHOICE("view.splat.shape", L | KEY_INDEX, splat_shape_choice, VIEW(splat.shape),
-           "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie"),
-    CHOICE("view.splat.sprite", L | KEY_INDEX, splat_sprite_choice, VIEW(splat.sprite),
-           "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
-    CHOICE("view.splat.show", L | KEY_INDEX, splat_show_choice, VIEW(splat.show), "a stage of the way to the picture"),
-    CHOICE("view.splat.shading", L | KEY_INDEX, splat_shading_choice, VIEW(splat.shading),
-           "phong: opaque; water: clear, bends what is behind and mirrors the sky; jelly: both"),
-    NUMBER("view.splat.ior", L, "", 1, 3, VIEW(splat.ior), "index of refraction, of water and jelly"),
-    NUMBER("view.splat.attenuation", L, "m", 0, 1e5, VIEW(splat.attenuation),
-           "through which white light becomes the fluid's colour; 0: a fifth of the box's longest side, in 2D a spacing"),
-    BOOLEAN("view.splat.cull", L, VIEW(splat.cull), "leave out hidden spheres before they are drawn"),
-    BOOLEAN("view.splat.drops", L, VIEW(splat.drops), "a particle with few neighbours shrinks to a drop of its own volume"),
-    CHOICE("view.splat.filter", L | KEY_INDEX, splat_filter_choice, VIEW(splat.filter),
-           "narrow_range: smooth the depth on the screen and take the normals from it, after Truong and Yuksel 2018"),
-    NUMBER("view.splat.filter_size", L | O, "radii", 0, 100, VIEW(splat.filter_size), "half the width of the filter"),
-    NUMBER("view.splat.filter_range", L | O, "radii", 0, 100, VIEW(splat.filter_range),
-           "the filter takes what lies farther in front or behind for another surface"),
-    INTEGER("view.splat.filter_iterations", L, 1, 20, VIEW(splat.filter_iterations), "how often the filter runs"),
-    BOOLEAN("view.splat.antialias", L, VIEW(splat.antialias), "smooth outlines, and spheres smaller than pixels"),
-    MAPPING("view.volume", "of the view volume: the fluid's field on a grid of voxels", .owner = &view_volume),
-    INTEGER("view.volume.cells", L, 4, 4096, VIEW(volume.cells), "along the box's longest side, where cell is 0; cells are never wider than the support radius"),
-    NUMBER("view.volume.cell", L, "spacings", 0, 10, VIEW(volume.cell), "side of a cell; 0: by cells"),
-    CHOICE("view.volume.bounds", L | KEY_INDEX, volume_bounds_choice, VIEW(volume.bounds),
-           "of the volume: the box's, or those that the fluid has in each picture"),
-    CHOICE("view.volume.method", L | KEY_INDEX, volume_method_choice, VIEW(volume.method),
-           "how the volume is made: see render/README.md; direct: none, the field is summed where it is sampled"),
-    CHOICE("view.volume.show", L | KEY_INDEX, volume_show_choice, VIEW(volume.show), "a stage of the way to the picture"),
-    CHOICE("view.volume.slice_axis", L | KEY_INDEX, volume_axis_choice, VIEW(volume.slice_axis),
-           "what the slice shown lies across"),
-    NUMBER("view.volume.slice", L, "", 0, 1, VIEW(volume.slice), "where the slice is along that axis of the box"),
-    CHOICE("view.volume.look", L | KEY_INDEX, raycast_look_choice, VIEW(raycast.look),
-           "opaque: a surface; water: one that bends what is behind and mirrors the sky; translucent: by the transfer function, which is the next five"),
-    NUMBER("view.volume.opacity", L, "", 0, 1, VIEW(raycast.opacity), "full opacity: of fluid one spacing deep"),
-    NUMBER("view.volume.skin", L, "", 0, 1, VIEW(raycast.skin), "opacity of each surface that a ray crosses"),
-    NUMBER("view.volume.ramp_from", L, "", 0, 10, VIEW(raycast.ramp[0]), "the field at which opacity begins"),
-    NUMBER("view.volume.ramp_to", L, "", 0, 10, VIEW(raycast.ramp[1]), "and at which it is full; not above: at once"),
-    NUMBER("view.volume.by_scalar", L, "", 0, 1, VIEW(raycast.by_scalar),
-           "how much of the opacity goes with view.color_by, from none at the low end of its range to all at the high"),
-    NUMBER("view.volume.level", L | O, "", 0, 10, VIEW(raycast.level),
-           "of the field, where the surface of opaque and water is; a fluid that ends at a plane has 0.5 there"),
-    NUMBER("view.volume.ior", L, "", 1, 3, VIEW(raycast.ior), "index of refraction, of water"),
-    NUMBER("view.volume.attenuation", L, "m", 0, 1e5, VIEW(raycast.attenuation),
-           "of water: through which white light becomes the fluid's colour; 0: a fifth of the box's longest side"),
-    NUMBER("view.volume.step", L | O, "cells", 0, 10, VIEW(raycast.step), "between two samples of a ray"),
-    NUMBER("view.volume.threshold", L | O, "", 0, 1, VIEW(raycast.threshold), "opacity at which a ray ends; 1: never"),
-    BOOLEAN("view.volume.shadows", L, VIEW(raycast.shadows), "of the fluid on itself by marching to the light, instead of the shadow map"),
-    BOOLEAN("view.volume.jitter", L, VIEW(raycast.jitter), "start rays at different parts of a step, so that no bands show"),
-    BOOLEAN("view.volume.skip", L, VIEW(raycast.skip), "cast rays between the faces of what is occupied; else of the whole volume"),
+    KEYS_END,
+};
+
+static const Key keys_behind_views[] = {
     BOOLEAN("view.legend", L, VIEW(legend), "draw the legend"),
     BOOLEAN("view.box", L, VIEW(box), "draw the box's edges"),
     BOOLEAN("view.floor", L, VIEW(floor), "draw the floor below the box"),
@@ -332,6 +280,16 @@ static void add_methods(void)
     }
 }
 
+/* The own settings of each view. */
+static void add_views(void)
+{
+    static KeyOwner owners[VIEW_KINDS_MAX];
+    for (int i = 0; view_at(i); i++) {
+        owners[i] = (KeyOwner){.key = "view.kind", .value = view_at(i)->name};
+        add_rows(view_at(i)->keys, offsetof(Scene, view.of_view) + (size_t)i * sizeof(ViewOwn), &owners[i]);
+    }
+}
+
 /* All groups, in the order in which people see them: rows, where the struct that they fill stands in a Scene,
    and the owner of rows that name none (NULL: whatever the scene is, they are read). */
 static void table_make(void)
@@ -339,6 +297,8 @@ static void table_make(void)
     add_rows(all_keys, 0, NULL);
     add_methods();
     add_rows(keys_behind, 0, NULL);
+    add_views();
+    add_rows(keys_behind_views, 0, NULL);
 }
 
 const Key *scene_keys(int *count)

@@ -7,9 +7,6 @@
 #include "render/frame/colormap.h"
 #include "render/frame/view.h"
 #include "render/renderer.h"
-#include "render/splat/splat_def.h"
-#include "render/volume/raycast_names.h"
-#include "render/volume/volume_names.h"
 #include "sim/kernel/kernel.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
@@ -67,61 +64,6 @@ const char *colormap_choice(int index)
 const char *scalar_choice(int index)
 {
     return index < SCALAR_COUNT ? scalar_name((Scalar)index) : NULL;
-}
-
-const char *splat_weights_choice(int index)
-{
-    return index <= SPLAT_W1W2 ? splat_weights_names[index] : NULL;
-}
-
-const char *splat_shape_choice(int index)
-{
-    return index <= SPLAT_ELLIPSOID ? splat_shape_names[index] : NULL;
-}
-
-const char *splat_sprite_choice(int index)
-{
-    return index <= SPLAT_POINT ? splat_sprite_names[index] : NULL;
-}
-
-const char *splat_show_choice(int index)
-{
-    return index <= SPLAT_CULLED ? splat_show_names[index] : NULL;
-}
-
-const char *splat_shading_choice(int index)
-{
-    return index <= SPLAT_JELLY ? splat_shading_names[index] : NULL;
-}
-
-const char *splat_filter_choice(int index)
-{
-    return index <= SPLAT_NARROW_RANGE ? splat_filter_names[index] : NULL;
-}
-
-const char *volume_bounds_choice(int index)
-{
-    return index <= VOLUME_FLUID ? volume_bounds_names[index] : NULL;
-}
-
-const char *volume_method_choice(int index)
-{
-    return index <= VOLUME_DIRECT ? volume_method_names[index] : NULL;
-}
-
-const char *volume_show_choice(int index)
-{
-    return index <= VOLUME_NORMALS ? volume_show_names[index] : NULL;
-}
-
-const char *raycast_look_choice(int index)
-{
-    return index <= RAYCAST_TRANSLUCENT ? raycast_look_names[index] : NULL;
-}
-
-const char *volume_axis_choice(int index)
-{
-    return index < 3 ? volume_axis_names[index] : NULL;
 }
 
 const char *step_mode_choice(int index)

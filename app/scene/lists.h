@@ -10,17 +10,6 @@ const char *backend_choice(int index);
 const char *view_choice(int index); /* the views, then "none" */
 const char *colormap_choice(int index);
 const char *scalar_choice(int index);
-const char *splat_weights_choice(int index);
-const char *splat_shape_choice(int index);
-const char *splat_sprite_choice(int index);
-const char *splat_show_choice(int index);
-const char *splat_shading_choice(int index);
-const char *splat_filter_choice(int index);
-const char *volume_bounds_choice(int index);
-const char *volume_method_choice(int index);
-const char *volume_show_choice(int index);
-const char *volume_axis_choice(int index);
-const char *raycast_look_choice(int index);
 const char *step_mode_choice(int index);
 
 /* Defaults of a list's element, which is zeroed: `index` is its place. */

@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ADDED_MAX = 4 };
-static const ViewKind *added[ADDED_MAX + 1];
+static const ViewKind *added[VIEW_KINDS_MAX + 1];
 
 struct View {
     const ViewKind *kind;
@@ -28,7 +27,9 @@ static int count_of(const ViewKind *const *kinds)
 void view_add(const ViewKind *kind)
 {
     const int count = count_of(added);
-    assert(count < ADDED_MAX && !view_find(kind->name));
+    if (view_find(kind->name) == kind)
+        return;
+    assert(count_of(view_list) + count < VIEW_KINDS_MAX && !view_find(kind->name));
     added[count] = kind;
 }
 
@@ -46,6 +47,23 @@ const ViewKind *view_find(const char *name)
         if (strcmp(view_at(i)->name, name) == 0)
             return view_at(i);
     return NULL;
+}
+
+void *view_own(const ViewDef *def, const ViewKind *kind)
+{
+    for (int i = 0; view_at(i); i++)
+        if (view_at(i) == kind)
+            return (void *)def->of_view[i].bytes;
+    return NULL;
+}
+
+void views_default(ViewDef *def)
+{
+    for (int i = 0; view_at(i); i++) {
+        assert(view_at(i)->def_size <= VIEW_OWN_SIZE);
+        if (view_at(i)->def)
+            memcpy(def->of_view[i].bytes, view_at(i)->def, view_at(i)->def_size);
+    }
 }
 
 static void unknown_view(const char *name, Error *error)
@@ -123,12 +141,31 @@ void view_prepare(View *view, const ParticleBuffers *particles, const Frame *fra
         view->kind->prepare(view->state, particles, frame);
 }
 
+static size_t value_size(const Key *key)
+{
+    if (key->type == KEY_BOOLEAN)
+        return sizeof(bool);
+    assert(key->type == KEY_NUMBER || key->type == KEY_INTEGER || (key->flags & KEY_INDEX));
+    return key->type == KEY_NUMBER ? sizeof(double) : sizeof(int);
+}
+
+/* Whether all own keys that make a view anew are the same in both. */
+static bool same_keys(const ViewKind *kind, const ViewDef *a, const ViewDef *b)
+{
+    const char *one = view_own(a, kind), *other = view_own(b, kind);
+    for (const Key *key = kind->keys; key && key->path; key++)
+        if ((key->flags & KEY_REBUILD) &&
+            memcmp(one + key->offset, other + key->offset, value_size(key)) != 0)
+            return false;
+    return true;
+}
+
 bool view_same(const Subject *a, const Subject *b)
 {
     const ViewKind *kind = view_find(a->def->kind);
     return strcmp(a->def->kind, b->def->kind) == 0 && strcmp(a->def->colormap, b->def->colormap) == 0 &&
            (a->world->solid_count > 0) == (b->world->solid_count > 0) &&
-           (!kind || !kind->same || kind->same(a, b));
+           (!kind || (same_keys(kind, a->def, b->def) && (!kind->same || kind->same(a, b))));
 }
 
 bool view_accepts(View *view, const Subject *subject, Error *error)

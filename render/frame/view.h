@@ -4,6 +4,7 @@
 
 #include "render/frame/frame.h"
 #include "sim/base/error.h"
+#include "sim/base/key.h"
 #include "sim/gl/particle_buffers.h"
 
 typedef struct View View;
@@ -16,6 +17,11 @@ typedef struct ViewShapes {
 
 typedef struct ViewKind {
     const char *name, *help;
+    const Key *keys; /* of its own settings, ended by a row without a path; NULL: it has none */
+    const void *def; /* the struct of these settings with its defaults */
+    size_t def_size; /* bytes; at most VIEW_OWN_SIZE */
+    /* False with the reason, and the key that it is about, where no driver could draw that; NULL: never. */
+    bool (*check)(const Subject *subject, const char **key, Error *error);
     double radius; /* of a particle, in spacings, where ViewDef.radius is 0 */
     /* Changes the radii, which are those of balls so far; NULL: particles are such balls. */
     void (*radii)(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii);
@@ -28,8 +34,8 @@ typedef struct ViewKind {
     /* Once a picture, before the rest: what cast and draw need, within a stage of frame->timer. May be NULL.
      */
     void (*prepare)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* Whether a view made for `a` may draw `b`, both with defs of this kind: they differ in what is read anew
-       for each picture; NULL: it may. */
+    /* Whether a view made for `a` may draw `b`, both with defs of this kind, as far as keys with KEY_REBUILD
+       do not say so; NULL: it may. What else differs is read anew for each picture. */
     bool (*same)(const Subject *a, const Subject *b);
     /* Whether it can draw such a one; NULL: always. */
     bool (*accepts)(void *state, const Subject *subject, Error *error);
@@ -43,11 +49,18 @@ typedef struct ViewKind {
 
 extern const ViewKind *const view_list[]; /* ended by NULL; the first is the default */
 
-/* Makes one known behind those of the list, up to the program's end: for what is no part of it, as tests. */
+/* Makes one known behind those of the list, unless it is, up to the program's end: before the first scene is
+   read, for what is no part of the program, as tests. */
 void view_add(const ViewKind *kind);
 
 /* Kind number `index` of the list and of those added; NULL behind the last. */
 const ViewKind *view_at(int index);
+
+/* The view's own settings in a def; not const, as memchr's result is not. NULL where it is not known. */
+void *view_own(const ViewDef *def, const ViewKind *kind);
+
+/* Fills in the defaults of all views' own settings. */
+void views_default(ViewDef *def);
 
 /* The kind of that name, or NULL. */
 const ViewKind *view_find(const char *name);

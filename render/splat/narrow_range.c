@@ -1,5 +1,6 @@
 #include "render/splat/narrow_range.h"
 
+#include "render/splat/splat_def.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -72,7 +73,7 @@ static unsigned smooth(const NarrowRange *filter, GLuint program, unsigned from,
 
 static void set_uniforms(const NarrowRange *filter, const Frame *frame)
 {
-    const SplatDef *def = &frame->def->splat;
+    const SplatDef *def = splat_def(frame->def);
     const float radius = frame->particle_radius, range = (float)def->filter_range * radius;
     const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* of 1 m at 1 m */
     const float reach = (float)def->filter_size * radius * pixels;
@@ -95,7 +96,7 @@ SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Fr
     for (int i = 0; i < 2; i++)
         glClearNamedFramebufferfv(filter->depth_framebuffer[i], GL_COLOR, 0, (GLfloat[4]){SPLAT_NOTHING});
     frame_cut_to_bounds(frame);
-    for (int i = 0; i < frame->def->splat.filter_iterations; i++) {
+    for (int i = 0; i < splat_def(frame->def)->filter_iterations; i++) {
         shown.nearest = smooth(filter, filter->along, shown.nearest, 0, 1, 0);
         shown.nearest = smooth(filter, filter->along, shown.nearest, 1, 0, 1);
     }

@@ -32,7 +32,7 @@ bool narrow_range_create(NarrowRange *filter, Error *error);
 void narrow_range_destroy(NarrowRange *filter); /* one of zeros is allowed */
 
 /* The maps with `nearest` and `normal` replaced by the filter's own, which it keeps. Settings are those of
-   frame->def->splat. */
+   splat_def of the frame. */
 SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Frame *frame);
 
 #endif

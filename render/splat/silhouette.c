@@ -10,7 +10,7 @@ bool silhouette_create(Silhouette *silhouette, const Subject *subject, Error *er
 {
     static const char *const files[] = {"splat/silhouette_near.frag", "splat/silhouette_edges.frag",
                                         "splat/silhouette_blend.frag"};
-    const bool solids = subject->world->solid_count > 0, discs = silhouette_by_discs(&subject->def->splat);
+    const bool solids = subject->world->solid_count > 0, discs = silhouette_by_discs(splat_def(subject->def));
     char defines[96];
     *silhouette = (Silhouette){0};
     glCreateVertexArrays(1, &silhouette->screen);

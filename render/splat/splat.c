@@ -139,7 +139,7 @@ static void *splat_create(const Subject *subject, Error *error)
         error_set(error, "out of memory for the view");
         return NULL;
     }
-    splat->def = subject->def->splat;
+    splat->def = *splat_def(subject->def);
     splat->colormap = colormap_texture(colormap);
     if (!splat->colormap)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", colormap);
@@ -179,7 +179,7 @@ static void draw_sprites(SplatView *splat, SplatSprite sprite, GLuint program,
 
 static float eps_of(const Frame *frame)
 {
-    return (float)frame->def->splat.eps * frame->particle_radius;
+    return (float)splat_def(frame->def)->eps * frame->particle_radius;
 }
 
 /* How far behind the nearest sphere others matter, m. */
@@ -295,22 +295,22 @@ static void level_radii(const ViewDef *def, const ParticleBuffers *particles, Pa
     radii->drawn = (float)(def->radius > 0 ? def->radius * spacing : particles->support_radius);
     radii->reach = radii->drawn;
     const double gain = splat_level_gain(radii->drawn, spacing, frame_slab(particles) > 0);
-    const double alone = splat_level_alone(def->splat.level, gain, radii->drawn);
+    const double alone = splat_level_alone(splat_def(def)->level, gain, radii->drawn);
     radii->shadow = (float)fmax(alone, 0.5 * spacing);
 }
 
 static void splat_radii(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii)
 {
-    if (def->splat.level > 0)
+    if (splat_def(def)->level > 0)
         level_radii(def, particles, radii);
-    else if (ellipsoids_stretched(&def->splat))
+    else if (ellipsoids_stretched(splat_def(def)))
         radii->reach = radii->drawn * (float)ELLIPSOID_REACH;
 }
 
 static const ViewShapes *splat_shapes(const ViewDef *def)
 {
     static const ViewShapes ellipsoids = {"of ellipsoids", 3 * 4 * sizeof(float)};
-    return def->splat.shape == SPLAT_ELLIPSOID ? &ellipsoids : NULL;
+    return splat_def(def)->shape == SPLAT_ELLIPSOID ? &ellipsoids : NULL;
 }
 
 const ViewKind view_splat = {
@@ -321,6 +321,9 @@ const ViewKind view_splat = {
     .shapes = splat_shapes,
     .create = splat_create,
     .destroy = splat_destroy,
+    .keys = splat_keys,
+    .def = &splat_usual,
+    .def_size = sizeof splat_usual,
     .same = splat_same,
     .prepare = splat_prepare,
     .cast = splat_cast,

@@ -3,12 +3,9 @@
 #ifndef SLOSH_SPLAT_H
 #define SLOSH_SPLAT_H
 
-#include "render/frame/view.h"
 #include "render/splat/ellipsoids.h"
 #include "render/splat/splat_def.h"
 #include "render/splat/splat_maps.h"
-
-extern const ViewKind view_splat;
 
 /* Of a state that view_splat.create made; for tests. */
 const SplatMaps *splat_maps(const void *state);

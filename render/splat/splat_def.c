@@ -1,30 +1,103 @@
 #include "render/splat/splat_def.h"
 
+#include "sim/base/key_rows.h"
+
 const char *const splat_weights_names[] = {
-    [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2"};
+    [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2", NULL};
 const char *const splat_shape_names[] = {
-    [SPLAT_PERSPECTIVE] = "perspective", [SPLAT_PAPER] = "paper", [SPLAT_ELLIPSOID] = "ellipsoid"};
+    [SPLAT_PERSPECTIVE] = "perspective", [SPLAT_PAPER] = "paper", [SPLAT_ELLIPSOID] = "ellipsoid", NULL};
 const char *const splat_sprite_names[] = {
-    [SPLAT_AUTO] = "auto", [SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point"};
-const char *const splat_show_names[] = {
-    [SPLAT_SHADED] = "shaded", [SPLAT_DEPTH] = "depth",         [SPLAT_NORMALS] = "normals",
-    [SPLAT_WEIGHT] = "weight", [SPLAT_THICKNESS] = "thickness", [SPLAT_CULLED] = "culled"};
+    [SPLAT_AUTO] = "auto", [SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point", NULL};
+const char *const splat_show_names[] = {[SPLAT_SHADED] = "shaded",
+                                        [SPLAT_DEPTH] = "depth",
+                                        [SPLAT_NORMALS] = "normals",
+                                        [SPLAT_WEIGHT] = "weight",
+                                        [SPLAT_THICKNESS] = "thickness",
+                                        [SPLAT_CULLED] = "culled",
+                                        NULL};
 const char *const splat_shading_names[] = {
-    [SPLAT_PHONG] = "phong", [SPLAT_WATER] = "water", [SPLAT_JELLY] = "jelly"};
+    [SPLAT_PHONG] = "phong", [SPLAT_WATER] = "water", [SPLAT_JELLY] = "jelly", NULL};
 
-const char *const splat_filter_names[] = {[SPLAT_NO_FILTER] = "none", [SPLAT_NARROW_RANGE] = "narrow_range"};
+const char *const splat_filter_names[] = {
+    [SPLAT_NO_FILTER] = "none", [SPLAT_NARROW_RANGE] = "narrow_range", NULL};
 
-SplatDef splat_def_default(void)
+const SplatDef splat_usual = {.eps = 1.5,
+                              .weights = SPLAT_W1W2,
+                              .cull = true,
+                              .drops = true,
+                              .ior = 1.333,
+                              .filter_size = 4,
+                              .filter_range = 3,
+                              .filter_iterations = 2,
+                              .antialias = true};
+
+static const char *weights_choice(int index)
 {
-    return (SplatDef){.eps = 1.5,
-                      .weights = SPLAT_W1W2,
-                      .cull = true,
-                      .drops = true,
-                      .ior = 1.333,
-                      .filter_size = 4,
-                      .filter_range = 3,
-                      .filter_iterations = 2,
-                      .antialias = true};
+    return splat_weights_names[index];
+}
+
+static const char *shape_choice(int index)
+{
+    return splat_shape_names[index];
+}
+
+static const char *sprite_choice(int index)
+{
+    return splat_sprite_names[index];
+}
+
+static const char *show_choice(int index)
+{
+    return splat_show_names[index];
+}
+
+static const char *shading_choice(int index)
+{
+    return splat_shading_names[index];
+}
+
+static const char *filter_choice(int index)
+{
+    return splat_filter_names[index];
+}
+
+#define AT(field) offsetof(SplatDef, field)
+
+/* clang-format off */
+const Key splat_keys[] = {
+    MAPPING("view.splat", "of the view splat: the fluid as one surface, after Adams, Lenaerts and Dutré 2006"),
+    NUMBER("view.splat.level", L, "", 0, 1, AT(level),
+           "of the field that is the surface (0.1 and so on); 0: the spheres; above, radius 0 is the solver's support radius, "
+           "and eps, weights, drops and ellipsoids have no part in it"),
+    NUMBER("view.splat.eps", L | O, "radii", 0, 10, AT(eps), "how far below the surface spheres still blend"),
+    CHOICE("view.splat.weights", L | KEY_INDEX | KEY_REBUILD, weights_choice, AT(weights),
+           "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
+    CHOICE("view.splat.shape", L | KEY_INDEX | KEY_REBUILD, shape_choice, AT(shape),
+           "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie"),
+    CHOICE("view.splat.sprite", L | KEY_INDEX | KEY_REBUILD, sprite_choice, AT(sprite),
+           "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
+    CHOICE("view.splat.show", L | KEY_INDEX | KEY_REBUILD, show_choice, AT(show), "a stage of the way to the picture"),
+    CHOICE("view.splat.shading", L | KEY_INDEX | KEY_REBUILD, shading_choice, AT(shading),
+           "phong: opaque; water: clear, bends what is behind and mirrors the sky; jelly: both"),
+    NUMBER("view.splat.ior", L, "", 1, 3, AT(ior), "index of refraction, of water and jelly"),
+    NUMBER("view.splat.attenuation", L, "m", 0, 1e5, AT(attenuation),
+           "through which white light becomes the fluid's colour; 0: a fifth of the box's longest side, in 2D a spacing"),
+    BOOLEAN("view.splat.cull", L | KEY_REBUILD, AT(cull), "leave out hidden spheres before they are drawn"),
+    BOOLEAN("view.splat.drops", L | KEY_REBUILD, AT(drops), "a particle with few neighbours shrinks to a drop of its own volume"),
+    CHOICE("view.splat.filter", L | KEY_INDEX | KEY_REBUILD, filter_choice, AT(filter),
+           "narrow_range: smooth the depth on the screen and take the normals from it, after Truong and Yuksel 2018"),
+    NUMBER("view.splat.filter_size", L | O, "radii", 0, 100, AT(filter_size), "half the width of the filter"),
+    NUMBER("view.splat.filter_range", L | O, "radii", 0, 100, AT(filter_range),
+           "the filter takes what lies farther in front or behind for another surface"),
+    INTEGER("view.splat.filter_iterations", L, 1, 20, AT(filter_iterations), "how often the filter runs"),
+    BOOLEAN("view.splat.antialias", L | KEY_REBUILD, AT(antialias), "smooth outlines, and spheres smaller than pixels"),
+    KEYS_END,
+};
+/* clang-format on */
+
+SplatDef *splat_def(const ViewDef *def)
+{
+    return view_own(def, &view_splat);
 }
 
 bool splat_culls(const SplatDef *def)
@@ -62,10 +135,7 @@ bool silhouette_by_discs(const SplatDef *def)
     return silhouette_wanted(def) && !splat_level_wanted(def);
 }
 
-bool splat_same(const Subject *one, const Subject *other)
+bool splat_same(const Subject *a, const Subject *b)
 {
-    const SplatDef *a = &one->def->splat, *b = &other->def->splat;
-    return a->weights == b->weights && a->shape == b->shape && a->sprite == b->sprite && a->show == b->show &&
-           a->cull == b->cull && a->drops == b->drops && a->shading == b->shading &&
-           (a->level > 0) == (b->level > 0) && a->filter == b->filter && a->antialias == b->antialias;
+    return (splat_def(a->def)->level > 0) == (splat_def(b->def)->level > 0);
 }

@@ -1,18 +1,59 @@
-/* The settings of the view splat: their names, their defaults, and which passes they ask for. */
+/* The view splat's own settings: their keys, names and defaults, and which passes they ask for. */
 #ifndef SLOSH_SPLAT_DEF_H
 #define SLOSH_SPLAT_DEF_H
 
-#include "render/frame/view_def.h"
+#include "render/frame/view.h"
 
-/* By their enums. */
+typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
+typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER, SPLAT_ELLIPSOID } SplatShape;
+typedef enum SplatSprite { SPLAT_AUTO, SPLAT_QUAD, SPLAT_POINT } SplatSprite;
+typedef enum SplatShading { SPLAT_PHONG, SPLAT_WATER, SPLAT_JELLY } SplatShading;
+typedef enum SplatShow {
+    SPLAT_SHADED,
+    SPLAT_DEPTH,
+    SPLAT_NORMALS,
+    SPLAT_WEIGHT,
+    SPLAT_THICKNESS,
+    SPLAT_CULLED
+} SplatShow;
+
+typedef enum SplatFilter { SPLAT_NO_FILTER, SPLAT_NARROW_RANGE } SplatFilter;
+
+typedef struct SplatDef {
+    double eps; /* how far below the surface spheres still blend, in radii */
+    SplatWeights weights;
+    SplatShape shape;
+    SplatSprite sprite;
+    SplatShow show;
+    bool cull;  /* leave out hidden spheres before they are drawn */
+    bool drops; /* a particle with few neighbours shrinks to a drop of its own volume */
+    SplatShading shading;
+    double ior;         /* index of refraction, of water and jelly */
+    double attenuation; /* through which white light becomes the fluid's colour, m; 0: a fifth of the
+                           box's longest side, in two dimensions the layer's depth */
+    double level;       /* of the field that is the surface, 0 .. 1; 0: the union of the spheres */
+    SplatFilter filter;
+    double filter_size;    /* half the kernel's width, in radii */
+    double filter_range;   /* depths farther apart are two surfaces, in radii */
+    int filter_iterations; /* of one pass along x and one along y */
+    bool antialias;        /* smooth outlines, and spheres smaller than a pixel */
+} SplatDef;
+
+extern const ViewKind view_splat;
+
+/* Those of that def; not const, as memchr's result is not. */
+SplatDef *splat_def(const ViewDef *def);
+
+extern const SplatDef splat_usual; /* the defaults */
+extern const Key splat_keys[];     /* ended by a row without a path */
+
+/* By their enums, ended by NULL. */
 extern const char *const splat_weights_names[];
 extern const char *const splat_shape_names[];
 extern const char *const splat_sprite_names[];
 extern const char *const splat_show_names[];
 extern const char *const splat_shading_names[];
 extern const char *const splat_filter_names[];
-
-SplatDef splat_def_default(void);
 
 /* To see what culling left out wants it too. */
 bool splat_culls(const SplatDef *def);

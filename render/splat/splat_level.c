@@ -233,7 +233,7 @@ void splat_level_find(SplatLevel *level, const SplatMaps *maps, SplatSprites *sp
 {
     const float gain = splat_level_gain_of(frame, particles);
     const Search search = {
-        level, sprites, sprite, particles, frame, maps, (float)frame->def->splat.level / gain};
+        level, sprites, sprite, particles, frame, maps, (float)splat_def(frame->def)->level / gain};
     follow(level, maps, frame->target);
     glDepthMask(GL_TRUE); /* clearing heeds it */
     glClearNamedFramebufferfv(level->march_framebuffer, GL_COLOR, 0, (GLfloat[4]){0});

@@ -11,7 +11,7 @@
 static unsigned create_program(const SplatShade *shade, const Subject *subject, const char *more,
                                Error *error)
 {
-    const SplatDef *def = &subject->def->splat;
+    const SplatDef *def = splat_def(subject->def);
     static const char *const stages[] = {"common/screen.vert", "splat/splat_shade.frag", NULL};
     char defines[160];
     snprintf(defines, sizeof defines, "%s%s%s#define SHOW %d\n#define SHADING %d\n",
@@ -22,7 +22,7 @@ static unsigned create_program(const SplatShade *shade, const Subject *subject, 
 
 bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error)
 {
-    const SplatDef *def = &subject->def->splat;
+    const SplatDef *def = splat_def(subject->def);
     const bool discs = silhouette_by_discs(def);
     *shade = (SplatShade){.clear = def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG};
     glCreateVertexArrays(1, &shade->screen);
@@ -43,7 +43,7 @@ void splat_shade_destroy(SplatShade *shade)
 /* What a clear fluid's shading reads besides. */
 static void look_through(SplatShade *shade, unsigned program, const Frame *frame)
 {
-    const SplatDef *def = &frame->def->splat;
+    const SplatDef *def = splat_def(frame->def);
     behind_take(&shade->behind, frame);
     glProgramUniform2f(program, 2, (float)def->ior,
                        def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);
@@ -52,7 +52,7 @@ static void look_through(SplatShade *shade, unsigned program, const Frame *frame
 /* Blends what the fluid covers of pixels with what is behind it. */
 static void begin_mixing(const Frame *frame)
 {
-    glUniform1f(9, (float)frame->def->splat.eps * frame->particle_radius);
+    glUniform1f(9, (float)splat_def(frame->def)->eps * frame->particle_radius);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

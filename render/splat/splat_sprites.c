@@ -49,7 +49,7 @@ bool splat_sprites_small(const Frame *frame)
     const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* of 1 m at 1 m */
     const double spacings = frame->def->radius > 0 ? frame->def->radius : 1;
     const double drop =
-        frame->def->splat.drops ? fmin(0.56 / spacings, 1) : 1; /* a disc's; a ball's is larger */
+        splat_def(frame->def)->drops ? fmin(0.56 / spacings, 1) : 1; /* a disc's; a ball's is larger */
     return drop * frame->particle_radius * pixels < 0.8F * frame->farthest;
 }
 

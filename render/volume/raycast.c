@@ -51,11 +51,11 @@ void raycast_destroy(Raycast *raycast)
 static GLuint create_program(const Subject *subject, const char *field, Error *error)
 {
     static const char *const stages[] = {"common/screen.vert", "volume/raycast.frag", NULL};
-    const RaycastDef *cast = &subject->def->raycast;
+    const RaycastDef *cast = &volume_def(subject->def)->raycast;
     static const int shows[] = {
         [VOLUME_ENTRY] = 1, [VOLUME_EXIT] = 2, [VOLUME_LENGTH] = 3, [VOLUME_STEPS] = 4, [VOLUME_NORMALS] = 5};
     char defines[256];
-    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s", shows[subject->def->volume.show],
+    snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s", shows[volume_def(subject->def)->show],
              subject->world->solid_count > 0 ? "#define SOLIDS 1\n" : "", field,
              cast->look == RAYCAST_TRANSLUCENT ? "#define TRANSLUCENT 1\n" : "",
              cast->shadows ? "#define SHADOWS 1\n" : "",
@@ -72,7 +72,7 @@ Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Erro
         return NULL;
     }
     raycast->solids = subject->world->solid_count > 0;
-    raycast->look = def->raycast.look;
+    raycast->look = volume_def(def)->raycast.look;
     glCreateVertexArrays(1, &raycast->screen);
     glCreateBuffers(1, &raycast->block);
     glObjectLabel(GL_BUFFER, raycast->block, -1, "raycast uniforms");
@@ -185,7 +185,7 @@ static void fill_opacity(RaycastBlock *block, const RaycastDef *cast, double spa
 static void fill_block(RaycastBlock *block, const Volume *volume, const ParticleBuffers *particles,
                        const Frame *frame)
 {
-    const RaycastDef *cast = &frame->def->raycast;
+    const RaycastDef *cast = &volume_def(frame->def)->raycast;
     const VolumeGrid *grid = &volume->grid;
     int count[3];
     const int side = bricks_of(grid, count);
@@ -252,7 +252,7 @@ static void bind_maps(const Raycast *raycast, const Target *target)
 /* Without solids all that one looks through the fluid at is sky and floor, which need no copy. */
 static void look_through(Raycast *raycast, const Frame *frame)
 {
-    const RaycastDef *cast = &frame->def->raycast;
+    const RaycastDef *cast = &volume_def(frame->def)->raycast;
     if (raycast->solids)
         behind_take(&raycast->behind, frame);
     else

@@ -7,8 +7,7 @@
 #ifndef SLOSH_VOLUME_H
 #define SLOSH_VOLUME_H
 
-#include "render/frame/view_def.h"
-#include "render/volume/volume_names.h"
+#include "render/volume/volume_def.h"
 #include "sim/base/error.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/timer.h"

@@ -26,7 +26,7 @@ void volume_slice_destroy(VolumeSlice *slice)
 
 void volume_slice_draw(const VolumeSlice *slice, const double box_size[3], const Frame *frame)
 {
-    const VolumeDef *def = &frame->def->volume;
+    const VolumeDef *def = volume_def(frame->def);
     const int axis = def->slice_axis;
     const double from = axis == 1 ? 0 : -box_size[axis] / 2;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);

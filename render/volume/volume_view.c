@@ -1,15 +1,15 @@
-#include "render/volume/volume_view.h"
+#include "render/volume/volume_def.h"
 
 #include "render/particles/particle_bind.h"
 #include "render/volume/fluid_numbers.h"
 #include "render/volume/raycast.h"
-#include "render/volume/raycast_names.h"
 #include "render/volume/volume_slice.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct VolumeView {
     Voxelizer *voxelizer;
@@ -32,17 +32,31 @@ static void destroy(void *state)
     free(view);
 }
 
+static ParticleBuffers space_of(const WorldDef *world)
+{
+    ParticleBuffers space = {.spacing = world->spacing, .support_radius = world->support * world->spacing};
+    memcpy(space.box_size, world->box_size, sizeof space.box_size);
+    return space;
+}
+
+/* What no driver would take; what this one does not is found with it. */
+static bool check(const Subject *subject, const char **key, Error *error)
+{
+    const ParticleBuffers space = space_of(subject->world);
+    const VolumeDef *def = volume_def(subject->def);
+    VolumeGrid grid;
+    *key = def->cell > 0 ? "view.volume.cell" : "view.volume.cells";
+    return volume_grid_for(def, &space, &grid, error);
+}
+
 /* The box's volume: what the fluid's may become. */
 static bool accepts(void *state, const Subject *subject, Error *error)
 {
     VolumeView *view = state;
-    const WorldDef *world = subject->world;
-    const VolumeDef *def = &subject->def->volume;
-    ParticleBuffers space = {.spacing = world->spacing, .support_radius = world->support * world->spacing};
+    const ParticleBuffers space = space_of(subject->world);
+    const VolumeDef *def = volume_def(subject->def);
     VolumeGrid grid;
-    for (int k = 0; k < 3; k++)
-        space.box_size[k] = world->box_size[k];
-    if (!(world->spacing > 0))
+    if (!(space.spacing > 0))
         return true;
     return volume_grid_for(def, &space, &grid, error) &&
            voxelizer_fits(view->voxelizer, &grid, space.support_radius, error) &&
@@ -65,13 +79,13 @@ static bool create_raycast(VolumeView *view, const Subject *subject, Error *erro
 /* Fluids are carried where the picture has the colours of several, a scalar where it has that one's. */
 static bool carries_fluids(const Subject *subject)
 {
-    return subject->def->volume.show == VOLUME_SHADED && subject->def->color_by == SCALAR_FLUID &&
+    return volume_def(subject->def)->show == VOLUME_SHADED && subject->def->color_by == SCALAR_FLUID &&
            subject->world->fluid_count > 1;
 }
 
 static bool carries(const Subject *subject)
 {
-    return subject->def->volume.show == VOLUME_SHADED &&
+    return volume_def(subject->def)->show == VOLUME_SHADED &&
            (subject->def->color_by != SCALAR_FLUID || carries_fluids(subject));
 }
 
@@ -83,8 +97,8 @@ static void *create(const Subject *subject, Error *error)
         error_set(error, "out of memory for the view");
         return NULL;
     }
-    view->voxelizer = voxelizer_create(def->volume.method, carries(subject), error);
-    const bool slice = def->volume.show == VOLUME_SLICE;
+    view->voxelizer = voxelizer_create(volume_def(def)->method, carries(subject), error);
+    const bool slice = volume_def(def)->show == VOLUME_SLICE;
     if (view->voxelizer && accepts(view, subject, error) &&
         (!carries_fluids(subject) || fluid_numbers_create(&view->numbers, error)) &&
         (slice ? volume_slice_create(&view->slice, def, view->voxelizer, error)
@@ -117,8 +131,8 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     {
         const ParticleBuffers carrying =
             view->numbers.program ? fluid_numbers_add(&view->numbers, particles) : *particles;
-        made = voxelizer_run(view->voxelizer, &frame->def->volume, &carrying, frame->def->color_by, &volume,
-                             &error);
+        made = voxelizer_run(view->voxelizer, volume_def(frame->def), &carrying, frame->def->color_by,
+                             &volume, &error);
     }
     if (!made) /* memory that was there at the start is not there now */
         return;
@@ -136,8 +150,8 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
 /* The field is 1 in a fluid at rest, more where it is compressed; of steps raycast.frag shows 64. */
 static void show(const ViewDef *def, Frame *frame)
 {
-    const bool steps = def->volume.show == VOLUME_STEPS;
-    if (!steps && def->volume.show != VOLUME_SLICE)
+    const bool steps = volume_def(def)->show == VOLUME_STEPS;
+    if (!steps && volume_def(def)->show != VOLUME_SLICE)
         return;
     frame->by_fluid = false;
     frame->shown = steps ? "steps" : "field";
@@ -146,9 +160,11 @@ static void show(const ViewDef *def, Frame *frame)
     frame->range[1] = steps ? 64 : 1.25;
 }
 
+/* Which colours volume and shaders carry. */
 static bool same(const Subject *a, const Subject *b)
 {
-    return volume_same_kind(&a->def->volume, &b->def->volume) && raycast_same_kind(a, b);
+    return (a->def->color_by == SCALAR_FLUID) == (b->def->color_by == SCALAR_FLUID) &&
+           (a->world->fluid_count > 1) == (b->world->fluid_count > 1);
 }
 
 const ViewKind view_volume = {
@@ -157,6 +173,10 @@ const ViewKind view_volume = {
     .radius = 0.5,
     .create = create,
     .destroy = destroy,
+    .keys = volume_keys,
+    .def = &volume_usual,
+    .def_size = sizeof volume_usual,
+    .check = check,
     .same = same,
     .accepts = accepts,
     .show = show,

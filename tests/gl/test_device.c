@@ -167,11 +167,11 @@ static ViewDef view_of(const Viewed *viewed)
 {
     ViewDef view = view_def_default();
     text_set(view.kind, viewed->kind);
-    view.volume.cells = 16;
-    view.volume.method = viewed->method;
-    view.volume.bounds = viewed->bounds;
-    view.volume.show = viewed->show;
-    view.splat.level = viewed->level;
+    volume_def(&view)->cells = 16;
+    volume_def(&view)->method = viewed->method;
+    volume_def(&view)->bounds = viewed->bounds;
+    volume_def(&view)->show = viewed->show;
+    splat_def(&view)->level = viewed->level;
     view.color_by = viewed->fluid ? SCALAR_FLUID : SCALAR_SPEED;
     view.range_auto = true;
     return view;

@@ -134,7 +134,7 @@ static void views_ask(void **state)
     snprintf(def.kind, sizeof def.kind, "splat");
     Renderer *renderer = renderer_create(&def, &world, 16, 16, &error);
     assert_non_null(renderer);
-    def.splat.shape = SPLAT_ELLIPSOID; /* live */
+    splat_def(&def)->shape = SPLAT_ELLIPSOID; /* live */
     assert_false(renderer_set_def(renderer, &def, &world, &error));
     assert_non_null(strstr(error.message, "view splat of ellipsoids needs a buffer of 48000 bytes"));
     renderer_destroy(renderer);

@@ -440,42 +440,50 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     VIEW("spheres", v.floor = true);
     VIEW("spheres", v.color_by = SCALAR_FLUID);
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape++) {
-        VIEW("splat", v.splat.shape = (SplatShape)shape);
-        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.cull = true, v.splat.sprite = SPLAT_QUAD);
-        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.sprite = SPLAT_POINT,
-             v.splat.antialias = true);
-        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.drops = true, v.splat.sprite = SPLAT_POINT);
-        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.drops = true, v.splat.sprite = SPLAT_QUAD);
-        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.filter = SPLAT_NARROW_RANGE,
-             v.splat.antialias = true, v.splat.cull = true);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->cull = true,
+             splat_def(&v)->sprite = SPLAT_QUAD);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->sprite = SPLAT_POINT,
+             splat_def(&v)->antialias = true);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->drops = true,
+             splat_def(&v)->sprite = SPLAT_POINT);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->drops = true,
+             splat_def(&v)->sprite = SPLAT_QUAD);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->filter = SPLAT_NARROW_RANGE,
+             splat_def(&v)->antialias = true, splat_def(&v)->cull = true);
     }
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++) {
-        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.level = 0.3, v.splat.sprite = SPLAT_POINT);
-        VIEW("splat", v.splat.shape = (SplatShape)shape, v.splat.level = 0.3, v.splat.sprite = SPLAT_QUAD,
-             v.color_by = SCALAR_FLUID);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->level = 0.3,
+             splat_def(&v)->sprite = SPLAT_POINT);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->level = 0.3,
+             splat_def(&v)->sprite = SPLAT_QUAD, v.color_by = SCALAR_FLUID);
     }
     for (int weights = SPLAT_NO_WEIGHTS; weights <= SPLAT_W1; weights++)
-        VIEW("splat", v.splat.weights = (SplatWeights)weights);
+        VIEW("splat", splat_def(&v)->weights = (SplatWeights)weights);
     for (int shading = SPLAT_WATER; shading <= SPLAT_JELLY; shading++) {
-        VIEW("splat", v.splat.shading = (SplatShading)shading, v.floor = true);
-        VIEW("splat", v.splat.shading = (SplatShading)shading, v.splat.antialias = true, v.floor = false);
+        VIEW("splat", splat_def(&v)->shading = (SplatShading)shading, v.floor = true);
+        VIEW("splat", splat_def(&v)->shading = (SplatShading)shading, splat_def(&v)->antialias = true,
+             v.floor = false);
     }
     for (int show = SPLAT_DEPTH; show <= SPLAT_CULLED; show++)
-        VIEW("splat", v.splat.show = (SplatShow)show, v.splat.cull = show == SPLAT_CULLED);
-    VIEW("splat", v.splat.shape = SPLAT_ELLIPSOID, v.splat.shading = SPLAT_WATER, v.splat.drops = true);
+        VIEW("splat", splat_def(&v)->show = (SplatShow)show, splat_def(&v)->cull = show == SPLAT_CULLED);
+    VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->shading = SPLAT_WATER,
+         splat_def(&v)->drops = true);
     for (int method = VOLUME_GEOMETRY; method <= VOLUME_DIRECT; method++) {
-        VIEW("volume", v.volume.method = (VolumeMethod)method);
-        VIEW("volume", v.volume.method = (VolumeMethod)method, v.raycast.look = RAYCAST_TRANSLUCENT,
-             v.volume.bounds = VOLUME_FLUID);
+        VIEW("volume", volume_def(&v)->method = (VolumeMethod)method);
+        VIEW("volume", volume_def(&v)->method = (VolumeMethod)method,
+             volume_def(&v)->raycast.look = RAYCAST_TRANSLUCENT, volume_def(&v)->bounds = VOLUME_FLUID);
     }
     for (int look = RAYCAST_OPAQUE; look <= RAYCAST_TRANSLUCENT; look++) {
-        VIEW("volume", v.raycast.look = (RaycastLook)look, v.raycast.shadows = !v.raycast.shadows,
-             v.floor = true);
-        VIEW("volume", v.raycast.look = (RaycastLook)look, v.raycast.jitter = !v.raycast.jitter,
-             v.raycast.skip = !v.raycast.skip, v.raycast.by_scalar = 0.5);
+        VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look,
+             volume_def(&v)->raycast.shadows = !volume_def(&v)->raycast.shadows, v.floor = true);
+        VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look,
+             volume_def(&v)->raycast.jitter = !volume_def(&v)->raycast.jitter,
+             volume_def(&v)->raycast.skip = !volume_def(&v)->raycast.skip,
+             volume_def(&v)->raycast.by_scalar = 0.5);
     }
     for (int show = VOLUME_SLICE; show <= VOLUME_NORMALS; show++)
-        VIEW("volume", v.volume.show = (VolumeShow)show);
+        VIEW("volume", volume_def(&v)->show = (VolumeShow)show);
     return count;
 }
 
@@ -483,15 +491,15 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
 static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
 {
     int count = 0;
-    VIEW("splat", v.splat.cull = true, v.floor = true);
-    VIEW("splat", v.splat.shape = SPLAT_ELLIPSOID, v.splat.cull = true);
-    VIEW("splat", v.splat.shape = SPLAT_ELLIPSOID, v.splat.cull = false);
-    VIEW("volume", v.volume.method = VOLUME_DIRECT);
-    VIEW("volume", v.volume.method = VOLUME_LAYERS);
-    VIEW("volume", v.volume.method = VOLUME_SCATTER, v.raycast.by_scalar = 0.5,
-         v.volume.bounds = VOLUME_FLUID);
-    VIEW("volume", v.volume.method = VOLUME_GATHER, v.raycast.look = RAYCAST_TRANSLUCENT,
-         v.raycast.by_scalar = 0.5);
+    VIEW("splat", splat_def(&v)->cull = true, v.floor = true);
+    VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = true);
+    VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = false);
+    VIEW("volume", volume_def(&v)->method = VOLUME_DIRECT);
+    VIEW("volume", volume_def(&v)->method = VOLUME_LAYERS);
+    VIEW("volume", volume_def(&v)->method = VOLUME_SCATTER, volume_def(&v)->raycast.by_scalar = 0.5,
+         volume_def(&v)->bounds = VOLUME_FLUID);
+    VIEW("volume", volume_def(&v)->method = VOLUME_GATHER, volume_def(&v)->raycast.look = RAYCAST_TRANSLUCENT,
+         volume_def(&v)->raycast.by_scalar = 0.5);
     return count;
 }
 
@@ -508,7 +516,7 @@ static void draw_views(const WorldDef *def, bool solids)
     ViewDef base = view_def_default();
     Error error = {0};
     WorldDef shown = *def;
-    base.volume.cells = 16;
+    volume_def(&base)->cells = 16;
     if (solids)
         with_a_ball(shown.solids, &shown.solid_count);
     const int count = texts_only ? views_of(base, views) : few_views_of(base, views);

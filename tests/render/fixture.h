@@ -12,6 +12,8 @@
 #include "app/session/headless.h"
 #include "render/particles/upload.h"
 #include "render/renderer.h"
+#include "render/splat/splat_def.h"
+#include "render/volume/volume_def.h"
 #include "sim/gl/debug.h"
 #include "tests/gl/draw_check.h"
 
@@ -167,7 +169,7 @@ static inline ViewDef bare_view(void)
 {
     ViewDef def = view_def_default();
     def.legend = def.box = def.floor = false;
-    def.splat.drops = false;
+    splat_def(&def)->drops = false;
     return def;
 }
 

@@ -6,7 +6,7 @@
 
 #include "render/frame/frame.h"
 #include "render/volume/raycast.h"
-#include "render/volume/raycast_names.h"
+#include "render/volume/volume_def.h"
 
 #include <epoxy/gl.h>
 
@@ -116,9 +116,7 @@ static inline Raycast *ray_caster(const Subject *subject)
     static WorldDef world;
     const Subject kept = {&def, &world};
     Error error = {0};
-    if (raycast && raycast_same_kind(subject, &kept) &&
-        volume_same_kind(&subject->def->volume, &def.volume) &&
-        (subject->world->solid_count > 0) == (world.solid_count > 0))
+    if (raycast && view_same(subject, &kept))
         return raycast;
     raycast_destroy(raycast);
     raycast = raycast_create(subject, NULL, &error);

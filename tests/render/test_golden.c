@@ -169,7 +169,7 @@ static void test_splat_ellipsoid(void **state)
     (void)state;
     Golden golden = golden_create("splat_ellipsoid", 320, 240);
     text_set(golden.def.kind, "splat");
-    golden.def.splat.shape = SPLAT_ELLIPSOID, golden.def.splat.drops = true;
+    splat_def(&golden.def)->shape = SPLAT_ELLIPSOID, splat_def(&golden.def)->drops = true;
     check(&golden);
 }
 
@@ -180,8 +180,8 @@ static void test_splat_w1(void **state)
     Golden golden = golden_create("splat_w1", 160, 120);
     text_set(golden.def.kind, "splat");
     golden.def.color_by = SCALAR_FLUID;
-    golden.def.splat.eps = 0.25, golden.def.splat.weights = SPLAT_W1;
-    golden.def.splat.shape = SPLAT_PAPER;
+    splat_def(&golden.def)->eps = 0.25, splat_def(&golden.def)->weights = SPLAT_W1;
+    splat_def(&golden.def)->shape = SPLAT_PAPER;
     check(&golden);
 }
 
@@ -191,7 +191,7 @@ static void test_splat_narrow_range(void **state)
     Golden golden = golden_create("splat_narrow_range", 160, 120);
     text_set(golden.def.kind, "splat");
     golden.def.color_by = SCALAR_FLUID;
-    golden.def.splat.filter = SPLAT_NARROW_RANGE;
+    splat_def(&golden.def)->filter = SPLAT_NARROW_RANGE;
     check(&golden);
 }
 
@@ -205,7 +205,7 @@ static void clear_splat(const char *name, SplatShading shading)
     Golden golden = golden_create(name, 320, 240);
     text_set(golden.def.kind, "splat");
     golden.def.color_by = SCALAR_FLUID;
-    golden.def.splat.shading = shading;
+    splat_def(&golden.def)->shading = shading;
     golden.world.solid_count = 2;
     memcpy(golden.world.solids, solids, sizeof solids);
     check(&golden);
@@ -230,7 +230,7 @@ static void test_splat_level(void **state)
     Golden golden = golden_create("splat_level", 320, 240);
     text_set(golden.def.kind, "splat");
     golden.def.color_by = SCALAR_FLUID;
-    golden.def.splat.level = 0.12;
+    splat_def(&golden.def)->level = 0.12;
     check(&golden);
 }
 
@@ -239,8 +239,8 @@ static void test_volume_slice(void **state)
     (void)state;
     Golden golden = golden_create("volume_slice", 240, 180);
     text_set(golden.def.kind, "volume");
-    golden.def.volume.show = VOLUME_SLICE;
-    golden.def.volume.cells = 64;
+    volume_def(&golden.def)->show = VOLUME_SLICE;
+    volume_def(&golden.def)->cells = 64;
     golden.def.legend = true;
     check(&golden);
 }
@@ -253,9 +253,9 @@ static void cast_volume(const char *name, RaycastLook look)
     Golden golden = golden_create(name, 240, 180);
     text_set(golden.def.kind, "volume");
     golden.def.color_by = SCALAR_FLUID;
-    golden.def.raycast.look = look;
-    golden.def.raycast.jitter = false;
-    golden.def.volume.cells = 64;
+    volume_def(&golden.def)->raycast.look = look;
+    volume_def(&golden.def)->raycast.jitter = false;
+    volume_def(&golden.def)->cells = 64;
     golden.world.solid_count = 1;
     golden.world.solids[0] = ball;
     check(&golden);

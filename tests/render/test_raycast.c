@@ -54,7 +54,7 @@ static double integral_of(const double from[3], const double to[3], double end)
 static int compare_sphere(RayScene *scene, bool normals)
 {
     int compared = 0;
-    scene->def.volume.show = normals ? VOLUME_NORMALS : VOLUME_SHADED;
+    volume_def(&scene->def)->show = normals ? VOLUME_NORMALS : VOLUME_SHADED;
     RayPixel *pixels = ray_drawn(scene, true);
     for (int i = 0; i < scene->width * scene->height; i++) {
         double from[3], to[3], t[2], cosine = 0;
@@ -93,7 +93,7 @@ static void the_surface_of_a_ball(void **state)
     RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, (double[]){0.05, 0.48, 0}, 30);
     for (int skip = 0; skip < 2; skip++)
         for (int big = 0; big < 2; big++) {
-            scene.def.raycast.skip = skip, scene.def.raycast.step = big ? 2 : 0.5;
+            volume_def(&scene.def)->raycast.skip = skip, volume_def(&scene.def)->raycast.step = big ? 2 : 0.5;
             assert_true(compare_sphere(&scene, false) > 2000);
         }
     assert_true(compare_sphere(&scene, true) > 2000);
@@ -181,10 +181,10 @@ static void nothing_and_what_is_no_number(void **state)
     (void)state;
     for (int look = RAYCAST_OPAQUE; look <= RAYCAST_TRANSLUCENT; look += RAYCAST_TRANSLUCENT) {
         RayScene scene = ray_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
-        scene.def.raycast.look = (RaycastLook)look;
+        volume_def(&scene.def)->raycast.look = (RaycastLook)look;
         ray_volume(&scene, &whole, nothing_at, NULL);
         expect_nothing(&scene);
-        scene.def.raycast.skip = false;
+        volume_def(&scene.def)->raycast.skip = false;
         expect_nothing(&scene);
         ray_volume(&scene, &whole, nan_at, NULL);
         free(ray_drawn(&scene, true)); /* it ends */
@@ -232,7 +232,7 @@ static void a_volume_full_of_fluid_has_no_holes(void **state)
 
 static RaycastDef translucent(double opacity)
 {
-    RaycastDef def = raycast_def_default();
+    RaycastDef def = volume_usual.raycast;
     def.look = RAYCAST_TRANSLUCENT;
     def.ramp[0] = 0, def.ramp[1] = 1; /* extinction is as the field */
     def.skin = 0;
@@ -256,7 +256,7 @@ static void compare_lengths(RayScene *scene, double opacity)
                      found = -log(1.0 - pixels[i].color[3]) / per_m;
         if (fabs(found - length) > 0.01 * length)
             fail_msg("pixel %d %d, step %g: %g m of fluid, not %g", i % scene->width, i / scene->width,
-                     scene->def.raycast.step, found, length);
+                     volume_def(&scene->def)->raycast.step, found, length);
         longest = fmax(longest, found);
     }
     assert_true(fabs(longest - 2 * ball.radius) < 0.02 * ball.radius);
@@ -270,9 +270,9 @@ static void the_chord_of_a_ball_at_any_step(void **state)
     RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
     for (int i = 0; i < 4; i++)
         for (int way = 0; way < 4; way++) {
-            scene.def.raycast = translucent(0.08);
-            scene.def.raycast.step = steps[i];
-            scene.def.raycast.jitter = way & 1, scene.def.raycast.skip = way & 2;
+            volume_def(&scene.def)->raycast = translucent(0.08);
+            volume_def(&scene.def)->raycast.step = steps[i];
+            volume_def(&scene.def)->raycast.jitter = way & 1, volume_def(&scene.def)->raycast.skip = way & 2;
             compare_lengths(&scene, 0.08);
         }
     scene_end(&scene);
@@ -285,8 +285,8 @@ static void the_skin_at_any_step(void **state)
     RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
     static const double steps[] = {0.25, 0.5, 1, 2};
     for (int i = 0; i < 4; i++) {
-        scene.def.raycast = translucent(0);
-        scene.def.raycast.skin = 0.4, scene.def.raycast.step = steps[i];
+        volume_def(&scene.def)->raycast = translucent(0);
+        volume_def(&scene.def)->raycast.skin = 0.4, volume_def(&scene.def)->raycast.step = steps[i];
         RayPixel *pixels = ray_drawn(&scene, true);
         const float found = pixels[60 * scene.width + 80].color[3];
         if (fabs(found - (1 - 0.6 * 0.6)) > 0.002)
@@ -303,8 +303,8 @@ static void jitter_moves_samples(void **state)
     int unlike[2] = {0};
     for (int jitter = 0; jitter < 2; jitter++) {
         RayScene scene = ball_scene((double[]){0.05, 0.48, 2}, ball.centre, 20);
-        scene.def.raycast = translucent(0.2);
-        scene.def.raycast.step = 6, scene.def.raycast.jitter = jitter;
+        volume_def(&scene.def)->raycast = translucent(0.2);
+        volume_def(&scene.def)->raycast.step = 6, volume_def(&scene.def)->raycast.jitter = jitter;
         RayPixel *pixels = ray_drawn(&scene, true);
         for (int x = 70; x < 90; x++) { /* the ball is nearly flat there */
             const RayPixel *pixel = &pixels[60 * scene.width + x];
@@ -325,9 +325,9 @@ static void early_termination(void **state)
     static const double thresholds[] = {0.8, 0.95};
     for (int t = 0; t < 2; t++) {
         const double threshold = thresholds[t];
-        scene.def.raycast = translucent(0.3);
+        volume_def(&scene.def)->raycast = translucent(0.3);
         RayPixel *full = ray_drawn(&scene, true);
-        scene.def.raycast.threshold = threshold;
+        volume_def(&scene.def)->raycast.threshold = threshold;
         RayPixel *early = ray_drawn(&scene, true);
         double most = 0;
         for (int i = 0; i < scene.width * scene.height; i++)
@@ -356,14 +356,14 @@ static void solids_hide_and_are_hidden(void **state)
     const float near = scene.frame.camera.near_plane, depths[] = {1.5F, 2.03F, 2.5F};
     for (int place = 0; place < 3; place++) {
         scene.solid_depth = near / depths[place];
-        scene.def.raycast = raycast_def_default();
+        volume_def(&scene.def)->raycast = volume_usual.raycast;
         RayPixel *pixels = ray_drawn(&scene, true);
         const float wanted = place == 0 ? scene.solid_depth : near / 1.73F;
         if (fabsf(pixels[middle].depth / wanted - 1) > 1e-3F || (pixels[middle].color[3] > 0) != (place > 0))
             fail_msg("solid at %g m: depth %g, not %g", depths[place], near / pixels[middle].depth,
                      near / wanted);
         free(pixels);
-        scene.def.raycast = translucent(0.02);
+        volume_def(&scene.def)->raycast = translucent(0.02);
         pixels = ray_drawn(&scene, true);
         const double length = -log(1.0 - pixels[middle].color[3]) / -log(0.98) * scene.state.spacing;
         if (fabs(length - 0.3 * place) > 0.006)

@@ -84,12 +84,12 @@ static void skipping_changes_nothing(void **state)
         for (int look = RAYCAST_OPAQUE; look <= RAYCAST_TRANSLUCENT; look += RAYCAST_TRANSLUCENT) {
             RayScene scene = ray_scene(eyes[eye], (double[]){0, 0.22, 0.07}, 40);
             ray_volume(&scene, &odd, specks_at, NULL);
-            scene.def.raycast.look = (RaycastLook)look;
-            scene.def.raycast.level = 0.25, scene.def.raycast.step = 0.1;
-            scene.def.raycast.ramp[0] = 0.1, scene.def.raycast.ramp[1] = 0.3;
-            scene.def.raycast.opacity = 0.9;
+            volume_def(&scene.def)->raycast.look = (RaycastLook)look;
+            volume_def(&scene.def)->raycast.level = 0.25, volume_def(&scene.def)->raycast.step = 0.1;
+            volume_def(&scene.def)->raycast.ramp[0] = 0.1, volume_def(&scene.def)->raycast.ramp[1] = 0.3;
+            volume_def(&scene.def)->raycast.opacity = 0.9;
             RayPixel *with = ray_drawn(&scene, true);
-            scene.def.raycast.skip = false;
+            volume_def(&scene.def)->raycast.skip = false;
             RayPixel *without = ray_drawn(&scene, true);
             const float depth_apart =
                 look == RAYCAST_OPAQUE ? 1e-3F : 1e-2F; /* where half of the light is lost */
@@ -126,8 +126,8 @@ static void what_is_shown_of_faces(void **state)
     for (int show = VOLUME_ENTRY; show <= VOLUME_LENGTH; show++) {
         RayScene scene = ray_scene((double[]){1.3, 1.1, 1.4}, (double[]){0, 0.2, 0}, 40);
         ray_volume(&scene, &odd, specks_at, NULL);
-        scene.def.volume.show = (VolumeShow)show;
-        scene.def.raycast.skip = false;
+        volume_def(&scene.def)->show = (VolumeShow)show;
+        volume_def(&scene.def)->raycast.skip = false;
         RayPixel *pixels = ray_drawn(&scene, true);
         int compared = 0;
         for (int i = 0; i < scene.width * scene.height; i++) {
@@ -162,8 +162,8 @@ static void steps_are_shown(void **state)
     for (int skip = 0; skip < 2; skip++) {
         RayScene scene = ray_scene((double[]){1.3, 1.1, 1.4}, (double[]){0, 0.2, 0}, 40);
         ray_volume(&scene, &odd, specks_at, NULL);
-        scene.def.volume.show = VOLUME_STEPS;
-        scene.def.raycast.skip = skip;
+        volume_def(&scene.def)->show = VOLUME_STEPS;
+        volume_def(&scene.def)->raycast.skip = skip;
         RayPixel *pixels = ray_drawn(&scene, true);
         for (int i = 0; i < scene.width * scene.height; i++)
             bright[skip] += pixels[i].color[1];

@@ -29,7 +29,7 @@ static Picture picture_of_block(void)
     picture.def.camera_auto = false;
     picture.def.camera = (CameraDef){{0, 0.6, 3}, {0, 0.3, 0}, 40};
     picture.def.range_auto = false, picture.def.range[1] = 4;
-    picture.def.volume.cells = 64;
+    volume_def(&picture.def)->cells = 64;
     return picture;
 }
 
@@ -80,7 +80,7 @@ static void colors_of_scalars_and_fluids(void **state)
     assert_true(colormap_fill("viridis", map));
     for (int i = 0; i < 3; i++)
         for (int by_fluid = 0; by_fluid < 2; by_fluid++) {
-            picture.def.volume.method = methods[i];
+            volume_def(&picture.def)->method = methods[i];
             picture.def.color_by = by_fluid ? SCALAR_FLUID : SCALAR_SPEED;
             for (int side = 0; side < 2; side++)
                 for (int k = 0; k < 3; k++)
@@ -113,11 +113,11 @@ static void without_a_volume(void **state)
 {
     (void)state;
     Picture picture = picture_of_block();
-    picture.def.volume.cells = 160;
+    volume_def(&picture.def)->cells = 160;
     Image with = drawn(&picture, false);
-    picture.def.volume.method = VOLUME_DIRECT;
+    volume_def(&picture.def)->method = VOLUME_DIRECT;
     Image without = drawn(&picture, false);
-    picture.def.raycast.level = 0.3;
+    volume_def(&picture.def)->raycast.level = 0.3;
     Image other = drawn(&picture, false);
     const int apart = pixels_apart(&with, &without, 12), moved = pixels_apart(&with, &other, 12);
     if (!(apart < 100 && moved > 300))
@@ -133,17 +133,17 @@ static void water_of_index_one_is_not_seen(void **state)
 {
     (void)state;
     Picture picture = picture_of_block();
-    picture.def.raycast.look = RAYCAST_WATER;
+    volume_def(&picture.def)->raycast.look = RAYCAST_WATER;
     picture.def.color_by = SCALAR_FLUID;
-    picture.def.raycast.ior = 1;
-    picture.def.raycast.attenuation = 1e5;
+    volume_def(&picture.def)->raycast.ior = 1;
+    volume_def(&picture.def)->raycast.attenuation = 1e5;
     Image clear = drawn(&picture, true);
-    picture.def.raycast.ior = 1.333;
-    picture.def.raycast.attenuation = 0;
+    volume_def(&picture.def)->raycast.ior = 1.333;
+    volume_def(&picture.def)->raycast.attenuation = 0;
     Image water = drawn(&picture, false);
     text_set(picture.def.kind, "none");
     Image nothing = drawn(&picture, false);
-    picture.def.raycast.look = RAYCAST_OPAQUE;
+    volume_def(&picture.def)->raycast.look = RAYCAST_OPAQUE;
     const int apart = pixels_apart(&clear, &nothing, 3), seen = pixels_apart(&water, &nothing, 12);
     if (!(apart < 30 && seen > 1500))
         fail_msg("%d pixels show water that cannot be seen, %d water", apart, seen);
@@ -203,7 +203,7 @@ static void the_shadow_of_a_ball_by_marching(void **state)
 {
     (void)state;
     RayScene scene = ray_scene((double[]){0, 1.6, 1.6}, (double[]){0, 0.2, 0}, 40);
-    scene.def.raycast.shadows = true;
+    volume_def(&scene.def)->raycast.shadows = true;
     RayPixel *bare = slab_drawn(&scene, NULL), *shaded = slab_drawn(&scene, &scene);
     double least = 1;
     int dark = 0;

@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 
 #include "render/splat/splat_def.h"
-#include "render/volume/volume_view.h"
+#include "render/volume/volume_def.h"
 
 enum { MOST = 3 * 400 * 300 };
 
@@ -121,15 +121,16 @@ static void views_are_kept(void **state)
     counted = view_volume, counted.name = "counted", counted.create = counted_create;
     view_add(&counted);
     ViewDef def = view_def_default();
+    VolumeDef *own = view_own(&def, &counted);
     text_set(def.kind, "counted");
     Renderer *renderer = renderer_create(&def, NULL, 16, 16, &error);
     assert_int_equal(created, 1);
-    def.splat.shading = SPLAT_WATER; /* another view's */
+    splat_def(&def)->shading = SPLAT_WATER; /* another view's */
     def.radius = 0.8;
     assert_int_equal(made_for(renderer, &def), 0);
-    def.raycast.step = 2; /* its own */
+    own->raycast.step = 2; /* its own */
     assert_int_equal(made_for(renderer, &def), 0);
-    def.raycast.look = RAYCAST_WATER;
+    own->raycast.look = RAYCAST_WATER;
     assert_int_equal(made_for(renderer, &def), 1);
     def.color_by = SCALAR_FLUID;
     assert_int_equal(made_for(renderer, &def), 1);

@@ -154,8 +154,8 @@ static void picture_stages(const char *view)
     ViewDef def = view_def_default();
     WorldDef world = {0};
     text_set(def.kind, view);
-    def.splat.shading = SPLAT_WATER; /* has all stages */
-    def.splat.filter = SPLAT_NARROW_RANGE;
+    splat_def(&def)->shading = SPLAT_WATER; /* has all stages */
+    splat_def(&def)->filter = SPLAT_NARROW_RANGE;
     world.solid_count = 1; /* what only some scenes have */
     world.solids[0] = (SolidDef){.radius = 0.2, .centre = {0, 0.7, 0}};
     Particles *particles = particles_wave(0.08);

@@ -98,7 +98,7 @@ static void too_fine_a_grid_is_refused(void **state)
         assert_false(voxelizer_fits(voxelizer, &grid, 0.105, &error));
         assert_non_null(strstr(error.message, "view.volume.cells"));
     }
-    const VolumeDef usual = volume_def_default();
+    const VolumeDef usual = volume_usual;
     assert_true(volume_grid_for(&usual, &box, &grid, &error) &&
                 voxelizer_fits(voxelizer, &grid, 0.105, &error));
     voxelizer_destroy(voxelizer);
@@ -130,17 +130,17 @@ static void a_view_refuses_what_does_not_fit(void **state)
     text_set(def.kind, "volume");
     const WorldDef world = {.box_size = {2, 1, 1}, .spacing = 0.05, .support = 2.1};
     const Subject subject = {&def, &world};
-    def.volume.cells = 4096;
+    volume_def(&def)->cells = 4096;
     assert_null(view_create(&subject, &error));
     assert_non_null(strstr(error.message, "view.volume.cells"));
-    def.volume.cells = 64;
+    volume_def(&def)->cells = 64;
     Renderer *renderer = renderer_create(&def, &world, 64, 64, &error);
     assert_non_null(renderer);
-    def.volume.cells = 4096;
+    volume_def(&def)->cells = 4096;
     assert_false(renderer_set_def(renderer, &def, &world, &error));
-    def.volume.cells = 96;
+    volume_def(&def)->cells = 96;
     assert_true(renderer_set_def(renderer, &def, &world, &error));
-    def.volume.bounds = VOLUME_FLUID; /* whose shader was not wanted before */
+    volume_def(&def)->bounds = VOLUME_FLUID; /* whose shader was not wanted before */
     program_set_directory("no/such/folder");
     assert_false(renderer_set_def(renderer, &def, &world, &error));
     assert_non_null(strstr(error.message, "volume_bounds.comp"));
@@ -250,7 +250,8 @@ static void memory_that_is_short_is_said_before_a_picture(void **state)
     text_set(def.kind, "volume");
     const WorldDef world = {.box_size = {2, 1, 1}, .spacing = 0.05, .support = 2.1};
     const Subject subject = {&def, &world};
-    def.volume.cells = 250, def.volume.method = VOLUME_SLABS, def.color_by = SCALAR_FLUID; /* 25 MB */
+    volume_def(&def)->cells = 250, volume_def(&def)->method = VOLUME_SLABS,
+    def.color_by = SCALAR_FLUID; /* 25 MB */
     for (rlim_t left = 10 << 20; !view && !sums && left < 300 << 20; left += 12 << 20) {
         struct rlimit usual;
         Error error = {0};

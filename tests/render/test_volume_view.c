@@ -2,7 +2,7 @@
 #include "tests/render/volume_fixture.h"
 
 #include "render/frame/colormap.h"
-#include "render/volume/volume_view.h"
+#include "render/volume/volume_def.h"
 
 enum { SIZE = 96 };
 
@@ -10,8 +10,8 @@ static ViewDef slice_def(const VolumeScene *scene, const double from[3], const d
 {
     ViewDef def = bare_view();
     text_set(def.kind, "volume");
-    def.volume = scene->def;
-    def.volume.show = VOLUME_SLICE;
+    *volume_def(&def) = scene->def;
+    volume_def(&def)->show = VOLUME_SLICE;
     def.camera_auto = false;
     def.camera.fov_deg = 30;
     memcpy(def.camera.from, from, sizeof def.camera.from);
@@ -131,15 +131,15 @@ static void methods_are_swapped_while_it_runs(void **state)
     scene.state.count = scene.particles->count;
     Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
     ViewDef def = slice_def(&scene, (double[]){-0.7, 0.3, 2}, (double[]){-0.7, 0.2, 0});
-    def.volume.slice = 0.2;
+    volume_def(&def)->slice = 0.2;
     uint8_t first[3 * SIZE * SIZE], rgb[3 * SIZE * SIZE];
     Renderer *renderer = renderer_create(&def, NULL, SIZE, SIZE, &error);
     assert_non_null(renderer);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read(renderer, first);
     for (int turn = 0; turn < 2 * VOLUME_DIRECT; turn++) {
-        def.volume.method = (VolumeMethod)(turn % VOLUME_DIRECT); /* direct does not interpolate */
-        def.volume.bounds = (VolumeBounds)(turn / VOLUME_DIRECT);
+        volume_def(&def)->method = (VolumeMethod)(turn % VOLUME_DIRECT); /* direct does not interpolate */
+        volume_def(&def)->bounds = (VolumeBounds)(turn / VOLUME_DIRECT);
         assert_true(renderer_set_def(renderer, &def, NULL, &error));
         renderer_draw(renderer, &buffers, NULL);
         renderer_read(renderer, rgb);
@@ -147,7 +147,7 @@ static void methods_are_swapped_while_it_runs(void **state)
         for (int i = 0; i < SIZE * SIZE; i++)
             apart += abs(rgb[3 * i] - first[3 * i]) > 4;
         if (turn < VOLUME_DIRECT && apart > SIZE * SIZE / 200)
-            fail_msg("%s: %d pixels differ", volume_method_names[def.volume.method], apart);
+            fail_msg("%s: %d pixels differ", volume_method_names[volume_def(&def)->method], apart);
     }
     renderer_destroy(renderer);
     upload_destroy(upload);
@@ -166,7 +166,7 @@ static void a_legend_is_of_what_is_shown(void **state)
     for (int i = 0; i < 3; i++) {
         ViewDef def = bare_view();
         Frame frame = {.shown = "speed", .shown_unit = "m/s", .range = {0, 3}, .by_fluid = i > 0};
-        def.volume.show = cases[i].show;
+        volume_def(&def)->show = cases[i].show;
         view_volume.show(&def, &frame);
         assert_string_equal(frame.shown, cases[i].shown);
         assert_string_equal(frame.shown_unit, i > 0 ? "" : "m/s");

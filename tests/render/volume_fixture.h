@@ -25,7 +25,7 @@ typedef struct Voxels {
 /* A box 2 x 1 x 1 m without particles, that far apart. */
 static inline VolumeScene volume_scene(double spacing, int cells)
 {
-    VolumeScene scene = {calloc(1, sizeof(Particles)), box_state(0, spacing), volume_def_default()};
+    VolumeScene scene = {calloc(1, sizeof(Particles)), box_state(0, spacing), volume_usual};
     assert_non_null(scene.particles);
     scene.def.cells = cells;
     return scene;

@@ -1,6 +1,9 @@
 /* Keys of a scene that change while its simulation runs. */
 #include "tests/scene/scene_text.h"
 
+#include "render/splat/splat_def.h"
+#include "render/volume/volume_def.h"
+
 #include "app/scene/keys.h"
 #include "app/scene/live.h"
 
@@ -74,16 +77,17 @@ static void each_type_reaches_its_field(void **state)
     assert_int_equal(scene.view.color_by, SCALAR_PRESSURE);
     assert_true(scene.view.range_auto); /* the range was the other one's */
     assert_false(set("view.splat.weights=w1") || set("view.splat.eps=0.25"));
-    assert_true(scene.view.splat.weights == SPLAT_W1 && scene.view.splat.eps == 0.25);
+    assert_true(splat_def(&scene.view)->weights == SPLAT_W1 && splat_def(&scene.view)->eps == 0.25);
     assert_false(set("view.splat.shape=ellipsoid") || set("view.splat.drops=false"));
-    assert_true(scene.view.splat.shape == SPLAT_ELLIPSOID && !scene.view.splat.drops);
+    assert_true(splat_def(&scene.view)->shape == SPLAT_ELLIPSOID && !splat_def(&scene.view)->drops);
     assert_false(set("view.splat.level=0.15"));
-    assert_true(scene.view.splat.level == 0.15);
+    assert_true(splat_def(&scene.view)->level == 0.15);
     assert_false(set("view.splat.filter=narrow_range") || set("view.splat.filter_size=6"));
-    assert_true(scene.view.splat.filter == SPLAT_NARROW_RANGE && scene.view.splat.filter_size == 6);
-    assert_true(!set("view.splat.antialias=false") && !scene.view.splat.antialias);
+    assert_true(splat_def(&scene.view)->filter == SPLAT_NARROW_RANGE &&
+                splat_def(&scene.view)->filter_size == 6);
+    assert_true(!set("view.splat.antialias=false") && !splat_def(&scene.view)->antialias);
     assert_false(set("view.volume.method=planes") || set("view.volume.cells=96"));
-    assert_true(scene.view.volume.method == VOLUME_PLANES && scene.view.volume.cells == 96);
+    assert_true(volume_def(&scene.view)->method == VOLUME_PLANES && volume_def(&scene.view)->cells == 96);
     assert_false(set("view.camera.from=[1, 2, 3]"));
     assert_true(scene.view.camera.from[2] == 3 && !scene.view.camera_auto);
     assert_true(scene_set_live(&scene, "view.legend=false", NULL, &error) && !scene.view.legend);

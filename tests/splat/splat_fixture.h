@@ -49,7 +49,7 @@ static inline SplatScene splat_scene(const double from[3], const double to[3], d
     memcpy(scene.def.camera.to, to, sizeof scene.def.camera.to);
     scene.def.camera.fov_deg = fov_deg;
     scene.def.radius = 1;
-    scene.def.splat.antialias = false; /* spheres as they are, however small */
+    splat_def(&scene.def)->antialias = false; /* spheres as they are, however small */
     scene.state = box_state(0, radius);
     return scene;
 }
@@ -248,16 +248,16 @@ static inline SplatHit hit_of(const SplatScene *scene, size_t particle, int x, i
     const double ray[3] = {(2 * (x + 0.5) / scene->width - 1) * camera->tangent[0],
                            (2 * (y + 0.5) / scene->height - 1) * camera->tangent[1], -1};
     float at[3];
-    const bool ellipsoid = scene->def.splat.shape == SPLAT_ELLIPSOID;
+    const bool ellipsoid = splat_def(&scene->def)->shape == SPLAT_ELLIPSOID;
     const float *shape = &splat_shapes[12 * particle];
     memcpy(at, ellipsoid ? shape : &scene->particles->position[4 * particle], sizeof at);
     matrix_transform(scene->frame.box_to_world, at, at);
     matrix_transform(camera->view, at, at);
     const double c[3] = {at[0], at[1], at[2]},
-                 r = scene->def.splat.drops ? splat_shapes[particle] : scene->frame.particle_radius;
+                 r = splat_def(&scene->def)->drops ? splat_shapes[particle] : scene->frame.particle_radius;
     if (ellipsoid)
         return hit_ellipsoid(scene, shape, c, ray);
-    return scene->def.splat.shape == SPLAT_PAPER ? hit_paper(c, r, ray) : hit_perspective(c, r, ray);
+    return splat_def(&scene->def)->shape == SPLAT_PAPER ? hit_paper(c, r, ray) : hit_perspective(c, r, ray);
 }
 
 static inline bool hit_counts(const SplatScene *scene, const SplatHit *hit)
@@ -269,7 +269,7 @@ static inline bool hit_counts(const SplatScene *scene, const SplatHit *hit)
 static inline double weight_of(const SplatScene *scene, const SplatHit *hit, double nearest, double eps)
 {
     const double least = 1e-4; /* splat_blend.frag */
-    switch (scene->def.splat.weights) {
+    switch (splat_def(&scene->def)->weights) {
     case SPLAT_NO_WEIGHTS:
         return hit->depth <= nearest;
     case SPLAT_W1:
@@ -283,7 +283,7 @@ static inline double weight_of(const SplatScene *scene, const SplatHit *hit, dou
 static inline SplatPixel splat_wanted(const SplatScene *scene, int x, int y)
 {
     SplatPixel pixel = {.depth = 1e30};
-    const double eps = scene->def.splat.eps * scene->frame.particle_radius;
+    const double eps = splat_def(&scene->def)->eps * scene->frame.particle_radius;
     for (size_t i = 0; i < scene->particles->count; i++) {
         const SplatHit hit = hit_of(scene, i, x, y);
         pixel.unsure |= fabs(hit.rho - 1) < 1e-3;
@@ -317,7 +317,7 @@ static inline int splat_compare(SplatScene *scene)
 {
     SplatPixel *drawn = splat_drawn(scene);
     const bool ellipsoid =
-        scene->def.splat.shape == SPLAT_ELLIPSOID; /* stretched, and with it what rounding does */
+        splat_def(&scene->def)->shape == SPLAT_ELLIPSOID; /* stretched, and with it what rounding does */
     int covered = 0;
     for (int i = 0; i < scene->width * scene->height; i++) {
         const int x = i % scene->width, y = i / scene->width;
@@ -329,7 +329,8 @@ static inline int splat_compare(SplatScene *scene)
             5e-7 * (wanted.depth + (ellipsoid ? 8 : 2) * wanted.slope * scene->frame.particle_radius);
         if (fabs(drawn[i].depth - wanted.depth) > slack)
             fail_msg("pixel %d %d: depth %.9g, formula %.9g", x, y, drawn[i].depth, wanted.depth);
-        const double most = 2e-3 * (0.05 + wanted.weight) * (ellipsoid || scene->def.splat.drops ? 6 : 1);
+        const double most =
+            2e-3 * (0.05 + wanted.weight) * (ellipsoid || splat_def(&scene->def)->drops ? 6 : 1);
         const double sums = splat_rounding() * most;
         if (fabs(drawn[i].weight - wanted.weight) > most / 10)
             fail_msg("pixel %d %d: weight %g, formula %g", x, y, drawn[i].weight, wanted.weight);

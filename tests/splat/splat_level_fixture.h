@@ -25,7 +25,7 @@ typedef struct LevelRay {
 static inline LevelChord level_chord(const SplatScene *scene, const double c[3], const double ray[3])
 {
     LevelChord chord = {.length2 = 1, .middle = -c[2], .along = {0, 0, -1}};
-    if (scene->def.splat.shape == SPLAT_PAPER) { /* eq. 5: along the axis */
+    if (splat_def(&scene->def)->shape == SPLAT_PAPER) { /* eq. 5: along the axis */
         for (int k = 0; k < 2; k++)
             chord.at[k] = -c[2] * ray[k] - c[k];
     } else {
@@ -80,7 +80,7 @@ static inline double level_bisect(const LevelRay *ray, double low, double high)
 {
     for (int i = 0; i < 60; i++) {
         const double middle = (low + high) / 2;
-        *(level_field(ray, middle) < ray->scene->def.splat.level ? &low : &high) = middle;
+        *(level_field(ray, middle) < splat_def(&ray->scene->def)->level ? &low : &high) = middle;
     }
     return (low + high) / 2;
 }
@@ -88,7 +88,7 @@ static inline double level_bisect(const LevelRay *ray, double low, double high)
 /* The first depth at the level, or 1e30. `near_miss`: how close below the level the field turned before. */
 static inline double level_root(const LevelRay *ray, double *near_miss)
 {
-    const double step = ray->h / 48, level = ray->scene->def.splat.level;
+    const double step = ray->h / 48, level = splat_def(&ray->scene->def)->level;
     double first = 1e30, last = 0, before[2] = {0};
     for (int i = 0; i < ray->count; i++) {
         first = fmin(first, ray->chords[i].entry);
@@ -113,7 +113,7 @@ static inline SplatPixel level_wanted(const SplatScene *scene, int x, int y)
     double near_miss, slope = 0;
     level_ray(scene, x, y, &ray);
     SplatPixel pixel = {.depth = level_root(&ray, &near_miss)};
-    pixel.unsure = near_miss < 0.02 * scene->def.splat.level;
+    pixel.unsure = near_miss < 0.02 * splat_def(&scene->def)->level;
     for (int i = 0; pixel.depth < 1e29 && i < ray.count; i++) {
         const LevelChord *chord = &ray.chords[i];
         const double r = level_distance(chord, pixel.depth), s = pixel.depth - chord->middle;
@@ -127,7 +127,7 @@ static inline SplatPixel level_wanted(const SplatScene *scene, int x, int y)
             pixel.normal[k] -= change * (chord->at[k] + s * chord->along[k]) * ray.h; /* a radius */
         }
     }
-    pixel.unsure |= pixel.depth < 1e29 && slope < scene->def.splat.level;
+    pixel.unsure |= pixel.depth < 1e29 && slope < splat_def(&scene->def)->level;
     return pixel;
 }
 
@@ -148,7 +148,7 @@ static inline int level_compare(SplatScene *scene, int stride)
         const double slack = 1e-4 * scene->frame.particle_radius + 5e-7 * wanted.depth;
         if (fabs(drawn[i].depth - wanted.depth) > slack)
             fail_msg("pixel %d %d: depth %.9g, by marching %.9g", x, y, drawn[i].depth, wanted.depth);
-        if (fabs(drawn[i].weight - wanted.weight) > 1e-3 * scene->def.splat.level)
+        if (fabs(drawn[i].weight - wanted.weight) > 1e-3 * splat_def(&scene->def)->level)
             fail_msg("pixel %d %d: field %g, wanted %g", x, y, drawn[i].weight, wanted.weight);
         const double rounding = 3e-3 * splat_rounding();
         const double most = rounding * sqrt(dot3(wanted.normal, wanted.normal));

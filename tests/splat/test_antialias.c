@@ -22,7 +22,7 @@ static void turn_over(float depth[WIDE * HIGH])
 static void draw_fine(const Scene *scene, Fine *to)
 {
     Scene plain = *scene;
-    plain.def.splat.antialias = false;
+    splat_def(&plain.def)->antialias = false;
     draw_at(&plain, WIDE, HIGH, to->rgb, to->depth);
     turn_over(to->depth);
 }
@@ -83,9 +83,9 @@ static Measured measure(Scene *scene)
     particles_add(solids.particles, 0, -100, 0, 1, 0);
     draw_fine(scene, &fine);
     draw_fine(&solids, &empty);
-    scene->def.splat.antialias = true;
+    splat_def(&scene->def)->antialias = true;
     draw_at(scene, W, H, with, NULL);
-    scene->def.splat.antialias = false;
+    splat_def(&scene->def)->antialias = false;
     draw_at(scene, W, H, without, NULL);
     for (int i = 0; i < N; i++) {
         const int x = i % W, y = i / W;
@@ -125,10 +125,10 @@ static void outlines_are_nearer_to_the_truth(void **state)
     scene = scene_of(50);
     expect_nearer("far", &scene, 1.3);
     scene = scene_of(20);
-    scene.def.splat.shape = SPLAT_PAPER;
+    splat_def(&scene.def)->shape = SPLAT_PAPER;
     expect_nearer("paper", &scene, 2.5);
     scene = scene_of(20);
-    scene.def.splat.filter = SPLAT_NARROW_RANGE;
+    splat_def(&scene.def)->filter = SPLAT_NARROW_RANGE;
     expect_nearer("filter", &scene, 2.5);
 }
 
@@ -138,7 +138,7 @@ static void outlines_of_a_level(void **state)
     (void)state;
     Scene scene = scene_of(20);
     scene.def.radius = 2;
-    scene.def.splat.level = 0.3;
+    splat_def(&scene.def)->level = 0.3;
     expect_nearer("level", &scene, 1.6);
 }
 
@@ -155,7 +155,7 @@ static Scene threads(void)
     }
     for (int k = 0; k < 3; k++)
         scene.def.background[k] = 0.02, scene.world.fluids[0].color[k] = 1;
-    scene.def.splat.level = 0.3;
+    splat_def(&scene.def)->level = 0.3;
     return scene;
 }
 
@@ -167,7 +167,7 @@ static void outlines_of_threads(void **state)
     static uint8_t with[3 * N], without[3 * N];
     Scene scene = threads();
     draw_at(&scene, W, H, with, NULL);
-    scene.def.splat.antialias = false;
+    splat_def(&scene.def)->antialias = false;
     draw_at(&scene, W, H, without, NULL);
     for (int y = 1; y < H - 1; y++)
         for (int x = 1; x < W - 1; x++) {
@@ -192,10 +192,10 @@ static void outlines_of_drops_and_ellipsoids(void **state)
             for (int k = 0; k < 3; k++)
                 scene.particles->position[4 * i + k] =
                     (k == 1 ? 0.5F : 0.0F) + (k ? 0.5F : 1.0F) * (float)sin(12.9 * (double)i + 7.3 * k);
-    scene.def.splat.drops = true;
+    splat_def(&scene.def)->drops = true;
     expect_nearer("drops", &scene, 2);
     scene = scene_of(20);
-    scene.def.splat.shape = SPLAT_ELLIPSOID;
+    splat_def(&scene.def)->shape = SPLAT_ELLIPSOID;
     expect_nearer("ellipsoids", &scene, 1.9);
 }
 
@@ -224,9 +224,9 @@ static void the_inside_stays(void **state)
     particles_add(nothing.particles, 0, -100, 0, 1, 0);
     draw_fine(&scene, &fine);
     draw_fine(&nothing, &empty);
-    scene.def.splat.antialias = true;
+    splat_def(&scene.def)->antialias = true;
     draw_at(&scene, W, H, with, NULL);
-    scene.def.splat.antialias = false;
+    splat_def(&scene.def)->antialias = false;
     draw_at(&scene, W, H, without, NULL);
     int inside = 0, changed = 0;
     for (int y = 1; y < H - 1; y++)
@@ -250,9 +250,9 @@ static void what_came_before_shading_stays(void **state)
     static uint8_t with[3 * N], without[3 * N];
     for (int show = SPLAT_DEPTH; show <= SPLAT_WEIGHT; show++) {
         Scene scene = scene_of(100);
-        scene.def.splat.show = (SplatShow)show;
+        splat_def(&scene.def)->show = (SplatShow)show;
         draw_at(&scene, W, H, with, NULL);
-        scene.def.splat.antialias = false;
+        splat_def(&scene.def)->antialias = false;
         draw_at(&scene, W, H, without, NULL);
         assert_memory_equal(with, without, sizeof with);
         free(scene.particles);
@@ -265,7 +265,7 @@ static void strange_pictures(void **state)
     static uint8_t rgb[3 * 4096 * 16], with[3 * N];
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape += 2) {
         Scene scene = scene_of(30);
-        scene.def.splat.shape = (SplatShape)shape;
+        splat_def(&scene.def)->shape = (SplatShape)shape;
         draw_at(&scene, 1, 1, rgb, NULL);
         draw_at(&scene, 4096, 16, rgb, NULL);
         draw_at(&scene, W, H, rgb, NULL);

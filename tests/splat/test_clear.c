@@ -23,7 +23,7 @@ static const double RADIUS = 0.3; /* m */
 static SplatScene ball_scene(double spacing, double *radius)
 {
     SplatScene scene = splat_scene((double[]){0.1, 0.6, 3}, (double[]){0, 0.5, 0}, 20, spacing);
-    scene.def.splat.shading = SPLAT_WATER;
+    splat_def(&scene.def)->shading = SPLAT_WATER;
     const double by_volume = add_ball(&scene, (double[]){0, 0.5, 0}, RADIUS, spacing);
     if (radius)
         *radius = by_volume;
@@ -101,7 +101,7 @@ static void compare_texels(const SplatScene *scene, const Map *map, double radiu
         double ray[3];
         ray_at(scene, (i % map->width + 0.5) / map->width, (i / map->width + 0.5) / map->height, ray);
         const double beside = passes_at(ray, centre) / radius;
-        if (i % 61 == 0 && scene->def.splat.shape == SPLAT_PERSPECTIVE)
+        if (i % 61 == 0 && splat_def(&scene->def)->shape == SPLAT_PERSPECTIVE)
             assert_float_equal(map->texel[i], thickness_wanted(scene, ray), 1e-3 * radius);
         if (beside >= 1)
             continue;
@@ -121,16 +121,17 @@ static void thickness_of_a_ball_is_its_chord(void **state)
         double radius;
         Ring ring[RINGS] = {{0}};
         SplatScene scene = ball_scene(RADIUS / 15, &radius);
-        scene.def.splat.sprite = i & 1 ? SPLAT_POINT : SPLAT_QUAD;
-        scene.def.splat.shape = i & 2 ? SPLAT_PAPER : SPLAT_PERSPECTIVE;
+        splat_def(&scene.def)->sprite = i & 1 ? SPLAT_POINT : SPLAT_QUAD;
+        splat_def(&scene.def)->shape = i & 2 ? SPLAT_PAPER : SPLAT_PERSPECTIVE;
         SplatDrawing drawing = splat_open(&scene, NULL, false);
         const Map map = read_thickness(&drawing);
         compare_texels(&scene, &map, radius, ring);
         for (int k = 0; k < 0.8 * RINGS; k++)
             if (ring[k].texels < 3 || fabs(ring[k].thickness - ring[k].chord) > 0.02 * ring[k].chord)
-                fail_msg("%s, %s, ring %d: %g m, chord %g m", splat_sprite_names[scene.def.splat.sprite],
-                         splat_shape_names[scene.def.splat.shape], k, ring[k].thickness / ring[k].texels,
-                         ring[k].chord / ring[k].texels);
+                fail_msg("%s, %s, ring %d: %g m, chord %g m",
+                         splat_sprite_names[splat_def(&scene.def)->sprite],
+                         splat_shape_names[splat_def(&scene.def)->shape], k,
+                         ring[k].thickness / ring[k].texels, ring[k].chord / ring[k].texels);
         free(map.texel);
         splat_close(&drawing);
         free(scene.particles);
@@ -191,7 +192,7 @@ static void a_position_that_is_no_number(void **state)
     (void)state;
     for (int sprite = SPLAT_QUAD; sprite <= SPLAT_POINT; sprite++) {
         SplatScene scene = ball_scene(RADIUS / 10, NULL);
-        scene.def.splat.sprite = (SplatSprite)sprite;
+        splat_def(&scene.def)->sprite = (SplatSprite)sprite;
         particles_add(scene.particles, NAN, 0.5, 0, 1, 0);
         particles_add(scene.particles, 0, INFINITY, NAN, 1, 0);
         particles_add(scene.particles, 1e30, -1e30, 1e30, 1, 0);
@@ -248,7 +249,7 @@ static void exit_of(const SplatScene *scene, const SplatPixel *pixel, const Map 
     const double length = sqrt(dot3(ray, ray)), of_normal = sqrt(dot3(pixel->normal, pixel->normal));
     for (int k = 0; k < 3; k++)
         unit[k] = ray[k] / length, normal[k] = pixel->normal[k] / of_normal;
-    bend(unit, normal, scene->def.splat.ior, inner);
+    bend(unit, normal, splat_def(&scene->def)->ior, inner);
     for (int k = 0; k < 3; k++)
         place[k] = pixel->depth * ray[k] + thickness_at(map, (x + 0.5) / SIDE, (y + 0.5) / SIDE) * inner[k];
     for (int k = 0; k < 2; k++)
@@ -263,7 +264,7 @@ static double compare_bending(double ior)
     int compared = 0;
     SplatScene scene = ball_scene(0.03, NULL);
     scene.width = scene.height = SIDE;
-    scene.def.splat.ior = ior;
+    splat_def(&scene.def)->ior = ior;
     for (int k = 0; k < 3; k++)
         scene.world.fluids[0].color[k] = 1;
     SplatDrawing drawing = splat_open(&scene, lay_coordinates, true);
@@ -322,7 +323,7 @@ static void absorption_by_beer_and_lambert(void **state)
     static const float colour[3] = {0.2F, 0.5F, 0.9F};
     SplatScene scene = ball_scene(0.03, NULL);
     scene.width = scene.height = SIDE;
-    scene.def.splat.attenuation = 0.4;
+    splat_def(&scene.def)->attenuation = 0.4;
     memcpy(scene.world.fluids[0].color, colour, sizeof colour);
     SplatDrawing drawing = splat_open(&scene, lay_grey, true);
     SplatPixel *pixels = splat_read(&scene, &drawing);
@@ -359,7 +360,7 @@ static void absorption_in_two_dimensions(void **state)
     SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 20, spacing);
     scene.width = scene.height = SIDE;
     scene.state.box_size[2] = spacing;
-    scene.def.splat.shading = SPLAT_WATER;
+    splat_def(&scene.def)->shading = SPLAT_WATER;
     memcpy(scene.world.fluids[0].color, colour, sizeof colour);
     for (int i = 0; i < 20 * 20; i++)
         particles_add(scene.particles, spacing * (i % 20 - 9.5), spacing * (i / 20 + 0.5), 0, 1, 0);
@@ -405,7 +406,7 @@ static void reflection_by_fresnel(void **state)
     (void)state;
     SplatScene scene = ball_scene(0.03, NULL);
     scene.width = scene.height = SIDE;
-    scene.def.splat.attenuation = 1e-3;
+    splat_def(&scene.def)->attenuation = 1e-3;
     memset(scene.world.fluids[0].color, 0, sizeof scene.world.fluids[0].color);
     SplatDrawing drawing = splat_open(&scene, lay_grey, false);
     SplatPixel *pixels = splat_read(&scene, &drawing);

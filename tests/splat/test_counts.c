@@ -29,7 +29,7 @@ static ViewCounts counts_of(const Particles *particles, const char *kind, bool c
 {
     ViewDef def = bare_view();
     text_set(def.kind, kind);
-    def.splat.cull = cull;
+    splat_def(&def)->cull = cull;
     return counts_with(particles, def);
 }
 
@@ -87,7 +87,7 @@ static void each_splat_of_a_level_counts(void **state)
     ViewDef def = bare_view();
     Particles particles = {0};
     text_set(def.kind, "splat");
-    def.splat.level = 1e-3;
+    splat_def(&def)->level = 1e-3;
     particles_add(&particles, 0, 0, 0, 1, 0);
     const ViewCounts counts = counts_with(&particles, def);
     assert_true(counts.fragments[STAGE_VISIBILITY] > 2.9);

@@ -27,9 +27,9 @@ static bool same(const SplatPixel *a, const SplatPixel *b)
 
 static void compare(SplatScene *scene, const char *what)
 {
-    scene->def.splat.cull = true;
+    splat_def(&scene->def)->cull = true;
     SplatPixel *culled = splat_drawn(scene);
-    scene->def.splat.cull = false;
+    splat_def(&scene->def)->cull = false;
     SplatPixel *all = splat_drawn(scene);
     for (int i = 0; i < scene->width * scene->height; i++)
         if (!same(&culled[i], &all[i]))
@@ -49,8 +49,8 @@ static void it_changes_no_pixel(void **state)
             for (int k = 0; k < 2; k++) {
                 SplatScene scene = fluid(fovs[i]);
                 char what[64];
-                scene.def.splat.shape = (SplatShape)shape, scene.def.splat.eps = all_eps[k];
-                scene.def.splat.drops = k == 1;
+                splat_def(&scene.def)->shape = (SplatShape)shape, splat_def(&scene.def)->eps = all_eps[k];
+                splat_def(&scene.def)->drops = k == 1;
                 snprintf(what, sizeof what, "%g degrees, %s, eps %g", fovs[i], splat_shape_names[shape],
                          all_eps[k]);
                 compare(&scene, what);
@@ -85,7 +85,7 @@ static void nor_behind_gaps_between_sheets(void **state)
     for (int i = 0; i < 150; i++)
         particles_add(scene.particles, 0.3 * sin(12.9 * i), 0.5 + 0.25 * sin(78.2 * i),
                       -0.45 + 0.1 * sin(37.7 * i), 1, 1);
-    scene.def.splat.shape = SPLAT_ELLIPSOID, scene.def.splat.eps = 0.1;
+    splat_def(&scene.def)->shape = SPLAT_ELLIPSOID, splat_def(&scene.def)->eps = 0.1;
     compare(&scene, "sheets");
     free(scene.particles);
 }
@@ -98,9 +98,9 @@ static void it_leaves_out_what_is_hidden(void **state)
     SplatScene scene = fluid(30);
     scene.width = 320, scene.height = 240;
     SplatPixel *seen = splat_drawn(&scene);
-    scene.def.splat.show = SPLAT_CULLED;
+    splat_def(&scene.def)->show = SPLAT_CULLED;
     SplatPixel *hidden = splat_drawn(&scene);
-    const double eps = scene.def.splat.eps * scene.frame.particle_radius;
+    const double eps = splat_def(&scene.def)->eps * scene.frame.particle_radius;
     int covered = 0, over = 0;
     for (int i = 0; i < scene.width * scene.height; i++) {
         covered += seen[i].depth < 1e29;
@@ -134,7 +134,7 @@ static void compare_shadows(SplatScene *scene)
 {
     static uint8_t rgb[2][3 * 160 * 120];
     for (int cull = 0; cull < 2; cull++) {
-        scene->def.splat.cull = cull;
+        splat_def(&scene->def)->cull = cull;
         draw_with_shadows(scene, rgb[cull]);
     }
     assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
@@ -147,7 +147,8 @@ static void shadows_stay_the_same(void **state)
     SplatScene scene = fluid(30);
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape += 2)
         for (int drops = 0; drops < 2; drops++) {
-            scene.def.splat.shape = (SplatShape)shape, scene.def.splat.drops = drops, scene.def.floor = true;
+            splat_def(&scene.def)->shape = (SplatShape)shape, splat_def(&scene.def)->drops = drops,
+            scene.def.floor = true;
             compare_shadows(&scene);
         }
     free(scene.particles);

@@ -5,7 +5,7 @@
 static SplatScene two_drops(void)
 {
     SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 40, 0.2);
-    scene.def.splat.shading = SPLAT_WATER; /* has all passes */
+    splat_def(&scene.def)->shading = SPLAT_WATER; /* has all passes */
     particles_add(scene.particles, -0.3, 0.6, 0.1, 1, 0);
     particles_add(scene.particles, 0.3, 0.4, 0, 1, 1);
     return scene;
@@ -27,7 +27,7 @@ static void nothing_at_all(void **state)
     for (int cull = 0; cull < 2; cull++)
         for (int sprite = SPLAT_QUAD; sprite <= SPLAT_POINT; sprite++) {
             SplatScene scene = two_drops();
-            scene.def.splat.cull = cull, scene.def.splat.sprite = (SplatSprite)sprite;
+            splat_def(&scene.def)->cull = cull, splat_def(&scene.def)->sprite = (SplatSprite)sprite;
             scene.empty = true;
             assert_int_equal(covered_pixels(&scene), 0);
             free(scene.particles);
@@ -123,8 +123,9 @@ static void a_position_that_is_no_number(void **state)
                 particles_add(scene.particles, INFINITY, 0.5, -INFINITY, 1, 0);
                 particles_add(scene.particles, 1e30, -1e30, 1e30, 1, 0);
                 particles_add(scene.particles, 0.35, 0.4, 0.1, 1, 0);
-                scene.def.splat.eps = 1, scene.def.splat.cull = cull;
-                scene.def.splat.shape = (SplatShape)shape, scene.def.splat.sprite = (SplatSprite)sprite;
+                splat_def(&scene.def)->eps = 1, splat_def(&scene.def)->cull = cull;
+                splat_def(&scene.def)->shape = (SplatShape)shape,
+                splat_def(&scene.def)->sprite = (SplatSprite)sprite;
                 assert_true(splat_compare(&scene) > 600);
                 free(scene.particles);
             }

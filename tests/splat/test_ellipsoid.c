@@ -15,7 +15,7 @@ enum { FEW = 2, KINDS = sizeof kinds / sizeof *kinds };
 static void compare_all(SplatScene *scene, int count, int least)
 {
     for (int kind = 0; kind < count; kind++) {
-        scene->def.splat = kinds[kind];
+        *splat_def(&scene->def) = kinds[kind];
         const int covered = splat_compare(scene);
         if (covered < least)
             fail_msg("%s, %s: %d pixels", splat_shape_names[kinds[kind].shape],
@@ -93,7 +93,7 @@ static void one_or_none(void **state)
     SplatScene scene = small((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 40, 0.3);
     particles_add(scene.particles, 0.2, 0.6, 0.1, 1, 0);
     for (int kind = 0; kind < FEW; kind++) {
-        scene.def.splat = kinds[kind];
+        *splat_def(&scene.def) = kinds[kind];
         scene.empty = true;
         SplatPixel *pixels = splat_drawn(&scene);
         for (int i = 0; i < scene.width * scene.height; i++)
@@ -162,10 +162,11 @@ static void the_field_is_one_of_balls(void **state)
     SplatScene scene = small((double[]){0.3, 0.7, 3}, (double[]){0, 0.5, 0}, 40, 0.2);
     add_rods(&scene, 0, 0.5, 0, 0.12);
     for (int i = 0; i < 3; i++) {
-        scene.def.splat.shape = i == 2 ? SPLAT_ELLIPSOID : SPLAT_PERSPECTIVE, scene.def.splat.drops = i > 0;
-        scene.def.splat.shading = SPLAT_WATER, scene.def.splat.level = 0;
+        splat_def(&scene.def)->shape = i == 2 ? SPLAT_ELLIPSOID : SPLAT_PERSPECTIVE,
+        splat_def(&scene.def)->drops = i > 0;
+        splat_def(&scene.def)->shading = SPLAT_WATER, splat_def(&scene.def)->level = 0;
         thickness[i] = thickness_of(&scene);
-        scene.def.splat.shading = SPLAT_PHONG, scene.def.splat.level = 0.15;
+        splat_def(&scene.def)->shading = SPLAT_PHONG, splat_def(&scene.def)->level = 0.15;
         levels[i] = splat_drawn(&scene);
     }
     assert_true(thickness[0] > 0.01 && thickness[1] == thickness[0]);
@@ -191,7 +192,7 @@ static double roughness(SplatShape shape, double *mean)
                       s * (layer + 0.5 + 0.15 * sin(78.233 * i)), s * (row - 14.5 + 0.2 * sin(37.719 * i)), 1,
                       0);
     }
-    scene.def.splat.shape = shape;
+    splat_def(&scene.def)->shape = shape;
     SplatPixel *pixels = splat_drawn(&scene);
     double sum = 0, squares = 0;
     for (int i = 0; i < 60 * 60; i++) {
@@ -223,7 +224,7 @@ static void there_is_no_seam(void **state)
     scene.width = 400, scene.height = 300;
     particles_add(scene.particles, -0.25, 0, 0, 1, 0);
     particles_add(scene.particles, 0.25, 0, 0, 1, 1);
-    scene.def.splat.shape = SPLAT_ELLIPSOID, scene.def.splat.eps = 0.25;
+    splat_def(&scene.def)->shape = SPLAT_ELLIPSOID, splat_def(&scene.def)->eps = 0.25;
     SplatPixel *pixels = splat_drawn(&scene);
     for (int y = 120; y < 180; y++)
         for (int x = 140; x < 260; x++) {
@@ -244,7 +245,7 @@ static void a_drop_has_its_own_volume(void **state)
     for (int kind = 0; kind < FEW; kind++) {
         SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 8, s);
         particles_add(scene.particles, 0.01, 0.5, 0, 1, 0);
-        scene.def.splat = kinds[kind];
+        *splat_def(&scene.def) = kinds[kind];
         SplatPixel *pixels = splat_drawn(&scene);
         int covered = 0;
         for (int i = 0; i < scene.width * scene.height; i++)
@@ -268,7 +269,7 @@ static void a_drop_does_not_pop(void **state)
     double last = 0;
     SplatScene scene = splat_scene((double[]){0, 0.5, 5}, (double[]){0, 0.5, 0}, 30, s);
     scene.width = scene.height = 4;
-    scene.def.splat = kinds[1];
+    *splat_def(&scene.def) = kinds[1];
     for (int i = 0; i < 7 * 7 * 5; i++) {
         const int column = i % 7, row = i / 7 % 7, layer = i / 49;
         particles_add(scene.particles, s * (column - 3), s * (layer + 0.5), s * (row - 3), 1, 0);

@@ -79,7 +79,7 @@ static Body body_wanted(const SplatScene *scene, size_t i, bool flat)
     const double sum = weighted_mean(scene, i, mean), pi = acos(-1);
     const double drop = scene->state.spacing * (flat ? sqrt(1 / pi) : cbrt(3 / (4 * pi)));
     const double share = share_of(scene, sum - 1, flat),
-                 alone = scene->def.splat.drops ? drop : scene->frame.particle_radius;
+                 alone = splat_def(&scene->def)->drops ? drop : scene->frame.particle_radius;
     covariance(scene, i, mean, sum, body.axes);
     round_off(body.axes, share, flat);
     body.crowd = sum - 1;
@@ -122,7 +122,7 @@ static void compare(const SplatScene *scene, size_t i, bool flat)
 
 static void shape_all(SplatScene *scene)
 {
-    scene->def.splat.shape = SPLAT_ELLIPSOID;
+    splat_def(&scene->def)->shape = SPLAT_ELLIPSOID;
     free(splat_drawn(scene));
 }
 
@@ -130,7 +130,7 @@ static SplatScene in_a_box(double spacing)
 {
     SplatScene scene = splat_scene((double[]){0, 0.5, 5}, (double[]){0, 0.5, 0}, 30, spacing);
     scene.width = scene.height = 8;
-    scene.def.splat.drops = true;
+    splat_def(&scene.def)->drops = true;
     return scene;
 }
 
@@ -326,12 +326,12 @@ static void room_grows_ahead(void **state)
     ParticleBuffers buffers;
     size_t capacity = 0;
     int changes = 0;
-    scene.def.splat.drops = true;
+    splat_def(&scene.def)->drops = true;
     for (int i = 0; i < 200; i++)
         particles_add(scene.particles, 0.004 * i, 0.5, 0, 1, 0);
     scene.state.count = scene.particles->count;
     Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
-    assert_true(ellipsoids_create(&drops, &scene.def.splat, &error));
+    assert_true(ellipsoids_create(&drops, splat_def(&scene.def), &error));
     for (buffers.count = 100; buffers.count <= 200; buffers.count++) {
         ellipsoids_make(&drops, &buffers, &frame);
         assert_true(drops.capacity >= buffers.count && drops.neighbourhood.capacity >= buffers.count);

@@ -16,7 +16,7 @@ static SplatScene sheet(double angle)
             particles_add(scene.particles, x, 0.5 + y * cos(angle) + z * sin(angle),
                           z * cos(angle) - y * sin(angle), 1, 0);
         }
-    scene.def.splat.filter = SPLAT_NARROW_RANGE;
+    splat_def(&scene.def)->filter = SPLAT_NARROW_RANGE;
     return scene;
 }
 
@@ -27,7 +27,7 @@ static void the_same_with_each_shading(void **state)
     SplatScene scene = sheet(0.3);
     const int count = scene.width * scene.height;
     SplatPixel *opaque = splat_drawn(&scene);
-    scene.def.splat.shading = SPLAT_WATER;
+    splat_def(&scene.def)->shading = SPLAT_WATER;
     SplatPixel *clear = splat_drawn(&scene);
     assert_memory_equal(clear, opaque, (size_t)count * sizeof *clear);
     free(clear);
@@ -143,7 +143,7 @@ static void strange_pictures(void **state)
     particles_add(scene.particles, 0.1, 0.5, NAN, 1, 0);
     particles_add(scene.particles, INFINITY, 0.5, 0, 1, 0);
     assert_int_equal(covered(&scene, 160, 120), usual);
-    scene.def.splat.filter_size = 100, scene.def.splat.filter_iterations = 20;
+    splat_def(&scene.def)->filter_size = 100, splat_def(&scene.def)->filter_iterations = 20;
     assert_int_equal(covered(&scene, 160, 120), usual);
     scene.empty = true;
     assert_int_equal(covered(&scene, 160, 120), 0);

@@ -10,7 +10,7 @@ static SplatScene level_scene(const double from[3], const double to[3], double f
 {
     SplatScene scene = splat_scene(from, to, fov_deg, h / 2.1);
     scene.def.radius = 0;
-    scene.def.splat.level = level;
+    splat_def(&scene.def)->level = level;
     return scene;
 }
 
@@ -18,13 +18,13 @@ static SplatScene level_scene(const double from[3], const double to[3], double f
 static void compare_all(SplatScene *scene, int stride, int least)
 {
     for (int choice = 0; choice < 4; choice++) {
-        scene->def.splat.shape = (choice & 1) ? SPLAT_PAPER : SPLAT_PERSPECTIVE;
-        scene->def.splat.sprite = (choice & 2) ? SPLAT_POINT : SPLAT_QUAD;
-        scene->def.splat.cull = choice == 1 || choice == 2;
+        splat_def(&scene->def)->shape = (choice & 1) ? SPLAT_PAPER : SPLAT_PERSPECTIVE;
+        splat_def(&scene->def)->sprite = (choice & 2) ? SPLAT_POINT : SPLAT_QUAD;
+        splat_def(&scene->def)->cull = choice == 1 || choice == 2;
         const int covered = level_compare(scene, stride);
         if (covered < least)
-            fail_msg("%s, %s: %d pixels", splat_shape_names[scene->def.splat.shape],
-                     splat_sprite_names[scene->def.splat.sprite], covered);
+            fail_msg("%s, %s: %d pixels", splat_shape_names[splat_def(&scene->def)->shape],
+                     splat_sprite_names[splat_def(&scene->def)->sprite], covered);
     }
     free(scene->particles);
 }
@@ -82,7 +82,7 @@ static void balls_centred_outside_the_view(void **state)
     particles_add(scene.particles, 1.35, 0, 0, 1, 0);
     particles_add(scene.particles, 0, -1.05, 0, 1, 1);
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++) {
-        scene.def.splat.shape = (SplatShape)shape, scene.def.splat.sprite = SPLAT_QUAD;
+        splat_def(&scene.def)->shape = (SplatShape)shape, splat_def(&scene.def)->sprite = SPLAT_QUAD;
         assert_true(level_compare(&scene, 1) > 100);
     }
     free(scene.particles);
@@ -175,7 +175,7 @@ static void not_a_number_and_next_to_nothing(void **state)
     (void)state;
     for (int cull = 0; cull < 2; cull++) {
         SplatScene scene = heap(0.1);
-        scene.def.splat.cull = cull;
+        splat_def(&scene.def)->cull = cull;
         particles_add(scene.particles, NAN, 0.5, 0, 1, 0);
         particles_add(scene.particles, 0, 0.5, NAN, 1, 0);
         particles_add(scene.particles, INFINITY, 0.5, -INFINITY, 1, 0);
@@ -199,7 +199,7 @@ static void an_eye_inside_the_fluid(void **state)
         memcpy(scene.def.camera.from, (double[]){0.1, 0.2, 0.3}, sizeof scene.def.camera.from);
         memcpy(scene.def.camera.to, (double[]){0, 0.25, -0.5}, sizeof scene.def.camera.to);
         scene.def.camera.fov_deg = 70;
-        scene.def.splat.sprite = (SplatSprite)sprite;
+        splat_def(&scene.def)->sprite = (SplatSprite)sprite;
         if (sprite == SPLAT_QUAD)
             assert_true(level_compare(&scene, 4) > 300);
         else
@@ -215,7 +215,7 @@ static void culling_changes_no_pixel(void **state)
     SplatPixel *pixels[2];
     SplatScene scene = heap(0.1);
     for (int cull = 0; cull < 2; cull++) {
-        scene.def.splat.cull = cull;
+        splat_def(&scene.def)->cull = cull;
         pixels[cull] = splat_drawn(&scene);
     }
     assert_memory_equal(pixels[0], pixels[1], 160 * 120 * sizeof *pixels[0]);
@@ -238,7 +238,7 @@ static void the_level_changes_live(void **state)
     Renderer *renderer = renderer_create(&scene.def, &scene.world, 160, 120, &error);
     assert_non_null(renderer);
     for (int i = 0; i < 4; i++) {
-        scene.def.splat.level = levels[i];
+        splat_def(&scene.def)->level = levels[i];
         assert_true(renderer_set_def(renderer, &scene.def, &scene.world, &error));
         renderer_draw(renderer, &buffers, NULL);
         renderer_read(renderer, rgb[i]);

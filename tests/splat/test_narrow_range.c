@@ -18,7 +18,7 @@ typedef struct Map {
 
 static Map map_create(void)
 {
-    Map map = {.splat = splat_def_default()};
+    Map map = {.splat = splat_usual};
     map.range = map.splat.filter_range * radius;
     return map;
 }
@@ -62,7 +62,7 @@ static void filter_map(Map *map)
     const WorldDef world = bare_world();
     ParticleBuffers buffers = box_state(0, radius);
     assert_true(target_create(&target, W, H, &error));
-    def.splat = map->splat, def.radius = 1;
+    *splat_def(&def) = map->splat, def.radius = 1;
     def.camera_auto = false, def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 40};
     frame_make(&map->frame, &(Subject){&def, &world}, &buffers, &target, frame_balls(&def, &buffers, 1),
                (Covered){0});

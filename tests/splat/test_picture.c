@@ -10,8 +10,8 @@ static Scene splat_among_solids(void)
     text_set(scene.def.kind, "splat");
     scene.def.color_by = SCALAR_FLUID;
     scene.def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 30};
-    scene.state.spacing = 0.3;         /* m: the radius of a drop */
-    scene.def.splat.antialias = false; /* pixels are counted */
+    scene.state.spacing = 0.3;                /* m: the radius of a drop */
+    splat_def(&scene.def)->antialias = false; /* pixels are counted */
     return scene;
 }
 
@@ -129,7 +129,7 @@ static void solids_through_clear_fluid(void **state)
     for (int behind = 0; behind < 2; behind++) {
         Scene scene = splat_among_solids();
         int red = 0;
-        scene.def.splat.shading = SPLAT_WATER;
+        splat_def(&scene.def)->shading = SPLAT_WATER;
         for (int k = 0; k < 3; k++)
             scene.world.fluids[0].color[k] = 1;
         scene.state.spacing = 0.1;
@@ -160,7 +160,7 @@ static void a_drops_shadow_is_its_own(void **state)
     scene.def.camera = (CameraDef){{2.2, 0.6, -0.27}, {0.29, -0.11, -0.27}, 16};
     particles_add(scene.particles, 0, 0.5, 0, 1, 0);
     for (int i = 0; i < 3; i++) {
-        scene.def.splat.drops = i == 1;
+        splat_def(&scene.def)->drops = i == 1;
         scene.particles->position[1] = i == 2 ? -100 : 0.5F;
         draw_rgb(&scene, false, rgb[i]);
     }
@@ -184,11 +184,11 @@ static void shading_leaves_the_surface_alone(void **state)
         for (int k = 0; k < 8 * 8 * 8; k++)
             particles_add(scene.particles, -0.28 + 0.08 * (k % 8), 0.22 + 0.08 * (k / 8 % 8),
                           -0.28 + 0.08 * (k / 64), 1, 0);
-        scene.def.splat.filter = i & 1 ? SPLAT_NARROW_RANGE : 0;
-        scene.def.splat.level = i & 2 ? 0.2 : 0;
-        scene.def.splat.antialias = true;
+        splat_def(&scene.def)->filter = i & 1 ? SPLAT_NARROW_RANGE : 0;
+        splat_def(&scene.def)->level = i & 2 ? 0.2 : 0;
+        splat_def(&scene.def)->antialias = true;
         draw_depth(&scene, opaque);
-        scene.def.splat.shading = SPLAT_WATER;
+        splat_def(&scene.def)->shading = SPLAT_WATER;
         draw_depth(&scene, clear);
         assert_memory_equal(opaque, clear, sizeof opaque);
         free(scene.particles);
@@ -306,11 +306,11 @@ static void settings_are_live(void **state)
     add_row(&scene);
     Renderer *renderer = drawn(&scene);
     renderer_read(renderer, first);
-    const SplatDef usual = scene.def.splat;
+    const SplatDef usual = *splat_def(&scene.def);
     memcpy(last, first, sizeof last);
     make_settings(usual, others, OTHERS);
     for (int i = 0; i < OTHERS; i++) {
-        scene.def.splat = others[i];
+        *splat_def(&scene.def) = others[i];
         change(renderer, &scene, other);
         const int of_usual = pixels_changed(other, first), of_last = pixels_changed(other, last);
         if (of_usual < CHANGED || of_last < CHANGED)
@@ -318,7 +318,7 @@ static void settings_are_live(void **state)
                      of_last);
         memcpy(last, other, sizeof last);
     }
-    scene.def.splat = usual;
+    *splat_def(&scene.def) = usual;
     change(renderer, &scene, other);
     assert_memory_equal(other, first, sizeof first);
     renderer_destroy(renderer);
@@ -332,9 +332,9 @@ static void maps_can_be_seen(void **state)
     Scene scene = splat_among_solids();
     particles_add(scene.particles, -0.5, 0.5, 0.3, 1, 0);
     particles_add(scene.particles, 0.5, 0.5, -0.3, 1, 0);
-    scene.def.splat.show = SPLAT_NORMALS;
+    splat_def(&scene.def)->show = SPLAT_NORMALS;
     draw_rgb(&scene, false, normals);
-    scene.def.splat.show = SPLAT_DEPTH;
+    splat_def(&scene.def)->show = SPLAT_DEPTH;
     draw_rgb(&scene, false, depth);
     int near[2], far[2];
     pixel_at(&scene, (double[]){-0.5, 0.5, 0.3}, near);

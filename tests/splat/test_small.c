@@ -23,7 +23,7 @@ static void darkening(const Scene *scene, bool antialias, double *mean, double *
     Error error = {0};
     ParticleBuffers buffers, state = scene->state;
     ViewDef def = scene->def, none = scene->def;
-    def.splat.antialias = antialias;
+    splat_def(&def)->antialias = antialias;
     text_set(none.kind, "none");
     state.count = scene->particles->count;
     Upload *upload = upload_particles(scene->particles, &state, &buffers);
@@ -71,7 +71,7 @@ static int blue_pixels(const Scene *scene, bool antialias)
     static uint8_t rgb[3 * N];
     Scene other = *scene;
     int count = 0;
-    other.def.splat.antialias = antialias;
+    splat_def(&other.def)->antialias = antialias;
     draw_at(&other, W, H, rgb, NULL);
     for (int i = 0; i < N; i++)
         count += rgb[3 * i] < 0.6 * rgb[3 * i + 2];
@@ -131,9 +131,9 @@ static void culling_changes_no_pixel(void **state)
     const double fov[] = {10, 60, 150};
     for (int i = 0; i < 4; i++) {
         Scene scene = scene_of(fov[i < 3 ? i : 2]);
-        scene.def.splat.shape = i < 3 ? SPLAT_PERSPECTIVE : SPLAT_ELLIPSOID;
+        splat_def(&scene.def)->shape = i < 3 ? SPLAT_PERSPECTIVE : SPLAT_ELLIPSOID;
         draw_at(&scene, W, H, with, NULL);
-        scene.def.splat.cull = false;
+        splat_def(&scene.def)->cull = false;
         draw_at(&scene, W, H, without, NULL);
         assert_memory_equal(with, without, sizeof with);
         free(scene.particles);

@@ -9,7 +9,8 @@ static void compare_all(SplatScene *scene, int least, bool points_too)
 {
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++)
         for (int sprite = SPLAT_QUAD; sprite <= (points_too ? SPLAT_POINT : SPLAT_QUAD); sprite++) {
-            scene->def.splat.shape = (SplatShape)shape, scene->def.splat.sprite = (SplatSprite)sprite;
+            splat_def(&scene->def)->shape = (SplatShape)shape,
+            splat_def(&scene->def)->sprite = (SplatSprite)sprite;
             const int covered = splat_compare(scene);
             if (covered < least)
                 fail_msg("%s, %s: %d pixels", splat_shape_names[shape], splat_sprite_names[sprite], covered);
@@ -64,7 +65,7 @@ static void two_spheres_and_more(void **state)
             particles_add(scene.particles, -0.2, 0.5, 0, 1, 0);
             particles_add(scene.particles, 0.2, 0.5, 0, 1, 1);
             particles_add(scene.particles, 0.1, 0.8, -0.4, 1, 0);
-            scene.def.splat.weights = (SplatWeights)weights, scene.def.splat.eps = all_eps[i];
+            splat_def(&scene.def)->weights = (SplatWeights)weights, splat_def(&scene.def)->eps = all_eps[i];
             compare_all(&scene, 2000, false);
         }
 }
@@ -116,7 +117,7 @@ static void depths_may_be_rounded_otherwise(void **state)
              SLOSH_SOURCE_DIR, directory, directory);
     assert_int_equal(system(command), 0);
     SplatScene scene = splat_scene((double[]){0.3, 0.6, 3}, (double[]){0, 0.5, 0}, 30, 0.2);
-    scene.def.splat.weights = SPLAT_NO_WEIGHTS;
+    splat_def(&scene.def)->weights = SPLAT_NO_WEIGHTS;
     for (int i = 0; i < 30; i++)
         particles_add(scene.particles, 0.4 * sin(12.9 * i), 0.5 + 0.2 * sin(78.2 * i), 0.3 * sin(37.7 * i), 1,
                       0);
@@ -147,7 +148,7 @@ static double greatest_turn(SplatWeights weights)
     scene.width = 400, scene.height = 300;
     particles_add(scene.particles, -0.25, 0, 0, 1, 0);
     particles_add(scene.particles, 0.25, 0, 0, 1, 1);
-    scene.def.splat.weights = weights, scene.def.splat.eps = 0.25;
+    splat_def(&scene.def)->weights = weights, splat_def(&scene.def)->eps = 0.25;
     SplatPixel *pixels = splat_drawn(&scene);
     double greatest = 0;
     for (int y = 100; y < 200; y++)

@@ -1,0 +1,98 @@
+#include "render/volume/volume_def.h"
+
+#include "sim/base/key_rows.h"
+
+const char *const volume_bounds_names[] = {[VOLUME_BOX] = "box", [VOLUME_FLUID] = "fluid", NULL};
+const char *const volume_method_names[] = {
+    [VOLUME_AUTO] = "auto",     [VOLUME_GEOMETRY] = "geometry", [VOLUME_LAYERS] = "layers",
+    [VOLUME_PLANES] = "planes", [VOLUME_SCATTER] = "scatter",   [VOLUME_GATHER] = "gather",
+    [VOLUME_SLABS] = "slabs",   [VOLUME_DIRECT] = "direct",     NULL};
+const char *const volume_show_names[] = {[VOLUME_SHADED] = "shaded",   [VOLUME_SLICE] = "slice",
+                                         [VOLUME_ENTRY] = "entry",     [VOLUME_EXIT] = "exit",
+                                         [VOLUME_LENGTH] = "length",   [VOLUME_STEPS] = "steps",
+                                         [VOLUME_NORMALS] = "normals", NULL};
+const char *const volume_axis_names[] = {"x", "y", "z", NULL};
+const char *const raycast_look_names[] = {
+    [RAYCAST_OPAQUE] = "opaque", [RAYCAST_WATER] = "water", [RAYCAST_TRANSLUCENT] = "translucent", NULL};
+
+const VolumeDef volume_usual = {
+    .cells = 128,
+    .slice_axis = 2,
+    .slice = 0.5,
+    .raycast = {.level = 0.5, /* the field of a fluid that ends at a plane, at that plane */
+                .step = 1,
+                .threshold = 0.99, /* what is left is 2 of 255 */
+                .ramp = {0.35, 0.65},
+                .opacity = 0.04,
+                .skin = 0.4,
+                .ior = 1.333,
+                .shadows = true,
+                .jitter = true,
+                .skip = true}};
+
+static const char *bounds_choice(int index)
+{
+    return volume_bounds_names[index];
+}
+
+static const char *method_choice(int index)
+{
+    return volume_method_names[index];
+}
+
+static const char *show_choice(int index)
+{
+    return volume_show_names[index];
+}
+
+static const char *axis_choice(int index)
+{
+    return volume_axis_names[index];
+}
+
+static const char *look_choice(int index)
+{
+    return raycast_look_names[index];
+}
+
+#define AT(field) offsetof(VolumeDef, field)
+
+/* clang-format off */
+const Key volume_keys[] = {
+    MAPPING("view.volume", "of the view volume: the fluid's field on a grid of voxels"),
+    INTEGER("view.volume.cells", L, 4, 4096, AT(cells), "along the box's longest side, where cell is 0; cells are never wider than the support radius"),
+    NUMBER("view.volume.cell", L, "spacings", 0, 10, AT(cell), "side of a cell; 0: by cells"),
+    CHOICE("view.volume.bounds", L | KEY_INDEX, bounds_choice, AT(bounds),
+           "of the volume: the box's, or those that the fluid has in each picture"),
+    CHOICE("view.volume.method", L | KEY_INDEX | KEY_REBUILD, method_choice, AT(method),
+           "how the volume is made: see render/README.md; direct: none, the field is summed where it is sampled"),
+    CHOICE("view.volume.show", L | KEY_INDEX | KEY_REBUILD, show_choice, AT(show), "a stage of the way to the picture"),
+    CHOICE("view.volume.slice_axis", L | KEY_INDEX, axis_choice, AT(slice_axis),
+           "what the slice shown lies across"),
+    NUMBER("view.volume.slice", L, "", 0, 1, AT(slice), "where the slice is along that axis of the box"),
+    CHOICE("view.volume.look", L | KEY_INDEX | KEY_REBUILD, look_choice, AT(raycast.look),
+           "opaque: a surface; water: one that bends what is behind and mirrors the sky; translucent: by the transfer function, which is the next five"),
+    NUMBER("view.volume.opacity", L, "", 0, 1, AT(raycast.opacity), "full opacity: of fluid one spacing deep"),
+    NUMBER("view.volume.skin", L, "", 0, 1, AT(raycast.skin), "opacity of each surface that a ray crosses"),
+    NUMBER("view.volume.ramp_from", L, "", 0, 10, AT(raycast.ramp[0]), "the field at which opacity begins"),
+    NUMBER("view.volume.ramp_to", L, "", 0, 10, AT(raycast.ramp[1]), "and at which it is full; not above: at once"),
+    NUMBER("view.volume.by_scalar", L, "", 0, 1, AT(raycast.by_scalar),
+           "how much of the opacity goes with view.color_by, from none at the low end of its range to all at the high"),
+    NUMBER("view.volume.level", L | O, "", 0, 10, AT(raycast.level),
+           "of the field, where the surface of opaque and water is; a fluid that ends at a plane has 0.5 there"),
+    NUMBER("view.volume.ior", L, "", 1, 3, AT(raycast.ior), "index of refraction, of water"),
+    NUMBER("view.volume.attenuation", L, "m", 0, 1e5, AT(raycast.attenuation),
+           "of water: through which white light becomes the fluid's colour; 0: a fifth of the box's longest side"),
+    NUMBER("view.volume.step", L | O, "cells", 0, 10, AT(raycast.step), "between two samples of a ray"),
+    NUMBER("view.volume.threshold", L | O, "", 0, 1, AT(raycast.threshold), "opacity at which a ray ends; 1: never"),
+    BOOLEAN("view.volume.shadows", L | KEY_REBUILD, AT(raycast.shadows), "of the fluid on itself by marching to the light, instead of the shadow map"),
+    BOOLEAN("view.volume.jitter", L, AT(raycast.jitter), "start rays at different parts of a step, so that no bands show"),
+    BOOLEAN("view.volume.skip", L, AT(raycast.skip), "cast rays between the faces of what is occupied; else of the whole volume"),
+    KEYS_END,
+};
+/* clang-format on */
+
+VolumeDef *volume_def(const ViewDef *def)
+{
+    return view_own(def, &view_volume);
+}

@@ -1,0 +1,73 @@
+/* The view volume's own settings: their keys, names and defaults. */
+#ifndef SLOSH_VOLUME_DEF_H
+#define SLOSH_VOLUME_DEF_H
+
+#include "render/frame/view.h"
+
+typedef enum VolumeBounds { VOLUME_BOX, VOLUME_FLUID } VolumeBounds;
+typedef enum VolumeMethod {
+    VOLUME_AUTO,     /* the fastest on this driver */
+    VOLUME_GEOMETRY, /* a geometry shader makes one point a slice that a particle cuts */
+    VOLUME_LAYERS,  /* as many instances of the points as a particle may cut slices, without a geometry shader
+                     */
+    VOLUME_PLANES,  /* four slices a pass, in red, green, blue, alpha (Iwasaki et al. 2006) */
+    VOLUME_SCATTER, /* compute: each particle adds to its voxels */
+    VOLUME_GATHER,  /* compute: each voxel sums over the particles around, by cell lists */
+    VOLUME_SLABS,   /* sums on the CPU, each thread in slabs of its own */
+    VOLUME_DIRECT   /* no volume: the field is summed at the sample, by cell lists */
+} VolumeMethod;
+typedef enum VolumeShow {
+    VOLUME_SHADED,
+    VOLUME_SLICE,
+    VOLUME_ENTRY, /* where rays enter, as red, green, blue */
+    VOLUME_EXIT,
+    VOLUME_LENGTH, /* of the way between them, of the volume's diagonal */
+    VOLUME_STEPS,  /* taken, of 64, through the colormap */
+    VOLUME_NORMALS
+} VolumeShow;
+
+/* How the view volume casts its rays. */
+typedef enum RaycastLook { RAYCAST_OPAQUE, RAYCAST_WATER, RAYCAST_TRANSLUCENT } RaycastLook;
+
+typedef struct RaycastDef {
+    RaycastLook look;
+    double level;     /* of the field, where the surface of opaque and water is */
+    double step;      /* between two samples, cells */
+    double threshold; /* opacity at which a ray ends; more than 0, 1: never */
+    double
+        ramp[2]; /* the field at which opacity begins and where it is full; at once where that is not above */
+    double opacity;     /* full: of fluid one spacing deep, 0 .. 1 */
+    double skin;        /* opacity of the layer in which that begins: of each surface crossed, 0 .. 1 */
+    double by_scalar;   /* how much of the opacity goes with the scalar shown, 0 .. 1 */
+    double ior;         /* index of refraction, of water */
+    double attenuation; /* as view.splat.attenuation, of water */
+    bool shadows;       /* of the fluid on itself, by marching toward the light; else by the shadow map */
+    bool jitter;        /* rays start at different parts of a step, so that no bands show */
+    bool skip;          /* empty bricks: else all between the faces of the volume is marched through */
+} RaycastDef;
+
+typedef struct VolumeDef {
+    int cells;   /* along the box's longest side, where `cell` is 0 */
+    double cell; /* side of a cell, in spacings; 0: by `cells` */
+    VolumeBounds bounds;
+    VolumeMethod method;
+    VolumeShow show;
+    int slice_axis; /* 0 to 2: x y z; which the slice shown lies across */
+    double slice;   /* where along it, 0 .. 1 of the box */
+    RaycastDef raycast;
+} VolumeDef;
+
+extern const ViewKind view_volume;
+
+/* Those of that def; not const, as memchr's result is not. */
+VolumeDef *volume_def(const ViewDef *def);
+
+extern const VolumeDef volume_usual; /* the defaults */
+extern const Key volume_keys[];      /* ended by a row without a path */
+
+/* By their enums, ended by NULL. */
+extern const char *const volume_bounds_names[],
+    *const volume_method_names[], *const volume_show_names[], *const volume_axis_names[],
+                                                                  *const raycast_look_names[];
+
+#endif
