@@ -14,16 +14,19 @@ typedef unsigned uint;
 typedef float vec2[2] BLOCK_ALIGNED(8), vec3[3] BLOCK_ALIGNED(16), vec4[4] BLOCK_ALIGNED(16);
 typedef int ivec2[2] BLOCK_ALIGNED(8), ivec3[3] BLOCK_ALIGNED(16), ivec4[4] BLOCK_ALIGNED(16);
 typedef uint uvec2[2] BLOCK_ALIGNED(8), uvec3[3] BLOCK_ALIGNED(16), uvec4[4] BLOCK_ALIGNED(16);
+typedef double dvec3[3] BLOCK_ALIGNED(32);
 typedef float mat4[16] BLOCK_ALIGNED(16); /* column by column */
 
 #define BLOCK_STRUCT(name)          typedef struct BLOCK_ALIGNED(16) name
 #define UNIFORM_BLOCK(name, number) BLOCK_STRUCT(name)
+#define STORAGE_BLOCK(name, number) BLOCK_STRUCT(name)
 #define BLOCK_END(name)             name
 
 #else /* GLSL */
 
 #define BLOCK_STRUCT(name)          struct name
 #define UNIFORM_BLOCK(name, number) layout(std140, binding = number) uniform name
+#define STORAGE_BLOCK(name, number) layout(std430, binding = number) buffer name
 #define BLOCK_END(name)
 
 #endif

@@ -1,14 +1,15 @@
 // Boundary particles of solids (sim/matter/boundary.h), sorted by cell in a grid of their own: the fluids' buffers hold
 // fluid alone. BOUNDARY_ACCESS: what a pass does with them, if not to read.
+#include "shaders/sim/bindings.h"
 #include "sim/cells.glsl"
 #ifdef SOLIDS
 #ifndef BOUNDARY_ACCESS
 #define BOUNDARY_ACCESS readonly
 #endif
-layout(std430, binding = 12) BOUNDARY_ACCESS buffer BoundaryPositions { vec4 boundary_position[]; }; // w: volume in friction
-layout(std430, binding = 13) BOUNDARY_ACCESS buffer BoundaryVelocities { vec4 boundary_velocity[]; }; // w: viscosity
-layout(std430, binding = 14) BOUNDARY_ACCESS buffer BoundaryStates { uvec2 boundary_state[]; }; // p V0^2, number
-layout(std430, binding = 15) readonly buffer BoundaryStarts { uint boundary_start[]; };
+layout(std430, binding = BOUNDARY_POSITIONS) BOUNDARY_ACCESS buffer BoundaryPositions { vec4 boundary_position[]; }; // w: volume in friction
+layout(std430, binding = BOUNDARY_VELOCITIES) BOUNDARY_ACCESS buffer BoundaryVelocities { vec4 boundary_velocity[]; }; // w: viscosity
+layout(std430, binding = BOUNDARY_STATES) BOUNDARY_ACCESS buffer BoundaryStates { uvec2 boundary_state[]; }; // p V0^2, number
+layout(std430, binding = BOUNDARY_STARTS) readonly buffer BoundaryStarts { uint boundary_start[]; };
 
 uvec2 boundary_row_of(ivec3 at, int row)
 {

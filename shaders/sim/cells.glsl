@@ -1,34 +1,34 @@
 // Which cell is where, and which are next to it: sim/cpu/grid.c, sim/world/cell_rows.c.
 ivec3 cell_of(vec3 x)
 {
-    ivec3 first = cell_first.xyz + 1, last = cell_first.xyz + cell_size.xyz - 2;
+    ivec3 first = first_cell + 1, last = first_cell + grid_size - 2;
 #ifdef PERIODIC
-    return clamp(ivec3(floor((x - cell_origin.xyz) * cell_inverse.xyz)), first, last) - first + 1;
+    return clamp(ivec3(floor((x - cell_origin) * cell_inverse)), first, last) - first + 1;
 #else
-    return clamp(ivec3(floor(x * kernel.y)), first, last) - first + 1;
+    return clamp(ivec3(floor(x * inverse_support)), first, last) - first + 1;
 #endif
 }
 
-int cell_number(ivec3 at) { return (at.z * cell_size.y + at.y) * cell_size.x + at.x; }
+int cell_number(ivec3 at) { return (at.z * grid_size.y + at.y) * grid_size.x + at.x; }
 
 // A row's first cell and the one behind it. With periodic sides a row is a single cell, and what stands there sees a
 // particle at x as if it were at x + row_shift.
 #ifdef PERIODIC
-#define FIRST_ROW rows.z
-#define LAST_ROW rows.w
+#define FIRST_ROW first_single_row
+#define LAST_ROW last_single_row
 
 ivec3 row_offset(int row) { return ivec3(row % 3, row / 3 % 3, row / 9) - 1; }
 
 vec3 row_shift(ivec3 at, int row)
 {
-    ivec3 cell = at + row_offset(row), cells = cell_size.xyz - 2;
+    ivec3 cell = at + row_offset(row), cells = grid_size - 2;
     vec3 side = vec3(lessThan(cell, ivec3(1))) - vec3(greaterThan(cell, cells));
-    return mix(vec3(0), side * box_whole.xyz, periodic);
+    return mix(vec3(0), side * box_whole, periodic);
 }
 
 ivec2 row_cells(ivec3 at, int row)
 {
-    ivec3 cell = at + row_offset(row), cells = cell_size.xyz - 2;
+    ivec3 cell = at + row_offset(row), cells = grid_size - 2;
     ivec3 inside = cell + cells * (ivec3(lessThan(cell, ivec3(1))) - ivec3(greaterThan(cell, cells)));
     int number = cell_number(ivec3(mix(vec3(cell), vec3(inside), periodic)));
     return ivec2(number, number + 1);
@@ -37,10 +37,10 @@ ivec2 row_cells(ivec3 at, int row)
 vec3 row_seen(vec3 x, ivec3 at, int row) { return x + row_shift(at, row); }
 
 // The nearest image of a difference of places.
-vec3 nearest(vec3 d) { return d - mix(vec3(0), box_whole.xyz * roundEven(d / box_whole.xyz), periodic); }
+vec3 nearest(vec3 d) { return d - mix(vec3(0), box_whole * roundEven(d / box_whole), periodic); }
 #else
-#define FIRST_ROW rows.x
-#define LAST_ROW rows.y
+#define FIRST_ROW first_row
+#define LAST_ROW last_row
 
 ivec2 row_cells(ivec3 at, int row)
 {

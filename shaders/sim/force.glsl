@@ -1,6 +1,6 @@
 // What the forces of methods have in common: pairs within the support, surface tension, boundary particles of solids. A
 // method's force.comp says what a pair does, and adds what its walls do.
-#include "sim/terms.glsl"
+#include "shaders/sim/term_block.h"
 #include "sim/walk.glsl"
 #include "sim/pair_direction.glsl"
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
@@ -19,7 +19,7 @@ struct Side {
 Side side_of(uint i, float volume)
 {
     uint fluid = name[i].y;
-    return Side(pressure[i].y, volume, fluids[fluid].w, fluid_terms[fluid].y, velocity[i].xyz);
+    return Side(pressure[i].y, volume, fluids[fluid].viscosity, fluid_terms[fluid].artificial_viscosity, velocity[i].xyz);
 }
 
 vec3 pair_force(Side own, Side other, vec3 d, float r2); // the method's: on `own`, which is d from `other`
@@ -31,8 +31,8 @@ vec3 pair_sum = vec3(0), boundary_sum; // boundary_sum: of a row
 // Two at one place are taken for a little apart, along a direction that their ids decide.
 void separate(uint a, uint b, inout vec3 d, inout float r2)
 {
-    float least = 1e-6 * kernel.x;
-    if (r2 < 1e-12 * kernel.x * kernel.x) {
+    float least = 1e-6 * support;
+    if (r2 < 1e-12 * support * support) {
         d = least * direction_of_ids(a, b);
         r2 = least * least;
     }
@@ -41,7 +41,7 @@ void separate(uint a, uint b, inout vec3 d, inout float r2)
 void meet(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
-    if (r2 >= kernel.x * kernel.x || j == self)
+    if (r2 >= support * support || j == self)
         return;
     tension_meet(j, d, r2, volume);
     separate(name[self].x, name[j].x, d, r2);
@@ -54,7 +54,7 @@ void meet(uint j, vec3 d, float volume)
 void meet_boundary(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
-    if (r2 >= kernel.x * kernel.x)
+    if (r2 >= support * support)
         return;
     uvec2 state = boundary_state[j];
     vec4 wall = boundary_velocity[j];

@@ -5,7 +5,7 @@ vec3 direction_of_ids(uint a, uint b)
     uint low = min(a, b), high = max(a, b);
     uint hash = low * 0x9e3779b1u ^ (high * 0x85ebca77u + 0x165667b1u);
     vec3 d = vec3(0);
-    for (int k = 0; k < (rows.x == 3 ? 2 : 3); k++) {
+    for (int k = 0; k < (dimensions == 2 ? 2 : 3); k++) {
         hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
         hash ^= hash >> 13;
         d[k] = float(hash >> 8) / 8388608.0 - 1.0 + 1.0 / 16777216.0;

@@ -19,7 +19,7 @@ real meeting(int k, rvec3 from, rvec3 to, real way, real slack)
 // way keeps clear of the solid.
 bool hold(int k, rvec3 from, inout rvec3 to, out rvec3 normal)
 {
-    real slack = slack_share * solids[k].WALL.y, way = length(to - from), at_end = solid_distance(k, to);
+    real slack = slack_share * SHAPES[k].reach, way = length(to - from), at_end = solid_distance(k, to);
     normal = rvec3(0.0, 1.0, 0.0);
     if (at_end >= 0.0 && solid_distance(k, from) + at_end >= way)
         return false;
@@ -46,21 +46,21 @@ bool hold(int k, rvec3 from, inout rvec3 to, out rvec3 normal)
 
 bool out_of_reach(int k, vec3 before, vec3 x)
 {
-    float own = distance(solids[k].begin.x.xyz, solids[k].end.x.xyz);
-    return distance(x, solids[k].end.x.xyz) > solid_reach(k) + distance(before, x) + own;
+    float own = distance(solids[k].begin.x, solids[k].end.x);
+    return distance(x, solids[k].end.x) > solid_reach(k) + distance(before, x) + own;
 }
 
 // Whether it had to hold a particle that went from `before` to x.
 bool solids_guard(vec3 before, inout vec3 x, inout vec3 v)
 {
     bool held = false;
-    for (int k = 0; k < solid_counts.x; k++) {
+    for (int k = 0; k < solid_total; k++) {
         if (out_of_reach(k, before, x))
             continue;
         rvec3 from = rvec3(solid_from_box(solids[k].begin, before)), to = rvec3(solid_from_box(solids[k].end, x)), normal;
         for (int i = 0; i < 3 && hold(k, from, to, normal); i++) { // again: an inner edge has two sides
             x = solid_to_box(solids[k].end, vec3(to));
-            vec3 n = solid_to_box(Pose(vec4(0), solids[k].end.r), vec3(normal));
+            vec3 n = solid_to_box(Pose(vec3(0), solids[k].end.r), vec3(normal));
             v -= min(dot(v - solid_velocity_at(k, x), n), 0.0) * n;
             held = true;
         }

@@ -1,52 +1,21 @@
-// Solids: where they are over half a step, their shapes and distances. Mirrors sim/matter/solid_step.c and sim/matter/solid.c, the block
-// SolidsBlock in sim/gl/compute/boundary.c. Distances are in single precision, of which most GPUs have 32 to 64 times as much as
-// of double. With REPRODUCIBLE they are in double precision as there: what lies on a surface is held or not by the last bit, and
-// that is the same bit then.
+// Solids: their shapes and distances. Mirrors sim/matter/solid_step.c and sim/matter/solid.c.
+// Distances are in single precision, of which most GPUs have 32 to 64 times as much as of double. With REPRODUCIBLE they
+// are in double precision as there: what lies on a surface is held or not by the last bit, and that is the same bit then.
+#include "shaders/sim/solid_steps_block.h"
 #ifdef REPRODUCIBLE
+#include "shaders/sim/exact_shapes_block.h"
+#define SHAPES exact_shapes
 #define real double
 #define rvec2 dvec2
 #define rvec3 dvec3
-#define SIZE exact_size
-#define WALL exact_wall
 const real slack_share = 1e-6lf; // of the reach: how far above a surface a particle is put
 #else
+#define SHAPES solids
 #define real float
 #define rvec2 vec2
 #define rvec3 vec3
-#define SIZE size
-#define WALL wall
 const real slack_share = 4e-6;
 #endif
-#define SOLIDS_MAX 16
-#define SOLID_BOX 1
-#define SOLID_CYLINDER 2
-#define SOLID_BOWL 3
-
-struct Pose {
-    vec4 x;
-    vec4 r[3]; // rows: x_box = x + r x_solid
-};
-
-struct Solid {
-    Pose begin, end;
-    vec4 velocity; // at the end; w: 1 where viscous fluid would stick to it
-    vec4 spin;     // w: kind
-    vec4 change;   // rates of velocity and spin over the step
-    vec4 alpha;
-    vec4 size;     // half the edges of a box; half the height of a cylinder in y; w: radius
-    vec4 wall;     // of a bowl: thickness; y: reach
-#ifdef REPRODUCIBLE
-    dvec4 exact_size, exact_wall;
-#else
-    vec4 unused[4];
-#endif
-};
-
-layout(std140, binding = 6) uniform Solids {
-    ivec4 solid_counts; // solids, boundary particles
-    ivec4 solids_begin; // at a multiple of 32 bytes
-    Solid solids[SOLIDS_MAX];
-};
 
 vec3 solid_to_box(Pose pose, vec3 x)
 {
@@ -59,39 +28,39 @@ vec3 solid_to_box(Pose pose, vec3 x)
 // In two dimensions in the solid's plane.
 vec3 solid_from_box(Pose pose, vec3 x)
 {
-    precise vec3 d = x - pose.x.xyz, at = pose.r[0].xyz * d.x + pose.r[1].xyz * d.y + pose.r[2].xyz * d.z;
-    return rows.x == 3 ? vec3(at.xy, 0.0) : at;
+    precise vec3 d = x - pose.x, at = pose.r[0].xyz * d.x + pose.r[1].xyz * d.y + pose.r[2].xyz * d.z;
+    return dimensions == 2 ? vec3(at.xy, 0.0) : at;
 }
 
 vec3 solid_velocity_at(int k, vec3 x)
 {
-    return solids[k].velocity.xyz + cross(solids[k].spin.xyz, x - solids[k].end.x.xyz);
+    return solids[k].velocity + cross(solids[k].spin, x - solids[k].end.x);
 }
 
 vec3 solid_acceleration_at(int k, vec3 x)
 {
-    vec3 arm = x - solids[k].end.x.xyz, spin = solids[k].spin.xyz;
-    return solids[k].change.xyz + cross(solids[k].alpha.xyz, arm) + cross(spin, cross(spin, arm));
+    vec3 arm = x - solids[k].end.x, spin = solids[k].spin;
+    return solids[k].change + cross(solids[k].alpha, arm) + cross(spin, cross(spin, arm));
 }
 
-float solid_reach(int k) { return solids[k].wall.y; }
+float solid_reach(int k) { return solids[k].reach; }
 
 // From the nearest point of the surface to x, outside; less than 0 inside.
 real solid_distance(int k, rvec3 x)
 {
-    real radius = solids[k].SIZE.w;
-    switch (int(solids[k].spin.w)) {
+    real radius = SHAPES[k].radius;
+    switch (solids[k].kind) {
     case SOLID_BOX: {
-        rvec3 d = abs(x) - solids[k].SIZE.xyz;
+        rvec3 d = abs(x) - SHAPES[k].half_edges;
         real inside = max(max(d.x, d.y), d.z);
         return inside > 0.0 ? length(max(d, rvec3(0.0))) : inside;
     }
     case SOLID_CYLINDER: {
-        rvec2 d = rvec2(length(x.xz) - radius, abs(x.y) - solids[k].SIZE.y);
+        rvec2 d = rvec2(length(x.xz) - radius, abs(x.y) - SHAPES[k].half_edges.y);
         return d.x > 0.0 && d.y > 0.0 ? length(d) : max(d.x, d.y);
     }
     case SOLID_BOWL: {
-        real thickness = solids[k].WALL.x, across = length(x.xz);
+        real thickness = SHAPES[k].thickness, across = length(x.xz);
         if (x.y > 0.0)
             return length(rvec2(across - clamp(across, radius, radius + thickness), x.y));
         real wall = abs(length(x) - (radius + 0.5 * thickness)) - 0.5 * thickness;
@@ -106,9 +75,9 @@ real solid_distance(int k, rvec3 x)
 // Along which the distance grows fastest, by differences.
 dvec3 solid_normal(int k, dvec3 x)
 {
-    double step = 1e-6lf * solids[k].exact_wall.y;
+    double step = 1e-6lf * exact_shapes[k].reach;
     dvec3 normal = dvec3(0.0);
-    for (int a = 0; a < (rows.x == 3 ? 2 : 3); a++) {
+    for (int a = 0; a < (dimensions == 2 ? 2 : 3); a++) {
         dvec3 aside = dvec3(0.0);
         aside[a] = step;
         normal[a] = solid_distance(k, x + aside) - solid_distance(k, x - aside);
@@ -145,11 +114,10 @@ vec3 bowl_slope(float radius, float thickness, vec3 x)
 // Along which the distance grows fastest: a difference of two distances would have but a few digits.
 vec3 solid_normal(int k, vec3 x)
 {
-    vec4 size = solids[k].size;
-    int kind = int(solids[k].spin.w);
-    vec3 slope = kind == SOLID_BOX        ? box_slope(size.xyz, x)
-                 : kind == SOLID_CYLINDER ? cylinder_slope(size.w, size.y, x)
-                 : kind == SOLID_BOWL     ? bowl_slope(size.w, solids[k].wall.x, x)
+    int kind = solids[k].kind;
+    vec3 slope = kind == SOLID_BOX        ? box_slope(solids[k].half_edges, x)
+                 : kind == SOLID_CYLINDER ? cylinder_slope(solids[k].radius, solids[k].half_edges.y, x)
+                 : kind == SOLID_BOWL     ? bowl_slope(solids[k].radius, solids[k].thickness, x)
                                           : x;
     float norm = length(slope);
     return norm > 0.0 ? slope / norm : vec3(0.0, 1.0, 0.0);
@@ -159,6 +127,6 @@ vec3 solid_normal(int k, vec3 x)
 // Of x in the box's frame, or `far` and more where it is further away than that.
 float solid_clearance(int k, vec3 x, float far)
 {
-    float reach = solid_reach(k) + far, r = distance(x, solids[k].end.x.xyz);
+    float reach = solid_reach(k) + far, r = distance(x, solids[k].end.x);
     return r > reach ? r - reach + far : float(solid_distance(k, rvec3(solid_from_box(solids[k].end, x))));
 }

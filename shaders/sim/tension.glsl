@@ -7,7 +7,7 @@ vec4 tension_sum = vec4(0); // what its neighbours add
 // -g V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 and 2 with volumes for masses.
 void tension_add(vec3 d, float r2, float volume)
 {
-    float h = kernel.x, least = 1e-6 * h;
+    float h = support, least = 1e-6 * h;
     if (r2 < least * least)
         return;
     float r = sqrt(r2), both = (h - r) * r, cube = both * both * both;
@@ -20,7 +20,7 @@ vec3 tension_of_sum(float volume, float tension) { return tension * volume * ten
 // tension_sum: n, Laplacian.
 void tension_add(vec3 d, float r2, float volume)
 {
-    float h2 = kernel.x * kernel.x, dims = rows.x == 3 ? 2.0 : 3.0, weighed = volume * (h2 - r2);
+    float h2 = support * support, dims = dimensions == 2 ? 2.0 : 3.0, weighed = volume * (h2 - r2);
     tension_sum.xyz -= weighed * (h2 - r2) * d;
     tension_sum.w -= weighed * (dims * h2 - (dims + 4.0) * r2);
 }
@@ -28,9 +28,9 @@ void tension_add(vec3 d, float r2, float volume)
 vec3 tension_of_sum(float volume, float tension)
 {
     tension_add(vec3(0), 0.0, volume); // itself
-    vec3 n = term_scales.z * tension_sum.xyz;
+    vec3 n = colour_scale * tension_sum.xyz;
     float size = length(n);
-    return size * kernel.x < 0.3 ? vec3(0) : -tension * term_scales.z * tension_sum.w * volume / size * n;
+    return size * support < 0.3 ? vec3(0) : -tension * colour_scale * tension_sum.w * volume / size * n;
 }
 #endif
 
@@ -42,7 +42,7 @@ void tension_meet(uint j, vec3 d, float r2, float volume)
         tension_add(d, r2, volume);
 }
 
-vec3 tension_force(uint i) { return tension_of_sum(position[i].w, fluid_terms[tension_fluid].z); }
+vec3 tension_force(uint i) { return tension_of_sum(position[i].w, fluid_terms[tension_fluid].tension); }
 #else
 #define tension_begin(i)
 #define tension_meet(j, d, r2, volume)

@@ -1,5 +1,5 @@
 // The friction of no-slip walls, as sim/box/wall_drag.c has it: tables over the distances to one, two, three faces.
-layout(std430, binding = 5) readonly buffer DragTables { float drag_tables[]; };
+layout(std430, binding = DRAG_TABLES) readonly buffer DragTables { float drag_tables[]; };
 
 float drag_of_faces(vec3 distances, int count)
 {
@@ -27,7 +27,7 @@ float drag_of_faces(vec3 distances, int count)
 float wall_drag_sum(vec3 x, bool lid_only)
 {
     bool lid[6];
-    int axis[6], count = 0, axes = rows.x == 3 ? 2 : 3;
+    int axis[6], count = 0, axes = dimensions == 2 ? 2 : 3;
     float near[6], sum = 0.0;
     for (int a = 0; a < axes; a++) {
 #ifdef PERIODIC
@@ -37,7 +37,7 @@ float wall_drag_sum(vec3 x, bool lid_only)
         float centred = a == 1 ? x.y - half_size.y : x[a];
         for (int side = 0; side < 2; side++) {
             float d = side == 0 ? half_size[a] + centred : half_size[a] - centred;
-            if (d < drag_steps.w) {
+            if (d < drag_range) {
                 axis[count] = a;
                 lid[count] = a == 1 && side == 1;
                 near[count++] = max(d, 0.0);

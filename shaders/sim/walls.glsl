@@ -4,7 +4,7 @@
 uniform samplerBuffer wall_texture;
 float wall_table(int at) { return texelFetch(wall_texture, at).x; }
 #else
-layout(std430, binding = 7) readonly buffer WallTables { float wall_tables[]; };
+layout(std430, binding = WALL_TABLES) readonly buffer WallTables { float wall_tables[]; };
 float wall_table(int at) { return wall_tables[at]; }
 #endif
 
@@ -22,7 +22,7 @@ struct Face {
 
 Face face_at(int axis, float side, float d)
 {
-    float s = kernel.w, e = d - 0.5 * s;
+    float s = spacing, e = d - 0.5 * s;
     if (e < 0.0)
         return Face(axis, side, d + e + e * e / s, 2.0 + 2.0 * e / s);
     float layers = e / s, f = layers - floor(layers);
@@ -36,7 +36,7 @@ int mixed_index(int a, int b) { return a + b == 1 ? 0 : a + b == 3 ? 1 : 2; }
 void add_faces(Face a, Face b, Face c, int count, bool density_only, inout WallSums sums)
 {
     int nodes = wall_nodes[count - 1];
-    vec3 place = (vec3(a.distance, b.distance, c.distance) + 0.25 * kernel.w) * wall_steps[count - 1];
+    vec3 place = (vec3(a.distance, b.distance, c.distance) + 0.25 * spacing) * wall_steps[count - 1];
     ivec3 node = ivec3(place), stride = count == 1   ? ivec3(1, 0, 0)
                                         : count == 2 ? ivec3(nodes, 1, 0)
                                                      : ivec3(nodes * nodes, nodes, 1);
@@ -60,7 +60,7 @@ void add_faces(Face a, Face b, Face c, int count, bool density_only, inout WallS
     }
     if (density_only)
         return;
-    int second = count > 1 ? b.axis : rows.x == 3 ? 1 - a.axis : (a.axis + 1) % 3;
+    int second = count > 1 ? b.axis : dimensions == 2 ? 1 - a.axis : (a.axis + 1) % 3;
     ivec3 axis = ivec3(a.axis, second, 3 - a.axis - second);
     vec3 side = mix(vec3(1), vec3(a.side, b.side, c.side), used);
     push *= mix(vec3(0), side, used);
@@ -77,7 +77,7 @@ void add_faces(Face a, Face b, Face c, int count, bool density_only, inout WallS
 WallSums walls_at(vec3 x, bool density_only)
 {
     Face face[6];
-    int count = 0, axes = rows.x == 3 ? 2 : 3;
+    int count = 0, axes = dimensions == 2 ? 2 : 3;
     WallSums sums = WallSums(0.0, vec3(0), vec3(0), vec3(0));
     for (int a = 0; a < axes; a++) {
 #ifdef PERIODIC
@@ -86,9 +86,9 @@ WallSums walls_at(vec3 x, bool density_only)
 #endif
         float centred = a == 1 ? x.y - half_size.y : x[a];
         float low = half_size[a] + centred, high = half_size[a] - centred;
-        if (low < half_size.w)
+        if (low < wall_range)
             face[count++] = face_at(a, 1.0, max(low, 0.0));
-        if (high < half_size.w)
+        if (high < wall_range)
             face[count++] = face_at(a, -1.0, max(high, 0.0));
     }
     for (int a = 0; a < count; a++)
@@ -106,8 +106,8 @@ WallSums walls_at(vec3 x, bool density_only)
 // in sim/cpu/forces.c.
 vec3 wall_force(WallSums sums, vec3 g, float density, float volume, float p, float term)
 {
-    float layer = density * kernel.w * length(g), fade = layer > 0.0 ? clamp(p / layer, 0.0, 1.0) : 0.0;
-    float weight = fade * density * volume / kernel.z;
+    float layer = density * spacing * length(g), fade = layer > 0.0 ? clamp(p / layer, 0.0, 1.0) : 0.0;
+    float weight = fade * density * volume / rest_number_density;
     vec3 d = sums.diagonal, m = sums.mixed;
     vec3 moment_g = vec3(d.x * g.x + m.x * g.y + m.z * g.z, m.x * g.x + d.y * g.y + m.y * g.z,
                          m.z * g.x + m.y * g.y + d.z * g.z);

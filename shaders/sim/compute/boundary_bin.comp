@@ -12,7 +12,7 @@ layout(std430, binding = 4) buffer Counts { uint count[]; };
 void main()
 {
     uint b = invocation();
-    if (b >= uint(solid_counts.y))
+    if (b >= uint(boundary_total))
         return;
     int solid = int(rest[b].w);
     vec3 x = solid_to_box(solids[solid].end, rest[b].xyz);

@@ -16,15 +16,15 @@ float weight = 0.0, seen = 0.0, viscosity = 0.0;
 
 void meet(uint j, vec3 d, float volume)
 {
-    float t = 1.0 - dot(d, d) * kernel.y * kernel.y;
+    float t = 1.0 - dot(d, d) * inverse_support * inverse_support;
     if (t <= 0.0)
         return;
-    vec4 fluid = fluids[name[j].y];
+    Fluid fluid = fluids[name[j].y];
     float w = t * t * t;
     weight += w;
     seen += w * pressure[j].x;
-    viscosity += w * fluid.w;
-    density_x += w * fluid.y * d;
+    viscosity += w * fluid.viscosity;
+    density_x += w * fluid.density * d;
     v += w * velocity[j].xyz;
 }
 
@@ -38,9 +38,9 @@ void main()
     WALK_FLUID(x, at, meet)
     uint number = boundary_state[i].y;
     int k = int(rest[number].w);
-    float p = 0.0, volume = 1.0 / kernel.z;
+    float p = 0.0, volume = 1.0 / rest_number_density;
 #ifdef VISCOUS
-    bool sticks = solids[k].velocity.w > 0.5 && weight > 0.0;
+    bool sticks = solids[k].sticks != 0 && weight > 0.0;
 #else
     bool sticks = false;
 #endif

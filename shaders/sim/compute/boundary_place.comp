@@ -9,6 +9,6 @@ layout(std430, binding = 3) writeonly buffer Orders { uint order[]; };
 void main()
 {
     uint b = invocation();
-    if (b < uint(solid_counts.y))
+    if (b < uint(boundary_total))
         order[start[cell[b]] + rank[b]] = b;
 }

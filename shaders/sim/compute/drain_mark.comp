@@ -1,16 +1,16 @@
 // Who stays: fill_holds of sim/matter/seed.c, of none of the drains.
 #include "sim/constants.glsl"
-#include "sim/flow.glsl"
+#include "shaders/sim/flow_block.h"
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) writeonly buffer Marks { uint mark[]; }; // one more, 0, for the sum of all
 
 bool drains_away(vec3 x)
 {
-    for (int k = 0; k < flow_counts.x; k++) {
+    for (int k = 0; k < drain_total; k++) {
         Region region = drains[k];
-        vec3 d = x - region.low.xyz;
-        if (region.low.w > 0.5 ? dot(d, d) <= region.high.w
-                               : all(greaterThanEqual(x, region.low.xyz)) && all(lessThan(x, region.high.xyz)))
+        vec3 d = x - region.low;
+        if (region.ball != 0 ? dot(d, d) <= region.radius2
+                               : all(greaterThanEqual(x, region.low)) && all(lessThan(x, region.high)))
             return true;
     }
     return false;

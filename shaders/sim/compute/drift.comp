@@ -16,22 +16,22 @@ void main()
 #ifdef SOLIDS
     vec3 before = x;
 #endif
-    float dt = rotation[0].w;
-    if (rotation[1].w > 0.5) {
+    float dt = drift_dt;
+    if (still != 0) {
         precise vec3 way = v * dt; // the same bits as the CPU's
         x += way;
     } else {
-        vec3 w = v + cross(omega0.xyz, x), y = x + (w * dt - shift.xyz);
+        vec3 w = v + cross(omega0, x), y = x + (w * dt - shift);
         x = y + vec3(dot(rotation[0].xyz, y), dot(rotation[1].xyz, y), dot(rotation[2].xyz, y));
         v = w + vec3(dot(rotation[0].xyz, w), dot(rotation[1].xyz, w), dot(rotation[2].xyz, w)) -
-            velocity_change.xyz - cross(omega1.xyz, x);
+            velocity_change - cross(omega1, x);
     }
 #ifdef SOLIDS
     if (solids_guard(before, x, v))
-        atomicAdd(watch[3], 1u);
+        atomicAdd(guarded, 1u);
 #endif
     bool held = false;
-    int axes = rows.x == 3 ? 2 : 3;
+    int axes = dimensions == 2 ? 2 : 3;
     for (int a = 0; a < axes; a++) {
 #ifdef PERIODIC
         if (periodic[a])
@@ -49,10 +49,10 @@ void main()
         }
     }
     if (held)
-        atomicAdd(watch[3], 1u);
+        atomicAdd(guarded, 1u);
 #ifdef PERIODIC
-    vec3 from = x - box_low.xyz;
-    x -= mix(vec3(0), box_whole.xyz * floor(from / box_whole.xyz), periodic);
+    vec3 from = x - box_low;
+    x -= mix(vec3(0), box_whole * floor(from / box_whole), periodic);
 #endif
     position[i].xyz = x;
     velocity[i].xyz = v;

@@ -1,6 +1,6 @@
 // Those that have room, behind the particles that are there; `before` is the sum of the marks before each.
 #include "sim/constants.glsl"
-#include "sim/flow.glsl"
+#include "shaders/sim/flow_block.h"
 layout(std430, binding = 0) writeonly buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) readonly buffer Layer { float candidates[]; };
 layout(std430, binding = 2) writeonly buffer Velocities { vec4 velocity[]; };
@@ -10,10 +10,10 @@ layout(std430, binding = 4) writeonly buffer Names { uvec2 name[]; };
 void main()
 {
     uint k = invocation();
-    if (k >= uint(flow_counts.z) || before[k] == before[k + 1u] || before[k] >= uint(flow_layer.z))
+    if (k >= candidate_total || before[k] == before[k + 1u] || before[k] >= layer_most)
         return;
     uint i = particles_there() + before[k];
     position[i] = vec4(candidates[3u * k], candidates[3u * k + 1u], candidates[3u * k + 2u], 0.0);
-    velocity[i] = vec4(layer_velocity.xyz, 0.0);
-    name[i] = uvec2(uint(flow_layer.y) + before[k], uint(flow_layer.x));
+    velocity[i] = vec4(layer_velocity, 0.0);
+    name[i] = uvec2(first_id + before[k], layer_fluid);
 }

@@ -2,7 +2,7 @@
 #include "sim/constants.glsl"
 #include "sim/in_box.glsl"
 #include "sim/walk.glsl"
-#include "sim/flow.glsl"
+#include "shaders/sim/flow_block.h"
 #ifdef SOLIDS
 #include "sim/solids.glsl"
 #endif
@@ -14,7 +14,7 @@ bool taken = false;
 
 void meet(uint j, vec3 d, float volume)
 {
-    float least = 0.9 * kernel.w;
+    float least = 0.9 * spacing;
     taken = taken || dot(d, d) < least * least;
 }
 
@@ -22,11 +22,11 @@ bool has_room(vec3 x)
 {
     ivec3 at = cell_of(x);
     WALK(x, at, meet, meet)
-    for (uint j = uint(flow_counts.w); j < particle_count(); j++) // those that came since
+    for (uint j = gridded; j < particle_count(); j++) // those that came since
         meet(j, nearest(x - position[j].xyz), 0.0);
 #ifdef SOLIDS
-    float half_spacing = 0.5 * kernel.w;
-    for (int k = 0; k < solid_counts.x; k++)
+    float half_spacing = 0.5 * spacing;
+    for (int k = 0; k < solid_total; k++)
         taken = taken || solid_clearance(k, x, half_spacing) < half_spacing * 0.999;
 #endif
     return !taken;
@@ -34,7 +34,7 @@ bool has_room(vec3 x)
 
 void main()
 {
-    uint k = invocation(), count = uint(flow_counts.z);
+    uint k = invocation(), count = candidate_total;
     if (k > count)
         return;
     vec3 x = k < count ? vec3(candidates[3u * k], candidates[3u * k + 1u], candidates[3u * k + 2u]) : vec3(0);

@@ -16,7 +16,7 @@ shared float greatest[64];
 #ifdef CONTINUITY
 float compression_of(uint i) { return velocity[i].w; }
 #else
-float compression_of(uint i) { return scales.w * (1.0 / (position[i].w * kernel.z) - 1.0); }
+float compression_of(uint i) { return compression_scale * (1.0 / (position[i].w * rest_number_density) - 1.0); }
 #endif
 
 void main()
@@ -26,7 +26,7 @@ void main()
     float most = 0.0;
     for (uint i = invocation(); i < particle_count(); i += 64u * gl_NumWorkGroups.x) {
         float compression = compression_of(i);
-        sum += gauge_of(fluids[name[i].y].x, compression, position[i].xyz, velocity[i].xyz, gravity_c2.xyz, gravity_c2.w);
+        sum += gauge_of(fluids[name[i].y].mass, compression, position[i].xyz, velocity[i].xyz, gravity_c2.xyz, gravity_c2.w);
         most = max(most, compression);
     }
     sums[own] = sum;

@@ -2,7 +2,7 @@
 // negative are in their order, and those of NaN are above all.
 #define WRITES_WATCH
 #include "sim/constants.glsl"
-#include "sim/terms.glsl"
+#include "shaders/sim/term_block.h"
 #include "common/nan.glsl"
 #ifdef NO_SLIP
 #include "sim/wall_drag.glsl"
@@ -20,27 +20,30 @@ void main()
         greatest[gl_LocalInvocationID.x] = 0u;
     barrier();
     if (i < particles_there()) { // whatever others of this pass find
-        vec3 a = acceleration[i].xyz + gravity.xyz;
+        vec3 a = acceleration[i].xyz + gravity;
 #ifdef NO_SLIP
         // Drag with the velocity at the end of the step: hold_by_walls in sim/cpu/integrate.c.
         uint fluid = name[i].y;
-        float scale = fluids[fluid].w / fluids[fluid].x * position[i].w / kernel.z;
+        float scale = fluids[fluid].viscosity / fluids[fluid].mass * position[i].w / rest_number_density;
         float k = scale * wall_drag_at(position[i].xyz);
 #ifdef LID
-        a += scale * wall_drag_sum(position[i].xyz, true) * term_lid.xyz;
+        a += scale * wall_drag_sum(position[i].xyz, true) * lid_velocity;
 #endif
-        a = (a - k * velocity[i].xyz) / (1.0 + k * gravity.w);
+        a = (a - k * velocity[i].xyz) / (1.0 + k * kick_dt);
 #endif
-        vec3 v = velocity[i].xyz + a * gravity.w;
+        vec3 v = velocity[i].xyz + a * kick_dt;
         velocity[i].xyz = v;
-        float fastest = kernel.x / gravity.w, speed2 = dot(v, v);
+        float fastest = support / kick_dt, speed2 = dot(v, v);
         if (is_nan(speed2) || speed2 > fastest * fastest)
-            watch[4] = 1u;
+            went_too_far = 1u;
         atomicMax(greatest[0], floatBitsToUint(abs(speed2)));
         atomicMax(greatest[1], floatBitsToUint(abs(dot(a, a))));
-        atomicMax(greatest[2], floatBitsToUint(abs(1.0 / (position[i].w * kernel.z))));
+        atomicMax(greatest[2], floatBitsToUint(abs(1.0 / (position[i].w * rest_number_density))));
     }
     barrier();
-    if (gl_LocalInvocationID.x < 3u)
-        atomicMax(watch[gl_LocalInvocationID.x], greatest[gl_LocalInvocationID.x]);
+    if (gl_LocalInvocationID.x == 0u) {
+        atomicMax(greatest_speed2, greatest[0]);
+        atomicMax(greatest_acceleration2, greatest[1]);
+        atomicMax(greatest_compression, greatest[2]);
+    }
 }

@@ -13,7 +13,7 @@ shared uint least, greatest;
 #ifdef CONTINUITY
 float compression_of(uint i) { return velocity[i].w; }
 #else
-float compression_of(uint i) { return scales.w * (1.0 / (position[i].w * kernel.z) - 1.0); }
+float compression_of(uint i) { return compression_scale * (1.0 / (position[i].w * rest_number_density) - 1.0); }
 #endif
 
 float value_of(uint i)
@@ -22,7 +22,7 @@ float value_of(uint i)
     case SCALAR_SPEED:
         return length(velocity[i].xyz);
     case SCALAR_DENSITY:
-        return fluids[name[i].y].y * (1.0 + compression_of(i));
+        return fluids[name[i].y].density * (1.0 + compression_of(i));
     case SCALAR_PRESSURE:
         return pressure[i].x;
     case SCALAR_COMPRESSION:

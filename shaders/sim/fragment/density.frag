@@ -14,7 +14,7 @@ float sum;
 void meet(int j)
 {
     vec3 d = here - of_particle(position, j).xyz;
-    float q2 = dot(d, d) * kernel.y * kernel.y;
+    float q2 = dot(d, d) * inverse_support * inverse_support;
 #ifdef POLY6
     float t = max(1.0 - q2, 0.0);
 #else
@@ -32,8 +32,8 @@ void main()
     here = own.xyz;
     sum = 1.0; // itself, whether it has a place or not
     bool placed = meet_neighbours(i, here);
-    float n = scales.x * sum + walls_at(here, true).density;
-    float p = fluids[int(own.w)].z * (n / kernel.z - 1.0);
+    float n = kernel_scale * sum + walls_at(here, true).density;
+    float p = fluid_of(own.w).stiffness * (n / rest_number_density - 1.0);
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);
 #endif

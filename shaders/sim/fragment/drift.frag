@@ -11,7 +11,7 @@ layout(location = 2) out uint new_held;
 bool guard(inout vec3 x, inout vec3 v)
 {
     bool stopped = false;
-    int axes = rows.x == 3 ? 2 : 3;
+    int axes = dimensions == 2 ? 2 : 3;
     for (int a = 0; a < axes; a++) {
         float low = a == 1 ? 0.0 : -half_size[a], high = a == 1 ? 2.0 * half_size.y : half_size[a];
         if (x[a] < low) {

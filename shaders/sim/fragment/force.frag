@@ -19,19 +19,19 @@ void meet(int j)
 {
     vec4 other = of_particle(near, j);
     vec3 d = here - other.xyz;
-    float r2 = dot(d, d), h = kernel.x, least = 1e-6 * h;
+    float r2 = dot(d, d), h = support, least = 1e-6 * h;
     if (r2 >= h * h)
         return;
     if (r2 < least * least) {
         d = least * direction_of_ids(uint(self), uint(j));
         r2 = least * least;
     }
-    float r = sqrt(r2), t = 1.0 - r * kernel.y;
-    force += scales.y * (t * t) * (pressure_term + other.w) / r * d;
+    float r = sqrt(r2), t = 1.0 - r * inverse_support;
+    force += pressure_scale * (t * t) * (pressure_term + other.w) / r * d;
 #ifdef VISCOUS
     vec4 its = of_particle(moving, j);
 #if FLUIDS > 1
-    float mu = viscosity + fluids[int(of_particle(position, j).w)].w;
+    float mu = viscosity + fluid_of(of_particle(position, j).w).viscosity;
 #else
     float mu = 2.0 * viscosity;
 #endif
@@ -45,17 +45,17 @@ void main()
     if (self >= particle_count)
         discard;
     vec4 own = of_particle(near, self), known = of_particle(fields, self);
-    vec4 fluid = fluids[int(of_particle(position, self).w)];
+    Fluid fluid = fluid_of(of_particle(position, self).w);
     here = own.xyz;
     pressure_term = own.w;
     force = vec3(0);
 #ifdef VISCOUS
     speed = of_particle(moving, self).xyz;
-    viscosity = fluid.w;
-    drag_scale = 0.5 * scales.z * known.x;
+    viscosity = fluid.viscosity;
+    drag_scale = 0.5 * viscosity_scale * known.x;
 #endif
     meet_neighbours(self, here);
     vec3 g = felt_origin - cross(felt_alpha, here) - cross(felt_omega, cross(felt_omega, here));
-    force += wall_force(walls_at(here, false), g, fluid.y, known.x, known.y, pressure_term);
-    acceleration = vec4(force / fluid.x, 0.0);
+    force += wall_force(walls_at(here, false), g, fluid.density, known.x, known.y, pressure_term);
+    acceleration = vec4(force / fluid.mass, 0.0);
 }

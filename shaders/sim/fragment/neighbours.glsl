@@ -11,7 +11,7 @@ bool meet_neighbours(int i, vec3 x)
     int middle = cell_index(cell_of(x));
     uint own = uint(i + 1);
     bool placed = false;
-    for (int row = rows.x; row < rows.y; row++) {
+    for (int row = first_row; row < last_row; row++) {
         int first = middle + cell_index(ivec3(-1, row % 3 - 1, row / 3 - 1));
         for (int cell = first; cell < first + 3; cell++) {
             uint last = 1u;

@@ -2,7 +2,17 @@
 // sim/gl/fragment/constants.c writes particle_count, particle_bits and what else is constant before the shader.
 uniform sampler2D position; // x y z, fluid
 uniform sampler2D velocity; // x y z, 0
-uniform vec4 fluids[FLUIDS]; // mass, rest density, stiffness, viscosity
+uniform vec4 fluid_numbers[FLUIDS];
+
+struct Fluid { // as in sim/constant_block.h
+    float mass, density, stiffness, viscosity;
+};
+
+Fluid fluid_of(float number)
+{
+    vec4 of = fluid_numbers[int(number)];
+    return Fluid(of.x, of.y, of.z, of.w);
+}
 
 ivec2 texel_of(int i) { return ivec2(i & (1 << particle_bits) - 1, i >> particle_bits); }
 

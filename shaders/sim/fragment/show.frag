@@ -4,7 +4,7 @@ uniform sampler2D fields;
 uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
 layout(location = 0) out uint word; // bits of a float, or a number
 
-float compression_of(int i) { return scales.w * (1.0 / (of_particle(fields, i).x * kernel.z) - 1.0); }
+float compression_of(int i) { return compression_scale * (1.0 / (of_particle(fields, i).x * rest_number_density) - 1.0); }
 
 float value_of(int i)
 {
@@ -13,7 +13,7 @@ float value_of(int i)
     case SCALAR_SPEED:
         return length(of_particle(velocity, i).xyz);
     case SCALAR_DENSITY:
-        return fluids[int(fluid)].y * (1.0 + compression_of(i));
+        return fluid_of(fluid).density * (1.0 + compression_of(i));
     case SCALAR_PRESSURE:
         return of_particle(fields, i).y;
     case SCALAR_COMPRESSION:

@@ -16,7 +16,7 @@ uvec4 found_at(ivec2 at)
     vec3 v = texelFetch(velocity, at, 0).xyz, a = texelFetch(acceleration, at, 0).xyz + gravity;
     vec4 own = texelFetch(fields, at, 0);
     return uvec4(floatBitsToUint(abs(dot(v, v))), floatBitsToUint(abs(dot(a, a))),
-                 floatBitsToUint(abs(1.0 / (own.x * kernel.z))), uint(own.w));
+                 floatBitsToUint(abs(1.0 / (own.x * rest_number_density))), uint(own.w));
 }
 #else
 uniform usampler2D finer, held;

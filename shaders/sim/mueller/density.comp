@@ -10,7 +10,7 @@ float sum = 0.0; // of the kernel, but for its scale
 
 void meet(uint j, vec3 d, float volume)
 {
-    float q2 = dot(d, d) * kernel.y * kernel.y;
+    float q2 = dot(d, d) * inverse_support * inverse_support;
 #ifdef POLY6
     float t = max(1.0 - q2, 0.0);
 #else
@@ -27,8 +27,8 @@ void main()
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
     WALK(x, at, meet, meet)
-    float n = scales.x * sum + walls_at(x, true).density;
-    float p = fluids[name[i].y].z * (n / kernel.z - 1.0);
+    float n = kernel_scale * sum + walls_at(x, true).density;
+    float p = fluids[name[i].y].stiffness * (n / rest_number_density - 1.0);
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);
 #endif

@@ -5,10 +5,10 @@
 
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
-    float r = sqrt(r2), t = 1.0 - r * kernel.y;
-    vec3 force = scales.y * (t * t) * (own.pressure + other.pressure) / r * d;
+    float r = sqrt(r2), t = 1.0 - r * inverse_support;
+    vec3 force = pressure_scale * (t * t) * (own.pressure + other.pressure) / r * d;
 #ifdef VISCOUS
-    force += 0.5 * scales.z * own.volume * t * other.volume * (own.viscosity + other.viscosity) * (other.v - own.v);
+    force += 0.5 * viscosity_scale * own.volume * t * other.volume * (own.viscosity + other.viscosity) * (other.v - own.v);
 #endif
     return force;
 }
@@ -19,8 +19,8 @@ void main()
     if (i >= particle_count())
         return;
     vec3 x = position[i].xyz;
-    vec4 fluid = fluids[name[i].y];
+    Fluid fluid = fluids[name[i].y];
     vec3 force = neighbours_force(i, x, cell_of(x));
-    force += wall_force(walls_at(x, false), felt_at(x), fluid.y, position[i].w, pressure[i].x, pressure[i].y);
-    acceleration[i] = vec4(force / fluid.x, 0.0);
+    force += wall_force(walls_at(x, false), felt_at(x), fluid.density, position[i].w, pressure[i].x, pressure[i].y);
+    acceleration[i] = vec4(force / fluid.mass, 0.0);
 }

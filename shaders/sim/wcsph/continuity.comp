@@ -29,24 +29,24 @@ void diffuse(uint j, vec3 d, inout float flow)
     if (name[j].y != own_fluid)
         return;
     vec4 own = slope[self], other = slope[j];
-    flow -= term_scales.y * (other.w - own.w + 0.5 * dot(own.xyz + other.xyz, d));
+    flow -= diffusion * (other.w - own.w + 0.5 * dot(own.xyz + other.xyz, d));
 #endif
 }
 
 void meet(uint j, vec3 d, float volume)
 {
-    float h = kernel.x, least = 1e-6 * h, r2 = dot(d, d);
+    float h = support, least = 1e-6 * h, r2 = dot(d, d);
     if (r2 >= h * h || r2 < least * least)
         return;
     float flow = dot(own_velocity - velocity[j].xyz, d);
     diffuse(j, d, flow);
-    sum += shape(sqrt(r2) * kernel.y) * flow;
+    sum += shape(sqrt(r2) * inverse_support) * flow;
 }
 
 void meet_image(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
-    if (r2 < kernel.x * kernel.x)
+    if (r2 < support * support)
         image_sum += image_shape(sqrt(r2)) * dot(image_velocity - velocity[j].xyz, d);
 }
 
@@ -56,15 +56,15 @@ vec3 solid_velocity_of(uint j) { return solid_velocity_at(int(rest[boundary_stat
 
 void meet_boundary(uint j, vec3 d, float volume)
 {
-    float h = kernel.x, least = 1e-6 * h, r2 = dot(d, d);
+    float h = support, least = 1e-6 * h, r2 = dot(d, d);
     if (r2 < h * h && r2 >= least * least)
-        sum += shape(sqrt(r2) * kernel.y) * dot(own_velocity - solid_velocity_of(j), d);
+        sum += shape(sqrt(r2) * inverse_support) * dot(own_velocity - solid_velocity_of(j), d);
 }
 
 void meet_boundary_image(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
-    if (r2 < kernel.x * kernel.x)
+    if (r2 < support * support)
         image_sum += image_shape(sqrt(r2)) * dot(image_velocity - solid_velocity_of(j), d);
 }
 #endif
@@ -94,8 +94,8 @@ void main()
     own_fluid = name[i].y;
     WALK(x, at, meet, meet_boundary)
     walk_images(x, at);
-    float rate = -term_scales.x * (sum + image_sum);
-    float e = velocity[i].w + rate / kernel.z * dt;
+    float rate = -gradient_scale * (sum + image_sum);
+    float e = velocity[i].w + rate / rest_number_density * dt;
     State state = state_of(e, own_fluid);
     velocity[i].w = e;
     position[i].w = state.volume;

@@ -9,27 +9,27 @@ float dense_sum = 1.0;
 void even_meet(float f, vec3 d, float r2)
 {
     even_sum += f * vec4(d, r2);
-    dense_sum += height(sqrt(r2) * kernel.y);
+    dense_sum += height(sqrt(r2) * inverse_support);
 }
 
 void even_meet_image(float f, vec3 d, float r2)
 {
     even_image += f * vec4(d, r2);
-    dense_sum += height(sqrt(r2) * kernel.y);
+    dense_sum += height(sqrt(r2) * inverse_support);
 }
 
 void even_end_image(vec3 sign)
 {
-    even_sum += term_scales.x * even_image * vec4(sign, 1.0);
+    even_sum += gradient_scale * even_image * vec4(sign, 1.0);
     even_image = vec4(0);
 }
 
 // cpu_shift_share of sim/cpu/shift.c.
 void even_write(uint i)
 {
-    float share = clamp((even_sum.w / (term_shift.z * kernel.z) - 0.8) / 0.15, 0.0, 1.0);
+    float share = clamp((even_sum.w / (float(dimensions) * rest_number_density) - 0.8) / 0.15, 0.0, 1.0);
     uneven[2u * i] = vec4(share * even_sum.xyz, share);
-    uneven[2u * i + 1u] = vec4(scales.x * dense_sum / kernel.z - 1.0, 0.0, 0.0, 0.0);
+    uneven[2u * i + 1u] = vec4(kernel_scale * dense_sum / rest_number_density - 1.0, 0.0, 0.0, 0.0);
 }
 #else
 #define even_meet(f, d, r2)

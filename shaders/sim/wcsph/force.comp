@@ -9,17 +9,17 @@
 // Pressure and laminar or artificial viscosity.
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
-    float f = term_scales.x * shape(sqrt(r2) * kernel.y), push = own.pressure + other.pressure;
+    float f = gradient_scale * shape(sqrt(r2) * inverse_support), push = own.pressure + other.pressure;
     even_meet(f, d, r2);
     vec3 force = vec3(0), u = other.v - own.v;
     float both = own.volume * other.volume;
 #if defined VISCOUS && defined RADIAL
-    push += both * (own.viscosity + other.viscosity) * term_scales.w * dot(u, d);
+    push += both * (own.viscosity + other.viscosity) * radial_friction * dot(u, d);
 #elif defined VISCOUS
     force += f * both * (own.viscosity + other.viscosity) * u;
 #endif
 #ifdef ARTIFICIAL
-    push += both * (own.artificial + other.artificial) * dot(u, d) / (r2 + kernel.x * kernel.x / 400.0);
+    push += both * (own.artificial + other.artificial) * dot(u, d) / (r2 + support * support / 400.0);
 #endif
     return force + f * push * d;
 }
@@ -39,7 +39,7 @@ float image_term(float term, vec3 d)
 void push_image(float term, vec3 d)
 {
     float r2 = dot(d, d);
-    if (r2 >= kernel.x * kernel.x)
+    if (r2 >= support * support)
         return;
     float f = image_shape(sqrt(r2));
     image_push += f * (own.pressure + image_term(term, d)) * d;
@@ -55,9 +55,9 @@ void meet_boundary_image(uint j, vec3 d, float volume) { push_image(uintBitsToFl
 // Pressure of the images behind the walls on the particle at x, in the cell `at`, of the fluid's rest density.
 vec3 images_force(vec3 x, ivec3 at, float density)
 {
-    float weight = density / (kernel.z * kernel.z);
+    float weight = density / (rest_number_density * rest_number_density);
     vec3 g = felt_at(x), force = vec3(0);
-    float layer = weight * kernel.w * length(g);
+    float layer = weight * spacing * length(g);
     inverse_layer = layer > 0.0 ? 1.0 / layer : 0.0;
     int end = images_end(x);
     Image image;
@@ -71,7 +71,7 @@ vec3 images_force(vec3 x, ivec3 at, float density)
         force += image.sign * image_push;
         even_end_image(image.sign);
     }
-    return term_scales.x * force;
+    return gradient_scale * force;
 }
 
 void main()
@@ -81,8 +81,8 @@ void main()
         return;
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
-    vec4 fluid = fluids[name[i].y];
-    vec3 force = neighbours_force(i, x, at) + images_force(x, at, fluid.y);
-    acceleration[i] = vec4(force / fluid.x, 0.0);
+    Fluid fluid = fluids[name[i].y];
+    vec3 force = neighbours_force(i, x, at) + images_force(x, at, fluid.density);
+    acceleration[i] = vec4(force / fluid.mass, 0.0);
     even_write(i);
 }

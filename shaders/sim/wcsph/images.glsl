@@ -7,13 +7,13 @@ struct Image {
 // Which walls an image stands in: base-three digits of 1 to here, of each axis 0 none, 1 the lower, 2 the upper one.
 int images_end(vec3 x)
 {
-    vec3 centred = vec3(x.x, x.y - half_size.y, x.z), d = half_size.xyz - abs(centred);
+    vec3 centred = vec3(x.x, x.y - half_size.y, x.z), d = half_size - abs(centred);
 #ifdef PERIODIC
-    d = mix(d, vec3(kernel.x), periodic);
+    d = mix(d, vec3(support), periodic);
 #endif
-    if (rows.x == 3)
-        return min(d.x, d.y) < kernel.x ? 9 : 1;
-    return min(d.x, min(d.y, d.z)) < kernel.x ? 27 : 1;
+    if (dimensions == 2)
+        return min(d.x, d.y) < support ? 9 : 1;
+    return min(d.x, min(d.y, d.z)) < support ? 27 : 1;
 }
 
 // False where the image finds no fluid within h.
@@ -21,20 +21,20 @@ bool image_of(vec3 x, int walls, out Image image)
 {
     ivec3 side = ivec3(walls % 3, walls / 3 % 3, walls / 9);
     bvec3 mirrored = greaterThan(side, ivec3(0)), upper = equal(side, ivec3(2));
-    vec3 low = vec3(-half_size.x, 0.0, -half_size.z), high = low + 2.0 * half_size.xyz;
-    vec3 d = max(mix(x - low, high - x, upper), 1e-3 * kernel.w), near = mix(vec3(0), d, mirrored);
+    vec3 low = vec3(-half_size.x, 0.0, -half_size.z), high = low + 2.0 * half_size;
+    vec3 d = max(mix(x - low, high - x, upper), 1e-3 * spacing), near = mix(vec3(0), d, mirrored);
     image.x = mix(x, mix(low - d, high + d, upper), mirrored);
     image.sign = mix(vec3(1), vec3(-1), mirrored);
 #ifdef PERIODIC
     if (any(mirrored) && any(bvec3(mix(vec3(0), vec3(periodic), mirrored))))
         return false;
 #endif
-    return dot(near, near) < kernel.x * kernel.x;
+    return dot(near, near) < support * support;
 }
 
 // Of a pair r apart: not less than that of a spacing over r.
 float image_shape(float r)
 {
-    float q = max(r * kernel.y, 1e-6), wide = max(q, kernel.w * kernel.y);
+    float q = max(r * inverse_support, 1e-6), wide = max(q, spacing * inverse_support);
     return shape(wide) * (wide / q);
 }

@@ -1,6 +1,6 @@
 // Particles down the gradient of their number density: shift_range of sim/cpu/shift.c.
 #include "sim/constants.glsl"
-#include "sim/terms.glsl"
+#include "shaders/sim/term_block.h"
 layout(std430, binding = 0) buffer Positions { vec4 position[]; };
 layout(std430, binding = 1) buffer Velocities { vec4 velocity[]; };       // w: rho / rho0 - 1
 layout(std430, binding = 2) readonly buffer Unevens { vec4 uneven[]; };   // two a particle: sum of F x_ij, share; n / n0 - 1
@@ -12,7 +12,7 @@ void main()
     if (i >= particle_count())
         return;
     vec4 own = uneven[2u * i];
-    float most = 0.1 * kernel.w;
-    position[i].xyz += clamp(term_shift.x * dt / kernel.z * own.xyz, -most, most);
-    velocity[i].w += min(dt * term_shift.y, 1.0) * own.w * (uneven[2u * i + 1u].x - velocity[i].w);
+    float most = 0.1 * spacing;
+    position[i].xyz += clamp(shift_speed * dt / rest_number_density * own.xyz, -most, most);
+    velocity[i].w += min(dt * density_return, 1.0) * own.w * (uneven[2u * i + 1u].x - velocity[i].w);
 }

@@ -29,16 +29,16 @@ bool next_to_solid = false; // there diffusion has to level the gaps that the fl
 
 void meet(uint j, vec3 d, float volume)
 {
-    float h = kernel.x, least = 1e-6 * h, r2 = dot(d, d);
+    float h = support, least = 1e-6 * h, r2 = dot(d, d);
     if (r2 >= h * h || r2 < least * least || name[j].y != own_fluid)
         return;
-    vec3 fd = shape(sqrt(r2) * kernel.y) * d;
+    vec3 fd = shape(sqrt(r2) * inverse_support) * d;
     diagonal += fd * d;
     mixed += fd * d.yzx;
     b += fd * (own_relative - velocity[j].w);
 }
 
-void meet_boundary(uint j, vec3 d, float volume) { next_to_solid = next_to_solid || dot(d, d) < kernel.x * kernel.x; }
+void meet_boundary(uint j, vec3 d, float volume) { next_to_solid = next_to_solid || dot(d, d) < support * support; }
 
 void main()
 {
@@ -50,9 +50,9 @@ void main()
     own_relative = velocity[i].w;
     own_fluid = name[i].y;
     WALK(x, at, meet, meet_boundary)
-    float scale = term_scales.x / kernel.z;
+    float scale = gradient_scale / rest_number_density;
     diagonal *= scale;
-    if (rows.x == 3)
+    if (dimensions == 2)
         diagonal.z = 0.5 * (diagonal.x + diagonal.y);
     slope[i] = vec4(next_to_solid ? vec3(0) : renormalise(diagonal, mixed * scale, b * scale), own_relative);
 }

@@ -1,7 +1,7 @@
 // What the passes of wcsph share: sim/cpu/pairs_wcsph.c, sim/cpu/wcsph.c.
-#include "sim/terms.glsl"
+#include "shaders/sim/term_block.h"
 
-// f(q) = -w'(q) / q of the kernel, up to a factor that term_scales.x takes care of.
+// f(q) = -w'(q) / q of the kernel, up to a factor that gradient_scale takes care of.
 float shape(float q)
 {
     float t = 1.0 - q;
@@ -42,11 +42,11 @@ struct State {
 // Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1, by its powers; V = V0 rho0 / rho.
 State state_of(float e, uint fluid)
 {
-    float b = fluid_terms[fluid].x;
+    float b = fluid_terms[fluid].tait;
     float p = b * e * (7.0 + e * (21.0 + e * (35.0 + e * (35.0 + e * (21.0 + e * (7.0 + e))))));
 #ifndef NEGATIVE_PRESSURE
     p = p > 0.0 ? p : 0.0;
 #endif
-    float volume = 1.0 / ((1.0 + e) * kernel.z);
+    float volume = 1.0 / ((1.0 + e) * rest_number_density);
     return State(volume, vec2(p, p * volume * volume));
 }

@@ -2,28 +2,16 @@
    buffers hold fluid alone. The passes are those of sim/cpu/boundary.c. */
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/sim/exact_shapes_block.h"
+#include "shaders/sim/solid_steps_block.h"
+
 #include <epoxy/gl.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct Pose {
-    float x[4], r[3][4];
-} Pose;
+_Static_assert(SOLIDS_MOST == SOLIDS_MAX, "shaders know all solids of a scene");
 
-/* One solid of shaders/sim/solids.glsl; std140: all members are multiples of 16 bytes. */
-typedef struct Solid {
-    Pose begin, end;
-    float velocity[4], spin[4], change[4], alpha[4];
-    float size[4], wall[4];
-    double exact_size[4], exact_wall[4]; /* the same, for who asks for the CPU's bits */
-} Solid;
-
-typedef struct SolidsBlock {
-    int32_t counts[8]; /* solids stand at a multiple of 32 bytes */
-    Solid solids[SOLIDS_MAX];
-} SolidsBlock;
-
-static void copy3(const float from[3], float to[4])
+static void copy3(const float from[3], float to[3])
 {
     memcpy(to, from, 3 * sizeof *to);
 }
@@ -35,40 +23,52 @@ static void pose_set(const SolidPose *from, Pose *to)
         copy3(from->r[row], to->r[row]);
 }
 
-static void shape_set(const Constants *s, const SolidDef *solid, Solid *out)
+static ExactShape shape_of(const Constants *s, const SolidDef *solid)
 {
     const double endless = 1e30; /* half the depth of a box in the plane */
-    out->velocity[3] = solid->slip == SLIP_NONE;
-    out->spin[3] = (float)solid->kind;
-    out->exact_size[3] = solid->radius;
-    out->exact_wall[0] = solid->thickness;
-    out->exact_wall[1] = solid_reach(solid);
+    ExactShape shape = {.radius = solid->radius, .thickness = solid->thickness, .reach = solid_reach(solid)};
     for (int k = 0; k < 3; k++)
-        out->exact_size[k] = k < s->dimensions ? 0.5 * solid->size[k] : endless;
+        shape.half_edges[k] = k < s->dimensions ? 0.5 * solid->size[k] : endless;
     if (solid->kind == SOLID_CYLINDER)
-        out->exact_size[1] = 0.5 * solid->height;
-    for (int k = 0; k < 4; k++) {
-        out->size[k] = (float)out->exact_size[k];
-        out->wall[k] = (float)out->exact_wall[k];
-    }
+        shape.half_edges[1] = 0.5 * solid->height;
+    return shape;
+}
+
+static void shape_set(const SolidDef *def, const ExactShape *shape, Solid *out)
+{
+    out->kind = (int)def->kind;
+    out->sticks = def->slip == SLIP_NONE;
+    for (int k = 0; k < 3; k++)
+        out->half_edges[k] = (float)shape->half_edges[k];
+    out->radius = (float)shape->radius;
+    out->thickness = (float)shape->thickness;
+    out->reach = (float)shape->reach;
+}
+
+static void step_set(const SolidStep *step, Solid *out)
+{
+    pose_set(&step->begin, &out->begin);
+    pose_set(&step->end, &out->end);
+    copy3(step->end.v, out->velocity);
+    copy3(step->end.w, out->spin);
+    copy3(step->change, out->change);
+    copy3(step->alpha, out->alpha);
 }
 
 static void steps_set(Compute *c, const SolidStep *steps)
 {
     const Constants *s = c->constants;
-    SolidsBlock block = {.counts = {s->solid_count, (int32_t)s->boundary.count}};
+    SolidStepsBlock block = {.solid_total = s->solid_count, .boundary_total = (int)s->boundary.count};
+    ExactShapesBlock exact = {0};
     for (int k = 0; k < s->solid_count; k++) {
-        Solid *solid = &block.solids[k];
-        pose_set(&steps[k].begin, &solid->begin);
-        pose_set(&steps[k].end, &solid->end);
-        copy3(steps[k].end.v, solid->velocity);
-        copy3(steps[k].end.w, solid->spin);
-        copy3(steps[k].change, solid->change);
-        copy3(steps[k].alpha, solid->alpha);
-        shape_set(s, &s->solids[k], solid);
+        exact.exact_shapes[k] = shape_of(s, &s->solids[k]);
+        shape_set(&s->solids[k], &exact.exact_shapes[k], &block.solids[k]);
+        step_set(&steps[k], &block.solids[k]);
     }
-    const size_t used = offsetof(SolidsBlock, solids) + (size_t)s->solid_count * sizeof(Solid);
+    const size_t used = offsetof(SolidStepsBlock, solids) + (size_t)s->solid_count * sizeof(Solid);
     glNamedBufferSubData(c->boundary.block, 0, (GLsizeiptr)used, &block);
+    glNamedBufferSubData(c->boundary.exact, 0, (GLsizeiptr)((size_t)s->solid_count * sizeof(ExactShape)),
+                         &exact);
 }
 
 bool compute_boundary_create(Compute *c)
@@ -93,7 +93,8 @@ bool compute_boundary_create(Compute *c)
     b->position = compute_buffer(c, "boundary positions", 16 * n);
     b->velocity = compute_buffer(c, "boundary velocities", 16 * n);
     b->state = compute_buffer(c, "boundary pressures", 8 * n);
-    b->block = compute_buffer(c, "solids", sizeof(SolidsBlock));
+    b->block = compute_buffer(c, "solids", sizeof(SolidStepsBlock));
+    b->exact = compute_buffer(c, "shapes of solids", sizeof(ExactShapesBlock));
     glNamedBufferSubData(b->rest, 0, (GLsizeiptr)(16 * n), rest);
     free(rest);
     return true;
@@ -103,18 +104,18 @@ void compute_boundary_destroy(Compute *c)
 {
     const ComputeBoundary *b = &c->boundary;
     const GLuint buffers[] = {b->rest,  b->cell,     b->rank,     b->order, b->start,
-                              b->state, b->position, b->velocity, b->block};
+                              b->state, b->position, b->velocity, b->block, b->exact};
     glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
 }
 
 void compute_boundary_bind(const Compute *c)
 {
-    enum { FIRST = 12, BLOCK = 6 };
     const ComputeBoundary *b = &c->boundary;
     if (c->constants->solid_count == 0)
         return;
-    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK, b->block);
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, FIRST, 4,
+    glBindBufferBase(GL_UNIFORM_BUFFER, SOLID_STEPS_BLOCK, b->block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, EXACT_SHAPES_BLOCK, b->exact);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, BOUNDARY_POSITIONS, 4,
                       (const GLuint[]){b->position, b->velocity, b->state, b->start});
 }
 

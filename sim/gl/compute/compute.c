@@ -1,5 +1,6 @@
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/sim/watch_block.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/limits.h"
 #include "sim/gl/program.h"
@@ -90,7 +91,7 @@ static bool buffers_create(Compute *c, Error *error)
     }
     compute_flow_create(c);
     const bool bounded = compute_boundary_create(c);
-    return (bounded && !c->full && mailbox_create(&c->watch, "watch", 8 * sizeof(uint32_t)) &&
+    return (bounded && !c->full && mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
             mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
            no_memory(c, error);
 }

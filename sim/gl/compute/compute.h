@@ -68,7 +68,7 @@ typedef struct ComputeBoundary {
     unsigned rest;                      /* vec4: x y z in the solid's frame, solid */
     unsigned cell, rank, order, start;  /* start: cells + 2; the last cell is for what is set aside */
     unsigned position, velocity, state; /* vec4, vec4, uvec2: see boundary.glsl; sorted by cell */
-    unsigned block;                     /* uniforms */
+    unsigned block, exact;              /* uniforms */
     bool due;                           /* solids have moved since they were sorted */
 } ComputeBoundary;
 
@@ -90,7 +90,7 @@ typedef struct Compute {
     unsigned pressure;                    /* vec2: p, p V^2 */
     unsigned acceleration;                /* vec4 */
     unsigned walls;                       /* tables */
-    Mailbox watch;                        /* 8 uint: constants.glsl; sent by each kick */
+    Mailbox watch;                        /* WatchBlock; sent by each kick */
     float longest;                        /* dt of the kicks since the watch was read, s */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     Mailbox gauge;                        /* 8 float a group: see gauge.comp; none before the first `gauge` */

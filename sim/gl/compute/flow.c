@@ -2,18 +2,13 @@
    back, how many they were. */
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/sim/flow_block.h"
+
 #include <epoxy/gl.h>
 #include <math.h>
 #include <string.h>
 
-/* The uniform block of shaders/sim/flow.glsl; std140: all members are multiples of 16 bytes. */
-typedef struct FlowBlock {
-    int32_t counts[4]; /* drains, guides, candidates of a layer, particles that the grid has */
-    int32_t layer[4];  /* fluid, first id, most */
-    float velocity[4];
-    float drains[DRAINS_MAX][2][4];
-    float guides[GUIDES_MAX][3][4];
-} FlowBlock;
+_Static_assert(DRAINS_MOST == DRAINS_MAX && GUIDES_MOST == GUIDES_MAX, "shaders know all of a scene");
 
 static void put(const Compute *c, size_t offset, size_t bytes, const void *data)
 {
@@ -38,8 +33,7 @@ void compute_flow_destroy(Compute *c)
 
 static void bind_block(const Compute *c)
 {
-    enum { BLOCK = 7 };
-    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK, c->flow.block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, FLOW_BLOCK, c->flow.block);
 }
 
 /* What stands at the end of the prefix sums of `count` marks: how many are set, which is `count` at most
@@ -55,9 +49,12 @@ static size_t sum_of(unsigned buffer, size_t count)
 static void layer_set(const Compute *c, const EmitLayer *layer, size_t most)
 {
     const FlowBlock block = {
-        .counts = {0, 0, (int32_t)layer->count, (int32_t)c->gridded},
-        .layer = {layer->fluid, (int32_t)layer->first_id, (int32_t)most},
-        .velocity = {layer->velocity[0], layer->velocity[1], layer->velocity[2], 0},
+        .candidate_total = (uint)layer->count,
+        .gridded = (uint)c->gridded,
+        .layer_fluid = (uint)layer->fluid,
+        .first_id = layer->first_id,
+        .layer_most = (uint)most,
+        .layer_velocity = {layer->velocity[0], layer->velocity[1], layer->velocity[2]},
     };
     put(c, 0, offsetof(FlowBlock, drains), &block);
     glNamedBufferSubData(c->flow.layer, 0, (GLsizeiptr)(12 * layer->count), layer->position);
@@ -96,17 +93,17 @@ size_t compute_emit(void *state, const EmitLayer *layer, size_t most)
 void compute_guide(void *state, const Guide *guides, int count)
 {
     const Compute *c = state;
-    FlowBlock block = {.counts = {0, count}};
+    FlowBlock block = {.guide_total = count};
     for (int k = 0; k < count; k++) {
-        float(*guide)[4] = block.guides[k];
-        memcpy(guide[0], guides[k].centre, sizeof guides[k].centre);
-        memcpy(guide[1], guides[k].direction, sizeof guides[k].direction);
-        memcpy(guide[2], guides[k].velocity, sizeof guides[k].velocity);
-        guide[0][3] = guides[k].radius;
-        guide[1][3] = guides[k].depth;
-        guide[2][3] = (float)guides[k].fluid;
+        Course *course = &block.guides[k];
+        memcpy(course->centre, guides[k].centre, sizeof guides[k].centre);
+        memcpy(course->direction, guides[k].direction, sizeof guides[k].direction);
+        memcpy(course->velocity, guides[k].velocity, sizeof guides[k].velocity);
+        course->radius = guides[k].radius;
+        course->depth = guides[k].depth;
+        course->fluid = guides[k].fluid;
     }
-    put(c, 0, sizeof block.counts, block.counts);
+    put(c, 0, offsetof(FlowBlock, candidate_total), &block);
     put(c, offsetof(FlowBlock, guides), (size_t)count * sizeof block.guides[0], block.guides);
     bind_block(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->now.velocity}, 3);
@@ -122,21 +119,21 @@ static float not_below(double bound)
 
 static void drains_set(const Compute *c, const Fill *regions, int count)
 {
-    FlowBlock block = {.counts = {count}};
+    FlowBlock block = {.drain_total = count};
     const bool plane = c->constants->dimensions == 2;
     for (int k = 0; k < count; k++) {
-        float *low = block.drains[k][0], *high = block.drains[k][1];
+        Region *region = &block.drains[k];
         const bool ball = regions[k].kind == FILL_BALL;
         for (int a = 0; a < 3; a++) {
             const bool out = a == 2 && plane;
-            low[a] =
+            region->low[a] =
                 ball ? (out ? 0 : (float)regions[k].centre[a]) : not_below(out ? -3e38 : regions[k].min[a]);
-            high[a] = not_below(out ? 3e38 : regions[k].max[a]);
+            region->high[a] = not_below(out ? 3e38 : regions[k].max[a]);
         }
-        low[3] = ball;
-        high[3] = (float)(regions[k].radius * regions[k].radius);
+        region->ball = ball;
+        region->radius2 = (float)(regions[k].radius * regions[k].radius);
     }
-    put(c, 0, sizeof block.counts, block.counts);
+    put(c, 0, offsetof(FlowBlock, candidate_total), &block);
     put(c, offsetof(FlowBlock, drains), (size_t)count * sizeof block.drains[0], block.drains);
 }
 

@@ -1,6 +1,8 @@
 /* The stages of a step. */
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/sim/bindings.h"
+
 #include <epoxy/gl.h>
 
 void compute_bind(const unsigned *buffers, int count)
@@ -19,10 +21,10 @@ void compute_dispatch(size_t groups)
 
 void compute_run(const Compute *compute, ComputePass pass, size_t count)
 {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, compute->constant_block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 2, compute->step);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 3, compute->terms);
-    glBindBufferBase(GL_UNIFORM_BUFFER, 4, compute->watch.buffer);
+    glBindBufferBase(GL_UNIFORM_BUFFER, CONSTANT_BLOCK, compute->constant_block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, STEP_BLOCK, compute->step);
+    glBindBufferBase(GL_UNIFORM_BUFFER, TERM_BLOCK, compute->terms);
+    glBindBufferBase(GL_UNIFORM_BUFFER, WATCH_BLOCK, compute->watch.buffer);
     glUseProgram(compute->program[pass]);
     compute_dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);

@@ -1,19 +1,11 @@
 /* What only some scenes name: which lines stand before the shaders for it, and its uniforms and buffers. */
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/sim/term_block.h"
+
 #include <epoxy/gl.h>
 #include <stdio.h>
 #include <string.h>
-
-/* The uniform block of shaders/sim/terms.glsl; std140: all members are multiples of 16 bytes. */
-typedef struct Terms {
-    float scales[4];
-    float fluids[FLUIDS_MAX][4];
-    int32_t drag_nodes[4];
-    float drag_steps[4];
-    int32_t drag_offset[4];
-    float lid[4], shift[4];
-} Terms;
 
 static bool diffusive(const Constants *s)
 {
@@ -130,33 +122,32 @@ bool compute_term_buffers(Compute *c)
     return c->full = false;
 }
 
-static void drag_constants(const WallDrag *drag, Terms *terms)
+static void drag_constants(const WallDrag *drag, TermBlock *terms)
 {
     size_t offset = 0;
     for (int t = 0; t < drag->dimensions; t++) {
         terms->drag_nodes[t] = drag->nodes[t];
         terms->drag_steps[t] = drag->inverse_step[t];
-        terms->drag_offset[t] = (int32_t)offset;
+        terms->drag_offset[t] = (int)offset;
         offset += drag_entries(drag, t);
     }
-    terms->drag_steps[3] = drag->range;
+    terms->drag_range = drag->range;
 }
 
 void compute_term_constants(Compute *c)
 {
     const Constants *s = c->constants;
-    Terms terms = {.scales = {s->gradient, s->diffusion, s->colour, s->radial}};
-    for (int f = 0; f < s->fluid_count; f++) {
-        terms.fluids[f][0] = s->tait[f];
-        terms.fluids[f][1] = s->artificial_viscosity[f];
-        terms.fluids[f][2] = s->tension[f];
-    }
+    TermBlock terms = {.gradient_scale = s->gradient,
+                       .diffusion = s->diffusion,
+                       .colour_scale = s->colour,
+                       .radial_friction = s->radial,
+                       .shift_speed = s->shifting,
+                       .density_return = s->sound_speed / (SHIFT_RETURN * s->support_radius)};
+    for (int f = 0; f < s->fluid_count; f++)
+        terms.fluid_terms[f] = (FluidTerms){s->tait[f], s->artificial_viscosity[f], s->tension[f]};
     if (s->no_slip)
         drag_constants(&s->drag, &terms);
-    memcpy(terms.lid, s->lid_velocity, sizeof s->lid_velocity);
-    terms.shift[0] = s->shifting;
-    terms.shift[1] = s->sound_speed / (SHIFT_RETURN * s->support_radius);
-    terms.shift[2] = (float)s->dimensions;
+    memcpy(terms.lid_velocity, s->lid_velocity, sizeof s->lid_velocity);
     if (!c->terms) {
         glCreateBuffers(1, &c->terms);
         glNamedBufferStorage(c->terms, sizeof terms, NULL, GL_DYNAMIC_STORAGE_BIT);

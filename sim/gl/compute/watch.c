@@ -3,6 +3,8 @@
 #include "sim/gl/compute/compute.h"
 #include "sim/gl/float_bits.h"
 
+#include "shaders/sim/watch_block.h"
+
 #include <epoxy/gl.h>
 #include <math.h>
 
@@ -27,17 +29,18 @@ StepWatch compute_watch(void *state)
     Compute *c = state;
     if (!c->watch.fence)
         return (StepWatch){.bounded = true};
-    const uint32_t *watched = mailbox_wait(&c->watch);
+    const WatchBlock *watched = mailbox_wait(&c->watch);
     if (!watched)
         return (StepWatch){.bounded = false};
-    const float fastest = c->constants->support_radius / c->longest, speed2 = float_of_bits(watched[0]);
-    const StepWatch seen = {.bounded = watched[4] == 0 && speed2 <= fastest * fastest,
+    const float fastest = c->constants->support_radius / c->longest,
+                speed2 = float_of_bits(watched->greatest_speed2);
+    const StepWatch seen = {.bounded = watched->went_too_far == 0 && speed2 <= fastest * fastest,
                             .max_speed = sqrtf(speed2),
-                            .max_acceleration = sqrtf(float_of_bits(watched[1])),
-                            .max_compression = float_of_bits(watched[2])};
-    c->guarded = watched[3];
+                            .max_acceleration = sqrtf(float_of_bits(watched->greatest_acceleration2)),
+                            .max_compression = float_of_bits(watched->greatest_compression)};
+    c->guarded = watched->guarded;
     c->longest = 0;
-    glClearNamedBufferSubData(c->watch.buffer, GL_R32UI, 0, 3 * sizeof *watched, GL_RED_INTEGER,
+    glClearNamedBufferSubData(c->watch.buffer, GL_R32UI, 0, offsetof(WatchBlock, guarded), GL_RED_INTEGER,
                               GL_UNSIGNED_INT, NULL);
     return seen;
 }

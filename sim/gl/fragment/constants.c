@@ -1,5 +1,5 @@
 /* What is constant while a world lives, as GLSL: the compiler sees all of it. The names are those of
-   shaders/sim/constants.glsl, so that walls.glsl serves both backends. */
+   shaders/sim/constant_block.h, so that walls.glsl serves both backends. */
 #include "sim/gl/fragment/fragment.h"
 
 #include <stdarg.h>
@@ -35,9 +35,13 @@ static void put_ints(Text *to, const char *name, int count, const int *values)
         put(to, "%d%s", values[k], k + 1 < count ? ", " : ");\n");
 }
 
+static void put_float(Text *to, const char *name, float value)
+{
+    put(to, "const float %s = %.9e;\n", name, (double)value);
+}
+
 static void put_walls(Text *to, const Walls *walls)
 {
-    const float half[4] = {walls->half_size[0], walls->half_size[1], walls->half_size[2], walls->range};
     float steps[3] = {0};
     int nodes[3] = {0}, offset[3] = {0};
     for (int t = 0; t < walls->dimensions; t++) {
@@ -45,7 +49,8 @@ static void put_walls(Text *to, const Walls *walls)
         steps[t] = walls->table[t].inverse_step;
         offset[t] = (int)walls_entries(walls, t);
     }
-    put_floats(to, "half_size", 4, half);
+    put_floats(to, "half_size", 3, walls->half_size);
+    put_float(to, "wall_range", walls->range);
     put_ints(to, "wall_nodes", 3, nodes);
     put_floats(to, "wall_steps", 3, steps);
     put_ints(to, "wall_offset", 3, offset);
@@ -63,20 +68,30 @@ static void put_terms(Text *to, const Constants *s)
         s->negative_pressure ? "#define NEGATIVE_PRESSURE 1\n" : "");
 }
 
+static void put_kernel(Text *to, const Constants *s)
+{
+    put_float(to, "support", s->support_radius);
+    put_float(to, "inverse_support", 1 / s->support_radius);
+    put_float(to, "rest_number_density", s->rest_number_density);
+    put_float(to, "spacing", s->spacing);
+    put_float(to, "kernel_scale", s->kernel_scale);
+    put_float(to, "pressure_scale", s->pressure_scale);
+    put_float(to, "viscosity_scale", s->viscosity_scale);
+    put_float(to, "compression_scale", s->compression);
+}
+
 void fragment_constants(const Fragment *f, char text[FRAGMENT_CONSTANTS_MAX])
 {
     const Constants *s = f->constants;
-    const float h = s->support_radius;
     Text to = {text, FRAGMENT_CONSTANTS_MAX, 0};
     put_terms(&to, s);
     put(&to, "const int particle_count = %zu, particle_bits = %d;\n", f->count, f->bits);
     put(&to, "const int bucket_bits = %d, bucket_height = %d, bucket_layers = %d;\n", f->bucket_bits,
         f->bucket_height, f->layers);
-    put_floats(&to, "kernel", 4, (const float[]){h, 1 / h, s->rest_number_density, s->spacing});
-    put_floats(&to, "scales", 4,
-               (const float[]){s->kernel_scale, s->pressure_scale, s->viscosity_scale, s->compression});
-    put_ints(&to, "cell_first", 3, s->cells.first);
-    put_ints(&to, "cell_size", 3, s->cells.size);
-    put_ints(&to, "rows", 2, (const int[]){s->first_row, s->last_row});
+    put_kernel(&to, s);
+    put_ints(&to, "first_cell", 3, s->cells.first);
+    put_ints(&to, "grid_size", 3, s->cells.size);
+    put(&to, "const int dimensions = %d, first_row = %d, last_row = %d;\n", s->dimensions, s->first_row,
+        s->last_row);
     put_walls(&to, &s->walls);
 }

@@ -60,7 +60,7 @@ void fragment_set_fluids(const Fragment *f)
         memcpy(fluids[k], (const float[]){s->mass[k], s->density[k], s->stiffness[k], s->viscosity[k]},
                sizeof fluids[k]);
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
-        const GLint at = f->program[p] ? fragment_uniform(f, (FragmentPass)p, "fluids") : -1;
+        const GLint at = f->program[p] ? fragment_uniform(f, (FragmentPass)p, "fluid_numbers") : -1;
         if (at >= 0)
             glProgramUniform4fv(f->program[p], at, s->fluid_count, fluids[0]);
     }

@@ -1,0 +1,43 @@
+/* Where fluid comes and goes; sim/gl/compute/flow.c fills it. */
+#ifndef SLOSH_FLOW_BLOCK_H
+#define SLOSH_FLOW_BLOCK_H
+
+#include "shaders/shared/block.h"
+#include "shaders/sim/bindings.h"
+
+BLOCK_STRUCT(Region)
+{
+    vec3 low;      /* of a block, or a ball's centre, m */
+    int ball;      /* 1: it is a ball */
+    vec3 high;     /* of a block, m */
+    float radius2; /* of a ball, squared, m2 */
+}
+BLOCK_END(Region);
+
+BLOCK_STRUCT(Course)
+{
+    vec3 centre;
+    float radius; /* m */
+    vec3 direction;
+    float depth; /* m */
+    vec3 velocity;
+    int fluid; /* that is held to it */
+}
+BLOCK_END(Course);
+
+UNIFORM_BLOCK(FlowBlock, FLOW_BLOCK)
+{
+    int drain_total;
+    int guide_total;
+    uint candidate_total; /* points of a layer */
+    uint gridded;         /* particles that the grid has */
+    uint layer_fluid;
+    uint first_id;
+    uint layer_most; /* as many of the layer may come */
+    vec3 layer_velocity;
+    Region drains[DRAINS_MOST];
+    Course guides[GUIDES_MOST];
+}
+BLOCK_END(FlowBlock);
+
+#endif

@@ -1,0 +1,25 @@
+/* What one step brings; sim/gl/compute/blocks.c fills it. */
+#ifndef SLOSH_STEP_BLOCK_H
+#define SLOSH_STEP_BLOCK_H
+
+#include "shaders/shared/block.h"
+#include "shaders/sim/bindings.h"
+
+UNIFORM_BLOCK(StepBlock, STEP_BLOCK)
+{
+    vec4 rotation[3]; /* the drift: sim/box/frame_step.h; rows, w: 0 */
+    vec3 omega0;
+    float drift_dt; /* s */
+    vec3 omega1;
+    int still; /* 1: the box stands */
+    vec3 shift;
+    vec3 velocity_change;
+    vec3 gravity;     /* of the kick */
+    float kick_dt;    /* s */
+    vec3 felt_origin; /* apparent gravity */
+    vec3 felt_alpha;
+    vec3 felt_omega;
+}
+BLOCK_END(StepBlock);
+
+#endif

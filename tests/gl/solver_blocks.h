@@ -1,0 +1,58 @@
+/* The rows of tests/gl/test_blocks.c of the blocks of the backend compute. */
+#ifndef SLOSH_SOLVER_BLOCKS_H
+#define SLOSH_SOLVER_BLOCKS_H
+
+#include "shaders/sim/constant_block.h"
+#include "shaders/sim/exact_shapes_block.h"
+#include "shaders/sim/flow_block.h"
+#include "shaders/sim/solid_steps_block.h"
+#include "shaders/sim/step_block.h"
+#include "shaders/sim/term_block.h"
+#include "shaders/sim/watch_block.h"
+
+#define CONSTANT(member) MEMBER(ConstantBlock, member)
+#define STEP(member)     MEMBER(StepBlock, member)
+#define TERM(member)     MEMBER(TermBlock, member)
+#define WATCH(member)    MEMBER(WatchBlock, member)
+#define STEPS(member)    MEMBER(SolidStepsBlock, member)
+#define SHAPE(member)    MEMBER(ExactShapesBlock, member)
+#define FLOW(member)     MEMBER(FlowBlock, member)
+
+#define SOLVER_BLOCKS                                                                                        \
+    BLOCK("sim/constant_block.h", ConstantBlock, CONSTANT(support), CONSTANT(inverse_support),               \
+          CONSTANT(rest_number_density), CONSTANT(spacing), CONSTANT(kernel_scale),                          \
+          CONSTANT(pressure_scale), CONSTANT(viscosity_scale), CONSTANT(compression_scale),                  \
+          CONSTANT(first_cell), CONSTANT(particle_total), CONSTANT(grid_size), CONSTANT(cell_total),         \
+          CONSTANT(first_row), CONSTANT(last_row), CONSTANT(first_single_row), CONSTANT(last_single_row),    \
+          CONSTANT(half_size), CONSTANT(wall_range), CONSTANT(wall_nodes), CONSTANT(dimensions),             \
+          CONSTANT(wall_steps), CONSTANT(wall_offset), CONSTANT(fluids[0].mass),                             \
+          CONSTANT(fluids[0].density), CONSTANT(fluids[0].stiffness), CONSTANT(fluids[0].viscosity),         \
+          CONSTANT(fluids[7].viscosity), CONSTANT(cell_origin), CONSTANT(cell_inverse), CONSTANT(box_low),   \
+          CONSTANT(box_whole)),                                                                              \
+        BLOCK("sim/step_block.h", StepBlock, STEP(rotation[0]), STEP(omega0), STEP(drift_dt), STEP(omega1),  \
+              STEP(still), STEP(shift), STEP(velocity_change), STEP(gravity), STEP(kick_dt),                 \
+              STEP(felt_origin), STEP(felt_alpha), STEP(felt_omega)),                                        \
+        BLOCK("sim/term_block.h", TermBlock, TERM(gradient_scale), TERM(diffusion), TERM(colour_scale),      \
+              TERM(radial_friction), TERM(fluid_terms[0].tait), TERM(fluid_terms[0].artificial_viscosity),   \
+              TERM(fluid_terms[0].tension), TERM(fluid_terms[7].tension), TERM(drag_nodes),                  \
+              TERM(drag_range), TERM(drag_steps), TERM(shift_speed), TERM(drag_offset),                      \
+              TERM(density_return), TERM(lid_velocity)),                                                     \
+        BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \
+              WATCH(greatest_compression), WATCH(guarded), WATCH(went_too_far)),                             \
+        BLOCK("sim/solid_steps_block.h", SolidStepsBlock, STEPS(solid_total), STEPS(boundary_total),         \
+              STEPS(solids[0].begin.x), STEPS(solids[0].begin.r[0]), STEPS(solids[0].end.x),                 \
+              STEPS(solids[0].end.r[0]), STEPS(solids[0].velocity), STEPS(solids[0].sticks),                 \
+              STEPS(solids[0].spin), STEPS(solids[0].kind), STEPS(solids[0].change), STEPS(solids[0].alpha), \
+              STEPS(solids[0].half_edges), STEPS(solids[0].radius), STEPS(solids[0].thickness),              \
+              STEPS(solids[0].reach), STEPS(solids[15].reach)),                                              \
+        BLOCK("sim/exact_shapes_block.h", ExactShapesBlock, SHAPE(exact_shapes[0].half_edges),               \
+              SHAPE(exact_shapes[0].radius), SHAPE(exact_shapes[0].thickness), SHAPE(exact_shapes[0].reach), \
+              SHAPE(exact_shapes[15].reach)),                                                                \
+        BLOCK("sim/flow_block.h", FlowBlock, FLOW(drain_total), FLOW(guide_total), FLOW(candidate_total),    \
+              FLOW(gridded), FLOW(layer_fluid), FLOW(first_id), FLOW(layer_most), FLOW(layer_velocity),      \
+              FLOW(drains[0].low), FLOW(drains[0].ball), FLOW(drains[0].high), FLOW(drains[0].radius2),      \
+              FLOW(drains[7].radius2), FLOW(guides[0].centre), FLOW(guides[0].radius),                       \
+              FLOW(guides[0].direction), FLOW(guides[0].depth), FLOW(guides[0].velocity),                    \
+              FLOW(guides[0].fluid), FLOW(guides[31].fluid))
+
+#endif
