@@ -7,7 +7,7 @@
 #include "app/lab/bench_table.h"
 #include "app/lab/chart.h"
 #include "app/play/play.h"
-#include "app/play/play_report.h"
+#include "app/play/report.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,154 +2,28 @@
 
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
-#include "app/play/play_state.h"
-#include "app/scene/live.h"
-#include "render/frame/legend.h"
+#include "app/device/devices.h"
+#include "app/play/act.h"
+#include "app/play/figures.h"
+#include "app/play/hands.h"
+#include "app/play/parts.h"
+#include "app/window/shake.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
-#include "sim/gl/shader_source.h"
-#include "sim/world/world.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <time.h>
 
-static const double LETTERS = 14; /* pixels high at scale 1 */
-static const double NOTICE_MS = 4000, IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, SHADERS_MS = 300,
-                    WORK_MS = 4;
+static const double IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, WORK_MS = 4;
 
-static void show_notice(Play *play, const char *words)
-{
-    snprintf(play->notice, sizeof play->notice, "%.300s", words);
-    play->notice_until_ms = wall_ms() + NOTICE_MS;
-    play->dirty = true;
-}
-
-void play_tell(Play *play, const char *format, ...)
-{
-    char words[sizeof(Error)];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(words, sizeof words, format, arguments);
-    va_end(arguments);
-    show_notice(play, words);
-    if (!play->setup->quiet)
-        fprintf(stderr, "%s\n", words);
-}
-
-void play_error(Play *play, const char *message)
-{
-    show_notice(play, message);
-    fprintf(stderr, "%s\n", message);
-}
-
-void play_view_changed(Play *play)
-{
-    Error error = {{0}};
-    play->dirty = true;
-    if (!renderer_set_def(play->renderer, &play->open.scene.view, &play->open.scene.world, &error))
-        play_error(play, error.message);
-}
-
-_Static_assert((int)PANEL_SETTING_SIZE == SIM_SETTING_SIZE, "what the panel asks for fits into a command");
-
-static void advise_anew(Play *play, const char *setting)
-{
-    Notes fresh = {.count = 0};
-    play_scene_advise(&play->open, setting, &fresh);
-    for (int i = fresh.count - 1; i >= 0; i--)
-        play_tell(play, "%s", fresh.line[i]);
-}
-
-void play_set(Play *play, const char *setting)
-{
-    Error error = {{0}};
-    bool concerns_world;
-    SimCommand command = {.kind = SIM_SET};
-    char backend[NAME_SIZE];
-    snprintf(backend, sizeof backend, "%s", play->open.scene.world.backend);
-    if (!scene_set_live(&play->open.scene, setting, &concerns_world, &error)) {
-        play_error(play, error.message);
-        return;
-    }
-    simulator_set_realtime(play->open.simulator, play->open.scene.realtime);
-    play_view_changed(play);
-    advise_anew(play, setting);
-    snprintf(command.setting, sizeof command.setting, "%s", setting);
-    if (sim_command_moves(&command)) {
-        if (!play_scene_move(&play->open, &command, &error)) {
-            snprintf(play->open.scene.world.backend, sizeof backend, "%s", backend);
-            play_error(play, error.message);
-        }
-        return;
-    }
-    if (concerns_world && !simulator_send(play->open.simulator, &command))
-        play_error(play, "too many changes wait for the next step; let the time run");
-}
-
-static double cpu_ms(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
-
-static bool follow_size(Play *play, Error *error)
-{
-    int width, height;
-    window_size(play->window, &width, &height);
-    if (width == play->width && height == play->height)
-        return true;
-    play->width = width;
-    play->height = height;
-    play->dirty = true;
-    return width < 1 || height < 1 || renderer_resize(play->renderer, width, height, error);
-}
-
-/* The letters follow the display's scale; where that fails they stay as they are. */
-static void follow_scale(Play *play)
-{
-    Error error = {{0}};
-    const float pixels = (float)(LETTERS * window_scale(play->window));
-    if (pixels == text_height(play->text))
-        return;
-    Text *text = text_create(pixels, &error);
-    if (text && ui_set_pixels(play->ui.ui, pixels, &error)) {
-        text_destroy(play->text);
-        play->text = text;
-        play->ui.input.changed = play->dirty = true;
-        return;
-    }
-    text_destroy(text);
-}
-
-/* With --shaders: those that have changed are read again; where one is wrong, the last good ones stay. */
-static void follow_shaders(Play *play)
-{
-    Error error = {{0}};
-    if (wall_ms() < play->shaders_due_ms)
-        return;
-    play->shaders_due_ms = wall_ms() + SHADERS_MS;
-    const uint64_t stamp = shader_source_stamp();
-    if (stamp == play->shaders_stamp || play->width < 1 || play->height < 1)
-        return;
-    play->shaders_stamp = stamp;
-    Renderer *renderer =
-        renderer_create(&play->open.scene.view, &play->open.scene.world, play->width, play->height, &error);
-    if (!renderer) {
-        play_error(play, error.message);
-        return;
-    }
-    renderer_destroy(play->renderer);
-    play->renderer = renderer;
-    if (simulator_reload(play->open.simulator, &error))
-        play_tell(play, "the shaders were read again");
-    else
-        play_error(play, error.message);
-}
+/* The parts, and what comes from outside. */
+typedef struct Session {
+    Play play;
+    const PlaySetup *setup;
+    Devices *devices; /* NULL: not started yet, or left alone */
+    WindowShake shake;
+} Session;
 
 /* A HandPost whose devices the window leaves to it. */
 static bool claimed(void *post, uint16_t vendor, uint16_t product)
@@ -157,223 +31,344 @@ static bool claimed(void *post, uint16_t vendor, uint16_t product)
     return hand_post_claims(post, vendor, product);
 }
 
-static bool start_devices(Play *play, Error *error)
+static bool make_post(Session *session, Error *error)
 {
-    const PlaySetup *setup = play->setup;
-    const DevicesSetup devices = {.source = setup->device, .listener = hand_post_hear, .user = play->post};
-    window_leave_gamepads(play->window, claimed, play->post);
-    if (!setup->mapping)
-        return true;
-    play->devices = devices_start(&devices, error);
-    return play->devices != NULL;
-}
-
-static bool make_post(Play *play, Error *error)
-{
+    Play *play = &session->play;
     Mapping mapping;
     mapping_default(&mapping);
-    play->post = hand_post_create(play->setup->mapping ? play->setup->mapping : &mapping, window_wake);
-    return play->post || error_set(error, "no memory for the hand");
+    play->post = hand_post_create(session->setup->mapping ? session->setup->mapping : &mapping, window_wake);
+    if (!play->post)
+        return error_set(error, "no memory for the hand");
+    window_leave_gamepads(play->window, claimed, play->post);
+    return true;
 }
 
-static bool start(Play *play, Error *error)
+static bool make_window(Session *session, Error *error)
 {
-    const PlaySetup *setup = play->setup;
-    play->window = window_create("slosh", setup->width, setup->height, error);
+    Play *play = &session->play;
+    play->window = window_create("slosh", session->setup->width, session->setup->height, error);
     if (!play->window)
         return false;
     fprintf(stderr, "renderer: %s\n", window_renderer(play->window));
     gl_debug_install();
-    play->refresh = window_refresh(play->window);
-    window_size(play->window, &play->width, &play->height);
-    if (!gl_renderer_is_software())
-        play->timer = gl_timer_create(GL_CLOCK_QUERY);
-    if (!make_post(play, error) || !play_open(play, setup->scene, setup->settings, error) ||
-        !start_devices(play, error))
-        return false;
-    play->renderer = renderer_create(&play->open.scene.view, &play->open.scene.world,
-                                     (int)fmax(play->width, 1), (int)fmax(play->height, 1), error);
-    if (!play->renderer)
-        return false;
-    const double letters = LETTERS * window_scale(play->window);
-    play->shaders_stamp = shader_source_stamp();
-    play->text = text_create((float)letters, error);
-    play->panel = play->width > 60 * letters; /* beside the fluid, not over it */
-    play->ui.ui = play->text ? ui_create((float)letters, error) : NULL;
-    play->ui.panel = panel_create();
-    return play->ui.ui && (play->ui.panel || error_set(error, "no memory for the panel"));
+    picture_meet(&play->picture, play->window);
+    return true;
 }
 
-void play_listen(Play *play)
+static bool start(Session *session, Error *error)
 {
-    SimulatorStatus *status = &play->status;
-    simulator_status(play->open.simulator, status);
-    if (status->messages != play->messages) {
-        play->messages = status->messages;
-        play_error(play, status->message);
+    Play *play = &session->play;
+    const PlaySetup *setup = session->setup;
+    if (!make_window(session, error) || !make_post(session, error))
+        return false;
+    play->model = (Model){.window = play->window,
+                          .timer = play->picture.timer,
+                          .post = play->post,
+                          .notice = &play->notice,
+                          .record = setup->record,
+                          .speed = 1};
+    const float letters = picture_letters(play->window);
+    play->overlay.panel = (float)play->picture.width > 60 * letters; /* beside the fluid, not over it */
+    return act_open(play, setup->scene, setup->settings, error) &&
+           picture_start(&play->picture, &play->model.open.scene, letters, error) &&
+           overlay_start(&play->overlay, letters, error);
+}
+
+/* Before the first picture there is nothing that a mouse could take. */
+static bool too_early(const Play *play, WindowEventKind kind)
+{
+    return !play->model.has_particles &&
+           (kind == WINDOW_BUTTON || kind == WINDOW_MOVE || kind == WINDOW_WHEEL || kind == WINDOW_FOCUS);
+}
+
+static bool overlay_has(const Play *play, const WindowEvent *event)
+{
+    return play->model.has_particles && play->input.drag == PLAY_NONE && overlay_takes(&play->overlay, event);
+}
+
+static void take_event(Play *play, const WindowEvent *event)
+{
+    const bool redraw = event->kind == WINDOW_RESIZE || event->kind == WINDOW_EXPOSE;
+    overlay_event(&play->overlay, event);
+    play->picture.dirty |= redraw || play->overlay.panel || play->overlay.help;
+    if (!too_early(play, event->kind) && !overlay_has(play, event))
+        input_take(&play->input, event, play->picture.height, &play->asks);
+}
+
+/* Letters and signs count as the user's keyboard has them. */
+static WindowEvent on_layout(const WindowEvent *event)
+{
+    WindowEvent own = *event;
+    if (own.kind == WINDOW_KEY)
+        own.key = play_key_on_layout(own.key, own.label);
+    return own;
+}
+
+/* The script's events that are due. */
+static bool next_shake(Session *session, WindowEvent *event)
+{
+    const Play *play = &session->play;
+    return session->setup->shake_seconds > 0 && play->model.has_particles &&
+           window_shake_next(&session->shake, wall_ms(), play->picture.width, play->picture.height, event);
+}
+
+static bool shaken_enough(const Session *session)
+{
+    const double began = session->shake.began_ms, seconds = session->setup->shake_seconds;
+    return seconds > 0 && began > 0 && wall_ms() - began >= 1000 * seconds;
+}
+
+/* Once a loop, between two pictures: all that has come, each event done before the next one is looked at. */
+static void take_events(Session *session)
+{
+    Play *play = &session->play;
+    WindowEvent event;
+    act_all(play); /* what the panel and the hand asked for during the last picture */
+    while (next_shake(session, &event)) {
+        take_event(play, &event);
+        act_all(play);
     }
-    if (status->saves == play->saves)
+    play->quit |= shaken_enough(session);
+    window_poll(play->window);
+    while (window_next(play->window, &event)) {
+        event = on_layout(&event);
+        take_event(play, &event);
+        act_all(play);
+    }
+    if (play->model.has_particles)
+        hands_look(play);
+    act_all(play);
+}
+
+/* In the middle of a picture: the box follows a picture sooner. An event that asks for anything waits, and
+   all that come after it. */
+static void follow_hand(Session *session)
+{
+    Play *play = &session->play;
+    WindowEvent event;
+    while (play->input.drag == PLAY_MOVE_DRAG && next_shake(session, &event))
+        take_event(play, &event);
+    window_poll(play->window);
+    while (window_peek(play->window, &event)) {
+        event = on_layout(&event);
+        if (!input_only_holds(&play->input, &event))
+            break;
+        take_event(play, &event);
+        window_next(play->window, &event);
+    }
+    if (play->model.has_particles)
+        hands_look(play);
+}
+
+/* Motion devices begin when there is a box that they could move. */
+static bool start_devices(Session *session, Error *error)
+{
+    const PlaySetup *setup = session->setup;
+    const DevicesSetup devices = {
+        .source = setup->device, .listener = hand_post_hear, .user = session->play.post};
+    if (session->devices || !setup->mapping || !session->play.model.has_particles)
+        return true;
+    session->devices = devices_start(&devices, error);
+    return session->devices != NULL;
+}
+
+static void follow_scale(Play *play)
+{
+    const float letters = picture_letters(play->window);
+    if (picture_follow_scale(&play->picture, letters))
+        overlay_set_letters(&play->overlay, letters);
+}
+
+/* With --shaders: those that have changed are read again. */
+static void follow_shaders(Play *play)
+{
+    Error error = {{0}};
+    if (!picture_shaders_changed(&play->picture))
         return;
-    play->saves = status->saves;
-    if (status->saved)
-        play_tell(play, "%s", status->save_message);
+    if (picture_reload(&play->picture, &play->model.open.scene, &error) &&
+        simulator_reload(play->model.open.simulator, &error))
+        notice_tell(&play->notice, "the shaders were read again");
     else
-        play_error(play, status->save_message);
+        notice_error(&play->notice, error.message);
+}
+
+static void draw_overlay(Play *play)
+{
+    const OverlayFacts facts = {.width = play->picture.width,
+                                .height = play->picture.height,
+                                .renderer = window_renderer(play->window),
+                                .meter = &play->meter,
+                                .gl_times = play->picture.timer ? &play->picture.gl_times : NULL,
+                                .movie = play->files.video != NULL};
+    const double began = meter_thread_cpu_ms();
+    play->picture.dirty |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
+    if (play->overlay.panel || play->overlay.help)
+        meter_panel(&play->meter, meter_thread_cpu_ms() - began);
+}
+
+static void draw_fluid(Session *session)
+{
+    Play *play = &session->play;
+    Picture *picture = &play->picture;
+    const CameraSight sight = play_sight(play);
+    picture_draw(picture, &play->model.particles, sight.covered_left);
+    follow_hand(session);
+    picture_present(picture);
+    files_take(&play->files, picture->renderer, picture->width, picture->height, &play->notice);
+    draw_overlay(play);
+}
+
+static const char *words_of(const Play *play)
+{
+    const char *notice = notice_now(&play->notice);
+    if (notice)
+        return notice;
+    return play->model.status.failed   ? play->model.status.message
+           : play->model.has_particles ? NULL
+                                       : "filling the box ...";
+}
+
+static void count_picture(Play *play, double began)
+{
+    Model *model = &play->model;
+    const double now = wall_ms();
+    meter_drawn(&play->meter, now - began);
+    if (!model->has_particles)
+        return;
+    if (meter_begin(&play->meter, now))
+        model->simulated_s = -model->status.simulated_s;
+    meter_picture(&play->meter, now, simulator_obeyed(model->open.simulator, model->particles.step));
+}
+
+/* One picture of the newest state on the screen. */
+static void draw(Session *session)
+{
+    Play *play = &session->play;
+    Picture *picture = &play->picture;
+    const double began = wall_ms();
+    if (!picture_visible(picture))
+        return;
+    model_take(&play->model);
+    picture->dirty = false;
+    picture->begun_ms = began;
+    if (play->model.has_particles)
+        draw_fluid(session);
+    else
+        picture_clear(picture, &play->model.open.scene.view);
+    picture_words(picture, words_of(play));
+    picture_close(picture);
+    do
+        follow_hand(session);
+    while (!picture_done(picture));
+    window_present(play->window);
+    count_picture(play, began);
 }
 
 static bool hand_busy(const Play *play)
 {
-    bool busy = play->input.drag != PLAY_NONE;
     WindowGamepad pad;
-    for (const PlayHeldKey *held = play_held_keys; held->key; held++)
-        busy |= play->input.down[held->key];
-    return busy || window_gamepad(play->window, &pad);
+    return input_busy(&play->input) || window_gamepad(play->window, &pad);
 }
 
 /* A picture when there is something new to see, and no more than the display shows. A solver on the GPU has
    its turns in between. */
-static void pause_or_draw(Play *play)
+static void pause_or_draw(Session *session)
 {
-    const double work = simulator_work(play->open.simulator, WORK_MS);
-    const double now = wall_ms(), due = play->drew_ms + 900 / play->refresh;
-    const bool visible = play->width > 0 && play->height > 0;
-    const bool wanted = visible && (play->dirty || play_scene_fresh(&play->open) || play_movie_due(play));
+    Play *play = &session->play;
+    const Picture *picture = &play->picture;
+    PlayScene *open = &play->model.open;
+    const double work = simulator_work(open->simulator, WORK_MS);
+    const double now = wall_ms(), due = picture->begun_ms + 900 / picture->refresh;
+    const bool wanted =
+        picture_visible(picture) && (picture->dirty || play_scene_fresh(open) || files_due(&play->files));
     if (wanted && now >= due)
-        play_draw(play);
+        draw(session);
     else if (wanted)
         window_wait(play->window, 1e-3 * fmin(fmax(due - now, 0.1), work));
     else
         window_wait(play->window, 1e-3 * fmin(hand_busy(play) ? HELD_MS : IDLE_MS, work));
 }
 
-static bool run(Play *play, Error *error)
+static bool run(Session *session, Error *error)
 {
-    bool noticed = false;
+    Play *play = &session->play;
     while (!play->quit && !interrupted()) {
-        play_events(play);
-        play_listen(play);
-        play_leave(play, 0);
+        take_events(session);
+        if (!start_devices(session, error))
+            return false;
+        model_listen(&play->model);
+        model_leave(&play->model, 0);
         follow_scale(play);
         follow_shaders(play);
-        if (!follow_size(play, error))
+        if (!picture_follow_size(&play->picture, play->window, error))
             return false;
-        const bool notice = wall_ms() < play->notice_until_ms;
-        play->dirty |= noticed && !notice;
-        noticed = notice;
+        play->picture.dirty |= notice_changed(&play->notice);
         if (!play->quit)
-            pause_or_draw(play);
+            pause_or_draw(session);
     }
     return true;
 }
 
 /* The window goes at once; what is being written is finished behind it. */
-static bool finish(Play *play, Error *error)
+static bool finish(Session *session, Error *error)
 {
-    if (play->shoot) /* asked for in the last moment */
-        play_draw(play);
+    Play *play = &session->play;
+    const char *record = session->setup->record;
+    if (play->files.shoot) /* asked for in the last moment */
+        draw(session);
     window_hide(play->window);
-    const bool movie = play_movie_end(play);
-    return (!play->setup->record || play_save_now(play, play->setup->record, error)) &&
+    const bool movie = files_end(&play->files, &play->notice);
+    return (!record || model_save_now(&play->model, record, error)) &&
            (movie || error_set(error, "the video was not written"));
 }
 
-static void describe(const Play *play, PlayFigures *figures)
+/* False: the solver is in a frame that lasts seconds; the end of the process ends it. */
+static bool close_all(Session *session)
 {
-    const Scene *scene = &play->open.scene;
-    const double wall = 1e-3 * (wall_ms() - play->began_ms);
-    *figures = (PlayFigures){
-        .width = play->width,
-        .height = play->height,
-        .threads = world_on_gpu(&scene->world) ? 0
-                   : scene->world.threads      ? scene->world.threads
-                                               : world_processors(),
-        .substeps = scene->world.substeps,
-        .dt = scene->world.dt,
-        .particles = play->particles.count,
-        .pictures = play->meter.pictures,
-        .scenes_opened = play->scenes_opened,
-        .step = play->status.step,
-        .time = play->status.time,
-        .simulated_s = play->simulated_s + play->status.simulated_s,
-        .wall_s = play->began_ms > 0 ? wall : 0,
-        .first_picture_ms = play->meter.first_ms,
-        .sim_ms = play->status.frames ? play->status.solved_ms / (double)play->status.frames : 0,
-        .render_ms = play->rendered ? play->render_ms / (double)play->rendered : 0,
-        .latency_median_ms = meter_latency(&play->meter, 0.5),
-        .latency_p95_ms = meter_latency(&play->meter, 0.95),
-        .latency_events = play->meter.latencies,
-        .device_reports = hand_post_reports(play->post),
-        .report_median_ms = hand_post_latency(play->post, 0.5),
-        .report_p99_ms = hand_post_latency(play->post, 0.99),
-        .panel_ms = play->panels ? play->panel_ms / (double)play->panels : 0,
-        .display_scale = window_scale(play->window),
-        .speed = play->speed,
-        .paused = play->paused,
-        .fullscreen = window_is_fullscreen(play->window),
-        .camera_auto = scene->view.camera_auto,
-        .panel = play->panel,
-        .help = play->help,
-        .gl_errors = gl_debug_errors()};
-    if (play->began_ms > 0) {
-        figures->real_time_factor = figures->simulated_s / wall;
-        figures->pictures_per_second = (double)(play->meter.pictures - 1) / wall;
-        figures->frame_ms = 1000 / fmax(figures->pictures_per_second, 1e-3);
-        figures->cpus_busy = 1e-3 * (cpu_ms() - play->began_cpu_ms) / wall;
-    }
-    memcpy(figures->box_position, play->status.hand.position, sizeof figures->box_position);
-    memcpy(figures->box_orientation, play->status.hand.orientation, sizeof figures->box_orientation);
-    memcpy(figures->camera_from, scene->view.camera.from, sizeof figures->camera_from);
-    memcpy(figures->camera_to, scene->view.camera.to, sizeof figures->camera_to);
-    snprintf(figures->scene, sizeof figures->scene, "%s", scene->path);
-    snprintf(figures->renderer, sizeof figures->renderer, "%s", window_renderer(play->window));
-    snprintf(figures->view, sizeof figures->view, "%s", scene->view.kind);
-    snprintf(figures->color_by, sizeof figures->color_by, "%s", scalar_name(scene->view.color_by));
-    snprintf(figures->colormap, sizeof figures->colormap, "%s", scene->view.colormap);
-    snprintf(figures->backend, sizeof figures->backend, "%s", scene->world.backend);
-    snprintf(figures->method, sizeof figures->method, "%s", scene->world.method);
-}
-
-static void close_all(Play *play)
-{
-    devices_stop(play->devices);
+    Play *play = &session->play;
+    devices_stop(session->devices);
     if (play->post)
         hand_post_close(play->post);
-    play->stuck = !play_scene_close(&play->open, PATIENCE_MS) || !play_leave(play, PATIENCE_MS);
-    if (play->stuck) /* in a frame that lasts seconds: the end of the process ends it */
-        return;
+    if (!model_close(&play->model, PATIENCE_MS))
+        return false;
     hand_post_destroy(play->post);
-    panel_destroy(play->ui.panel);
-    ui_destroy(play->ui.ui);
-    text_destroy(play->text);
-    gl_timer_destroy(play->timer);
-    renderer_destroy(play->renderer);
+    overlay_end(&play->overlay);
+    picture_end(&play->picture);
     window_destroy(play->window);
+    return true;
+}
+
+static bool play_session(Session *session, PlayFigures *figures)
+{
+    Play *play = &session->play;
+    Error error = {{0}};
+    const bool started = start(session, &error);
+    bool ok = started && run(session, &error);
+    if (!ok)
+        fprintf(stderr, "%s\n", error.message);
+    if (!started)
+        return false;
+    simulator_status(play->model.open.simulator, &play->model.status);
+    figures_of(play, figures);
+    if (finish(session, &error))
+        return ok;
+    fprintf(stderr, "%s\n", error.message);
+    return false;
 }
 
 int play(const PlaySetup *setup, PlayFigures *figures)
 {
-    Error error = {{0}};
-    Play *play = calloc(1, sizeof *play);
-    if (!play) {
+    Session *session = calloc(1, sizeof *session);
+    if (!session) {
         fprintf(stderr, "no memory for the window\n");
         return EXIT_FAILED;
     }
-    *play = (Play){.setup = setup, .speed = 1, .input = {.drag = PLAY_NONE}};
+    session->setup = setup;
+    session->play.notice.quiet = setup->quiet;
+    input_begin(&session->play.input);
     interrupt_install();
-    const bool started = start(play, &error);
-    bool ok = started && run(play, &error);
-    if (!ok)
-        fprintf(stderr, "%s\n", error.message);
-    if (started) {
-        simulator_status(play->open.simulator, &play->status);
-        describe(play, figures);
-        if (!finish(play, &error)) {
-            fprintf(stderr, "%s\n", error.message);
-            ok = false;
-        }
-    }
-    close_all(play);
-    if (!play->stuck)
-        free(play);
+    const bool ok = play_session(session, figures);
+    if (close_all(session))
+        free(session);
     return ok ? 0 : EXIT_FAILED;
 }

@@ -41,13 +41,15 @@ void simulator_pause(Simulator *simulator, bool paused)
 {
     change_begin(simulator);
     simulator->paused = paused;
+    simulator->singles = 0;
     change_end(simulator);
 }
 
-void simulator_single_step(Simulator *simulator)
+void simulator_single_step(Simulator *simulator, bool held)
 {
     change_begin(simulator);
-    simulator->paused = simulator->single = true;
+    simulator->paused = true;
+    simulator->singles += !held || simulator->singles == 0;
     change_end(simulator);
 }
 
@@ -69,7 +71,7 @@ void simulator_reset(Simulator *simulator)
 {
     change_begin(simulator);
     simulator->reset = true;
-    simulator->single = false;
+    simulator->singles = 0;
     command_queue_drop_poses(&simulator->queue);
     change_end(simulator);
 }

@@ -63,7 +63,10 @@ bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upl
 bool simulator_reload(Simulator *simulator, Error *error);
 
 void simulator_pause(Simulator *simulator, bool paused);
-void simulator_single_step(Simulator *simulator); /* one frame, then paused */
+
+/* One frame more, then paused; each call counts, also while a reset or a frame lasts. `held`: the key comes
+   again by itself, and counts only when no such frame waits. */
+void simulator_single_step(Simulator *simulator, bool held);
 void simulator_set_speed(Simulator *simulator,
                          double speed); /* simulated seconds in a second, in real time */
 void simulator_set_realtime(Simulator *simulator, bool realtime);

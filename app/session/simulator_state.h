@@ -36,7 +36,7 @@ struct Simulator {
     pthread_cond_t changed;
     bool quit, ended, idle; /* idle: no frame was due for as long as something forbade it */
     bool paused, realtime, reset;
-    bool single; /* one frame although paused */
+    int singles; /* frames that are due although paused */
     double speed;
     bool save, saving; /* asked for; asked for and not done */
     bool save_later;   /* a reset was asked for before it */

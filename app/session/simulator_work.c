@@ -25,7 +25,7 @@ static bool frame_due(Simulator *simulator, double *until)
 {
     const double now = wall_ms();
     *until = INFINITY;
-    if (simulator->status.failed || (simulator->paused && !simulator->single)) {
+    if (simulator->status.failed || (simulator->paused && simulator->singles == 0)) {
         simulator->status.real_time_factor = 0;
         simulator->idle = true;
         return false;
@@ -37,11 +37,11 @@ static bool frame_due(Simulator *simulator, double *until)
     }
     const double due = simulator->last_due + 1000 * simulator->frame_time / simulator->speed;
     *until = due;
-    if (!simulator->single && simulator->realtime && now < due)
+    if (simulator->singles == 0 && simulator->realtime && now < due)
         return false;
     const double late = simulator->realtime ? now - due : 0;
     simulator->status.behind_s += late > BEHIND_MS ? 1e-3 * late : 0;
-    simulator->last_due = simulator->realtime && late <= BEHIND_MS && !simulator->single ? due : now;
+    simulator->last_due = simulator->realtime && late <= BEHIND_MS && simulator->singles == 0 ? due : now;
     return true;
 }
 
@@ -67,7 +67,7 @@ static bool find_work(Simulator *simulator, Work *work, double *until)
         simulator->reset = false;
     } else if (frame_due(simulator, until)) {
         work->frame = true;
-        simulator->single = false;
+        simulator->singles -= simulator->singles > 0;
     }
     return work->save || work->reset || work->frame;
 }

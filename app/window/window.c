@@ -214,11 +214,18 @@ void window_destroy(Window *window)
     free(window);
 }
 
-bool window_next(Window *window, WindowEvent *event)
+bool window_peek(const Window *window, WindowEvent *event)
 {
     if (window->count == 0)
         return false;
     *event = window->events[window->first];
+    return true;
+}
+
+bool window_next(Window *window, WindowEvent *event)
+{
+    if (!window_peek(window, event))
+        return false;
     window->first = (window->first + 1) % EVENTS_MAX;
     window->count--;
     return true;

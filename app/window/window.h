@@ -43,6 +43,7 @@ void window_destroy(Window *window); /* NULL is allowed */
 
 /* The next event that the last window_poll or window_wait found; false when there is none left. */
 bool window_next(Window *window, WindowEvent *event);
+bool window_peek(const Window *window, WindowEvent *event); /* the same, and it stays the next one */
 void window_poll(Window *window);
 void window_wait(Window *window, double seconds); /* returns early for an event or window_wake */
 void window_wake(void);                           /* from any thread */

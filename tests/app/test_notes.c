@@ -2,7 +2,7 @@
 #include "app/base/notes.h"
 #include "app/scene/advise.h"
 
-#include "app/play/play_scene.h"
+#include "app/play/scene.h"
 #include "app/scene/keys.h"
 #include "app/yaml/yaml.h"
 #include "sim/gl/backends.h"

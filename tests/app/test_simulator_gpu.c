@@ -81,9 +81,12 @@ static void it_works_when_asked(void **state)
     assert_true(simulator_share(rig.simulator, PARTICLE_SCALAR(SCALAR_SPEED), &particles));
     assert_true(particles.count == 400 && particles.position.buffer && particles.step == 0);
     assert_false(simulator_fresh(rig.simulator));
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
+    simulator_single_step(rig.simulator, true); /* by itself, while one waits: it does not count */
     until_step(&rig, 5);
     assert_true(isinf(simulator_work(rig.simulator, 5)) && simulator_fresh(rig.simulator));
+    simulator_status(rig.simulator, &rig.status);
+    assert_int_equal(rig.status.step, 5);
     simulator_pause(rig.simulator, false);
     until_step(&rig, 10);
     const double wait = simulator_work(rig.simulator, 1000); /* in real time it has no more than that to do */
@@ -122,17 +125,17 @@ static void the_backend_changes_while_it_runs(void **state)
     static Session session;
     Recording recording;
     rig_open(&rig, true);
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
     until_step(&rig, 5);
     const double before = height(&rig);
     move(&rig, "cpu");
     simulator_status(rig.simulator, &rig.status);
     assert_int_equal(rig.status.step, 5);
     assert_true(height(&rig) == before && before > 0);
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
     until_step(&rig, 10);
     move(&rig, "compute");
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
     until_step(&rig, 15);
     simulator_save(rig.simulator, "moved.rec");
     rig_close(&rig);
@@ -159,7 +162,7 @@ static void a_reset_stays_on_its_backend(void **state)
     Rig rig;
     rig_open(&rig, true);
     move(&rig, "cpu");
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
     until_step(&rig, 5);
     simulator_reset(rig.simulator);
     do {
@@ -167,7 +170,7 @@ static void a_reset_stays_on_its_backend(void **state)
         simulator_status(rig.simulator, &rig.status);
     } while (rig.status.step != 0);
     assert_false(rig.status.failed || simulator_here(rig.simulator));
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
     until_step(&rig, 5);
     rig_close(&rig);
 }
@@ -183,7 +186,7 @@ static void a_backend_that_is_none_changes_nothing(void **state)
     simulator_status(rig.simulator, &rig.status);
     assert_string_equal(now, "compute");
     assert_true(rig.status.messages == 1 && strstr(rig.status.message, "abacus") && !rig.status.failed);
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
     until_step(&rig, 5);
     rig_close(&rig);
 }
@@ -204,7 +207,7 @@ static void a_failed_start_goes_on_elsewhere(void **state)
     simulator_status(rig.simulator, &rig.status);
     assert_true(rig.status.failed && strstr(rig.status.message, "no solids"));
     move(&rig, "cpu");
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
     until_step(&rig, 1);
     simulator_save(rig.simulator, "cpu.rec");
     rig_close(&rig);
@@ -227,7 +230,7 @@ static void broken_shaders_leave_the_last_good_ones(void **state)
     shader_source_set_directory("shaders");
     assert_false(simulator_reload(rig.simulator, &error));
     assert_non_null(strstr(error.message, "sim/compute/kick.comp:"));
-    simulator_single_step(rig.simulator);
+    simulator_single_step(rig.simulator, false);
     until_step(&rig, 5);
     assert_false(rig.status.failed);
     assert_int_equal(system("cp " SLOSH_SOURCE_DIR "/shaders/sim/compute/kick.comp shaders/sim/compute/"), 0);

@@ -136,6 +136,17 @@ class Motion(Window):
         self.assertEqual((out['camera_auto'], out['paused']), (False, True))
         self.assertEqual(out['box_position'], [0, 0, 0])
 
+    def test_nothing_is_lost_before_the_first_picture(self):
+        """A push that begins with the recording, when there is no box yet."""
+        cap = Recording(1, 'spacemouse', '046d:c626')
+        for push in [350] * 18 + [0]:
+            cap.line('report 01' + struct.pack('<3h', push, 0, 0).hex())
+            cap.time += 1 / 60
+        cap.time += 5
+        cap.unplugged()
+        out = self.play(cap, seconds=1)
+        self.assertGreater(out['box_position'][0], 0.2)  # 0.3 s at 1 m/s
+
     def test_a_mapping_of_ones_own_and_the_neutral_key(self):
         self.write('own.yaml', 'dualsense: {pose: {gain: 2}}\n')
         recording = Recording()
@@ -182,4 +193,5 @@ class Mapping(command.CommandTest):
 if __name__ == '__main__':
     command.main('Motion.test_the_box_turns_by_the_angle_recorded Motion.test_two_devices Mapping',
                  'Motion.test_unplugged_the_box_stays Motion.test_buttons_sticks_and_the_neutral_pose '
+                 'Motion.test_nothing_is_lost_before_the_first_picture '
                  'Motion.test_a_mapping_of_ones_own_and_the_neutral_key Motion.test_what_is_wrong_is_refused_before_the_window')

@@ -197,9 +197,8 @@ class Keys(Window):
         self.keys('space')
         time.sleep(0.5)
         self.keys('space', 'equal', 'plus', 'minus', 'space')
-        self.keys('r')
-        time.sleep(1.5)  # back at the start, and paused, under a sanitizer too
-        self.keys('period', 'n', 'period')
+        self.xdo('key', 'r', 'period', 'n', 'period')  # back at the start, and paused
+        self.shown(1)
         out = self.quit()
         self.assertEqual((out['paused'], out['speed']), (True, 2))
         self.assertEqual(out['steps'], 15)  # three frames of five substeps

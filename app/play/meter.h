@@ -1,5 +1,5 @@
 /* What the live window measures of itself: pictures a second, the time from start to the first picture, and
-   from an event to the first picture that shows it. Pure but for the start of the process. */
+   from an event to the first picture that shows it. Pure but for the clocks of the process. */
 #ifndef SLOSH_PLAY_METER_H
 #define SLOSH_PLAY_METER_H
 
@@ -29,6 +29,10 @@ typedef struct PlayMeter {
     MeterEvent waiting[METER_WAITING_MAX]; /* not shown yet, in the order of their commands */
     size_t latencies;                      /* shown, in all */
     float latency_ms[METER_SAMPLES_MAX];   /* of the last of them; a ring */
+    double began_ms, began_cpu_ms;  /* wall and CPU time of the first picture of a state; 0: none yet */
+    double drawn_ms, last_drawn_ms; /* wall time of drawing: all pictures; the last one */
+    double panel_ms;                /* CPU time of the panel in all of them */
+    size_t drawn, panels;           /* how many these were */
 } PlayMeter;
 
 /* Wall time since the process began, ms; its own start included. 0 where /proc does not tell. */
@@ -39,6 +43,19 @@ void meter_event(PlayMeter *meter, double when_ms, uint64_t command);
 
 /* A picture is on the screen now, of a state that has obeyed `obeyed` commands. */
 void meter_picture(PlayMeter *meter, double now_ms, uint64_t obeyed);
+
+/* The first picture of a state: from now on the session counts. False: it was not the first. */
+bool meter_begin(PlayMeter *meter, double now_ms);
+
+/* CPU time of the process; of the calling thread, ms. */
+double meter_cpu_ms(void);
+double meter_thread_cpu_ms(void);
+
+/* What a picture took; what of it the panel took, CPU time; means over all. */
+void meter_drawn(PlayMeter *meter, double ms);
+void meter_panel(PlayMeter *meter, double cpu_ms);
+double meter_drawn_mean(const PlayMeter *meter);
+double meter_panel_mean(const PlayMeter *meter);
 
 /* The picture-to-picture times, oldest first; how many. */
 int meter_history(const PlayMeter *meter, float out[METER_HISTORY]);

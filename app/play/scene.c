@@ -1,4 +1,4 @@
-#include "app/play/play_scene.h"
+#include "app/play/scene.h"
 
 #include "app/base/path.h"
 #include "app/scene/advise.h"

@@ -1,4 +1,4 @@
-#include "app/play/play_meter.h"
+#include "app/play/meter.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -64,6 +64,55 @@ void meter_picture(PlayMeter *meter, double now_ms, uint64_t obeyed)
         meter->in_second = 0;
     }
     show_events(meter, now_ms, obeyed);
+}
+
+static double clock_ms(clockid_t clock)
+{
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+double meter_cpu_ms(void)
+{
+    return clock_ms(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+double meter_thread_cpu_ms(void)
+{
+    return clock_ms(CLOCK_THREAD_CPUTIME_ID);
+}
+
+bool meter_begin(PlayMeter *meter, double now_ms)
+{
+    if (meter->began_ms > 0)
+        return false;
+    meter->began_ms = now_ms;
+    meter->began_cpu_ms = meter_cpu_ms();
+    return true;
+}
+
+void meter_drawn(PlayMeter *meter, double ms)
+{
+    meter->last_drawn_ms = ms;
+    meter->drawn_ms += ms;
+    meter->drawn++;
+}
+
+void meter_panel(PlayMeter *meter, double cpu_ms)
+{
+    meter->panel_ms += cpu_ms;
+    meter->panels++;
+}
+
+double meter_drawn_mean(const PlayMeter *meter)
+{
+    return meter->drawn ? meter->drawn_ms / (double)meter->drawn : 0;
+}
+
+double meter_panel_mean(const PlayMeter *meter)
+{
+    return meter->panels ? meter->panel_ms / (double)meter->panels : 0;
 }
 
 int meter_history(const PlayMeter *meter, float out[METER_HISTORY])

@@ -1,4 +1,4 @@
-#include "app/play/play_report.h"
+#include "app/play/report.h"
 
 #include "app/base/json_file.h"
 #include "app/lab/bench.h"

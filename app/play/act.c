@@ -1,0 +1,233 @@
+#include "app/play/act.h"
+
+#include "render/frame/colormap.h"
+#include "sim/base/scalar.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void view_changed(Play *play)
+{
+    picture_set_view(&play->picture, &play->model.open.scene, &play->notice);
+}
+
+/* Another scene is open: nothing of the one before is in the hand, on its way or in the picture. */
+static void follow_scene(Play *play)
+{
+    char title[192];
+    input_begin(&play->input);
+    play->camera.held = false;
+    meter_forget(&play->meter);
+    play->picture.dirty = true;
+    snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
+    window_title(play->window, title);
+    if (play->picture.renderer)
+        view_changed(play);
+}
+
+bool act_open(Play *play, const char *scene, const SceneSettings *settings, Error *error)
+{
+    const bool opened = model_open(&play->model, scene, settings, error);
+    if (opened)
+        follow_scene(play);
+    return opened;
+}
+
+static void open_file(Play *play, const char *path)
+{
+    Error error = {{0}};
+    if (!act_open(play, path, NULL, &error))
+        notice_error(&play->notice, error.message);
+}
+
+static void open_neighbour(Play *play, int by)
+{
+    if (model_open_neighbour(&play->model, by))
+        follow_scene(play);
+}
+
+/* A range that the file gives belongs to the file's scalar. */
+static void next_scalar(Play *play)
+{
+    ViewDef *view = &play->model.open.scene.view;
+    const ViewDef *file = &play->model.file_scene.view;
+    view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
+    view->range_auto = view->color_by == file->color_by ? file->range_auto : true;
+    memcpy(view->range, file->range, sizeof view->range);
+    view_changed(play);
+    notice_tell(&play->notice, "coloured by %s", scalar_name(view->color_by));
+}
+
+static void next_colormap(Play *play)
+{
+    ViewDef *view = &play->model.open.scene.view;
+    int i = 0;
+    while (colormap_list[i] && strcmp(colormap_list[i], view->colormap) != 0)
+        i++;
+    const char *next = colormap_list[i] && colormap_list[i + 1] ? colormap_list[i + 1] : colormap_list[0];
+    snprintf(view->colormap, sizeof view->colormap, "%s", next);
+    view_changed(play);
+    notice_tell(&play->notice, "colours %s", next);
+}
+
+static void quit_or_close(Play *play)
+{
+    if (play->overlay.help)
+        play->overlay.help = false;
+    else
+        play->quit = true;
+}
+
+static void do_command(Play *play, PlayCommand command, bool held)
+{
+    Model *model = &play->model;
+    play->picture.dirty = true;
+    switch (command) {
+    case PLAY_PAUSE:
+        model_pause(model, !model->paused);
+        break;
+    case PLAY_STEP:
+        model_step(model, held);
+        break;
+    case PLAY_RESET:
+        model_reset(model);
+        break;
+    case PLAY_SLOWER:
+        model_set_speed(model, 0.5);
+        break;
+    case PLAY_FASTER:
+        model_set_speed(model, 2);
+        break;
+    case PLAY_NEXT_SCENE:
+        open_neighbour(play, 1);
+        break;
+    case PLAY_PREVIOUS_SCENE:
+        open_neighbour(play, -1);
+        break;
+    case PLAY_NEXT_SCALAR:
+        next_scalar(play);
+        break;
+    case PLAY_NEXT_COLORMAP:
+        next_colormap(play);
+        break;
+    case PLAY_SCREENSHOT:
+        play->files.shoot = true;
+        break;
+    case PLAY_VIDEO:
+        files_video(&play->files, play->picture.width, play->picture.height, &play->notice);
+        break;
+    case PLAY_SAVE_RECORDING:
+        model_save(model);
+        break;
+    case PLAY_FULLSCREEN:
+        window_fullscreen(play->window, !window_is_fullscreen(play->window));
+        break;
+    case PLAY_PANEL:
+        play->overlay.panel = !play->overlay.panel;
+        break;
+    case PLAY_HELP:
+        play->overlay.help = !play->overlay.help;
+        break;
+    case PLAY_CAMERA_HOME:
+        camera_home(&play->camera, model);
+        view_changed(play);
+        break;
+    case PLAY_BOX_HOME:
+        hand_post_home(play->post);
+        break;
+    case PLAY_NEUTRAL:
+        hand_post_neutral(play->post);
+        break;
+    case PLAY_QUIT:
+        quit_or_close(play);
+        break;
+    default: /* what is done by drags, wheels and sticks: input.c */
+        break;
+    }
+}
+
+static void grab_camera(Play *play)
+{
+    const CameraSight sight = play_sight(play);
+    camera_grab(&play->camera, &play->model, &sight);
+}
+
+static void camera_has_moved(Play *play)
+{
+    camera_moved(&play->camera, &play->model);
+    view_changed(play);
+}
+
+static void turn_camera(Play *play, const double amount[2])
+{
+    orbit_turn(&play->camera.orbit, amount[0], amount[1]);
+    camera_has_moved(play);
+}
+
+static void pan_camera(Play *play, const double amount[2])
+{
+    orbit_pan(&play->camera.orbit, amount[0], amount[1]);
+    camera_has_moved(play);
+}
+
+static void zoom_camera(Play *play, double steps)
+{
+    grab_camera(play);
+    orbit_zoom(&play->camera.orbit, steps);
+    camera_has_moved(play);
+}
+
+static void steer_camera(Play *play, const double amount[3])
+{
+    grab_camera(play);
+    orbit_turn(&play->camera.orbit, amount[0], amount[1]);
+    orbit_zoom(&play->camera.orbit, amount[2]);
+    camera_has_moved(play);
+}
+
+static void act(Play *play, const Ask *ask)
+{
+    switch (ask->kind) {
+    case ASK_COMMAND:
+        do_command(play, ask->command, ask->held);
+        break;
+    case ASK_SETTING:
+        if (model_set(&play->model, ask->text))
+            view_changed(play);
+        break;
+    case ASK_OPEN:
+        open_file(play, ask->text);
+        break;
+    case ASK_TUNE:
+        hand_post_tune(play->post, ask->device, ask->amount[0], ask->amount[1]);
+        break;
+    case ASK_LET_GO:
+        model_let_go(&play->model);
+        break;
+    case ASK_GRAB:
+        grab_camera(play);
+        break;
+    case ASK_TURN:
+        turn_camera(play, ask->amount);
+        break;
+    case ASK_PAN:
+        pan_camera(play, ask->amount);
+        break;
+    case ASK_ZOOM:
+        zoom_camera(play, ask->amount[0]);
+        break;
+    case ASK_STEER:
+        steer_camera(play, ask->amount);
+        break;
+    case ASK_CLOSE:
+        play->quit = true;
+        break;
+    }
+}
+
+void act_all(Play *play)
+{
+    Ask ask;
+    while (ask_next(&play->asks, &ask))
+        act(play, &ask);
+}

@@ -1,0 +1,33 @@
+#include "app/play/ask.h"
+
+static bool adds_up(AskKind kind)
+{
+    return kind == ASK_TURN || kind == ASK_PAN || kind == ASK_ZOOM || kind == ASK_STEER;
+}
+
+void ask_add(AskQueue *queue, const Ask *ask)
+{
+    Ask *last = &queue->asks[(queue->first + queue->count + ASKS_MAX - 1) % ASKS_MAX];
+    if (queue->count > 0 && last->kind == ask->kind && adds_up(ask->kind)) {
+        for (int k = 0; k < 3; k++)
+            last->amount[k] += ask->amount[k];
+        return;
+    }
+    if (queue->count < ASKS_MAX)
+        queue->asks[(queue->first + queue->count++) % ASKS_MAX] = *ask;
+}
+
+void ask_command(AskQueue *queue, PlayCommand command)
+{
+    ask_add(queue, &(Ask){.kind = ASK_COMMAND, .command = command});
+}
+
+bool ask_next(AskQueue *queue, Ask *ask)
+{
+    if (queue->count == 0)
+        return false;
+    *ask = queue->asks[queue->first];
+    queue->first = (queue->first + 1) % ASKS_MAX;
+    queue->count--;
+    return true;
+}

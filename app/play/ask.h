@@ -1,0 +1,50 @@
+/* What is asked of the window: by keys, mouse and wheel, by a dropped file, by the panel, by motion devices.
+   It waits in a queue and is done between two pictures, in the order in which it was asked for: so nothing
+   that a picture is made of is replaced while that picture is drawn. */
+#ifndef SLOSH_PLAY_ASK_H
+#define SLOSH_PLAY_ASK_H
+
+#include "app/hand/play_commands.h"
+
+#include <stdbool.h>
+
+typedef enum AskKind {
+    ASK_COMMAND, /* command, held */
+    ASK_SETTING, /* text: "path=value" of a live key */
+    ASK_OPEN,    /* text: the file of a scene */
+    ASK_TUNE,    /* device, amount: gain and dead zone */
+    ASK_LET_GO,  /* the box stops where it is: what moved it is gone */
+    ASK_GRAB,    /* the camera goes into the hand, as it stands */
+    ASK_TURN,    /* amount: radians to the right and up, of a camera in the hand */
+    ASK_PAN,     /* amount: heights of the picture to the right and up */
+    ASK_ZOOM,    /* amount: steps nearer; grabs it first */
+    ASK_STEER,   /* amount: radians to the right and up, steps nearer; grabs it first */
+    ASK_CLOSE    /* the window */
+} AskKind;
+
+typedef struct Ask {
+    AskKind kind;
+    PlayCommand command;
+    bool held;        /* the command comes again because its key is held down */
+    int device;       /* its number */
+    double amount[3]; /* what is not said is 0 */
+    char text[1024];
+} Ask;
+
+enum { ASKS_MAX = 64 };
+
+/* Zero-initialise it. */
+typedef struct AskQueue {
+    int first, count;
+    Ask asks[ASKS_MAX]; /* a ring */
+} AskQueue;
+
+/* Adds a copy. Turns, ways and zooms of the camera add up while nothing else comes in between. What comes to
+   a full queue is left out: nobody has pressed so much during one picture. */
+void ask_add(AskQueue *queue, const Ask *ask);
+void ask_command(AskQueue *queue, PlayCommand command);
+
+/* Takes the oldest; false when there is none. */
+bool ask_next(AskQueue *queue, Ask *ask);
+
+#endif

@@ -1,0 +1,92 @@
+#include "app/play/figures.h"
+
+#include "sim/base/scalar.h"
+#include "sim/base/stage.h"
+#include "sim/gl/debug.h"
+#include "sim/world/world.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static int threads_of(const WorldDef *def)
+{
+    if (world_on_gpu(def))
+        return 0;
+    return def->threads ? def->threads : world_processors();
+}
+
+static void add_model(const Model *model, PlayFigures *figures)
+{
+    const WorldDef *def = &model->open.scene.world;
+    const SimulatorStatus *status = &model->status;
+    figures->threads = threads_of(def);
+    figures->substeps = def->substeps;
+    figures->dt = def->dt;
+    figures->particles = model->particles.count;
+    figures->scenes_opened = model->scenes_opened;
+    figures->step = status->step;
+    figures->time = status->time;
+    figures->simulated_s = model->simulated_s + status->simulated_s;
+    figures->sim_ms = status->frames ? status->solved_ms / (double)status->frames : 0;
+    figures->speed = model->speed;
+    figures->paused = model->paused;
+    memcpy(figures->box_position, status->hand.position, sizeof figures->box_position);
+    memcpy(figures->box_orientation, status->hand.orientation, sizeof figures->box_orientation);
+    snprintf(figures->scene, sizeof figures->scene, "%s", model->open.scene.path);
+    snprintf(figures->backend, sizeof figures->backend, "%s", def->backend);
+    snprintf(figures->method, sizeof figures->method, "%s", def->method);
+}
+
+static void add_view(const ViewDef *view, PlayFigures *figures)
+{
+    figures->camera_auto = view->camera_auto;
+    memcpy(figures->camera_from, view->camera.from, sizeof figures->camera_from);
+    memcpy(figures->camera_to, view->camera.to, sizeof figures->camera_to);
+    snprintf(figures->view, sizeof figures->view, "%s", view->kind);
+    snprintf(figures->color_by, sizeof figures->color_by, "%s", scalar_name(view->color_by));
+    snprintf(figures->colormap, sizeof figures->colormap, "%s", view->colormap);
+}
+
+static void add_meter(const PlayMeter *meter, PlayFigures *figures)
+{
+    figures->pictures = meter->pictures;
+    figures->first_picture_ms = meter->first_ms;
+    figures->render_ms = meter_drawn_mean(meter);
+    figures->panel_ms = meter_panel_mean(meter);
+    figures->latency_median_ms = meter_latency(meter, 0.5);
+    figures->latency_p95_ms = meter_latency(meter, 0.95);
+    figures->latency_events = meter->latencies;
+}
+
+/* Rates since the first picture. */
+static void add_rates(const PlayMeter *meter, PlayFigures *figures)
+{
+    const double wall = 1e-3 * (wall_ms() - meter->began_ms);
+    if (meter->began_ms <= 0)
+        return;
+    figures->wall_s = wall;
+    figures->real_time_factor = figures->simulated_s / wall;
+    figures->pictures_per_second = (double)(meter->pictures - 1) / wall;
+    figures->frame_ms = 1000 / fmax(figures->pictures_per_second, 1e-3);
+    figures->cpus_busy = 1e-3 * (meter_cpu_ms() - meter->began_cpu_ms) / wall;
+}
+
+void figures_of(const Play *play, PlayFigures *figures)
+{
+    *figures = (PlayFigures){.width = play->picture.width,
+                             .height = play->picture.height,
+                             .device_reports = hand_post_reports(play->post),
+                             .report_median_ms = hand_post_latency(play->post, 0.5),
+                             .report_p99_ms = hand_post_latency(play->post, 0.99),
+                             .display_scale = window_scale(play->window),
+                             .fullscreen = window_is_fullscreen(play->window),
+                             .panel = play->overlay.panel,
+                             .help = play->overlay.help,
+                             .gl_errors = gl_debug_errors()};
+    snprintf(figures->renderer, sizeof figures->renderer, "%s", window_renderer(play->window));
+    add_model(&play->model, figures);
+    add_view(&play->model.open.scene.view, figures);
+    add_meter(&play->meter, figures);
+    add_rates(&play->meter, figures);
+}

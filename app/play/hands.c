@@ -1,0 +1,46 @@
+#include "app/play/hands.h"
+
+#include <math.h>
+
+static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians, steps in a second, at rate 1 */
+
+/* What motion devices ask of the camera. */
+static void steer(AskQueue *asks, const double rates[3])
+{
+    if (rates[0] == 0 && rates[1] == 0 && rates[2] == 0)
+        return;
+    ask_add(asks, &(Ask){.kind = ASK_STEER,
+                         .amount = {CAMERA_TURN * rates[0], CAMERA_TURN * rates[1], CAMERA_ZOOM * rates[2]}});
+}
+
+static void take_news(Play *play, const HandNews *news)
+{
+    for (int i = 0; i < news->words_count; i++)
+        if (news->words[i].wrong)
+            notice_error(&play->notice, news->words[i].text);
+        else
+            notice_tell(&play->notice, "%s", news->words[i].text);
+    for (int i = 0; i < news->sent_count && !play->model.paused; i++)
+        meter_event(&play->meter, news->sent[i].when_ms, news->sent[i].number);
+    steer(&play->asks, news->camera);
+    for (int i = 0; i < news->command_count; i++)
+        ask_command(&play->asks, news->commands[i]);
+}
+
+void hands_look(Play *play)
+{
+    const CameraSight sight = play_sight(play);
+    const Orbit orbit = camera_now(&play->camera, &play->model, &sight);
+    const ParticleBuffers *particles = &play->model.particles;
+    const double metres = orbit_metres_per_pixel(&orbit, particles->box_size, &particles->box, sight.height);
+    WindowGamepad pad;
+    const bool has_pad = window_gamepad(play->window, &pad);
+    HandInput hand = {.dt = 0};
+    HandNews news;
+    orbit_axes(&orbit, hand.right, hand.up, hand.away);
+    const double event_ms = input_hand(&play->input, has_pad ? &pad : NULL, metres, &hand, &play->asks);
+    const uint64_t number = hand_post_look(play->post, &hand, particles->box_size, &news);
+    if (number && event_ms > 0 && !play->model.paused)
+        meter_event(&play->meter, event_ms, number);
+    take_news(play, &news);
+}

@@ -1,0 +1,242 @@
+#include "app/play/model.h"
+
+#include "app/play/file_name.h"
+#include "app/scene/live.h"
+#include "sim/base/stage.h"
+#include "sim/gl/debug.h"
+#include "sim/world/world.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double LEAVE_MS = 200, SAVE_MS = 5000;
+
+void model_listen(Model *model)
+{
+    SimulatorStatus *status = &model->status;
+    simulator_status(model->open.simulator, status);
+    if (status->messages != model->messages) {
+        model->messages = status->messages;
+        notice_error(model->notice, status->message);
+    }
+    if (status->saves == model->saves)
+        return;
+    model->saves = status->saves;
+    if (status->saved)
+        notice_tell(model->notice, "%s", status->save_message);
+    else
+        notice_error(model->notice, status->save_message);
+}
+
+void model_take(Model *model)
+{
+    model->has_particles = play_scene_take(&model->open, &model->particles);
+}
+
+/* A HandSend. */
+static uint64_t send_target(void *simulator, const BoxTarget *target)
+{
+    const SimCommand command = {.kind = SIM_TARGET, .target = *target};
+    return simulator_send(simulator, &command);
+}
+
+static void adopt(Model *model, const PlayScene *opened)
+{
+    model->open = *opened;
+    model->file_scene = opened->scene;
+    model->has_particles = false;
+    hand_post_open(model->post, send_target, model->open.simulator);
+    model->saves = model->messages = 0;
+    model->scenes_opened++;
+    simulator_set_speed(model->open.simulator, model->speed);
+}
+
+/* A software renderer keeps all processors busy by itself. A solver on as many threads waits at each of its
+   many barriers until the last of them gets its turn: on two processors a frame took 30 ms with two threads,
+   and 18 with one. The bits do not depend on it. */
+static void share_processors(WorldDef *def)
+{
+    if (def->threads == 0 && gl_renderer_is_software())
+        def->threads = world_processors() > 1 ? world_processors() / 2 : 1;
+}
+
+bool model_save_now(Model *model, const char *path, Error *error)
+{
+    const double until = wall_ms() + SAVE_MS;
+    for (bool asked = false;; window_wait(model->window, 0.01)) {
+        model_listen(model);
+        if (asked && !model->status.saving)
+            return model->status.saved || error_set(error, "%s", model->status.save_message);
+        if (model->status.ended || wall_ms() > until)
+            return error_set(error, "%s: the session cannot be saved, its simulation does not answer", path);
+        asked = asked || simulator_save(model->open.simulator, path);
+        simulator_work(model->open.simulator, 0);
+    }
+}
+
+/* With --record nothing that was done goes without a trace, though only the last session gets that name. */
+static void keep_session(Model *model)
+{
+    Error error = {{0}};
+    char path[1024];
+    file_name_new(path, "recording");
+    if (model->record && model->status.step > 0 && !model_save_now(model, path, &error))
+        notice_error(model->notice, error.message);
+}
+
+bool model_leave(Model *model, double patience_ms)
+{
+    return play_scene_close(&model->left, patience_ms);
+}
+
+/* A frame of a large scene lasts: its solver ends behind the next one's back. */
+static void leave(Model *model)
+{
+    const double until = wall_ms() + SAVE_MS;
+    if (!model->open.simulator)
+        return;
+    hand_post_close(model->post);
+    keep_session(model);
+    while (model->status.saving && !model->status.ended && wall_ms() < until) {
+        window_wait(model->window, 0.01);
+        simulator_work(model->open.simulator, 0);
+        model_listen(model);
+    }
+    model->simulated_s += model->status.simulated_s;
+    model->status = (SimulatorStatus){.time = 0};
+    if (play_scene_close(&model->open, LEAVE_MS))
+        return;
+    model->left = model->open;
+    model->open = (PlayScene){.upload = NULL};
+}
+
+/* On the terminal each with its place in the file, in the picture the first of them; the panel has all. */
+static void tell(Model *model, const Notes *notes)
+{
+    for (int i = notes->count - 1; i >= 0; i--)
+        notice_tell(model->notice, "%s", notes->line[i]);
+    play_scene_advise(&model->open, NULL, NULL);
+}
+
+bool model_open(Model *model, const char *scene, const SceneSettings *settings, Error *error)
+{
+    PlayScene opened;
+    Notes notes;
+    if (!model_leave(model, 0))
+        return error_set(error, "the scene before the present one is still ending; try again in a moment");
+    const bool read = play_scene_read(&opened, scene, settings, &notes, error);
+    share_processors(&opened.scene.world);
+    if (!read || !play_scene_start(&opened, window_wake, model->timer, model->paused, error)) {
+        play_scene_close(&opened, SAVE_MS);
+        return false;
+    }
+    leave(model);
+    adopt(model, &opened);
+    tell(model, &notes);
+    return true;
+}
+
+void model_reset(Model *model)
+{
+    keep_session(model);
+    hand_post_close(model->post); /* no report comes in between: it would move the box, and be forgotten */
+    simulator_reset(model->open.simulator);
+    hand_post_open(model->post, send_target, model->open.simulator);
+}
+
+bool model_open_neighbour(Model *model, int by)
+{
+    char path[1024], present[1024];
+    bool opened = false;
+    snprintf(present, sizeof present, "%s", model->open.scene.path);
+    for (int way = by; !opened && play_scene_neighbour(present, way, path) && strcmp(path, present) != 0;
+         way += by) {
+        Error error = {{0}};
+        opened = model_open(model, path, NULL, &error);
+        if (!opened)
+            notice_error(model->notice, error.message);
+    }
+    if (!opened)
+        notice_tell(model->notice, "there is no other scene to open beside %s", present);
+    return opened;
+}
+
+bool model_close(Model *model, double patience_ms)
+{
+    return play_scene_close(&model->open, patience_ms) && model_leave(model, patience_ms);
+}
+
+void model_pause(Model *model, bool paused)
+{
+    model->paused = paused;
+    simulator_pause(model->open.simulator, paused);
+}
+
+void model_step(Model *model, bool held)
+{
+    model->paused = true;
+    simulator_single_step(model->open.simulator, held);
+}
+
+void model_set_speed(Model *model, double factor)
+{
+    static const double slowest = 1.0 / 64, fastest = 64;
+    model->speed = fmin(fmax(model->speed * factor, slowest), fastest);
+    simulator_set_speed(model->open.simulator, model->speed);
+    notice_tell(model->notice, "speed %g", model->speed);
+}
+
+void model_let_go(Model *model)
+{
+    simulator_status(model->open.simulator, &model->status);
+    hand_post_let_go(model->post, &model->status.hand);
+}
+
+void model_save(Model *model)
+{
+    char path[1024];
+    file_name_new(path, "recording");
+    if (!simulator_save(model->open.simulator, path))
+        notice_error(model->notice, "the session before is still being saved; try again in a moment");
+}
+
+static void advise_anew(Model *model, const char *setting)
+{
+    Notes fresh = {.count = 0};
+    play_scene_advise(&model->open, setting, &fresh);
+    for (int i = fresh.count - 1; i >= 0; i--)
+        notice_tell(model->notice, "%s", fresh.line[i]);
+}
+
+/* To another backend. */
+static void move(Model *model, const SimCommand *command, const char *before)
+{
+    Error error = {{0}};
+    char *backend = model->open.scene.world.backend;
+    if (play_scene_move(&model->open, command, &error))
+        return;
+    snprintf(backend, NAME_SIZE, "%s", before);
+    notice_error(model->notice, error.message);
+}
+
+bool model_set(Model *model, const char *setting)
+{
+    Error error = {{0}};
+    bool concerns_world;
+    SimCommand command = {.kind = SIM_SET};
+    char backend[NAME_SIZE];
+    snprintf(backend, sizeof backend, "%s", model->open.scene.world.backend);
+    if (!scene_set_live(&model->open.scene, setting, &concerns_world, &error)) {
+        notice_error(model->notice, error.message);
+        return false;
+    }
+    simulator_set_realtime(model->open.simulator, model->open.scene.realtime);
+    advise_anew(model, setting);
+    snprintf(command.setting, sizeof command.setting, "%s", setting);
+    if (sim_command_moves(&command))
+        move(model, &command, backend);
+    else if (concerns_world && !simulator_send(model->open.simulator, &command))
+        notice_error(model->notice, "too many changes wait for the next step; let the time run");
+    return true;
+}

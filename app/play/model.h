@@ -1,0 +1,66 @@
+/* What is simulated in the window: the scene that is open, its simulator, and the newest state of it. */
+#ifndef SLOSH_PLAY_MODEL_H
+#define SLOSH_PLAY_MODEL_H
+
+#include "app/held/hand_post.h"
+#include "app/play/notice.h"
+#include "app/play/scene.h"
+#include "app/window/window.h"
+#include "sim/gl/timer.h"
+
+/* To be zeroed but for what is given. */
+typedef struct Model {
+    Window *window;     /* given: waits take its events, a new state wakes it */
+    GlTimer *timer;     /* given: as of SimulatorSetup */
+    HandPost *post;     /* given: sends the box where the hand wants it */
+    Notice *notice;     /* given */
+    const char *record; /* given: no session goes without a trace; or NULL */
+    double speed;       /* given: simulated seconds in a second */
+
+    PlayScene open;
+    PlayScene left;            /* the one before, whose solver has not ended yet; or zero */
+    Scene file_scene;          /* as its file has it */
+    ParticleBuffers particles; /* what is drawn */
+    bool has_particles;
+    SimulatorStatus status;
+    bool paused;
+    double simulated_s; /* of the scenes before, less what was simulated before the first picture */
+    size_t scenes_opened;
+    unsigned saves, messages; /* that were told */
+} Model;
+
+/* A file as a scene, with settings of its own or NULL; the scene before ends. On failure that one stays. */
+bool model_open(Model *model, const char *scene, const SceneSettings *settings, Error *error);
+
+/* The scene before or after it in its folder; one that is broken is told and left out. False: there is none.
+ */
+bool model_open_neighbour(Model *model, int by);
+
+/* Whether the scene that was open before has ended. */
+bool model_leave(Model *model, double patience_ms);
+
+/* Ends all. False when a solver did not end in time: then nothing that it uses may be freed. */
+bool model_close(Model *model, double patience_ms);
+
+/* Asks the solver how it stands, and shows what it has to say. */
+void model_listen(Model *model);
+
+/* Takes the newest state. */
+void model_take(Model *model);
+
+void model_pause(Model *model, bool paused);
+void model_step(Model *model, bool held); /* one frame, then a pause; `held`: as of simulator_single_step */
+void model_reset(Model *model);
+void model_set_speed(Model *model, double factor); /* so many times the present one, within bounds */
+
+/* "path=value" of a live key: in the scene now, for the solver from its next step on. False: all stays. */
+bool model_set(Model *model, const char *setting);
+
+/* The box stops where it is. */
+void model_let_go(Model *model);
+
+/* The session so far into a new file, behind the window's back; or at once, and waits for it. */
+void model_save(Model *model);
+bool model_save_now(Model *model, const char *path, Error *error);
+
+#endif

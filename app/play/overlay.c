@@ -1,0 +1,283 @@
+#include "app/play/overlay.h"
+
+#include "sim/base/stage.h"
+#include "sim/world/world.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct EditingKey {
+    int glfw;
+    unsigned ui;
+} EditingKey;
+
+static const EditingKey editing_keys[] = {
+    {GLFW_KEY_ENTER, UI_KEY_ENTER},
+    {GLFW_KEY_KP_ENTER, UI_KEY_ENTER},
+    {GLFW_KEY_ESCAPE, UI_KEY_ESCAPE},
+    {GLFW_KEY_BACKSPACE, UI_KEY_BACKSPACE},
+    {GLFW_KEY_DELETE, UI_KEY_DELETE},
+    {GLFW_KEY_LEFT, UI_KEY_LEFT},
+    {GLFW_KEY_RIGHT, UI_KEY_RIGHT},
+    {GLFW_KEY_HOME, UI_KEY_HOME},
+    {GLFW_KEY_END, UI_KEY_END},
+    {GLFW_KEY_TAB, UI_KEY_TAB},
+    {GLFW_KEY_A, UI_KEY_A},
+    {GLFW_KEY_C, UI_KEY_C},
+    {GLFW_KEY_V, UI_KEY_V},
+    {GLFW_KEY_X, UI_KEY_X},
+    {GLFW_KEY_LEFT_CONTROL, UI_KEY_CTRL},
+    {GLFW_KEY_RIGHT_CONTROL, UI_KEY_CTRL},
+    {GLFW_KEY_LEFT_SHIFT, UI_KEY_SHIFT},
+    {GLFW_KEY_RIGHT_SHIFT, UI_KEY_SHIFT},
+};
+
+/* A press and its release may come between two pictures: what was down at any time counts. */
+static void take_key(Overlay *overlay, const WindowEvent *event)
+{
+    for (size_t i = 0; i < sizeof editing_keys / sizeof *editing_keys; i++) {
+        if (editing_keys[i].glfw != event->key)
+            continue;
+        overlay->keys_down =
+            event->down ? overlay->keys_down | editing_keys[i].ui : overlay->keys_down & ~editing_keys[i].ui;
+        overlay->input.keys |= overlay->keys_down;
+    }
+}
+
+static void take_button(Overlay *overlay, const WindowEvent *event)
+{
+    if (event->button < 0 || event->button >= 3)
+        return;
+    overlay->buttons_down[event->button] = event->down;
+    overlay->input.button[event->button] |= event->down;
+}
+
+bool overlay_start(Overlay *overlay, float letters, Error *error)
+{
+    overlay->ui = ui_create(letters, error);
+    overlay->widgets = panel_create();
+    return overlay->ui && (overlay->widgets || error_set(error, "no memory for the panel"));
+}
+
+void overlay_end(Overlay *overlay)
+{
+    panel_destroy(overlay->widgets);
+    ui_destroy(overlay->ui);
+}
+
+void overlay_set_letters(Overlay *overlay, float letters)
+{
+    Error error = {{0}};
+    overlay->input.changed |= ui_set_pixels(overlay->ui, letters, &error);
+}
+
+void overlay_event(Overlay *overlay, const WindowEvent *event)
+{
+    UiInput *input = &overlay->input;
+    const size_t used = strlen(input->text);
+    if (event->kind == WINDOW_BUTTON)
+        take_button(overlay, event);
+    if (event->kind == WINDOW_KEY)
+        take_key(overlay, event);
+    if (event->kind == WINDOW_WHEEL)
+        input->wheel += (float)event->y;
+    if (event->kind == WINDOW_TEXT && event->codepoint < 128 && used + 1 < sizeof input->text)
+        input->text[used] = (char)event->codepoint;
+    if (event->kind == WINDOW_MOVE || event->kind == WINDOW_BUTTON) {
+        input->mouse[0] = (float)event->x;
+        input->mouse[1] = (float)event->y;
+    }
+}
+
+bool overlay_takes(const Overlay *overlay, const WindowEvent *event)
+{
+    if (!overlay->panel && !overlay->help)
+        return false;
+    switch (event->kind) {
+    case WINDOW_BUTTON:
+        return event->down && ui_covers(overlay->ui, (float)event->x, (float)event->y);
+    case WINDOW_MOVE:
+        return ui_wants_mouse(overlay->ui);
+    case WINDOW_WHEEL:
+        return ui_covers(overlay->ui, overlay->input.mouse[0], overlay->input.mouse[1]);
+    case WINDOW_KEY:
+        return event->down && ui_wants_keys(overlay->ui);
+    default:
+        return false;
+    }
+}
+
+static void warn(Overlay *overlay, const char *words)
+{
+    if (overlay->warning_count < (int)(sizeof overlay->warnings / sizeof *overlay->warnings))
+        overlay->warnings[overlay->warning_count++] = words;
+}
+
+static void find_warnings(Overlay *overlay, const Model *model, const OverlayFacts *facts)
+{
+    const SimulatorStatus *status = &model->status;
+    const PlayMeter *meter = facts->meter;
+    const bool runs = !model->paused && !status->failed && status->frames > 50;
+    overlay->warning_count = 0;
+    if (status->failed)
+        warn(overlay, "The simulation has stopped; reset begins anew.");
+    if (runs && status->realtime && status->real_time_factor > 0 &&
+        status->real_time_factor < 0.9 * model->speed)
+        warn(overlay,
+             "The solver does not keep up with the clock: fewer particles or substeps, or a lower speed.");
+    if (runs && meter->pictures > 60 && meter->pictures_per_second < 20)
+        warn(overlay, "Pictures are slow: a smaller window or fewer particles.");
+    if (status->lost > 0) {
+        snprintf(overlay->lost, sizeof overlay->lost, "%zu particle%s no place in the grid.", status->lost,
+                 status->lost == 1 ? " finds" : "s find");
+        warn(overlay, overlay->lost);
+    }
+    for (int i = 0; i < model->open.notes.count; i++)
+        warn(overlay, model->open.notes.line[i]);
+    if (facts->movie)
+        warn(overlay, "A video is being recorded.");
+}
+
+static void collect_stages(const Model *model, const OverlayFacts *facts, PanelData *data)
+{
+    const SimulatorStatus *status = &model->status;
+    const bool here = simulator_here(model->open.simulator);
+    static const StageTimes none;
+    for (int s = 0; s < STAGE_COUNT; s++) {
+        const bool on_gpu = stage_part((Stage)s) == PART_RENDER || here;
+        const StageTimes *gl_times = facts->gl_times ? facts->gl_times : &none;
+        const StageTimes *times = on_gpu ? gl_times : &status->stages;
+        data->stage_ms[s] = times->ms[s];
+        data->stage_ran[s] = times->ran[s];
+        data->sim_ms += stage_part((Stage)s) == PART_SIM ? times->ms[s] : 0;
+    }
+    if (!facts->gl_times && here && status->history_count > 0)
+        data->sim_ms = status->history[status->history_count - 1];
+}
+
+static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, float pictures[METER_HISTORY],
+                    PanelData *data)
+{
+    const ViewDef *view = &model->open.scene.view;
+    const SimulatorStatus *status = &model->status;
+    const ParticleBuffers *particles = &model->particles;
+    find_warnings(overlay, model, facts);
+    overlay->device_count = hand_post_devices(model->post, overlay->devices);
+    world_def_at(&model->open.scene.world, particles->time); /* what tables say now */
+    *data = (PanelData){.scene = &model->open.scene,
+                        .render_stages_known = facts->gl_times != NULL,
+                        .render_ms = facts->meter->last_drawn_ms,
+                        .frame_history = pictures,
+                        .step_history = status->history,
+                        .frame_count = meter_history(facts->meter, pictures),
+                        .step_count = status->history_count,
+                        .gauges = status->gauges,
+                        .gauge_count = status->gauge_count,
+                        .particles = particles->count,
+                        .time = particles->time,
+                        .dt = status->dt,
+                        .limit = status->limit,
+                        .real_time_factor = status->real_time_factor,
+                        .speed = model->speed,
+                        .pictures_per_second = facts->meter->pictures_per_second,
+                        .paused = model->paused,
+                        .realtime = status->realtime,
+                        .renderer = facts->renderer,
+                        .warnings = overlay->warnings,
+                        .warning_count = overlay->warning_count,
+                        .devices = overlay->devices,
+                        .device_count = overlay->device_count,
+                        .panel_ms = meter_panel_mean(facts->meter)};
+    collect_stages(model, facts, data);
+    data->scalar_range[0] = view->range_auto ? particles->scalar_min[view->color_by] : view->range[0];
+    data->scalar_range[1] = view->range_auto ? particles->scalar_max[view->color_by] : view->range[1];
+}
+
+/* What is held stays, what has come once has been seen. Whether something was let go, which the next picture
+   sees first. */
+static bool input_seen(Overlay *overlay)
+{
+    UiInput *input = &overlay->input;
+    const bool let_go = memcmp(input->button, overlay->buttons_down, sizeof input->button) != 0 ||
+                        input->keys != overlay->keys_down;
+    memcpy(input->button, overlay->buttons_down, sizeof input->button);
+    input->keys = overlay->keys_down;
+    input->wheel = 0;
+    memset(input->text, 0, sizeof input->text);
+    input->changed = false;
+    return let_go;
+}
+
+double overlay_covered_left(const Overlay *overlay, int width)
+{
+    const double part = overlay->panel ? panel_width(overlay->ui, width) / fmax(width, 1) : 0;
+    return part < 0.5 ? part : 0;
+}
+
+/* Bars of a motion device are live, as often as an eye can tell. */
+static void follow_devices(Overlay *overlay, HandPost *post, double now)
+{
+    static const double BARS_MS = 50;
+    const uint64_t reports = hand_post_reports(post);
+    if (reports == overlay->reports_shown || now < overlay->bars_ms + BARS_MS)
+        return;
+    overlay->input.changed = true;
+    overlay->reports_shown = reports;
+    overlay->bars_ms = now;
+}
+
+_Static_assert((int)PANEL_SETTING_SIZE == SIM_SETTING_SIZE, "what the panel asks for fits into a command");
+
+static void queue_events(const PanelEvents *events, AskQueue *asks)
+{
+    for (int i = 0; i < events->setting_count; i++) {
+        Ask ask = {.kind = ASK_SETTING};
+        snprintf(ask.text, sizeof ask.text, "%s", events->settings[i]);
+        ask_add(asks, &ask);
+    }
+    if (events->tuned)
+        ask_add(
+            asks,
+            &(Ask){.kind = ASK_TUNE, .device = events->tuned, .amount = {events->gain, events->dead_zone}});
+    if (events->command != PLAY_NONE)
+        ask_command(asks, (PlayCommand)events->command);
+}
+
+/* The widgets, when any of them has changed. */
+static bool draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
+{
+    PanelEvents events = {.command = PLAY_NONE};
+    float pictures[METER_HISTORY];
+    PanelData data;
+    if (!ui_begin(overlay->ui, facts->width, facts->height, &overlay->input))
+        return false;
+    collect(overlay, model, facts, pictures, &data);
+    if (overlay->panel)
+        panel_draw(overlay->widgets, overlay->ui, facts->width, facts->height, &data, &events);
+    overlay->watches = events.watches;
+    if (overlay->help)
+        panel_help_draw(overlay->ui, facts->width, facts->height);
+    queue_events(&events, asks);
+    return input_seen(overlay);
+}
+
+bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
+{
+    const double now = wall_ms();
+    const int shown = overlay->panel + 2 * overlay->help;
+    simulator_watch(model->open.simulator, overlay->panel && overlay->watches);
+    if (!shown)
+        return false;
+    follow_devices(overlay, model->post, now);
+    overlay->input.dt = 1e-3 * fmin(now - overlay->drawn_ms, 1000);
+    overlay->input.changed |= shown != overlay->shown;
+    overlay->drawn_ms = now;
+    overlay->shown = shown;
+    const bool again = draw_widgets(overlay, model, facts, asks);
+    ui_end(overlay->ui);
+    return again;
+}

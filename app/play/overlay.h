@@ -1,0 +1,56 @@
+/* What lies over the picture: the panel and the list of keys. What the user asks for there is queued. */
+#ifndef SLOSH_PLAY_OVERLAY_H
+#define SLOSH_PLAY_OVERLAY_H
+
+#include "app/panel/panel.h"
+#include "app/play/ask.h"
+#include "app/play/meter.h"
+#include "app/play/model.h"
+#include "app/window/window.h"
+#include "render/ui/ui.h"
+
+typedef struct Overlay {
+    bool panel, help; /* shown */
+    Ui *ui;
+    Panel *widgets;
+    UiInput input;
+    bool buttons_down[3];
+    unsigned keys_down;
+    double drawn_ms; /* wall time of the last drawing */
+    int shown;       /* what was drawn then */
+    bool watches;    /* with the gauges */
+    const char *warnings[8 + NOTES_MAX];
+    int warning_count;
+    char lost[64]; /* one of them */
+    HandDevice devices[HAND_POST_DEVICES_MAX];
+    int device_count;
+    uint64_t reports_shown; /* of motion devices, when their bars were last drawn anew */
+    double bars_ms;         /* wall time of that */
+} Overlay;
+
+/* What it shows beside the model. */
+typedef struct OverlayFacts {
+    int width, height; /* of the picture */
+    const char *renderer;
+    const PlayMeter *meter;
+    const StageTimes *gl_times; /* NULL: the stages of a picture cannot be timed */
+    bool movie;                 /* a video is being recorded */
+} OverlayFacts;
+
+/* Letters so many pixels high. */
+bool overlay_start(Overlay *overlay, float letters, Error *error);
+void overlay_end(Overlay *overlay);                        /* also after a start that failed */
+void overlay_set_letters(Overlay *overlay, float letters); /* where they cannot be had the old ones stay */
+
+/* Tells the widgets of an event; whether one is theirs alone, while nothing is dragged. */
+void overlay_event(Overlay *overlay, const WindowEvent *event);
+bool overlay_takes(const Overlay *overlay, const WindowEvent *event);
+
+/* Draws what is shown. Whether the next picture is to show more of what was done. */
+bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks);
+
+/* How much of the width the panel takes from the box, 0 .. 1: one that leaves less than half takes nothing.
+ */
+double overlay_covered_left(const Overlay *overlay, int width);
+
+#endif

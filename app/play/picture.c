@@ -1,0 +1,156 @@
+#include "app/play/picture.h"
+
+#include "sim/base/stage.h"
+#include "sim/gl/debug.h"
+#include "sim/gl/shader_source.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+static const double LETTERS = 14; /* pixels high at scale 1 */
+static const double SHADERS_MS = 300;
+
+float picture_letters(const Window *window)
+{
+    return (float)(LETTERS * window_scale(window));
+}
+
+void picture_meet(Picture *picture, const Window *window)
+{
+    picture->refresh = window_refresh(window);
+    window_size(window, &picture->width, &picture->height);
+    if (!gl_renderer_is_software())
+        picture->timer = gl_timer_create(GL_CLOCK_QUERY);
+}
+
+bool picture_start(Picture *picture, const Scene *scene, float letters, Error *error)
+{
+    const int width = (int)fmax(picture->width, 1), height = (int)fmax(picture->height, 1);
+    picture->renderer = renderer_create(&scene->view, &scene->world, width, height, error);
+    if (!picture->renderer)
+        return false;
+    picture->shaders_stamp = shader_source_stamp();
+    picture->text = text_create(letters, error);
+    return picture->text != NULL;
+}
+
+void picture_end(Picture *picture)
+{
+    text_destroy(picture->text);
+    gl_timer_destroy(picture->timer);
+    renderer_destroy(picture->renderer);
+}
+
+void picture_set_view(Picture *picture, const Scene *scene, Notice *notice)
+{
+    Error error = {{0}};
+    picture->dirty = true;
+    if (!renderer_set_def(picture->renderer, &scene->view, &scene->world, &error))
+        notice_error(notice, error.message);
+}
+
+bool picture_follow_size(Picture *picture, const Window *window, Error *error)
+{
+    int width, height;
+    window_size(window, &width, &height);
+    if (width == picture->width && height == picture->height)
+        return true;
+    picture->width = width;
+    picture->height = height;
+    picture->dirty = true;
+    return width < 1 || height < 1 || renderer_resize(picture->renderer, width, height, error);
+}
+
+bool picture_follow_scale(Picture *picture, float letters)
+{
+    Error error = {{0}};
+    if (letters == text_height(picture->text))
+        return false;
+    Text *text = text_create(letters, &error);
+    if (!text)
+        return false;
+    text_destroy(picture->text);
+    picture->text = text;
+    picture->dirty = true;
+    return true;
+}
+
+bool picture_visible(const Picture *picture)
+{
+    return picture->width > 0 && picture->height > 0;
+}
+
+bool picture_shaders_changed(Picture *picture)
+{
+    if (wall_ms() < picture->shaders_due_ms)
+        return false;
+    picture->shaders_due_ms = wall_ms() + SHADERS_MS;
+    const uint64_t stamp = shader_source_stamp();
+    if (stamp == picture->shaders_stamp || !picture_visible(picture))
+        return false;
+    picture->shaders_stamp = stamp;
+    return true;
+}
+
+bool picture_reload(Picture *picture, const Scene *scene, Error *error)
+{
+    Renderer *renderer = renderer_create(&scene->view, &scene->world, picture->width, picture->height, error);
+    if (!renderer)
+        return false;
+    renderer_destroy(picture->renderer);
+    picture->renderer = renderer;
+    return true;
+}
+
+void picture_draw(Picture *picture, const ParticleBuffers *particles, double covered_left)
+{
+    renderer_set_covered(picture->renderer, covered_left);
+    renderer_draw(picture->renderer, particles, picture->timer);
+    gl_timer_frame(picture->timer, &picture->gl_times);
+}
+
+void picture_present(Picture *picture)
+{
+    renderer_present(picture->renderer);
+}
+
+void picture_clear(const Picture *picture, const ViewDef *view)
+{
+    const double *back = view->background;
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, picture->width, picture->height);
+    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glClearColor((float)back[0], (float)back[1], (float)back[2], 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void picture_words(const Picture *picture, const char *words)
+{
+    Text *text = picture->text;
+    if (!words)
+        return;
+    const float em = text_height(text), width = text_width(text, 1, words);
+    const float middle = 0.5F * (float)picture->width, top = (float)picture->height - 4 * em;
+    text_begin(text, picture->width, picture->height);
+    text_rectangle(text, middle - 0.5F * width - em, top - 0.5F * em, middle + 0.5F * width + em,
+                   top + 1.5F * em, 0.4F * em, 0x10141ac0);
+    text_draw(text, middle, top, 1, 0xf2f4f6ff, TEXT_CENTER, words);
+    text_end(text);
+}
+
+void picture_close(Picture *picture)
+{
+    picture->asked = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+bool picture_done(Picture *picture)
+{
+    static const GLuint64 pause_ns = 2000000;
+    GLsync asked = picture->asked;
+    if (asked && glClientWaitSync(asked, GL_SYNC_FLUSH_COMMANDS_BIT, pause_ns) == GL_TIMEOUT_EXPIRED)
+        return false;
+    glDeleteSync(asked);
+    picture->asked = NULL;
+    return true;
+}

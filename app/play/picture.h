@@ -1,0 +1,63 @@
+/* What stands in the window: the fluid through its view, words over it, and the screen. A picture is drawn in
+   steps, so that the hand can be looked at in between (app/play/play.c). */
+#ifndef SLOSH_PLAY_PICTURE_H
+#define SLOSH_PLAY_PICTURE_H
+
+#include "app/play/notice.h"
+#include "app/scene/scene.h"
+#include "app/window/window.h"
+#include "render/frame/text.h"
+#include "render/renderer.h"
+#include "sim/gl/timer.h"
+
+/* Zero-initialise it. */
+typedef struct Picture {
+    Renderer *renderer;
+    GlTimer *timer; /* NULL on a software renderer, where nothing can be measured without waiting */
+    StageTimes gl_times;
+    Text *text;
+    int width, height;      /* of the framebuffer; 0 while the window is minimised */
+    double refresh;         /* pictures a second that the display shows */
+    bool dirty;             /* a picture is due though no new state is there */
+    double begun_ms;        /* wall time at which the last one was begun */
+    void *asked;            /* a GLsync: behind all that the GPU was asked to draw; NULL: not asked for yet */
+    uint64_t shaders_stamp; /* of the files of --shaders when they were read */
+    double shaders_due_ms;  /* wall time of the next look at them */
+} Picture;
+
+/* What the display can do; then, when there is a scene, all that draws it. */
+void picture_meet(Picture *picture, const Window *window);
+bool picture_start(Picture *picture, const Scene *scene, float letters, Error *error);
+void picture_end(Picture *picture);
+
+/* Height of letters in that window, pixels. */
+float picture_letters(const Window *window);
+
+/* Between two pictures. The view has changed; the window's size may have, or the display's scale: where
+   letters of another height cannot be had the old ones stay. */
+void picture_set_view(Picture *picture, const Scene *scene, Notice *notice);
+bool picture_follow_size(Picture *picture, const Window *window, Error *error);
+bool picture_follow_scale(Picture *picture, float letters); /* whether it has changed */
+
+/* Whether the files of --shaders have changed since the last call; reads them again. False, with a message,
+   where one is wrong: the last good ones stay. */
+bool picture_shaders_changed(Picture *picture);
+bool picture_reload(Picture *picture, const Scene *scene, Error *error);
+
+bool picture_visible(const Picture *picture);
+
+/* The steps of a picture. The fluid, of which so much of the width is covered, 0 .. 1; then it goes on the
+   screen's own picture. In its place, as long as there is no state: the scene's background. */
+void picture_draw(Picture *picture, const ParticleBuffers *particles, double covered_left);
+void picture_present(Picture *picture);
+void picture_clear(const Picture *picture, const ViewDef *view);
+
+/* A line at the top; NULL: none. */
+void picture_words(const Picture *picture, const char *words);
+
+/* Nothing more will be drawn. Whether the GPU has done it: waits 2 ms for that, and is asked until it is
+ * true. */
+void picture_close(Picture *picture);
+bool picture_done(Picture *picture);
+
+#endif

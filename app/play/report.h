@@ -1,0 +1,49 @@
+/* What a session in the window was: as JSON, and for people. */
+#ifndef SLOSH_PLAY_REPORT_H
+#define SLOSH_PLAY_REPORT_H
+
+#include "sim/base/error.h"
+#include "sim/matter/world_def.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* What a session was, in the end. */
+typedef struct PlayFigures {
+    char scene[1024], renderer[256];
+    char view[NAME_SIZE], color_by[NAME_SIZE], colormap[NAME_SIZE], backend[NAME_SIZE], method[NAME_SIZE];
+    int width, height, threads, substeps;
+    double dt; /* s */
+    size_t particles, pictures, scenes_opened;
+    uint64_t step;              /* of the last state */
+    double time;                /* of the last state, s */
+    double simulated_s, wall_s; /* since the first picture, all scenes and resets together */
+    double real_time_factor, pictures_per_second;
+    double first_picture_ms;  /* since the start of the process */
+    double frame_ms;          /* mean from picture to picture */
+    double sim_ms, render_ms; /* a frame of the solver, a picture: means */
+    double latency_median_ms, latency_p95_ms;
+    size_t latency_events;
+    uint64_t device_reports;
+    double report_median_ms, report_p99_ms; /* from the report of a motion device to its command */
+    double panel_ms;                        /* CPU time of the panel in a picture, mean; 0 when never shown */
+    double cpus_busy;                       /* CPU time over wall time */
+    double speed, display_scale;
+    bool paused, fullscreen, camera_auto, panel, help;
+    double box_position[3], box_orientation[4]; /* the hand's part of the pose */
+    double camera_from[3], camera_to[3];
+    int gl_errors;
+} PlayFigures;
+
+/* An object. False with the reason when the file can't be written. */
+bool play_write_json(const PlayFigures *figures, const char *path, Error *error);
+
+/* An array, as every `bench --json`. */
+bool play_write_json_array(const PlayFigures *figures, size_t count, const char *path, Error *error);
+
+/* The figures of `bench --play`, and what limits them. */
+void play_print(const PlayFigures *figures, FILE *file);
+
+#endif

@@ -1,0 +1,210 @@
+/* From events to what is asked of the window, without one: the order, what only moves the box, what is held.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "app/play/input.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <stdio.h>
+#include <string.h>
+
+enum { HEIGHT = 400 };
+
+static AskQueue asks;
+static Input input;
+
+static int begin(void **state)
+{
+    (void)state;
+    memset(&asks, 0, sizeof asks);
+    input_begin(&input);
+    return 0;
+}
+
+static void take(WindowEvent event)
+{
+    input_take(&input, &event, HEIGHT, &asks);
+}
+
+static WindowEvent key(int number, bool down)
+{
+    return (WindowEvent){.kind = WINDOW_KEY, .key = number, .down = down};
+}
+
+static WindowEvent held_key(int number)
+{
+    return (WindowEvent){.kind = WINDOW_KEY, .key = number, .down = true, .repeated = true};
+}
+
+static WindowEvent button(int number, int modifiers, bool down)
+{
+    return (WindowEvent){.kind = WINDOW_BUTTON,
+                         .button = number,
+                         .modifiers = modifiers,
+                         .down = down,
+                         .x = 100,
+                         .y = 100,
+                         .when_ms = 7};
+}
+
+static WindowEvent move(double x, double y)
+{
+    return (WindowEvent){.kind = WINDOW_MOVE, .x = x, .y = y, .when_ms = 8};
+}
+
+static Ask next(AskKind kind)
+{
+    Ask ask;
+    assert_true(ask_next(&asks, &ask));
+    assert_int_equal(ask.kind, kind);
+    return ask;
+}
+
+static void no_more(void)
+{
+    Ask ask;
+    assert_false(ask_next(&asks, &ask));
+}
+
+/* A file that is dropped between two keys only waits, and is opened between what they ask for. */
+static void what_is_asked_waits_in_its_order(void **state)
+{
+    (void)state;
+    WindowEvent drop = {.kind = WINDOW_DROP};
+    snprintf(drop.path, sizeof drop.path, "dropped.yaml");
+    take(key(GLFW_KEY_S, true));
+    take(drop);
+    take(key(GLFW_KEY_C, true));
+    take(key(GLFW_KEY_C, false));
+    take((WindowEvent){.kind = WINDOW_CLOSE});
+    assert_int_equal(asks.count, 4);
+    assert_int_equal(next(ASK_COMMAND).command, PLAY_NEXT_SCALAR);
+    assert_string_equal(next(ASK_OPEN).text, "dropped.yaml");
+    assert_int_equal(next(ASK_COMMAND).command, PLAY_NEXT_COLORMAP);
+    next(ASK_CLOSE);
+    no_more();
+}
+
+static void camera_moves_add_up_until_another_comes(void **state)
+{
+    (void)state;
+    take(button(GLFW_MOUSE_BUTTON_LEFT, 0, true));
+    take(move(110, 100));
+    take(move(120, 60));
+    take(key(GLFW_KEY_C, true));
+    take(move(140, 60));
+    next(ASK_GRAB);
+    const Ask first = next(ASK_TURN);
+    next(ASK_COMMAND);
+    const Ask second = next(ASK_TURN);
+    assert_true(first.amount[0] > 0 && first.amount[0] == second.amount[0]);
+    assert_true(first.amount[1] == 2 * second.amount[0] && second.amount[1] == 0);
+    no_more();
+}
+
+static void a_full_queue_keeps_what_it_has(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 3; round++) { /* round the ring */
+        for (int i = 0; i < ASKS_MAX + 5; i++)
+            ask_command(&asks, i == 0 ? PLAY_PAUSE : PLAY_STEP);
+        assert_int_equal(asks.count, ASKS_MAX);
+        assert_int_equal(next(ASK_COMMAND).command, PLAY_PAUSE);
+        for (int i = 1; i < ASKS_MAX; i++)
+            assert_int_equal(next(ASK_COMMAND).command, PLAY_STEP);
+        no_more();
+        ask_command(&asks, PLAY_STEP);
+        next(ASK_COMMAND);
+    }
+}
+
+static bool only_holds(WindowEvent event)
+{
+    return input_only_holds(&input, &event);
+}
+
+/* What may be taken in the middle of a picture asks for nothing. */
+static void what_only_holds_asks_for_nothing(void **state)
+{
+    (void)state;
+    assert_true(only_holds(move(1, 1)) && only_holds(key(GLFW_KEY_LEFT, true)));
+    assert_true(only_holds(key(GLFW_KEY_S, false)) && only_holds(held_key(GLFW_KEY_S)));
+    assert_false(only_holds(key(GLFW_KEY_S, true)) || only_holds(held_key(GLFW_KEY_PERIOD)));
+    for (int kind = WINDOW_TEXT; kind <= WINDOW_CLOSE; kind++)
+        assert_true(kind == WINDOW_MOVE || !only_holds((WindowEvent){.kind = (WindowEventKind)kind}));
+    take(button(GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_SHIFT, true));
+    assert_true(only_holds(move(2, 2)));
+    take(move(2, 2));
+    take(key(GLFW_KEY_LEFT, true));
+    no_more();
+    take(button(GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_SHIFT, false));
+    take(button(GLFW_MOUSE_BUTTON_RIGHT, 0, true));
+    next(ASK_GRAB);
+    assert_false(only_holds(move(3, 3)));
+}
+
+/* A drag and a key move the box once each; a stick and a button of a gamepad do too. */
+static void what_is_held_moves_the_box(void **state)
+{
+    (void)state;
+    HandInput hand = {.dt = 0};
+    WindowGamepad pad = {.left = {1, 0}, .buttons = 1U << GLFW_GAMEPAD_BUTTON_A};
+    take(button(GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_SHIFT, true));
+    take(move(130, 80));
+    take(key(GLFW_KEY_RIGHT, true));
+    assert_true(input_busy(&input));
+    assert_true(input_hand(&input, &pad, 0.5, &hand, &asks) == 8);
+    assert_true(hand.move_drag[0] == 15 && hand.move_drag[1] == 10);
+    assert_true(hand.move_rate[0] == 1 && hand.move_offset[0] > 0.9);
+    assert_int_equal(next(ASK_COMMAND).command, PLAY_BOX_HOME);
+    hand = (HandInput){.dt = 0};
+    assert_true(input_hand(&input, &pad, 0.5, &hand, &asks) == 0);
+    assert_true(hand.move_drag[0] == 0 && hand.move_rate[0] == 1);
+    no_more(); /* the button is still down */
+}
+
+static void a_lost_focus_lets_go_once(void **state)
+{
+    (void)state;
+    const WindowEvent lost = {.kind = WINDOW_FOCUS};
+    take(lost);
+    no_more(); /* nothing was held */
+    take(key(GLFW_KEY_UP, true));
+    take(lost);
+    take(lost);
+    next(ASK_LET_GO);
+    no_more();
+    assert_false(input_busy(&input));
+}
+
+/* Commands that repeat say so: a step that is held down counts when none waits. */
+static void a_held_key_says_so(void **state)
+{
+    (void)state;
+    take(key(GLFW_KEY_PERIOD, true));
+    take(held_key(GLFW_KEY_PERIOD));
+    take(held_key(GLFW_KEY_R));
+    assert_false(next(ASK_COMMAND).held);
+    assert_true(next(ASK_COMMAND).held);
+    no_more();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(what_is_asked_waits_in_its_order, begin),
+        cmocka_unit_test_setup(camera_moves_add_up_until_another_comes, begin),
+        cmocka_unit_test_setup(a_full_queue_keeps_what_it_has, begin),
+        cmocka_unit_test_setup(what_only_holds_asks_for_nothing, begin),
+        cmocka_unit_test_setup(what_is_held_moves_the_box, begin),
+        cmocka_unit_test_setup(a_lost_focus_lets_go_once, begin),
+        cmocka_unit_test_setup(a_held_key_says_so, begin),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
