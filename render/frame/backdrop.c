@@ -1,5 +1,6 @@
 #include "render/frame/backdrop.h"
 
+#include "shaders/shared/bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -111,7 +112,7 @@ static void shade_floor(const Backdrop *backdrop, const Frame *frame, const Shad
         return;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
-    glBindTextureUnit(3, shadow->floor_map);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, shadow->floor_map);
     glUseProgram(backdrop->shadow_program);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

@@ -1,5 +1,7 @@
 #include "render/frame/behind.h"
 
+#include "shaders/shared/bindings.h"
+
 #include <epoxy/gl.h>
 
 static GLuint create_copy(GLenum format, const Target *target, GLint filter, const char *label)
@@ -45,7 +47,7 @@ void behind_take(Behind *behind, const Frame *frame)
     copy(frame->target->color, behind->color, frame);
     if (behind->depth)
         copy(frame->target->depth, behind->depth, frame);
-    glBindTextureUnit(14, behind->color);
-    glBindTextureUnit(15, behind->depth);
-    glBindTextureUnit(3, frame->floor_light);
+    glBindTextureUnit(BEHIND_COLOR_UNIT, behind->color);
+    glBindTextureUnit(BEHIND_DEPTH_UNIT, behind->depth);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
 }

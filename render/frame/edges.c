@@ -1,5 +1,6 @@
 #include "render/frame/edges.h"
 
+#include "shaders/shared/bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -48,7 +49,7 @@ void edges_draw(const Edges *edges, const Frame *frame)
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glUseProgram(edges->program);
-    glProgramUniform1f(edges->program, 0, width / 2);
+    glProgramUniform1f(edges->program, HALF_WIDTH_AT, width / 2);
     glBindVertexArray(edges->vertex_array);
     glDrawElements(GL_TRIANGLES, 6 * EDGE_COUNT, GL_UNSIGNED_SHORT, NULL);
     glDisable(GL_BLEND);

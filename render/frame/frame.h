@@ -50,8 +50,6 @@ typedef struct Frame {
     bool plain;                     /* colours as they are, without light and shadow */
 } Frame;
 
-enum { SHADOW_MAP_TEXELS = 512, FLOOR_MAP_TEXELS = 64 };
-
 /* Balls of the def's radius; of that many spacings where the def says 0. */
 ParticleRadii frame_balls(const ViewDef *def, const ParticleBuffers *particles, double spacings);
 

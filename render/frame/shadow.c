@@ -1,5 +1,7 @@
 #include "render/frame/shadow.h"
 
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/shadow_maps.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -43,10 +45,7 @@ static GLuint create_framebuffer(GLenum attachment, GLuint map, const char *labe
 static GLuint create_floor_program(const char *label, const char *defines, Error *error)
 {
     static const char *const stages[] = {"common/screen.vert", "render/floor_shadow.frag", NULL};
-    GLuint program = program_create(label, stages, defines, error);
-    if (program)
-        glProgramUniform1f(program, 0, 1.0F / FLOOR_MAP_TEXELS);
-    return program;
+    return program_create(label, stages, defines, error);
 }
 
 bool shadow_create(Shadow *shadow, Error *error)
@@ -126,9 +125,9 @@ void shadow_begin_solids(const Shadow *shadow)
 void shadow_end(const Shadow *shadow, const Frame *frame)
 {
     glDisable(GL_DEPTH_TEST);
-    glBindTextureUnit(0, shadow->map);
+    glBindTextureUnit(SHADOW_UNIT, shadow->map);
     if (shadow->solid_map)
-        glBindTextureUnit(4, shadow->solid_map);
+        glBindTextureUnit(SOLID_SHADOW_UNIT, shadow->solid_map);
     if (frame->floor_radius <= 0)
         return;
     glBindFramebuffer(GL_FRAMEBUFFER, shadow->floor_framebuffer);

@@ -1,6 +1,8 @@
 #include "render/particles/neighbourhood.h"
 
 #include "render/particles/work.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/scan.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -74,32 +76,35 @@ static size_t make_grid(Neighbourhood *n, const ParticleBuffers *particles)
             n->size[k] = (unsigned)fmax(1, fmin(ceil(box[k] / edge), CELLS_A_SIDE));
             cells *= n->size[k];
         }
-        n->place_of[3] = (float)(1 / edge);
+        n->scale = (float)(1 / edge);
     }
     for (int k = 0; k < 3; k++)
-        n->place_of[k] = (float)corner[k];
-    n->size[3] = (unsigned)particles->count;
+        n->corner[k] = (float)corner[k];
+    n->count = (unsigned)particles->count;
     return (size_t)cells;
 }
 
-static void bind(const unsigned *buffers, int count)
+static void bind_buffers(const Neighbourhood *n)
 {
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 4, count, buffers);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, CELLS_STORAGE, 5,
+                      (const unsigned[]){n->cell, n->rank, n->start, n->order, n->sorted});
 }
 
 static void run(const Neighbourhood *n, GLuint program)
 {
     glUseProgram(program);
-    glUniform4uiv(1, 1, n->size);
-    glUniform4fv(2, 1, n->place_of);
-    work_run(n->size[3]);
+    glUniform3uiv(GRID_SIZE_AT, 1, n->size);
+    glUniform1ui(GRID_PARTICLES_AT, n->count);
+    glUniform3fv(GRID_CORNER_AT, 1, n->corner);
+    glUniform1f(GRID_SCALE_AT, n->scale);
+    work_run(n->count);
 }
 
 static void run_blocks(GLuint program, GLuint values, GLuint totals, size_t size)
 {
     glUseProgram(program);
-    glUniform1ui(0, (GLuint)size);
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, (GLuint[]){values, totals});
+    glUniform1ui(SCAN_SIZE_AT, (GLuint)size);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, SCAN_VALUES_STORAGE, 2, (GLuint[]){values, totals});
     work_dispatch(blocks_of(size));
 }
 
@@ -122,10 +127,10 @@ static void sum_up(const Neighbourhood *n, size_t size)
 static void bind_positions(const Neighbourhood *n, const ParticleBuffers *particles)
 {
     const ParticleAttribute *position = &particles->position;
-    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 0, position->buffer, (GLintptr)position->offset,
-                      (GLsizeiptr)(particles->count * position->stride));
-    glProgramUniform4ui(n->bin, 0, (GLuint)(position->stride / 4), 0, 0, 0);
-    glProgramUniform4ui(n->sort, 0, (GLuint)(position->stride / 4), 0, 0, 0);
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, POSITIONS_STORAGE, position->buffer,
+                      (GLintptr)position->offset, (GLsizeiptr)(particles->count * position->stride));
+    glProgramUniform1ui(n->bin, POSITION_STRIDE_AT, (GLuint)(position->stride / 4));
+    glProgramUniform1ui(n->sort, POSITION_STRIDE_AT, (GLuint)(position->stride / 4));
 }
 
 void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
@@ -137,21 +142,19 @@ void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(n->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     bind_positions(n, particles);
-    bind((const unsigned[]){n->cell, n->rank, n->start}, 3);
+    bind_buffers(n);
     run(n, n->bin);
     sum_up(n, cells + 2);
-    bind((const unsigned[]){n->cell, n->rank, n->start, n->order}, 4);
     run(n, n->place);
     bind_positions(n, particles);
-    bind((const unsigned[]){n->cell, n->order, n->start, n->sorted}, 4);
     run(n, n->sort);
 }
 
 void neighbourhood_run(const Neighbourhood *n, unsigned program)
 {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    glBindTextureUnit(1, n->texels);
-    bind((const unsigned[]){0, n->start}, 2);
-    if (n->size[3] > 0)
+    glBindTextureUnit(SORTED_UNIT, n->texels);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, STARTS_STORAGE, n->start);
+    if (n->count > 0)
         run(n, program);
 }

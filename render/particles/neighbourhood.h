@@ -24,8 +24,10 @@ typedef struct Neighbourhood {
                        no cell comes last */
     unsigned totals[NEIGHBOURHOOD_SCAN_LEVELS];
     size_t capacity, cells_capacity;
-    unsigned size[4];  /* cells along each axis; particles */
-    float place_of[4]; /* the least corner of the grid, m; cells a metre */
+    unsigned size[3]; /* cells along each axis */
+    unsigned count;   /* particles */
+    float corner[3];  /* the least of the grid, m */
+    float scale;      /* cells a metre */
 } Neighbourhood;
 
 /* False when a shader does not compile; neighbourhood_destroy is needed in either case. */

@@ -1,6 +1,7 @@
 #include "render/particles/particle_bind.h"
 
 #include "render/particles/work.h"
+#include "shaders/shared/bindings.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
@@ -21,11 +22,12 @@ static void bind_attribute(GLuint binding, const ParticleAttribute *attribute,
 void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar)
 {
     const ParticleAttribute *shown = &particles->scalar[scalar];
-    bind_attribute(0, &particles->position, particles);
-    bind_attribute(1, shown, particles);
-    bind_attribute(2, &particles->fluid, particles);
-    glProgramUniform4ui(program, 0, (GLuint)(particles->position.stride / 4), (GLuint)(shown->stride / 4),
-                        (GLuint)(particles->fluid.stride / 4), 0);
+    bind_attribute(POSITIONS_STORAGE, &particles->position, particles);
+    bind_attribute(SCALARS_STORAGE, shown, particles);
+    bind_attribute(FLUIDS_STORAGE, &particles->fluid, particles);
+    glProgramUniform1ui(program, POSITION_STRIDE_AT, (GLuint)(particles->position.stride / 4));
+    glProgramUniform1ui(program, SCALAR_STRIDE_AT, (GLuint)(shown->stride / 4));
+    glProgramUniform1ui(program, FLUID_STRIDE_AT, (GLuint)(particles->fluid.stride / 4));
 }
 
 float point_limit(void)

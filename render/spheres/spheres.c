@@ -5,6 +5,8 @@
 #include "render/frame/colormap.h"
 #include "render/frame/shadow.h"
 #include "render/particles/particle_bind.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/spheres/spheres_bindings.h"
 #include "sim/gl/program.h"
 #include "sim/gl/timer.h"
 
@@ -52,8 +54,6 @@ static bool create_programs(Spheres *spheres, Error *error)
     spheres->casting = spheres->shading ? program_create_pair("spheres shadow", "render/ball_shadow.vert",
                                                               "render/depth_only.frag", error)
                                         : 0;
-    if (spheres->casting)
-        glProgramUniform1f(spheres->casting, 1, SHADOW_MAP_TEXELS);
     return spheres->casting != 0;
 }
 
@@ -147,8 +147,8 @@ static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, co
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_FALSE);
-    glBindTextureUnit(1, spheres->seen);
-    glBindTextureUnit(2, spheres->colormap);
+    glBindTextureUnit(SEEN_UNIT, spheres->seen);
+    glBindTextureUnit(COLORMAP_UNIT, spheres->colormap);
     glUseProgram(spheres->shading);
     particle_bind(spheres->shading, particles, frame->def->color_by);
     glBindVertexArray(spheres->screen);

@@ -2,6 +2,9 @@
 
 #include "render/particles/particle_bind.h"
 #include "render/particles/work.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/shadow_maps.h"
+#include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -10,10 +13,10 @@
 
 enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6, SMALL_MOST = 2 };
 
-/* A coarse map: see `grid` and `projection` in shaders/splat/cull.glsl. */
+/* A coarse map: see shaders/splat/cull.glsl. */
 typedef struct Grid {
     GLuint columns, rows, side, reach;
-    GLfloat projection[4];
+    GLfloat width, height, point_half; /* pixels */
 } Grid;
 
 static GLuint compile(const char *label, const char *file, const char *defines, Error *error)
@@ -106,7 +109,8 @@ static Grid make_grid(double width, double height, double least, double most)
                   .rows = (GLuint)ceil(height / side),
                   .side = side,
                   .reach = clamp_to(ceil(most / side / 2 + 1), 1, REACH_MOST),
-                  .projection = {(GLfloat)width, (GLfloat)height}};
+                  .width = (GLfloat)width,
+                  .height = (GLfloat)height};
 }
 
 static void use(GLuint program, const Grid *grid, const ParticleBuffers *particles, const Frame *frame)
@@ -114,20 +118,23 @@ static void use(GLuint program, const Grid *grid, const ParticleBuffers *particl
     glUseProgram(program);
     if (particles)
         particle_bind(program, particles, frame->def->color_by);
-    glUniform4ui(1, grid->columns, grid->rows, grid->side, grid->reach);
-    glUniform4fv(2, 1, grid->projection);
+    glUniform2ui(CELLS_AT, grid->columns, grid->rows);
+    glUniform1ui(CELL_SIDE_AT, grid->side);
+    glUniform1ui(WIDEN_REACH_AT, grid->reach);
+    glUniform2f(CULL_PIXELS_AT, grid->width, grid->height);
+    glUniform1f(POINT_HALF_AT, grid->point_half);
 }
 
 static void widen(const Cull *cull, const Grid *grid)
 {
     use(cull->widen, grid, NULL, NULL);
     for (GLuint upwards = 0; upwards < 2; upwards++) {
-        glUniform1ui(3, upwards);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[upwards]);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cull->map[1 - upwards]);
+        glUniform1ui(UPWARDS_AT, upwards);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[upwards]);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_WIDENED_STORAGE, cull->map[1 - upwards]);
         work_run((size_t)grid->columns * grid->rows);
     }
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
 }
 
 static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
@@ -140,8 +147,8 @@ static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *partic
     glClearNamedBufferSubData(cull->map[0], GL_R32F, 0, (GLsizeiptr)(cells * sizeof nothing), GL_RED,
                               GL_FLOAT, &nothing);
     use(cull->occlude[light], grid, particles, frame);
-    glUniform1ui(3, (GLuint)particles->count);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+    glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
     work_run(particles->count);
     widen(cull, grid);
 }
@@ -149,13 +156,13 @@ static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *partic
 static void make_lists(Cull *cull, size_t count, unsigned vertices)
 {
     glUseProgram(cull->sum);
-    glUniform1ui(1, chunks_of(count));
-    glUniform1ui(2, vertices);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, cull->commands);
+    glUniform1ui(CHUNKS_AT, chunks_of(count));
+    glUniform1ui(VERTICES_AT, vertices);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_COMMANDS_STORAGE, cull->commands);
     work_run(1);
     glUseProgram(cull->list);
-    glUniform1ui(1, chunks_of(count));
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 6, CULL_LISTS, cull->lists);
+    glUniform1ui(CHUNKS_AT, chunks_of(count));
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, NEAREST_LIST_STORAGE, CULL_LISTS, cull->lists);
     work_run(chunks_of(count));
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
@@ -164,10 +171,10 @@ static void test(Cull *cull, const Grid *grid, const ParticleBuffers *particles,
                  int light, float eps, unsigned vertices, bool hidden)
 {
     use(cull->test[light], grid, particles, frame);
-    glUniform1ui(3, (GLuint)particles->count);
-    glUniform1f(4, eps);
-    glUniform1ui(5, hidden);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, cull->kept);
+    glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
+    glUniform1f(EPS_AT, eps);
+    glUniform1ui(INVERT_AT, hidden);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_KEPT_STORAGE, cull->kept);
     work_run(chunks_of(particles->count));
     make_lists(cull, particles->count, vertices);
 }
@@ -211,8 +218,8 @@ void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *fr
         return;
     reserve(cull, particles->count, (size_t)grid.columns * grid.rows);
     use(cull->limit, &grid, NULL, NULL);
-    glBindTextureUnit(7, limit);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, cull->map[0]);
+    glBindTextureUnit(LIMIT_UNIT, limit);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
     work_run((size_t)grid.columns * grid.rows);
     widen(cull, &grid);
     test(cull, &grid, particles, frame, 0, 0, vertices, false);
@@ -225,13 +232,13 @@ bool cull_for_light(Cull *cull, const ParticleBuffers *particles, const Frame *f
     if (side > cull->point_limit || particles->count == 0)
         return false;
     Grid grid = make_grid(SHADOW_MAP_TEXELS, SHADOW_MAP_TEXELS, side, fmax(side, 1));
-    grid.projection[2] = (GLfloat)(side / 2);
+    grid.point_half = (GLfloat)(side / 2);
     make(cull, &grid, particles, frame, 1, 0, 1, false);
     return true;
 }
 
 size_t cull_use(const Cull *cull, CullList list)
 {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, cull->lists[list]);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LISTED_STORAGE, cull->lists[list]);
     return (size_t)list * COMMAND_SIZE;
 }

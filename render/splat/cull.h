@@ -41,7 +41,7 @@ void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *fra
 bool cull_create_limit(Cull *cull, Error *error);
 
 /* Both lists: the particles whose sprites reach before what a depth map as large as the picture has at some
-   pixel; `limit` is reversed, 0 lets all through, 1 nothing. Binds texture unit 7. */
+   pixel; `limit` is reversed, 0 lets all through, 1 nothing. */
 void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *frame, unsigned limit,
                    unsigned vertices);
 

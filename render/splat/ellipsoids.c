@@ -1,6 +1,8 @@
 #include "render/splat/ellipsoids.h"
 
 #include "render/particles/work.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -68,16 +70,18 @@ void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, c
     reserve(ellipsoids, particles->count);
     neighbourhood_build(&ellipsoids->neighbourhood, particles);
     const float drop = ellipsoids->def.drops ? fminf((float)drop_radius(particles, flat), radius) : radius;
-    glProgramUniform4f(ellipsoids->program, 3, (float)particles->support_radius,
-                       (float)full_sum(particles, flat), radius, drop);
+    glProgramUniform1f(ellipsoids->program, SUPPORT_RADIUS_AT, (float)particles->support_radius);
+    glProgramUniform1f(ellipsoids->program, FULL_SUM_AT, (float)full_sum(particles, flat));
+    glProgramUniform1f(ellipsoids->program, CROWD_RADIUS_AT, radius);
+    glProgramUniform1f(ellipsoids->program, DROP_RADIUS_AT, drop);
     if (ellipsoids_stretched(&ellipsoids->def))
-        glProgramUniform1ui(ellipsoids->program, 4, flat);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, ellipsoids->shapes);
+        glProgramUniform1ui(ellipsoids->program, SLAB_AT, flat);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, ellipsoids->shapes);
     neighbourhood_run(&ellipsoids->neighbourhood, ellipsoids->program);
 }
 
 void ellipsoids_bind(const Ellipsoids *ellipsoids)
 {
     if (ellipsoids_wanted(&ellipsoids->def))
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, ellipsoids->shapes);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, ellipsoids->shapes);
 }

@@ -1,6 +1,7 @@
 #include "render/splat/narrow_range.h"
 
 #include "render/splat/splat_def.h"
+#include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -64,9 +65,9 @@ static void follow(NarrowRange *filter, const Target *target)
 static unsigned smooth(const NarrowRange *filter, GLuint program, unsigned from, int to, int x, int y)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, filter->depth_framebuffer[to]);
-    glBindTextureUnit(1, from);
+    glBindTextureUnit(NEAREST_UNIT, from);
     glUseProgram(program);
-    glUniform2i(2, x, y);
+    glUniform2i(FILTER_AXIS_AT, x, y);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     return filter->depth[to];
 }
@@ -77,9 +78,13 @@ static void set_uniforms(const NarrowRange *filter, const Frame *frame)
     const float radius = frame->particle_radius, range = (float)def->filter_range * radius;
     const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* of 1 m at 1 m */
     const float reach = (float)def->filter_size * radius * pixels;
-    glProgramUniform3f(filter->along, 1, reach, range, radius);
-    glProgramUniform3f(filter->clean, 1, reach, range, radius);
-    glProgramUniform1f(filter->normals, 1,
+    for (int i = 0; i < 2; i++) {
+        const GLuint program = i == 0 ? filter->along : filter->clean;
+        glProgramUniform1f(program, FILTER_REACH_AT, reach);
+        glProgramUniform1f(program, FILTER_RANGE_AT, range);
+        glProgramUniform1f(program, FILTER_RADIUS_AT, radius);
+    }
+    glProgramUniform1f(filter->normals, EDGE_STEP_AT,
                        0.5F * range); /* filtered, the brim of a gap of one range is nearer */
 }
 
@@ -102,8 +107,8 @@ SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Fr
     }
     shown.nearest = smooth(filter, filter->clean, shown.nearest, 0, 0, 0);
     glBindFramebuffer(GL_FRAMEBUFFER, filter->normal_framebuffer);
-    glBindTextureUnit(1, shown.nearest);
-    glBindTextureUnit(6, maps->normal);
+    glBindTextureUnit(NEAREST_UNIT, shown.nearest);
+    glBindTextureUnit(NORMAL_SUM_UNIT, maps->normal);
     glUseProgram(filter->normals);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_SCISSOR_TEST);

@@ -1,6 +1,7 @@
 #include "render/splat/silhouette.h"
 
 #include "render/splat/splat_def.h"
+#include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -62,7 +63,7 @@ static void fill(GLuint framebuffer, GLuint program, float step)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glUseProgram(program);
-    glUniform1f(1, step);
+    glUniform1f(LEAST_STEP_AT, step);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -91,7 +92,7 @@ void silhouette_draw(Silhouette *silhouette, const SplatMaps *blended, unsigned 
     follow(silhouette, target);
     glCopyImageSubData(target->color, GL_TEXTURE_2D, 0, 0, 0, 0, silhouette->picture, GL_TEXTURE_2D, 0, 0, 0,
                        0, target->width, target->height, 1);
-    glBindTextures(1, 7,
+    glBindTextures(NEAREST_UNIT, 7,
                    (GLuint[]){nearest, target->depth, silhouette->picture, silhouette->edges, blended->color,
                               blended->normal, blended->weight});
     glDepthMask(GL_TRUE);

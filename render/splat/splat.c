@@ -8,6 +8,8 @@
 #include "render/splat/splat_shade.h"
 #include "render/splat/splat_sprites.h"
 #include "render/splat/thickness.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -94,10 +96,7 @@ static GLuint create_casting(const SplatDef *def, const char *listed, Error *err
     static const char *const stages[] = {"render/ball_shadow.vert", "render/depth_only.frag", NULL};
     char defines[64];
     snprintf(defines, sizeof defines, "%s%s", ellipsoids_defines(def), listed);
-    const GLuint program = program_create("splat shadow", stages, defines, error);
-    if (program)
-        glProgramUniform1f(program, 1, SHADOW_MAP_TEXELS);
-    return program;
+    return program_create("splat shadow", stages, defines, error);
 }
 
 static bool create_programs(SplatView *splat, Error *error)
@@ -213,9 +212,9 @@ static void set_limit(SplatView *splat, const Frame *frame)
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_TRUE);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glBindTextureUnit(1, splat->maps.nearest);
+    glBindTextureUnit(NEAREST_UNIT, splat->maps.nearest);
     glUseProgram(splat->limit);
-    glUniform1f(1, eps_of(frame));
+    glUniform1f(EPS_AT, eps_of(frame));
     glBindVertexArray(splat->sprites.screen);
     frame_cut_to_bounds(frame);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -235,10 +234,12 @@ static void blend_attributes(SplatView *splat, SplatSprite sprite, const Particl
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_FALSE);
-    glProgramUniform1f(splat->blend[sprite], 1,
-                       level ? splat_level_gain_of(frame, particles) : eps_of(frame));
-    glBindTextureUnit(1, splat->maps.nearest);
-    glBindTextureUnit(2, splat->colormap);
+    if (level)
+        glProgramUniform1f(splat->blend[sprite], KERNEL_GAIN_AT, splat_level_gain_of(frame, particles));
+    else
+        glProgramUniform1f(splat->blend[sprite], EPS_AT, eps_of(frame));
+    glBindTextureUnit(NEAREST_UNIT, splat->maps.nearest);
+    glBindTextureUnit(COLORMAP_UNIT, splat->colormap);
     counts_begin(frame->counts);
     draw_sprites(splat, sprite, splat->blend[sprite], particles, frame, CULL_BLEND);
     counts_end(frame->counts, STAGE_BLEND);

@@ -1,5 +1,6 @@
 #include "render/splat/splat_level.h"
 
+#include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -193,11 +194,13 @@ static void ask(const Search *search, GLuint query)
 static void look(const Search *search, float apart)
 {
     const SplatLevel *level = search->level;
-    glProgramUniform1f(level->open, 1, 4 * apart * search->frame->particle_radius);
+    glProgramUniform1f(level->open, SEARCH_RANGE_AT, 4 * apart * search->frame->particle_radius);
     fill(search, level->open, level->sum_framebuffer);
-    glProgramUniform1f(level->sum[search->sprite], 1, apart);
+    glProgramUniform1f(level->sum[search->sprite], APART_AT, apart);
     splat(search, level->sum[search->sprite], level->sum_framebuffer, GL_FUNC_ADD);
-    glProgramUniform3f(level->step, 1, apart, APART_BEHIND, search->target);
+    glProgramUniform1f(level->step, APART_AT, apart);
+    glProgramUniform1f(level->step, APART_NEXT_AT, APART_BEHIND);
+    glProgramUniform1f(level->step, LEVEL_AT, search->target);
     fill(search, level->step, level->march_framebuffer);
 }
 
@@ -220,11 +223,12 @@ static void look_again(const Search *search, int round)
 static void refine(const Search *search)
 {
     const SplatLevel *level = search->level;
-    glProgramUniform1f(level->open_found, 1, SLACK * search->frame->particle_radius);
+    glProgramUniform1f(level->open_found, SEARCH_RANGE_AT, SLACK * search->frame->particle_radius);
     fill(search, level->open_found, level->single_framebuffer);
     list_to_limit(search);
     splat(search, level->single[search->sprite], level->single_framebuffer, GL_FUNC_ADD);
-    glProgramUniform2f(level->root, 1, SLACK, search->target);
+    glProgramUniform1f(level->root, SLACK_AT, SLACK);
+    glProgramUniform1f(level->root, LEVEL_AT, search->target);
     fill(search, level->root, search->maps->nearest_framebuffer);
 }
 
@@ -238,9 +242,9 @@ void splat_level_find(SplatLevel *level, const SplatMaps *maps, SplatSprites *sp
     glDepthMask(GL_TRUE); /* clearing heeds it */
     glClearNamedFramebufferfv(level->march_framebuffer, GL_COLOR, 0, (GLfloat[4]){0});
     glClearNamedFramebufferfv(level->march_framebuffer, GL_DEPTH, 0, (GLfloat[]){1});
-    glBindTextureUnit(1, maps->nearest);
-    glBindTextureUnit(3, level->march);
-    glBindTextures(5, 2, (GLuint[]){level->value, level->slope});
+    glBindTextureUnit(NEAREST_UNIT, maps->nearest);
+    glBindTextureUnit(MARCH_UNIT, level->march);
+    glBindTextures(VALUE_UNIT, 2, (GLuint[]){level->value, level->slope});
     look(&search, APART);
     for (int round = 1; round < SPLAT_LEVEL_ROUNDS; round++)
         look_again(&search, round);

@@ -2,6 +2,8 @@
 
 #include "render/splat/splat_def.h"
 #include "render/splat/splat_sprites.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -45,14 +47,15 @@ static void look_through(SplatShade *shade, unsigned program, const Frame *frame
 {
     const SplatDef *def = splat_def(frame->def);
     behind_take(&shade->behind, frame);
-    glProgramUniform2f(program, 2, (float)def->ior,
+    glProgramUniform1f(program, REFRACTION_INDEX_AT, (float)def->ior);
+    glProgramUniform1f(program, ATTENUATION_AT,
                        def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);
 }
 
 /* Blends what the fluid covers of pixels with what is behind it. */
 static void begin_mixing(const Frame *frame)
 {
-    glUniform1f(9, (float)splat_def(frame->def)->eps * frame->particle_radius);
+    glUniform1f(COVER_STEP_AT, (float)splat_def(frame->def)->eps * frame->particle_radius);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -69,11 +72,12 @@ void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickne
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
-    glBindTextureUnit(1, maps->nearest);
-    glBindTextures(5, 3, (GLuint[]){maps->color, maps->normal, maps->weight});
-    glBindTextureUnit(10, thickness);
+    glBindTextureUnit(NEAREST_UNIT, maps->nearest);
+    glBindTextures(COLOR_SUM_UNIT, 3, (GLuint[]){maps->color, maps->normal, maps->weight});
+    glBindTextureUnit(THICKNESS_UNIT, thickness);
     glUseProgram(program);
-    glUniform2f(1, fmaxf(frame->nearest, frame->camera.near_plane), frame->farthest);
+    glUniform1f(NEAREST_DEPTH_AT, fmaxf(frame->nearest, frame->camera.near_plane));
+    glUniform1f(FARTHEST_DEPTH_AT, frame->farthest);
     if (mixing)
         begin_mixing(frame);
     glBindVertexArray(shade->screen);

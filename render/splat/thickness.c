@@ -1,5 +1,7 @@
 #include "render/splat/thickness.h"
 
+#include "shaders/splat/splat_bindings.h"
+
 #include <epoxy/gl.h>
 #include <math.h>
 
@@ -81,12 +83,10 @@ void thickness_draw(Thickness *thickness, SplatSprites *sprites, const ParticleB
     glClearNamedFramebufferfv(thickness->framebuffer, GL_COLOR, 0, (GLfloat[4]){0});
     splat_sprites_begin(thickness->framebuffer, frame, GL_FUNC_ADD);
     glViewport(0, 0, width, height);
-    glProgramUniform1f(thickness->program[sprite], 1, support);
-    glProgramUniform2f(thickness->program[sprite], 2, (float)width, (float)height);
-    if (frame->world->solid_count > 0) {
-        glProgramUniform2i(thickness->program[sprite], 3, frame->width, frame->height);
-        glBindTextureUnit(1, frame->target->depth);
-    }
+    glProgramUniform1f(thickness->program[sprite], SPLAT_RADIUS_AT, support);
+    glProgramUniform2f(thickness->program[sprite], MAP_SIZE_AT, (float)width, (float)height);
+    if (frame->world->solid_count > 0)
+        glBindTextureUnit(TARGET_DEPTH_UNIT, frame->target->depth);
     splat_sprites_draw(sprites, sprite, thickness->program[sprite], particles, frame, NULL);
     glDisable(GL_BLEND);
 }

@@ -1,5 +1,6 @@
 #include "render/volume/bricks.h"
 
+#include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -89,7 +90,7 @@ static void fill_map(const Bricks *bricks, const Volume *volume)
         glClearTexImage(bricks->map, 0, GL_RED, GL_FLOAT, &much);
         return;
     }
-    glBindImageTexture(0, bricks->map, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
+    glBindImageTexture(GREATEST_IMAGE, bricks->map, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
     glUseProgram(bricks->greatest);
     dispatch(bricks);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -102,9 +103,9 @@ void bricks_make(Bricks *bricks, const Volume *volume)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     fill_map(bricks, volume);
     glNamedBufferSubData(bricks->commands, 0, sizeof none, none);
-    glBindTextureUnit(12, bricks->map);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, bricks->found);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, bricks->commands);
+    glBindTextureUnit(GREATEST_UNIT, bricks->map);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, FACES_STORAGE, bricks->found);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, FACES_COMMAND_STORAGE, bricks->commands);
     glUseProgram(bricks->list);
     dispatch(bricks);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
@@ -112,7 +113,7 @@ void bricks_make(Bricks *bricks, const Volume *volume)
 
 void bricks_draw_faces(Bricks *bricks)
 {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, bricks->found);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, FACES_STORAGE, bricks->found);
     glUseProgram(bricks->faces);
     quad_indices_draw_indirect(&bricks->quads, bricks->capacity, bricks->commands, 0);
 }

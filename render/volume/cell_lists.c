@@ -2,6 +2,7 @@
 
 #include "render/particles/particle_bind.h"
 #include "render/particles/work.h"
+#include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -83,6 +84,6 @@ void cell_lists_make(CellLists *lists, const VoxelizeJob *job)
 
 void cell_lists_bind(const CellLists *lists)
 {
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 8, 3,
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, LIST_STARTS_STORAGE, 3,
                       (GLuint[]){lists->starts, lists->particles, lists->scalars});
 }

@@ -19,7 +19,7 @@ double cell_lists_size(const VolumeGrid *grid, double radius, int size[3]);
 bool cell_lists_create(CellLists *lists, bool scalar, Error *error);
 void cell_lists_destroy(CellLists *lists);
 
-/* Makes the lists, and leaves them bound: storage 8 to 10. */
+/* Makes the lists, and leaves them bound. */
 void cell_lists_make(CellLists *lists, const VoxelizeJob *job);
 void cell_lists_bind(const CellLists *lists);
 

@@ -3,6 +3,7 @@
 #include "render/particles/particle_bind.h"
 #include "render/particles/work.h"
 #include "render/volume/voxelize.h"
+#include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -38,8 +39,8 @@ ParticleBuffers fluid_numbers_add(FluidNumbers *numbers, const ParticleBuffers *
     reserve(numbers, particles->count);
     glUseProgram(numbers->program);
     particle_bind(numbers->program, particles, SCALAR_FLUID);
-    glUniform1ui(1, (GLuint)particles->count);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, numbers->buffer);
+    glUniform1ui(FLUID_COUNT_AT, (GLuint)particles->count);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, FLUID_NUMBERS_STORAGE, numbers->buffer);
     work_run(particles->count);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
                     GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);

@@ -3,7 +3,9 @@
 #include "render/frame/behind.h"
 #include "render/frame/colormap.h"
 #include "render/volume/bricks.h"
+#include "shaders/shared/bindings.h"
 #include "shaders/volume/raycast_block.h"
+#include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -243,10 +245,10 @@ static void open_gate(const Raycast *raycast, const Target *target, bool inside)
 /* Solids stand in the target's depth, which is not written until all rays are cast. */
 static void bind_maps(const Raycast *raycast, const Target *target)
 {
-    glBindTextureUnit(2, raycast->colormap);
-    glBindTextureUnit(10, raycast->depths[ENTRY]);
-    glBindTextureUnit(11, raycast->depths[EXIT]);
-    glBindTextureUnit(12, raycast->solids ? target->depth : 0);
+    glBindTextureUnit(COLORMAP_UNIT, raycast->colormap);
+    glBindTextureUnit(ENTRY_UNIT, raycast->depths[ENTRY]);
+    glBindTextureUnit(EXIT_UNIT, raycast->depths[EXIT]);
+    glBindTextureUnit(TARGET_DEPTH_UNIT, raycast->solids ? target->depth : 0);
 }
 
 /* Without solids all that one looks through the fluid at is sky and floor, which need no copy. */
@@ -256,8 +258,9 @@ static void look_through(Raycast *raycast, const Frame *frame)
     if (raycast->solids)
         behind_take(&raycast->behind, frame);
     else
-        glBindTextureUnit(3, frame->floor_light);
-    glProgramUniform2f(raycast->program, 2, (GLfloat)cast->ior,
+        glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+    glProgramUniform1f(raycast->program, REFRACTION_INDEX_AT, (GLfloat)cast->ior);
+    glProgramUniform1f(raycast->program, ATTENUATION_AT,
                        cast->attenuation > 0 ? (GLfloat)cast->attenuation : frame->attenuation);
 }
 
@@ -286,7 +289,7 @@ static void write_depth(const Raycast *raycast, const Frame *frame)
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_ALWAYS);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glBindTextureUnit(1, raycast->found);
+    glBindTextureUnit(FOUND_UNIT, raycast->found);
     glUseProgram(raycast->settle);
     glBindVertexArray(raycast->screen);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -302,7 +305,7 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
     fill_block(&block, volume, particles, frame);
     glNamedBufferSubData(raycast->block, 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, RAYCAST_BLOCK, raycast->block);
-    glBindTextures(8, 2, (GLuint[]){volume->field, volume->scalar});
+    glBindTextures(FIELD_UNIT, 2, (GLuint[]){volume->field, volume->scalar});
     bricks_make(&raycast->bricks, volume);
     draw_faces(raycast, frame);
     if (raycast->look == RAYCAST_WATER)

@@ -1,6 +1,8 @@
 #include "render/volume/volume_slice.h"
 
 #include "render/frame/colormap.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -36,9 +38,9 @@ void volume_slice_draw(const VolumeSlice *slice, const double box_size[3], const
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
     glUseProgram(slice->program);
-    glUniform1ui(1, (GLuint)axis);
-    glUniform1f(2, (float)(from + def->slice * box_size[axis]));
-    glBindTextureUnit(1, slice->colormap);
+    glUniform1ui(SLICE_AXIS_AT, (GLuint)axis);
+    glUniform1f(SLICE_PLACE_AT, (float)(from + def->slice * box_size[axis]));
+    glBindTextureUnit(COLORMAP_UNIT, slice->colormap);
     glBindVertexArray(slice->vertex_array);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

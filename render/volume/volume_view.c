@@ -71,8 +71,6 @@ static bool create_raycast(VolumeView *view, const Subject *subject, Error *erro
     glCreateVertexArrays(1, &view->casting_vao);
     view->casting =
         program_create_pair("volume shadow", "render/ball_shadow.vert", "render/depth_only.frag", error);
-    if (view->casting)
-        glProgramUniform1f(view->casting, 1, SHADOW_MAP_TEXELS);
     return view->casting != 0;
 }
 

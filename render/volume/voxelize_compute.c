@@ -4,6 +4,7 @@
 #include "render/particles/work.h"
 #include "render/volume/cell_lists.h"
 #include "render/volume/voxelize.h"
+#include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -74,9 +75,9 @@ void *voxelize_compute_plain(VolumeMethod method, bool scalar, Error *error)
 static void bind_images(const ByCompute *own, const Volume *volume, bool bits, GLenum access)
 {
     const GLenum format = bits ? GL_R32UI : GL_R32F;
-    glBindImageTexture(0, volume->field, 0, GL_TRUE, 0, access, format);
+    glBindImageTexture(FIELD_IMAGE, volume->field, 0, GL_TRUE, 0, access, format);
     if (own->scalar)
-        glBindImageTexture(1, volume->scalar, 0, GL_TRUE, 0, access, format);
+        glBindImageTexture(FIELD_SCALAR_IMAGE, volume->scalar, 0, GL_TRUE, 0, access, format);
 }
 
 static void scatter(ByCompute *own, const VoxelizeJob *job)
@@ -88,7 +89,7 @@ static void scatter(ByCompute *own, const VoxelizeJob *job)
     if (own->scalar)
         glClearTexImage(job->volume->scalar, 0, GL_RED, GL_FLOAT, &none);
     particle_bind(own->program, job->particles, job->carried);
-    glProgramUniform1ui(own->program, 1, (GLuint)discs);
+    glProgramUniform1ui(own->program, DISCS_AT, (GLuint)discs);
     glUseProgram(own->program);
     bind_images(own, job->volume, !own->atomics, GL_READ_WRITE);
     work_run(job->particles->count * discs);

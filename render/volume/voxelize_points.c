@@ -1,6 +1,7 @@
 /* Voxelization by drawing: a particle becomes a point in each slice that it cuts, and blending sums up. */
 #include "render/particles/particle_bind.h"
 #include "render/volume/voxelize.h"
+#include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -157,7 +158,7 @@ static void draw_passes(const ByPoints *own, const GLuint textures[2], const Vox
     const int slices = slices_a_pass(own), size = job->volume->grid.size[2];
     for (int slice = 0; slice < size; slice += slices) {
         attach(own, textures, slice / slices);
-        glUniform1i(1, slice);
+        glUniform1i(PASS_SLICE_AT, slice);
         draw(job, 1);
     }
 }
@@ -190,8 +191,8 @@ static void unpack(const ByPoints *own, const GLuint textures[2], const int size
 {
     glUseProgram(own->unpack);
     for (int i = 0; i <= (int)own->scalar; i++) {
-        glBindTextureUnit(8, own->packed[i]);
-        glBindImageTexture(0, textures[i], 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
+        glBindTextureUnit(PACKED_UNIT, own->packed[i]);
+        glBindImageTexture(UNPACKED_IMAGE, textures[i], 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
         glDispatchCompute((GLuint)(size[0] + 7) / 8, (GLuint)(size[1] + 7) / 8, (GLuint)(size[2] + 3) / 4);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);

@@ -3,6 +3,7 @@
 #include "render/particles/particle_bind.h"
 #include "render/volume/cell_lists.h"
 #include "render/volume/voxelize.h"
+#include "shaders/volume/volume_bindings.h"
 #include "shaders/volume/volume_block.h"
 #include "sim/gl/program.h"
 #include "sim/kernel/kernel.h"
@@ -220,7 +221,7 @@ static void find_bounds(const Voxelizer *voxelizer, const VoxelizeJob *job, GLui
 {
     const GLsizeiptr size = 6 * sizeof *found;
     glNamedBufferSubData(voxelizer->bounds, 0, size, found);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, voxelizer->bounds);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BOUNDS_STORAGE, voxelizer->bounds);
     glUseProgram(voxelizer->find_bounds);
     particle_bind(voxelizer->find_bounds, job->particles, job->carried);
     glDispatchCompute(1, 1, 1);
@@ -300,7 +301,7 @@ bool voxelizer_run(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuf
 void voxelizer_bind(const Voxelizer *voxelizer)
 {
     glBindBufferBase(GL_UNIFORM_BUFFER, VOLUME_BLOCK, voxelizer->block);
-    glBindTextures(8, 2, (GLuint[]){voxelizer->volume.field, voxelizer->volume.scalar});
+    glBindTextures(FIELD_UNIT, 2, (GLuint[]){voxelizer->volume.field, voxelizer->volume.scalar});
     if (voxelizer->method == VOLUME_DIRECT)
         voxelize_compute_bind(voxelizer->state);
 }

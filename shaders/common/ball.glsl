@@ -1,11 +1,12 @@
 // The ball that stands for a particle: of the view's radius, with DROPS of its own one, with ELLIPSOID that of an ellipsoid's volume
 // (render/splat/ellipsoids.c). Wants common/frame.glsl and common/particles.glsl.
+#include "shaders/shared/bindings.h"
 #ifdef ELLIPSOID
 // Of each: centre, radius of the ball of its volume, m; the symmetric matrix A that takes it to that ball, of determinant 1: xx yy
 // zz, least axis in radii at most; xy xz yz.
-layout(std430, binding = 8) readonly buffer Shapes { vec4 shape[]; };
+layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { vec4 shape[]; };
 #elif defined DROPS
-layout(std430, binding = 8) readonly buffer Shapes { float shape_radius[]; };
+layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { float shape_radius[]; };
 #endif
 
 vec4 ball_of(uint index) // centre in the box's frame, radius

@@ -1,9 +1,10 @@
 // What stands behind the fluid, bent by it; render/frame/behind.c binds it. Wants common/frame.glsl and, with FLOOR_SHADOW,
 // common/environment.glsl.
+#include "shaders/shared/bindings.h"
 #include "common/nan.glsl"
-layout(binding = 14) uniform sampler2D behind_color;
+layout(binding = BEHIND_COLOR_UNIT) uniform sampler2D behind_color;
 #ifdef SOLIDS
-layout(binding = 15) uniform sampler2D behind_depth; // reversed
+layout(binding = BEHIND_DEPTH_UNIT) uniform sampler2D behind_depth; // reversed
 #endif
 
 vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame

@@ -1,6 +1,8 @@
 // Refraction, reflection and absorption at the surface of a clear fluid, for the shadings water and jelly. Wants
 // common/behind.glsl and common/surface.glsl.
-layout(location = 2) uniform vec2 medium; // index of refraction; attenuation distance, m
+#include "shaders/shared/bindings.h"
+layout(location = REFRACTION_INDEX_AT) uniform float refraction_index;
+layout(location = ATTENUATION_AT) uniform float attenuation; // distance through which white light gets the fluid's colour, m
 
 // Unpolarised light from air. After: Fresnel; Born and Wolf, Principles of optics, 1.5.2.
 float fresnel(float cosine, float ior)
@@ -14,15 +16,15 @@ float fresnel(float cosine, float ior)
 // straight ray, and weakened by Beer and Lambert's law; van der Laan et al., Screen space fluid rendering with curvature flow, 2009.
 vec3 transmitted(Surface s)
 {
-    vec3 inner = refract(s.view, s.normal, 1.0 / medium.x);
+    vec3 inner = refract(s.view, s.normal, 1.0 / refraction_index);
     vec3 seen = behind_at(s.place + s.thickness * inner, near_plane / -s.place.z, gl_FragCoord.xy);
-    return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / medium.y));
+    return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation));
 }
 
 // What floats in it scatters a little light back, the more the thicker it is: without that, deep water would be black.
 vec3 scattered(Surface s)
 {
-    float share = 0.4 - 0.4 * exp2(-0.7 * s.thickness / medium.y), up = max(dot(s.normal, light_in_eye), 0.0);
+    float share = 0.4 - 0.4 * exp2(-0.7 * s.thickness / attenuation), up = max(dot(s.normal, light_in_eye), 0.0);
     return share * s.albedo * (ambient_light(s.normal) * (0.35 + 0.65 * s.lit) + light_color * (s.key * (0.3 + 0.7 * up)));
 }
 
@@ -36,7 +38,7 @@ vec3 reflected(Surface s, vec3 mirror)
 // Adds to `inside`, what the surface lets out, what it mirrors.
 vec3 with_surface(Surface s, vec3 inside)
 {
-    float share = fresnel(max(-dot(s.view, s.normal), 0.0), medium.x);
+    float share = fresnel(max(-dot(s.view, s.normal), 0.0), refraction_index);
     return mix(inside, reflected(s, reflect(s.view, s.normal)), share);
 }
 

@@ -1,7 +1,8 @@
 // Sky and lit floor, seen from any place in any direction of the world. With FLOOR_SHADOW less what fluid and solids shade.
 // Wants common/frame.glsl.
+#include "shaders/shared/bindings.h"
 #ifdef FLOOR_SHADOW
-layout(binding = 3) uniform sampler2D floor_light;
+layout(binding = FLOOR_LIGHT_UNIT) uniform sampler2D floor_light;
 #endif
 
 float sky_brightness(vec3 ray)

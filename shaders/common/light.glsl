@@ -1,5 +1,6 @@
 // Soft daylight: a key light with shadow, sky above, ground below.
-layout(binding = 0) uniform sampler2D shadow_map; // reversed: 1 next to the light; 0 where nothing casts
+#include "shaders/shared/bindings.h"
+layout(binding = SHADOW_UNIT) uniform sampler2D shadow_map; // reversed: 1 next to the light; 0 where nothing casts
 
 // The map between its four nearest texels, as a linear filter has it: not all hardware filters depths without comparing them.
 float nearest_to_light(vec2 at)

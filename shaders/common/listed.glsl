@@ -1,6 +1,7 @@
 // The particles to be drawn: all, or with LISTED those that culling kept (render/splat/cull.c), in the same order.
+#include "shaders/shared/bindings.h"
 #ifdef LISTED
-layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
+layout(std430, binding = LISTED_STORAGE) readonly buffer Listed { uint listed[]; };
 #endif
 
 uint listed_particle(uint i)

@@ -1,7 +1,10 @@
 // The grid of render/particles/neighbourhood.c: cells along x lie side by side. The one after the last is for what is far beside all.
 #include "common/nan.glsl"
-layout(location = 1) uniform uvec4 grid_size;  // cells along each axis; particles
-layout(location = 2) uniform vec4 grid_place;  // least corner, m; cells a metre
+#include "shaders/shared/bindings.h"
+layout(location = GRID_SIZE_AT) uniform uvec3 grid_size; // cells along each axis
+layout(location = GRID_PARTICLES_AT) uniform uint grid_particles;
+layout(location = GRID_CORNER_AT) uniform vec3 grid_corner; // the least, m
+layout(location = GRID_SCALE_AT) uniform float grid_scale;  // cells a metre
 layout(local_size_x = 64) in;
 
 // In a cell or a row of cells; fluid has some thirty there. What collapsed into one place would keep a picture for minutes.
@@ -15,14 +18,14 @@ uint invocation()
 // Also of what is no number.
 bool beside_grid(vec3 x)
 {
-    vec3 at = (x - grid_place.xyz) * grid_place.w;
-    return is_nan(at.xyzz) || any(lessThanEqual(at, vec3(-8.0))) || any(greaterThanEqual(at, vec3(grid_size.xyz) + 8.0));
+    vec3 at = (x - grid_corner) * grid_scale;
+    return is_nan(at.xyzz) || any(lessThanEqual(at, vec3(-8.0))) || any(greaterThanEqual(at, vec3(grid_size) + 8.0));
 }
 
 // Beside the box those at its sides: what is near then stands near, too.
 uvec3 cell_at(vec3 x)
 {
-    return uvec3(clamp((x - grid_place.xyz) * grid_place.w, vec3(0.0), vec3(grid_size.xyz) - 0.5));
+    return uvec3(clamp((x - grid_corner) * grid_scale, vec3(0.0), vec3(grid_size) - 0.5));
 }
 
 uint cell_number(uvec3 at)

@@ -1,2 +1,3 @@
 // Of common/particles.glsl: which fluid a particle is of.
-layout(std430, binding = 2) readonly buffer Fluids { uint fluid_words[]; };
+#include "shaders/shared/bindings.h"
+layout(std430, binding = FLUIDS_STORAGE) readonly buffer Fluids { uint fluid_words[]; };

@@ -1,2 +1,3 @@
 // Of common/particles.glsl: the scalar that is shown.
-layout(std430, binding = 1) readonly buffer Scalars { float scalar_words[]; };
+#include "shaders/shared/bindings.h"
+layout(std430, binding = SCALARS_STORAGE) readonly buffer Scalars { float scalar_words[]; };

@@ -1,5 +1,6 @@
 // What of the key light solids let pass: yes or no, with a rim of a texel or two. Wants common/frame.glsl.
-layout(binding = 4) uniform sampler2DShadow solid_map; // reversed, as shadow_map; holds the sides away from the light
+#include "shaders/shared/bindings.h"
+layout(binding = SOLID_SHADOW_UNIT) uniform sampler2DShadow solid_map; // reversed, as shadow_map; holds the sides away from the light
 
 // In sides of the map.
 float shadow_texel()

@@ -1,7 +1,7 @@
 #include "common/frame.glsl"
 
 layout(location = 0) noperspective in float across;
-layout(location = 0) uniform float half_width;
+layout(location = HALF_WIDTH_AT) uniform float half_width;
 layout(location = 0) out vec4 color;
 
 void main()

@@ -1,8 +1,8 @@
 // The twelve edges of the box as lines of constant width on the screen: four vertices an edge.
 #include "common/frame.glsl"
 
-layout(location = 0) noperspective out float across; // pixels from the line's middle
-layout(location = 0) uniform float half_width;      // pixels
+layout(location = 0) noperspective out float across;       // pixels from the line's middle
+layout(location = HALF_WIDTH_AT) uniform float half_width; // pixels
 
 // Corners are numbered by bits: x, y, z; edge e runs along axis e / 4.
 vec3 corner_of_edge(int edge, int end)

@@ -2,19 +2,19 @@
 // size stands for that of the light.
 #include "common/frame.glsl"
 #include "common/light.glsl"
+#include "shaders/shared/shadow_maps.h"
 
 #ifdef SOLIDS
 #include "common/solid_light.glsl"
 #endif
 
-layout(location = 0) uniform float texel; // as a share of the map's side
 layout(location = 0) out float light_left;
 
 const int taps = 24;
 
 void main()
 {
-    vec2 xz = floor_map_corner + gl_FragCoord.xy * texel * floor_map_size;
+    vec2 xz = floor_map_corner + gl_FragCoord.xy / float(FLOOR_MAP_TEXELS) * floor_map_size;
     vec2 at = (world_to_light * vec4(xz.x, floor_height, xz.y, 1.0)).xy;
     float covered = 0.0;
     for (int i = 0; i < taps; i++) { // a sunflower's seeds: even over the disc

@@ -2,15 +2,15 @@
 // for itself, as in sim/compute/sort.comp; what is nowhere, or in too large a crowd, has any.
 #include "common/particles.glsl"
 #include "common/neighbourhood_grid.glsl"
-layout(std430, binding = 4) readonly buffer Cells { uint cell[]; };
-layout(std430, binding = 5) readonly buffer Orders { uint order[]; };
-layout(std430, binding = 6) readonly buffer Starts { uint start[]; };
-layout(std430, binding = 7) writeonly buffer Sorted { uvec4 sorted[]; };
+layout(std430, binding = CELLS_STORAGE) readonly buffer Cells { uint cell[]; };
+layout(std430, binding = ORDER_STORAGE) readonly buffer Orders { uint order[]; };
+layout(std430, binding = STARTS_STORAGE) readonly buffer Starts { uint start[]; };
+layout(std430, binding = SORTED_STORAGE) writeonly buffer Sorted { uvec4 sorted[]; };
 
 void main()
 {
     uint at = invocation();
-    if (at >= grid_size.w)
+    if (at >= grid_particles)
         return;
     uint i = order[at], c = cell[i], first = start[c], end = start[c + 1u], place = first;
     if (c == grid_size.x * grid_size.y * grid_size.z || end - first > crowded)

@@ -1,10 +1,45 @@
-/* Where all shaders of pictures find what more than one of them reads. Those of one view stand in its folder.
- */
+/* The numbers by which C hands to the shaders of pictures what more than one of them reads. Those of a view
+   stand in its own folder, as shaders/volume/volume_bindings.h; a name has one number in all shaders. */
 #ifndef SLOSH_BINDINGS_H
 #define SLOSH_BINDINGS_H
 
-/* Uniform blocks */
+/* Uniform blocks; views have 2 and up */
 #define FRAME_BLOCK 0
 #define SOLID_BLOCK 1
+
+/* Storage buffers: the particles that are drawn */
+#define POSITIONS_STORAGE 0
+#define SCALARS_STORAGE   1
+#define FLUIDS_STORAGE    2
+#define LISTED_STORAGE    3
+/* those of a neighbourhood, bound in this order by one call */
+#define CELLS_STORAGE  4
+#define RANKS_STORAGE  5
+#define STARTS_STORAGE 6
+#define ORDER_STORAGE  7
+#define SORTED_STORAGE 8
+/* and what is made of neighbours */
+#define SHAPES_STORAGE 9
+
+/* Texture units; views use those between for themselves */
+#define SHADOW_UNIT       0
+#define SORTED_UNIT       1
+#define COLORMAP_UNIT     2
+#define FLOOR_LIGHT_UNIT  3
+#define SOLID_SHADOW_UNIT 4
+#define BEHIND_COLOR_UNIT 14
+#define BEHIND_DEPTH_UNIT 15
+
+/* Locations of uniforms; views have 16 and up */
+#define POSITION_STRIDE_AT  0
+#define SCALAR_STRIDE_AT    1
+#define FLUID_STRIDE_AT     2
+#define REFRACTION_INDEX_AT 3
+#define ATTENUATION_AT      4
+#define HALF_WIDTH_AT       5
+#define GRID_SIZE_AT        6
+#define GRID_PARTICLES_AT   7
+#define GRID_CORNER_AT      8
+#define GRID_SCALE_AT       9
 
 #endif

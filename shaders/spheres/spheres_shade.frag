@@ -4,12 +4,13 @@
 #include "common/light.glsl"
 #include "common/particles.glsl"
 #include "common/particle_color.glsl"
+#include "shaders/spheres/spheres_bindings.h"
 #ifdef SOLIDS
 #include "common/solid_light.glsl"
 #endif
 
 layout(early_fragment_tests) in;
-layout(binding = 1) uniform usampler2D seen_map;
+layout(binding = SEEN_UNIT) uniform usampler2D seen_map;
 layout(location = 0) out vec4 color;
 
 // `key`: what of the key light arrives; `lit`: the same with no solid in its way.

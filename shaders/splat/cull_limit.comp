@@ -1,16 +1,17 @@
 // The coarse map from a depth map behind which nothing is wanted: the farthest of each cell's pixels.
 #include "common/frame.glsl"
 #include "splat/cull.glsl"
+#include "shaders/splat/splat_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(binding = 7) uniform sampler2D limit_map; // reversed depth
+layout(binding = LIMIT_UNIT) uniform sampler2D limit_map; // reversed depth
 
 void main()
 {
     uint cell = gl_GlobalInvocationID.x;
-    if (cell >= grid.x * grid.y)
+    if (cell >= cell_count.x * cell_count.y)
         return;
-    ivec2 low = ivec2(cell % grid.x, cell / grid.x) * int(grid.z), high = min(low + int(grid.z), ivec2(projection.xy));
+    ivec2 low = ivec2(cell % cell_count.x, cell / cell_count.x) * int(cell_side), high = min(low + int(cell_side), ivec2(cull_pixels));
     float least = 1.0;
     for (int y = low.y; y < high.y; y++)
         for (int x = low.x; x < high.x; x++)

@@ -5,9 +5,10 @@
 #include "splat/cull.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat_body.glsl"
+#include "shaders/splat/splat_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(location = 3) uniform uint count;
+layout(location = CULL_COUNT_AT) uniform uint count;
 
 const float pixel_margin = 1.0 / 64.0; // rasterisers round corners to 1/256 of a pixel
 
@@ -37,14 +38,14 @@ Disc disc_of(uint index)
     Body body = body_of(index);
     vec3 centre = body.centre;
     float w = -centre.z, radius = body.inner;
-    vec2 scale = 0.5 * projection.xy / (w * view_tangent);
+    vec2 scale = 0.5 * cull_pixels / (w * view_tangent);
     bool whole = body_nearest(body) > near_plane;
 #ifdef PAPER
     float slant = 0.0; // the paper's rays go along the axis
 #else
     float slant = (length(centre.xy) + radius) / w;
 #endif
-    return Disc(centre.xy * scale + 0.5 * projection.xy, whole ? radius * scale - pixel_margin : vec2(0.0), w, slant, radius);
+    return Disc(centre.xy * scale + 0.5 * cull_pixels, whole ? radius * scale - pixel_margin : vec2(0.0), w, slant, radius);
 }
 
 // A ray that is r away from the centre in the disc's plane meets the sphere the latest when it leans outwards: as
@@ -63,17 +64,17 @@ void main()
     if (index >= count)
         return;
     Disc disc = disc_of(index);
-    float side = float(grid.z), margin = 0.5 * (side - 1.0); // from a cell's middle to its outermost pixels' centres
+    float side = float(cell_side), margin = 0.5 * (side - 1.0); // from a cell's middle to its outermost pixels' centres
     vec2 reach = disc.radii - margin, per_radius = 1.0 / disc.radii;
     if (is_nan(vec4(disc.middle, disc.radii)) || min(reach.x, reach.y) <= 0.0)
         return;
     vec2 own = floor(disc.middle / side); // of large spheres those around the centre will do
     vec2 low = max(ceil((disc.middle - reach) / side - 0.5), max(own - 2.0, 0.0));
-    vec2 high = min(floor((disc.middle + reach) / side - 0.5), min(own + 2.0, vec2(grid.xy) - 1.0));
+    vec2 high = min(floor((disc.middle + reach) / side - 0.5), min(own + 2.0, vec2(cell_count) - 1.0));
     for (float y = low.y; y <= high.y; y++)
         for (float x = low.x; x <= high.x; x++) {
             vec2 away = abs((vec2(x, y) + 0.5) * side - disc.middle) + margin;
-            uint depth = floatBitsToUint(depth_within(disc, away * per_radius)), cell = uint(y) * grid.x + uint(x);
+            uint depth = floatBitsToUint(depth_within(disc, away * per_radius)), cell = uint(y) * cell_count.x + uint(x);
             if (depth < nearest[cell])
                 atomicMin(nearest[cell], depth);
         }

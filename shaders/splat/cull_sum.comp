@@ -1,9 +1,10 @@
 // Turns the numbers of kept particles into those before, and writes how much is to be drawn. One workgroup does it all.
+#include "shaders/splat/splat_bindings.h"
 layout(local_size_x = 256) in;
-layout(location = 1) uniform uint chunks;
-layout(location = 2) uniform uint vertices;                          // of a particle
-layout(std430, binding = 5) buffer Kept { uvec4 kept[]; };           // as in cull_test.comp
-layout(std430, binding = 6) writeonly buffer Commands { uint command[]; }; // 8 words for each of the two lists
+layout(location = CHUNKS_AT) uniform uint chunks;
+layout(location = VERTICES_AT) uniform uint vertices; // of a particle
+layout(std430, binding = CULL_KEPT_STORAGE) buffer Kept { uvec4 kept[]; }; // as in cull_test.comp
+layout(std430, binding = CULL_COMMANDS_STORAGE) writeonly buffer Commands { uint command[]; }; // 8 words for each of the two lists
 shared uvec2 part[256];
 
 void main()

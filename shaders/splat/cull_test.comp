@@ -6,12 +6,13 @@
 #include "splat/cull.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat_body.glsl"
+#include "shaders/splat/splat_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(location = 3) uniform uint count;
-layout(location = 4) uniform float eps;   // m
-layout(location = 5) uniform uint invert; // 1: the hidden ones instead
-layout(std430, binding = 5) writeonly buffer Kept { uvec4 kept[]; }; // bits to be seen, to blend; numbers of both
+layout(location = CULL_COUNT_AT) uniform uint count;
+layout(location = EPS_AT) uniform float eps; // m
+layout(location = INVERT_AT) uniform uint invert; // 1: the hidden ones instead
+layout(std430, binding = CULL_KEPT_STORAGE) writeonly buffer Kept { uvec4 kept[]; }; // bits to be seen, to blend; numbers of both
 
 // x0 x1 y0 y1 of the sprite, pixels; its nearest depth.
 #ifdef LIGHT
@@ -26,7 +27,7 @@ vec4 sprite_of(uint index, out float depth)
 {
     Body body = body_of(index);
     depth = body_nearest(body);
-    return (body_bounds(body) * 0.5 + 0.5) * projection.xxyy;
+    return (body_bounds(body) * 0.5 + 0.5) * cull_pixels.xxyy;
 }
 #endif
 
@@ -39,11 +40,11 @@ uint seen(uint index)
     vec4 sprite = sprite_of(index, depth);
     if (is_nan(sprite) || sprite.x >= sprite.y || sprite.z >= sprite.w)
         return 0u;
-    ivec4 cells = clamp(ivec4(floor(sprite / float(grid.z))), ivec4(0), ivec4(grid.xxyy) - 1);
+    ivec4 cells = clamp(ivec4(floor(sprite / float(cell_side))), ivec4(0), ivec4(cell_count.xxyy) - 1);
     ivec2 middle = (cells.xz + cells.yw) / 2, reach = cells.yw - middle; // the wider side
-    if (max(reach.x, reach.y) > int(grid.w))
+    if (max(reach.x, reach.y) > int(widen_reach))
         return 3u;
-    float behind = uintBitsToFloat(nearest[uint(middle.y) * grid.x + uint(middle.x)]);
+    float behind = uintBitsToFloat(nearest[uint(middle.y) * cell_count.x + uint(middle.x)]);
     if (depth > (behind + eps) * 1.00001)
         return HIDDEN;
     return depth <= behind * 1.00001 ? 3u : 2u;

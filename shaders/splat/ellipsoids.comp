@@ -5,8 +5,9 @@
 // that of the sphere's.
 #include "common/neighbourhood.glsl"
 #include "splat/crowd.glsl"
-layout(std430, binding = 6) writeonly buffer Shapes { vec4 shape[]; }; // as in common/ball.glsl
-layout(location = 4) uniform uint slab; // 1: two dimensions
+#include "shaders/splat/splat_bindings.h"
+layout(std430, binding = SHAPES_STORAGE) writeonly buffer Shapes { vec4 shape[]; }; // as in common/ball.glsl
+layout(location = SLAB_AT) uniform uint slab; // 1: two dimensions
 
 const float lambda = 0.5; // how far centres go towards the mean of their neighbours, eq. 6: so far that a flat surface is where the fluid's is
 const float round_share = 0.25; // of the trace: a sheet's axes are 3 : 3 : 1, a line's at most 5 : 1 : 1
@@ -22,7 +23,7 @@ Sums sums_at(vec3 x)
 {
     Sums sums = Sums(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
     uvec3 at = cell_at(x);
-    float per_h = 1.0 / sizes.x;
+    float per_h = 1.0 / support_radius;
     for (uint row = 0u; row < 9u; row++) {
         uvec2 range = row_of(at, row);
         for (uint j = range.x; j < range.y; j++) {
@@ -63,7 +64,7 @@ float least_axis(mat3 inverse)
 void main()
 {
     uint i = invocation();
-    if (i >= grid_size.w)
+    if (i >= grid_particles)
         return;
     vec3 x = place_of(i);
     uint to = 3u * number_of(i);
@@ -77,7 +78,7 @@ void main()
     mat3 axes = rounded(sums, mean, share);
     axes /= pow(dot(axes[0], cross(axes[1], axes[2])), 1.0 / 3.0);
     mat3 inverse = adjugate(axes);
-    shape[to] = vec4(x + lambda * share * sizes.x * mean, crowd_radius(share));
+    shape[to] = vec4(x + lambda * share * support_radius * mean, crowd_radius(share));
     shape[to + 1u] = vec4(inverse[0].x, inverse[1].y, inverse[2].z, least_axis(inverse));
     shape[to + 2u] = vec4(inverse[0].yz, inverse[1].z, 0.0);
 }

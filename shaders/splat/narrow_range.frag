@@ -1,10 +1,13 @@
 // One pass of the filter of render/splat/narrow_range.h: along one axis, or with CLEAN over 5 x 5 pixels. Pairs of opposite
 // neighbours go from the middle outwards; a pair of which one is out of the picture is left out.
 #include "common/frame.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D depth_map;
-layout(location = 1) uniform vec3 filter_size; // half the kernel's width at a depth of 1 m, pixels; range, m; radius, m
-layout(location = 2) uniform ivec2 along;      // the axis
+layout(binding = NEAREST_UNIT) uniform sampler2D depth_map;
+layout(location = FILTER_REACH_AT) uniform float filter_reach;   // half the kernel's width at a depth of 1 m, pixels
+layout(location = FILTER_RANGE_AT) uniform float filter_range;   // m
+layout(location = FILTER_RADIUS_AT) uniform float filter_radius; // m
+layout(location = FILTER_AXIS_AT) uniform ivec2 along;           // the axis
 layout(location = 0) out float filtered;
 
 // Of a neighbour t = middle / z - 1, by how much it is nearer: linear on the screen where the surface is a plane.
@@ -33,7 +36,7 @@ const ivec2 steps[12] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, 
 
 vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
 {
-    float range = filter_size.y / middle, clamped = -filter_size.z / (middle + filter_size.z);
+    float range = filter_range / middle, clamped = -filter_radius / (middle + filter_radius);
     vec2 limits = vec2(-range, range), sums = vec2(0.0, 1.0);
     for (int i = 0; i < 12; i++) {
         ivec2 offset = steps[i];
@@ -50,9 +53,9 @@ vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
 #else
 vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
 {
-    float range = filter_size.y / middle, clamped = -filter_size.z / (middle + filter_size.z);
+    float range = filter_range / middle, clamped = -filter_radius / (middle + filter_radius);
     vec2 ahead = vec2(-range, range), back = ahead, sums = vec2(0.0, 1.0);
-    float reach = filter_size.x / middle, stride = max(ceil(reach / float(TAPS)), 1.0);
+    float reach = filter_reach / middle, stride = max(ceil(reach / float(TAPS)), 1.0);
     int taps = min(int(ceil(reach / stride)) - 1, (along.x != 0 ? room.x : room.y) / int(stride));
     for (int i = 1; i <= taps; i++) {
         ivec2 offset = i * int(stride) * along;

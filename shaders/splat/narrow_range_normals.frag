@@ -1,10 +1,11 @@
 // Normals of a map of depths, for render/splat/narrow_range.c. Of the plane n.P = d the points are P = z (x, y, -1), so
 // 1 / z = (n.x x + n.y y - n.z) / d is linear on the screen, and its slopes there give n.
 #include "common/frame.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D depth_map;
-layout(binding = 6) uniform sampler2D normal_map;
-layout(location = 1) uniform float edge; // m: from there on a step that is not the surface's slope
+layout(binding = NEAREST_UNIT) uniform sampler2D depth_map;
+layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map;
+layout(location = EDGE_STEP_AT) uniform float edge; // m: from there on a step that is not the surface's slope
 layout(location = 0) out vec4 normal;
 
 // Of 1 / z per pixel along an axis, and the step: next to the picture's border and beyond it as on the other side.

@@ -1,8 +1,9 @@
 // What is seen in a finished picture of the view splat, for render/splat/silhouette.c. Wants common/frame.glsl.
-layout(binding = 1) uniform sampler2D nearest_map;
-layout(binding = 2) uniform sampler2D target_depth;
-layout(binding = 7) uniform sampler2D weight_map;
-layout(location = 1) uniform float least; // m: what is no farther behind belongs to what is before it
+#include "shaders/splat/splat_bindings.h"
+layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
+layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D target_depth;
+layout(binding = WEIGHT_SUM_UNIT) uniform sampler2D weight_map;
+layout(location = LEAST_STEP_AT) uniform float least; // m: what is no farther behind belongs to what is before it
 
 struct Seen {
     float depth; // m; 1e30 where neither fluid nor solid is

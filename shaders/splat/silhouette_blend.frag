@@ -1,9 +1,10 @@
 // Blends each pixel of a finished picture beside an outline with those across it. DISCS and ROWS: see render/splat/silhouette.h.
 #include "common/frame.glsl"
 #include "splat/silhouette.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 3) uniform sampler2D picture;
-layout(binding = 4) uniform sampler2D edge_map;
+layout(binding = PICTURE_UNIT) uniform sampler2D picture;
+layout(binding = EDGES_UNIT) uniform sampler2D edge_map;
 layout(location = 0) out vec4 color; // sRGB
 
 vec3 color_of(ivec2 pixel)

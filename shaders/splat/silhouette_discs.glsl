@@ -1,6 +1,7 @@
 // Outlines by the discs of the foremost spheres around a pixel, for shaders/splat/silhouette_blend.frag.
-layout(binding = 5) uniform sampler2D color_map;  // alpha: x of the way from the pixel's ray to its foremost sphere's outline
-layout(binding = 6) uniform sampler2D normal_map; // alpha: y of it; in radii
+#include "shaders/splat/splat_bindings.h"
+layout(binding = COLOR_SUM_UNIT) uniform sampler2D color_map;   // alpha: x of the way from the pixel's ray to its foremost sphere's outline
+layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map; // alpha: y of it; in radii
 
 const int SAMPLES = 16;
 

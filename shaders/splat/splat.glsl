@@ -2,10 +2,11 @@
 // r and view ray d = (x, y, -1): u = (s d - c) / r for a scale s near the centre's depth; the ray meets the sphere at the depth
 // s - k r along the eye's axis, where |u - k d| = 1. Neither cancels when the sphere is small and far. With PAPER the ray goes
 // along the axis instead, from the point of the square through the centre, which is eq. 5. With ELLIPSOID |A (u - k d)| = 1.
+#include "shaders/splat/splat_bindings.h"
 #ifdef THICKNESS // of the field, which is one of balls
 #undef ELLIPSOID
 #undef DROPS
-layout(location = 1) uniform float splat_radius; // of the kernel, m
+layout(location = SPLAT_RADIUS_AT) uniform float splat_radius; // of the kernel, m
 #else
 #define splat_radius particle_radius
 #endif

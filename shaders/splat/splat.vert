@@ -7,6 +7,7 @@
 #include "splat/splat.glsl"
 #include "common/ball.glsl"
 #include "splat/splat_body.glsl"
+#include "shaders/splat/splat_bindings.h"
 #ifdef BLEND
 #include "common/particle_color.glsl"
 layout(location = 2) flat out vec3 color;
@@ -16,7 +17,7 @@ layout(location = 7) flat out float gain; // see splat/splat_small.glsl
 #endif
 
 #ifdef THICKNESS
-layout(location = 2) uniform vec2 texels;
+layout(location = MAP_SIZE_AT) uniform vec2 texels;
 layout(location = 2) flat out vec2 column;
 #else
 #define texels picture_size

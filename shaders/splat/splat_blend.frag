@@ -5,15 +5,16 @@
 #include "common/sphere.glsl"
 #include "splat/splat.glsl"
 #include "splat/splat_at.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D nearest_map;
-layout(location = 1) uniform float eps; // m
+layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
+layout(location = EPS_AT) uniform float eps; // m
 layout(location = 2) flat in vec3 color;
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 color_sum;
 layout(location = 1) out vec4 normal_sum;
 #ifdef DISCS
-layout(location = 7) flat in float gain; // see splat/splat_small.glsl
+layout(location = 7) flat in float gain;  // see splat/splat_small.glsl
 layout(location = 2) out vec2 weight_sum; // and what is covered of the pixel, in parts of it; above 1e8: all
 #else
 layout(location = 2) out float weight_sum;

@@ -1,5 +1,6 @@
 // What the fluid covers of a pixel where its spheres are smaller, for shading with MIXING.
-layout(location = 9) uniform float cover_step; // m: fluid that is farther behind is behind the pixel's spheres
+#include "shaders/splat/splat_bindings.h"
+layout(location = COVER_STEP_AT) uniform float cover_step; // m: fluid that is farther behind is behind the pixel's spheres
 
 // 1 where spheres are larger. What else is in the pixel is fluid farther behind, then it is as it is two pixels beside, or what
 // the target has, but not amid fluid.

@@ -4,9 +4,10 @@
 #include "splat/splat.glsl"
 #include "splat/splat_at.glsl"
 #include "splat/splat_level.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D nearest_map;
-layout(location = 1) uniform float gain; // of the kernel times a particle's volume: V W(0)
+layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
+layout(location = KERNEL_GAIN_AT) uniform float gain; // of the kernel times a particle's volume: V W(0)
 layout(location = 2) flat in vec3 color;
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 color_sum;

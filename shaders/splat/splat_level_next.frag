@@ -4,8 +4,9 @@
 #include "splat/splat.glsl"
 #include "splat/splat_at.glsl"
 #include "splat/splat_level.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 3) uniform sampler2D march_map;
+layout(binding = MARCH_UNIT) uniform sampler2D march_map;
 layout(early_fragment_tests) in;
 layout(location = 0) out float nearest;
 

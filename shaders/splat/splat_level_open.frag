@@ -1,10 +1,11 @@
 // Before a sum: sets it to 0 and lets through the spheres that reach before the end of the range: of pixels that are still
 // searched, or with FOUND of those that have their root.
 #include "common/frame.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D start_map;
-layout(binding = 3) uniform sampler2D march_map;
-layout(location = 1) uniform float range; // m
+layout(binding = NEAREST_UNIT) uniform sampler2D start_map;
+layout(binding = MARCH_UNIT) uniform sampler2D march_map;
+layout(location = SEARCH_RANGE_AT) uniform float range; // m
 layout(location = 0) out vec4 value_sum;
 #ifndef FOUND
 layout(location = 1) out vec4 slope_sum;

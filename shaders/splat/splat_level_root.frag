@@ -1,10 +1,12 @@
 // The root from the field's value and derivatives at a first guess; none where none was found.
 #include "common/frame.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D start_map;
-layout(binding = 3) uniform sampler2D march_map;
-layout(binding = 5) uniform sampler2D value_map; // value and derivatives
-layout(location = 1) uniform vec2 field;         // radii that it may be off; the level over the gain
+layout(binding = NEAREST_UNIT) uniform sampler2D start_map;
+layout(binding = MARCH_UNIT) uniform sampler2D march_map;
+layout(binding = VALUE_UNIT) uniform sampler2D value_map; // value and derivatives
+layout(location = SLACK_AT) uniform float slack;          // radii that it may be off
+layout(location = LEVEL_AT) uniform float level;          // over the gain
 layout(location = 0) out float root;
 
 // Newton's steps on the cubic that has the field's value and derivatives at 0.
@@ -12,8 +14,8 @@ float refined(vec4 c)
 {
     float t = 0.0;
     for (int i = 0; i < 4; i++) {
-        float value = c.x - field.y + t * (c.y + t * (c.z / 2.0 + t * c.w / 6.0)), slope = c.y + t * (c.z + t * c.w / 2.0);
-        t = slope > 0.0 ? clamp(t - value / slope, -field.x, field.x) : 0.0;
+        float value = c.x - level + t * (c.y + t * (c.z / 2.0 + t * c.w / 6.0)), slope = c.y + t * (c.z + t * c.w / 2.0);
+        t = slope > 0.0 ? clamp(t - value / slope, -slack, slack) : 0.0;
     }
     return t;
 }

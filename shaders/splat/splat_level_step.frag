@@ -2,12 +2,15 @@
 // pieces. Where it does not, goes on behind: at once while the field is above zero, else from the next sphere.
 #include "common/frame.glsl"
 #include "common/nan.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D start_map;
-layout(binding = 3) uniform sampler2D march_map; // end of what has been searched, m; value and slope per radius there; 1: found
-layout(binding = 5) uniform sampler2D value_map;
-layout(binding = 6) uniform sampler2D slope_map;
-layout(location = 1) uniform vec3 field; // radii between samples, now and in the next round; the level over the gain
+layout(binding = NEAREST_UNIT) uniform sampler2D start_map;
+layout(binding = MARCH_UNIT) uniform sampler2D march_map; // end of what has been searched, m; value and slope per radius there; 1: found
+layout(binding = VALUE_UNIT) uniform sampler2D value_map;
+layout(binding = SLOPE_UNIT) uniform sampler2D slope_map;
+layout(location = APART_AT) uniform float apart;           // radii between samples
+layout(location = APART_NEXT_AT) uniform float apart_next; // the same in the next round
+layout(location = LEVEL_AT) uniform float level;           // over the gain
 layout(location = 0) out vec4 march;
 layout(location = 1) out float start;
 
@@ -15,7 +18,7 @@ layout(location = 1) out float start;
 vec4 hermite(vec2 value, vec2 slope)
 {
     float rise = value.y - value.x;
-    return vec4(value.x - field.z, slope.x, 3.0 * rise - 2.0 * slope.x - slope.y, slope.x + slope.y - 2.0 * rise);
+    return vec4(value.x - level, slope.x, 3.0 * rise - 2.0 * slope.x - slope.y, slope.x + slope.y - 2.0 * rise);
 }
 
 float at(vec4 c, float t)
@@ -33,7 +36,7 @@ float top_of(vec4 c)
 float crossing(vec4 c, float value, float slope)
 {
     float low = 0.0, high = 1.0;
-    if (value < field.z) {
+    if (value < level) {
         if (c.y <= 0.0 || slope >= 0.0)
             return 2.0;
         high = top_of(c);
@@ -58,8 +61,8 @@ void main()
     float from = texelFetch(start_map, pixel, 0).x;
     if (before.w > 0.0 || from >= 1e29)
         discard;
-    vec4 value = texelFetch(value_map, pixel, 0), slope = texelFetch(slope_map, pixel, 0) * field.x;
-    float a = before.y, b = before.z * field.x, reach = field.x * particle_radius, end = from + 4.0 * reach;
+    vec4 value = texelFetch(value_map, pixel, 0), slope = texelFetch(slope_map, pixel, 0) * apart;
+    float a = before.y, b = before.z * apart, reach = apart * particle_radius, end = from + 4.0 * reach;
     for (int i = 0; i < 4; i++) {
         float t = crossing(hermite(vec2(a, value[i]), vec2(b, slope[i])), value[i], slope[i]);
         if (t <= 1.0) {
@@ -71,7 +74,7 @@ void main()
         a = value[i], b = slope[i];
     }
     bool gap = a <= 0.0;
-    march = vec4(end, a, b / field.x, 0.0);
+    march = vec4(end, a, b / apart, 0.0);
     start = gap ? 1e30 : end;
-    gl_FragDepth = gap ? 0.0 : near_plane / (end + 4.0 * field.y * particle_radius);
+    gl_FragDepth = gap ? 0.0 : near_plane / (end + 4.0 * apart_next * particle_radius);
 }

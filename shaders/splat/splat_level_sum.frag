@@ -5,9 +5,10 @@
 #include "splat/splat.glsl"
 #include "splat/splat_at.glsl"
 #include "splat/splat_level.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D start_map;
-layout(location = 1) uniform float apart; // radii from one sample to the next
+layout(binding = NEAREST_UNIT) uniform sampler2D start_map;
+layout(location = APART_AT) uniform float apart; // radii from one sample to the next
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 value_sum;
 #ifndef SINGLE

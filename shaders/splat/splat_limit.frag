@@ -1,8 +1,9 @@
 // Between pass 1 and 2: the depth at which blending ends, for an early test of whole sprites.
 #include "common/frame.glsl"
+#include "shaders/splat/splat_bindings.h"
 
-layout(binding = 1) uniform sampler2D nearest_map;
-layout(location = 1) uniform float eps; // m
+layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
+layout(location = EPS_AT) uniform float eps; // m
 
 void main()
 {

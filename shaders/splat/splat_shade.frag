@@ -2,6 +2,7 @@
 // SHOW 1 depth, 2 normals, 3 weight, 4 thickness show what came before it instead.
 #include "common/frame.glsl"
 #include "common/light.glsl"
+#include "shaders/splat/splat_bindings.h"
 #ifdef SOLIDS
 #include "common/solid_light.glsl"
 #endif
@@ -10,12 +11,13 @@
 #include "common/surface.glsl"
 #include "common/clear.glsl"
 
-layout(binding = 1) uniform sampler2D nearest_map;
-layout(binding = 5) uniform sampler2D color_map;
-layout(binding = 6) uniform sampler2D normal_map;
-layout(binding = 7) uniform sampler2D weight_map;
-layout(binding = 10) uniform sampler2D thickness_map; // m, may be coarser
-layout(location = 1) uniform vec2 depths;             // nearest and farthest of a particle, m
+layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
+layout(binding = COLOR_SUM_UNIT) uniform sampler2D color_map;
+layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map;
+layout(binding = WEIGHT_SUM_UNIT) uniform sampler2D weight_map;
+layout(binding = THICKNESS_UNIT) uniform sampler2D thickness_map;  // m, may be coarser
+layout(location = NEAREST_DEPTH_AT) uniform float nearest_depth;   // of a particle, m
+layout(location = FARTHEST_DEPTH_AT) uniform float farthest_depth; // m
 layout(location = 0) out vec4 color;
 #ifdef MIXING
 #include "splat/splat_cover.glsl"
@@ -41,7 +43,7 @@ vec3 shaded(Surface s)
 // The paper's "Phong shading together with refraction and reflection": the thicker, the cloudier.
 vec3 shaded(Surface s)
 {
-    float clear = 0.8 * exp2(-2.0 * s.thickness / medium.y);
+    float clear = 0.8 * exp2(-2.0 * s.thickness / attenuation);
     vec3 inside = mix(mix(s.albedo, phong(s), shading), transmitted(s), clear);
     return mix(inside, with_surface(s, inside), shading);
 }
@@ -72,7 +74,7 @@ void main()
     gl_FragDepth = near_plane / depth;
     normal *= inversesqrt(length2);
 #if SHOW == 1
-    color = vec4(vec3(1.0 - 0.9 * clamp((depth - depths.x) / (depths.y - depths.x), 0.0, 1.0)), 1.0);
+    color = vec4(vec3(1.0 - 0.9 * clamp((depth - nearest_depth) / (farthest_depth - nearest_depth), 0.0, 1.0)), 1.0);
 #elif SHOW == 2
     color = vec4(0.5 + 0.5 * normal, 1.0);
 #elif SHOW == 3

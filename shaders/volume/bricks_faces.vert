@@ -1,8 +1,9 @@
 // A face of a brick (bricks_list.comp), four vertices each, counter-clockwise from outside.
 #include "common/frame.glsl"
 #include "volume/raycast.glsl"
+#include "shaders/volume/volume_bindings.h"
 
-layout(std430, binding = 4) readonly buffer Faces { uint faces[]; };
+layout(std430, binding = FACES_STORAGE) readonly buffer Faces { uint faces[]; };
 
 void main()
 {

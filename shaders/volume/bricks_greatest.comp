@@ -1,9 +1,10 @@
 // The greatest value of the field in each brick, of the voxels at its faces too.
 #include "volume/raycast.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(binding = 8) uniform sampler3D field_map;
-layout(binding = 0, r32f) uniform writeonly image3D greatest_map;
+layout(binding = FIELD_UNIT) uniform sampler3D field_map;
+layout(binding = GREATEST_IMAGE, r32f) uniform writeonly image3D greatest_map;
 
 void main()
 {

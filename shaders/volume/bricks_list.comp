@@ -1,10 +1,11 @@
 // Lists the faces between a brick that exceeds the limit and one that does not, or the volume's outside: brick and direction.
 #include "volume/raycast.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(binding = 12) uniform sampler3D greatest_map;
-layout(std430, binding = 4) writeonly buffer Faces { uint faces[]; };
-layout(std430, binding = 5) buffer Command { uint indices, instances, first, base, offset; };
+layout(binding = GREATEST_UNIT) uniform sampler3D greatest_map;
+layout(std430, binding = FACES_STORAGE) writeonly buffer Faces { uint faces[]; };
+layout(std430, binding = FACES_COMMAND_STORAGE) buffer Command { uint indices, instances, first, base, offset; };
 
 bool holds(ivec3 brick)
 {

@@ -1,13 +1,14 @@
 // How many particles each cell of the lists has; with PLACE these are put in their places. In between, cell_scan.comp turns numbers
 // into starts: the counter of a cell stands at its successor's place, and is the start of that in the end.
 #include "volume/volume_particle.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 8) buffer ListStarts { uint list_starts[]; };
+layout(std430, binding = LIST_STARTS_STORAGE) buffer ListStarts { uint list_starts[]; };
 #ifdef PLACE
-layout(std430, binding = 9) writeonly buffer ListParticles { vec4 list_particles[]; };
+layout(std430, binding = LIST_PARTICLES_STORAGE) writeonly buffer ListParticles { vec4 list_particles[]; };
 #ifdef SCALAR
-layout(std430, binding = 10) writeonly buffer ListScalars { float list_scalars[]; };
+layout(std430, binding = LIST_SCALARS_STORAGE) writeonly buffer ListScalars { float list_scalars[]; };
 #endif
 #endif
 

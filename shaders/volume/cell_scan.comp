@@ -1,8 +1,9 @@
 // Numbers become sums of those before. One workgroup does it all.
 #include "volume/volume.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 256) in;
-layout(std430, binding = 8) buffer ListStarts { uint list_starts[]; };
+layout(std430, binding = LIST_STARTS_STORAGE) buffer ListStarts { uint list_starts[]; };
 shared uint part[256];
 
 void main()

@@ -1,6 +1,7 @@
 // The fluid's field at a place, m in the box's frame: from the volume, or with FIELD_DIRECT summed up there and then. Bound by
 // voxelizer_bind (render/volume/volume.h), whose voxelizer_defines must stand before.
 #include "volume/volume.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 #ifdef FIELD_DIRECT
 #include "volume/field_sum.glsl"
@@ -10,7 +11,7 @@ float field_at(vec3 box_point)
     return field_sum(cells_of(box_point)).x;
 }
 #else
-layout(binding = 8) uniform sampler3D field_map;
+layout(binding = FIELD_UNIT) uniform sampler3D field_map;
 
 float field_at(vec3 box_point)
 {
@@ -25,7 +26,7 @@ vec2 field_sums_at(vec3 box_point)
     return field_sum(cells_of(box_point));
 }
 #else
-layout(binding = 9) uniform sampler3D field_scalar_map;
+layout(binding = FIELD_SCALAR_UNIT) uniform sampler3D field_scalar_map;
 
 vec2 field_sums_at(vec3 box_point)
 {

@@ -1,8 +1,9 @@
 // The field as a sum over the particles around, by the lists of render/volume/cell_lists.c. After: Iwasaki et al. 2006; Müller 2003.
-layout(std430, binding = 8) readonly buffer ListStarts { uint list_starts[]; }; // one more than cells
-layout(std430, binding = 9) readonly buffer ListParticles { vec4 list_particles[]; }; // centre, cells; amplitude
+#include "shaders/volume/volume_bindings.h"
+layout(std430, binding = LIST_STARTS_STORAGE) readonly buffer ListStarts { uint list_starts[]; };          // one more than cells
+layout(std430, binding = LIST_PARTICLES_STORAGE) readonly buffer ListParticles { vec4 list_particles[]; }; // centre, cells; amplitude
 #ifdef SCALAR
-layout(std430, binding = 10) readonly buffer ListScalars { float list_scalars[]; };
+layout(std430, binding = LIST_SCALARS_STORAGE) readonly buffer ListScalars { float list_scalars[]; };
 #endif
 
 // F, and the sum of F scalar, at a place in cells.

@@ -1,14 +1,15 @@
 // Fluids as numbers that can be averaged (render/volume/fluid_numbers.h).
 #include "common/particles.glsl"
 #include "common/particle_fluids.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 4) writeonly buffer Numbers { float numbers[]; };
-layout(location = 1) uniform uint count;
+layout(std430, binding = FLUID_NUMBERS_STORAGE) writeonly buffer Numbers { float numbers[]; };
+layout(location = FLUID_COUNT_AT) uniform uint count;
 
 void main()
 {
     uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
     if (index < count)
-        numbers[index] = float(fluid_words[index * particle_strides.z]);
+        numbers[index] = float(fluid_words[index * fluid_stride]);
 }

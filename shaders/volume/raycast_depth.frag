@@ -1,7 +1,8 @@
 // What rays met, into the target's depth.
 #include "common/frame.glsl"
+#include "shaders/volume/volume_bindings.h"
 
-layout(binding = 1) uniform sampler2D found_map;
+layout(binding = FOUND_UNIT) uniform sampler2D found_map;
 
 void main()
 {

@@ -1,5 +1,6 @@
 // Colour and light of places in the volume. Wants volume/raycast_ray.glsl, common/light.glsl.
-layout(binding = 2) uniform sampler2D colormap;
+#include "shaders/volume/volume_bindings.h"
+layout(binding = COLORMAP_UNIT) uniform sampler2D colormap;
 
 #ifdef SCALAR
 #ifdef FIELD_DIRECT
@@ -9,7 +10,7 @@ float scalar_at(vec3 at)
     return sums.x > 0.0 ? sums.y / sums.x : 0.0;
 }
 #else
-layout(binding = 9) uniform sampler3D field_scalar_map;
+layout(binding = FIELD_SCALAR_UNIT) uniform sampler3D field_scalar_map;
 
 // Its mean by the field.
 float scalar_at(vec3 at)

@@ -1,5 +1,6 @@
 // A ray through the volume, and the field on it. Wants common/frame.glsl.
 #include "volume/raycast.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 #ifdef FIELD_DIRECT
 #include "volume/volume.glsl"
@@ -10,17 +11,17 @@ float field_at(vec3 at)
     return field_sum(at * volume_cells).x;
 }
 #else
-layout(binding = 8) uniform sampler3D field_map;
+layout(binding = FIELD_UNIT) uniform sampler3D field_map;
 
 float field_at(vec3 at)
 {
     return textureLod(field_map, at, 0.0).x;
 }
 #endif
-layout(binding = 10) uniform sampler2D entry_map; // reversed depths of faces
-layout(binding = 11) uniform sampler2D exit_map;
+layout(binding = ENTRY_UNIT) uniform sampler2D entry_map; // reversed depths of faces
+layout(binding = EXIT_UNIT) uniform sampler2D exit_map;
 #ifdef SOLIDS
-layout(binding = 12) uniform sampler2D solid_depth;
+layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D solid_depth;
 #endif
 
 // A place on it is told by t: m below the eye where it is a ray of the eye.

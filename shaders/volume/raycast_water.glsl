@@ -25,18 +25,18 @@ float find_exit(Ray ray)
 // Snell's law twice; where the second surface reflects all, what it mirrors. Sets how much fluid is on the way.
 vec3 seen_through(inout Surface s)
 {
-    Ray ray = ray_from(s.place, refract(s.view, s.normal, 1.0 / medium.x));
+    Ray ray = ray_from(s.place, refract(s.view, s.normal, 1.0 / refraction_index));
     s.thickness = find_exit(ray);
     vec3 inwards = -normal_at(ray, s.thickness), leave = ray.from + s.thickness * ray.to;
     inwards = dot(inwards, ray.to) < 0.0 ? inwards : -ray.to;
-    vec3 on = refract(ray.to, inwards, medium.x);
+    vec3 on = refract(ray.to, inwards, refraction_index);
     on = dot(on, on) > 0.0 ? on : reflect(ray.to, inwards);
 #ifdef SOLIDS
     vec3 seen = behind_at(leave + 0.3 * max(box_size.x, box_size.y) * on, near_plane / -s.place.z, gl_FragCoord.xy);
 #else
     vec3 seen = environment(leave, on);
 #endif
-    return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / medium.y)); // Beer and Lambert
+    return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation)); // Beer and Lambert
 }
 
 vec3 water(Surface s)

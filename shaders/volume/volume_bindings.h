@@ -1,9 +1,44 @@
-/* Where the shaders of volumes find what only they read; below the frame's own. */
+/* The numbers by which C hands to the shaders of volumes what only they read; those of
+   shaders/shared/bindings.h besides. */
 #ifndef SLOSH_VOLUME_BINDINGS_H
 #define SLOSH_VOLUME_BINDINGS_H
 
 /* Uniform blocks */
 #define VOLUME_BLOCK  2
 #define RAYCAST_BLOCK 3
+
+/* Storage buffers */
+#define FACES_STORAGE         4
+#define FACES_COMMAND_STORAGE 5
+#define FLUID_NUMBERS_STORAGE 6
+#define BOUNDS_STORAGE        7
+/* the lists of cells, bound in this order by one call */
+#define LIST_STARTS_STORAGE    8
+#define LIST_PARTICLES_STORAGE 9
+#define LIST_SCALARS_STORAGE   10
+
+/* Texture units */
+#define FOUND_UNIT  1
+#define PACKED_UNIT 7
+/* the volume's two, bound in this order by one call */
+#define FIELD_UNIT        8
+#define FIELD_SCALAR_UNIT 9
+#define ENTRY_UNIT        10
+#define EXIT_UNIT         11
+#define TARGET_DEPTH_UNIT 12
+#define GREATEST_UNIT     13
+
+/* Image units */
+#define FIELD_IMAGE        0
+#define FIELD_SCALAR_IMAGE 1
+#define GREATEST_IMAGE     2
+#define UNPACKED_IMAGE     3
+
+/* Locations of uniforms */
+#define PASS_SLICE_AT  16
+#define DISCS_AT       17
+#define FLUID_COUNT_AT 18
+#define SLICE_AXIS_AT  19
+#define SLICE_PLACE_AT 20
 
 #endif

@@ -1,8 +1,9 @@
 // The least and greatest coordinates of the particles that count, as numbers whose order is that of the floats. One workgroup.
 #include "volume/volume_particle.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 256) in;
-layout(std430, binding = 8) buffer Bounds { uint low[3], high[3]; };
+layout(std430, binding = BOUNDS_STORAGE) buffer Bounds { uint low[3], high[3]; };
 
 uint ordered(float value)
 {

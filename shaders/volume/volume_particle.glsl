@@ -7,7 +7,7 @@
 vec4 volume_particle(uint index)
 {
     vec3 at = particle_position(index);
-    float volume = position_words[index * particle_strides.x + 3u];
+    float volume = position_words[index * position_stride + 3u];
     bool counts = !is_nan(vec4(at, volume)) && all(greaterThanEqual(at, volume_low)) && all(lessThanEqual(at, volume_high)) &&
                   volume > 0.0 && volume < 1e30;
     return counts ? vec4(cells_of(at), volume * kernel_peak) : vec4(0.0);
@@ -18,7 +18,7 @@ vec4 volume_particle(uint index)
 
 float volume_scalar(uint index)
 {
-    float value = particle_strides.y > 0u ? scalar_words[index * particle_strides.y] : 0.0;
+    float value = scalar_stride > 0u ? scalar_words[index * scalar_stride] : 0.0;
     return is_nan(value) || abs(value) >= 1e30 ? 0.0 : value;
 }
 #endif

@@ -2,7 +2,7 @@
 #include "common/frame.glsl"
 #include "volume/field.glsl"
 
-layout(binding = 1) uniform sampler2D colormap;
+layout(binding = COLORMAP_UNIT) uniform sampler2D colormap;
 layout(location = 0) in vec3 box_point;
 layout(location = 0) out vec4 color;
 

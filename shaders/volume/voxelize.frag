@@ -1,8 +1,9 @@
 // What a particle adds to a voxel, or with PACKED to four, one above the other; blending sums up.
 #include "volume/volume.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 #ifdef PACKED
-layout(location = 1) uniform int pass_slice;
+layout(location = PASS_SLICE_AT) uniform int pass_slice;
 #define SUM vec4
 #else
 #define SUM float

@@ -2,9 +2,10 @@
 // else volume/voxelize.geom makes them of what comes out here.
 #include "volume/volume_particle.glsl"
 #include "volume/disc.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 #ifdef PASS
-layout(location = 1) uniform int pass_slice; // the first
+layout(location = PASS_SLICE_AT) uniform int pass_slice; // the first
 #endif
 #if !defined(PASS) && !defined(LAYERS)
 layout(location = 0) out vec4 particle_at;

@@ -1,11 +1,12 @@
 // Each voxel sums over the particles around it.
 #include "volume/volume.glsl"
 #include "volume/field_sum.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 8, local_size_y = 2, local_size_z = 2) in;
-layout(binding = 0, r32f) uniform writeonly image3D field;
+layout(binding = FIELD_IMAGE, r32f) uniform writeonly image3D field;
 #ifdef SCALAR
-layout(binding = 1, r32f) uniform writeonly image3D scalar;
+layout(binding = FIELD_SCALAR_IMAGE, r32f) uniform writeonly image3D scalar;
 #endif
 
 void main()

@@ -1,13 +1,14 @@
 // Each invocation adds a particle's disc in one slice to the volume. Without float atomics they are made of exchanges of bits.
 #include "volume/volume_particle.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(location = 1) uniform uint discs; // slices a particle may cut
+layout(location = DISCS_AT) uniform uint discs; // slices a particle may cut
 #ifdef FLOAT_ATOMICS
-layout(binding = 0, r32f) uniform image3D field;
+layout(binding = FIELD_IMAGE, r32f) uniform image3D field;
 #define ADD(IMAGE, CELL, VALUE) imageAtomicAdd(IMAGE, CELL, VALUE)
 #else
-layout(binding = 0, r32ui) uniform uimage3D field;
+layout(binding = FIELD_IMAGE, r32ui) uniform uimage3D field;
 #define ADD(IMAGE, CELL, VALUE)                                                                  \
     for (uint was = imageLoad(IMAGE, CELL).x, seen;; was = seen) {                               \
         seen = imageAtomicCompSwap(IMAGE, CELL, was, floatBitsToUint(uintBitsToFloat(was) + VALUE)); \
@@ -17,9 +18,9 @@ layout(binding = 0, r32ui) uniform uimage3D field;
 #endif
 #ifdef SCALAR
 #ifdef FLOAT_ATOMICS
-layout(binding = 1, r32f) uniform image3D scalar;
+layout(binding = FIELD_SCALAR_IMAGE, r32f) uniform image3D scalar;
 #else
-layout(binding = 1, r32ui) uniform uimage3D scalar;
+layout(binding = FIELD_SCALAR_IMAGE, r32ui) uniform uimage3D scalar;
 #endif
 #endif
 

@@ -1,9 +1,10 @@
 // Four slices from red, green, blue, alpha to the volume.
 #include "volume/volume.glsl"
+#include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 8) uniform sampler3D packed_map;
-layout(binding = 0, r32f) uniform writeonly image3D unpacked;
+layout(binding = PACKED_UNIT) uniform sampler3D packed_map;
+layout(binding = UNPACKED_IMAGE, r32f) uniform writeonly image3D unpacked;
 
 void main()
 {

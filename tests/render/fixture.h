@@ -14,6 +14,7 @@
 #include "render/renderer.h"
 #include "render/splat/splat_def.h"
 #include "render/volume/volume_def.h"
+#include "shaders/shared/bindings.h"
 #include "sim/gl/debug.h"
 #include "tests/gl/draw_check.h"
 
@@ -84,16 +85,17 @@ static inline unsigned no_shadows(void)
     static unsigned fluid, solid, floor_light;
     static const float nothing = 0;
     if (!fluid) {
-        fluid = texel(GL_DEPTH_COMPONENT32F, 0), solid = texel(GL_DEPTH_COMPONENT32F, 4);
-        floor_light = texel(GL_R32F, 3);
+        fluid = texel(GL_DEPTH_COMPONENT32F, SHADOW_UNIT);
+        solid = texel(GL_DEPTH_COMPONENT32F, SOLID_SHADOW_UNIT);
+        floor_light = texel(GL_R32F, FLOOR_LIGHT_UNIT);
         glClearTexImage(fluid, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
         glClearTexImage(solid, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
         glClearTexImage(floor_light, 0, GL_RED, GL_FLOAT, &nothing);
         glTextureParameteri(solid, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         glTextureParameteri(solid, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
     }
-    glBindTextureUnit(0, fluid);
-    glBindTextureUnit(4, solid);
+    glBindTextureUnit(SHADOW_UNIT, fluid);
+    glBindTextureUnit(SOLID_SHADOW_UNIT, solid);
     return floor_light;
 }
 

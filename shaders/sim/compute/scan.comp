@@ -1,8 +1,9 @@
 // Exclusive prefix sums of blocks of 1024, in place; each block's total goes into `total`.
+#include "shaders/shared/scan.h"
 layout(local_size_x = 256) in;
-layout(std430, binding = 0) buffer Values { uint value[]; };
-layout(std430, binding = 1) writeonly buffer Totals { uint total[]; };
-layout(location = 0) uniform uint size;
+layout(std430, binding = SCAN_VALUES_STORAGE) buffer Values { uint value[]; };
+layout(std430, binding = SCAN_TOTALS_STORAGE) writeonly buffer Totals { uint total[]; };
+layout(location = SCAN_SIZE_AT) uniform uint size;
 shared uint part[256];
 
 void main()

@@ -1,8 +1,9 @@
 // Adds what stands before each block of 1024.
+#include "shaders/shared/scan.h"
 layout(local_size_x = 256) in;
-layout(std430, binding = 0) buffer Values { uint value[]; };
-layout(std430, binding = 1) readonly buffer Before { uint before[]; };
-layout(location = 0) uniform uint size;
+layout(std430, binding = SCAN_VALUES_STORAGE) buffer Values { uint value[]; };
+layout(std430, binding = SCAN_TOTALS_STORAGE) readonly buffer Before { uint before[]; };
+layout(location = SCAN_SIZE_AT) uniform uint size;
 
 void main()
 {

@@ -2,6 +2,8 @@
    sim/cpu/grid.c makes. */
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/shared/scan.h"
+
 #include <epoxy/gl.h>
 
 static size_t blocks_of(size_t size)
@@ -14,7 +16,7 @@ static void run_blocks(const Compute *compute, ComputePass pass, unsigned values
 {
     compute_bind((const unsigned[]){values, totals}, 2);
     glUseProgram(compute->program[pass]);
-    glUniform1ui(0, (GLuint)size);
+    glUniform1ui(SCAN_SIZE_AT, (GLuint)size);
     compute_dispatch(blocks_of(size));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }

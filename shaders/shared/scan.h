@@ -1,0 +1,11 @@
+/* The numbers of sim/compute/scan.comp and scan_add.comp, which solvers and pictures both run. */
+#ifndef SLOSH_SCAN_H
+#define SLOSH_SCAN_H
+
+#define SCAN_SIZE_AT 0 /* location of the uniform */
+
+/* Storage buffers, bound by one call */
+#define SCAN_VALUES_STORAGE 0
+#define SCAN_TOTALS_STORAGE 1
+
+#endif

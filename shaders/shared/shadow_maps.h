@@ -1,0 +1,8 @@
+/* How many texels the shadow maps have along a side. */
+#ifndef SLOSH_SHADOW_MAPS_H
+#define SLOSH_SHADOW_MAPS_H
+
+#define SHADOW_MAP_TEXELS 512
+#define FLOOR_MAP_TEXELS  64
+
+#endif
