@@ -1,0 +1,63 @@
+"""C and shaders share no number that has no name: bindings and locations of uniforms stand in headers that both include."""
+import collections
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SHADERS = ROOT / 'shaders'
+LEFT = {'shaders/sim', 'sim/gl'}  # still to be named
+
+NUMBER_IN_GLSL = re.compile(r'\bbinding\s*=\s*\d|\blocation\s*=\s*\d+\s*\)\s*uniform')
+UNIFORM = r'glUniform\w+\(|glProgramUniform\w+\([^;]*?,\s*'
+BINDING = r'glBindTextureUnit\(|glBindTextures\(|glBindImageTexture\(|glBindBuffer\w+\(\w+_BUFFER,\s*'
+NUMBER_IN_C = re.compile(rf'(?:{UNIFORM}|{BINDING})\d+,')
+NAME = re.compile(r'^#define (\w+_(?:BLOCK|STORAGE|UNIT|IMAGE|AT))\s+(\d+)', re.M)
+
+
+def left(path):
+    return any(str(path.relative_to(ROOT)).startswith(folder + '/') for folder in LEFT)
+
+
+def texts(folder, endings):
+    return {path: path.read_text() for path in sorted(folder.rglob('*'))
+            if path.suffix in endings and not left(path)}
+
+
+class Shaders(unittest.TestCase):
+    def setUp(self):
+        self.headers = texts(SHADERS, ('.h',))
+        self.stages = texts(SHADERS, ('.glsl', '.vert', '.geom', '.frag', '.comp'))
+        self.assertGreater(len(self.stages), 60)
+
+    def test_no_number_in_shaders(self):
+        self.assertEqual([f'{path}: {found[0]}' for path, text in self.stages.items()
+                          for found in NUMBER_IN_GLSL.finditer(text)], [])
+
+    def test_no_number_in_c(self):
+        self.assertTrue(NUMBER_IN_C.search('glProgramUniform1f(view->program[0], 1, 2.5F);'))
+        self.assertTrue(NUMBER_IN_C.search('glBindBufferBase(GL_UNIFORM_BUFFER, 2, block);'))
+        self.assertFalse(NUMBER_IN_C.search('glProgramUniform1f(program, EPS_AT, 2.5F); f(program, 1, 2);'))
+        self.assertEqual([f'{path}: {found[0]}' for floor in ('render', 'sim')
+                          for path, text in texts(ROOT / floor, ('.c', '.h')).items()
+                          for found in NUMBER_IN_C.finditer(text)], [])
+
+    def test_each_name_is_read(self):
+        everything = (path.read_text() for path in SHADERS.rglob('*.*') if path.suffix != '.md')
+        read = collections.Counter(re.findall(r'\w+', ' '.join(everything)))
+        names = [name for text in self.headers.values() for name, _ in NAME.findall(text)]
+        self.assertGreater(len(names), 50)
+        self.assertEqual([name for name in names if read[name] < 2], [])
+
+    def test_a_location_is_one_uniform(self):
+        common = NAME.findall((SHADERS / 'shared/bindings.h').read_text())
+        for path in sorted(SHADERS.glob('*/*_bindings.h')):
+            number = collections.defaultdict(set)
+            for name, value in common + NAME.findall(path.read_text()):
+                if name.endswith('_AT'):
+                    number[value].add(name)
+            self.assertEqual({value: names for value, names in number.items() if len(names) > 1}, {}, path.name)
+
+
+if __name__ == '__main__':
+    unittest.main()
