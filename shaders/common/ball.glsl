@@ -9,15 +9,21 @@ layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { vec4 shape[]; 
 layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { float shape_radius[]; };
 #endif
 
-vec4 ball_of(uint index) // centre in the box's frame, radius
+struct Ball {
+    vec3 centre; // in the box's frame
+    float radius;
+};
+
+Ball ball_of(uint index)
 {
 #ifdef ELLIPSOID
-    return shape[3u * index];
+    vec4 ball = shape[3u * index];
+    return Ball(ball.xyz, ball.w);
 #elif defined DROPS
-    return vec4(particle_position(index), shape_radius[index]);
+    return Ball(particle_position(index), shape_radius[index]);
 #elif defined THICKNESS
-    return vec4(particle_position(index), splat_radius);
+    return Ball(particle_position(index), splat_radius);
 #else
-    return vec4(particle_position(index), particle_radius);
+    return Ball(particle_position(index), particle_radius);
 #endif
 }

@@ -8,8 +8,8 @@
 
 void main()
 {
-    vec4 ball = ball_of(listed_particle(uint(gl_VertexID)));
-    vec3 at = (box_to_light * vec4(ball.xyz, 1.0)).xyz;
+    Ball ball = ball_of(listed_particle(uint(gl_VertexID)));
+    vec3 at = (box_to_light * vec4(ball.centre, 1.0)).xyz;
     gl_Position = vec4(2.0 * at.xy - 1.0, at.z, 1.0);
-    gl_PointSize = 1.77245 * shadow_radius * (ball.w / particle_radius) / light_depth * float(SHADOW_MAP_TEXELS); // the map is light_depth wide
+    gl_PointSize = 1.77245 * shadow_radius * (ball.radius / particle_radius) / light_depth * float(SHADOW_MAP_TEXELS); // the map is light_depth wide
 }

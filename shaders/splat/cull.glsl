@@ -12,10 +12,16 @@ layout(std430, binding = CULL_MAP_STORAGE) buffer Nearest { uint nearest[]; }; /
 const uint nothing = 0x7f800000u; // infinity
 
 #ifdef LIGHT
-vec4 light_pixel(uint index) // pixel, depth, half the side of its point where the driver draws it no larger
+struct LightPoint {
+    vec2 pixel;
+    float depth;
+    float half_side; // pixels, where the driver draws it no larger
+};
+
+LightPoint light_point(uint index)
 {
-    vec4 ball = ball_of(index);
-    vec3 at = (box_to_light * vec4(ball.xyz, 1.0)).xyz;
-    return vec4(at.xy * cull_pixels, 1.0 - at.z, point_half * (ball.w / particle_radius));
+    Ball ball = ball_of(index);
+    vec3 at = (box_to_light * vec4(ball.centre, 1.0)).xyz;
+    return LightPoint(at.xy * cull_pixels, 1.0 - at.z, point_half * (ball.radius / particle_radius));
 }
 #endif

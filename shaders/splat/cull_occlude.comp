@@ -21,8 +21,8 @@ struct Disc {
 #ifdef LIGHT
 Disc disc_of(uint index)
 {
-    vec4 at = light_pixel(index);
-    return Disc(at.xy, vec2(at.w - pixel_margin), at.z, 0.0, 0.0);
+    LightPoint point = light_point(index);
+    return Disc(point.pixel, vec2(point.half_side - pixel_margin), point.depth, 0.0, 0.0);
 }
 
 // Greatest depth of the sprite where it is at most `away` radii beside its centre; infinity where it may end before.

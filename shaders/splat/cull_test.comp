@@ -18,9 +18,9 @@ layout(std430, binding = CULL_KEPT_STORAGE) writeonly buffer Kept { uvec4 kept[]
 #ifdef LIGHT
 vec4 sprite_of(uint index, out float depth)
 {
-    vec4 at = light_pixel(index);
-    depth = at.z;
-    return at.xxyy + (max(at.w, 0.5) + 1.0 / 64.0) * vec4(-1.0, 1.0, -1.0, 1.0);
+    LightPoint point = light_point(index);
+    depth = point.depth;
+    return point.pixel.xxyy + (max(point.half_side, 0.5) + 1.0 / 64.0) * vec4(-1.0, 1.0, -1.0, 1.0);
 }
 #else
 vec4 sprite_of(uint index, out float depth)

@@ -20,11 +20,12 @@ struct Body {
 #ifdef ELLIPSOID
 Body body_of(uint index)
 {
-    vec4 a = ball_of(index), b = shape[3u * index + 1u], c = shape[3u * index + 2u];
+    Ball ball = ball_of(index);
+    vec4 b = shape[3u * index + 1u], c = shape[3u * index + 2u];
     mat3 turn = mat3(box_to_eye);
     mat3 inverse = turn * mat3(b.x, c.xy, c.x, b.y, c.z, c.yz, b.z) * transpose(turn);
-    mat3 axes = a.w * mat3(cross(inverse[1], inverse[2]), cross(inverse[2], inverse[0]), cross(inverse[0], inverse[1]));
-    return Body((box_to_eye * vec4(a.xyz, 1.0)).xyz, a.w, 0.999 * a.w * b.w, inverse, axes);
+    mat3 axes = ball.radius * mat3(cross(inverse[1], inverse[2]), cross(inverse[2], inverse[0]), cross(inverse[0], inverse[1]));
+    return Body((box_to_eye * vec4(ball.centre, 1.0)).xyz, ball.radius, 0.999 * ball.radius * b.w, inverse, axes);
 }
 
 float body_nearest(Body body) // least depth of it
@@ -60,8 +61,8 @@ vec4 body_bounds(Body body)
 #else
 Body body_of(uint index)
 {
-    vec4 ball = ball_of(index);
-    return Body((box_to_eye * vec4(ball.xyz, 1.0)).xyz, ball.w, ball.w);
+    Ball ball = ball_of(index);
+    return Body((box_to_eye * vec4(ball.centre, 1.0)).xyz, ball.radius, ball.radius);
 }
 
 float body_nearest(Body body)

@@ -17,13 +17,13 @@ void main()
     uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
     if (index >= particle_count)
         return;
-    vec4 at = volume_particle(index);
-    if (at.w <= 0.0)
+    Bump bump = volume_particle(index);
+    if (bump.height <= 0.0)
         return;
-    ivec3 cell = clamp(ivec3(floor(at.xyz * list_scale)), ivec3(0), list_size - 1);
+    ivec3 cell = clamp(ivec3(floor(bump.at * list_scale)), ivec3(0), list_size - 1);
     uint place = atomicAdd(list_starts[(cell.z * list_size.y + cell.y) * list_size.x + cell.x + 1], 1u);
 #ifdef PLACE
-    list_particles[place] = at;
+    list_particles[place] = vec4(bump.at, bump.height);
 #ifdef SCALAR
     list_scalars[place] = volume_scalar(index);
 #endif

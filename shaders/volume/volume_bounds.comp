@@ -15,7 +15,7 @@ void main()
 {
     vec3 least = volume_high, most = volume_low;
     for (uint i = gl_LocalInvocationID.x; i < particle_count; i += 256u)
-        if (volume_particle(i).w > 0.0) {
+        if (volume_particle(i).height > 0.0) {
             least = min(least, particle_position(i));
             most = max(most, particle_position(i));
         }

@@ -3,14 +3,20 @@
 #include "common/particles.glsl"
 #include "common/nan.glsl"
 
-// Centre in cells; what it adds at its centre, 0 where it counts for nothing.
-vec4 volume_particle(uint index)
+struct Bump {
+    vec3 at;      // cells
+    float height; // what it adds at its centre, 0 where it counts for nothing
+};
+
+Bump volume_particle(uint index)
 {
     vec3 at = particle_position(index);
     float volume = position_words[index * position_stride + 3u];
     bool counts = !is_nan(vec4(at, volume)) && all(greaterThanEqual(at, volume_low)) && all(lessThanEqual(at, volume_high)) &&
                   volume > 0.0 && volume < 1e30;
-    return counts ? vec4(cells_of(at), volume * kernel_peak) : vec4(0.0);
+    if (!counts)
+        return Bump(vec3(0.0), 0.0);
+    return Bump(cells_of(at), volume * kernel_peak);
 }
 
 #ifdef SCALAR

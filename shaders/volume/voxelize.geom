@@ -13,16 +13,16 @@ layout(location = 1) flat out float carried;
 
 void main()
 {
-    vec4 at = particle_at[0];
-    ivec2 slices = cells_within(at.z, kernel_radius, volume_size.z);
-    int first = slices.x + gl_InvocationID * SLICES, end = at.w > 0.0 ? min(slices.y + 1, first + SLICES) : 0;
+    Bump bump = Bump(particle_at[0].xyz, particle_at[0].w);
+    ivec2 slices = cells_within(bump.at.z, kernel_radius, volume_size.z);
+    int first = slices.x + gl_InvocationID * SLICES, end = bump.height > 0.0 ? min(slices.y + 1, first + SLICES) : 0;
     for (int slice = first; slice < end; slice++) {
-        disc = disc_of(at, slice);
+        disc = disc_of(bump, slice);
 #ifdef SCALAR
         carried = carried_in[0];
 #endif
-        gl_Position = disc_place(at, true);
-        gl_PointSize = disc_size(float(slice) + 0.5 - at.z);
+        gl_Position = disc_place(bump, true);
+        gl_PointSize = disc_size(float(slice) + 0.5 - bump.at.z);
         gl_Layer = slice;
         EmitVertex();
         EndPrimitive();

@@ -18,25 +18,25 @@ layout(location = 1) flat out float carried;
 
 void main()
 {
-    vec4 at = volume_particle(uint(gl_VertexID));
+    Bump bump = volume_particle(uint(gl_VertexID));
 #ifdef SCALAR
     carried = volume_scalar(uint(gl_VertexID));
 #endif
 #if defined(PASS)
     int slice = pass_slice;
-    float away = max(max(float(slice) + 0.5 - at.z, at.z - float(slice + SLICES) + 0.5), 0.0); // to the nearest of the slices
-    disc = SLICES == 1 ? disc_of(at, slice) : at;
-    gl_Position = disc_place(at, at.w > 0.0 && away < kernel_radius);
+    float away = max(max(float(slice) + 0.5 - bump.at.z, bump.at.z - float(slice + SLICES) + 0.5), 0.0); // to the nearest of the slices
+    disc = SLICES == 1 ? disc_of(bump, slice) : vec4(bump.at, bump.height);
+    gl_Position = disc_place(bump, bump.height > 0.0 && away < kernel_radius);
     gl_PointSize = disc_size(away);
 #elif defined(LAYERS)
-    ivec2 slices = cells_within(at.z, kernel_radius, volume_size.z);
+    ivec2 slices = cells_within(bump.at.z, kernel_radius, volume_size.z);
     int slice = slices.x + gl_InstanceID;
-    disc = disc_of(at, slice);
-    gl_Position = disc_place(at, at.w > 0.0 && slice <= slices.y);
-    gl_PointSize = disc_size(float(slice) + 0.5 - at.z);
+    disc = disc_of(bump, slice);
+    gl_Position = disc_place(bump, bump.height > 0.0 && slice <= slices.y);
+    gl_PointSize = disc_size(float(slice) + 0.5 - bump.at.z);
     gl_Layer = slice;
 #else
-    particle_at = at;
+    particle_at = vec4(bump.at, bump.height);
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 #endif
 }

@@ -30,21 +30,21 @@ void main()
     uint index = all / discs;
     if (index >= particle_count)
         return;
-    vec4 at = volume_particle(index);
-    ivec2 slices = cells_within(at.z, kernel_radius, volume_size.z);
+    Bump bump = volume_particle(index);
+    ivec2 slices = cells_within(bump.at.z, kernel_radius, volume_size.z);
     int slice = slices.x + int(all % discs);
-    if (at.w <= 0.0 || slice > slices.y)
+    if (bump.height <= 0.0 || slice > slices.y)
         return;
 #ifdef SCALAR
     float carried = volume_scalar(index);
 #endif
-    float z = float(slice) + 0.5 - at.z, reach2 = kernel_radius * kernel_radius - z * z;
-    ivec2 rows = cells_within(at.y, sqrt(max(reach2, 0.0)), volume_size.y);
+    float z = float(slice) + 0.5 - bump.at.z, reach2 = kernel_radius * kernel_radius - z * z;
+    ivec2 rows = cells_within(bump.at.y, sqrt(max(reach2, 0.0)), volume_size.y);
     for (int row = rows.x; row <= rows.y; row++) {
-        float y = float(row) + 0.5 - at.y, rest2 = reach2 - y * y;
-        ivec2 columns = cells_within(at.x, sqrt(max(rest2, 0.0)), volume_size.x);
+        float y = float(row) + 0.5 - bump.at.y, rest2 = reach2 - y * y;
+        ivec2 columns = cells_within(bump.at.x, sqrt(max(rest2, 0.0)), volume_size.x);
         for (int column = columns.x; column <= columns.y; column++) {
-            float x = float(column) + 0.5 - at.x, part = at.w * poly6_shape((rest2 - x * x) * radius2_inverse);
+            float x = float(column) + 0.5 - bump.at.x, part = bump.height * poly6_shape((rest2 - x * x) * radius2_inverse);
             ADD(field, ivec3(column, row, slice), part);
 #ifdef SCALAR
             ADD(scalar, ivec3(column, row, slice), part * carried);
