@@ -53,6 +53,13 @@ class Docs(CommandTest):
             self.assertEqual(code, 0, said + example)
             self.assertTrue('no effect' not in said or example.startswith('metrics:'), said)
 
+    def test_scenes_of_the_guide_load(self):
+        scenes = re.findall(r'```yaml\n(title:.*?)```', (ROOT / 'docs/guide.md').read_text(), re.S)
+        self.assertEqual(len(scenes), 2)
+        for scene in scenes:
+            self.write('mine.yaml', scene)
+            self.assertEqual(self.slosh('run', 'mine.yaml', '-o', 'out.h5part', '--time', '0', '--quiet'), (0, ''))
+
     def test_every_case_is_in_the_table(self):
         """All that run by themselves: cavity_1000 needs --full."""
         code, said = self.slosh('validate', 'nosuch')
