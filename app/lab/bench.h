@@ -1,4 +1,4 @@
-/* One measurement: a scene's frames, stage by stage. See DESIGN of the JSON in app/README.md. */
+/* One measurement: a scene's frames, stage by stage. Its JSON is in docs/measuring.md. */
 #ifndef SLOSH_BENCH_H
 #define SLOSH_BENCH_H
 

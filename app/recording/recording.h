@@ -1,7 +1,7 @@
 /* What happened in a session: the scene, what the command line set in it, and every command with the step at
    which it applied. From this the `cpu` backend computes the same bits again, with any number of threads.
 
-   As a file it is text (app/README.md shows one), to be read, compared and edited by people:
+   As a file it is text (docs/window.md shows one), to be read, compared and edited by people:
 
      slosh recording 1
      program 0.1

@@ -3,7 +3,7 @@
 #include <math.h>
 
 /* Of all energy, in so many steps. What mueller heats by too long a step of sound is 5 % in 3,400 steps
-   (sim/README.md), friction that boils doubles velocities from step to step. */
+   (docs/failures.md), friction that boils doubles velocities from step to step. */
 static const double GAIN = 0.1, STEPS = 200;
 
 /* A look costs some 4 % of a step: not at each step, but before energy has doubled. */

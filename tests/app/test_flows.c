@@ -1,5 +1,5 @@
 /* Flows that are known, small: the scenes taylor_green, poiseuille, couette and cavity, coarser than they are
-   shipped. sim/README.md has the errors of the fine ones. */
+   shipped. docs/validation.md has the errors of the fine ones. */
 #include "tests/scene/scene_text.h"
 
 #include "sim/world/world.h"

@@ -12,7 +12,7 @@ enum { HISTORY = 120 };
 static const char *const sections[] = {"History", "Colours", "World", "Fluids", "Solver", "Hand", "View"};
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
-/* Live keys that have no widget, and why: see app/README.md. */
+/* Live keys that have no widget, and why: see elsewhere in app/panel/scene.c. */
 static const char *const without_widget[] = {"title", "view.camera.from", "view.camera.to",
                                              "view.camera.fov"};
 

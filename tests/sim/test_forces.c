@@ -52,7 +52,8 @@ static double distance(const Reference *r, int i, int j, double d[3])
     return sqrt(sum);
 }
 
-/* At the middle of the step, where the solver evaluates; after sim/README.md, in double and without any grid.
+/* At the middle of the step, where the solver evaluates; after docs/methods.md, in double and without any
+ * grid.
  */
 static void brute_accelerations(const WorldDef *def, const Cloud *cloud, Reference *r)
 {

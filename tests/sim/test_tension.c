@@ -153,7 +153,7 @@ static void cohesion_makes_round(void **state)
             printf("%s, %dD: out of round by %.0f %%, then %.0f %%\n", methods[m], dimensions, 100 * at_rest,
                    100 * later);
             assert_true(at_rest > 0.12);
-            if (m == 0 || dimensions == 2) /* wcsph in 3D keeps its lattice: sim/README.md, known limits */
+            if (m == 0 || dimensions == 2) /* wcsph in 3D keeps its lattice: docs/methods.md */
                 assert_true(fabs(later) < 0.6 * at_rest);
             for (int k = 0; k < 3; k++)
                 assert_true(fabs(sums.momentum[k]) < 1e-5 * sums.mass);
