@@ -1,8 +1,8 @@
 /* Known flows: a case of `slosh validate` is a scene, what is measured of it, and a reference.
 
    All cases run with the same solver parameters: their scenes have `solver.preset: accurate`, besides
-   geometry, fluids and a sound speed of ten times max(U, sqrt(g H)). Each stands in a file of its own,
-   app/case_*.c, as one const Case; case_list has them all. */
+   geometry, fluids and a sound speed of ten times max(U, sqrt(g H)). Each is one const Case in a
+   file of app/case; app/case/all.h lists them. */
 #ifndef SLOSH_CASE_H
 #define SLOSH_CASE_H
 

@@ -7,12 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-const Case *const case_list[] = {&case_hydrostatic,  &case_hydrostatic_3d, &case_dam_break,
-                                 &case_dam_break_2d, &case_free_fall,      &case_bucket,
-                                 &case_sloshing,     &case_wave,           &case_ellipse,
-                                 &case_collision,    &case_drop,           &case_laplace,
-                                 &case_vortices,     &case_poiseuille,     &case_couette,
-                                 &case_cavity,       &case_cavity_1000,    NULL};
+#define X(name) &case_##name,
+const Case *const case_list[] = {CASES(X) NULL};
+#undef X
 
 const char *case_near(const char *word)
 {
