@@ -6,6 +6,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LINES_MAX = 120  # of a README
+PICTURE_MAX = 300_000  # bytes
 ROOMS = ('app', 'render', 'sim')  # their READMEs name every room
 SOURCE = r'(?:c|h|cpp|py|glsl|comp|frag|vert|geom|rules|cmake)'
 
@@ -52,6 +53,17 @@ class Docs(unittest.TestCase):
         self.assertEqual([f'{page.relative_to(ROOT)}: {name}' for page in PAGES for name in missing(page, page.read_text())], [])
         self.assertEqual(missing(ROOT / 'README.md', '`sim/no.c` `nowhere/` tools/nothing [a](no.md) `test_sim_nosuch`'),
                          ['sim/no.c', 'nowhere/', 'tools/nothing', 'tests/sim/test_nosuch.c', 'no.md'])
+
+    def test_pictures_are_small_and_have_their_command(self):
+        """The name stands in a command of some page: with $x for what a loop puts there."""
+        fenced = re.findall(r'^ *```(\w*)\n(.*?)^ *```$', '\n'.join(page.read_text() for page in PAGES), re.S | re.M)
+        words = re.findall(r'[\w./$-]+', ' '.join(block for language, block in fenced if not language))
+        patterns = [re.sub(r'\\\$\w+', '[^/]+', re.escape(pathlib.PurePosixPath(word).name.removesuffix('.png'))) for word in words]
+        pictures = {(page.parent / link).resolve() for page in PAGES for link in re.findall(r'!\[[^]]*\]\(([^)]+)\)', page.read_text())}
+        self.assertGreater(len(pictures), 20)
+        self.assertEqual([str(path) for path in pictures if path.stat().st_size > PICTURE_MAX], [])
+        self.assertEqual([str(path) for path in pictures
+                          if not any(pattern[:3] == path.stem[:3] and re.fullmatch(pattern, path.stem) for pattern in patterns)], [])
 
     def test_sources_name_pages_that_are_there(self):
         seen, wrong = 0, []
