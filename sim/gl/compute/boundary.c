@@ -161,9 +161,5 @@ void compute_boundary_grid(Compute *c)
 
 void compute_boundary_fill(const Compute *c)
 {
-    const ComputeBoundary *b = &c->boundary;
-    compute_boundary_bind(c);
-    compute_bind(
-        (const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity, b->rest}, 6);
-    compute_run(c, COMPUTE_BOUNDARY_FILL, c->constants->boundary.count);
+    compute_sweep(c, COMPUTE_BOUNDARY_FILL, c->constants->boundary.count);
 }

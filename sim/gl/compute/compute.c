@@ -137,6 +137,8 @@ static bool programs_create(Compute *c, Error *error)
         glDeleteProgram(ok ? c->program[p] : program[p]);
     if (ok) {
         memcpy(c->program, program, sizeof program);
+        for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
+            compute_find_buffers(program[p], c->bindings[p]);
         memcpy(c->defines, defines, sizeof defines);
     }
     return ok;

@@ -14,6 +14,7 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
+    COMPUTE_NAMED = 16,
     COMPUTE_DEFINES_MAX = 1024
 };
 
@@ -98,6 +99,8 @@ typedef struct Compute {
     unsigned shown[COMPUTE_SHOWN];        /* for the views: uint or float; 0 until it is asked for */
     unsigned constant_block, step;        /* uniform blocks */
     unsigned program[COMPUTE_PASS_COUNT];
+    int8_t bindings[COMPUTE_PASS_COUNT]
+                   [COMPUTE_NAMED];        /* of the buffers that a pass finds by name; -1: none */
     bool full;                             /* the GPU's memory */
     size_t bytes, guarded_before, guarded; /* of all these buffers; before the last load, and since */
 
@@ -125,6 +128,11 @@ void compute_watch_reset(Compute *compute, size_t guarded);
 
 /* One invocation a particle, or `count` of them, behind a barrier for storage. */
 void compute_run(const Compute *compute, ComputePass pass, size_t count);
+
+/* Where a program has each of the state's buffers, by the names of its storage blocks; a pass over `count`
+   particles that has these bound. */
+void compute_find_buffers(unsigned program, int8_t bindings[COMPUTE_NAMED]);
+void compute_sweep(const Compute *compute, ComputePass pass, size_t count);
 
 /* That many work groups, in rows: shaders/sim/constants.glsl. */
 void compute_dispatch(size_t groups);

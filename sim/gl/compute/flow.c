@@ -106,8 +106,7 @@ void compute_guide(void *state, const Guide *guides, int count)
     put(c, 0, offsetof(FlowBlock, candidate_total), &block);
     put(c, offsetof(FlowBlock, guides), (size_t)count * sizeof block.guides[0], block.guides);
     bind_block(c);
-    compute_bind((const unsigned[]){c->now.position, c->now.name, c->now.velocity}, 3);
-    compute_run(c, COMPUTE_GUIDE, c->count);
+    compute_sweep(c, COMPUTE_GUIDE, c->count);
 }
 
 /* The least float that is not below: a float is below the one where it is below the other. */

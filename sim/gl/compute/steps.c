@@ -36,9 +36,7 @@ void compute_drift(void *state, const FrameStep *step)
     compute_set_drift(c, step);
     if (step->solids)
         compute_boundary_move(c, step->solids);
-    compute_boundary_bind(c);
-    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch.buffer}, 3);
-    compute_run(c, COMPUTE_DRIFT, c->count);
+    compute_sweep(c, COMPUTE_DRIFT, c->count);
 }
 
 /* Binds what the passes of wcsph read and write, and runs one. */
@@ -100,9 +98,6 @@ void compute_kick(void *state, const float gravity[3], float dt)
 {
     Compute *c = state;
     compute_set_kick(c, gravity, dt);
-    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->watch.buffer, c->acceleration,
-                                    c->now.name, c->drag},
-                 6);
-    compute_run(c, COMPUTE_KICK, c->count);
+    compute_sweep(c, COMPUTE_KICK, c->count);
     compute_watch_send(c, dt);
 }

@@ -1,0 +1,54 @@
+/* Passes find the buffers of the state by the names of their storage blocks: what a shader declares is bound,
+   at the binding that it says. */
+#include "sim/gl/compute/compute.h"
+
+#include <epoxy/gl.h>
+
+static const struct {
+    const char *block;
+    size_t at; /* of the buffer's name in Compute */
+} named[COMPUTE_NAMED] = {
+    {"Positions", offsetof(Compute, now.position)},
+    {"Velocities", offsetof(Compute, now.velocity)},
+    {"Names", offsetof(Compute, now.name)},
+    {"Pressures", offsetof(Compute, pressure)},
+    {"Accelerations", offsetof(Compute, acceleration)},
+    {"Slopes", offsetof(Compute, slope)},
+    {"Unevens", offsetof(Compute, uneven)},
+    {"Starts", offsetof(Compute, start)},
+    {"WallTables", offsetof(Compute, walls)},
+    {"DragTables", offsetof(Compute, drag)},
+    {"WatchBlock", offsetof(Compute, watch.buffer)},
+    {"Rests", offsetof(Compute, boundary.rest)},
+    {"BoundaryPositions", offsetof(Compute, boundary.position)},
+    {"BoundaryVelocities", offsetof(Compute, boundary.velocity)},
+    {"BoundaryStates", offsetof(Compute, boundary.state)},
+    {"BoundaryStarts", offsetof(Compute, boundary.start)},
+};
+
+static int binding_of(GLuint program, const char *block)
+{
+    const GLuint at = glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block);
+    const GLenum what = GL_BUFFER_BINDING;
+    GLint binding = -1;
+    if (at != GL_INVALID_INDEX)
+        glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, at, 1, &what, 1, NULL, &binding);
+    return binding;
+}
+
+void compute_find_buffers(unsigned program, int8_t bindings[COMPUTE_NAMED])
+{
+    for (int k = 0; k < COMPUTE_NAMED; k++)
+        bindings[k] = (int8_t)(program ? binding_of(program, named[k].block) : -1);
+}
+
+void compute_sweep(const Compute *c, ComputePass pass, size_t count)
+{
+    compute_boundary_bind(c);
+    for (int k = 0; k < COMPUTE_NAMED; k++) {
+        const unsigned *buffer = (const unsigned *)(const void *)((const char *)c + named[k].at);
+        if (c->bindings[pass][k] >= 0 && *buffer)
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)c->bindings[pass][k], *buffer);
+    }
+    compute_run(c, pass, count);
+}
