@@ -160,11 +160,17 @@ static bool append_file(ShaderSource *source, const char *path, const char *from
     return done;
 }
 
+static bool ends_in(const char *path, const char *ending)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && strcmp(dot, ending) == 0;
+}
+
 /* The backend fragment keeps to GLSL 3.30: the compiler proves it. */
 static const char *version_of(const char *path)
 {
-    static const char fragment[] = "sim/fragment/";
-    return strncmp(path, fragment, sizeof fragment - 1) == 0 ? "#version 330 core\n" : "#version 450 core\n";
+    const bool drawn = ends_in(path, ".vert") || ends_in(path, ".geom") || ends_in(path, ".frag");
+    return drawn && strncmp(path, "sim/", 4) == 0 ? "#version 330 core\n" : "#version 450 core\n";
 }
 
 bool shader_source_load(ShaderSource *source, const char *path, const char *defines, Error *error)

@@ -3,7 +3,7 @@
    A line `#include "common/frame.glsl"` pastes that file, once a shader; paths count from the folder
    shaders/. Headers that C includes too are named as C names them, "shaders/shared/frame_block.h". The
    compiler is told by #line which file and line it reads, and shader_source_log turns its numbers back into
-   names. The language is GLSL 4.50, below sim/fragment/ GLSL 3.30. */
+   names. The language is GLSL 4.50; of .vert, .geom and .frag below sim/ GLSL 3.30. */
 #ifndef SLOSH_SHADER_SOURCE_H
 #define SLOSH_SHADER_SOURCE_H
 

@@ -62,10 +62,10 @@ class Fragment(CommandTest):
 
     def test_a_broken_shader_is_named(self):
         shutil.copytree(SHADERS, self.path('shaders'))
-        with open(self.path('shaders/sim/fragment/force.frag'), 'a') as file:
+        with open(self.path('shaders/sim/mueller/force.frag'), 'a') as file:
             file.write('float broken = ;\n')
-        lines = self.read('shaders/sim/fragment/force.frag').count(b'\n')
-        self.refused(1, rf'sim/fragment/force.frag:{lines}: .*syntax error', 'scene.yaml', '--shaders', 'shaders')
+        lines = self.read('shaders/sim/mueller/force.frag').count(b'\n')
+        self.refused(1, rf'sim/mueller/force.frag:{lines}: .*syntax error', 'scene.yaml', '--shaders', 'shaders')
 
 
 if __name__ == '__main__':

@@ -4,7 +4,7 @@
    Needs a current context, the same one throughout. Particles are texels of float textures and stay where
    they are: texel = id. A pass draws a triangle over all of them, from one set of textures into another. The
    neighbours are found through buckets: a texel a cell, which holds four indices, in several layers. Shaders
-   are shaders/sim/fragment, in GLSL 3.30. */
+   are shaders/sim/fragment and a method's own in its folder, in GLSL 3.30. */
 #ifndef SLOSH_FRAGMENT_H
 #define SLOSH_FRAGMENT_H
 
@@ -19,23 +19,23 @@ enum {
     FRAGMENT_CONSTANTS_MAX = 3072  /* characters */
 };
 
-/* X(ENUM, vertex shader, the one after it, defines) */
+/* X(ENUM, vertex shader, the one after it, both below shaders/sim; defines) */
 #define FRAGMENT_PASSES(X)                                                                                   \
-    X(DRIFT, "screen.vert", "drift.frag", "")                                                                \
-    X(BUCKET, "bucket.vert", "bucket.frag", "")                                                              \
-    X(WAITING, "waiting.vert", "waiting.geom", "")                                                           \
-    X(DENSITY, "screen.vert", "density.frag", "")                                                            \
-    X(FORCE, "screen.vert", "force.frag", "")                                                                \
-    X(KICK, "screen.vert", "kick.frag", "")                                                                  \
-    X(WATCH_FIRST, "screen.vert", "watch.frag", "#define FIRST 1\n")                                         \
-    X(WATCH_MORE, "screen.vert", "watch.frag", "")                                                           \
-    X(WATCH_LAST, "screen.vert", "watch_last.frag", "")                                                      \
-    X(PLACE, "screen.vert", "place.frag", "")                                                                \
-    X(SHOW, "screen.vert", "show.frag", "")                                                                  \
-    X(RANGE_FIRST, "screen.vert", "range.frag", "#define FIRST 1\n")                                         \
-    X(RANGE_MORE, "screen.vert", "range.frag", "")                                                           \
-    X(GAUGE_FIRST, "screen.vert", "gauge.frag", "#define FIRST 1\n")                                         \
-    X(GAUGE_MORE, "screen.vert", "gauge.frag", "")
+    X(DRIFT, "fragment/screen.vert", "fragment/drift.frag", "")                                              \
+    X(BUCKET, "fragment/bucket.vert", "fragment/bucket.frag", "")                                            \
+    X(WAITING, "fragment/waiting.vert", "fragment/waiting.geom", "")                                         \
+    X(DENSITY, "fragment/screen.vert", "mueller/density.frag", "")                                           \
+    X(FORCE, "fragment/screen.vert", "mueller/force.frag", "")                                               \
+    X(KICK, "fragment/screen.vert", "fragment/kick.frag", "")                                                \
+    X(WATCH_FIRST, "fragment/screen.vert", "fragment/watch.frag", "#define FIRST 1\n")                       \
+    X(WATCH_MORE, "fragment/screen.vert", "fragment/watch.frag", "")                                         \
+    X(WATCH_LAST, "fragment/screen.vert", "fragment/watch_last.frag", "")                                    \
+    X(PLACE, "fragment/screen.vert", "fragment/place.frag", "")                                              \
+    X(SHOW, "fragment/screen.vert", "fragment/show.frag", "")                                                \
+    X(RANGE_FIRST, "fragment/screen.vert", "fragment/range.frag", "#define FIRST 1\n")                       \
+    X(RANGE_MORE, "fragment/screen.vert", "fragment/range.frag", "")                                         \
+    X(GAUGE_FIRST, "fragment/screen.vert", "fragment/gauge.frag", "#define FIRST 1\n")                       \
+    X(GAUGE_MORE, "fragment/screen.vert", "fragment/gauge.frag", "")
 
 typedef enum FragmentPass {
 #define X(NAME, vertex, next, defines) FRAGMENT_##NAME,

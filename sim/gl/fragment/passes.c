@@ -32,8 +32,8 @@ static void capture(unsigned program, const char *output)
 static unsigned pass_create(FragmentPass pass, const char *constant_lines, Error *error)
 {
     char vertex[64], next[64], text[4096];
-    snprintf(vertex, sizeof vertex, "sim/fragment/%s", passes[pass].vertex);
-    snprintf(next, sizeof next, "sim/fragment/%s", passes[pass].next);
+    snprintf(vertex, sizeof vertex, "sim/%s", passes[pass].vertex);
+    snprintf(next, sizeof next, "sim/%s", passes[pass].next);
     snprintf(text, sizeof text, "%s%s", passes[pass].defines, constant_lines);
     const char *const stages[] = {vertex, next, NULL};
     const unsigned program = program_create(passes[pass].next, stages, text, error);
