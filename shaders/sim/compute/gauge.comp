@@ -1,14 +1,11 @@
 // What is plotted of a state: each invocation adds up every 4096th particle, each group its invocations.
 #include "sim/constants.glsl"
 #include "sim/gauge.glsl"
+#include "shaders/sim/gauge_part.h"
 layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = 1) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = 2) readonly buffer Names { uvec2 name[]; }; // id, fluid
-struct Part {
-    vec4 sum; // see gauge.glsl
-    vec4 greatest;
-};
-layout(std430, binding = 3) writeonly buffer Parts { Part part[]; };
+layout(std430, binding = 3) writeonly buffer Parts { GaugePart part[]; };
 layout(location = 0) uniform vec4 gravity_c2; // in the box's frame; c^2
 shared vec4 sums[64];
 shared float greatest[64];
@@ -39,5 +36,6 @@ void main()
         }
     }
     if (own == 0u)
-        part[gl_WorkGroupID.x] = Part(sums[0], vec4(greatest[0]));
+        part[gl_WorkGroupID.x] =
+            GaugePart(sums[0].x, sums[0].y, sums[0].z, sums[0].w, greatest[0], float[3](0.0, 0.0, 0.0));
 }

@@ -94,7 +94,7 @@ typedef struct Compute {
     Mailbox watch;                        /* WatchBlock; sent by each kick */
     float longest;                        /* dt of the kicks since the watch was read, s */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
-    Mailbox gauge;                        /* 8 float a group: see gauge.comp; none before the first `gauge` */
+    Mailbox gauge;                        /* GaugePart a group; none before the first `gauge` */
     size_t gauged;                        /* particles then */
     unsigned shown[COMPUTE_SHOWN];        /* for the views: uint or float; 0 until it is asked for */
     unsigned constant_block, step;        /* uniform blocks */

@@ -1,17 +1,17 @@
 /* What is plotted of the state: a pass that adds up, a few numbers on their way back, no wait for them. */
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/sim/gauge_part.h"
+
 #include <epoxy/gl.h>
 #include <math.h>
-
-enum { NUMBERS = 8 }; /* a group: shaders/sim/compute/gauge.comp */
 
 /* The first time. */
 static bool prepare(Compute *c)
 {
     Error error;
     if (!c->gauge.buffer)
-        mailbox_create(&c->gauge, "gauge", COMPUTE_GAUGE_GROUPS * NUMBERS * sizeof(float));
+        mailbox_create(&c->gauge, "gauge", COMPUTE_GAUGE_GROUPS * sizeof(GaugePart));
     if (!c->program[COMPUTE_GAUGE])
         c->program[COMPUTE_GAUGE] = compute_program(COMPUTE_GAUGE, c->defines, &error);
     return c->gauge.mapped && c->program[COMPUTE_GAUGE];
@@ -34,15 +34,15 @@ bool compute_gauge(void *state, const double gravity[3])
 bool compute_gauged(void *state, WorldGauge *gauge)
 {
     Compute *c = state;
-    const float *part = mailbox_look(&c->gauge);
+    const GaugePart *part = mailbox_look(&c->gauge);
     if (!part)
         return false;
-    for (int group = 0; group < COMPUTE_GAUGE_GROUPS; group++, part += NUMBERS) {
-        gauge->density_error_mean += (double)part[0];
-        gauge->kinetic_energy += (double)part[1];
-        gauge->potential_energy += (double)part[2];
-        gauge->compression_energy += (double)part[3];
-        gauge->density_error_max = fmax(gauge->density_error_max, (double)part[4]);
+    for (int group = 0; group < COMPUTE_GAUGE_GROUPS; group++, part++) {
+        gauge->density_error_mean += (double)part->density_error;
+        gauge->kinetic_energy += (double)part->kinetic_energy;
+        gauge->potential_energy += (double)part->potential_energy;
+        gauge->compression_energy += (double)part->compression_energy;
+        gauge->density_error_max = fmax(gauge->density_error_max, (double)part->greatest_compression);
     }
     gauge->density_error_mean /= c->gauged > 0 ? (double)c->gauged : 1;
     return true;
