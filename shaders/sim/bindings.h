@@ -1,5 +1,4 @@
-/* Where the solver's shaders find what more than one pass reads; what a pass alone reads has numbers below
-   these. */
+/* The numbers by which C hands to the solver's shaders what they read. */
 #ifndef SLOSH_SIM_BINDINGS_H
 #define SLOSH_SIM_BINDINGS_H
 
@@ -12,15 +11,47 @@
 #define FLOW_BLOCK         7
 #define EXACT_SHAPES_BLOCK 8
 
-/* Storage buffers */
-#define WATCH_BUFFER        2 /* of those that write it */
-#define BOUNDARY_POSITIONS  12
-#define BOUNDARY_VELOCITIES 13
-#define BOUNDARY_STATES     14
-#define BOUNDARY_STARTS     15
-#define WALL_TABLES         7
-#define DRAG_TABLES         5
-#define CELL_STARTS         2
+/* Storage buffers, of which a driver need not have more than eight; solids need eight more. A pass has one of
+   each number. */
+#define POSITIONS_STORAGE  0
+#define NAMES_STORAGE      1
+#define STARTS_STORAGE     2 /* of the cells */
+#define PRESSURES_STORAGE  3
+#define VELOCITIES_STORAGE 4
+#define WALLS_STORAGE      7
+
+#define WATCH_STORAGE         2 /* of those that write it */
+#define SLOPES_STORAGE        5
+#define ACCELERATIONS_STORAGE 5
+#define UNEVENS_STORAGE       6
+#define DRAG_STORAGE          6
+#define RESTS_STORAGE         7
+
+#define BOUNDARY_POSITIONS_STORAGE  12
+#define BOUNDARY_VELOCITIES_STORAGE 13
+#define BOUNDARY_STATES_STORAGE     14
+#define BOUNDARY_STARTS_STORAGE     15
+
+/* The grid, and particles on their way to another place */
+#define ORDERS_STORAGE         3
+#define CELLS_STORAGE          5
+#define RANKS_STORAGE          6
+#define SORTED_STORAGE         6
+#define OLD_POSITIONS_STORAGE  2
+#define OLD_VELOCITIES_STORAGE 5
+#define OLD_NAMES_STORAGE      7
+
+/* Emitters, drains; what is shown, what is plotted */
+#define LAYER_STORAGE  5
+#define MARKS_STORAGE  6
+#define VALUES_STORAGE 5
+#define RANGES_STORAGE 6
+#define PARTS_STORAGE  5
+
+/* Locations of uniforms: what a pass has of its own */
+#define PASS_DT_AT      0 /* s */
+#define SHOWN_SCALAR_AT 0
+#define GRAVITY_C2_AT   0
 
 /* How many there may be: the scene's limits, which C has as FLUIDS_MAX ... */
 #define FLUIDS_MOST 8

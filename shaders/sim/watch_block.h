@@ -7,7 +7,7 @@
 #include "shaders/sim/bindings.h"
 
 #ifdef WRITES_WATCH
-STORAGE_BLOCK(WatchBlock, WATCH_BUFFER)
+STORAGE_BLOCK(WatchBlock, WATCH_STORAGE)
 #else
 UNIFORM_BLOCK(WatchBlock, WATCH_BLOCK)
 #endif

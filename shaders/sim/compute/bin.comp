@@ -1,10 +1,10 @@
 // The cell of each particle, and its place there, in any order.
 #include "sim/constants.glsl"
 #include "sim/cells.glsl"
-layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = 1) writeonly buffer Cells { uint cell[]; };
-layout(std430, binding = 2) writeonly buffer Ranks { uint rank[]; };
-layout(std430, binding = 3) buffer Counts { uint count[]; };
+layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = CELLS_STORAGE) writeonly buffer Cells { uint cell[]; };
+layout(std430, binding = RANKS_STORAGE) writeonly buffer Ranks { uint rank[]; };
+layout(std430, binding = STARTS_STORAGE) buffer Counts { uint count[]; };
 
 void main()
 {

@@ -4,10 +4,10 @@
 #include "sim/in_box.glsl"
 #include "sim/solids.glsl"
 #include "sim/cells.glsl"
-layout(std430, binding = 0) readonly buffer Rests { vec4 rest[]; }; // in the solid's frame; w: which solid
-layout(std430, binding = 1) writeonly buffer Cells { uint cell[]; };
-layout(std430, binding = 3) writeonly buffer Ranks { uint rank[]; };
-layout(std430, binding = 4) buffer Counts { uint count[]; };
+layout(std430, binding = RESTS_STORAGE) readonly buffer Rests { vec4 rest[]; }; // in the solid's frame; w: which solid
+layout(std430, binding = CELLS_STORAGE) writeonly buffer Cells { uint cell[]; };
+layout(std430, binding = RANKS_STORAGE) writeonly buffer Ranks { uint rank[]; };
+layout(std430, binding = STARTS_STORAGE) buffer Counts { uint count[]; };
 
 void main()
 {

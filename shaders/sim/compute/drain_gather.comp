@@ -1,12 +1,12 @@
 // Those who stay, in their order; `before` is how many of them stand before each.
 #include "sim/constants.glsl"
-layout(std430, binding = 0) readonly buffer OldPositions { vec4 old_position[]; };
-layout(std430, binding = 1) readonly buffer Before { uint before[]; };
-layout(std430, binding = 2) readonly buffer OldVelocities { vec4 old_velocity[]; };
-layout(std430, binding = 3) readonly buffer OldNames { uvec2 old_name[]; };
-layout(std430, binding = 4) writeonly buffer Positions { vec4 position[]; };
-layout(std430, binding = 5) writeonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = 6) writeonly buffer Names { uvec2 name[]; };
+layout(std430, binding = OLD_POSITIONS_STORAGE) readonly buffer OldPositions { vec4 old_position[]; };
+layout(std430, binding = MARKS_STORAGE) readonly buffer Before { uint before[]; };
+layout(std430, binding = OLD_VELOCITIES_STORAGE) readonly buffer OldVelocities { vec4 old_velocity[]; };
+layout(std430, binding = OLD_NAMES_STORAGE) readonly buffer OldNames { uvec2 old_name[]; };
+layout(std430, binding = POSITIONS_STORAGE) writeonly buffer Positions { vec4 position[]; };
+layout(std430, binding = VELOCITIES_STORAGE) writeonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = NAMES_STORAGE) writeonly buffer Names { uvec2 name[]; };
 
 void main()
 {

@@ -2,11 +2,11 @@
 #include "sim/constants.glsl"
 #include "sim/gauge.glsl"
 #include "shaders/sim/gauge_part.h"
-layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; }; // w: volume
-layout(std430, binding = 1) readonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = 2) readonly buffer Names { uvec2 name[]; }; // id, fluid
-layout(std430, binding = 3) writeonly buffer Parts { GaugePart part[]; };
-layout(location = 0) uniform vec4 gravity_c2; // in the box's frame; c^2
+layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; }; // id, fluid
+layout(std430, binding = PARTS_STORAGE) writeonly buffer Parts { GaugePart part[]; };
+layout(location = GRAVITY_C2_AT) uniform vec4 gravity_c2; // in the box's frame; c^2
 shared vec4 sums[64];
 shared float greatest[64];
 

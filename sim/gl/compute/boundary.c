@@ -2,6 +2,7 @@
    buffers hold fluid alone. The passes are those of sim/cpu/boundary.c. */
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/sim/bindings.h"
 #include "shaders/sim/exact_shapes_block.h"
 #include "shaders/sim/solid_steps_block.h"
 
@@ -115,7 +116,7 @@ void compute_boundary_bind(const Compute *c)
         return;
     glBindBufferBase(GL_UNIFORM_BUFFER, SOLID_STEPS_BLOCK, b->block);
     glBindBufferBase(GL_UNIFORM_BUFFER, EXACT_SHAPES_BLOCK, b->exact);
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, BOUNDARY_POSITIONS, 4,
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, BOUNDARY_POSITIONS_STORAGE, 4,
                       (const GLuint[]){b->position, b->velocity, b->state, b->start});
 }
 
@@ -150,12 +151,14 @@ void compute_boundary_grid(Compute *c)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(b->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     compute_boundary_bind(c);
-    compute_bind((const unsigned[]){b->rest, b->cell, 0, b->rank, b->start}, 5);
+    BIND([RESTS_STORAGE] = b->rest, [CELLS_STORAGE] = b->cell, [RANKS_STORAGE] = b->rank,
+         [STARTS_STORAGE] = b->start);
     compute_run(c, COMPUTE_BOUNDARY_BIN, n);
     compute_scan(c, b->start, cells + 2);
-    compute_bind((const unsigned[]){b->cell, b->rank, b->start, b->order}, 4);
+    BIND([CELLS_STORAGE] = b->cell, [RANKS_STORAGE] = b->rank, [STARTS_STORAGE] = b->start,
+         [ORDERS_STORAGE] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_PLACE, n);
-    compute_bind((const unsigned[]){b->rest, 0, 0, b->order}, 4);
+    BIND([RESTS_STORAGE] = b->rest, [ORDERS_STORAGE] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_SORT, cells);
 }
 

@@ -137,8 +137,12 @@ void compute_sweep(const Compute *compute, ComputePass pass, size_t count);
 /* That many work groups, in rows: shaders/sim/constants.glsl. */
 void compute_dispatch(size_t groups);
 
-/* Binds buffers to the storage bindings 0, 1, ...; 0 leaves one alone. */
+/* Binds buffers to the storage bindings 0, 1, ...; 0 leaves one alone. BIND([NUMBER] = buffer, ...) does so
+   by the numbers of shaders/sim/bindings.h. */
 void compute_bind(const unsigned *buffers, int count);
+#define BIND(...)                                                                                            \
+    compute_bind((const unsigned[]){__VA_ARGS__},                                                            \
+                 (int)(sizeof((const unsigned[]){__VA_ARGS__}) / sizeof(unsigned)))
 
 /* There are as many particles from now on. */
 void compute_set_count(Compute *compute, size_t count);

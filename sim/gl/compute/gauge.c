@@ -1,6 +1,7 @@
 /* What is plotted of the state: a pass that adds up, a few numbers on their way back, no wait for them. */
 #include "sim/gl/compute/compute.h"
 
+#include "shaders/sim/bindings.h"
 #include "shaders/sim/gauge_part.h"
 
 #include <epoxy/gl.h>
@@ -22,9 +23,10 @@ bool compute_gauge(void *state, const double gravity[3])
     Compute *c = state;
     if (!prepare(c))
         return false;
-    glProgramUniform4f(c->program[COMPUTE_GAUGE], 0, (float)gravity[0], (float)gravity[1], (float)gravity[2],
-                       c->constants->sound_speed * c->constants->sound_speed);
-    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->now.name, c->gauge.buffer}, 4);
+    glProgramUniform4f(c->program[COMPUTE_GAUGE], GRAVITY_C2_AT, (float)gravity[0], (float)gravity[1],
+                       (float)gravity[2], c->constants->sound_speed * c->constants->sound_speed);
+    BIND([POSITIONS_STORAGE] = c->now.position, [VELOCITIES_STORAGE] = c->now.velocity,
+         [NAMES_STORAGE] = c->now.name, [PARTS_STORAGE] = c->gauge.buffer);
     compute_run(c, COMPUTE_GAUGE, (size_t)COMPUTE_GAUGE_GROUPS * COMPUTE_GROUP);
     c->gauged = c->count;
     mailbox_send(&c->gauge);

@@ -3,6 +3,7 @@
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/shared/scan.h"
+#include "shaders/sim/bindings.h"
 
 #include <epoxy/gl.h>
 
@@ -14,7 +15,7 @@ static size_t blocks_of(size_t size)
 static void run_blocks(const Compute *compute, ComputePass pass, unsigned values, unsigned totals,
                        size_t size)
 {
-    compute_bind((const unsigned[]){values, totals}, 2);
+    BIND([SCAN_VALUES_STORAGE] = values, [SCAN_TOTALS_STORAGE] = totals);
     glUseProgram(compute->program[pass]);
     glUniform1ui(SCAN_SIZE_AT, (GLuint)size);
     compute_dispatch(blocks_of(size));
@@ -52,19 +53,23 @@ void compute_grid(void *state)
     unsigned order = c->order;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(c->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    compute_bind((const unsigned[]){c->now.position, c->cell, c->rank, c->start}, 4);
+    BIND([POSITIONS_STORAGE] = c->now.position, [CELLS_STORAGE] = c->cell, [RANKS_STORAGE] = c->rank,
+         [STARTS_STORAGE] = c->start);
     compute_run(c, COMPUTE_BIN, c->count);
     compute_scan(c, c->start, cells + 1);
-    compute_bind((const unsigned[]){c->cell, c->rank, c->start, c->order}, 4);
+    BIND([CELLS_STORAGE] = c->cell, [RANKS_STORAGE] = c->rank, [STARTS_STORAGE] = c->start,
+         [ORDERS_STORAGE] = c->order);
     compute_run(c, COMPUTE_PLACE, c->count);
     if (c->constants->reproducible) {
-        compute_bind((const unsigned[]){c->now.name, c->cell, c->start, c->order, c->rank}, 5);
+        BIND([NAMES_STORAGE] = c->now.name, [CELLS_STORAGE] = c->cell, [STARTS_STORAGE] = c->start,
+             [ORDERS_STORAGE] = c->order, [SORTED_STORAGE] = c->rank);
         compute_run(c, COMPUTE_SORT, c->count);
         order = c->rank; /* which is free now */
     }
-    compute_bind((const unsigned[]){order, c->now.position, c->now.velocity, c->now.name, c->spare.position,
-                                    c->spare.velocity, c->spare.name},
-                 7);
+    BIND([ORDERS_STORAGE] = order, [OLD_POSITIONS_STORAGE] = c->now.position,
+         [OLD_VELOCITIES_STORAGE] = c->now.velocity, [OLD_NAMES_STORAGE] = c->now.name,
+         [POSITIONS_STORAGE] = c->spare.position, [VELOCITIES_STORAGE] = c->spare.velocity,
+         [NAMES_STORAGE] = c->spare.name);
     compute_run(c, COMPUTE_MOVE, c->count);
     compute_swap(c);
     c->gridded = c->count;

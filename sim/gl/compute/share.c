@@ -1,6 +1,8 @@
 /* The particles for the views, in the buffers that the steps work on; what these do not hold as such is
    written by a pass of its own, for what is wanted only. */
 #include "sim/gl/compute/compute.h"
+
+#include "shaders/sim/bindings.h"
 #include "sim/gl/float_bits.h"
 #include "sim/gl/particle_buffers.h"
 
@@ -13,10 +15,10 @@ static ParticleAttribute show(Compute *c, int what)
 {
     if (!c->shown[what])
         c->shown[what] = compute_buffer(c, "shown", 4 * c->capacity);
-    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->now.name, c->pressure,
-                                    c->shown[what], c->ranges.buffer},
-                 6);
-    glProgramUniform1i(c->program[COMPUTE_SHOW], 0, what);
+    BIND([POSITIONS_STORAGE] = c->now.position, [VELOCITIES_STORAGE] = c->now.velocity,
+         [NAMES_STORAGE] = c->now.name, [PRESSURES_STORAGE] = c->pressure, [VALUES_STORAGE] = c->shown[what],
+         [RANGES_STORAGE] = c->ranges.buffer);
+    glProgramUniform1i(c->program[COMPUTE_SHOW], SHOWN_SCALAR_AT, what);
     compute_run(c, COMPUTE_SHOW, c->count);
     return (ParticleAttribute){c->shown[what], 0, 4};
 }

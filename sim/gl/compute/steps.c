@@ -44,7 +44,7 @@ static void run_wcsph(const Compute *c, ComputePass pass)
 {
     compute_boundary_bind(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
-                                    c->slope, c->boundary.rest, c->walls},
+                                    c->slope, 0, c->boundary.rest},
                  8);
     compute_run(c, pass, c->count);
 }
@@ -57,7 +57,7 @@ void compute_continuity(void *state, float dt)
     if (c->slope)
         run_wcsph(c, c->slopes_due ? COMPUTE_SLOPE : COMPUTE_STATE);
     c->slopes_due = false;
-    glProgramUniform1f(c->program[COMPUTE_CONTINUITY], 0, dt);
+    glProgramUniform1f(c->program[COMPUTE_CONTINUITY], PASS_DT_AT, dt);
     run_wcsph(c, COMPUTE_CONTINUITY);
 }
 
@@ -89,8 +89,9 @@ void compute_force(void *state, const ApparentGravity *gravity)
 void compute_shift(void *state, float dt)
 {
     Compute *c = state;
-    glProgramUniform1f(c->program[COMPUTE_SHIFT], 0, dt);
-    compute_bind((const unsigned[]){c->now.position, c->now.velocity, c->uneven}, 3);
+    glProgramUniform1f(c->program[COMPUTE_SHIFT], PASS_DT_AT, dt);
+    BIND([POSITIONS_STORAGE] = c->now.position, [VELOCITIES_STORAGE] = c->now.velocity,
+         [UNEVENS_STORAGE] = c->uneven);
     compute_run(c, COMPUTE_SHIFT, c->count);
 }
 
