@@ -204,7 +204,7 @@ static void print_published(const Table *table, const Reference *reference, size
         char label[64];
         snprintf(label, sizeof label, "%s, published", reference_text(reference, row, "engine"));
         fprintf(file, "%9zu %8s  %-9s %-22s", particles, table->percent ? "" : "1",
-                table->view ? table->view : "spheres", label);
+                table->view ? table->view : view_at(0)->name, label);
         print_values(values, columns, !table->percent, file);
         if (table->percent)
             fprintf(file, " %9.1f", reference_number(reference, row, "rate"));
@@ -240,7 +240,7 @@ bool table_print(const Table *table, const BenchResult *results, size_t count, F
     int group = 0;
     for (size_t i = 0; i < count; i++) {
         if (table->reference && results[i].particles != last && table->particles[group] &&
-            strcmp(results[i].view, table->view ? table->view : "spheres") == 0)
+            strcmp(results[i].view, table->view ? table->view : view_at(0)->name) == 0)
             print_published(table, &reference, asked_for(table, group++), file);
         last = results[i].particles;
         print_result(table, &results[i], file);

@@ -59,6 +59,7 @@ void *view_own(const ViewDef *def, const ViewKind *kind)
 
 void views_default(ViewDef *def)
 {
+    snprintf(def->kind, sizeof def->kind, "%s", view_at(0)->name);
     for (int i = 0; view_at(i); i++) {
         assert(view_at(i)->def_size <= VIEW_OWN_SIZE);
         if (view_at(i)->def)
@@ -181,7 +182,8 @@ void view_show(const View *view, const ViewDef *def, Frame *frame)
 
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame)
 {
-    view->kind->cast(view->state, particles, frame);
+    if (view->kind->cast)
+        view->kind->cast(view->state, particles, frame);
 }
 
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame)

@@ -41,7 +41,7 @@ typedef struct ViewKind {
     bool (*accepts)(void *state, const Subject *subject, Error *error);
     /* Says in the frame what colours and legend show, where that is not the def's scalar; NULL: it is. */
     void (*show)(const ViewDef *def, Frame *frame);
-    /* Draws what casts shadows, into the map of render/frame/shadow.h. */
+    /* Draws what casts shadows, into the map of render/frame/shadow.h; NULL: nothing does. */
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
@@ -59,7 +59,7 @@ const ViewKind *view_at(int index);
 /* The view's own settings in a def; not const, as memchr's result is not. NULL where it is not known. */
 void *view_own(const ViewDef *def, const ViewKind *kind);
 
-/* Fills in the defaults of all views' own settings. */
+/* Fills in the first kind, and the defaults of all views' own settings. */
 void views_default(ViewDef *def);
 
 /* The kind of that name, or NULL. */

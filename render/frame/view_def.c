@@ -2,8 +2,7 @@
 
 ViewDef view_def_shared(void)
 {
-    return (ViewDef){.kind = "spheres",
-                     .color_by = SCALAR_SPEED,
+    return (ViewDef){.color_by = SCALAR_SPEED,
                      .colormap = "viridis",
                      .range_auto = true,
                      .legend = true,

@@ -43,7 +43,7 @@ typedef struct Subject {
     const WorldDef *world; /* all 0 where it is not known */
 } Subject;
 
-/* Defaults of all that views share; their own settings are zeros. */
+/* Defaults of all that views share; kind and own settings: views_default. */
 ViewDef view_def_shared(void);
 
 #endif

@@ -31,36 +31,6 @@ const SplatDef splat_usual = {.eps = 1.5,
                               .filter_iterations = 2,
                               .antialias = true};
 
-static const char *weights_choice(int index)
-{
-    return splat_weights_names[index];
-}
-
-static const char *shape_choice(int index)
-{
-    return splat_shape_names[index];
-}
-
-static const char *sprite_choice(int index)
-{
-    return splat_sprite_names[index];
-}
-
-static const char *show_choice(int index)
-{
-    return splat_show_names[index];
-}
-
-static const char *shading_choice(int index)
-{
-    return splat_shading_names[index];
-}
-
-static const char *filter_choice(int index)
-{
-    return splat_filter_names[index];
-}
-
 #define AT(field) offsetof(SplatDef, field)
 
 /* clang-format off */
@@ -70,21 +40,21 @@ const Key splat_keys[] = {
            "of the field that is the surface (0.1 and so on); 0: the spheres; above, radius 0 is the solver's support radius, "
            "and eps, weights, drops and ellipsoids have no part in it"),
     NUMBER("view.splat.eps", L | O, "radii", 0, 10, AT(eps), "how far below the surface spheres still blend"),
-    CHOICE("view.splat.weights", L | KEY_INDEX | KEY_REBUILD, weights_choice, AT(weights),
+    CHOICE_OF("view.splat.weights", L | KEY_INDEX | KEY_REBUILD, splat_weights_names, AT(weights),
            "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
-    CHOICE("view.splat.shape", L | KEY_INDEX | KEY_REBUILD, shape_choice, AT(shape),
+    CHOICE_OF("view.splat.shape", L | KEY_INDEX | KEY_REBUILD, splat_shape_names, AT(shape),
            "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie"),
-    CHOICE("view.splat.sprite", L | KEY_INDEX | KEY_REBUILD, sprite_choice, AT(sprite),
+    CHOICE_OF("view.splat.sprite", L | KEY_INDEX | KEY_REBUILD, splat_sprite_names, AT(sprite),
            "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
-    CHOICE("view.splat.show", L | KEY_INDEX | KEY_REBUILD, show_choice, AT(show), "a stage of the way to the picture"),
-    CHOICE("view.splat.shading", L | KEY_INDEX | KEY_REBUILD, shading_choice, AT(shading),
+    CHOICE_OF("view.splat.show", L | KEY_INDEX | KEY_REBUILD, splat_show_names, AT(show), "a stage of the way to the picture"),
+    CHOICE_OF("view.splat.shading", L | KEY_INDEX | KEY_REBUILD, splat_shading_names, AT(shading),
            "phong: opaque; water: clear, bends what is behind and mirrors the sky; jelly: both"),
     NUMBER("view.splat.ior", L, "", 1, 3, AT(ior), "index of refraction, of water and jelly"),
     NUMBER("view.splat.attenuation", L, "m", 0, 1e5, AT(attenuation),
            "through which white light becomes the fluid's colour; 0: a fifth of the box's longest side, in 2D a spacing"),
     BOOLEAN("view.splat.cull", L | KEY_REBUILD, AT(cull), "leave out hidden spheres before they are drawn"),
     BOOLEAN("view.splat.drops", L | KEY_REBUILD, AT(drops), "a particle with few neighbours shrinks to a drop of its own volume"),
-    CHOICE("view.splat.filter", L | KEY_INDEX | KEY_REBUILD, filter_choice, AT(filter),
+    CHOICE_OF("view.splat.filter", L | KEY_INDEX | KEY_REBUILD, splat_filter_names, AT(filter),
            "narrow_range: smooth the depth on the screen and take the normals from it, after Truong and Yuksel 2018"),
     NUMBER("view.splat.filter_size", L | O, "radii", 0, 100, AT(filter_size), "half the width of the filter"),
     NUMBER("view.splat.filter_range", L | O, "radii", 0, 100, AT(filter_range),

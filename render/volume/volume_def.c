@@ -30,31 +30,6 @@ const VolumeDef volume_usual = {
                 .jitter = true,
                 .skip = true}};
 
-static const char *bounds_choice(int index)
-{
-    return volume_bounds_names[index];
-}
-
-static const char *method_choice(int index)
-{
-    return volume_method_names[index];
-}
-
-static const char *show_choice(int index)
-{
-    return volume_show_names[index];
-}
-
-static const char *axis_choice(int index)
-{
-    return volume_axis_names[index];
-}
-
-static const char *look_choice(int index)
-{
-    return raycast_look_names[index];
-}
-
 #define AT(field) offsetof(VolumeDef, field)
 
 /* clang-format off */
@@ -62,15 +37,15 @@ const Key volume_keys[] = {
     MAPPING("view.volume", "of the view volume: the fluid's field on a grid of voxels"),
     INTEGER("view.volume.cells", L, 4, 4096, AT(cells), "along the box's longest side, where cell is 0; cells are never wider than the support radius"),
     NUMBER("view.volume.cell", L, "spacings", 0, 10, AT(cell), "side of a cell; 0: by cells"),
-    CHOICE("view.volume.bounds", L | KEY_INDEX, bounds_choice, AT(bounds),
+    CHOICE_OF("view.volume.bounds", L | KEY_INDEX, volume_bounds_names, AT(bounds),
            "of the volume: the box's, or those that the fluid has in each picture"),
-    CHOICE("view.volume.method", L | KEY_INDEX | KEY_REBUILD, method_choice, AT(method),
+    CHOICE_OF("view.volume.method", L | KEY_INDEX | KEY_REBUILD, volume_method_names, AT(method),
            "how the volume is made: see render/README.md; direct: none, the field is summed where it is sampled"),
-    CHOICE("view.volume.show", L | KEY_INDEX | KEY_REBUILD, show_choice, AT(show), "a stage of the way to the picture"),
-    CHOICE("view.volume.slice_axis", L | KEY_INDEX, axis_choice, AT(slice_axis),
+    CHOICE_OF("view.volume.show", L | KEY_INDEX | KEY_REBUILD, volume_show_names, AT(show), "a stage of the way to the picture"),
+    CHOICE_OF("view.volume.slice_axis", L | KEY_INDEX, volume_axis_names, AT(slice_axis),
            "what the slice shown lies across"),
     NUMBER("view.volume.slice", L, "", 0, 1, AT(slice), "where the slice is along that axis of the box"),
-    CHOICE("view.volume.look", L | KEY_INDEX | KEY_REBUILD, look_choice, AT(raycast.look),
+    CHOICE_OF("view.volume.look", L | KEY_INDEX | KEY_REBUILD, raycast_look_names, AT(raycast.look),
            "opaque: a surface; water: one that bends what is behind and mirrors the sky; translucent: by the transfer function, which is the next five"),
     NUMBER("view.volume.opacity", L, "", 0, 1, AT(raycast.opacity), "full opacity: of fluid one spacing deep"),
     NUMBER("view.volume.skin", L, "", 0, 1, AT(raycast.skin), "opacity of each surface that a ray crosses"),

@@ -1,5 +1,6 @@
 /* The panel: every live key can be set in it, what it asks for is accepted, nothing is cut off at any scale.
  */
+#include "tests/render/toy_view.h"
 #include "tests/render/ui_fixture.h"
 
 #include "app/hand/play_commands.h"

@@ -1,0 +1,82 @@
+/* A view that is no part of the program: tests/render/toy_view.h. */
+#include "tests/render/fixture.h"
+
+#include "app/scene/keys.h"
+#include "app/scene/lists.h"
+#include "app/scene/live.h"
+#include "tests/render/toy_view.h"
+#include "tests/scene/scene_text.h"
+
+enum { SIZE = 32 };
+
+static int middle_of(Renderer *renderer, const ParticleBuffers *buffers)
+{
+    static uint8_t rgb[3 * SIZE * SIZE];
+    renderer_draw(renderer, buffers, NULL);
+    renderer_read(renderer, rgb);
+    return rgb[3 * (SIZE / 2 * SIZE + SIZE / 2)];
+}
+
+static void it_draws_by_its_own_settings(void **state)
+{
+    (void)state;
+    Error error = {0};
+    ParticleBuffers buffers;
+    ViewDef def = bare_view();
+    Particles *particles = particles_wave(0.1);
+    const ParticleBuffers box = box_state(particles->count, 0.1);
+    Upload *upload = upload_particles(particles, &box, &buffers);
+    text_set(def.kind, "toy");
+    assert_true(toy_def(&def)->shade == 0.5);
+    Renderer *renderer = renderer_create(&def, NULL, SIZE, SIZE, &error);
+    assert_non_null(renderer);
+    assert_in_range(middle_of(renderer, &buffers), 187, 189); /* sRGB of 0.5 */
+    toy_def(&def)->shade = 1;
+    assert_true(renderer_set_def(renderer, &def, NULL, &error));
+    assert_int_equal(middle_of(renderer, &buffers), 255);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    free(particles);
+}
+
+static void scenes_have_its_key(void **state)
+{
+    (void)state;
+    static Scene scene;
+    Error error = {0};
+    bool of_world = true;
+    if (!parse_text(LEAST "view: {kind: toy, toy: {shade: 0.25}}\n", NULL, &scene, &error))
+        fail_msg("%s", error.message);
+    assert_true(toy_def(&scene.view)->shade == 0.25);
+    assert_refused(LEAST "view: {toy: {shade: 2}}\n", "scene.yaml:7:21: view.toy.shade");
+    assert_true(scene_set_live(&scene, "view.toy.shade=0.75", &of_world, &error) && !of_world);
+    char *text = scene_print_text(&scene);
+    assert_non_null(strstr(text, "view.kind = toy"));
+    assert_non_null(strstr(text, "view.toy.shade = 0.75"));
+    free(text);
+}
+
+static void it_is_listed_behind_the_others(void **state)
+{
+    (void)state;
+    static Scene scene;
+    static Notes notes;
+    Error error = {0};
+    const char *name = "", *text = LEAST "view: {toy: {shade: 0.25}}\n";
+    for (int i = 0; view_choice(i) && strcmp(view_choice(i), "none") != 0; i++)
+        name = view_choice(i);
+    assert_string_equal(name, "toy");
+    assert_true(scene_parse("scene.yaml", text, strlen(text), NULL, &scene, &notes, &error));
+    assert_string_equal(scene.view.kind, view_list[0]->name);
+    assert_int_equal(scene_key_find("view.toy.shade")->flags & (KEY_LIVE | KEY_IDLE), KEY_LIVE | KEY_IDLE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(it_draws_by_its_own_settings, no_gl_errors),
+        cmocka_unit_test(scenes_have_its_key),
+        cmocka_unit_test(it_is_listed_behind_the_others),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
