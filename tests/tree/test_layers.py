@@ -56,6 +56,9 @@ FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", 
 DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device", "window"}  # rooms of app without render and sim/gl
 
 
+# What names views beside their folders and app/case: lists.
+VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]
+
 # What is left to cut: circles by their first file.
 CIRCLES_LEFT = ["app/scene/advise", "sim/cpu/pair_loop", "sim/world/backend"]
 
@@ -163,6 +166,21 @@ class Layers(unittest.TestCase):
             graph[here] |= {part_of(name) for name in includes(path)} - {here}
         self.assertEqual([circle for circle in circles(graph) if circle[0] not in CIRCLES_LEFT], [])
         self.assertEqual(circles({"a": ["b"], "b": ["c"], "c": ["a"], "d": ["a"]}), [["a", "b", "c"]])
+
+    def test_a_view_is_named_in_its_folder_and_in_lists(self):
+        paths = list(sources())
+        views = {match.group(1) for path in paths if path.suffix == ".c"
+                 for match in re.finditer(r"^const ViewKind view_(\w+) =", path.read_text(), re.M)}
+        self.assertGreaterEqual(views, {"spheres", "splat", "volume"})
+        found = []
+        for path in paths:
+            name = str(path.relative_to(ROOT))
+            if name in VIEW_LISTS or name.startswith("app/case/"):
+                continue
+            for view in views - {path.parent.name}:
+                word = rf'\b(view_{view}|{view}_(def|keys|usual))\b|\bview\.{view}\b|"{view}"|"render/{view}/'
+                found += [f"{name}: {match.group()}" for match in re.finditer(word, path.read_text())]
+        self.assertEqual(found, ['app/command/export.c: "volume"'])  # in m3
 
     def test_no_drawer(self):
         count = collections.Counter(
