@@ -1,5 +1,5 @@
 /* The fluid's surface as a mesh, from the particles of a step: where the field F(r) = sum V_j W_poly6(r -
-   r_j) of sim/mesh/field.h, which view `volume` shows, crosses a level. Closed, with the normals of the
+   r_j) of sim/mesh/field.h, which pictures show too, crosses a level. Closed, with the normals of the
    field's slope, and the particles' fields as means weighted by V W. */
 #ifndef SLOSH_SURFACE_H
 #define SLOSH_SURFACE_H

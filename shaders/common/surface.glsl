@@ -1,4 +1,4 @@
-// What the shadings of the view splat know of the surface in a pixel, and what they have in common. All in the eye's frame.
+// What shadings of a smooth surface know of it in a pixel, and what they have in common. All in the eye's frame.
 struct Surface {
     vec3 place; // m
     vec3 view;  // unit vector from the eye to it
