@@ -48,7 +48,8 @@ long device_process(const char *folder, const char *name)
     return found;
 }
 
-long device_spacenavd(void)
+/* The process that reads every SpaceMouse for other programs: its number, or 0. */
+static long device_spacenavd(void)
 {
     return access("/run/spnav.sock", F_OK) == 0 || access("/var/run/spnav.sock", F_OK) == 0
                ? device_process("/proc", "spacenavd")

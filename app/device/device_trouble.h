@@ -18,9 +18,6 @@ const DeviceRow *device_match(const HidInfo *info);
 void device_trouble(const DeviceRow *row, HidRefusal why, const char *reason,
                     char problem[DEVICE_PROBLEM_SIZE]);
 
-/* The process that reads every SpaceMouse for other programs, spacenavd: its number, or 0. */
-long device_spacenavd(void);
-
 /* What else a user should know of a device that may be opened: that spacenavd reads it too. "" as a rule. */
 void device_note(const DeviceRow *row, char note[DEVICE_PROBLEM_SIZE]);
 

@@ -25,7 +25,7 @@ const char *mapping_to_words(int to)
     return targets[to].words;
 }
 
-const char *mapping_as_name(int as)
+static const char *as_name(int as)
 {
     static const char *const names[] = {"rate", "offset", NULL};
     return names[as];
@@ -80,7 +80,7 @@ const Key mapping_axis_keys[] = {
      .flags = KEY_INDEX,
      .unit = "",
      .offset = offsetof(AxisMap, as),
-     .choice = mapping_as_name,
+     .choice = as_name,
      .help = "a speed, or a way for as long as it is held; the camera has speeds only"},
     GAIN(AxisMap, gain, 10, "2: twice as much, though never more than the full speed, or way"),
     {.path = "invert",

@@ -8,7 +8,6 @@
 /* The keys of a device, of one of its axes, and of its pose; each ended by a row without a path. */
 extern const Key mapping_device_keys[], mapping_axis_keys[], mapping_pose_keys[];
 
-const char *mapping_as_name(int as);           /* NULL after the last */
 const char *mapping_command_name(int command); /* of what a press can do; "" for the others, NULL after the
                                                   last */
 const char *mapping_to_words(int to);          /* "moves the box to the right" */

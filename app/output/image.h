@@ -25,7 +25,4 @@ bool image_write_stream(const Image *image, FILE *stream, const char *name, Erro
 /* Writes the file `path`; on failure none is left. The caller renames if it must appear whole. */
 bool image_write(const Image *image, const char *path, Error *error);
 
-/* Reads any PNG as RGB into a new image. */
-bool image_read(Image *image, const char *path, Error *error);
-
 #endif

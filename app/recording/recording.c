@@ -99,11 +99,6 @@ bool recording_add(Recording *recording, const SimCommand *command)
     return true;
 }
 
-void recording_clear(Recording *recording)
-{
-    recording->count = 0;
-}
-
 size_t recording_line(const Recording *recording, size_t index)
 {
     size_t line = recording->command_line + index;

@@ -60,9 +60,6 @@ bool recording_create(Recording *recording, const char *path, const char *text, 
    RECORDING_COMMANDS_MAX are there, a step before the last command's, or a setting that is not ended by 0. */
 bool recording_add(Recording *recording, const SimCommand *command);
 
-/* Drops the commands and keeps the scene: the simulation starts again. */
-void recording_clear(Recording *recording);
-
 /* Writes the file whole or not at all; `steps` and `hash` are those of the world at the end. */
 bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, const char *path,
                      Error *error);

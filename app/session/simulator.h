@@ -76,7 +76,7 @@ void simulator_set_realtime(Simulator *simulator, bool realtime);
 void simulator_reset(Simulator *simulator);
 
 /* A command for the next step; its `step` is set there. It replaces what waits and is moot by it
-   (app/session/command_queue.h). Returns its number, counted from 1, or 0 when too many wait, which takes
+   (simulator_queue.c). Returns its number, counted from 1, or 0 when too many wait, which takes
    more keys than there are. */
 uint64_t simulator_send(Simulator *simulator, const SimCommand *command);
 

@@ -8,7 +8,7 @@
 
 static const double PACE_MS = 1000; /* the real-time factor is of this long */
 
-void simulator_tell(Simulator *simulator, bool failed, const char *message)
+static void tell(Simulator *simulator, bool failed, const char *message)
 {
     pthread_mutex_lock(&simulator->lock);
     SimulatorStatus *status = &simulator->status;
@@ -65,7 +65,7 @@ void simulator_make_world(Simulator *simulator)
     simulator->world = world_create(&simulator->start.world, &error);
     simulator_gauge_begin(simulator);
     if (!simulator->world || !simulator_publish(simulator, &error))
-        simulator_tell(simulator, true, error.message);
+        tell(simulator, true, error.message);
     awaken(simulator);
 }
 
@@ -73,11 +73,10 @@ void simulator_obey(Simulator *simulator, const SimCommand *command)
 {
     Error error = {{0}};
     if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error)) {
-        simulator_tell(simulator, false, error.message);
+        tell(simulator, false, error.message);
     } else if (!simulator->recording_lost && !recording_add(&simulator->recording, command)) {
         simulator->recording_lost = true;
-        simulator_tell(simulator, false,
-                       "this session has become too long to be saved; a reset begins a new one");
+        tell(simulator, false, "this session has become too long to be saved; a reset begins a new one");
     }
 }
 
@@ -188,15 +187,15 @@ static void tell_news(Simulator *simulator, const WorldInfo *info)
 {
     char words[256];
     if (info->full && !simulator->told_full)
-        simulator_tell(simulator, false, session_full_text(info, words));
+        tell(simulator, false, session_full_text(info, words));
     simulator->told_full |= info->full;
     if (info->lost && !simulator->told_lost)
-        simulator_tell(simulator, false, session_lost_text(info, words));
+        tell(simulator, false, session_lost_text(info, words));
     simulator->told_lost |= info->lost > 0;
     if (info->trouble.count == simulator->troubles)
         return;
     simulator->troubles = info->trouble.count;
-    simulator_tell(simulator, false, session_trouble_text(&info->trouble, words));
+    tell(simulator, false, session_trouble_text(&info->trouble, words));
 }
 
 void simulator_frame_begin(Simulator *simulator)
@@ -244,5 +243,5 @@ void simulator_frame_step(Simulator *simulator)
     if (!ok || !info.within_frame)
         simulator_frame_end(simulator);
     if (!ok)
-        simulator_tell(simulator, true, error.message);
+        tell(simulator, true, error.message);
 }

@@ -3,13 +3,23 @@
 #ifndef SLOSH_SIMULATOR_STATE_H
 #define SLOSH_SIMULATOR_STATE_H
 
-#include "app/session/command_queue.h"
+#include "app/recording/sim_command.h"
 #include "app/session/simulator.h"
 #include "sim/world/world.h"
 
 #include <pthread.h>
 
-enum { OBEYED_MAX = 512 };
+enum {
+    OBEYED_MAX = 512,
+    COMMAND_QUEUE_MAX = 256 /* more than there are live keys */
+};
+
+/* Commands that wait for the simulation's next step. All that wait apply at the same step, so a command makes
+   earlier ones moot, and the queue never holds more than one pose of each kind and one value of each key. */
+typedef struct CommandQueue {
+    int count;
+    SimCommand commands[COMMAND_QUEUE_MAX];
+} CommandQueue;
 
 /* A frame of which steps may be left. */
 typedef struct FrameInHand {
@@ -71,8 +81,14 @@ struct Simulator {
     double pace_began_ms, pace_began_s;
 };
 
+/* simulator_queue.c. Adds a copy: a target in the place of one that waits, a pose jump in the place of all
+   poses, a setting in the place of one of the same key. False when it is full. */
+bool command_queue_add(CommandQueue *queue, const SimCommand *command);
+
+/* Forgets targets and pose jumps: the scene begins anew, with the box at home. */
+void command_queue_drop_poses(CommandQueue *queue);
+
 /* simulator_session.c: of the thread that steps. */
-void simulator_tell(Simulator *simulator, bool failed, const char *message);
 bool simulator_publish(Simulator *simulator, Error *error); /* describes the state, then shows it */
 void simulator_make_world(Simulator *simulator);            /* at the scene's start, or a message */
 void simulator_obey(Simulator *simulator, const SimCommand *command);

@@ -1,7 +1,5 @@
 #include "sim/base/scalar.h"
 
-#include <string.h>
-
 static const struct {
     const char *name, *unit;
 } scalars[] = {
@@ -18,12 +16,4 @@ const char *scalar_name(Scalar scalar)
 const char *scalar_unit(Scalar scalar)
 {
     return scalars[scalar].unit;
-}
-
-Scalar scalar_find(const char *name)
-{
-    for (int i = 0; i < SCALAR_COUNT; i++)
-        if (strcmp(scalars[i].name, name) == 0)
-            return (Scalar)i;
-    return SCALAR_COUNT;
 }

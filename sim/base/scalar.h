@@ -21,7 +21,4 @@ typedef enum Scalar {
 const char *scalar_name(Scalar scalar);
 const char *scalar_unit(Scalar scalar);
 
-/* The scalar of that name, or SCALAR_COUNT. */
-Scalar scalar_find(const char *name);
-
 #endif

@@ -1,5 +1,6 @@
 /* Videos by ffmpeg, folders of frames, single pictures. */
 #include "tests/app/output_fixture.h"
+#include "tests/read_image.h"
 
 #include "app/output/pictures.h"
 #include "app/output/video.h"

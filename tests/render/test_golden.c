@@ -2,9 +2,8 @@
    8 of 255.
 
    SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
+#include "tests/read_image.h"
 #include "tests/render/fixture.h"
-
-#include "app/output/image.h"
 
 #define SPACING 0.08
 

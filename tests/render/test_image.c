@@ -1,7 +1,6 @@
 /* PNG files: what is written is what is read, and a write that fails is told. */
+#include "tests/read_image.h"
 #include "tests/render/fixture.h"
-
-#include "app/output/image.h"
 
 #include <unistd.h>
 

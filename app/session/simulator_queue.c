@@ -1,4 +1,4 @@
-#include "app/session/command_queue.h"
+#include "app/session/simulator_state.h"
 
 #include <string.h>
 
