@@ -51,7 +51,7 @@ static WorldDef solids_def(int dimensions)
 }
 
 /* wcsph with all its terms: one fluid with laminar viscosity, one with artificial, diffusion of density. */
-static WorldDef wcsph_def(void)
+static WorldDef full_wcsph_def(void)
 {
     WorldDef def = solids_def(2);
     snprintf(def.method, sizeof def.method, "wcsph");
@@ -67,7 +67,7 @@ static void one_step_is_that_of_the_cpu(void **state)
     (void)state;
     static const char *const names[] = {"2D, mueller", "3D, mueller", "2D, wcsph"};
     for (int run = 0; run < 3; run++) {
-        const WorldDef def = run < 2 ? solids_def(2 + run) : wcsph_def();
+        const WorldDef def = run < 2 ? solids_def(2 + run) : full_wcsph_def();
         World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
         substeps(cpu, 150);
         copy_state(cpu, gpu);
