@@ -13,40 +13,40 @@
 
 /* Storage buffers, of which a driver need not have more than eight; solids need eight more. A pass has one of
    each number. */
-#define POSITIONS_STORAGE  0
-#define NAMES_STORAGE      1
-#define STARTS_STORAGE     2 /* of the cells */
-#define PRESSURES_STORAGE  3
-#define VELOCITIES_STORAGE 4
-#define WALLS_STORAGE      7
+#define POSITIONS_BUFFER  0
+#define NAMES_BUFFER      1
+#define STARTS_BUFFER     2 /* of the cells */
+#define PRESSURES_BUFFER  3
+#define VELOCITIES_BUFFER 4
+#define WALLS_BUFFER      7
 
-#define WATCH_STORAGE         2 /* of those that write it */
-#define SLOPES_STORAGE        5
-#define ACCELERATIONS_STORAGE 5
-#define UNEVENS_STORAGE       6
-#define DRAG_STORAGE          6
-#define RESTS_STORAGE         7
+#define WATCH_BUFFER         2 /* of those that write it */
+#define SLOPES_BUFFER        5
+#define ACCELERATIONS_BUFFER 5
+#define UNEVENS_BUFFER       6
+#define DRAG_BUFFER          6
+#define RESTS_BUFFER         7
 
-#define BOUNDARY_POSITIONS_STORAGE  12
-#define BOUNDARY_VELOCITIES_STORAGE 13
-#define BOUNDARY_STATES_STORAGE     14
-#define BOUNDARY_STARTS_STORAGE     15
+#define BOUNDARY_POSITIONS_BUFFER  12
+#define BOUNDARY_VELOCITIES_BUFFER 13
+#define BOUNDARY_STATES_BUFFER     14
+#define BOUNDARY_STARTS_BUFFER     15
 
 /* The grid, and particles on their way to another place */
-#define ORDERS_STORAGE         3
-#define CELLS_STORAGE          5
-#define RANKS_STORAGE          6
-#define SORTED_STORAGE         6
-#define OLD_POSITIONS_STORAGE  2
-#define OLD_VELOCITIES_STORAGE 5
-#define OLD_NAMES_STORAGE      7
+#define ORDERS_BUFFER         3
+#define CELLS_BUFFER          5
+#define RANKS_BUFFER          6
+#define SORTED_BUFFER         6
+#define OLD_POSITIONS_BUFFER  2
+#define OLD_VELOCITIES_BUFFER 5
+#define OLD_NAMES_BUFFER      7
 
 /* Emitters, drains; what is shown, what is plotted */
-#define LAYER_STORAGE  5
-#define MARKS_STORAGE  6
-#define VALUES_STORAGE 5
-#define RANGES_STORAGE 6
-#define PARTS_STORAGE  5
+#define LAYER_BUFFER  5
+#define MARKS_BUFFER  6
+#define VALUES_BUFFER 5
+#define RANGES_BUFFER 6
+#define PARTS_BUFFER  5
 
 /* Locations of uniforms: what a pass has of its own */
 #define PASS_DT_AT      0 /* s */

@@ -6,10 +6,10 @@
 #ifndef BOUNDARY_ACCESS
 #define BOUNDARY_ACCESS readonly
 #endif
-layout(std430, binding = BOUNDARY_POSITIONS_STORAGE) BOUNDARY_ACCESS buffer BoundaryPositions { vec4 boundary_position[]; }; // w: volume in friction
-layout(std430, binding = BOUNDARY_VELOCITIES_STORAGE) BOUNDARY_ACCESS buffer BoundaryVelocities { vec4 boundary_velocity[]; }; // w: viscosity
-layout(std430, binding = BOUNDARY_STATES_STORAGE) BOUNDARY_ACCESS buffer BoundaryStates { uvec2 boundary_state[]; }; // p V0^2, number
-layout(std430, binding = BOUNDARY_STARTS_STORAGE) readonly buffer BoundaryStarts { uint boundary_start[]; };
+layout(std430, binding = BOUNDARY_POSITIONS_BUFFER) BOUNDARY_ACCESS buffer BoundaryPositions { vec4 boundary_position[]; }; // w: volume in friction
+layout(std430, binding = BOUNDARY_VELOCITIES_BUFFER) BOUNDARY_ACCESS buffer BoundaryVelocities { vec4 boundary_velocity[]; }; // w: viscosity
+layout(std430, binding = BOUNDARY_STATES_BUFFER) BOUNDARY_ACCESS buffer BoundaryStates { uvec2 boundary_state[]; }; // p V0^2, number
+layout(std430, binding = BOUNDARY_STARTS_BUFFER) readonly buffer BoundaryStarts { uint boundary_start[]; };
 
 uvec2 boundary_row_of(ivec3 at, int row)
 {

@@ -3,11 +3,11 @@
 #include "shaders/sim/term_block.h"
 #include "sim/walk.glsl"
 #include "sim/pair_direction.glsl"
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; }; // w: volume
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = PRESSURES_STORAGE) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
-layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = ACCELERATIONS_STORAGE) writeonly buffer Accelerations { vec4 acceleration[]; };
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = ACCELERATIONS_BUFFER) writeonly buffer Accelerations { vec4 acceleration[]; };
 #include "sim/tension.glsl"
 
 // What a pair takes of one of the two.

@@ -7,7 +7,7 @@
 // behind each row. A shader declares position[] itself.
 #include "sim/cells.glsl"
 #include "sim/boundary.glsl"
-layout(std430, binding = STARTS_STORAGE) readonly buffer Starts { uint start[]; };
+layout(std430, binding = STARTS_BUFFER) readonly buffer Starts { uint start[]; };
 
 uvec2 row_of(ivec3 at, int row)
 {

@@ -1,5 +1,5 @@
 // The friction of no-slip walls, as sim/box/wall_drag.c has it: tables over the distances to one, two, three faces.
-layout(std430, binding = DRAG_STORAGE) readonly buffer DragTables { float drag_tables[]; };
+layout(std430, binding = DRAG_BUFFER) readonly buffer DragTables { float drag_tables[]; };
 
 float drag_of_faces(vec3 distances, int count)
 {

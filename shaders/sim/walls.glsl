@@ -4,7 +4,7 @@
 uniform samplerBuffer wall_texture;
 float wall_table(int at) { return texelFetch(wall_texture, at).x; }
 #else
-layout(std430, binding = WALLS_STORAGE) readonly buffer WallTables { float wall_tables[]; };
+layout(std430, binding = WALLS_BUFFER) readonly buffer WallTables { float wall_tables[]; };
 float wall_table(int at) { return wall_tables[at]; }
 #endif
 

@@ -6,22 +6,17 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHADERS = ROOT / 'shaders'
-LEFT = {'shaders/sim', 'sim/gl'}  # still to be named
 
 NUMBER_IN_GLSL = re.compile(r'\bbinding\s*=\s*\d|\blocation\s*=\s*\d+\s*\)\s*uniform')
-UNIFORM = r'glUniform\w+\(|glProgramUniform\w+\([^;]*?,\s*'
+UNIFORM = r'glUniform\w+\(|glProgramUniform\w+\([^;(]*?,\s*'
 BINDING = r'glBindTextureUnit\(|glBindTextures\(|glBindImageTexture\(|glBindBuffer\w+\(\w+_BUFFER,\s*'
 NUMBER_IN_C = re.compile(rf'(?:{UNIFORM}|{BINDING})\d+,')
-NAME = re.compile(r'^#define (\w+_(?:BLOCK|STORAGE|UNIT|IMAGE|AT))\s+(\d+)', re.M)
-
-
-def left(path):
-    return any(str(path.relative_to(ROOT)).startswith(folder + '/') for folder in LEFT)
+NAME = re.compile(r'^#define (\w+_(?:BLOCK|STORAGE|BUFFER|UNIT|IMAGE|AT))\s+(\d+)', re.M)
 
 
 def texts(folder, endings):
     return {path: path.read_text() for path in sorted(folder.rglob('*'))
-            if path.suffix in endings and not left(path)}
+            if path.suffix in endings}
 
 
 class Shaders(unittest.TestCase):

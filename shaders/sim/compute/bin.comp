@@ -1,10 +1,10 @@
 // The cell of each particle, and its place there, in any order.
 #include "sim/constants.glsl"
 #include "sim/cells.glsl"
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = CELLS_STORAGE) writeonly buffer Cells { uint cell[]; };
-layout(std430, binding = RANKS_STORAGE) writeonly buffer Ranks { uint rank[]; };
-layout(std430, binding = STARTS_STORAGE) buffer Counts { uint count[]; };
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = CELLS_BUFFER) writeonly buffer Cells { uint cell[]; };
+layout(std430, binding = RANKS_BUFFER) writeonly buffer Ranks { uint rank[]; };
+layout(std430, binding = STARTS_BUFFER) buffer Counts { uint count[]; };
 
 void main()
 {

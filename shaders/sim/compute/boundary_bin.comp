@@ -4,10 +4,10 @@
 #include "sim/in_box.glsl"
 #include "sim/solids.glsl"
 #include "sim/cells.glsl"
-layout(std430, binding = RESTS_STORAGE) readonly buffer Rests { vec4 rest[]; }; // in the solid's frame; w: which solid
-layout(std430, binding = CELLS_STORAGE) writeonly buffer Cells { uint cell[]; };
-layout(std430, binding = RANKS_STORAGE) writeonly buffer Ranks { uint rank[]; };
-layout(std430, binding = STARTS_STORAGE) buffer Counts { uint count[]; };
+layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // in the solid's frame; w: which solid
+layout(std430, binding = CELLS_BUFFER) writeonly buffer Cells { uint cell[]; };
+layout(std430, binding = RANKS_BUFFER) writeonly buffer Ranks { uint rank[]; };
+layout(std430, binding = STARTS_BUFFER) buffer Counts { uint count[]; };
 
 void main()
 {

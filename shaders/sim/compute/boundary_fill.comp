@@ -4,11 +4,11 @@
 #include "sim/solids.glsl"
 #define BOUNDARY_ACCESS
 #include "sim/walk.glsl"
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = PRESSURES_STORAGE) readonly buffer Pressures { vec2 pressure[]; };
-layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = RESTS_STORAGE) readonly buffer Rests { vec4 rest[]; };
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; };
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; };
 
 // Weighted sums over the fluid.
 vec3 density_x = vec3(0), v = vec3(0);

@@ -3,8 +3,8 @@
 #include "sim/solids.glsl"
 #define BOUNDARY_ACCESS writeonly
 #include "sim/boundary.glsl"
-layout(std430, binding = RESTS_STORAGE) readonly buffer Rests { vec4 rest[]; };
-layout(std430, binding = ORDERS_STORAGE) buffer Orders { uint order[]; };
+layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; };
+layout(std430, binding = ORDERS_BUFFER) buffer Orders { uint order[]; };
 
 void main()
 {

@@ -1,12 +1,12 @@
 // Those who stay, in their order; `before` is how many of them stand before each.
 #include "sim/constants.glsl"
-layout(std430, binding = OLD_POSITIONS_STORAGE) readonly buffer OldPositions { vec4 old_position[]; };
-layout(std430, binding = MARKS_STORAGE) readonly buffer Before { uint before[]; };
-layout(std430, binding = OLD_VELOCITIES_STORAGE) readonly buffer OldVelocities { vec4 old_velocity[]; };
-layout(std430, binding = OLD_NAMES_STORAGE) readonly buffer OldNames { uvec2 old_name[]; };
-layout(std430, binding = POSITIONS_STORAGE) writeonly buffer Positions { vec4 position[]; };
-layout(std430, binding = VELOCITIES_STORAGE) writeonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = NAMES_STORAGE) writeonly buffer Names { uvec2 name[]; };
+layout(std430, binding = OLD_POSITIONS_BUFFER) readonly buffer OldPositions { vec4 old_position[]; };
+layout(std430, binding = MARKS_BUFFER) readonly buffer Before { uint before[]; };
+layout(std430, binding = OLD_VELOCITIES_BUFFER) readonly buffer OldVelocities { vec4 old_velocity[]; };
+layout(std430, binding = OLD_NAMES_BUFFER) readonly buffer OldNames { uvec2 old_name[]; };
+layout(std430, binding = POSITIONS_BUFFER) writeonly buffer Positions { vec4 position[]; };
+layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = NAMES_BUFFER) writeonly buffer Names { uvec2 name[]; };
 
 void main()
 {

@@ -1,8 +1,8 @@
 // Who stays: fill_holds of sim/matter/seed.c, of none of the drains.
 #include "sim/constants.glsl"
 #include "shaders/sim/flow_block.h"
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = MARKS_STORAGE) writeonly buffer Marks { uint mark[]; }; // one more, 0, for the sum of all
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = MARKS_BUFFER) writeonly buffer Marks { uint mark[]; }; // one more, 0, for the sum of all
 
 bool drains_away(vec3 x)
 {

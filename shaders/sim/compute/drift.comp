@@ -4,8 +4,8 @@
 #ifdef SOLIDS
 #include "sim/solid_guard.glsl"
 #endif
-layout(std430, binding = POSITIONS_STORAGE) buffer Positions { vec4 position[]; };
-layout(std430, binding = VELOCITIES_STORAGE) buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 
 void main()
 {

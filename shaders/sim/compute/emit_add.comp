@@ -1,11 +1,11 @@
 // Those that have room, behind the particles that are there; `before` is the sum of the marks before each.
 #include "sim/constants.glsl"
 #include "shaders/sim/flow_block.h"
-layout(std430, binding = POSITIONS_STORAGE) writeonly buffer Positions { vec4 position[]; };
-layout(std430, binding = LAYER_STORAGE) readonly buffer Layer { float candidates[]; };
-layout(std430, binding = VELOCITIES_STORAGE) writeonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = MARKS_STORAGE) readonly buffer Before { uint before[]; };
-layout(std430, binding = NAMES_STORAGE) writeonly buffer Names { uvec2 name[]; };
+layout(std430, binding = POSITIONS_BUFFER) writeonly buffer Positions { vec4 position[]; };
+layout(std430, binding = LAYER_BUFFER) readonly buffer Layer { float candidates[]; };
+layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = MARKS_BUFFER) readonly buffer Before { uint before[]; };
+layout(std430, binding = NAMES_BUFFER) writeonly buffer Names { uvec2 name[]; };
 
 void main()
 {

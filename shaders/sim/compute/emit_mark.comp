@@ -6,9 +6,9 @@
 #ifdef SOLIDS
 #include "sim/solids.glsl"
 #endif
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = LAYER_STORAGE) readonly buffer Layer { float candidates[]; }; // x y z of each
-layout(std430, binding = MARKS_STORAGE) writeonly buffer Marks { uint mark[]; }; // one more, 0, for the sum of all
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = LAYER_BUFFER) readonly buffer Layer { float candidates[]; }; // x y z of each
+layout(std430, binding = MARKS_BUFFER) writeonly buffer Marks { uint mark[]; }; // one more, 0, for the sum of all
 
 bool taken = false;
 

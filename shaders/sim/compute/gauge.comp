@@ -2,10 +2,10 @@
 #include "sim/constants.glsl"
 #include "sim/gauge.glsl"
 #include "shaders/sim/gauge_part.h"
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; }; // w: volume
-layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; }; // id, fluid
-layout(std430, binding = PARTS_STORAGE) writeonly buffer Parts { GaugePart part[]; };
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; }; // id, fluid
+layout(std430, binding = PARTS_BUFFER) writeonly buffer Parts { GaugePart part[]; };
 layout(location = GRAVITY_C2_AT) uniform vec4 gravity_c2; // in the box's frame; c^2
 shared vec4 sums[64];
 shared float greatest[64];

@@ -2,9 +2,9 @@
 #include "sim/constants.glsl"
 #include "sim/cells.glsl"
 #include "shaders/sim/flow_block.h"
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = VELOCITIES_STORAGE) buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 
 void main()
 {

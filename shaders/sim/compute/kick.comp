@@ -6,11 +6,11 @@
 #include "common/nan.glsl"
 #ifdef NO_SLIP
 #include "sim/wall_drag.glsl"
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #endif
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; }; // w: volume
-layout(std430, binding = VELOCITIES_STORAGE) buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = ACCELERATIONS_STORAGE) readonly buffer Accelerations { vec4 acceleration[]; };
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { vec4 acceleration[]; };
 shared uint greatest[3];
 
 void main()

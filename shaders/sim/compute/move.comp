@@ -1,12 +1,12 @@
 // Particles into the order of their cells; behind a step that blew up nobody has made it, and they stay where they are.
 #include "sim/constants.glsl"
-layout(std430, binding = ORDERS_STORAGE) readonly buffer Orders { uint order[]; };
-layout(std430, binding = OLD_POSITIONS_STORAGE) readonly buffer OldPositions { vec4 old_position[]; };
-layout(std430, binding = OLD_VELOCITIES_STORAGE) readonly buffer OldVelocities { vec4 old_velocity[]; };
-layout(std430, binding = OLD_NAMES_STORAGE) readonly buffer OldNames { uvec2 old_name[]; };
-layout(std430, binding = POSITIONS_STORAGE) writeonly buffer Positions { vec4 position[]; };
-layout(std430, binding = VELOCITIES_STORAGE) writeonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = NAMES_STORAGE) writeonly buffer Names { uvec2 name[]; }; // id, fluid
+layout(std430, binding = ORDERS_BUFFER) readonly buffer Orders { uint order[]; };
+layout(std430, binding = OLD_POSITIONS_BUFFER) readonly buffer OldPositions { vec4 old_position[]; };
+layout(std430, binding = OLD_VELOCITIES_BUFFER) readonly buffer OldVelocities { vec4 old_velocity[]; };
+layout(std430, binding = OLD_NAMES_BUFFER) readonly buffer OldNames { uvec2 old_name[]; };
+layout(std430, binding = POSITIONS_BUFFER) writeonly buffer Positions { vec4 position[]; };
+layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = NAMES_BUFFER) writeonly buffer Names { uvec2 name[]; }; // id, fluid
 
 void main()
 {

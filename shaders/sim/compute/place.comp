@@ -1,9 +1,9 @@
 // Old places of the particles in the order of their cells.
 #include "sim/constants.glsl"
-layout(std430, binding = CELLS_STORAGE) readonly buffer Cells { uint cell[]; };
-layout(std430, binding = RANKS_STORAGE) readonly buffer Ranks { uint rank[]; };
-layout(std430, binding = STARTS_STORAGE) readonly buffer Starts { uint start[]; };
-layout(std430, binding = ORDERS_STORAGE) writeonly buffer Orders { uint order[]; };
+layout(std430, binding = CELLS_BUFFER) readonly buffer Cells { uint cell[]; };
+layout(std430, binding = RANKS_BUFFER) readonly buffer Ranks { uint rank[]; };
+layout(std430, binding = STARTS_BUFFER) readonly buffer Starts { uint start[]; };
+layout(std430, binding = ORDERS_BUFFER) writeonly buffer Orders { uint order[]; };
 
 void main()
 {

@@ -1,12 +1,12 @@
 // What the views want to know of each particle besides place and velocity, and the range of it.
 #include "sim/constants.glsl"
 #include "sim/in_order.glsl"
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; }; // w: volume
-layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { vec4 velocity[]; };
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; }; // id, fluid
-layout(std430, binding = PRESSURES_STORAGE) readonly buffer Pressures { vec2 pressure[]; };
-layout(std430, binding = VALUES_STORAGE) writeonly buffer Values { uint word[]; };
-layout(std430, binding = RANGES_STORAGE) buffer Ranges { uint range[]; }; // least and greatest of each scalar, in the order of bits
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; }; // id, fluid
+layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; };
+layout(std430, binding = VALUES_BUFFER) writeonly buffer Values { uint word[]; };
+layout(std430, binding = RANGES_BUFFER) buffer Ranges { uint range[]; }; // least and greatest of each scalar, in the order of bits
 layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
 shared uint least, greatest;
 

@@ -2,11 +2,11 @@
 // did. Counted by each for itself: in a cell of many a sort would be a long loop, and llvmpipe ends one after 65,535
 // rounds.
 #include "sim/constants.glsl"
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; }; // id, fluid
-layout(std430, binding = CELLS_STORAGE) readonly buffer Cells { uint cell[]; };
-layout(std430, binding = STARTS_STORAGE) readonly buffer Starts { uint start[]; };
-layout(std430, binding = ORDERS_STORAGE) readonly buffer Orders { uint order[]; };
-layout(std430, binding = SORTED_STORAGE) writeonly buffer Sorted { uint sorted[]; };
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; }; // id, fluid
+layout(std430, binding = CELLS_BUFFER) readonly buffer Cells { uint cell[]; };
+layout(std430, binding = STARTS_BUFFER) readonly buffer Starts { uint start[]; };
+layout(std430, binding = ORDERS_BUFFER) readonly buffer Orders { uint order[]; };
+layout(std430, binding = SORTED_BUFFER) writeonly buffer Sorted { uint sorted[]; };
 
 void main()
 {

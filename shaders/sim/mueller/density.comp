@@ -2,9 +2,9 @@
 #include "sim/constants.glsl"
 #include "sim/walls.glsl"
 #include "sim/walk.glsl"
-layout(std430, binding = POSITIONS_STORAGE) buffer Positions { vec4 position[]; }; // w: volume
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = PRESSURES_STORAGE) writeonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
 
 float sum = 0.0; // of the kernel, but for its scale
 

@@ -6,14 +6,14 @@
 #include "sim/walk.glsl"
 #ifdef SOLIDS
 #include "sim/solids.glsl"
-layout(std430, binding = RESTS_STORAGE) readonly buffer Rests { vec4 rest[]; }; // w: which solid
+layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: which solid
 #endif
-layout(std430, binding = POSITIONS_STORAGE) buffer Positions { vec4 position[]; }; // w: volume
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = PRESSURES_STORAGE) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
-layout(std430, binding = VELOCITIES_STORAGE) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone
 #ifdef DIFFUSION
-layout(std430, binding = SLOPES_STORAGE) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1 before this pass
+layout(std430, binding = SLOPES_BUFFER) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1 before this pass
 #endif
 layout(location = PASS_DT_AT) uniform float dt;
 

@@ -1,6 +1,6 @@
 // What shifting goes by, summed up along with the forces: wcsph_range of sim/cpu/pairs_wcsph.c. Without shifting, nothing.
 #ifdef SHIFTING
-layout(std430, binding = UNEVENS_STORAGE) writeonly buffer Unevens { vec4 uneven[]; }; // see shift.comp
+layout(std430, binding = UNEVENS_BUFFER) writeonly buffer Unevens { vec4 uneven[]; }; // see shift.comp
 
 // Sums of F x_ij and F r^2, those of an image, and of W.
 vec4 even_sum = vec4(0), even_image = vec4(0);

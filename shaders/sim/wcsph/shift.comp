@@ -1,9 +1,9 @@
 // Particles down the gradient of their number density: shift_range of sim/cpu/shift.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/term_block.h"
-layout(std430, binding = POSITIONS_STORAGE) buffer Positions { vec4 position[]; };
-layout(std430, binding = VELOCITIES_STORAGE) buffer Velocities { vec4 velocity[]; };       // w: rho / rho0 - 1
-layout(std430, binding = UNEVENS_STORAGE) readonly buffer Unevens { vec4 uneven[]; };   // two a particle: sum of F x_ij, share; n / n0 - 1
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };       // w: rho / rho0 - 1
+layout(std430, binding = UNEVENS_BUFFER) readonly buffer Unevens { vec4 uneven[]; };   // two a particle: sum of F x_ij, share; n / n0 - 1
 layout(location = PASS_DT_AT) uniform float dt;
 
 void main()

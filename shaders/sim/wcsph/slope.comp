@@ -4,10 +4,10 @@
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"
 #include "common/nan.glsl"
-layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { vec4 velocity[]; }; // w: rho / rho0 - 1
-layout(std430, binding = SLOPES_STORAGE) writeonly buffer Slopes { vec4 slope[]; };
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; }; // w: rho / rho0 - 1
+layout(std430, binding = SLOPES_BUFFER) writeonly buffer Slopes { vec4 slope[]; };
 
 // m^-1 b of the symmetric m; 0 where neighbours hardly span the space.
 vec3 renormalise(vec3 diagonal, vec3 mixed, vec3 b)

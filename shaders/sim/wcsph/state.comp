@@ -2,12 +2,12 @@
 // cpu_equation_of_state in sim/cpu/wcsph.c.
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
-layout(std430, binding = POSITIONS_STORAGE) buffer Positions { vec4 position[]; }; // w: volume
-layout(std430, binding = NAMES_STORAGE) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = PRESSURES_STORAGE) writeonly buffer Pressures { vec2 pressure[]; };     // p, p V^2
-layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { vec4 velocity[]; };     // w: rho / rho0 - 1
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };     // p, p V^2
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };     // w: rho / rho0 - 1
 #ifdef DIFFUSION
-layout(std430, binding = SLOPES_STORAGE) buffer Slopes { vec4 slope[]; };
+layout(std430, binding = SLOPES_BUFFER) buffer Slopes { vec4 slope[]; };
 #endif
 
 void main()

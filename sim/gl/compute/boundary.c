@@ -116,7 +116,7 @@ void compute_boundary_bind(const Compute *c)
         return;
     glBindBufferBase(GL_UNIFORM_BUFFER, SOLID_STEPS_BLOCK, b->block);
     glBindBufferBase(GL_UNIFORM_BUFFER, EXACT_SHAPES_BLOCK, b->exact);
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, BOUNDARY_POSITIONS_STORAGE, 4,
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, BOUNDARY_POSITIONS_BUFFER, 4,
                       (const GLuint[]){b->position, b->velocity, b->state, b->start});
 }
 
@@ -151,14 +151,14 @@ void compute_boundary_grid(Compute *c)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(b->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     compute_boundary_bind(c);
-    BIND([RESTS_STORAGE] = b->rest, [CELLS_STORAGE] = b->cell, [RANKS_STORAGE] = b->rank,
-         [STARTS_STORAGE] = b->start);
+    BIND([RESTS_BUFFER] = b->rest, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank,
+         [STARTS_BUFFER] = b->start);
     compute_run(c, COMPUTE_BOUNDARY_BIN, n);
     compute_scan(c, b->start, cells + 2);
-    BIND([CELLS_STORAGE] = b->cell, [RANKS_STORAGE] = b->rank, [STARTS_STORAGE] = b->start,
-         [ORDERS_STORAGE] = b->order);
+    BIND([CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank, [STARTS_BUFFER] = b->start,
+         [ORDERS_BUFFER] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_PLACE, n);
-    BIND([RESTS_STORAGE] = b->rest, [ORDERS_STORAGE] = b->order);
+    BIND([RESTS_BUFFER] = b->rest, [ORDERS_BUFFER] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_SORT, cells);
 }
 

@@ -25,8 +25,8 @@ bool compute_gauge(void *state, const double gravity[3])
         return false;
     glProgramUniform4f(c->program[COMPUTE_GAUGE], GRAVITY_C2_AT, (float)gravity[0], (float)gravity[1],
                        (float)gravity[2], c->constants->sound_speed * c->constants->sound_speed);
-    BIND([POSITIONS_STORAGE] = c->now.position, [VELOCITIES_STORAGE] = c->now.velocity,
-         [NAMES_STORAGE] = c->now.name, [PARTS_STORAGE] = c->gauge.buffer);
+    BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
+         [NAMES_BUFFER] = c->now.name, [PARTS_BUFFER] = c->gauge.buffer);
     compute_run(c, COMPUTE_GAUGE, (size_t)COMPUTE_GAUGE_GROUPS * COMPUTE_GROUP);
     c->gauged = c->count;
     mailbox_send(&c->gauge);

@@ -53,23 +53,23 @@ void compute_grid(void *state)
     unsigned order = c->order;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(c->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    BIND([POSITIONS_STORAGE] = c->now.position, [CELLS_STORAGE] = c->cell, [RANKS_STORAGE] = c->rank,
-         [STARTS_STORAGE] = c->start);
+    BIND([POSITIONS_BUFFER] = c->now.position, [CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank,
+         [STARTS_BUFFER] = c->start);
     compute_run(c, COMPUTE_BIN, c->count);
     compute_scan(c, c->start, cells + 1);
-    BIND([CELLS_STORAGE] = c->cell, [RANKS_STORAGE] = c->rank, [STARTS_STORAGE] = c->start,
-         [ORDERS_STORAGE] = c->order);
+    BIND([CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank, [STARTS_BUFFER] = c->start,
+         [ORDERS_BUFFER] = c->order);
     compute_run(c, COMPUTE_PLACE, c->count);
     if (c->constants->reproducible) {
-        BIND([NAMES_STORAGE] = c->now.name, [CELLS_STORAGE] = c->cell, [STARTS_STORAGE] = c->start,
-             [ORDERS_STORAGE] = c->order, [SORTED_STORAGE] = c->rank);
+        BIND([NAMES_BUFFER] = c->now.name, [CELLS_BUFFER] = c->cell, [STARTS_BUFFER] = c->start,
+             [ORDERS_BUFFER] = c->order, [SORTED_BUFFER] = c->rank);
         compute_run(c, COMPUTE_SORT, c->count);
         order = c->rank; /* which is free now */
     }
-    BIND([ORDERS_STORAGE] = order, [OLD_POSITIONS_STORAGE] = c->now.position,
-         [OLD_VELOCITIES_STORAGE] = c->now.velocity, [OLD_NAMES_STORAGE] = c->now.name,
-         [POSITIONS_STORAGE] = c->spare.position, [VELOCITIES_STORAGE] = c->spare.velocity,
-         [NAMES_STORAGE] = c->spare.name);
+    BIND([ORDERS_BUFFER] = order, [OLD_POSITIONS_BUFFER] = c->now.position,
+         [OLD_VELOCITIES_BUFFER] = c->now.velocity, [OLD_NAMES_BUFFER] = c->now.name,
+         [POSITIONS_BUFFER] = c->spare.position, [VELOCITIES_BUFFER] = c->spare.velocity,
+         [NAMES_BUFFER] = c->spare.name);
     compute_run(c, COMPUTE_MOVE, c->count);
     compute_swap(c);
     c->gridded = c->count;

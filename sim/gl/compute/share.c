@@ -15,9 +15,9 @@ static ParticleAttribute show(Compute *c, int what)
 {
     if (!c->shown[what])
         c->shown[what] = compute_buffer(c, "shown", 4 * c->capacity);
-    BIND([POSITIONS_STORAGE] = c->now.position, [VELOCITIES_STORAGE] = c->now.velocity,
-         [NAMES_STORAGE] = c->now.name, [PRESSURES_STORAGE] = c->pressure, [VALUES_STORAGE] = c->shown[what],
-         [RANGES_STORAGE] = c->ranges.buffer);
+    BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
+         [NAMES_BUFFER] = c->now.name, [PRESSURES_BUFFER] = c->pressure, [VALUES_BUFFER] = c->shown[what],
+         [RANGES_BUFFER] = c->ranges.buffer);
     glProgramUniform1i(c->program[COMPUTE_SHOW], SHOWN_SCALAR_AT, what);
     compute_run(c, COMPUTE_SHOW, c->count);
     return (ParticleAttribute){c->shown[what], 0, 4};

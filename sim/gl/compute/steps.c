@@ -90,8 +90,8 @@ void compute_shift(void *state, float dt)
 {
     Compute *c = state;
     glProgramUniform1f(c->program[COMPUTE_SHIFT], PASS_DT_AT, dt);
-    BIND([POSITIONS_STORAGE] = c->now.position, [VELOCITIES_STORAGE] = c->now.velocity,
-         [UNEVENS_STORAGE] = c->uneven);
+    BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
+         [UNEVENS_BUFFER] = c->uneven);
     compute_run(c, COMPUTE_SHIFT, c->count);
 }
 
