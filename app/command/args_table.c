@@ -4,7 +4,6 @@
 #include "app/hand/play_commands.h"
 #include "app/lab/bench_table.h"
 #include "app/scene/keys.h"
-#include "app/scene/lists.h"
 
 #include <stddef.h>
 
@@ -109,9 +108,9 @@ const OptionRow option_rows[] = {
      .help = "any key of the scene, such as solver.step.dt=0.01; repeat for more"},
     {"--particles", "N", ALL, OPTION_PARTICLES, AT(settings.particles), .min = 1, .max = 2147483647,
      .help = "the spacing that gives about N particles"},
-    {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes", .names = backend_choice},
-    {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations", .names = method_choice},
-    {"--view", "NAME", ALL & ~(VALIDATE | CHART), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn", .names = view_choice},
+    {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes"},
+    {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations"},
+    {"--view", "NAME", ALL & ~(VALIDATE | CHART), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn"},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
     {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
     {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
@@ -180,8 +179,10 @@ void args_help(Command command, FILE *file)
             continue;
         snprintf(left, sizeof left, "%s %s", option->name, option->value ? option->value : "");
         fprintf(file, "  %-22s %s", left, option->help);
-        for (int i = 0; option->names && option->names(i); i++)
-            fprintf(file, "%s%s", i ? ", " : ": ", option->names(i));
+        const Key *key = option->path ? scene_key_find(option->path) : NULL;
+        const Key named = {.choice = option->names}, *names = key ? key : &named;
+        for (int i = 0; key_choice(names, i); i++)
+            fprintf(file, "%s%s", i ? ", " : ": ", key_choice(names, i));
         if (option->kind == OPTION_SIZE)
             fprintf(file, " (%dx%d)", row->width, row->height);
         fputc('\n', file);

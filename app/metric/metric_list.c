@@ -73,14 +73,6 @@ const MetricKind metric_kinds[] = {
     {NULL, NULL, NULL, 0, false, NULL},
 };
 
-const char *metric_choice(int index)
-{
-    for (int i = 0; metric_kinds[i].name; i++)
-        if (i == index)
-            return metric_kinds[i].name;
-    return NULL;
-}
-
 int metric_defaults(int metrics[])
 {
     metrics[0] = 0; /* centre_of_mass */

@@ -25,9 +25,6 @@ typedef struct MetricKind {
 /* Ended by a NULL name. */
 extern const MetricKind metric_kinds[];
 
-/* The name at `index`, NULL from the end of the list on. */
-const char *metric_choice(int index);
-
 /* What a scene that names none is compared by: their places in the list; how many. */
 int metric_defaults(int metrics[]);
 

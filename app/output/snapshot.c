@@ -7,6 +7,7 @@
 #include "app/base/output_lock.h"
 #include "app/output/snapshot_file.h"
 #include "app/scene/keys.h"
+#include "sim/base/color.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -12,15 +12,18 @@ typedef struct Line {
     int size;
 } Line;
 
-/* Keys that change no bit of a run; what a preset fills in has lines of its own. */
+/* Whether the line's key changes no bit of a run: by its row, and of a key that is no more by the row of the
+   mapping that it stood in. What a preset fills in has lines of its own. */
 static bool is_idle(Line line)
 {
-    static const char *const idle[] = {
-        "title ", "view.", "solver.threads ", "solver.step.realtime ", "solver.preset ", "metrics "};
-    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++)
-        if (strncmp(line.text, idle[i], strlen(idle[i])) == 0)
-            return true;
-    return false;
+    char path[128];
+    snprintf(path, sizeof path, "%.*s", (int)strcspn(line.text, " "), line.text);
+    const Key *key = scene_key_find(path);
+    for (char *dot; !key && (dot = strrchr(path, '.'));) {
+        *dot = '\0';
+        key = scene_key_find(path);
+    }
+    return key && key->flags & KEY_IDLE;
 }
 
 /* The next line of `*text` that counts; false at the end. */

@@ -2,6 +2,7 @@
 #include "app/panel/panel_parts.h"
 #include "app/scene/keys.h"
 #include "render/frame/legend.h"
+#include "sim/base/color.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -33,9 +33,6 @@ void key_help_text(const Key *key, char *text, size_t size);
 /* A scene that says nothing; fluids and motions come from their rows' `init`. */
 void scene_default(Scene *scene);
 
-double srgb_to_linear(double value);
-double linear_to_srgb(double value);
-
 /* The table as Markdown: `slosh help keys`. */
 void scene_keys_print(FILE *file);
 

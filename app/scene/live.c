@@ -84,8 +84,7 @@ static char *base_of(Scene *scene, const Change *change)
 static bool in_world(const Scene *scene, const Change *change, const char *base)
 {
     const uintptr_t world = (uintptr_t)&scene->world, field = (uintptr_t)base + change->key->offset;
-    return field >= world && field < world + sizeof scene->world &&
-           strcmp(change->key->path, "fluids[].color") != 0;
+    return field >= world && field < world + sizeof scene->world && !(change->key->flags & KEY_IDLE);
 }
 
 static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_world)

@@ -1,9 +1,12 @@
 /* The table of keys and a scene's settings as text for people. */
 #include "app/scene/keys.h"
+#include "sim/base/color.h"
 
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { PATH_SIZE = 128 };
 
 static void print_triple(char *text, size_t size, const char *format, const double v[3])
 {
@@ -127,47 +130,48 @@ static bool is_container(KeyType type)
     return type == KEY_MAPPING || type == KEY_VARIANT || type == KEY_LIST;
 }
 
-/* What the default column is read from. */
-typedef struct Defaults {
+/* What the default column is read from: a scene that says nothing and, under a list, an element in its first
+ * state. */
+typedef union Defaults {
     Scene scene;
-    FluidDef fluid; /* these three have defaults other than zero */
-    Fill fill;
-    SolidDef solid;
-    Motion motion;
-    Emit zero;
+    char element[sizeof(Scene)];
 } Defaults;
 
-static void defaults_make(Defaults *defaults)
+/* The innermost list that the key stands in; NULL: none. */
+static const Key *list_around(const Key *key)
 {
-    *defaults = (Defaults){0};
-    scene_default(&defaults->scene);
-    scene_key_find("fluids")->init(&defaults->fluid, 0);
-    scene_key_find("fluids[].fill")->init(&defaults->fill, 0);
-    scene_key_find("solids")->init(&defaults->solid, 0);
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s", key->path);
+    char *end = NULL;
+    for (char *at = path; (at = strstr(at, "[]")); at += strlen("[]"))
+        end = at;
+    if (end)
+        *end = '\0';
+    return end ? scene_key_find(path) : NULL;
 }
 
-static const void *default_base(const Defaults *defaults, const Key *key)
+static void defaults_of(const Key *key, Defaults *defaults)
 {
-    if (!strchr(key->path, '['))
-        return &defaults->scene;
-    if (strstr(key->path, "emit[]") || strncmp(key->path, "drains", 6) == 0)
-        return &defaults->zero;
-    if (strstr(key->path, "fill[]"))
-        return &defaults->fill;
-    if (strncmp(key->path, "fluids[]", 8) == 0)
-        return &defaults->fluid;
-    return strstr(key->path, "motion[]") ? (const void *)&defaults->motion : &defaults->solid;
+    const Key *list = list_around(key);
+    memset(defaults, 0, sizeof *defaults);
+    if (!list)
+        scene_default(&defaults->scene);
+    else if (list->init)
+        list->init(defaults->element, 0);
 }
 
-static void print_default(const Key *key, const Defaults *defaults, FILE *file)
+static void print_default(const Key *key, FILE *file)
 {
+    static Defaults defaults;
     char value[128] = "";
     if (key->flags & KEY_REQUIRED)
         snprintf(value, sizeof value, "required");
     else if (key->fallback)
         snprintf(value, sizeof value, "%s", key->fallback);
-    else if (!is_container(key->type))
-        key_value_text(key, default_base(defaults, key), value, sizeof value);
+    else if (!is_container(key->type)) {
+        defaults_of(key, &defaults);
+        key_value_text(key, &defaults, value, sizeof value);
+    }
     fprintf(file, " %s |", value);
 }
 
@@ -191,8 +195,6 @@ void scene_keys_print(FILE *file)
     };
     int count;
     const Key *keys = scene_keys(&count);
-    Defaults defaults;
-    defaults_make(&defaults);
     fprintf(file, "| key | type | unit | range | default | live | meaning |\n");
     fprintf(file, "| --- | --- | --- | --- | --- | --- | --- |\n");
     for (int i = 0; i < count; i++) {
@@ -203,12 +205,10 @@ void scene_keys_print(FILE *file)
                 keys[i].type == KEY_LIST   ? " entries"
                 : keys[i].type == KEY_TEXT ? " bytes"
                                            : "");
-        print_default(&keys[i], &defaults, file);
+        print_default(&keys[i], file);
         fprintf(file, " %s | %s |\n", keys[i].flags & KEY_LIVE ? "yes" : "", help);
     }
 }
-
-enum { PATH_SIZE = 128 };
 
 /* Where a printing walk stands: the row's parent, the same with indices, and what offsets count from. */
 typedef struct Walk {

@@ -1,6 +1,7 @@
 #include "app/scene/value.h"
 
 #include "app/base/suggest.h"
+#include "sim/base/color.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,19 +1,19 @@
 #include "sim/base/scalar.h"
 
-static const struct {
-    const char *name, *unit;
-} scalars[] = {
+#include <stddef.h>
+
+const ScalarRow scalar_list[] = {
 #define X(NAME, name, unit) {name, unit},
     SCALAR_LIST(X)
 #undef X
-};
+        {NULL, NULL}};
 
 const char *scalar_name(Scalar scalar)
 {
-    return scalars[scalar].name;
+    return scalar_list[scalar].name;
 }
 
 const char *scalar_unit(Scalar scalar)
 {
-    return scalars[scalar].unit;
+    return scalar_list[scalar].unit;
 }

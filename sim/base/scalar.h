@@ -18,6 +18,13 @@ typedef enum Scalar {
         SCALAR_COUNT
 } Scalar;
 
+/* In the order of Scalar, ended by a NULL name. */
+typedef struct ScalarRow {
+    const char *name, *unit;
+} ScalarRow;
+
+extern const ScalarRow scalar_list[];
+
 const char *scalar_name(Scalar scalar);
 const char *scalar_unit(Scalar scalar);
 

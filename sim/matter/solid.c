@@ -1,6 +1,9 @@
 #include "sim/matter/solid.h"
 
 #include <math.h>
+#include <stddef.h>
+
+const char *const slip_names[] = {[SLIP_FREE] = "free", [SLIP_NONE] = "none", NULL};
 
 const char *solid_name(SolidKind kind)
 {

@@ -29,6 +29,8 @@ typedef enum SolidKind {
 /* How fluid passes a surface. */
 typedef enum Slip { SLIP_FREE, SLIP_NONE } Slip;
 
+extern const char *const slip_names[]; /* in its order, ended by NULL */
+
 /* Fields that a kind does not name are unused. All in the box's frame. */
 typedef struct SolidDef {
     SolidKind kind;

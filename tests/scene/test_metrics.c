@@ -62,7 +62,7 @@ static double value_of(World *world, const char *name, int component)
     double out[METRIC_NUMBERS] = {0};
     MetricState state = {.def = NULL};
     int m = 0;
-    while (strcmp(metric_choice(m), name) != 0)
+    while (strcmp(metric_kinds[m].name, name) != 0)
         m++;
     assert_true(metric_state_read(&state, &scene.world, world, &m, 1));
     metric_kinds[m].of(&state, out);
@@ -116,10 +116,10 @@ static void the_list_is_whole(void **state)
     for (; metric_kinds[count].name; count++) {
         assert_true(*metric_kinds[count].help && metric_kinds[count].unit && metric_kinds[count].of);
         assert_true(metric_kinds[count].numbers == 1 || metric_kinds[count].numbers == METRIC_NUMBERS);
-        assert_ptr_equal(metric_choice(count), metric_kinds[count].name);
+        assert_ptr_equal(key_choice(scene_key_find("metrics"), count), metric_kinds[count].name);
     }
     assert_true(count >= 5);
-    assert_null(metric_choice(count));
+    assert_null(key_choice(scene_key_find("metrics"), count));
 }
 
 int main(void)

@@ -60,7 +60,7 @@ DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device", "window"}  # r
 VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]
 
 # What is left to cut: circles by their first file.
-CIRCLES_LEFT = ["app/scene/advise", "sim/cpu/pair_loop", "sim/world/backend"]
+CIRCLES_LEFT = ["sim/cpu/pair_loop", "sim/world/backend"]
 
 
 # What GLSL includes too: C fills it. Views and backends have their own in a folder of their name.

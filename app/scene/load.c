@@ -1,3 +1,4 @@
+/* Reading a scene: the file, the command line, the checks, what follows from them. */
 #include "app/scene/scene.h"
 
 #include "app/base/path.h"

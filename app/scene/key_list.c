@@ -1,0 +1,163 @@
+/* The groups of keys, one after another: the table. */
+#include "app/scene/keys.h"
+
+#include "app/metric/metric_list.h"
+#include "app/scene/preset.h"
+#include "render/frame/view.h"
+#include "render/renderer.h"
+#include "sim/base/key_rows.h"
+#include "sim/world/method.h"
+#include "sim/world/world.h"
+
+#include <assert.h>
+#include <pthread.h>
+#include <stddef.h>
+#include <string.h>
+
+static const KeyOwner chart = {
+    .name = "slosh chart", .command = "chart", .need = "slosh chart, which alone reads it"};
+
+/* A scene's own, in the places that they have among the others. Bounds of all keys are wide: they catch slips
+   of the unit and of the sign, not taste. */
+/* clang-format off */
+static const Key title_keys[] = {
+    TEXT("title", L | I, sizeof((Scene *)0)->title, offsetof(Scene, title), "the file's name", "what the scene shows"),
+    KEYS_END,
+};
+static const Key preset_keys[] = {
+    CHOICE_OF("solver.preset", I, preset_list, offsetof(Scene, preset),
+           "fills in what the scene does not name; accurate: wcsph with the settings that slosh validate measures"),
+    KEYS_END,
+};
+static const Key realtime_keys[] = {
+    BOOLEAN("solver.step.realtime", L | I, offsetof(Scene, realtime),
+            "in the window, simulate as many frames as the clock asks for; false: as many as it can"),
+    KEYS_END,
+};
+static const Key metric_keys[] = {
+    NAMES_OF("metrics", 1, SCENE_METRICS_MAX, metric_kinds, offsetof(Scene, metrics), offsetof(Scene, metric_count),
+          "what is compared of two runs of the scene, [front, kinetic_energy] and so on; slosh info explains them", .owner = &chart, .flags = I),
+    KEYS_END,
+};
+/* clang-format on */
+
+/* Where the rows of each owner stand: beside the struct that they fill. */
+extern const Key box_keys[], fluid_keys[], solid_keys[], solver_keys[], step_keys[],
+    box_motion_keys[];                                            /* sim/matter */
+extern const Key motion_keys[], solid_motion_keys[], hand_keys[]; /* sim/box */
+extern const Key method_keys[], backend_keys[];                   /* sim/world */
+extern const Key view_keys[], view_frame_keys[];                  /* render/frame */
+
+enum { KEYS_MAX = 512 };
+
+static Key table[KEYS_MAX];
+static int table_count;
+
+static size_t moved(size_t offset, size_t by)
+{
+    return offset == KEY_NOWHERE ? KEY_NOWHERE : offset + by;
+}
+
+/* The mapping that a row stands in; NULL: none. */
+static const Key *mapping_of(const Key *key)
+{
+    const Key *above = NULL;
+    for (const Key *row = table; row < table + table_count; row++) {
+        const size_t length = strlen(row->path);
+        if (row->type == KEY_MAPPING && strncmp(key->path, row->path, length) == 0 &&
+            key->path[length] == '.')
+            above = row;
+    }
+    return above;
+}
+
+/* Elements of lists have offsets of their own. */
+static void table_add(const Key *key, size_t at, const KeyOwner *owner)
+{
+    assert(table_count < KEYS_MAX);
+    Key *row = &table[table_count];
+    const Key *above = mapping_of(key);
+    const size_t by = strstr(key->path, "[]") ? 0 : at;
+    *row = *key;
+    row->offset = moved(key->offset, by);
+    row->aux = moved(key->aux, by);
+    row->flags |= above ? above->flags & KEY_IDLE : 0;
+    row->owner = key->owner ? key->owner : owner;
+    table_count++;
+}
+
+static void add_rows(const Key *rows, size_t at, const KeyOwner *owner)
+{
+    for (const Key *key = rows; key && key->path; key++)
+        table_add(key, at, owner);
+}
+
+/* The own settings of each method. */
+static void add_methods(void)
+{
+    static KeyOwner owners[METHODS_MAX];
+    const Method *const *method = method_list();
+    for (int i = 0; method[i]; i++) {
+        owners[i] = (KeyOwner){.name = method[i]->name, .key = "solver.method", .value = method[i]->name};
+        add_rows(method[i]->keys, offsetof(Scene, world.of_method) + (size_t)i * sizeof(MethodDef),
+                 &owners[i]);
+    }
+}
+
+/* The own settings of each view. */
+static void add_views(void)
+{
+    static KeyOwner owners[VIEW_KINDS_MAX];
+    for (int i = 0; view_at(i); i++) {
+        owners[i] = (KeyOwner){.key = "view.kind", .value = view_at(i)->name};
+        add_rows(view_at(i)->keys, offsetof(Scene, view.of_view) + (size_t)i * sizeof(ViewOwn), &owners[i]);
+    }
+}
+
+/* All groups, in the order in which people see them: rows, where the struct that they fill stands in a Scene,
+   and the owner of rows that name none (NULL: whatever the scene is, they are read). */
+static void table_make(void)
+{
+    const size_t world = offsetof(Scene, world), view = offsetof(Scene, view);
+    add_rows(title_keys, 0, NULL);
+    add_rows(box_keys, world, NULL);
+    add_rows(fluid_keys, world, NULL);
+    add_rows(solid_keys, world, NULL);
+    add_rows(solid_motion_keys, 0, NULL);
+    add_rows(method_keys, world, NULL);
+    add_rows(preset_keys, 0, NULL);
+    add_methods();
+    add_rows(backend_keys, world, NULL);
+    add_rows(solver_keys, world, NULL);
+    add_rows(step_keys, world, NULL);
+    add_rows(realtime_keys, 0, NULL);
+    add_rows(hand_keys, offsetof(Scene, world.limits), NULL);
+    add_rows(box_motion_keys, world, NULL);
+    add_rows(motion_keys, 0, NULL);
+    add_rows(metric_keys, 0, NULL);
+    add_rows(view_keys, view, NULL);
+    add_views();
+    add_rows(view_frame_keys, view, NULL);
+}
+
+const Key *scene_keys(int *count)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, table_make);
+    *count = table_count;
+    return table;
+}
+
+const KeyOwner *key_owner(const Key *key)
+{
+    while (key && !key->owner)
+        key = mapping_of(key);
+    return key ? key->owner : NULL;
+}
+
+void scene_default(Scene *scene)
+{
+    *scene = (Scene){.world = world_def_default(), .view = view_def_default(), .realtime = true};
+    snprintf(scene->preset, sizeof scene->preset, "%s", preset_list[0].name);
+    scene->metric_count = metric_defaults(scene->metrics);
+}

@@ -1,0 +1,83 @@
+/* Keys of the fluids: what they are, what they fill at the start, where they come in and go. */
+#include "sim/base/color.h"
+#include "sim/base/key_rows.h"
+#include "sim/matter/world_def.h"
+
+#include <stdio.h>
+
+#define AT(field)    offsetof(WorldDef, field)
+#define FLUID(field) offsetof(FluidDef, field)
+#define FILL(field)  offsetof(Fill, field)
+#define EMIT(field)  offsetof(Emit, field)
+
+static const KeyOwner emitters = {
+    .name = "with emitters", .key = "fluids[].emit", .need = "an emitter (fluids[].emit)"};
+static const KeyOwner tension = {.name = "with solver.surface_tension",
+                                 .key = "solver.surface_tension",
+                                 .need = "a model (solver.surface_tension)"};
+
+static void fluid_init(void *element, int index)
+{
+    /* Told apart by people with any colour vision: Okabe and Ito, "Color universal design", 2008. */
+    static const double palette[][3] = {{0.00, 0.45, 0.70}, {0.90, 0.62, 0.00}, {0.00, 0.62, 0.45},
+                                        {0.80, 0.47, 0.65}, {0.34, 0.71, 0.91}, {0.84, 0.37, 0.00},
+                                        {0.94, 0.89, 0.26}, {0.30, 0.30, 0.30}};
+    FluidDef *fluid = element;
+    snprintf(fluid->name, sizeof fluid->name, "fluid %d", index + 1);
+    fluid->density = 1000; /* water */
+    for (int k = 0; k < 3; k++)
+        fluid->color[k] = (float)srgb_to_linear(palette[index % 8][k]);
+}
+
+static void fill_init(void *element, int index)
+{
+    (void)index;
+    ((Fill *)element)->axis[1] = 1;
+}
+
+/* clang-format off */
+const Key fluid_keys[] = {
+    LIST("fluids", R, 1, FLUIDS_MAX, AT(fluids), AT(fluid_count), FluidDef, fluid_init,
+         "the fluids; where fills overlap, the first has the place"),
+    TEXT("fluids[].name", 0, NAME_SIZE, FLUID(name), "fluid 1, fluid 2, ...", "for the legend; each its own"),
+    NUMBER("fluids[].density", 0, "kg/m3", 0.001, 1e5, FLUID(density), "at rest"),
+    CURVE("fluids[].viscosity", L, "Pa s", 0, 1e6, FLUID(viscosity), FLUID(viscosity_table), "dynamic; water 0.001, olive oil 0.08, honey 10; or a table over time such as [[0, 50], [2, 50], [6, 0.1]]: seconds (ascending) and Pa s, at most 16 rows, straight lines between them, constant before and after"),
+    NUMBER("fluids[].surface_tension", 0, "N/m", 0, 1000, FLUID(surface_tension), "water 0.072", .owner = &tension),
+    VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
+    NUMBER("fluids[].taylor_green", 0, "m/s", 0, 1000, FLUID(taylor_green), "besides it at the start Taylor and Green's vortices of that speed, two by two in x and y, with their pressure"),
+    COLOR("fluids[].color", L | I | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
+    LIST("fluids[].fill", 0, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, fill_init,
+         "what the fluid fills at the start: blocks, balls and cylinders; a fluid needs this or emitters"),
+    VARIANT("fluids[].fill[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
+    VEC3("fluids[].fill[].block.min", R, "m", -1000, 1000, FILL(min), "its corner with the least x, y, z"),
+    VEC3("fluids[].fill[].block.max", R, "m", -1000, 1000, FILL(max), "its corner with the greatest x, y, z"),
+    VARIANT("fluids[].fill[].ball", FILL(kind), FILL_BALL, "a ball"),
+    VEC3("fluids[].fill[].ball.centre", R, "m", -1000, 1000, FILL(centre), "its centre"),
+    NUMBER("fluids[].fill[].ball.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
+    VARIANT("fluids[].fill[].cylinder", FILL(kind), FILL_CYLINDER, "a cylinder, in three dimensions"),
+    VEC3("fluids[].fill[].cylinder.centre", R, "m", -1000, 1000, FILL(centre), "its centre"),
+    NUMBER("fluids[].fill[].cylinder.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
+    NUMBER("fluids[].fill[].cylinder.height", R | O, "m", 0, 1000, FILL(height), "its length"),
+    VEC3("fluids[].fill[].cylinder.axis", 0, "", -1000, 1000, FILL(axis), "its direction"),
+
+    LIST("fluids[].emit", 0, 0, EMITS_MAX, FLUID(emits), FLUID(emit_count), Emit, NULL,
+         "what sends it out: a lattice at rest density, layer by layer, where there is room"),
+    VARIANT("fluids[].emit[].disk", EMIT(kind), 0, "a disk; in two dimensions a line"),
+    VEC3("fluids[].emit[].disk.centre", R, "m", -1000, 1000, EMIT(centre), "its centre"),
+    VEC3("fluids[].emit[].disk.direction", R, "", -1000, 1000, EMIT(direction), "where the fluid goes; of any length but zero"),
+    NUMBER("fluids[].emit[].disk.radius", R | O, "m", 0, 1000, EMIT(radius), "its radius"),
+    NUMBER("fluids[].emit[].speed", R | O, "m/s", 0, 1000, EMIT(speed), "of the fluid, in the box's frame"),
+    NUMBER("fluids[].emit[].start", 0, "s", 0, 1e6, EMIT(start), "nothing comes before it"),
+    NUMBER("fluids[].emit[].duration", 0, "s", 0, 1e6, EMIT(duration), "0: for ever"),
+    INTEGER("particles.most", 0, 1, 2000000000, AT(most), "upper limit on particles; emitters pause while it is reached", .owner = &emitters),
+    LIST("drains", 0, 0, DRAINS_MAX, AT(drains), AT(drain_count), Fill, NULL,
+         "where fluid leaves the scene"),
+    VARIANT("drains[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
+    VEC3("drains[].block.min", R, "m", -1000, 1000, FILL(min), "its corner with the least x, y, z"),
+    VEC3("drains[].block.max", R, "m", -1000, 1000, FILL(max), "its corner with the greatest x, y, z"),
+    VARIANT("drains[].ball", FILL(kind), FILL_BALL, "a ball"),
+    VEC3("drains[].ball.centre", R, "m", -1000, 1000, FILL(centre), "its centre"),
+    NUMBER("drains[].ball.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
+    KEYS_END,
+};
+/* clang-format on */

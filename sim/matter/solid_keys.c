@@ -1,0 +1,53 @@
+/* Keys of the solids. */
+#include "sim/base/color.h"
+#include "sim/base/key_rows.h"
+#include "sim/matter/world_def.h"
+
+#define AT(field)    offsetof(WorldDef, field)
+#define SOLID(field) offsetof(SolidDef, field)
+
+/* What each kind of solid names. */
+#define CENTRE(S, HELP)    VEC3(S ".centre", R, "m", -1000, 1000, SOLID(centre), HELP),
+#define DIRECTION(S, HELP) VEC3(S ".axis", 0, "", -1000, 1000, SOLID(axis), HELP),
+#define RADIUS(S, HELP)    NUMBER(S ".radius", R | O, "m", 0, 1000, SOLID(radius), HELP),
+
+#define FIELDS_SPHERE(S) CENTRE(S, "its centre") RADIUS(S, "its radius")
+#define FIELDS_BOX(S)                                                                                        \
+    CENTRE(S, "its centre")                                                                                  \
+    VEC3(S ".size", R, "m", 0, 1000, SOLID(size), "lengths of its edges"),                                   \
+        DIRECTION(S, "what it is turned about; in two dimensions [0, 0, 1]")                                 \
+            NUMBER(S ".angle", 0, "degrees", -360, 360, SOLID(angle_deg), "how far it is turned"),
+#define FIELDS_CYLINDER(S)                                                                                   \
+    CENTRE(S, "its centre")                                                                                  \
+    RADIUS(S, "its radius")                                                                                  \
+    NUMBER(S ".height", R | O, "m", 0, 1000, SOLID(height), "its length"), DIRECTION(S, "its direction")
+#define FIELDS_BOWL(S)                                                                                       \
+    CENTRE(S, "of its sphere, in the middle of its opening")                                                 \
+    RADIUS(S, "inside")                                                                                      \
+    NUMBER(S ".thickness", 0, "m", 0, 1000, SOLID(thickness), "of its wall; 0: the support radius"),         \
+        DIRECTION(S, "where it opens to")
+#define SOLID_ROWS(KIND, NAME, HELP)                                                                         \
+    VARIANT("solids[]." NAME, SOLID(kind), SOLID_##KIND, HELP), FIELDS_##KIND("solids[]." NAME)
+
+static void solid_init(void *element, int index)
+{
+    (void)index;
+    SolidDef *solid = element;
+    solid->axis[1] = 1;
+    for (int k = 0; k < 3; k++)
+        solid->color[k] = (float)srgb_to_linear(0.62); /* a grey that no fluid has */
+}
+
+/* clang-format off */
+const Key solid_keys[] = {
+    LIST("solids", 0, 0, SOLIDS_MAX, AT(solids), AT(solid_count), SolidDef, solid_init,
+         "bodies in the box that the fluid flows around, in its frame; each has one shape"),
+    SOLID_LIST(SOLID_ROWS)
+    CHOICE_OF("solids[].slip", KEY_INDEX, slip_names, SOLID(slip),
+           "free: fluid glides along it; none: it sticks, by the fluid's viscosity"),
+    COLOR("solids[].color", I | KEY_SINGLE, SOLID(color), NULL, "sRGB: [red, green, blue], each 0 to 1"),
+    LIST("solids[].motion", 0, 0, MOTIONS_MAX, SOLID(motions), SOLID(motion_count), Motion, NULL,
+         "how it moves in the box; all together, turns about its centre"),
+    KEYS_END,
+};
+/* clang-format on */

@@ -1,0 +1,29 @@
+/* Keys that choose a method and a backend. */
+#include "sim/base/key_rows.h"
+#include "sim/world/method.h"
+#include "sim/world/world.h"
+
+#define AT(field) offsetof(WorldDef, field)
+
+static const char *method_name(int index)
+{
+    return world_methods()[index].name;
+}
+
+static const char *backend_name(int index)
+{
+    return world_backends()[index].name;
+}
+
+/* clang-format off */
+const Key method_keys[] = {
+    MAPPING("solver", "how the fluid is computed"),
+    CHOICE("solver.method", 0, method_name, AT(method), "the equations"),
+    KEYS_END,
+};
+
+const Key backend_keys[] = {
+    CHOICE("solver.backend", L, backend_name, AT(backend), "what computes them"),
+    KEYS_END,
+};
+/* clang-format on */
