@@ -122,17 +122,18 @@ static bool check_hand(const SnapshotReader *reader, const char *path, const cha
     return same;
 }
 
-static bool state_of(const SnapshotStep *step, WorldState *state)
+static bool state_of(const SnapshotStep *step, const Method *method, WorldState *state)
 {
-    if (!world_state_reserve(state, step->count))
+    if (!world_state_reserve(state, method, step->count))
         return false;
     state->numbers = step->restart;
     const ParticleColumns *p = &state->particles;
     float *const to[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->compression};
     const float *const from[] = {step->position[0], step->position[1], step->position[2], step->velocity[0],
                                  step->velocity[1], step->velocity[2], step->compression};
-    for (size_t k = 0; step->count > 0 && k < sizeof to / sizeof *to; k++)
-        memcpy(to[k], from[k], step->count * sizeof(float));
+    for (size_t k = 0; k < sizeof to / sizeof *to; k++)
+        if (to[k] && step->count > 0)
+            memcpy(to[k], from[k], step->count * sizeof(float));
     for (size_t i = 0; i < step->count; i++) {
         p->fluid[i] = (uint8_t)step->fluid[i];
         p->id[i] = (uint32_t)step->id[i];
@@ -140,7 +141,8 @@ static bool state_of(const SnapshotStep *step, WorldState *state)
     return true;
 }
 
-static bool read_last(SnapshotReader *reader, const char *path, WorldState *state, Error *error)
+static bool read_last(SnapshotReader *reader, const char *path, const Method *method, WorldState *state,
+                      Error *error)
 {
     SnapshotStep step;
     const size_t steps = snapshot_count_steps(reader);
@@ -149,7 +151,7 @@ static bool read_last(SnapshotReader *reader, const char *path, WorldState *stat
     if (!snapshot_read_step(reader, steps - 1, &step, error))
         return false;
     const bool known = step.restart.version != 0;
-    const bool read = known && state_of(&step, state);
+    const bool read = known && state_of(&step, method, state);
     snapshot_step_free(&step);
     return read || error_set(error,
                              known ? "%s: out of memory"
@@ -165,7 +167,8 @@ static size_t read_end(const char *path, const Scene *scene, const char *hand, W
     if (!reader)
         return 0;
     const bool good = check_steps(reader, path, error) && check_scene(reader, path, scene, error) &&
-                      check_hand(reader, path, hand, error) && read_last(reader, path, state, error);
+                      check_hand(reader, path, hand, error) &&
+                      read_last(reader, path, method_find(scene->world.method), state, error);
     const size_t steps = snapshot_count_steps(reader);
     snapshot_reader_close(reader);
     return good ? steps : 0;

@@ -112,12 +112,9 @@ void cpu_pose(void *state, const SolidPose *pose)
 
 void cpu_boundary_terms(Cpu *cpu, size_t i)
 {
-    float *const none[] = {cpu->viscosity, cpu->artificial, cpu->relative, cpu->tension};
-    for (size_t k = 0; k < sizeof none / sizeof *none; k++)
-        if (none[k])
-            none[k][i] = 0;
-    if (cpu->kind)
-        cpu->kind[i] = cpu->now.fluid[i];
+    columns_clear(&cpu->of_fluids, &cpu->now, i);
+    if (cpu->now.kind)
+        cpu->now.kind[i] = cpu->now.fluid[i];
 }
 
 /* Weighted sums over the fluid that a boundary particle sees. */
@@ -135,7 +132,7 @@ static void see(const Cpu *cpu, const PairArgs *args, const float x[3], uint32_t
         return;
     const float w = (1 - q2) * (1 - q2) * (1 - q2), v[3] = {args->vx[j], args->vy[j], args->vz[j]};
     seen->weight += w;
-    seen->pressure += w * cpu->pressure[j];
+    seen->pressure += w * cpu->now.pressure[j];
     seen->viscosity += w * s->viscosity[fluid];
     for (int k = 0; k < 3; k++) {
         seen->density_x[k] += w * s->density[fluid] * d[k];
@@ -177,12 +174,12 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
             pressure += (g[k] - a[k]) * seen.density_x[k];
         pressure = (seen.pressure + pressure) / seen.weight;
     }
-    cpu->pressure[i] = s->negative_pressure ? pressure : fmaxf(pressure, 0);
-    cpu->pressure_term[i] = cpu->pressure[i] * volume * volume;
-    cpu->volume[i] = sticks && seen.weight > 0 ? volume : 0;
+    cpu->now.pressure[i] = s->negative_pressure ? pressure : fmaxf(pressure, 0);
+    cpu->now.pressure_term[i] = cpu->now.pressure[i] * volume * volume;
+    cpu->now.volume[i] = sticks && seen.weight > 0 ? volume : 0;
     cpu_boundary_terms(cpu, i);
-    if (cpu->viscosity && seen.weight > 0)
-        cpu->viscosity[i] = seen.viscosity / seen.weight;
+    if (cpu->now.viscosity && seen.weight > 0)
+        cpu->now.viscosity[i] = seen.viscosity / seen.weight;
     if (sticks && seen.weight > 0) {
         p->vx[i] = 2 * p->vx[i] - seen.v[0] / seen.weight;
         p->vy[i] = 2 * p->vy[i] - seen.v[1] / seen.weight;

@@ -14,86 +14,40 @@ static void *array(Cpu *cpu, size_t count, size_t size)
     return memory;
 }
 
-static bool particles_create(Cpu *cpu, CpuParticles *p)
-{
-    float **const floats[] = {&p->x, &p->y, &p->z, &p->vx, &p->vy, &p->vz};
-    bool ok = true;
-    for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
-        ok &= (*floats[k] = array(cpu, cpu->capacity, sizeof(float))) != NULL;
-    p->id = array(cpu, cpu->capacity, sizeof *p->id);
-    p->fluid = array(cpu, cpu->capacity, sizeof *p->fluid);
-    if (cpu->constants->continuity)
-        ok &= (p->compression = array(cpu, cpu->capacity, sizeof(float))) != NULL;
-    return ok && p->id && p->fluid;
-}
-
-static void particles_destroy(CpuParticles *p)
-{
-    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->compression, p->id, p->fluid};
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        free(all[k]);
-}
-
 static void cpu_destroy(void *state)
 {
     Cpu *cpu = state;
-    particles_destroy(&cpu->now);
-    particles_destroy(&cpu->spare);
-    void *const all[] = {cpu->volume,     cpu->pressure, cpu->pressure_term, cpu->viscosity, cpu->artificial,
-                         cpu->relative,   cpu->tension,  cpu->kind,          cpu->ax,        cpu->ay,
-                         cpu->az,         cpu->cell,     cpu->spare_cell,    cpu->rank,      cpu->order,
-                         cpu->cell_start, cpu->full,     cpu->dense,         cpu->uneven[0], cpu->uneven[1],
-                         cpu->uneven[2],  cpu->slope[0], cpu->slope[1],      cpu->slope[2]};
+    columns_destroy(&cpu->now);
+    columns_destroy(&cpu->spare);
+    void *const all[] = {cpu->cell,     cpu->spare_cell,  cpu->rank,         cpu->order,  cpu->cell_start,
+                         cpu->owned_at, cpu->boundary_at, cpu->owned_before, cpu->partial};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
-    free(cpu->owned_at);
-    free(cpu->boundary_at);
-    free(cpu->owned_before);
-    free(cpu->partial);
     free(cpu);
+}
+
+/* Columns that are needed and not there yet. */
+static bool columns_fit(Cpu *cpu)
+{
+    const ColumnDef *own = cpu->constants->method->columns;
+    const ColumnRows all = column_rows(own, 0, cpu->constants);
+    cpu->saved = column_rows(own, COLUMN_SAVED, NULL);
+    cpu->sorted = column_rows(own, COLUMN_SORTED, NULL);
+    cpu->of_fluids = column_rows(own, COLUMN_FLUIDS, NULL);
+    return columns_create(&cpu->now, &all, cpu->capacity, &cpu->bytes) &&
+           columns_create(&cpu->spare, &cpu->sorted, cpu->capacity, &cpu->bytes);
 }
 
 static bool cpu_adapt(void *state, Error *error)
 {
-    Cpu *cpu = state;
-    const Constants *s = cpu->constants;
-    const struct {
-        float **array;
-        bool needed;
-    } terms[] = {
-        {&cpu->viscosity, s->viscous && (s->fluid_count > 1 || s->continuity)},
-        {&cpu->artificial, s->continuity && s->artificial},
-        {&cpu->relative, s->continuity && s->diffusion > 0},
-        {&cpu->slope[0], s->continuity && s->diffusion > 0},
-        {&cpu->slope[1], s->continuity && s->diffusion > 0},
-        {&cpu->slope[2], s->continuity && s->diffusion > 0},
-        {&cpu->uneven[0], s->shifting > 0},
-        {&cpu->uneven[1], s->shifting > 0},
-        {&cpu->uneven[2], s->shifting > 0},
-        {&cpu->full, s->shifting > 0},
-        {&cpu->dense, s->shifting > 0},
-        {&cpu->tension, s->tension_model != TENSION_NONE},
-        {&cpu->kind, s->tension_model != TENSION_NONE || (s->continuity && s->diffusion > 0)},
-    };
-    bool ok = true;
-    for (size_t k = 0; k < sizeof terms / sizeof *terms; k++) {
-        if (terms[k].needed && !*terms[k].array)
-            *terms[k].array = array(cpu, cpu->capacity, sizeof(float));
-        ok &= *terms[k].array || !terms[k].needed;
-    }
-    return ok || error_set(error, "no memory for another term; use a larger spacing");
+    return columns_fit(state) || error_set(error, "no memory for another term; use a larger spacing");
 }
 
 static bool arrays_create(Cpu *cpu, Error *error)
 {
     const Constants *s = cpu->constants;
-    float **const floats[] = {&cpu->volume, &cpu->pressure, &cpu->pressure_term,
-                              &cpu->ax,     &cpu->ay,       &cpu->az};
     uint32_t **const integers[] = {&cpu->cell, &cpu->spare_cell, &cpu->rank, &cpu->order};
-    bool ok = particles_create(cpu, &cpu->now);
-    ok &= particles_create(cpu, &cpu->spare);
-    for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
-        ok &= (*floats[k] = array(cpu, cpu->capacity, sizeof(float))) != NULL;
+    bool ok = columns_fit(cpu);
     for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
         ok &= (*integers[k] = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
     ok &= (cpu->partial = array(cpu, cpu->capacity / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
@@ -103,10 +57,9 @@ static bool arrays_create(Cpu *cpu, Error *error)
         ok &= (cpu->boundary_at = array(cpu, s->boundary.count, sizeof(uint32_t))) != NULL;
     }
     ok &= (cpu->cell_start = array(cpu, s->cells.count + 2, sizeof(uint32_t))) != NULL;
-    return (cpu_adapt(cpu, error) && ok) ||
-           error_set(error,
-                     "no memory for %zu particles and %zu cells; use a larger spacing or a smaller box",
-                     cpu->capacity - s->boundary.count, s->cells.count);
+    return ok || error_set(error,
+                           "no memory for %zu particles and %zu cells; use a larger spacing or a smaller box",
+                           cpu->capacity - s->boundary.count, s->cells.count);
 }
 
 static void particles_set(const Constants *constants, CpuParticles *p, const InitialState *initial)
@@ -137,7 +90,7 @@ static void *cpu_create(const Constants *constants, const InitialState *initial,
     }
     cpu->constants = constants;
     cpu->watch.bounded = true;
-    cpu->pairs = pair_ops_choose(constants->periodic.any);
+    cpu->pairs = pair_set_choose(constants->periodic.any);
     cpu->threads = threads > 0 ? threads : parallel_processors();
     cpu->count = cpu->owned = initial->count;
     cpu->capacity = capacity + constants->boundary.count;
@@ -154,7 +107,7 @@ static void *cpu_create(const Constants *constants, const InitialState *initial,
 PairArgs cpu_pair_args(const Cpu *cpu)
 {
     const CpuParticles *p = &cpu->now;
-    return (PairArgs){
+    PairArgs args = {
         .constants = cpu->constants,
         .cell_start = cpu->cell_start,
         .cell = cpu->cell,
@@ -166,23 +119,18 @@ PairArgs cpu_pair_args(const Cpu *cpu)
         .vx = p->vx,
         .vy = p->vy,
         .vz = p->vz,
-        .volume = cpu->volume,
-        .pressure_term = cpu->pressure_term,
-        .viscosity = cpu->viscosity,
-        .artificial = cpu->artificial,
-        .relative = cpu->relative,
-        .slope = {cpu->slope[0], cpu->slope[1], cpu->slope[2]},
-        .uneven = {cpu->uneven[0], cpu->uneven[1], cpu->uneven[2]},
-        .full = cpu->full,
-        .dense = cpu->dense,
-        .kind = cpu->kind,
-        .tension = cpu->tension,
-        .rate = cpu->ax,
-        .number_density = cpu->volume,
-        .fx = cpu->ax,
-        .fy = cpu->ay,
-        .fz = cpu->az,
+        .volume = p->volume,
+        .pressure_term = p->pressure_term,
+        .viscosity = p->viscosity,
+        .kind = p->kind,
+        .tension = p->tension,
+        .number_density = p->volume,
+        .fx = p->ax,
+        .fy = p->ay,
+        .fz = p->az,
     };
+    memcpy(args.own, p->own, sizeof args.own);
+    return args;
 }
 
 static void cpu_info(const void *state, WorldInfo *info)
@@ -194,46 +142,21 @@ static void cpu_info(const void *state, WorldInfo *info)
 }
 
 typedef struct Copy {
+    const ColumnRows *rows;
     const CpuParticles *from, *to;
     const uint32_t *place; /* in `from`; NULL: the same as in `to` */
 } Copy;
 
-static void copy_straight(const Copy *copy, size_t begin, size_t end)
-{
-    const CpuParticles *from = copy->from, *to = copy->to;
-    const float *const columns[] = {from->x, from->y, from->z, from->vx, from->vy, from->vz};
-    float *const others[] = {to->x, to->y, to->z, to->vx, to->vy, to->vz};
-    for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
-        memcpy(others[k] + begin, columns[k] + begin, (end - begin) * sizeof(float));
-    if (from->compression && to->compression)
-        memcpy(to->compression + begin, from->compression + begin, (end - begin) * sizeof(float));
-    memcpy(to->id + begin, from->id + begin, (end - begin) * sizeof *to->id);
-    memcpy(to->fluid + begin, from->fluid + begin, (end - begin) * sizeof *to->fluid);
-}
-
-static void copy_gathered(const Copy *copy, size_t begin, size_t end)
-{
-    const CpuParticles *from = copy->from, *to = copy->to;
-    for (size_t k = begin; k < end; k++) {
-        const size_t i = copy->place[k];
-        to->x[k] = from->x[i], to->y[k] = from->y[i], to->z[k] = from->z[i];
-        to->vx[k] = from->vx[i], to->vy[k] = from->vy[i], to->vz[k] = from->vz[i];
-        to->id[k] = from->id[i], to->fluid[k] = from->fluid[i];
-        if (from->compression && to->compression)
-            to->compression[k] = from->compression[i];
-    }
-}
-
 static void copy_range(void *context, size_t begin, size_t end)
 {
     const Copy *copy = context;
-    (copy->place ? copy_gathered : copy_straight)(copy, begin, end);
+    columns_copy(copy->rows, copy->from, copy->to, copy->place, begin, end);
 }
 
 static bool cpu_save(void *state, const ParticleColumns *to)
 {
     Cpu *cpu = state;
-    Copy copy = {&cpu->now, to, cpu->owned_at};
+    Copy copy = {&cpu->saved, &cpu->now, to, cpu->owned_at};
     parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, copy_range, &copy);
     return true;
 }
@@ -242,7 +165,7 @@ static bool cpu_load(void *state, const ParticleColumns *from, size_t count, siz
 {
     Cpu *cpu = state;
     cpu->count = cpu->owned = count;
-    Copy copy = {from, &cpu->now, NULL};
+    Copy copy = {&cpu->saved, from, &cpu->now, NULL};
     parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, copy_range, &copy);
     if (cpu->boundary_at)
         cpu_boundary_append(cpu);
@@ -259,10 +182,7 @@ const Backend backend_cpu = {
     .pose = cpu_pose,
     .drift = cpu_drift,
     .grid = cpu_grid,
-    .density = cpu_density,
-    .continuity = cpu_continuity,
-    .force = cpu_force,
-    .shift = cpu_shift,
+    .run = cpu_run_pass,
     .kick = cpu_kick,
     .watch = cpu_watch,
     .sums = cpu_sums,

@@ -3,35 +3,25 @@
 #define SLOSH_CPU_H
 
 #include "sim/base/parallel.h"
-#include "sim/cpu/pairs.h"
+#include "sim/cpu/pair_set.h"
 #include "sim/world/backend.h"
 
-typedef ParticleColumns CpuParticles; /* what moves when particles are sorted */
+typedef ParticleColumns CpuParticles;
 
 typedef struct Cpu {
     const Constants *constants;
-    const PairOps *pairs;
+    PairSet pairs;
     int threads;
-    size_t count, owned;         /* particles: boundary particles of solids included; of the fluids alone */
-    size_t capacity;             /* room for */
-    CpuParticles now, spare;     /* `spare` is what `grid` sorts into; then they change places */
-    float *volume, *pressure;    /* by `density`: 1 / n, m3; Pa */
-    float *pressure_term;        /* by `density`: p V^2, J m3 */
-    float *viscosity;            /* by `density`: Pa s; NULL with one fluid or none viscous */
-    float *artificial;           /* wcsph's, as PairArgs has it; NULL: none */
-    float *relative;             /* wcsph's, for the diffusion of density; NULL: none */
-    float *slope[3];             /* and its gradient, by `continuity` */
-    bool slopes_due;             /* since `grid` */
-    float *uneven[3];            /* by `force`: what shifting goes by, sim/cpu/shift.c; NULL: none */
-    float *full, *dense;         /* 0 to 1: how far from a surface; n / n0 - 1 */
-    float *tension;              /* as PairArgs has it; NULL: none */
-    float *kind;                 /* the fluid as a number, for these two; NULL: not needed */
-    float *ax, *ay, *az;         /* by `force`, m/s2; `ax` also by `continuity` */
-    uint32_t *cell, *spare_cell; /* by `grid`: of each particle, sorted; before the sort */
-    uint32_t *rank;              /* by `grid`: place within the cell before its sort by id */
-    uint32_t *order;             /* by `grid`: old place of each new one */
-    uint32_t *cell_start;        /* by `grid`: cells + 2; the last cell is for what is set aside */
-    size_t gridded;              /* by `grid`: how many it has seen */
+    size_t count, owned; /* particles: boundary particles of solids included; of the fluids alone */
+    size_t capacity;     /* room for */
+    CpuParticles now;
+    CpuParticles spare; /* what `grid` sorts into: its columns then change places with those of `now` */
+    ColumnRows saved, sorted, of_fluids; /* columns with these flags */
+    uint32_t *cell, *spare_cell;         /* by `grid`: of each particle, sorted; before the sort */
+    uint32_t *rank;                      /* by `grid`: place within the cell before its sort by id */
+    uint32_t *order;                     /* by `grid`: old place of each new one */
+    uint32_t *cell_start;                /* by `grid`: cells + 2; the last cell is for what is set aside */
+    size_t gridded;                      /* by `grid`: how many it has seen */
     uint32_t *owned_at;          /* by `grid`: where the fluids' particles stand; NULL without solids */
     uint32_t *boundary_at;       /* and the solids' */
     uint32_t *owned_before;      /* of each particle: how many of the fluids' stand before it; one more */
@@ -77,35 +67,25 @@ static inline size_t cpu_owned(const Cpu *cpu, size_t k)
 }
 
 /* What the pair sums need of particle i's fluid, of the terms that the scene names. */
-static inline void cpu_fill_terms(Cpu *cpu, size_t i)
+static inline void cpu_fill_terms(const Cpu *cpu, size_t i)
 {
     const Constants *s = cpu->constants;
-    const int fluid = cpu->now.fluid[i];
-    if (cpu->viscosity)
-        cpu->viscosity[i] = s->viscosity[fluid];
-    if (cpu->artificial)
-        cpu->artificial[i] = s->artificial_viscosity[fluid];
-    if (cpu->tension)
-        cpu->tension[i] = s->tension[fluid];
-    if (cpu->kind)
-        cpu->kind[i] = (float)fluid;
+    const CpuParticles *p = &cpu->now;
+    const int fluid = p->fluid[i];
+    if (p->viscosity)
+        p->viscosity[i] = s->viscosity[fluid];
+    if (p->tension)
+        p->tension[i] = s->tension[fluid];
+    if (p->kind)
+        p->kind[i] = (float)fluid;
 }
 
 /* The grid's cell of x, m. */
 uint32_t cpu_cell_of(const Constants *constants, const float x[3]);
 
 void cpu_grid(void *state);
-void cpu_density(void *state);
-void cpu_continuity(void *state, float dt);
-
-/* Of wcsph: volume, pressure and the pair sums' arrays, from the density that is carried. */
-void cpu_equation_of_state(Cpu *cpu);
-void cpu_force(void *state, const ApparentGravity *gravity);
+void cpu_run_pass(void *state, const Pass *pass, const PassInput *input);
 void cpu_drift(void *state, const FrameStep *step);
-void cpu_shift(void *state, float dt);
-
-/* Completes what the pair sums have found for `shift`. */
-void cpu_shift_share(Cpu *cpu, size_t i);
 
 /* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; moves them along; finds them
    after a sort; gives those at `i` no share in the fluids' terms; fills in what the forces need of them, and
@@ -136,7 +116,7 @@ static inline float cpu_compression(const Cpu *cpu, size_t i)
     const Constants *s = cpu->constants;
     if (cpu->now.compression)
         return cpu->now.compression[i];
-    return s->compression * (1 / (cpu->volume[i] * s->rest_number_density) - 1);
+    return s->compression * (1 / (cpu->now.volume[i] * s->rest_number_density) - 1);
 }
 
 #endif

@@ -41,12 +41,11 @@ static void append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t nu
 {
     const CpuParticles *p = &cpu->now;
     const size_t i = cpu->count++;
+    columns_clear(&cpu->sorted, p, i);
     p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
     p->vx[i] = layer->velocity[0], p->vy[i] = layer->velocity[1], p->vz[i] = layer->velocity[2];
     p->id[i] = layer->first_id + (uint32_t)number;
     p->fluid[i] = (uint8_t)layer->fluid;
-    if (p->compression)
-        p->compression[i] = 0;
     if (cpu->owned_at)
         cpu->owned_at[cpu->owned] = (uint32_t)i;
     cpu->owned++;
@@ -100,17 +99,6 @@ static bool drains(const Fill *regions, int count, int dimensions, const double 
     return false;
 }
 
-/* Particle `from` takes the place `to`. */
-static void move(const CpuParticles *p, size_t from, size_t to)
-{
-    p->x[to] = p->x[from], p->y[to] = p->y[from], p->z[to] = p->z[from];
-    p->vx[to] = p->vx[from], p->vy[to] = p->vy[from], p->vz[to] = p->vz[from];
-    p->id[to] = p->id[from];
-    p->fluid[to] = p->fluid[from];
-    if (p->compression)
-        p->compression[to] = p->compression[from];
-}
-
 size_t cpu_drain(void *state, const Fill *regions, int count)
 {
     Cpu *cpu = state;
@@ -122,7 +110,7 @@ size_t cpu_drain(void *state, const Fill *regions, int count)
             i++;
             continue;
         }
-        move(p, --cpu->count, i);
+        columns_move(&cpu->sorted, p, --cpu->count, i);
         gone++;
     }
     cpu->owned -= gone;

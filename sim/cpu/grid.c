@@ -90,21 +90,9 @@ static void sort_cells(void *state, size_t begin, size_t end)
 static void move_particles(void *state, size_t begin, size_t end)
 {
     Cpu *cpu = state;
-    const CpuParticles *from = &cpu->now, *to = &cpu->spare;
-    for (size_t i = begin; i < end; i++) {
-        const uint32_t o = cpu->order[i];
-        cpu->cell[i] = cpu->spare_cell[o];
-        to->x[i] = from->x[o];
-        to->y[i] = from->y[o];
-        to->z[i] = from->z[o];
-        to->vx[i] = from->vx[o];
-        to->vy[i] = from->vy[o];
-        to->vz[i] = from->vz[o];
-        to->id[i] = from->id[o];
-        to->fluid[i] = from->fluid[o];
-    }
-    for (size_t i = begin; to->compression && i < end; i++)
-        to->compression[i] = from->compression[cpu->order[i]];
+    for (size_t i = begin; i < end; i++)
+        cpu->cell[i] = cpu->spare_cell[cpu->order[i]];
+    columns_copy(&cpu->sorted, &cpu->now, &cpu->spare, cpu->order, begin, end);
 }
 
 void cpu_grid(void *state)
@@ -120,10 +108,7 @@ void cpu_grid(void *state)
     parallel_ranges(cpu->threads, cells, 4 * CPU_GRAIN, sort_cells, cpu);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, move_particles, cpu);
 
-    const CpuParticles sorted = cpu->spare;
-    cpu->spare = cpu->now;
-    cpu->now = sorted;
-    cpu->slopes_due = true;
+    columns_swap(&cpu->sorted, &cpu->now, &cpu->spare);
     cpu->gridded = cpu->count;
     if (cpu->boundary_at)
         cpu_boundary_find(cpu);

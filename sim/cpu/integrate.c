@@ -83,11 +83,12 @@ static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
         if (drag == 0)
             continue;
         const int fluid = p->fluid[i];
-        const float k = s->viscosity[fluid] / s->mass[fluid] * cpu->volume[i] / s->rest_number_density * drag;
+        const float k =
+            s->viscosity[fluid] / s->mass[fluid] * cpu->now.volume[i] / s->rest_number_density * drag;
         const float lid = s->lid ? k / drag * wall_drag_lid(&s->drag, x) : 0, *v = s->lid_velocity;
-        cpu->ax[i] = (cpu->ax[i] + g[0] - k * p->vx[i] + lid * v[0]) / (1 + k * dt) - g[0];
-        cpu->ay[i] = (cpu->ay[i] + g[1] - k * p->vy[i] + lid * v[1]) / (1 + k * dt) - g[1];
-        cpu->az[i] = (cpu->az[i] + g[2] - k * p->vz[i] + lid * v[2]) / (1 + k * dt) - g[2];
+        cpu->now.ax[i] = (cpu->now.ax[i] + g[0] - k * p->vx[i] + lid * v[0]) / (1 + k * dt) - g[0];
+        cpu->now.ay[i] = (cpu->now.ay[i] + g[1] - k * p->vy[i] + lid * v[1]) / (1 + k * dt) - g[1];
+        cpu->now.az[i] = (cpu->now.az[i] + g[2] - k * p->vz[i] + lid * v[2]) / (1 + k * dt) - g[2];
     }
 }
 
@@ -101,8 +102,8 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
     if (cpu->constants->no_slip)
         hold_by_walls(kick, begin, end);
     for (size_t i = begin; i < end; i++) {
-        const float ax = cpu->ax[i] + kick->gravity[0], ay = cpu->ay[i] + kick->gravity[1],
-                    az = cpu->az[i] + kick->gravity[2];
+        const float ax = cpu->now.ax[i] + kick->gravity[0], ay = cpu->now.ay[i] + kick->gravity[1],
+                    az = cpu->now.az[i] + kick->gravity[2];
         const float vx = p->vx[i] + ax * kick->dt;
         const float vy = p->vy[i] + ay * kick->dt;
         const float vz = p->vz[i] + az * kick->dt;
@@ -113,7 +114,7 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
         bounded &= v2 <= fastest * fastest;
         speed2 = v2 > speed2 ? v2 : speed2;
         acceleration2 = a2 > acceleration2 ? a2 : acceleration2;
-        volume = cpu->volume[i] < volume ? cpu->volume[i] : volume;
+        volume = cpu->now.volume[i] < volume ? cpu->now.volume[i] : volume;
     }
     atomic_greatest(&cpu->watch.max_speed, sqrtf(speed2));
     atomic_greatest(&cpu->watch.max_acceleration, sqrtf(acceleration2));

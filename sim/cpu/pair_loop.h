@@ -2,24 +2,19 @@
 #ifndef SLOSH_PAIR_LOOP_H
 #define SLOSH_PAIR_LOOP_H
 
+#include "sim/cpu/pair_set.h"
 #include "sim/cpu/walk.h"
 
 #include <math.h>
 
-/* A name of its own for each set, and the set's name as a string. */
+/* PAIR_LOOP(name) { body }: a loop over pairs, of a name of its own in each set; its arguments are those of
+   PairLoop. */
 #define PAIR_JOIN(name, set)   name##_##set
 #define PAIR_EXPAND(name, set) PAIR_JOIN(name, set)
 #define PAIR_NAME(name)        PAIR_EXPAND(name, SIMD_SET)
-#define PAIR_STRING(set)       #set
-#define PAIR_LABEL(set)        PAIR_STRING(set)
-#define PAIR_SET               PAIR_LABEL(SIMD_SET)
-
-void PAIR_NAME(tension)(const PairArgs *args, size_t begin, size_t end);
-void PAIR_NAME(wcsph_slope)(const PairArgs *args, size_t begin, size_t end);
-void PAIR_NAME(wcsph_rate)(const PairArgs *args, size_t begin, size_t end);
-void PAIR_NAME(wcsph_force)(const PairArgs *args, size_t begin, size_t end);
-void PAIR_NAME(images_rate)(const PairArgs *args, size_t begin, size_t end);
-void PAIR_NAME(images_force)(const PairArgs *args, size_t begin, size_t end);
+#define PAIR_LOOP(name)                                                                                      \
+    PairLoop PAIR_NAME(name);                                                                                \
+    void PAIR_NAME(name)(const PairArgs *args, size_t begin, size_t end)
 
 /* A direction that only the two ids decide, opposite for (a, b) and (b, a); of two dimensions in the plane.
  */

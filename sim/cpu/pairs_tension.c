@@ -75,7 +75,7 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
     }
 }
 
-void PAIR_NAME(tension)(const PairArgs *args, size_t begin, size_t end)
+PAIR_LOOP(tension)
 {
     if (args->constants->tension_model == TENSION_COHESION)
         add_cohesion(args, begin, end);

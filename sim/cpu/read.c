@@ -19,7 +19,7 @@ static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
     case SCALAR_DENSITY:
         return cpu->constants->density[p->fluid[i]] * (1 + cpu_compression(cpu, i));
     case SCALAR_PRESSURE:
-        return cpu->pressure[i];
+        return cpu->now.pressure[i];
     case SCALAR_COMPRESSION:
         return cpu_compression(cpu, i);
     case SCALAR_FLUID:
@@ -42,7 +42,7 @@ static void read_range(void *context, size_t begin, size_t end)
         const size_t i = cpu_owned(cpu, k);
         if (out->position) {
             float *x = out->position + 4 * k;
-            x[0] = p->x[i], x[1] = p->y[i], x[2] = p->z[i], x[3] = cpu->volume[i];
+            x[0] = p->x[i], x[1] = p->y[i], x[2] = p->z[i], x[3] = cpu->now.volume[i];
         }
         if (out->velocity) {
             float *v = out->velocity + 4 * k;

@@ -5,7 +5,7 @@
 #ifndef SLOSH_SIMD_H
 #define SLOSH_SIMD_H
 
-#include "sim/cpu/pairs.h"
+#include "sim/cpu/pair_args.h"
 
 #include <stdint.h>
 

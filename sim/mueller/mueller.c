@@ -4,6 +4,7 @@
 
 #include "sim/base/key_rows.h"
 #include "sim/matter/viscosity.h"
+#include "sim/mueller/passes.h"
 #include "sim/world/substep.h"
 
 static const MuellerDef usual = {
@@ -41,14 +42,16 @@ static void mueller_substep(const Substep *step)
     STAGE (step->clock, STAGE_GRID)
         b->grid(state);
     STAGE (step->clock, STAGE_DENSITY)
-        b->density(state);
+        substep_run(step, &mueller_densities, step->dt);
     STAGE (step->clock, STAGE_FORCE)
-        b->force(state, &step->apparent);
+        substep_run(step, &mueller_forces, step->dt);
     STAGE (step->clock, STAGE_INTEGRATE) {
         substep_kick(step);
         b->drift(state, &step->second_half);
     }
 }
+
+static const Pass *const passes[] = {&mueller_densities, &mueller_forces, NULL};
 
 const Method method_mueller = {
     .name = "mueller",
@@ -59,5 +62,8 @@ const Method method_mueller = {
     .kernels = mueller_kernels,
     .friction = mueller_friction,
     .advise = mueller_advise,
+    .columns = mueller_columns,
+    .passes = passes,
+    .settle = &mueller_densities,
     .substep = mueller_substep,
 };

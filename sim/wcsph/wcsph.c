@@ -3,6 +3,7 @@
 
 #include "sim/base/key_rows.h"
 #include "sim/matter/viscosity.h"
+#include "sim/wcsph/passes.h"
 #include "sim/world/substep.h"
 
 #define AT(field) offsetof(WcsphDef, field)
@@ -83,6 +84,14 @@ static void wcsph_constants(Constants *constants, const WorldDef *def)
     }
 }
 
+/* Half a step of it, after the pass `ready`, which diffusion has need of. */
+static void continuity(const Substep *step, const Pass *ready)
+{
+    if (step->constants->diffusion > 0)
+        substep_run(step, ready, 0);
+    substep_run(step, &wcsph_continuity, 0.5 * step->dt);
+}
+
 /* Leapfrog as the symmetric composition drift, continuity, kick, continuity, drift (halves but for the kick):
    each part is exact by itself where the others hold still, so that the whole is of second order, runs
    backwards as forwards but for viscosity, and needs one grid a step. */
@@ -90,26 +99,28 @@ static void wcsph_substep(const Substep *step)
 {
     const Backend *b = step->backend;
     void *state = step->state;
-    const float half = 0.5F * (float)step->dt;
 
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->first_half);
     STAGE (step->clock, STAGE_GRID)
         b->grid(state);
     STAGE (step->clock, STAGE_DENSITY)
-        b->continuity(state, half);
+        continuity(step, &wcsph_gradient);
     STAGE (step->clock, STAGE_FORCE)
-        b->force(state, &step->apparent);
+        substep_run(step, &wcsph_forces, step->dt);
     STAGE (step->clock, STAGE_INTEGRATE)
         substep_kick(step);
     STAGE (step->clock, STAGE_DENSITY)
-        b->continuity(state, half);
-    if (step->shifts)
+        continuity(step, &wcsph_state);
+    if (step->constants->shifting > 0)
         STAGE (step->clock, STAGE_FORCE)
-            b->shift(state, (float)step->dt);
+            substep_run(step, &wcsph_shift, step->dt);
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->second_half);
 }
+
+static const Pass *const passes[] = {&wcsph_state,  &wcsph_gradient, &wcsph_continuity,
+                                     &wcsph_forces, &wcsph_shift,    NULL};
 
 const Method method_wcsph = {
     .name = "wcsph",
@@ -123,5 +134,8 @@ const Method method_wcsph = {
     .friction = wcsph_friction,
     .constants = wcsph_constants,
     .advise = wcsph_advise,
+    .columns = wcsph_columns,
+    .passes = passes,
+    .settle = &wcsph_state,
     .substep = wcsph_substep,
 };

@@ -7,9 +7,9 @@
 #include "sim/matter/flow.h"
 #include "sim/matter/solid_step.h"
 #include "sim/world/constants.h"
+#include "sim/world/method.h"
+#include "sim/world/reading.h"
 #include "sim/world/step_control.h"
-#include "sim/world/world.h"
-#include "sim/world/world_state.h"
 
 struct ParticleBuffers; /* sim/gl/particle_buffers.h */
 
@@ -38,17 +38,8 @@ typedef struct Backend {
     void (*drift)(void *state, const FrameStep *step);
     /* Sorts the particles by cell; in a cell by id, but on compute only where the def says reproducible. */
     void (*grid)(void *state);
-    /* Number density, volume and pressure of every particle; Müller 2003, eq. 3 and 12. Of wcsph: volume and
-       pressure by the density that it carries. */
-    void (*density)(void *state);
-    /* wcsph: density += dt times its rate by the equation of continuity; volume and pressure after it. */
-    void (*continuity)(void *state, float dt);
-    /* Acceleration by pressure, viscosity, walls and solids; eq. 10 and 14. */
-    void (*force)(void *state, const ApparentGravity *gravity);
-    /* wcsph with shifting: moves particles down the gradient of their number density as it was at the last
-       `grid`, by a velocity of chi c h / 2 times that over n0: Lind 2012. The last of a step before `drift`.
-     */
-    void (*shift)(void *state, float dt);
+    /* A pass of the method. */
+    void (*run)(void *state, const Pass *pass, const PassInput *input);
     /* v += (acceleration + gravity) dt. */
     void (*kick)(void *state, const float gravity[3], float dt);
     /* What the kicks since the last call or `load` found; waits for them. */
@@ -68,8 +59,8 @@ typedef struct Backend {
     size_t (*emit)(void *state, const EmitLayer *layer, size_t most);
     size_t (*drain)(void *state, const Fill *regions, int count);
     /* Copies the particles into columns of as many; takes `count` of them, no more than its capacity, in any
-       order, whereupon `pose`, `grid` and `density` must follow. False, and nothing done, when memory is
-       short. */
+       order, whereupon `pose`, `grid` and the method's `settle` must follow. False, and nothing done, when
+       memory is short. */
     bool (*save)(void *state, const ParticleColumns *to);
     bool (*load)(void *state, const ParticleColumns *from, size_t count, size_t guarded);
     /* Keeps the particles where they are, on the device, and goes back to those, as `load` does; both NULL:

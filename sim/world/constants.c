@@ -294,6 +294,7 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     constants->last_row = def->dimensions == 2 ? 6 : 9;
     lattice_calibrate(def->dimensions, def->spacing, h, kernel, kernels.slope, &constants->lattice);
     constants->friction = step_friction(def);
+    constants->method = method;
     constants->continuity = method->carries_density;
     constants->poly6 = kernel->value == kernel_poly6;
     constants->support_radius = (float)h;

@@ -12,6 +12,7 @@
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
 #include "sim/matter/world_def.h"
+#include "sim/world/method.h"
 #include "sim/world/step_control.h"
 
 /* Times in which sound crosses a support radius: after so many the density that shifted particles carry,
@@ -29,6 +30,7 @@ typedef struct CellGrid {
 } CellGrid;
 
 typedef struct Constants {
+    const Method *method;
     float support_radius;      /* h, m */
     float rest_number_density; /* n0, 1/m3 */
     bool poly6;                /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
@@ -48,14 +50,14 @@ typedef struct Constants {
     bool reproducible;
     bool continuity; /* wcsph: the particles carry their density; the next eight are its own */
     WcsphKernel kernel;
-    float radial;           /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
-    float gradient;         /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f in sim/cpu/pairs_wcsph.c */
+    float radial;   /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
+    float gradient; /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f in sim/wcsph/pair_kernel.h */
     float tait[FLUIDS_MAX]; /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
     bool artificial;
     float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
     float diffusion;                        /* 2 delta c (h / 2), m2/s; 0: none */
     float sound_speed;                      /* m/s */
-    float shifting;                         /* chi c h / 2, m2/s; 0: none: see sim/cpu/shift.c */
+    float shifting;                         /* chi c h / 2, m2/s; 0: none: see sim/wcsph/shift.c */
     TensionModel tension_model;             /* none where no fluid has a tension */
     float tension[FLUIDS_MAX];              /* sigma, N/m; of cohesion times its scale */
     float colour;                           /* colour_scale */

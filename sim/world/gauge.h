@@ -4,7 +4,7 @@
 #define SLOSH_GAUGE_H
 
 #include "sim/world/constants.h"
-#include "sim/world/world.h"
+#include "sim/world/reading.h"
 
 #include <math.h>
 

@@ -1,15 +1,34 @@
-/* A method: its own settings, what it makes of a def, and the order of its substep. */
+/* A method: its own settings, columns and passes, what it makes of a def, and the order of its substep. */
 #ifndef SLOSH_METHOD_H
 #define SLOSH_METHOD_H
 
 #include "sim/base/error.h"
 #include "sim/base/key.h"
+#include "sim/base/stage.h"
 #include "sim/kernel/kernel.h"
 #include "sim/kernel/lattice.h"
 #include "sim/matter/world_def.h"
+#include "sim/world/column.h"
 
-struct Constants; /* sim/world/constants.h */
-struct Substep;   /* sim/world/substep.h */
+struct ApparentGravity; /* sim/box/frame_step.h */
+struct Constants;       /* sim/world/constants.h */
+struct CpuPass;         /* sim/cpu/pass.h */
+struct Substep;         /* sim/world/substep.h */
+
+/* One sweep over all particles: what a backend runs for a method. */
+typedef struct Pass {
+    const char *name;
+    Stage stage;
+    const struct CpuPass *cpu;
+    const char *shader; /* shaders/sim/SHADER.comp; NULL: backends that need one have no such method */
+    const char *reads, *writes; /* names of columns, blanks between them */
+} Pass;
+
+/* What a pass may want to know of the step. */
+typedef struct PassInput {
+    float dt;                               /* s */
+    const struct ApparentGravity *apparent; /* NULL outside of a step */
+} PassInput;
 
 /* What a method's density is made with, and what its forces are the slope of. */
 typedef struct MethodKernels {
@@ -48,6 +67,9 @@ typedef struct Method {
     /* Its own part of the constants, behind all others; again when what is live has changed. NULL: none. */
     void (*constants)(struct Constants *constants, const WorldDef *def);
     void (*advise)(const MethodAdvice *advice); /* NULL: never */
+    const ColumnDef *columns;                   /* of its own, ended by a NULL name; NULL: none */
+    const Pass *const *passes;                  /* all of them, ended by NULL */
+    const Pass *settle;                         /* what follows from the saved columns: volume, pressure */
     void (*substep)(const struct Substep *step);
 } Method;
 

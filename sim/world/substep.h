@@ -9,9 +9,9 @@
 typedef struct Substep {
     const Backend *backend;
     void *state;
+    const Constants *constants;
     StageClock *clock; /* may be NULL */
     double dt;         /* s */
-    bool shifts;       /* particles, by Backend.shift */
     FrameStep first_half, second_half;
     int guide_count; /* of the emitters at work */
     Guide guides[GUIDES_MAX];
@@ -19,6 +19,13 @@ typedef struct Substep {
     ApparentGravity apparent;        /* in the middle */
     float gravity[3];                /* in the box's axes in the middle, m/s2 */
 } Substep;
+
+/* A pass of the method over `dt` (s). */
+static inline void substep_run(const Substep *step, const Pass *pass, double dt)
+{
+    const PassInput input = {.dt = (float)dt, .apparent = &step->apparent};
+    step->backend->run(step->state, pass, &input);
+}
 
 /* The kick of a step, and what emitters make of it. */
 static inline void substep_kick(const Substep *step)

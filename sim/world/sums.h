@@ -2,7 +2,7 @@
 #ifndef SLOSH_SUMS_H
 #define SLOSH_SUMS_H
 
-#include "sim/world/world.h"
+#include "sim/world/reading.h"
 
 #include <math.h>
 

@@ -3,6 +3,8 @@
 #ifndef SLOSH_WORLD_STATE_H
 #define SLOSH_WORLD_STATE_H
 
+#include "sim/world/column.h"
+#include "sim/world/method.h"
 #include "sim/world/step_control.h"
 #include "sim/world/world.h"
 
@@ -45,26 +47,17 @@ enum {
     WORLD_NUMBERS_LEAST = offsetof(WorldNumbers, energy) / sizeof(double)
 };
 
-/* What is of a particle, a column each. */
-typedef struct ParticleColumns {
-    float *x, *y, *z;    /* box's frame, m */
-    float *vx, *vy, *vz; /* box's frame, m/s */
-    uint32_t *id;        /* place in the initial state */
-    uint8_t *fluid;      /* index into WorldDef.fluids */
-    float
-        *compression; /* rho / rho0 - 1, of a method whose particles carry their density; else NULL, or not
-                         read. rho itself, in single precision, would lose what a slow flow adds in a step */
-} ParticleColumns;
-
 /* Zero-initialise it; owns its columns. Particles stand in any order, `id` tells who is who. */
 typedef struct WorldState {
     WorldNumbers numbers;
-    size_t count, capacity; /* particles; room for them */
-    ParticleColumns particles;
+    size_t count, capacity;    /* particles; room for them */
+    const Method *method;      /* whose columns these are */
+    ParticleColumns particles; /* those that are saved */
 } WorldState;
 
-/* Room for so many particles; what was in it is lost. False when memory is short: then it is empty. */
-bool world_state_reserve(WorldState *state, size_t count);
+/* Room for so many particles of a method; what was in it is lost. False when memory is short: then it is
+ * empty. */
+bool world_state_reserve(WorldState *state, const Method *method, size_t count);
 void world_state_free(WorldState *state); /* a zeroed one is allowed */
 
 /* The numbers alone, for who has the particles from world_read. */

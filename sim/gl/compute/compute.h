@@ -108,7 +108,6 @@ typedef struct Compute {
     unsigned drag;                     /* tables; 0: walls let fluid slip */
     unsigned uneven;                   /* vec4, vec4: see force.comp; 0: no shifting */
     unsigned terms;                    /* uniform block */
-    bool slopes_due;                   /* since `grid` */
     char defines[COMPUTE_DEFINES_MAX]; /* that the programs were made with; 0 is one that the scene does not
                                           need */
 } Compute;
@@ -184,11 +183,8 @@ size_t compute_emit(void *state, const EmitLayer *layer, size_t most);
 void compute_guide(void *state, const Guide *guides, int count);
 size_t compute_drain(void *state, const Fill *regions, int count);
 void compute_grid(void *state);
-void compute_density(void *state);
-void compute_continuity(void *state, float dt);
-void compute_force(void *state, const ApparentGravity *gravity);
 void compute_drift(void *state, const FrameStep *step);
-void compute_shift(void *state, float dt);
+void compute_pass(void *state, const Pass *pass, const PassInput *input);
 void compute_kick(void *state, const float gravity[3], float dt);
 StepWatch compute_watch(void *state);
 bool compute_mark(void *state, Error *error);

@@ -74,5 +74,4 @@ void compute_grid(void *state)
     compute_swap(c);
     c->gridded = c->count;
     compute_boundary_grid(c);
-    c->slopes_due = true;
 }

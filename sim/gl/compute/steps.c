@@ -4,6 +4,7 @@
 #include "shaders/sim/bindings.h"
 
 #include <epoxy/gl.h>
+#include <string.h>
 
 void compute_bind(const unsigned *buffers, int count)
 {
@@ -49,34 +50,22 @@ static void run_wcsph(const Compute *c, ComputePass pass)
     compute_run(c, pass, c->count);
 }
 
-/* As in sim/cpu/wcsph.c: diffusion reads the densities from before the pass, and their gradients, which are
-   made once a step for both of its halves. */
-void compute_continuity(void *state, float dt)
+static void continuity(const Compute *c, float dt)
 {
-    Compute *c = state;
-    if (c->slope)
-        run_wcsph(c, c->slopes_due ? COMPUTE_SLOPE : COMPUTE_STATE);
-    c->slopes_due = false;
     glProgramUniform1f(c->program[COMPUTE_CONTINUITY], PASS_DT_AT, dt);
     run_wcsph(c, COMPUTE_CONTINUITY);
 }
 
-void compute_density(void *state)
+static void density(const Compute *c)
 {
-    Compute *c = state;
-    if (c->constants->continuity) {
-        run_wcsph(c, COMPUTE_STATE);
-        return;
-    }
     compute_boundary_bind(c);
     compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, 0, 0, 0, c->walls},
                  8);
     compute_run(c, COMPUTE_DENSITY, c->count);
 }
 
-void compute_force(void *state, const ApparentGravity *gravity)
+static void force(Compute *c, const ApparentGravity *gravity)
 {
-    Compute *c = state;
     compute_set_force(c, gravity);
     if (c->constants->solid_count > 0)
         compute_boundary_fill(c);
@@ -86,13 +75,29 @@ void compute_force(void *state, const ApparentGravity *gravity)
     compute_run(c, c->constants->continuity ? COMPUTE_WCSPH_FORCE : COMPUTE_MUELLER_FORCE, c->count);
 }
 
-void compute_shift(void *state, float dt)
+static void shift(const Compute *c, float dt)
 {
-    Compute *c = state;
     glProgramUniform1f(c->program[COMPUTE_SHIFT], PASS_DT_AT, dt);
     BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
          [UNEVENS_BUFFER] = c->uneven);
     compute_run(c, COMPUTE_SHIFT, c->count);
+}
+
+void compute_pass(void *state, const Pass *pass, const PassInput *input)
+{
+    Compute *c = state;
+    if (strcmp(pass->name, "density") == 0)
+        density(c);
+    else if (strcmp(pass->name, "state") == 0)
+        run_wcsph(c, COMPUTE_STATE);
+    else if (strcmp(pass->name, "slope") == 0)
+        run_wcsph(c, COMPUTE_SLOPE);
+    else if (strcmp(pass->name, "continuity") == 0)
+        continuity(c, input->dt);
+    else if (strcmp(pass->name, "force") == 0)
+        force(c, input->apparent);
+    else if (strcmp(pass->name, "shift") == 0)
+        shift(c, input->dt);
 }
 
 void compute_kick(void *state, const float gravity[3], float dt)

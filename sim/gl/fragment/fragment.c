@@ -3,6 +3,7 @@
 #include "sim/gl/backends.h"
 
 #include <epoxy/gl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,6 +33,14 @@ static bool lacks(const char *what, bool asked, Error *error)
     return asked && !error_set(error, "backend fragment has no %s; use backend compute or cpu", what);
 }
 
+static bool has_method(const Method *method)
+{
+    for (const Pass *const *pass = method->passes; *pass; pass++)
+        if (!fragment_has(*pass))
+            return false;
+    return true;
+}
+
 static bool fragment_can(const WorldDef *def, Error *error)
 {
     bool viscous = false, tense = false;
@@ -39,7 +48,9 @@ static bool fragment_can(const WorldDef *def, Error *error)
         viscous |= fluid_viscosity_most(&def->fluids[f]) > 0;
         tense |= def->fluids[f].surface_tension > 0;
     }
-    return !lacks("method wcsph", strcmp(def->method, "wcsph") == 0, error) &&
+    char method[NAME_SIZE + 8];
+    snprintf(method, sizeof method, "method %s", def->method);
+    return !lacks(method, !has_method(method_find(def->method)), error) &&
            !lacks("periodic sides", def->periodic[0] || def->periodic[1] || def->periodic[2], error) &&
            !lacks("solids", def->solid_count > 0, error) && !lacks("emitters", flow_emits(def), error) &&
            !lacks("drains", def->drain_count > 0, error) &&
@@ -145,8 +156,7 @@ const Backend backend_fragment = {
     .reload = fragment_reload,
     .drift = fragment_drift,
     .grid = fragment_grid,
-    .density = fragment_density,
-    .force = fragment_force,
+    .run = fragment_pass,
     .kick = fragment_kick,
     .watch = fragment_watch,
     .mark = fragment_mark,

@@ -153,9 +153,9 @@ uint32_t *fragment_buckets_read(const Fragment *fragment);
 uint32_t fragment_bucket_at(const Fragment *fragment, const uint32_t *places, size_t cell, int place);
 
 void fragment_grid(void *state);
-void fragment_density(void *state);
-void fragment_force(void *state, const ApparentGravity *gravity);
 void fragment_drift(void *state, const FrameStep *step);
+bool fragment_has(const Pass *pass);
+void fragment_pass(void *state, const Pass *pass, const PassInput *input);
 void fragment_kick(void *state, const float gravity[3], float dt);
 StepWatch fragment_watch(void *state);
 bool fragment_mark(void *state, Error *error);

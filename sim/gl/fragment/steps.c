@@ -3,6 +3,7 @@
 #include "sim/gl/gl_state.h"
 
 #include <epoxy/gl.h>
+#include <string.h>
 
 static void draw(const Fragment *f, FragmentPass pass, const unsigned *targets, int count)
 {
@@ -45,18 +46,16 @@ static void sample_neighbours(const Fragment *f)
     fragment_sample(FRAGMENT_SAMPLE_WALLS, f->walls);
 }
 
-void fragment_density(void *state)
+static void density(const Fragment *f)
 {
-    const Fragment *f = state;
     sample_neighbours(f);
     fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
     draw(f, FRAGMENT_DENSITY, (const unsigned[]){f->fields, f->near, f->moving},
          f->constants->viscous ? 3 : 2);
 }
 
-void fragment_force(void *state, const ApparentGravity *gravity)
+static void force(const Fragment *f, const ApparentGravity *gravity)
 {
-    const Fragment *f = state;
     fragment_set3(f, FRAGMENT_FORCE, "felt_origin", gravity->origin);
     fragment_set3(f, FRAGMENT_FORCE, "felt_alpha", gravity->alpha);
     fragment_set3(f, FRAGMENT_FORCE, "felt_omega", gravity->omega);
@@ -65,6 +64,19 @@ void fragment_force(void *state, const ApparentGravity *gravity)
     fragment_sample(FRAGMENT_SAMPLE_NEAR, f->near);
     fragment_sample(FRAGMENT_SAMPLE_MOVING, f->moving);
     draw(f, FRAGMENT_FORCE, &f->acceleration, 1);
+}
+
+bool fragment_has(const Pass *pass)
+{
+    return strcmp(pass->name, "density") == 0 || strcmp(pass->name, "force") == 0;
+}
+
+void fragment_pass(void *state, const Pass *pass, const PassInput *input)
+{
+    if (strcmp(pass->name, "density") == 0)
+        density(state);
+    else
+        force(state, input->apparent);
 }
 
 void fragment_kick(void *state, const float gravity[3], float dt)

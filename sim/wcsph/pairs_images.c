@@ -2,7 +2,7 @@
    pressure, with what shifting goes by. They have no friction and no part in diffusion. See
    sim/box/wall_images.h. */
 #include "sim/box/wall_images.h"
-#include "sim/cpu/pair_kernel.h"
+#include "sim/wcsph/pair_kernel.h"
 
 SIMD_INLINE f8 lesser(f8 a, f8 b)
 {
@@ -121,11 +121,11 @@ SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, c
     args->fz[i] += sign[2] * s->gradient * f8_sum(found.fz);
     if (!shifts)
         return;
-    args->uneven[0][i] += sign[0] * s->gradient * f8_sum(found.ex);
-    args->uneven[1][i] += sign[1] * s->gradient * f8_sum(found.ey);
-    args->uneven[2][i] += sign[2] * s->gradient * f8_sum(found.ez);
-    args->full[i] += s->gradient * f8_sum(found.full);
-    args->dense[i] += s->kernel_scale * f8_sum(found.dense);
+    args->own[UNEVEN][i] += sign[0] * s->gradient * f8_sum(found.ex);
+    args->own[UNEVEN + 1][i] += sign[1] * s->gradient * f8_sum(found.ey);
+    args->own[UNEVEN + 2][i] += sign[2] * s->gradient * f8_sum(found.ez);
+    args->own[FULL][i] += s->gradient * f8_sum(found.full);
+    args->own[DENSE][i] += s->kernel_scale * f8_sum(found.dense);
 }
 
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
@@ -142,7 +142,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         f8 sum = f8_splat(0);
         for (int k = 1; k < images; k++)
             sum += image_flow(args, i, rows, &image[k], kernel);
-        args->rate[i] -= s->gradient * f8_sum(sum);
+        args->fx[i] -= s->gradient * f8_sum(sum);
     }
 }
 
@@ -162,7 +162,7 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
         rows_of(args, args->cell[i], &rows);
         for (int k = 1; k < images; k++) {
             rise_of(args, i, &image[k], g, &rise);
-            if (args->full)
+            if (args->own[FULL])
                 add_found(args, i, &image[k], image_push(args, i, rows, &image[k], rise, kernel, true), true);
             else
                 add_found(args, i, &image[k], image_push(args, i, rows, &image[k], rise, kernel, false),
@@ -171,12 +171,12 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
-void PAIR_NAME(images_rate)(const PairArgs *args, size_t begin, size_t end)
+PAIR_LOOP(wcsph_images_rate)
 {
     FOR_KERNEL(args, begin, end, rate_range);
 }
 
-void PAIR_NAME(images_force)(const PairArgs *args, size_t begin, size_t end)
+PAIR_LOOP(wcsph_images_force)
 {
     FOR_KERNEL(args, begin, end, force_range);
 }

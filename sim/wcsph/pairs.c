@@ -2,7 +2,7 @@
      d rho_i / dt = (rho0_i / n0) (-sum F v_ij . x_ij)      the rate of number density, so that an interface
                                                             between fluids is none for it; Monaghan 1992
      force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...      conserves the energy that goes with that rate */
-#include "sim/cpu/pair_kernel.h"
+#include "sim/wcsph/pair_kernel.h"
 
 /* m^-1 b of the symmetric m = xx yy zz xy yz zx; 0 where det (3 m / trace) is below a quarter, since
    neighbours hardly span the space then: all around it is 1, in the lattice's own corner 0.77. */
@@ -33,7 +33,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
 
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
-        const f8 ri = f8_splat(args->relative[i]), fi = f8_splat(args->kind[i]);
+        const f8 ri = f8_splat(args->own[RELATIVE][i]), fi = f8_splat(args->kind[i]);
         int solid = 0; /* it sees one */
         f8 xx = f8_splat(0), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx, bx = xx, by = xx, bz = xx;
 
@@ -47,7 +47,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
             if (!i8_bits(near))
                 continue;
             const f8 f = f8_masked(near, shape(f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h, kernel));
-            const f8 fx = f * d.x, fy = f * d.y, fz = f * d.z, de = ri - f8_load(args->relative + j);
+            const f8 fx = f * d.x, fy = f * d.y, fz = f * d.z, de = ri - f8_load(args->own[RELATIVE] + j);
             xx += fx * d.x, yy += fy * d.y, zz += fz * d.z;
             xy += fx * d.y, yz += fy * d.z, zx += fz * d.x;
             bx += fx * de, by += fy * de, bz += fz * de;
@@ -60,7 +60,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
             m[2] = 0.5f * (m[0] + m[1]);
         renormalise(m, b, slope);
         for (int k = 0; k < 3; k++)
-            args->slope[k][i] = solid ? 0 : slope[k];
+            args->own[SLOPE + k][i] = solid ? 0 : slope[k];
     }
 }
 
@@ -78,11 +78,11 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
-        const f8 ri = f8_splat(diffusive ? args->relative[i] : 0),
+        const f8 ri = f8_splat(diffusive ? args->own[RELATIVE][i] : 0),
                  fi = f8_splat(diffusive ? args->kind[i] : 0);
-        const f8 gx = f8_splat(diffusive ? args->slope[0][i] : 0),
-                 gy = f8_splat(diffusive ? args->slope[1][i] : 0),
-                 gz = f8_splat(diffusive ? args->slope[2][i] : 0);
+        const f8 gx = f8_splat(diffusive ? args->own[SLOPE][i] : 0),
+                 gy = f8_splat(diffusive ? args->own[SLOPE + 1][i] : 0),
+                 gz = f8_splat(diffusive ? args->own[SLOPE + 2][i] : 0);
         f8 sum = f8_splat(0);
 
         rows_of(args, args->cell[i], &rows);
@@ -96,14 +96,14 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
                       (wi - f8_load(args->vz + j)) * d.z;
             if (diffusive) {
                 const i8 same = f8_load(args->kind + j) == fi;
-                const f8 along = (gx + f8_load(args->slope[0] + j)) * d.x +
-                                 (gy + f8_load(args->slope[1] + j)) * d.y +
-                                 (gz + f8_load(args->slope[2] + j)) * d.z;
-                flow -= f8_masked(same, diffusion * (f8_load(args->relative + j) - ri + half * along));
+                const f8 along = (gx + f8_load(args->own[SLOPE] + j)) * d.x +
+                                 (gy + f8_load(args->own[SLOPE + 1] + j)) * d.y +
+                                 (gz + f8_load(args->own[SLOPE + 2] + j)) * d.z;
+                flow -= f8_masked(same, diffusion * (f8_load(args->own[RELATIVE] + j) - ri + half * along));
             }
             sum += f8_masked(near, f * flow);
         }
-        args->rate[i] = -s->gradient * f8_sum(sum);
+        args->fx[i] = -s->gradient * f8_sum(sum);
     }
 }
 
@@ -124,7 +124,7 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
         const f8 pi = f8_splat(args->pressure_term[i]), volume = f8_splat(args->volume[i]);
         const f8 mi = f8_splat(viscous ? args->viscosity[i] : 0),
-                 ai = f8_splat(artificial ? args->artificial[i] : 0);
+                 ai = f8_splat(artificial ? args->own[ARTIFICIAL][i] : 0);
         f8 fx = f8_splat(0), fy = fx, fz = fx, ex = fx, ey = fx, ez = fx, full = fx, dense = fx;
 
         rows_of(args, args->cell[i], &rows);
@@ -159,8 +159,8 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
                     fz += drag * uz;
                 }
                 if (artificial)
-                    push += both * (ai + f8_load(args->artificial + j)) * (ux * d.x + uy * d.y + uz * d.z) /
-                            (d.r2 + soft);
+                    push += both * (ai + f8_load(args->own[ARTIFICIAL] + j)) *
+                            (ux * d.x + uy * d.y + uz * d.z) / (d.r2 + soft);
             }
             push *= f;
             fx += push * d.x;
@@ -171,18 +171,18 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
         args->fy[i] = s->gradient * f8_sum(fy);
         args->fz[i] = s->gradient * f8_sum(fz);
         if (shifts) {
-            args->uneven[0][i] = s->gradient * f8_sum(ex);
-            args->uneven[1][i] = s->gradient * f8_sum(ey);
-            args->uneven[2][i] = s->gradient * f8_sum(ez);
-            args->full[i] = s->gradient * f8_sum(full);
-            args->dense[i] = s->kernel_scale * (1 + f8_sum(dense));
+            args->own[UNEVEN][i] = s->gradient * f8_sum(ex);
+            args->own[UNEVEN + 1][i] = s->gradient * f8_sum(ey);
+            args->own[UNEVEN + 2][i] = s->gradient * f8_sum(ez);
+            args->own[FULL][i] = s->gradient * f8_sum(full);
+            args->own[DENSE][i] = s->kernel_scale * (1 + f8_sum(dense));
         }
     }
 }
 
 SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
 {
-    if (args->relative)
+    if (args->own[RELATIVE])
         rate_range(args, begin, end, kernel, true);
     else
         rate_range(args, begin, end, kernel, false);
@@ -202,7 +202,7 @@ SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, co
 SIMD_INLINE void force_with(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
                             const bool shifts)
 {
-    if (args->artificial)
+    if (args->own[ARTIFICIAL])
         viscous_with(args, begin, end, kernel, true, shifts);
     else
         viscous_with(args, begin, end, kernel, false, shifts);
@@ -210,23 +210,23 @@ SIMD_INLINE void force_with(const PairArgs *args, size_t begin, size_t end, cons
 
 SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
 {
-    if (args->full)
+    if (args->own[FULL])
         force_with(args, begin, end, kernel, true);
     else
         force_with(args, begin, end, kernel, false);
 }
 
-void PAIR_NAME(wcsph_slope)(const PairArgs *args, size_t begin, size_t end)
+PAIR_LOOP(wcsph_slope)
 {
     FOR_KERNEL(args, begin, end, slope_range);
 }
 
-void PAIR_NAME(wcsph_rate)(const PairArgs *args, size_t begin, size_t end)
+PAIR_LOOP(wcsph_rate)
 {
     FOR_KERNEL(args, begin, end, rate_of);
 }
 
-void PAIR_NAME(wcsph_force)(const PairArgs *args, size_t begin, size_t end)
+PAIR_LOOP(wcsph_force)
 {
     FOR_KERNEL(args, begin, end, force_of);
 }

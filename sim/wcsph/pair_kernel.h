@@ -3,6 +3,7 @@
 #define SLOSH_PAIR_KERNEL_H
 
 #include "sim/cpu/pair_loop.h"
+#include "sim/wcsph/columns.h"
 
 /* f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q); of the quintic's powers of
    3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient` takes care of. */

@@ -65,7 +65,7 @@ void world_settle(World *world)
     if (world->def.solid_count > 0)
         world->backend->pose(world->state, pose);
     world->backend->grid(world->state);
-    world->backend->density(world->state);
+    world->backend->run(world->state, world->method->settle, &(PassInput){0});
 }
 
 static bool names_check(const WorldDef *def, Error *error)
@@ -162,7 +162,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->state = world->state;
     step->clock = clock;
     step->dt = dt;
-    step->shifts = world->constants.shifting > 0;
+    step->constants = &world->constants;
     frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
     frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);

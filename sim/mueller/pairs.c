@@ -1,8 +1,5 @@
-#include "sim/cpu/pairs.h"
-
+/* The pair sums of mueller. */
 #include "sim/cpu/pair_loop.h"
-
-#include <math.h>
 
 /* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). poly6 = (1 - q^2)^3, spiky = (1 - q)^3; the
    scale comes last. */
@@ -27,7 +24,7 @@ SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, c
     }
 }
 
-static void density(const PairArgs *args, size_t begin, size_t end)
+PAIR_LOOP(mueller_density)
 {
     if (args->constants->poly6)
         density_range(args, begin, end, true);
@@ -89,7 +86,7 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
-static void force(const PairArgs *args, size_t begin, size_t end)
+PAIR_LOOP(mueller_force)
 {
     if (!args->constants->viscous)
         force_range(args, begin, end, false, false);
@@ -98,16 +95,3 @@ static void force(const PairArgs *args, size_t begin, size_t end)
     else
         force_range(args, begin, end, true, true);
 }
-
-extern const PairOps PAIR_NAME(pair_ops);
-const PairOps PAIR_NAME(pair_ops) = {
-    PAIR_SET,
-    density,
-    force,
-    PAIR_NAME(tension),
-    PAIR_NAME(wcsph_slope),
-    PAIR_NAME(wcsph_rate),
-    PAIR_NAME(wcsph_force),
-    PAIR_NAME(images_rate),
-    PAIR_NAME(images_force),
-};

@@ -10,31 +10,24 @@
 
 void world_state_free(WorldState *state)
 {
-    const ParticleColumns *p = &state->particles;
-    void *const all[] = {p->x, p->y, p->z, p->vx, p->vy, p->vz, p->compression, p->id, p->fluid};
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        free(all[k]);
+    columns_destroy(&state->particles);
     *state = (WorldState){.count = 0};
 }
 
-bool world_state_reserve(WorldState *state, size_t count)
+bool world_state_reserve(WorldState *state, const Method *method, size_t count)
 {
-    ParticleColumns *p = &state->particles;
-    float **const floats[] = {&p->x, &p->y, &p->z, &p->vx, &p->vy, &p->vz, &p->compression};
-    bool all = true;
-    if (count > state->capacity) {
+    const ColumnRows saved = column_rows(method->columns, COLUMN_SAVED, NULL);
+    if (count > state->capacity || state->method != method) {
         world_state_free(state);
-        for (size_t k = 0; k < sizeof floats / sizeof *floats; k++)
-            all &= (*floats[k] = malloc(count * sizeof(float))) != NULL;
-        p->id = malloc(count * sizeof *p->id);
-        p->fluid = malloc(count * sizeof *p->fluid);
-        all &= p->id && p->fluid;
-        state->capacity = count;
+        if (!columns_create(&state->particles, &saved, count, NULL)) {
+            world_state_free(state);
+            return false;
+        }
     }
+    state->method = method;
+    state->capacity = count > state->capacity ? count : state->capacity;
     state->count = count;
-    if (!all)
-        world_state_free(state);
-    return all;
+    return true;
 }
 
 void world_save_numbers(World *world, WorldNumbers *numbers)
@@ -77,7 +70,8 @@ bool world_save(World *world, WorldState *state, Error *error)
         return error_set(error,
                          "the state at t = %g s is not sound: %s; go on until the simulation has gone back",
                          world_time_at(world, (double)world->step), step_trouble_words(world->seen));
-    if (!world_state_reserve(state, world->count) || !world->backend->save(world->state, &state->particles))
+    if (!world_state_reserve(state, world->method, world->count) ||
+        !world->backend->save(world->state, &state->particles))
         return error_set(error, "no memory for the state of %zu particles", world->count);
     world_save_numbers(world, &state->numbers);
     return true;
@@ -114,11 +108,10 @@ static bool particles_check(const World *world, const WorldState *state, Error *
     bool *seen = calloc((size_t)born + 1, sizeof *seen), whole = true;
     if (!seen)
         return error_set(error, "no memory");
-    const bool carried = world->constants.continuity;
     for (size_t i = 0; i < state->count && whole; i++) {
         whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) &&
-                (!carried || (p->compression[i] > -1 && isfinite(p->compression[i]))) && p->id[i] < born &&
-                !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
+                (!p->compression || (p->compression[i] > -1 && isfinite(p->compression[i]))) &&
+                p->id[i] < born && !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
         if (whole)
             seen[p->id[i]] = true;
     }

@@ -1,0 +1,36 @@
+/* What a method's pass is on the CPU: loops over all particles, one behind the other, each in ranges side by
+   side. */
+#ifndef SLOSH_CPU_PASS_H
+#define SLOSH_CPU_PASS_H
+
+#include "sim/cpu/cpu.h"
+#include "sim/world/method.h"
+
+typedef struct CpuRange {
+    Cpu *cpu;
+    const PairArgs *args;
+    const PassInput *input;
+    size_t begin, end;
+} CpuRange;
+
+typedef struct CpuLoop {
+    void (*body)(const CpuRange *range);
+    size_t grain; /* particles in a range: CPU_GRAIN for who walks over neighbours, more for the others */
+    bool solids;  /* over the particles of solids too; else over runs of the fluids' alone */
+} CpuLoop;
+
+typedef struct CpuPass {
+    CpuLoop loops[3]; /* ended by one without a body */
+    bool mirrors;     /* the particles of solids stand for the fluid next to them meanwhile */
+} CpuPass;
+
+/* The pair sums of a range. */
+static inline void cpu_pairs(const CpuRange *range, const PairLoops *loops)
+{
+    loops->in[range->cpu->pairs](range->args, range->begin, range->end);
+}
+
+/* Forces as sums over pairs and walls become accelerations, surface tension among them. */
+void cpu_force_end(const CpuRange *range);
+
+#endif

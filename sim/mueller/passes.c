@@ -1,0 +1,108 @@
+/* Density, pressure and forces: the pair sums, then what the walls add. */
+#include "sim/mueller/passes.h"
+
+#include <math.h>
+
+PAIR_LOOPS(mueller_density);
+PAIR_LOOPS(mueller_force);
+
+/* p = c^2 (rho - rho0), Müller 2003, eq. 12, with rho as cpu_read gives it; the sum of the pairs stands in
+   `volume`. */
+static void finish_density(Cpu *cpu, size_t i)
+{
+    const Constants *s = cpu->constants;
+    const CpuParticles *p = &cpu->now;
+    const float x[3] = {p->x[i], p->y[i], p->z[i]};
+    const float n = p->volume[i] + walls_number_density(&s->walls, x);
+    const float pressure = s->stiffness[p->fluid[i]] * (n / s->rest_number_density - 1);
+
+    p->volume[i] = 1 / n;
+    p->pressure[i] = s->negative_pressure ? pressure : fmaxf(pressure, 0);
+    p->pressure_term[i] = p->pressure[i] * p->volume[i] * p->volume[i];
+    cpu_fill_terms(cpu, i);
+}
+
+static void density_body(const CpuRange *range)
+{
+    cpu_pairs(range, &mueller_density);
+    for (size_t i = range->begin; i < range->end; i++)
+        finish_density(range->cpu, i);
+}
+
+/* The force of the walls on particle i: p_i V_i^2 s - V_i V0 rho0 m g with the sums of sim/box/wall.h. The
+   hydrostatic part fades out below the pressure of one layer, so that a drop on a wall falls freely, and must
+   not turn a push into a pull; fluid under tension pulls by itself. */
+static void wall_force(const Cpu *cpu, size_t i, const float g[3], const WallSums *sums, float out[3])
+{
+    const Constants *s = cpu->constants;
+    const CpuParticles *p = &cpu->now;
+    const float *m = sums->moment, density = s->density[p->fluid[i]];
+    const float layer = density * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const float fade = layer > 0 ? fminf(fmaxf(p->pressure[i] / layer, 0), 1) : 0;
+    const float weight = fade * density * p->volume[i] / s->rest_number_density;
+    const float moment_g[3] = {m[0] * g[0] + m[3] * g[1] + m[5] * g[2],
+                               m[3] * g[0] + m[1] * g[1] + m[4] * g[2],
+                               m[5] * g[0] + m[4] * g[1] + m[2] * g[2]};
+    for (int k = 0; k < 3; k++) {
+        const float push = p->pressure_term[i] * sums->push[k];
+        const float hydrostatic = -weight * moment_g[k];
+        const bool pulls = p->pressure[i] >= 0 && sums->push[k] * (push + hydrostatic) < 0;
+        out[k] = pulls ? 0 : push + hydrostatic;
+    }
+}
+
+static void add_walls(const CpuRange *range, size_t i)
+{
+    const Cpu *cpu = range->cpu;
+    const CpuParticles *p = &cpu->now;
+    const float x[3] = {p->x[i], p->y[i], p->z[i]};
+    WallSums sums;
+    if (!walls_at(&cpu->constants->walls, x, &sums))
+        return;
+    float g[3], force[3];
+    apparent_gravity_at(range->input->apparent, x, g);
+    wall_force(cpu, i, g, &sums, force);
+    p->ax[i] += force[0];
+    p->ay[i] += force[1];
+    p->az[i] += force[2];
+}
+
+static void force_body(const CpuRange *range)
+{
+    cpu_pairs(range, &mueller_force);
+    for (size_t i = range->begin; i < range->end; i++)
+        add_walls(range, i);
+    cpu_force_end(range);
+}
+
+static const CpuPass density = {.loops = {{density_body, CPU_GRAIN}}};
+static const CpuPass force = {.loops = {{force_body, CPU_GRAIN}}, .mirrors = true};
+
+const Pass mueller_densities = {
+    .name = "density",
+    .stage = STAGE_DENSITY,
+    .cpu = &density,
+    .shader = "mueller/density",
+    .reads = "position fluid",
+    .writes = "volume pressure pressure_term viscosity tension kind",
+};
+
+const Pass mueller_forces = {
+    .name = "force",
+    .stage = STAGE_FORCE,
+    .cpu = &force,
+    .shader = "mueller/force",
+    .reads = "position velocity id fluid volume pressure pressure_term viscosity tension kind",
+    .writes = "acceleration",
+};
+
+static bool many_viscous(const Constants *constants)
+{
+    return constants->viscous && constants->fluid_count > 1;
+}
+
+const ColumnDef mueller_columns[] = {
+    {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
+     .needed = many_viscous},
+    {0},
+};

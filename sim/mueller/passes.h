@@ -1,0 +1,15 @@
+/* The passes of mueller, and its columns. */
+#ifndef SLOSH_MUELLER_PASSES_H
+#define SLOSH_MUELLER_PASSES_H
+
+#include "sim/cpu/pass.h"
+
+/* Number density, volume and pressure of every particle: Müller 2003, eq. 3 and 12. */
+extern const Pass mueller_densities;
+
+/* Accelerations by pressure, viscosity, walls and solids: eq. 10 and 14. */
+extern const Pass mueller_forces;
+
+extern const ColumnDef mueller_columns[];
+
+#endif

@@ -1,0 +1,18 @@
+/* The columns that wcsph alone has: where they stand among a particle's own. */
+#ifndef SLOSH_WCSPH_COLUMNS_H
+#define SLOSH_WCSPH_COLUMNS_H
+
+#include "sim/world/column.h"
+
+enum {
+    ARTIFICIAL, /* viscosity of the particle's fluid, Pa s */
+    RELATIVE,   /* rho / rho0 - 1 as diffusion reads it, while the continuity changes that of neighbours */
+    SLOPE,      /* its gradient, 1/m */
+    UNEVEN = SLOPE + 3, /* what shifting goes by: sum of F x_ij, 1/m4 */
+    FULL = UNEVEN + 3,  /* of F r^2, 1/m3; then 0 to 1, how far from a surface */
+    DENSE,              /* of W, 1/m3; then n / n0 - 1 */
+};
+
+extern const ColumnDef wcsph_columns[];
+
+#endif

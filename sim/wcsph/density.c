@@ -1,0 +1,84 @@
+/* The density that particles carry, and what follows from it. */
+#include "sim/wcsph/passes.h"
+#include "sim/wcsph/state.h"
+
+PAIR_LOOPS(wcsph_slope);
+PAIR_LOOPS(wcsph_rate);
+PAIR_LOOPS(wcsph_images_rate);
+
+/* Pressure, and V = V0 rho0 / rho. */
+static void state_body(const CpuRange *range)
+{
+    Cpu *cpu = range->cpu;
+    const Constants *s = cpu->constants;
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const int fluid = p->fluid[i];
+        if (fluid >= FLUIDS_MAX) {
+            cpu_boundary_terms(cpu, i);
+            continue;
+        }
+        const float e = p->compression[i], pressure = wcsph_tait(s->tait[fluid], e);
+        p->volume[i] = 1 / ((1 + e) * s->rest_number_density);
+        p->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
+        p->pressure_term[i] = p->pressure[i] * p->volume[i] * p->volume[i];
+        if (p->own[RELATIVE])
+            p->own[RELATIVE][i] = e;
+        if (p->own[ARTIFICIAL])
+            p->own[ARTIFICIAL][i] = s->artificial_viscosity[fluid];
+        cpu_fill_terms(cpu, i);
+    }
+}
+
+static void slope_body(const CpuRange *range)
+{
+    cpu_pairs(range, &wcsph_slope);
+}
+
+static void continuity_body(const CpuRange *range)
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    const float *rate = p->ax;
+    cpu_pairs(range, &wcsph_rate);
+    cpu_pairs(range, &wcsph_images_rate);
+    for (size_t i = range->begin; i < range->end; i++)
+        p->compression[i] += rate[i] / s->rest_number_density * range->input->dt;
+}
+
+#define STATE                                                                                                \
+    {                                                                                                        \
+        state_body, 4 * CPU_GRAIN, .solids = true                                                            \
+    }
+
+static const CpuPass state = {.loops = {STATE}};
+static const CpuPass slope = {.loops = {STATE, {slope_body, CPU_GRAIN}}};
+static const CpuPass continuity = {.loops = {{continuity_body, CPU_GRAIN}, STATE}};
+
+const Pass wcsph_state = {
+    .name = "state",
+    .stage = STAGE_DENSITY,
+    .cpu = &state,
+    .shader = "wcsph/state",
+    .reads = "fluid compression",
+    .writes = "volume pressure pressure_term relative kind viscosity artificial tension",
+};
+
+const Pass wcsph_gradient = {
+    .name = "slope",
+    .stage = STAGE_DENSITY,
+    .cpu = &slope,
+    .shader = "wcsph/slope",
+    .reads = "position fluid compression",
+    .writes = "volume pressure pressure_term relative kind viscosity artificial tension slope",
+};
+
+const Pass wcsph_continuity = {
+    .name = "continuity",
+    .stage = STAGE_DENSITY,
+    .cpu = &continuity,
+    .shader = "wcsph/continuity",
+    .reads = "position velocity fluid relative kind slope compression",
+    .writes =
+        "compression volume pressure pressure_term relative kind viscosity artificial tension acceleration",
+};

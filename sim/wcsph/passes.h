@@ -1,0 +1,24 @@
+/* The passes of wcsph. */
+#ifndef SLOSH_WCSPH_PASSES_H
+#define SLOSH_WCSPH_PASSES_H
+
+#include "sim/cpu/pass.h"
+#include "sim/wcsph/columns.h"
+
+/* Volume and pressure, by the density that particles carry; what pair sums need of each. */
+extern const Pass wcsph_state;
+
+/* The same, and the gradient of density, of which diffusion has need. */
+extern const Pass wcsph_gradient;
+
+/* Density += dt times its rate by the equation of continuity; volume and pressure after it. */
+extern const Pass wcsph_continuity;
+
+/* Accelerations by pressure, viscosity, walls and solids; what shifting goes by. */
+extern const Pass wcsph_forces;
+
+/* Moves particles down the gradient of their number density as it was at the last grid, by a velocity of chi
+   c h / 2 times that over n0: Lind 2012. */
+extern const Pass wcsph_shift;
+
+#endif

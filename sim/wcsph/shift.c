@@ -1,0 +1,35 @@
+/* Shifting of particles: down the gradient of their number density, so that a flow does not line them up.
+
+   After: S. J. Lind, R. Xu, P. K. Stansby, B. D. Rogers, "Incompressible smoothed particle hydrodynamics for
+   free-surface flows", 2012, eq. 22 to 25; P. N. Sun, A. Colagrossi, S. Marrone, A. M. Zhang, "The
+   delta-plus-SPH model", 2017. */
+#include "sim/wcsph/passes.h"
+
+#include <math.h>
+
+/* By chi c (h / 2) dt V0 sum F x_ij. */
+static void shift_body(const CpuRange *range)
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    float *const x[3] = {p->x, p->y, p->z};
+    const float dt = range->input->dt;
+    const float most = 0.1f * s->spacing, scale = s->shifting * dt / s->rest_number_density;
+    const float part = fminf(dt * s->sound_speed / (SHIFT_RETURN * s->support_radius), 1);
+    for (size_t i = range->begin; i < range->end; i++) {
+        for (int k = 0; k < 3; k++)
+            x[k][i] += fminf(fmaxf(scale * p->own[UNEVEN + k][i], -most), most);
+        p->compression[i] += part * p->own[FULL][i] * (p->own[DENSE][i] - p->compression[i]);
+    }
+}
+
+static const CpuPass shift = {.loops = {{shift_body, 4 * CPU_GRAIN}}};
+
+const Pass wcsph_shift = {
+    .name = "shift",
+    .stage = STAGE_FORCE,
+    .cpu = &shift,
+    .shader = "wcsph/shift",
+    .reads = "position compression uneven full dense",
+    .writes = "position compression",
+};

@@ -1,0 +1,90 @@
+/* The columns of the particles: one table says of each what it is called, what it holds, and what becomes of
+   it. Allocation, sorting, saving and files are loops over the rows. A method adds rows of its own
+   (sim/world/method.h). */
+#ifndef SLOSH_COLUMN_H
+#define SLOSH_COLUMN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct Constants; /* sim/world/constants.h */
+
+enum { COLUMNS_OWN = 16, COLUMNS_MAX = 48 };
+
+/* All that there may be of a particle, a column each; NULL where it is not needed. */
+typedef struct ParticleColumns {
+    float *x, *y, *z;     /* box's frame, m */
+    float *vx, *vy, *vz;  /* box's frame, m/s */
+    uint32_t *id;         /* place in the initial state */
+    uint8_t *fluid;       /* index into WorldDef.fluids */
+    float *compression;   /* rho / rho0 - 1, of a method whose particles carry their density: rho itself, in
+                             single precision, would lose what a slow flow adds in a step */
+    float *volume;        /* 1 / n, m3 */
+    float *pressure;      /* Pa */
+    float *pressure_term; /* p V^2, J m3 */
+    float *ax, *ay, *az;  /* m/s2; forces until their pass ends, N */
+    float *viscosity;     /* of the particle's fluid, Pa s */
+    float *tension;       /* the same, N/m; of cohesion scaled */
+    float *kind;          /* its fluid as a number: pairs of one fluid have the same */
+    float *own[COLUMNS_OWN]; /* of the method: as its rows say */
+} ParticleColumns;
+
+typedef enum ColumnType { COLUMN_FLOAT, COLUMN_INDEX, COLUMN_BYTE } ColumnType;
+
+/* What becomes of a column; scratch, which each step makes anew, has none of these. */
+enum {
+    COLUMN_SAVED = 1,  /* a part of the saved state */
+    COLUMN_SORTED = 2, /* goes with its particle when the grid sorts them */
+    COLUMN_FLUIDS = 4, /* 0 for the particles of solids */
+};
+
+typedef struct ColumnDef {
+    const char *name, *unit;
+    size_t at;      /* of its first component in ParticleColumns; the others stand next to it */
+    int components; /* 1 or 3 */
+    ColumnType type;
+    unsigned flags;
+    bool (*needed)(const struct Constants *constants); /* NULL: always */
+} ColumnDef;
+
+/* Where the method's own column k stands. */
+#define COLUMN_OWN(k) (offsetof(ParticleColumns, own) + (size_t)(k) * sizeof(float *))
+
+/* Those of every method, ended by a NULL name. */
+extern const ColumnDef columns_common[];
+
+/* Some rows of the table. */
+typedef struct ColumnRows {
+    int count;
+    const ColumnDef *row[COLUMNS_MAX];
+} ColumnRows;
+
+/* Rows with all these flags, of those that every method has and of the method's `own` (ended by a NULL name;
+   NULL: none). With constants only those that are needed. */
+ColumnRows column_rows(const ColumnDef *own, unsigned flags, const struct Constants *constants);
+
+/* The array of a component; free, save and copy go through it. */
+void **column_array(ParticleColumns *columns, const ColumnDef *column, int component);
+
+size_t column_size(const ColumnDef *column); /* of an entry, bytes */
+
+/* Arrays for `count` particles where there are none: zeroed, aligned to a cache line, readable for
+   COLUMN_PAST entries past the end. Adds to *bytes (may be NULL). False when memory is short. */
+enum { COLUMN_PAST = 7 };
+bool columns_create(ParticleColumns *columns, const ColumnRows *rows, size_t count, size_t *bytes);
+void columns_destroy(ParticleColumns *columns);
+
+/* Entries [begin, end) of `to` out of `from`: the same, or those at place[k]. What either lacks is left
+   out. */
+void columns_copy(const ColumnRows *rows, const ParticleColumns *from, const ParticleColumns *to,
+                  const uint32_t *place, size_t begin, size_t end);
+
+/* The two change places, of these rows. */
+void columns_swap(const ColumnRows *rows, ParticleColumns *a, ParticleColumns *b);
+
+/* Particle `from` takes the place `to`; particle i has 0 in all of these rows. */
+void columns_move(const ColumnRows *rows, const ParticleColumns *columns, size_t from, size_t to);
+void columns_clear(const ColumnRows *rows, const ParticleColumns *columns, size_t i);
+
+#endif

@@ -1,0 +1,24 @@
+#include "sim/world/column.h"
+#include "sim/world/constants.h"
+
+static bool tense(const Constants *constants)
+{
+    return constants->tension_model != TENSION_NONE;
+}
+
+#define AT(member) .at = offsetof(ParticleColumns, member)
+#define KEPT       .flags = COLUMN_SAVED | COLUMN_SORTED
+
+const ColumnDef columns_common[] = {
+    {"position", "m", AT(x), 3, COLUMN_FLOAT, KEPT},
+    {"velocity", "m/s", AT(vx), 3, COLUMN_FLOAT, KEPT},
+    {"id", "", AT(id), 1, COLUMN_INDEX, KEPT},
+    {"fluid", "", AT(fluid), 1, COLUMN_BYTE, KEPT},
+    {"volume", "m3", AT(volume), 1, COLUMN_FLOAT},
+    {"pressure", "Pa", AT(pressure), 1, COLUMN_FLOAT},
+    {"pressure_term", "J m3", AT(pressure_term), 1, COLUMN_FLOAT},
+    {"acceleration", "m/s2", AT(ax), 3, COLUMN_FLOAT},
+    {"tension", "N/m", AT(tension), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS, .needed = tense},
+    {"kind", "", AT(kind), 1, COLUMN_FLOAT, .needed = tense},
+    {0},
+};

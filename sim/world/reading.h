@@ -1,0 +1,86 @@
+/* What is read of a world: structs that its backends fill in. */
+#ifndef SLOSH_READING_H
+#define SLOSH_READING_H
+
+#include "sim/base/scalar.h"
+#include "sim/box/box_filter.h"
+#include "sim/world/step_control.h"
+
+#include <stdint.h>
+
+/* The last trouble that the sentinel found. The world then went back to the begin of the frame, with half the
+   step. */
+typedef struct WorldTrouble {
+    unsigned count; /* in all */
+    StepTrouble what;
+    double time;        /* when it was found, s */
+    double back_to;     /* the state that it went back to, s */
+    int tries, retries; /* halvings in force, and how many there may be */
+} WorldTrouble;
+
+/* What a world is, apart from its particles. */
+typedef struct WorldInfo {
+    double time;                        /* simulated, s */
+    uint64_t step;                      /* substeps since the start */
+    size_t count, capacity;             /* particles; as many as emitters may fill it up to */
+    uint64_t emitted, drained;          /* of them, since the start */
+    bool full;                          /* emitters wait: there are as many as there may be */
+    int threads;                        /* that the backend uses */
+    double support_radius;              /* h, m */
+    double spacing;                     /* m */
+    double box_size[3];                 /* m */
+    BoxState box;                       /* of the state that world_read reads */
+    BoxTarget hand;                     /* the hand's part of its pose, as the filter has it */
+    double gravity[3];                  /* in the box's frame, m/s2 */
+    size_t state_bytes;                 /* memory that the backend holds for its particles and grid */
+    bool within_frame;                  /* steps of the frame are left */
+    double dt;                          /* of the last step, s */
+    StepLimit limit;                    /* what bounded it */
+    uint64_t limited[STEP_LIMIT_COUNT]; /* steps by what bounded them, since the start */
+    WorldTrouble trouble;
+    size_t lost;    /* backend fragment: particles without a place in its grid, in the last step known */
+    size_t guarded; /* times that the last guard of a wall held a particle back, since the start */
+    double courant; /* dt (c + greatest speed) / h of the last step, whatever bounded it; on a GPU the speed
+                       is that of the frame before */
+} WorldInfo;
+
+/* Reductions over all particles, in double, in an order that no thread count changes. Momenta and energies
+   are those of the motion in the box's frame; angular momentum about the box's origin. */
+typedef struct WorldSums {
+    double mass;                /* kg */
+    double momentum[3];         /* kg m/s */
+    double momentum_scale;      /* sum |m v| */
+    double angular_momentum[3]; /* kg m2/s */
+    double angular_scale;       /* sum |m x v| */
+    double kinetic_energy;      /* J */
+    double centre[3];           /* of mass, m */
+    double max_speed;           /* m/s */
+    double neighbours_mean;     /* others with r < h, of those that the grid of the last substep shows */
+} WorldSums;
+
+/* What is plotted of a state while the world runs. The error of density is how far particles are pressed
+   above the rest density, rho / rho0 - 1 where that is more than 0 (Bender and Koschier 2015): what a
+   particle at a free surface lacks is no error. Energies as in WorldSums; that of compression is the integral
+   of p / rho^2 dm. */
+typedef struct WorldGauge {
+    double time;                                  /* of that state, s */
+    double density_error_mean, density_error_max; /* fractions of the rest density */
+    double kinetic_energy;                        /* J */
+    double potential_energy;                      /* in gravity, over the box's origin, J */
+    double compression_energy;                    /* J */
+    bool total_known; /* their sum is all of the energy; false with surface tension, whose is not known */
+} WorldGauge;
+
+/* Where world_read writes; NULL where something is not wanted. All arrays hold `count` particles in one
+   common order, which changes from step to step; `id` tells who is who. Density (calibrated, so that
+   p = c^2 (rho - rho0)), pressure and volume are those that the last substep used, at the middle of it (at
+   time 0: those of the initial state); with wcsph those that the particles carry, at its end. */
+typedef struct ParticleArrays {
+    float *position;             /* 4 a particle: x y z (box frame, m), volume 1 / number density (m3) */
+    float *velocity;             /* 4 a particle: x y z (box frame, m/s), 0 */
+    float *scalar[SCALAR_COUNT]; /* 1 a particle */
+    uint32_t *fluid;             /* index into WorldDef.fluids */
+    uint32_t *id;                /* place in the initial state */
+} ParticleArrays;
+
+#endif
