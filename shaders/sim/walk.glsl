@@ -1,5 +1,5 @@
 // The walk over the neighbours of a place x: what stands in the cells around `at`, the cell of x, row by row. The cells
-// stand in rows of three, nine of them, in two dimensions three: sim/cpu/pairs.h.
+// stand in rows of three, nine of them, in two dimensions three: sim/cpu/pair_args.h.
 //
 // WALK(x, at, meet, meet_boundary) calls meet(j, d, w) for each particle, and meet_boundary(j, d, w) for each boundary
 // particle of solids, of whatever distance: j is its index, d = x - where it stands, w the fourth number of its place.

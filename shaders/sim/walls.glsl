@@ -103,7 +103,7 @@ WallSums walls_at(vec3 x, bool density_only)
 }
 
 // What they do to a particle that finds those sums, of such a rest density, volume, pressure p and term p V^2, where it feels g: wall_force
-// in sim/cpu/forces.c.
+// in sim/mueller/passes.c.
 vec3 wall_force(WallSums sums, vec3 g, float density, float volume, float p, float term)
 {
     float layer = density * spacing * length(g), fade = layer > 0.0 ? clamp(p / layer, 0.0, 1.0) : 0.0;

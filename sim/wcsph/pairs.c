@@ -109,7 +109,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 
 /* Pressure; laminar viscosity (sim/matter/viscosity.h) or artificial one (Monaghan 1992, for pairs that part
    too): V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i V_j (a_i +
-   a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. With `shifts` what sim/cpu/shift.c needs as well. */
+   a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. With `shifts` what sim/wcsph/shift.c needs as well. */
 SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
                              const bool viscous, const bool radial, const bool artificial, const bool shifts)
 {

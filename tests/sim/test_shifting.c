@@ -1,4 +1,4 @@
-/* Shifting of particles (sim/cpu/shift.c): the shift itself against all pairs, what walls, surfaces and the
+/* Shifting of particles (sim/wcsph/shift.c): the shift itself against all pairs, what walls, surfaces and the
    density that particles carry make of it. backend compute is compared with cpu in tests/gl. */
 #include "fixture.h"
 

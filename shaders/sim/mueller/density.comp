@@ -1,4 +1,4 @@
-// mueller: number density, volume, pressure: sim/cpu/pairs.c and finish_density in sim/cpu/forces.c.
+// mueller: number density, volume, pressure: sim/mueller/pairs.c and finish_density in sim/mueller/passes.c.
 #include "sim/constants.glsl"
 #include "sim/walls.glsl"
 #include "sim/walk.glsl"

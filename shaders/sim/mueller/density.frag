@@ -1,4 +1,4 @@
-// Number density, volume, pressure: sim/cpu/pairs.c and finish_density in sim/cpu/forces.c.
+// Number density, volume, pressure: sim/mueller/pairs.c and finish_density in sim/mueller/passes.c.
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
 #include "sim/walls.glsl"

@@ -1,4 +1,4 @@
-// mueller: accelerations by pressure, viscosity and walls: force_range in sim/cpu/pairs.c, and sim/cpu/forces.c.
+// mueller: accelerations by pressure, viscosity and walls: force_range in sim/mueller/pairs.c, and sim/mueller/passes.c.
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
 #include "sim/walls.glsl"

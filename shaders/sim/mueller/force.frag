@@ -1,4 +1,4 @@
-// Accelerations by pressure, viscosity and walls: sim/cpu/pairs.c and sim/cpu/forces.c.
+// Accelerations by pressure, viscosity and walls: sim/mueller/pairs.c and sim/mueller/passes.c.
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
 #include "sim/walls.glsl"

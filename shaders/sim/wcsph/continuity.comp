@@ -1,5 +1,5 @@
 // wcsph: the density that particles carry, by the equation of continuity with diffusion and the walls' images, then volume and
-// pressure after it: rate_range in sim/cpu/pairs_wcsph.c, continuity_range in sim/cpu/wcsph.c, sim/cpu/pairs_images.c.
+// pressure after it: rate_range in sim/wcsph/pairs.c, continuity_body in sim/wcsph/density.c, sim/wcsph/pairs_images.c.
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/wcsph/images.glsl"

@@ -1,4 +1,4 @@
-// What shifting goes by, summed up along with the forces: wcsph_range of sim/cpu/pairs_wcsph.c. Without shifting, nothing.
+// What shifting goes by, summed up along with the forces: wcsph_range of sim/wcsph/pairs.c. Without shifting, nothing.
 #ifdef SHIFTING
 layout(std430, binding = UNEVENS_BUFFER) writeonly buffer Unevens { vec4 uneven[]; }; // see shift.comp
 
@@ -24,7 +24,7 @@ void even_end_image(vec3 sign)
     even_image = vec4(0);
 }
 
-// cpu_shift_share of sim/cpu/shift.c.
+// complete_shift of sim/wcsph/force.c.
 void even_write(uint i)
 {
     float share = clamp((even_sum.w / (float(dimensions) * rest_number_density) - 0.8) / 0.15, 0.0, 1.0);

@@ -1,5 +1,5 @@
-// wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/cpu/pairs_wcsph.c, and
-// sim/cpu/pairs_images.c.
+// wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/wcsph/pairs.c, and
+// sim/wcsph/pairs_images.c.
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
 #include "sim/wcsph/wcsph.glsl"
@@ -25,11 +25,11 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 }
 
 // What pressure does on an image: of the hydrostatic part the rise from a particle to its own image is rise0 + 2 rise . d,
-// d from the other image to this one; rise_of of sim/cpu/pairs_images.c.
+// d from the other image to this one; rise_of of sim/wcsph/pairs_images.c.
 vec3 image_push, rise;
 float rise0, inverse_layer;
 
-// p V0^2 of the image of a particle of such a term: image_term of sim/cpu/pairs_images.c.
+// p V0^2 of the image of a particle of such a term: image_term of sim/wcsph/pairs_images.c.
 float image_term(float term, vec3 d)
 {
     float share = clamp(term * inverse_layer, 0.0, 1.0);

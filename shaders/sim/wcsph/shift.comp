@@ -1,4 +1,4 @@
-// Particles down the gradient of their number density: shift_range of sim/cpu/shift.c.
+// Particles down the gradient of their number density: shift_body of sim/wcsph/shift.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/term_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };

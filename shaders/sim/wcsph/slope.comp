@@ -1,5 +1,5 @@
 // wcsph: the gradient of relative density within a fluid, exact where that is linear (Antuono 2010), and that density
-// itself, which neighbours read while `continuity` changes theirs: slope_range in sim/cpu/pairs_wcsph.c.
+// itself, which neighbours read while `continuity` changes theirs: slope_range in sim/wcsph/pairs.c.
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"

@@ -1,5 +1,5 @@
 // wcsph: volume and pressure by the density that particles carry, which stands ready for diffusion:
-// cpu_equation_of_state in sim/cpu/wcsph.c.
+// state_body in sim/wcsph/density.c.
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume

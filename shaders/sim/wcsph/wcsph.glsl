@@ -1,4 +1,4 @@
-// What the passes of wcsph share: sim/cpu/pairs_wcsph.c, sim/cpu/wcsph.c.
+// What the passes of wcsph share: sim/wcsph/pairs.c, sim/wcsph/density.c.
 #include "shaders/sim/term_block.h"
 
 // f(q) = -w'(q) / q of the kernel, up to a factor that gradient_scale takes care of.
