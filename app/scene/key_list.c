@@ -82,7 +82,8 @@ static void table_add(const Key *key, size_t at, const KeyOwner *owner)
     row->offset = moved(key->offset, by);
     row->aux = moved(key->aux, by);
     row->flags |= above ? above->flags & KEY_IDLE : 0;
-    row->owner = key->owner ? key->owner : owner;
+    if (!key->owner && !(above && above->owner == owner))
+        row->owner = owner; /* else by the mapping above */
     table_count++;
 }
 
