@@ -180,6 +180,7 @@ class Resume(CommandTest):
                       'resume with the same scene and settings, or name another file', said)
         self.assertEqual(self.read('a.h5part'), before)
         self.go('--resume', '--set', 'view.color_by=density', '--threads', '1')
+        self.go('--resume', '--set', 'fluids[0].color=[1, 0, 0]', '--set', 'title=another')
         self.write('b.h5part', b'no snapshots')
         said = self.go('--resume', code=2, name='b.h5part')
         self.assertIn('b.h5part: is no file of snapshots', said)
