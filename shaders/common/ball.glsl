@@ -1,6 +1,9 @@
-// The ball that stands for a particle: of the view's radius, with DROPS of its own one, with ELLIPSOID that of an ellipsoid's volume
-// (render/splat/ellipsoids.c). Wants common/frame.glsl and common/particles.glsl.
+// The ball that stands for a particle: of the view's radius, with DROPS of its own one, with ELLIPSOID that of an ellipsoid's volume,
+// or of BALL_RADIUS where that is defined. Wants common/frame.glsl and common/particles.glsl.
 #include "shaders/shared/bindings.h"
+#ifndef BALL_RADIUS
+#define BALL_RADIUS particle_radius // m
+#endif
 #ifdef ELLIPSOID
 // Of each: centre, radius of the ball of its volume, m; the symmetric matrix A that takes it to that ball, of determinant 1: xx yy
 // zz, least axis in radii at most; xy xz yz.
@@ -21,9 +24,7 @@ Ball ball_of(uint index)
     return Ball(ball.xyz, ball.w);
 #elif defined DROPS
     return Ball(particle_position(index), shape_radius[index]);
-#elif defined THICKNESS
-    return Ball(particle_position(index), splat_radius);
 #else
-    return Ball(particle_position(index), particle_radius);
+    return Ball(particle_position(index), BALL_RADIUS);
 #endif
 }

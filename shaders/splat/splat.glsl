@@ -7,6 +7,7 @@
 #undef ELLIPSOID
 #undef DROPS
 layout(location = SPLAT_RADIUS_AT) uniform float splat_radius; // of the kernel, m
+#define BALL_RADIUS splat_radius
 #else
 #define splat_radius particle_radius
 #endif

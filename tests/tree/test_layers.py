@@ -180,6 +180,16 @@ class Layers(unittest.TestCase):
                 found += [f"{name}: {match.group()}" for match in re.finditer(word, path.read_text())]
         self.assertEqual(found, ['app/command/export.c: "volume"'])  # in m3
 
+    def test_a_views_shaders_are_its_own(self):
+        seen, found = 0, []
+        for path in sorted((ROOT / "shaders").glob("*/*.*")):
+            for name in re.findall(r'^#include "(?:shaders/)?([^"]+)"', path.read_text(), re.M):
+                seen += 1
+                if name.split("/")[0] not in (path.parent.name, "common", "shared", "render"):
+                    found.append(f"{path.relative_to(ROOT)} includes {name}")
+        self.assertGreater(seen, 100)
+        self.assertEqual(found, [])
+
     def test_no_drawer(self):
         count = collections.Counter(
             str(pathlib.PurePosixPath(name).parent)
