@@ -7,7 +7,7 @@
 #include "shaders/sim/bindings.h"
 
 #ifdef WRITES_WATCH
-STORAGE_BLOCK(WatchBlock, WATCH_STORAGE)
+STORAGE_BLOCK(WatchBlock, WATCH_BUFFER)
 #else
 UNIFORM_BLOCK(WatchBlock, WATCH_BLOCK)
 #endif
