@@ -104,17 +104,17 @@ static void on_key(Input *input, const WindowEvent *event, AskQueue *asks)
         ask_add(asks, &(Ask){.kind = ASK_COMMAND, .command = command, .held = event->repeated});
 }
 
-static bool holds_key(const Input *input)
+bool input_holds_box(const Input *input)
 {
+    bool holds = input->drag == PLAY_MOVE_DRAG || input->drag == PLAY_TURN_DRAG;
     for (const PlayHeldKey *held = play_held_keys; held->key; held++)
-        if (input->down[held->key])
-            return true;
-    return false;
+        holds |= input->down[held->key];
+    return holds;
 }
 
 bool input_busy(const Input *input)
 {
-    return input->drag != PLAY_NONE || holds_key(input);
+    return input->drag != PLAY_NONE || input_holds_box(input);
 }
 
 /* What was held is let go. */
@@ -122,7 +122,7 @@ static void on_focus(Input *input, const WindowEvent *event, AskQueue *asks)
 {
     if (event->down)
         return;
-    if (holds_key(input) || input->drag == PLAY_MOVE_DRAG || input->drag == PLAY_TURN_DRAG)
+    if (input_holds_box(input))
         ask_add(asks, &(Ask){.kind = ASK_LET_GO});
     memset(input->down, 0, sizeof input->down);
     memset(input->move_drag, 0, sizeof input->move_drag);

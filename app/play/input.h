@@ -31,7 +31,8 @@ void input_take(Input *input, const WindowEvent *event, int height, AskQueue *as
    one may be taken in the middle of a picture. */
 bool input_only_holds(const Input *input, const WindowEvent *event);
 
-/* Whether a drag or a key is held, so that the hand is to be looked at often. */
+/* Whether a drag or a key has the box; or a drag anything, so that the hand is to be looked at often. */
+bool input_holds_box(const Input *input);
 bool input_busy(const Input *input);
 
 /* Adds to the hand's input what has come since the last call; pad: NULL where there is none. A pixel is so

@@ -140,13 +140,12 @@ static void take_events(Session *session)
     act_all(play);
 }
 
-/* In the middle of a picture: the box follows a picture sooner. An event that asks for anything waits, and
-   all that come after it. */
-static void follow_hand(Session *session)
+/* What moves the box that is held. An event that asks for anything waits, and all that come after it. */
+static void take_moves(Session *session)
 {
     Play *play = &session->play;
     WindowEvent event;
-    while (play->input.drag == PLAY_MOVE_DRAG && next_shake(session, &event))
+    while (next_shake(session, &event))
         take_event(play, &event);
     window_poll(play->window);
     while (window_peek(play->window, &event)) {
@@ -156,6 +155,14 @@ static void follow_hand(Session *session)
         take_event(play, &event);
         window_next(play->window, &event);
     }
+}
+
+/* In the middle of a picture: a box that is held follows a picture sooner. */
+static void follow_hand(Session *session)
+{
+    Play *play = &session->play;
+    if (input_holds_box(&play->input))
+        take_moves(session);
     if (play->model.has_particles)
         hands_look(play);
 }

@@ -139,13 +139,14 @@ static void what_only_holds_asks_for_nothing(void **state)
     for (int kind = WINDOW_TEXT; kind <= WINDOW_CLOSE; kind++)
         assert_true(kind == WINDOW_MOVE || !only_holds((WindowEvent){.kind = (WindowEventKind)kind}));
     take(button(GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_SHIFT, true));
-    assert_true(only_holds(move(2, 2)));
+    assert_true(only_holds(move(2, 2)) && input_holds_box(&input));
     take(move(2, 2));
     take(key(GLFW_KEY_LEFT, true));
     no_more();
     take(button(GLFW_MOUSE_BUTTON_LEFT, GLFW_MOD_SHIFT, false));
     take(button(GLFW_MOUSE_BUTTON_RIGHT, 0, true));
     next(ASK_GRAB);
+    assert_true(input_busy(&input));
     assert_false(only_holds(move(3, 3)));
 }
 
