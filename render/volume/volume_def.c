@@ -40,7 +40,7 @@ const Key volume_keys[] = {
     CHOICE_OF("view.volume.bounds", L | KEY_INDEX, volume_bounds_names, AT(bounds),
            "of the volume: the box's, or those that the fluid has in each picture"),
     CHOICE_OF("view.volume.method", L | KEY_INDEX | KEY_REBUILD, volume_method_names, AT(method),
-           "how the volume is made: see render/README.md; direct: none, the field is summed where it is sampled"),
+           "how the volume is made: see docs/views/volume.md; direct: none, the field is summed where it is sampled"),
     CHOICE_OF("view.volume.show", L | KEY_INDEX | KEY_REBUILD, volume_show_names, AT(show), "a stage of the way to the picture"),
     CHOICE_OF("view.volume.slice_axis", L | KEY_INDEX, volume_axis_names, AT(slice_axis),
            "what the slice shown lies across"),

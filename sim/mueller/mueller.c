@@ -8,7 +8,7 @@
 #include "sim/world/substep.h"
 
 static const MuellerDef usual = {
-    .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see sim/README.md */
+    .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see docs/methods.md */
 };
 
 static const Key keys[] = {

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-/* Measured with sound at 20 m/s, alpha 0.05: sim/README.md. */
+/* Measured with sound at 20 m/s, alpha 0.05: docs/methods.md. */
 static void advise_kernel(const MethodAdvice *advice)
 {
     static const double pairs_from = 2.6, wants = 2.5;

@@ -74,7 +74,7 @@ double density_ratio(const WorldDef *def);
 
 /* The speed of sound that bounds a step, m/s. Light particles that carry their density, between heavy ones,
    are pushed by the pressure of those: above 1 : 10 a step has to be shorter by the root of the ratio
-   (sim/README.md). */
+   (docs/failures.md). */
 double step_sound(const WorldDef *def);
 
 /* The viscosity that an artificial one stands for, alpha c h / 4, m2/s. */
@@ -87,12 +87,12 @@ double step_viscous(const WorldDef *def, const StepFriction *friction);
 
 /* The longest step that sound stands, in h / c: 2 / omega of its stiffest wave on the lattice, 2.0 to 2.6 c /
    h by kernel and support. Of mueller's, which damps nothing, longer ones than STEP_SOUND_CALM heat fluid
-   that has no friction: sim/README.md. */
+   that has no friction: docs/failures.md. */
 #define STEP_SOUND_STANDS 0.9
 #define STEP_SOUND_CALM   0.5
 
 /* So much of it stands a fluid that is out of order; measured: 0.8 to 1.1, of wcsph in 3D at supports below
-   3, stirred hard, 0.6 (sim/README.md). */
+   3, stirred hard, 0.6 (docs/failures.md). */
 #define STEP_VISCOUS_STANDS 0.7
 
 /* What binds a step of `dt` s in which a world blew up, at the greatest speed before (m/s), and what to
