@@ -2,6 +2,7 @@
 #include "app/output/snapshot.h"
 #include "app/output/snapshot_file.h"
 #include "sim/kernel/lattice.h"
+#include "sim/world/method.h"
 
 #include <errno.h>
 #include <math.h>
@@ -145,14 +146,21 @@ size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_M
     return read_fluids(reader, SNAPSHOT_COLORS, 3, colors[0]);
 }
 
-/* As sim/kernel/lattice.h calibrates a density that is summed up; wcsph carries it instead. */
+/* The word behind `key`, which is "\nkey = "; false: there is none. */
+static bool setting_word(const char *settings, const char *key, char word[NAME_SIZE])
+{
+    const char *at = settings ? strstr(settings, key) : NULL;
+    return at && sscanf(at + strlen(key), "%31s", word) == 1;
+}
+
+/* As sim/kernel/lattice.h calibrates a density that is summed up; particles may carry it instead. */
 static double read_compression(const SnapshotReader *reader, const SnapshotScene *scene)
 {
     Lattice lattice = {.stiffness_scale = 1};
     char name[NAME_SIZE] = "", *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
-    const char *kernel = settings ? strstr(settings, "\nsolver.density_kernel = ") : NULL;
-    if (kernel && !strstr(settings, "\nsolver.method = wcsph\n") &&
-        sscanf(kernel, "\nsolver.density_kernel = %31s", name) == 1 && density_kernel_find(name))
+    const Method *method = setting_word(settings, "\nsolver.method = ", name) ? method_find(name) : NULL;
+    if (!(method && method->carries_density) && setting_word(settings, "\nsolver.density_kernel = ", name) &&
+        density_kernel_find(name))
         lattice_calibrate(scene->dimensions, scene->spacing, scene->support_radius, density_kernel_find(name),
                           density_kernel_find(name), &lattice);
     free(settings);
