@@ -64,6 +64,11 @@ const Pass wcsph_state = {
     .writes = "volume pressure pressure_term relative kind viscosity artificial tension",
 };
 
+static bool diffuses(const Constants *constants)
+{
+    return constants->diffusion > 0;
+}
+
 const Pass wcsph_gradient = {
     .name = "slope",
     .stage = STAGE_DENSITY,
@@ -71,6 +76,7 @@ const Pass wcsph_gradient = {
     .shader = "wcsph/slope",
     .reads = "position fluid compression",
     .writes = "volume pressure pressure_term relative kind viscosity artificial tension slope",
+    .needed = diffuses,
 };
 
 const Pass wcsph_continuity = {

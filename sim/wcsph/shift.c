@@ -25,6 +25,11 @@ static void shift_body(const CpuRange *range)
 
 static const CpuPass shift = {.loops = {{shift_body, 4 * CPU_GRAIN}}};
 
+static bool shifts(const Constants *constants)
+{
+    return constants->shifting > 0;
+}
+
 const Pass wcsph_shift = {
     .name = "shift",
     .stage = STAGE_FORCE,
@@ -32,4 +37,5 @@ const Pass wcsph_shift = {
     .shader = "wcsph/shift",
     .reads = "position compression uneven full dense",
     .writes = "position compression",
+    .needed = shifts,
 };

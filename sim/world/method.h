@@ -21,7 +21,8 @@ typedef struct Pass {
     Stage stage;
     const struct CpuPass *cpu;
     const char *shader; /* shaders/sim/SHADER.comp; NULL: backends that need one have no such method */
-    const char *reads, *writes; /* names of columns, blanks between them */
+    const char *reads, *writes;                        /* names of columns, blanks between them */
+    bool (*needed)(const struct Constants *constants); /* NULL: always; else only then it is run */
 } Pass;
 
 /* What a pass may want to know of the step. */

@@ -312,6 +312,14 @@ static void changes_reach_the_programs(void **state)
     world_destroy(gpu);
 }
 
+static const Pass *pass_named(const Method *method, const char *name)
+{
+    const Pass *const *pass = method->passes;
+    while (strcmp((*pass)->name, name) != 0)
+        pass++;
+    return *pass;
+}
+
 /* No program, no buffer is made anew; a state brings the viscosity of its time. */
 static void a_table_is_a_number_each_step(void **state)
 {
@@ -320,7 +328,8 @@ static void a_table_is_a_number_each_step(void **state)
     def.fluids[0].viscosity_table = (TimeTable){3, {0, 40 * def.dt, 100 * def.dt}, {4, 4, 0}};
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
     const Compute *compute = gpu->state;
-    const unsigned force = compute->program[COMPUTE_WCSPH_FORCE], kick = compute->program[COMPUTE_KICK];
+    const ComputePass forces = compute_method_pass(compute, pass_named(gpu->constants.method, "force"));
+    const unsigned force = compute->program[forces], kick = compute->program[COMPUTE_KICK];
     const size_t bytes = compute->bytes;
     fixture_step(cpu, 60);
     assert_true(cpu->constants.viscosity[0] > 1 && cpu->constants.viscosity[0] < 4);
@@ -328,7 +337,7 @@ static void a_table_is_a_number_each_step(void **state)
     compare_step("a viscosity by a table", cpu, gpu);
     fixture_step(gpu, 100);
     assert_true(gpu->constants.viscosity[0] < 1e-6F);
-    assert_true(compute->program[COMPUTE_WCSPH_FORCE] == force && compute->program[COMPUTE_KICK] == kick);
+    assert_true(compute->program[forces] == force && compute->program[COMPUTE_KICK] == kick);
     assert_true(compute->bytes == bytes);
     world_destroy(cpu);
     world_destroy(gpu);

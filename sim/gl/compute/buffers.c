@@ -36,10 +36,12 @@ static int binding_of(GLuint program, const char *block)
     return binding;
 }
 
-void compute_find_buffers(unsigned program, int8_t bindings[COMPUTE_NAMED])
+void compute_find_buffers(Compute *c, ComputePass pass)
 {
+    const GLuint program = c->program[pass];
+    c->takes_dt[pass] = program && glGetUniformLocation(program, "dt") >= 0;
     for (int k = 0; k < COMPUTE_NAMED; k++)
-        bindings[k] = (int8_t)(program ? binding_of(program, named[k].block) : -1);
+        c->bindings[pass][k] = (int8_t)(program ? binding_of(program, named[k].block) : -1);
 }
 
 void compute_sweep(const Compute *c, ComputePass pass, size_t count)

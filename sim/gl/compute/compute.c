@@ -109,16 +109,38 @@ static void walls_upload(Compute *c)
     }
 }
 
-unsigned compute_program(ComputePass pass, const char *defines, Error *error)
+ComputePass compute_method_pass(const Compute *c, const Pass *pass)
 {
+    int k = 0;
+    while (c->constants->method->passes[k] != pass)
+        k++;
+    return (ComputePass)(COMPUTE_METHOD + k);
+}
+
+/* Of a method's passes, NULL behind the last. */
+static const Pass *method_pass(const Compute *c, ComputePass pass)
+{
+    const Pass *const *passes = c->constants->method->passes;
+    for (int k = (int)pass - COMPUTE_METHOD; k > 0 && *passes; k--)
+        passes++;
+    return *passes;
+}
+
+unsigned compute_program(const Compute *c, ComputePass pass, const char *defines, Error *error)
+{
+    const char *name = pass < COMPUTE_METHOD ? pass_names[pass] : method_pass(c, pass)->shader;
     char path[64];
-    snprintf(path, sizeof path, "sim/%s.comp", pass_names[pass]);
-    return program_create(pass_names[pass], (const char *const[]){path, NULL}, defines, error);
+    snprintf(path, sizeof path, "sim/%s.comp", name);
+    return program_create(name, (const char *const[]){path, NULL}, defines, error);
 }
 
 /* Whether the programs are to have it: by the scene's terms, or since somebody asked for it. */
 static bool pass_wanted(const Compute *c, ComputePass pass)
 {
+    if (pass >= COMPUTE_METHOD) {
+        const Pass *of = method_pass(c, pass);
+        return of && (!of->needed || of->needed(c->constants));
+    }
     return pass == COMPUTE_GAUGE ? c->program[pass] != 0 : compute_pass_named(c->constants, pass);
 }
 
@@ -132,13 +154,13 @@ static bool programs_create(Compute *c, Error *error)
     compute_defines(c->constants, defines);
     for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++)
         if (pass_wanted(c, (ComputePass)p))
-            ok = (program[p] = compute_program((ComputePass)p, defines, error)) != 0;
+            ok = (program[p] = compute_program(c, (ComputePass)p, defines, error)) != 0;
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
         glDeleteProgram(ok ? c->program[p] : program[p]);
     if (ok) {
         memcpy(c->program, program, sizeof program);
         for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
-            compute_find_buffers(program[p], c->bindings[p]);
+            compute_find_buffers(c, (ComputePass)p);
         memcpy(c->defines, defines, sizeof defines);
     }
     return ok;

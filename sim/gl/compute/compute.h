@@ -28,7 +28,7 @@ typedef struct ComputeParticles {
     unsigned name;     /* uvec2: id, fluid */
 } ComputeParticles;
 
-/* The passes: shaders/sim/NAME.comp; those of a method stand in its folder. */
+/* The passes: shaders/sim/NAME.comp. Behind them stand those of the method, in its order. */
 #define COMPUTE_PASSES(X)                                                                                    \
     X(DRIFT, "compute/drift")                                                                                \
     X(BIN, "compute/bin")                                                                                    \
@@ -37,13 +37,6 @@ typedef struct ComputeParticles {
     X(PLACE, "compute/place")                                                                                \
     X(SORT, "compute/sort")                                                                                  \
     X(MOVE, "compute/move")                                                                                  \
-    X(DENSITY, "mueller/density")                                                                            \
-    X(MUELLER_FORCE, "mueller/force")                                                                        \
-    X(STATE, "wcsph/state")                                                                                  \
-    X(SLOPE, "wcsph/slope")                                                                                  \
-    X(CONTINUITY, "wcsph/continuity")                                                                        \
-    X(WCSPH_FORCE, "wcsph/force")                                                                            \
-    X(SHIFT, "wcsph/shift")                                                                                  \
     X(KICK, "compute/kick")                                                                                  \
     X(GAUGE, "compute/gauge")                                                                                \
     X(SHOW, "compute/show")                                                                                  \
@@ -61,7 +54,8 @@ typedef enum ComputePass {
 #define X(NAME, name) COMPUTE_##NAME,
     COMPUTE_PASSES(X)
 #undef X
-        COMPUTE_PASS_COUNT
+        COMPUTE_METHOD,
+    COMPUTE_PASS_COUNT = COMPUTE_METHOD + 8
 } ComputePass;
 
 /* Boundary particles of solids; all 0 without solids. */
@@ -99,6 +93,7 @@ typedef struct Compute {
     unsigned shown[COMPUTE_SHOWN];        /* for the views: uint or float; 0 until it is asked for */
     unsigned constant_block, step;        /* uniform blocks */
     unsigned program[COMPUTE_PASS_COUNT];
+    bool takes_dt[COMPUTE_PASS_COUNT];
     int8_t bindings[COMPUTE_PASS_COUNT]
                    [COMPUTE_NAMED];        /* of the buffers that a pass finds by name; -1: none */
     bool full;                             /* the GPU's memory */
@@ -112,8 +107,11 @@ typedef struct Compute {
                                           need */
 } Compute;
 
-/* Compiles one pass with the lines that the others have; 0 with the reason. */
-unsigned compute_program(ComputePass pass, const char *defines, Error *error);
+/* Compiles one pass with such lines before it; 0 with the reason. */
+unsigned compute_program(const Compute *compute, ComputePass pass, const char *defines, Error *error);
+
+/* Where a pass of the method stands. */
+ComputePass compute_method_pass(const Compute *compute, const Pass *pass);
 
 /* A storage buffer of `bytes`, zeroed. */
 unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
@@ -130,7 +128,7 @@ void compute_run(const Compute *compute, ComputePass pass, size_t count);
 
 /* Where a program has each of the state's buffers, by the names of its storage blocks; a pass over `count`
    particles that has these bound. */
-void compute_find_buffers(unsigned program, int8_t bindings[COMPUTE_NAMED]);
+void compute_find_buffers(Compute *compute, ComputePass pass);
 void compute_sweep(const Compute *compute, ComputePass pass, size_t count);
 
 /* That many work groups, in rows: shaders/sim/constants.glsl. */

@@ -14,7 +14,7 @@ static bool prepare(Compute *c)
     if (!c->gauge.buffer)
         mailbox_create(&c->gauge, "gauge", COMPUTE_GAUGE_GROUPS * sizeof(GaugePart));
     if (!c->program[COMPUTE_GAUGE])
-        c->program[COMPUTE_GAUGE] = compute_program(COMPUTE_GAUGE, c->defines, &error);
+        c->program[COMPUTE_GAUGE] = compute_program(c, COMPUTE_GAUGE, c->defines, &error);
     return c->gauge.mapped && c->program[COMPUTE_GAUGE];
 }
 

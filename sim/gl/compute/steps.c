@@ -40,64 +40,24 @@ void compute_drift(void *state, const FrameStep *step)
     compute_sweep(c, COMPUTE_DRIFT, c->count);
 }
 
-/* Binds what the passes of wcsph read and write, and runs one. */
-static void run_wcsph(const Compute *c, ComputePass pass)
+/* Whether the boundary particles are to stand for the fluid next to them: who reads this column reads theirs.
+ */
+static bool meets_boundary(const Compute *c, const Pass *pass)
 {
-    compute_boundary_bind(c);
-    compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
-                                    c->slope, 0, c->boundary.rest},
-                 8);
-    compute_run(c, pass, c->count);
-}
-
-static void continuity(const Compute *c, float dt)
-{
-    glProgramUniform1f(c->program[COMPUTE_CONTINUITY], PASS_DT_AT, dt);
-    run_wcsph(c, COMPUTE_CONTINUITY);
-}
-
-static void density(const Compute *c)
-{
-    compute_boundary_bind(c);
-    compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, 0, 0, 0, c->walls},
-                 8);
-    compute_run(c, COMPUTE_DENSITY, c->count);
-}
-
-static void force(Compute *c, const ApparentGravity *gravity)
-{
-    compute_set_force(c, gravity);
-    if (c->constants->solid_count > 0)
-        compute_boundary_fill(c);
-    compute_bind((const unsigned[]){c->now.position, c->now.name, c->start, c->pressure, c->now.velocity,
-                                    c->acceleration, c->uneven, c->walls},
-                 8);
-    compute_run(c, c->constants->continuity ? COMPUTE_WCSPH_FORCE : COMPUTE_MUELLER_FORCE, c->count);
-}
-
-static void shift(const Compute *c, float dt)
-{
-    glProgramUniform1f(c->program[COMPUTE_SHIFT], PASS_DT_AT, dt);
-    BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
-         [UNEVENS_BUFFER] = c->uneven);
-    compute_run(c, COMPUTE_SHIFT, c->count);
+    return c->constants->solid_count > 0 && strstr(pass->reads, "pressure_term");
 }
 
 void compute_pass(void *state, const Pass *pass, const PassInput *input)
 {
     Compute *c = state;
-    if (strcmp(pass->name, "density") == 0)
-        density(c);
-    else if (strcmp(pass->name, "state") == 0)
-        run_wcsph(c, COMPUTE_STATE);
-    else if (strcmp(pass->name, "slope") == 0)
-        run_wcsph(c, COMPUTE_SLOPE);
-    else if (strcmp(pass->name, "continuity") == 0)
-        continuity(c, input->dt);
-    else if (strcmp(pass->name, "force") == 0)
-        force(c, input->apparent);
-    else if (strcmp(pass->name, "shift") == 0)
-        shift(c, input->dt);
+    const ComputePass at = compute_method_pass(c, pass);
+    if (c->takes_dt[at])
+        glProgramUniform1f(c->program[at], PASS_DT_AT, input->dt);
+    if (pass->stage == STAGE_FORCE && input->apparent)
+        compute_set_force(c, input->apparent);
+    if (meets_boundary(c, pass))
+        compute_boundary_fill(c);
+    compute_sweep(c, at, c->count);
 }
 
 void compute_kick(void *state, const float gravity[3], float dt)

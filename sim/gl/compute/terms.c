@@ -55,17 +55,6 @@ bool compute_pass_named(const Constants *s, ComputePass pass)
     switch (pass) {
     case COMPUTE_SORT:
         return s->reproducible;
-    case COMPUTE_DENSITY:
-    case COMPUTE_MUELLER_FORCE:
-        return !s->continuity;
-    case COMPUTE_STATE:
-    case COMPUTE_CONTINUITY:
-    case COMPUTE_WCSPH_FORCE:
-        return s->continuity;
-    case COMPUTE_SHIFT:
-        return s->shifting > 0;
-    case COMPUTE_SLOPE:
-        return diffusive(s);
     case COMPUTE_BOUNDARY_BIN:
     case COMPUTE_BOUNDARY_PLACE:
     case COMPUTE_BOUNDARY_SORT:
