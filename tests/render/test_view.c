@@ -2,7 +2,6 @@
 #include "tests/render/fixture.h"
 
 #include "app/scene/keys.h"
-#include "app/scene/lists.h"
 #include "app/scene/live.h"
 #include "tests/render/toy_view.h"
 #include "tests/scene/scene_text.h"
@@ -63,8 +62,9 @@ static void it_is_listed_behind_the_others(void **state)
     static Notes notes;
     Error error = {0};
     const char *name = "", *text = LEAST "view: {toy: {shade: 0.25}}\n";
-    for (int i = 0; view_choice(i) && strcmp(view_choice(i), "none") != 0; i++)
-        name = view_choice(i);
+    const Key *kind = scene_key_find("view.kind");
+    for (int i = 0; key_choice(kind, i) && strcmp(key_choice(kind, i), "none") != 0; i++)
+        name = key_choice(kind, i);
     assert_string_equal(name, "toy");
     assert_true(scene_parse("scene.yaml", text, strlen(text), NULL, &scene, &notes, &error));
     assert_string_equal(scene.view.kind, view_list[0]->name);
