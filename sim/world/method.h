@@ -64,7 +64,7 @@ typedef struct Method {
     /* False with the reason: a setting is not in order, whichever the method. */
     bool (*check)(const WorldDef *def, Error *error);
     MethodKernels (*kernels)(const WorldDef *def);
-    StepFriction (*friction)(const WorldDef *def, const Lattice *lattice);
+    StepFriction (*friction)(const WorldDef *def, const Lattice *lattice); /* NULL: it has none */
     /* Its own part of the constants, behind all others; again when what is live has changed. NULL: none. */
     void (*constants)(struct Constants *constants, const WorldDef *def);
     void (*advise)(const MethodAdvice *advice); /* NULL: never */

@@ -42,7 +42,7 @@ StepFriction step_friction(const WorldDef *def)
     Lattice lattice;
     lattice_calibrate(def->dimensions, def->spacing, def->support * def->spacing, kernels.density,
                       kernels.slope, &lattice);
-    return method->friction(def, &lattice);
+    return method->friction ? method->friction(def, &lattice) : (StepFriction){0};
 }
 
 /* A light particle between those of the most viscous fluid. */
