@@ -1,5 +1,7 @@
 #include "app/metric/metric.h"
 
+#include "sim/world/method.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -129,18 +131,10 @@ double metric_mean_pressure(const Cloud *cloud, const double centre[3], double r
     return sum / count;
 }
 
-/* The integral of p d rho / rho^2 from the rest density on, J/kg. Tait with gamma 7, or c^2 (rho - rho0). */
-static double compression_energy(const WorldDef *def, double ratio)
-{
-    const double c2 = def->sound_speed * def->sound_speed;
-    if (strcmp(def->method, "wcsph") == 0)
-        return c2 / 7 * (pow(ratio, 6) / 6 + 1 / ratio - 7.0 / 6);
-    return c2 * (log(ratio) + 1 / ratio - 1);
-}
-
 void metric_energies(const Cloud *cloud, const WorldDef *def, Energies *energies)
 {
-    const double volume = pow(def->spacing, def->dimensions);
+    const double volume = pow(def->spacing, def->dimensions), c2 = def->sound_speed * def->sound_speed;
+    const Method *method = method_find(def->method);
     *energies = (Energies){0};
     for (size_t i = 0; i < cloud->count; i++) {
         const double rest = def->fluids[cloud->fluid[i]].density, mass = rest * volume;
@@ -152,8 +146,8 @@ void metric_energies(const Cloud *cloud, const WorldDef *def, Energies *energies
             energies->potential -= mass * def->gravity[k] * cloud->position[4 * i + (size_t)k];
         }
         energies->kinetic += 0.5 * mass * v2;
-        if (cloud->pressure[i] > 0 || def->negative_pressure)
-            energies->compression += mass * compression_energy(def, ratio);
+        if (method->energy && (cloud->pressure[i] > 0 || def->negative_pressure))
+            energies->compression += mass * c2 * method->energy(ratio - 1);
     }
 }
 

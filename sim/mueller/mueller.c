@@ -7,6 +7,8 @@
 #include "sim/mueller/passes.h"
 #include "sim/world/substep.h"
 
+#include <math.h>
+
 static const MuellerDef usual = {
     .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see docs/methods.md */
 };
@@ -28,6 +30,12 @@ static StepFriction mueller_friction(const WorldDef *def, const Lattice *lattice
     return (StepFriction){.laminar =
                               friction_rate(lattice, def->spacing, FRICTION_MUELLER,
                                             def->support * def->spacing, mueller_kernels(def).density)};
+}
+
+/* Of p = c^2 (rho - rho0); small x keep their digits. */
+static double mueller_energy(double x)
+{
+    return log1p(x) - x / (1 + x);
 }
 
 /* Symplectic Euler with the drift in two halves around the kick (position Verlet): the same single evaluation
@@ -61,6 +69,7 @@ const Method method_mueller = {
     .def_size = sizeof usual,
     .kernels = mueller_kernels,
     .friction = mueller_friction,
+    .energy = mueller_energy,
     .advise = mueller_advise,
     .columns = mueller_columns,
     .passes = passes,

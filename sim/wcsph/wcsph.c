@@ -84,7 +84,13 @@ static void wcsph_constants(Constants *constants, const WorldDef *def)
     }
 }
 
-/* Half a step of it, after the pass `ready`, which diffusion has need of. */
+/* Of p = rho0 c^2 / 7 ((rho / rho0)^7 - 1); small x keep their digits. */
+static double wcsph_energy(double x)
+{
+    return x * x * (5.0 / 2 + x * (10.0 / 3 + x * (5.0 / 2 + x * (1 + x / 6))) + 1 / (1 + x)) / 7;
+}
+
+/* Half a step of the equation of continuity, after the pass `ready`, which diffusion has need of. */
 static void continuity(const Substep *step, const Pass *ready)
 {
     if (step->constants->diffusion > 0)
@@ -132,6 +138,7 @@ const Method method_wcsph = {
     .check = wcsph_check,
     .kernels = wcsph_kernels_of,
     .friction = wcsph_friction,
+    .energy = wcsph_energy,
     .constants = wcsph_constants,
     .advise = wcsph_advise,
     .columns = wcsph_columns,

@@ -8,15 +8,6 @@
 
 #include <math.h>
 
-/* Energy of compression over m c^2, of x = rho / rho0 - 1: the integral of p / rho^2, p = c^2 (rho - rho0),
-   or with `continuity` p = rho0 c^2 / 7 ((rho / rho0)^7 - 1). Written so that small x keep their digits. */
-static inline double gauge_compression_energy(bool continuity, double x)
-{
-    if (continuity)
-        return x * x * (5.0 / 2 + x * (10.0 / 3 + x * (5.0 / 2 + x * (1 + x / 6))) + 1 / (1 + x)) / 7;
-    return log1p(x) - x / (1 + x);
-}
-
 /* Sums, of which the mean is not divided by the count yet. A particle at x (m) with the velocity v (m/s) and
    that compression; `gravity` in the box's frame, m/s2. */
 static inline void gauge_add(WorldGauge *gauge, const Constants *constants, const double gravity[3],
@@ -33,9 +24,9 @@ static inline void gauge_add(WorldGauge *gauge, const Constants *constants, cons
     gauge->density_error_max = fmax(gauge->density_error_max, pressed);
     gauge->kinetic_energy += 0.5 * m * speed2;
     gauge->potential_energy += m * height;
-    gauge->compression_energy +=
-        m * c * c *
-        gauge_compression_energy(constants->continuity, constants->negative_pressure ? compression : pressed);
+    if (constants->method->energy)
+        gauge->compression_energy +=
+            m * c * c * constants->method->energy(constants->negative_pressure ? compression : pressed);
 }
 
 #endif

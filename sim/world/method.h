@@ -65,6 +65,9 @@ typedef struct Method {
     bool (*check)(const WorldDef *def, Error *error);
     MethodKernels (*kernels)(const WorldDef *def);
     StepFriction (*friction)(const WorldDef *def, const Lattice *lattice); /* NULL: it has none */
+    /* Energy of compression over m c^2, of x = rho / rho0 - 1: the integral of p / rho^2. NULL: it has none.
+     */
+    double (*energy)(double x);
     /* Its own part of the constants, behind all others; again when what is live has changed. NULL: none. */
     void (*constants)(struct Constants *constants, const WorldDef *def);
     void (*advise)(const MethodAdvice *advice); /* NULL: never */
