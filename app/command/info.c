@@ -110,7 +110,7 @@ static void put_methods(Info *info)
     for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
         put_row(info, kernel->name, kernel->help);
     begin_list(info, "kernels of wcsph", "wcsph_kernels");
-    for (const Kernel *kernel = wcsph_kernels; kernel->name; kernel++)
+    for (const Kernel *kernel = shape_kernels; kernel->name; kernel++)
         put_row(info, kernel->name, kernel->help);
     begin_list(info, "models of surface tension", "surface_tension_models");
     for (const TensionKind *kind = tension_kinds; kind->name; kind++)

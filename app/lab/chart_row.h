@@ -77,7 +77,7 @@ bool chart_drawn(const ChartRow *row);
 bool chart_same_line(const ChartRow *a, const ChartRow *b);
 bool chart_opens_line(const ChartRows *rows, int row);
 
-/* "mueller, cpu, long steps" */
+/* method, backend and "long steps" */
 void chart_line_name(const ChartRow *row, char name[128]);
 
 /* The order of the line that the row `first` opens: the slope of log error over log spacing. NaN where there

@@ -43,8 +43,8 @@ typedef struct SnapshotStep {
     float *velocity[3];   /* box frame, m/s */
     float *density;       /* kg/m3 */
     float *pressure;      /* Pa */
-    float *compression;   /* density over that at rest, less 1: a run with wcsph goes on from it */
-    int32_t *fluid;       /* index into the root's fluid_names */
+    float *compression; /* density over that at rest, less 1: a method that carries density goes on from it */
+    int32_t *fluid;     /* index into the root's fluid_names */
     int64_t *id;
 } SnapshotStep;
 

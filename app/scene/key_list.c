@@ -24,11 +24,6 @@ static const Key title_keys[] = {
     TEXT("title", L | I, sizeof((Scene *)0)->title, offsetof(Scene, title), "the file's name", "what the scene shows"),
     KEYS_END,
 };
-static const Key preset_keys[] = {
-    CHOICE_OF("solver.preset", I, preset_list, offsetof(Scene, preset),
-           "fills in what the scene does not name; accurate: wcsph with the settings that slosh validate measures"),
-    KEYS_END,
-};
 static const Key realtime_keys[] = {
     BOOLEAN("solver.step.realtime", L | I, offsetof(Scene, realtime),
             "in the window, simulate as many frames as the clock asks for; false: as many as it can"),
@@ -44,6 +39,7 @@ static const Key metric_keys[] = {
 /* Where the rows of each owner stand: beside the struct that they fill. */
 extern const Key box_keys[], fluid_keys[], solid_keys[], solver_keys[], step_keys[],
     box_motion_keys[];                                            /* sim/matter */
+extern const Key preset_keys[];                                   /* app/scene */
 extern const Key motion_keys[], solid_motion_keys[], hand_keys[]; /* sim/box */
 extern const Key method_keys[], backend_keys[];                   /* sim/world */
 extern const Key view_keys[], view_frame_keys[];                  /* render/frame */

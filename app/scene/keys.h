@@ -24,10 +24,10 @@ const KeyOwner *key_owner(const Key *key);
    the chart shall be, for when it comes to that. */
 bool key_owner_used(const KeyOwner *owner, const Scene *scene, bool said);
 
-/* "solver.method: wcsph" */
+/* "solver.step.mode: cfl" */
 void key_owner_need(const KeyOwner *owner, char *text, size_t size);
 
-/* "wcsph: its kernel" */
+/* "cfl: greatest step" */
 void key_help_text(const Key *key, char *text, size_t size);
 
 /* A scene that says nothing; fluids and motions come from their rows' `init`. */

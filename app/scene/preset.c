@@ -2,8 +2,17 @@
 
 #include "app/scene/keys.h"
 #include "app/scene/value.h"
+#include "sim/base/key_rows.h"
 
 #include <string.h>
+
+extern const Key preset_keys[];
+const Key preset_keys[] = {
+    CHOICE_OF("solver.preset", I, preset_list, offsetof(Scene, preset),
+              "fills in what the scene does not name; accurate: wcsph with the settings that slosh "
+              "validate measures"),
+    KEYS_END,
+};
 
 const Preset preset_list[] = {
     {"play", "the defaults: fast, at large steps", {{NULL, NULL, NULL, 0}}},

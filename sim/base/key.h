@@ -39,8 +39,8 @@ enum {
    has no effect, and the user is told so. */
 typedef struct KeyOwner {
     const char *name; /* what the help of its keys begins with; NULL: their path says it */
-    /* It is in use where the key at this path has this value: "solver.method", "wcsph". A value of NULL
-       stands for any name but "none", and of a list for any element. */
+    /* It is in use where the key at this path has this value: "solver.method" and a method's name. A value of
+       NULL stands for any name but "none", and of a list for any element. */
     const char *key, *value;
     const char *command; /* instead of a key: the one command that reads its keys, "chart" */
     const char *need;    /* what a scene lacks where the owner is not in use; NULL: "key: value" */

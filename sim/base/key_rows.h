@@ -1,10 +1,10 @@
 /* The macros by which a file writes rows of keys (sim/base/key.h), a line or two for a key. For such .c files
    only. Rows of one owner are an array that KEYS_END ends:
 
-       #define AT(field) offsetof(WcsphDef, field)
-       const Key wcsph_keys[] = {
-           NUMBER("solver.delta_sph", 0, "", 0, 0.5, AT(delta_sph), "diffusion of density, 0.1 as a rule; 0:
-   none"), KEYS_END,
+       #define AT(field) offsetof(BoxDef, field)
+       const Key box_keys[] = {
+           NUMBER("box.tilt", 0, "degrees", -90, 90, AT(tilt), "about z"),
+           KEYS_END,
        };
 
    What follows a row's help sets further members: .owner = &mine, .fallback = "in words", .flags = I. */

@@ -1,5 +1,5 @@
-/* The walls of the box for mueller (wcsph: sim/box/wall_images.h), as fluid would see a lattice of particles
-   at rest behind them.
+/* The walls of the box where density is summed (where it is carried: sim/box/wall_images.h), as fluid would
+   see a lattice of particles at rest behind them.
 
    Behind each wall stands a half-space of lattice particles, the first layer half a spacing away. What it
    adds to the sums of a particle in front of it depends on the distances alone and is tabulated at start: for
@@ -59,7 +59,7 @@ typedef struct Walls {
 /* Entries of the first so many tables together: that of t + 1 faces has nodes^(t + 1). */
 size_t walls_entries(const Walls *walls, int tables);
 
-/* The walls without tables, as wcsph has them: it goes by images, see sim/box/wall_images.h. */
+/* The walls without tables, where they are mirrors: sim/box/wall_images.h. */
 void walls_place(Walls *walls, int dimensions, const double box_size[3], const bool open[3], double spacing);
 
 /* With tables; false when memory is short. */

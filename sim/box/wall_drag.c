@@ -7,7 +7,7 @@
 double wall_drag_weight(const Lattice *lattice, DragWeight weight, double r, double normal,
                         double support_radius)
 {
-    if (weight == DRAG_MUELLER)
+    if (weight == DRAG_LAPLACIAN)
         return lattice->laplacian_scale * kernel_viscosity_laplacian(r, support_radius);
     const double morris =
         -2 * lattice->gradient_scale * lattice->pressure_kernel->derivative(r, support_radius) / r;

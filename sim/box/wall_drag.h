@@ -31,7 +31,7 @@ typedef struct WallDrag {
     float *table[3];       /* owned; the last index runs fastest; NULL: not made, or no corners in 2D */
 } WallDrag;
 
-typedef enum DragWeight { DRAG_MUELLER, DRAG_MORRIS, DRAG_RADIAL } DragWeight;
+typedef enum DragWeight { DRAG_LAPLACIAN, DRAG_MORRIS, DRAG_RADIAL } DragWeight;
 
 /* w(r), 1/m5, of a wall particle at the distance `normal` from the fluid's along the wall's normal: Müller's
    Laplacian; 2 F = -2 W'(r) / r with the pressure kernel; or what the radial form of sim/matter/viscosity.h

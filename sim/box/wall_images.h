@@ -1,6 +1,6 @@
-/* The walls of the box as mirrors, for wcsph: behind each wall stand the images of the fluid before it, at
-   edges and corners the images of images (after Libersky and Petschek, "High strain Lagrangian
-   hydrodynamics", 1993).
+/* The walls of the box as mirrors, for a method whose particles carry their density: behind each wall stand
+   the images of the fluid before it, at edges and corners the images of images (after Libersky and Petschek,
+   "High strain Lagrangian hydrodynamics", 1993).
 
    An image has its particle's density, its velocity in the mirror, and its pressure, which goes on
    hydrostatically: p' = p + rho0 g.(x' - x). |x_i - x_j'| = |x_i' - x_j|, so what particle i finds of images

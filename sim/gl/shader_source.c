@@ -38,12 +38,23 @@ static bool append_line_mark(ShaderSource *source, int line, int file)
     return append(source, mark, (size_t)size);
 }
 
+static const EmbeddedShader *embedded(const char *path)
+{
+    const EmbeddedShader *shader = embedded_shaders;
+    while (shader->path && strcmp(shader->path, path) != 0)
+        shader++;
+    return shader->path ? shader : NULL;
+}
+
+bool shader_source_has(const char *path)
+{
+    return embedded(path) != NULL;
+}
+
 static char *read_embedded(const char *path)
 {
-    for (const EmbeddedShader *shader = embedded_shaders; shader->path; shader++)
-        if (strcmp(shader->path, path) == 0)
-            return strdup(shader->text);
-    return NULL;
+    const EmbeddedShader *shader = embedded(path);
+    return shader ? strdup(shader->text) : NULL;
 }
 
 static char *read_stream(FILE *file)

@@ -40,6 +40,9 @@ uint64_t shader_source_stamp(void);
 bool shader_source_load(ShaderSource *source, const char *path, const char *defines, Error *error);
 void shader_source_free(ShaderSource *source);
 
+/* Whether the program has it. */
+bool shader_source_has(const char *path);
+
 /* Copies the compiler's log with "file:line:" in place of its numbers. */
 void shader_source_log(const ShaderSource *source, const char *log, char *out, size_t out_size);
 

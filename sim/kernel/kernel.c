@@ -80,13 +80,13 @@ double kernel_quintic_derivative(double r, double h)
     return -27 * 15 / (120 * M_PI * h * h * h * h) * quintic_terms(r / h, 4);
 }
 
-const Kernel wcsph_kernels[] = {
+const Kernel shape_kernels[] = {
     [KERNEL_CUBIC] = {"cubic", "cubic spline", kernel_cubic, kernel_cubic_derivative},
     [KERNEL_WENDLAND_C2] = {"wendland_c2", "Wendland C2: no pairing, wants support 3", kernel_wendland_c2,
                             kernel_wendland_c2_derivative},
     [KERNEL_QUINTIC] = {"quintic", "quintic spline: smoothest, wants support 3", kernel_quintic,
                         kernel_quintic_derivative},
-    [WCSPH_KERNELS] = {0},
+    [SHAPE_KERNELS] = {0},
 };
 
 const Kernel density_kernels[] = {
@@ -109,7 +109,7 @@ const Kernel *density_kernel_find(const char *name)
     return find(density_kernels, name);
 }
 
-const Kernel *wcsph_kernel_find(const char *name)
+const Kernel *shape_kernel_find(const char *name)
 {
-    return find(wcsph_kernels, name);
+    return find(shape_kernels, name);
 }

@@ -10,7 +10,8 @@ double kernel_spiky_derivative(double r, double h);    /* dW/dr <= 0, 1/m4 */
 double kernel_viscosity(double r, double h);           /* eq. 22; infinite at r = 0 */
 double kernel_viscosity_laplacian(double r, double h); /* >= 0, 1/m5 */
 
-/* Kernels of wcsph, by q = r / h with the whole support radius h (papers have h / 2 or h / 3 there). */
+/* The shapes that solver.kernel names, by q = r / h with the whole support radius h (papers have h / 2 or h /
+ * 3 there). */
 double kernel_cubic(double r, double h); /* cubic spline: Monaghan and Lattanzio 1985 */
 double kernel_cubic_derivative(double r, double h);
 double kernel_wendland_c2(double r, double h); /* Wendland 1995; Dehnen and Aly 2012 */
@@ -27,12 +28,12 @@ typedef struct Kernel {
 
 extern const Kernel density_kernels[]; /* ended by a NULL name */
 
-/* Those of wcsph, in the order of WcsphKernel. */
-extern const Kernel wcsph_kernels[]; /* ended by a NULL name */
-typedef enum WcsphKernel { KERNEL_CUBIC, KERNEL_WENDLAND_C2, KERNEL_QUINTIC, WCSPH_KERNELS } WcsphKernel;
+/* These, in the order of ShapeKernel. */
+extern const Kernel shape_kernels[]; /* ended by a NULL name */
+typedef enum ShapeKernel { KERNEL_CUBIC, KERNEL_WENDLAND_C2, KERNEL_QUINTIC, SHAPE_KERNELS } ShapeKernel;
 
 /* NULL when there is none of that name. */
-const Kernel *wcsph_kernel_find(const char *name);
+const Kernel *shape_kernel_find(const char *name);
 const Kernel *density_kernel_find(const char *name);
 
 #endif

@@ -27,7 +27,7 @@ typedef struct Sites {
 /* w(r): a pair's force is V_i V_j mu w v_ji, or V_i V_j mu w (v_ji . x) x where it acts along the line. */
 static double friction_weight(const Lattice *lattice, Friction friction, double r, double h)
 {
-    if (friction == FRICTION_MUELLER)
+    if (friction == FRICTION_LAPLACIAN)
         return lattice->laplacian_scale * kernel_viscosity_laplacian(r, h);
     const double morris = -2 * lattice->gradient_scale * lattice->pressure_kernel->derivative(r, h) / r;
     return friction == FRICTION_RADIAL       ? morris * lattice->radial_scale

@@ -1,4 +1,4 @@
-/* The forms of wcsph's laminar viscosity: what a pair's friction acts along.
+/* The forms of laminar viscosity (solver.viscosity_form): what a pair's friction acts along.
 
    morris: V_i V_j (mu_i + mu_j) F v_ji, after Morris 1997: mu times the Laplacian of the velocity. Exact for
    shears, but it dissipates mu |grad v|^2: right inside a fluid without divergence, where that and 2 mu D : D
@@ -26,9 +26,9 @@ typedef struct ViscosityKind {
 
 extern const ViscosityKind viscosity_kinds[]; /* in the order of ViscosityForm, ended by a NULL name */
 
-/* What levels differences of velocity: Müller's Laplacian, the two forms above, wcsph's artificial viscosity.
+/* What levels differences of velocity: Müller's Laplacian, the two forms above, the artificial viscosity.
  */
-typedef enum Friction { FRICTION_MUELLER, FRICTION_MORRIS, FRICTION_RADIAL, FRICTION_ARTIFICIAL } Friction;
+typedef enum Friction { FRICTION_LAPLACIAN, FRICTION_MORRIS, FRICTION_RADIAL, FRICTION_ARTIFICIAL } Friction;
 
 /* How fast at most it levels them on the lattice of that spacing (m) at rest, 1/s for a kinematic viscosity
    of 1 m2/s (of the artificial one for alpha c h / 4): the greatest eigenvalue of its pair terms. An explicit

@@ -28,7 +28,7 @@ static MethodKernels mueller_kernels(const WorldDef *def)
 static StepFriction mueller_friction(const WorldDef *def, const Lattice *lattice)
 {
     return (StepFriction){.laminar =
-                              friction_rate(lattice, def->spacing, FRICTION_MUELLER,
+                              friction_rate(lattice, def->spacing, FRICTION_LAPLACIAN,
                                             def->support * def->spacing, mueller_kernels(def).density)};
 }
 

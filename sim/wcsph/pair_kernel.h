@@ -7,7 +7,7 @@
 
 /* f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q); of the quintic's powers of
    3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient` takes care of. */
-SIMD_INLINE f8 shape(f8 q, const WcsphKernel kernel)
+SIMD_INLINE f8 shape(f8 q, const ShapeKernel kernel)
 {
     const f8 one = f8_splat(1), zero = f8_splat(0), t = one - q;
     if (kernel == KERNEL_WENDLAND_C2)
@@ -20,7 +20,7 @@ SIMD_INLINE f8 shape(f8 q, const WcsphKernel kernel)
 }
 
 /* w(q) / w(0). */
-SIMD_INLINE f8 height(f8 q, const WcsphKernel kernel)
+SIMD_INLINE f8 height(f8 q, const ShapeKernel kernel)
 {
     const f8 one = f8_splat(1), zero = f8_splat(0), t = one - q, t2 = t * t;
     if (kernel == KERNEL_WENDLAND_C2)

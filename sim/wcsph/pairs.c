@@ -22,7 +22,7 @@ static void renormalise(const float m[6], const float b[3], float out[3])
 /* The gradient of relative density within a fluid, exact where that is linear: (sum F x x^T)^-1 sum F (e_i -
    e_j) x with x = x_ij (Antuono 2010, with volumes that are all the same). 0 next to solids: diffusion has to
    level the gaps that the fluid's order leaves there. */
-SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
     const float h = s->support_radius, least = 1e-6f * h;
@@ -66,7 +66,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
 
 /* Sum of F v_ij . x_ij, the compression of the flow, less the diffusion of relative density within a fluid:
    what its differences have beyond its gradient (Molteni and Colagrossi 2009; Antuono 2010). */
-SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
+SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                             const bool diffusive)
 {
     const Constants *s = args->constants;
@@ -110,7 +110,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 /* Pressure; laminar viscosity (sim/matter/viscosity.h) or artificial one (Monaghan 1992, for pairs that part
    too): V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i V_j (a_i +
    a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. With `shifts` what sim/wcsph/shift.c needs as well. */
-SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
+SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                              const bool viscous, const bool radial, const bool artificial, const bool shifts)
 {
     const Constants *s = args->constants;
@@ -180,7 +180,7 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
-SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     if (args->own[RELATIVE])
         rate_range(args, begin, end, kernel, true);
@@ -188,7 +188,7 @@ SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const W
         rate_range(args, begin, end, kernel, false);
 }
 
-SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
+SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                               const bool artificial, const bool shifts)
 {
     if (args->viscosity && args->constants->radial > 0)
@@ -199,7 +199,7 @@ SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, co
         wcsph_range(args, begin, end, kernel, false, false, artificial, shifts);
 }
 
-SIMD_INLINE void force_with(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel,
+SIMD_INLINE void force_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                             const bool shifts)
 {
     if (args->own[ARTIFICIAL])
@@ -208,7 +208,7 @@ SIMD_INLINE void force_with(const PairArgs *args, size_t begin, size_t end, cons
         viscous_with(args, begin, end, kernel, false, shifts);
 }
 
-SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     if (args->own[FULL])
         force_with(args, begin, end, kernel, true);

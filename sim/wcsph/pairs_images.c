@@ -16,7 +16,7 @@ SIMD_INLINE f8 greater(f8 a, f8 b)
 
 /* The kernel's gradient over q, not less than at a spacing `apart` for what is nearer: kernels let go of
    pairs that are close, and fluid would stick to its images. */
-SIMD_INLINE f8 image_shape(f8 q, f8 apart, const WcsphKernel kernel)
+SIMD_INLINE f8 image_shape(f8 q, f8 apart, const ShapeKernel kernel)
 {
     const f8 wide = greater(q, apart);
     return shape(wide, kernel) * (wide / q);
@@ -24,7 +24,7 @@ SIMD_INLINE f8 image_shape(f8 q, f8 apart, const WcsphKernel kernel)
 
 /* Sum of F v_ij . x_ij over what the image of particle i finds. */
 SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Rows rows, const Image *image,
-                          const WcsphKernel kernel)
+                          const ShapeKernel kernel)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
@@ -84,7 +84,7 @@ typedef struct Found {
 } Found;
 
 SIMD_INLINE Found image_push(const PairArgs *args, size_t i, const Rows rows, const Image *image,
-                             const Rise rise, const WcsphKernel kernel, const bool shifts)
+                             const Rise rise, const ShapeKernel kernel, const bool shifts)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
@@ -128,7 +128,7 @@ SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, c
     args->own[DENSE][i] += s->kernel_scale * f8_sum(found.dense);
 }
 
-SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
     Rows rows = ROWS_NONE;
@@ -146,7 +146,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     }
 }
 
-SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const WcsphKernel kernel)
+SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
     Rows rows = ROWS_NONE;

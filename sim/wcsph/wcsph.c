@@ -15,7 +15,7 @@ static const WcsphDef usual = {
 
 /* clang-format off */
 static const Key keys[] = {
-    CHOICE_OF("solver.kernel", 0, wcsph_kernels, AT(kernel), "its kernel"),
+    CHOICE_OF("solver.kernel", 0, shape_kernels, AT(kernel), "its kernel"),
     NUMBER("solver.artificial_viscosity", 0, "", 0, 1, AT(artificial_viscosity),
            "alpha, for fluids without a viscosity; 0: none"),
     CHOICE_OF("solver.viscosity_form", KEY_INDEX, viscosity_kinds, AT(viscosity_form),
@@ -37,7 +37,7 @@ static bool wcsph_check(const WorldDef *def, Error *error)
 
 static MethodKernels wcsph_kernels_of(const WorldDef *def)
 {
-    const Kernel *kernel = wcsph_kernel_find(wcsph_def(def)->kernel);
+    const Kernel *kernel = shape_kernel_find(wcsph_def(def)->kernel);
     return (MethodKernels){kernel, kernel};
 }
 
@@ -61,7 +61,7 @@ static void kernel_set(Constants *constants, const WorldDef *def)
                                     [KERNEL_QUINTIC] = (1.5 * 1.5 * 1.5 * 1.5 - 6 * 0.0625) / 0.5};
     const Kernel *kernel = wcsph_kernels_of(def).density;
     const double h = def->support * def->spacing, r = 0.5 * h, scale = constants->lattice.gradient_scale;
-    constants->kernel = (WcsphKernel)(kernel - wcsph_kernels);
+    constants->kernel = (ShapeKernel)(kernel - shape_kernels);
     if (wcsph_def(def)->viscosity_form == VISCOSITY_RADIAL)
         constants->radial = (float)constants->lattice.radial_scale;
     constants->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[constants->kernel]);

@@ -5,7 +5,7 @@
 #include "sim/world/method.h"
 
 typedef struct WcsphDef {
-    char kernel[NAME_SIZE];      /* see wcsph_kernels in sim/kernel/kernel.h */
+    char kernel[NAME_SIZE];      /* see shape_kernels in sim/kernel/kernel.h */
     double artificial_viscosity; /* alpha, for fluids without a viscosity */
     int viscosity_form;          /* a ViscosityForm of sim/matter/viscosity.h */
     double delta_sph;            /* delta of the diffusion of density; 0: none */

@@ -10,8 +10,8 @@ static void advise_kernel(const MethodAdvice *advice)
 {
     static const double pairs_from = 2.6, wants = 2.5;
     const WorldDef *def = advice->def;
-    const Kernel *kernel = wcsph_kernel_find(wcsph_def(def)->kernel);
-    const bool cubic = kernel == &wcsph_kernels[KERNEL_CUBIC];
+    const Kernel *kernel = shape_kernel_find(wcsph_def(def)->kernel);
+    const bool cubic = kernel == &shape_kernels[KERNEL_CUBIC];
     Lattice lattice;
     lattice_calibrate(def->dimensions, def->spacing, def->support * def->spacing, kernel, kernel, &lattice);
     if (cubic && def->support >= pairs_from)

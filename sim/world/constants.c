@@ -240,7 +240,7 @@ static void own_set(Constants *constants, const WorldDef *def)
 
 static DragWeight drag_weight_of(const Constants *constants)
 {
-    return !constants->continuity ? DRAG_MUELLER : constants->radial > 0 ? DRAG_RADIAL : DRAG_MORRIS;
+    return !constants->continuity ? DRAG_LAPLACIAN : constants->radial > 0 ? DRAG_RADIAL : DRAG_MORRIS;
 }
 
 /* The tables of what the walls do, as far as the def needs them and they are not there. */

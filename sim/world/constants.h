@@ -48,16 +48,16 @@ typedef struct Constants {
     bool varies;                 /* some mu is a table over time */
     bool negative_pressure;
     bool reproducible;
-    bool continuity; /* wcsph: the particles carry their density; the next eight are its own */
-    WcsphKernel kernel;
-    float radial;   /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
-    float gradient; /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f in sim/wcsph/pair_kernel.h */
+    bool continuity; /* the particles carry their density; the next eight are of such a method */
+    ShapeKernel kernel;
+    float radial;           /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
+    float gradient;         /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f by kernel */
     float tait[FLUIDS_MAX]; /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
     bool artificial;
     float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
     float diffusion;                        /* 2 delta c (h / 2), m2/s; 0: none */
     float sound_speed;                      /* m/s */
-    float shifting;                         /* chi c h / 2, m2/s; 0: none: see sim/wcsph/shift.c */
+    float shifting;                         /* chi c h / 2, m2/s; 0: none: Lind 2012 */
     TensionModel tension_model;             /* none where no fluid has a tension */
     float tension[FLUIDS_MAX];              /* sigma, N/m; of cohesion times its scale */
     float colour;                           /* colour_scale */

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Of all energy, in so many steps. What mueller heats by too long a step of sound is 5 % in 3,400 steps
-   (docs/failures.md), friction that boils doubles velocities from step to step. */
+/* Of all energy, in so many steps. What summed density heats by too long a step of sound is 5 % in 3,400
+   steps (docs/failures.md), friction that boils doubles velocities from step to step. */
 static const double GAIN = 0.1, STEPS = 200;
 
 /* A look costs some 4 % of a step: not at each step, but before energy has doubled. */

@@ -74,7 +74,7 @@ typedef struct WorldGauge {
 /* Where world_read writes; NULL where something is not wanted. All arrays hold `count` particles in one
    common order, which changes from step to step; `id` tells who is who. Density (calibrated, so that
    p = c^2 (rho - rho0)), pressure and volume are those that the last substep used, at the middle of it (at
-   time 0: those of the initial state); with wcsph those that the particles carry, at its end. */
+   time 0: those of the initial state); those that the particles carry, where they do, at its end. */
 typedef struct ParticleArrays {
     float *position;             /* 4 a particle: x y z (box frame, m), volume 1 / number density (m3) */
     float *velocity;             /* 4 a particle: x y z (box frame, m/s), 0 */

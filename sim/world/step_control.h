@@ -10,7 +10,7 @@
 /* X(ENUM, name, help): what bounds a step */
 #define STEP_LIMITS(X)                                                                                       \
     X(DT, "dt", "the scene's fixed step")                                                                    \
-    X(COURANT, "courant", "number h / (c + greatest speed); wcsph's c grows with density ratios above 10")   \
+    X(COURANT, "courant", "number h / (c + greatest speed); c grows with density ratios above 10")           \
     X(FORCE, "force", "number sqrt(h / greatest acceleration)")                                              \
     X(VISCOUS, "viscous", "2 number, at most 0.7, of the longest step that friction stands")                 \
     X(MAX_DT, "max_dt", "the scene's greatest step")                                                         \
@@ -86,13 +86,13 @@ double artificial_kinematic(const WorldDef *def, double alpha);
 double step_viscous(const WorldDef *def, const StepFriction *friction);
 
 /* The longest step that sound stands, in h / c: 2 / omega of its stiffest wave on the lattice, 2.0 to 2.6 c /
-   h by kernel and support. Of mueller's, which damps nothing, longer ones than STEP_SOUND_CALM heat fluid
-   that has no friction: docs/failures.md. */
+   h by kernel and support. Of summed density, which damps nothing, longer ones than STEP_SOUND_CALM heat
+   fluid that has no friction: docs/failures.md. */
 #define STEP_SOUND_STANDS 0.9
 #define STEP_SOUND_CALM   0.5
 
-/* So much of it stands a fluid that is out of order; measured: 0.8 to 1.1, of wcsph in 3D at supports below
-   3, stirred hard, 0.6 (docs/failures.md). */
+/* So much of it stands a fluid that is out of order; measured: 0.8 to 1.1, with density carried in 3D at
+   supports below 3, stirred hard, 0.6 (docs/failures.md). */
 #define STEP_VISCOUS_STANDS 0.7
 
 /* What binds a step of `dt` s in which a world blew up, at the greatest speed before (m/s), and what to

@@ -59,11 +59,11 @@ class Gpu(CommandTest):
     def test_a_gl_error_is_no_success(self):
         """A call that the driver refuses: the uniform that it sets is of another type."""
         shutil.copytree(SHADERS, self.path('shaders'))
-        shader = self.path('shaders/render/floor_shadow.frag')
+        shader = self.path('shaders/common/particles.glsl')
         with open(shader, encoding='utf-8') as file:
             text = file.read()
         with open(shader, 'w', encoding='utf-8') as file:
-            file.write(text.replace('uniform float texel', 'uniform int texel').replace('* texel', '* float(texel)'))
+            file.write(text.replace('position_stride', 'uint(position_stride)').replace('uniform uint uint(position_stride)', 'uniform float position_stride'))
         done = self.start('render', 'scene.yaml', '-o', 'a.png', '--time', '0', '--size', '64x64', '--shaders', 'shaders')
         said = done.communicate(timeout=60)[1]
         self.assertEqual(done.returncode, 1, said)

@@ -61,7 +61,7 @@ static void shift_of(double scatter, bool periodic, double shifting, double dt, 
 /* Sum of F x_ij over the nearest images, faded where less than 0.95 of the space is full; over n0. */
 static void brute_shift(int i, double out[2])
 {
-    const Kernel *kernel = wcsph_kernel_find("wendland_c2");
+    const Kernel *kernel = shape_kernel_find("wendland_c2");
     Lattice lattice;
     double full = 0;
     lattice_calibrate(2, 0.1, H, kernel, kernel, &lattice);

@@ -57,7 +57,7 @@ static void lattices_feel_shear_and_strain_alike(void **state)
 {
     (void)state;
     for (int n = 0; n < KERNELS; n++) {
-        const Kernel *kernel = wcsph_kernel_find(lattices[n].kernel);
+        const Kernel *kernel = shape_kernel_find(lattices[n].kernel);
         Lattice lattice;
         lattice_calibrate(lattices[n].dimensions, 1, lattices[n].support, kernel, kernel, &lattice);
         const double h = lattices[n].support, sheared = force_of(&lattice, h, shear),

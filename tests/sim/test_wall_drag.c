@@ -85,7 +85,7 @@ static void tables_equal_sums(void **state)
         Constants constants;
         Error error = {0};
         assert_true(constants_create(&constants, &def, &error));
-        const DragWeight weight = strcmp(def.method, "wcsph") != 0  ? DRAG_MUELLER
+        const DragWeight weight = strcmp(def.method, "wcsph") != 0  ? DRAG_LAPLACIAN
                                   : wcsph_def(&def)->viscosity_form ? DRAG_RADIAL
                                                                     : DRAG_MORRIS;
         const double scale = drag_brute(&constants, weight, 1, (double[3]){0.05}, (double[3]){0});

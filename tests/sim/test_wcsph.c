@@ -212,7 +212,7 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
 static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *r)
 {
     Lattice lattice;
-    r->kernel = wcsph_kernel_find(wcsph_def(def)->kernel);
+    r->kernel = shape_kernel_find(wcsph_def(def)->kernel);
     r->h = def->support * def->spacing;
     lattice_calibrate(3, def->spacing, r->h, r->kernel, r->kernel, &lattice);
     r->n0 = lattice.number_density;
@@ -275,7 +275,7 @@ static void step_equals_brute_force(const char *kernel, ViscosityForm form, doub
 static void sums_equal_brute_force(void **state)
 {
     (void)state;
-    for (const Kernel *kernel = wcsph_kernels; kernel->name; kernel++) {
+    for (const Kernel *kernel = shape_kernels; kernel->name; kernel++) {
         step_equals_brute_force(kernel->name, VISCOSITY_MORRIS, 0.9, 3);
         step_equals_brute_force(kernel->name, VISCOSITY_RADIAL, 0.9, 3);
         step_equals_brute_force(kernel->name, VISCOSITY_MORRIS, 0.9, 0.46); /* on the floor */

@@ -56,6 +56,9 @@ FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", 
 DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device", "window"}  # rooms of app without render and sim/gl
 
 
+# What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`.
+METHOD_LISTS = ["sim/world/method.c", "app/scene/preset.c", "app/command/info.c"]
+
 # What names views beside their folders and app/case: lists.
 VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]
 
@@ -180,6 +183,16 @@ class Layers(unittest.TestCase):
                         rf'\b(view|kind)\b.*"{view}"')
                 found += [f"{name}: {match.group()}" for match in re.finditer(word, path.read_text())]
         self.assertEqual(found, [])
+
+    def test_a_method_is_named_in_its_folder_and_in_lists(self):
+        paths = list(sources())
+        methods = {match.group(1) for path in paths if path.suffix == ".c"
+                   for match in re.finditer(r"^const Method method_(\w+) =", path.read_text(), re.M)}
+        self.assertGreaterEqual(methods, {"mueller", "wcsph"})
+        word = re.compile("|".join(methods), re.I)
+        named = {str(path.relative_to(ROOT)) for path in paths
+                 if path.parent.name not in methods and word.search(path.read_text())}
+        self.assertEqual(sorted(name for name in named if not name.startswith("app/case/")), sorted(METHOD_LISTS))
 
     def test_a_views_shaders_are_its_own(self):
         seen, found = 0, []

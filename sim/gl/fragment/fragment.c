@@ -33,14 +33,6 @@ static bool lacks(const char *what, bool asked, Error *error)
     return asked && !error_set(error, "backend fragment has no %s; use backend compute or cpu", what);
 }
 
-static bool has_method(const Method *method)
-{
-    for (const Pass *const *pass = method->passes; *pass; pass++)
-        if (!fragment_has(*pass))
-            return false;
-    return true;
-}
-
 static bool fragment_can(const WorldDef *def, Error *error)
 {
     bool viscous = false, tense = false;
@@ -50,7 +42,7 @@ static bool fragment_can(const WorldDef *def, Error *error)
     }
     char method[NAME_SIZE + 8];
     snprintf(method, sizeof method, "method %s", def->method);
-    return !lacks(method, !has_method(method_find(def->method)), error) &&
+    return !lacks(method, !fragment_has(method_find(def->method)), error) &&
            !lacks("periodic sides", def->periodic[0] || def->periodic[1] || def->periodic[2], error) &&
            !lacks("solids", def->solid_count > 0, error) && !lacks("emitters", flow_emits(def), error) &&
            !lacks("drains", def->drain_count > 0, error) &&
@@ -147,7 +139,7 @@ static bool fragment_reload(void *state, Error *error)
 const Backend backend_fragment = {
     .name = "fragment",
     .gpu = true,
-    .help = "fragment shaders on the GPU, after Harada 2007: method mueller without solids",
+    .help = "fragment shaders on the GPU, after Harada 2007: methods with such shaders, without solids",
     .can = fragment_can,
     .create = fragment_create,
     .destroy = fragment_destroy,

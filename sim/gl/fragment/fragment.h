@@ -19,13 +19,14 @@ enum {
     FRAGMENT_CONSTANTS_MAX = 3072  /* characters */
 };
 
-/* X(ENUM, vertex shader, the one after it, both below shaders/sim; defines) */
+/* X(ENUM, vertex shader, the one after it, both below shaders/sim; defines). NULL: that of the method's pass
+   of this stage. */
 #define FRAGMENT_PASSES(X)                                                                                   \
     X(DRIFT, "fragment/screen.vert", "fragment/drift.frag", "")                                              \
     X(BUCKET, "fragment/bucket.vert", "fragment/bucket.frag", "")                                            \
     X(WAITING, "fragment/waiting.vert", "fragment/waiting.geom", "")                                         \
-    X(DENSITY, "fragment/screen.vert", "mueller/density.frag", "")                                           \
-    X(FORCE, "fragment/screen.vert", "mueller/force.frag", "")                                               \
+    X(DENSITY, "fragment/screen.vert", NULL, "")                                                             \
+    X(FORCE, "fragment/screen.vert", NULL, "")                                                               \
     X(KICK, "fragment/screen.vert", "fragment/kick.frag", "")                                                \
     X(WATCH_FIRST, "fragment/screen.vert", "fragment/watch.frag", "#define FIRST 1\n")                       \
     X(WATCH_MORE, "fragment/screen.vert", "fragment/watch.frag", "")                                         \
@@ -154,7 +155,10 @@ uint32_t fragment_bucket_at(const Fragment *fragment, const uint32_t *places, si
 
 void fragment_grid(void *state);
 void fragment_drift(void *state, const FrameStep *step);
-bool fragment_has(const Pass *pass);
+
+/* Whether it can run the method: each pass is of the stage density or force, one of each, and has a shader
+   shaders/sim/SHADER.frag. */
+bool fragment_has(const Method *method);
 void fragment_pass(void *state, const Pass *pass, const PassInput *input);
 void fragment_kick(void *state, const float gravity[3], float dt);
 StepWatch fragment_watch(void *state);

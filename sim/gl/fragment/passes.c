@@ -1,6 +1,7 @@
 /* Programs, and how a pass is drawn. */
 #include "sim/gl/fragment/fragment.h"
 #include "sim/gl/program.h"
+#include "sim/gl/shader_source.h"
 
 #include <epoxy/gl.h>
 #include <stdio.h>
@@ -22,6 +23,36 @@ static const char *const samplers[] = {
 #undef X
 };
 
+static bool shader_of(const Pass *pass, char path[64])
+{
+    snprintf(path, 64, "sim/%s.frag", pass->shader ? pass->shader : "");
+    return pass->shader != NULL;
+}
+
+bool fragment_has(const Method *method)
+{
+    int of_stage[STAGE_COUNT] = {0};
+    char path[64];
+    for (const Pass *const *pass = method->passes; *pass; pass++)
+        if (!shader_of(*pass, path) || !shader_source_has(path) || of_stage[(*pass)->stage]++ > 0)
+            return false;
+    return of_stage[STAGE_DENSITY] == 1 && of_stage[STAGE_FORCE] == 1;
+}
+
+/* What follows the vertex shader of a pass: its own, or the method's of its stage. */
+static void next_shader(const Method *method, FragmentPass pass, char path[64])
+{
+    const Stage stage = pass == FRAGMENT_DENSITY ? STAGE_DENSITY : STAGE_FORCE;
+    const Pass *const *own = method->passes;
+    if (passes[pass].next) {
+        snprintf(path, 64, "sim/%s", passes[pass].next);
+        return;
+    }
+    while ((*own)->stage != stage)
+        own++;
+    shader_of(*own, path);
+}
+
 /* For transform feedback, which has to be known before the program is linked: once more. */
 static void capture(unsigned program, const char *output)
 {
@@ -29,14 +60,14 @@ static void capture(unsigned program, const char *output)
     glLinkProgram(program);
 }
 
-static unsigned pass_create(FragmentPass pass, const char *constant_lines, Error *error)
+static unsigned pass_create(const Fragment *f, FragmentPass pass, const char *constant_lines, Error *error)
 {
     char vertex[64], next[64], text[4096];
     snprintf(vertex, sizeof vertex, "sim/%s", passes[pass].vertex);
-    snprintf(next, sizeof next, "sim/%s", passes[pass].next);
+    next_shader(f->constants->method, pass, next);
     snprintf(text, sizeof text, "%s%s", passes[pass].defines, constant_lines);
     const char *const stages[] = {vertex, next, NULL};
-    const unsigned program = program_create(passes[pass].next, stages, text, error);
+    const unsigned program = program_create(next + strlen("sim/"), stages, text, error);
     if (program && pass == FRAGMENT_WAITING)
         capture(program, "waiting");
     for (int s = 0; program && s < FRAGMENT_SAMPLER_COUNT; s++) {
@@ -75,7 +106,7 @@ bool fragment_gauge_programs(Fragment *f, Error *error)
 {
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++)
         if (is_gauge(p) && !f->program[p] &&
-            !(f->program[p] = pass_create((FragmentPass)p, f->constant_lines, error)))
+            !(f->program[p] = pass_create(f, (FragmentPass)p, f->constant_lines, error)))
             return false;
     fragment_set_fluids(f);
     return true;
@@ -89,7 +120,7 @@ bool fragment_programs_create(Fragment *f, Error *error)
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
         if (is_gauge(p) && !f->program[p]) /* nobody asks for it */
             continue;
-        made[p] = pass_create((FragmentPass)p, constant_lines, error);
+        made[p] = pass_create(f, (FragmentPass)p, constant_lines, error);
         if (made[p])
             continue;
         while (p-- > 0)

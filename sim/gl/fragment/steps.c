@@ -66,14 +66,9 @@ static void force(const Fragment *f, const ApparentGravity *gravity)
     draw(f, FRAGMENT_FORCE, &f->acceleration, 1);
 }
 
-bool fragment_has(const Pass *pass)
-{
-    return strcmp(pass->name, "density") == 0 || strcmp(pass->name, "force") == 0;
-}
-
 void fragment_pass(void *state, const Pass *pass, const PassInput *input)
 {
-    if (strcmp(pass->name, "density") == 0)
+    if (pass->stage == STAGE_DENSITY)
         density(state);
     else
         force(state, input->apparent);
