@@ -27,6 +27,7 @@ struct Snapshot {
     Output output;
     OutputLock lock, older; /* on the file; on the one that it will replace */
     hid_t file;
+    const Method *method; /* whose own columns are written too */
     size_t steps;
     double time; /* of the last one written */
     bool failed;
@@ -152,6 +153,7 @@ Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error)
     }
     snapshot->time = -1;
     snapshot->file = -1;
+    snapshot->method = method_find(scene->world.method);
     if (!begin(snapshot, path, scene, error)) {
         snapshot_close(snapshot);
         snapshot = NULL;
@@ -165,7 +167,8 @@ bool snapshot_note_hand(Snapshot *snapshot, const char *mark, Error *error)
            hdf5_fail(error, snapshot->output.path, "cannot be written");
 }
 
-Snapshot *snapshot_continue(const char *path, size_t steps, OutputLock *lock, Error *error)
+Snapshot *snapshot_continue(const char *path, const Method *method, size_t steps, OutputLock *lock,
+                            Error *error)
 {
     Snapshot *snapshot = calloc(1, sizeof *snapshot);
     char name[32];
@@ -176,6 +179,7 @@ Snapshot *snapshot_continue(const char *path, size_t steps, OutputLock *lock, Er
     const hid_t access = snapshot_access();
     snapshot->lock = *lock;
     lock->state = OUTPUT_UNLOCKED;
+    snapshot->method = method;
     snapshot->steps = steps;
     snapshot->time = -1;
     snprintf(snapshot->output.path, sizeof snapshot->output.path, "%s", path);
@@ -238,13 +242,14 @@ size_t snapshot_steps(const Snapshot *snapshot)
 
 /* ---- one step ---- */
 
-static size_t step_bytes(size_t count)
+static size_t step_bytes(const SnapshotStep *step)
 {
-    size_t bytes = 0;
+    size_t bytes = (size_t)step->own_count * sizeof(float);
 #define X(name, type, field) bytes += sizeof(type);
     SNAPSHOT_FIELDS(X)
 #undef X
-    return STEP_OVERHEAD_BYTES + bytes * count + bytes * count / 256; /* the last: trees of chunks */
+    return STEP_OVERHEAD_BYTES + bytes * step->count +
+           bytes * step->count / 256; /* the last: trees of chunks */
 }
 
 /* Takes the room for one more step, or fails while the file is still whole: HDF5 writes its directory and its
@@ -306,6 +311,9 @@ static bool write_fields(hid_t group, const SnapshotStep *step)
     written = written && write_field(group, name, SNAPSHOT_TYPE(step->field), step->count, step->field);
     SNAPSHOT_FIELDS(X)
 #undef X
+    for (int k = 0; k < step->own_count; k++)
+        written = written &&
+                  write_field(group, step->own[k].name, H5T_IEEE_F32LE, step->count, step->own[k].values);
     written =
         written && write_doubles(group, SNAPSHOT_RESTART, WORLD_NUMBERS, (const double *)&step->restart);
     return written && write_values(group, SNAPSHOT_STEP_NUMBER, H5T_STD_U64LE, SCALAR, &step->step);
@@ -335,7 +343,7 @@ bool snapshot_append_step(Snapshot *snapshot, const SnapshotStep *step, Error *e
     if (snapshot->failed)
         return error_set(error, "%s: takes no more steps after a failed one", snapshot->output.path);
     snapshot->failed = true;
-    if (!reserve(snapshot, step_bytes(step->count), error))
+    if (!reserve(snapshot, step_bytes(step), error))
         return false;
     if (!write_step(snapshot, step))
         return hdf5_fail(error, snapshot->output.path, "cannot be written");
@@ -359,7 +367,8 @@ static bool grow_buffers(Snapshot *snapshot, size_t count, Error *error)
     snapshot->fluid = malloc(count * sizeof(uint32_t));
     snapshot->id = malloc(count * sizeof(uint32_t));
     if (!snapshot->position || !snapshot->velocity || !snapshot->fluid || !snapshot->id ||
-        !snapshot_step_allocate(&snapshot->buffer, count)) {
+        !snapshot_step_allocate(&snapshot->buffer, count) ||
+        !snapshot_step_own(&snapshot->buffer, snapshot->method)) {
         free_buffers(snapshot);
         return error_set(error, "%s: out of memory for %zu particles", snapshot->output.path, count);
     }
@@ -376,15 +385,18 @@ static bool read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
     memcpy(step->gravity, info->gravity, sizeof step->gravity);
     step->count = info->count;
     world_save_numbers(world, &step->restart);
-    const bool read = world_read(world, &(ParticleArrays){
-                                            .position = snapshot->position,
-                                            .velocity = snapshot->velocity,
-                                            .scalar = {[SCALAR_DENSITY] = step->density,
-                                                       [SCALAR_PRESSURE] = step->pressure,
-                                                       [SCALAR_COMPRESSION] = step->compression},
-                                            .fluid = snapshot->fluid,
-                                            .id = snapshot->id,
-                                        });
+    ParticleArrays arrays = {
+        .position = snapshot->position,
+        .velocity = snapshot->velocity,
+        .scalar = {[SCALAR_DENSITY] = step->density,
+                   [SCALAR_PRESSURE] = step->pressure,
+                   [SCALAR_COMPRESSION] = step->compression},
+        .fluid = snapshot->fluid,
+        .id = snapshot->id,
+    };
+    for (int k = 0; k < step->own_count; k++)
+        arrays.own[step->own[k].place] = step->own[k].values;
+    const bool read = world_read(world, &arrays);
     for (size_t i = 0; i < info->count; i++) {
         for (int axis = 0; axis < 3; axis++) {
             step->position[axis][i] = snapshot->position[4 * i + axis];

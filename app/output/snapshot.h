@@ -11,6 +11,7 @@
 
 #include "app/scene/scene.h"
 #include "sim/base/error.h"
+#include "sim/world/method.h"
 #include "sim/world/world_state.h"
 
 #include <stdbool.h>
@@ -46,10 +47,18 @@ typedef struct SnapshotStep {
     float *compression; /* density over that at rest, less 1: a method that carries density goes on from it */
     int32_t *fluid;     /* index into the root's fluid_names */
     int64_t *id;
+    int own_count; /* columns of the method's own that a run goes on from: snapshot_step_own */
+    struct {
+        char name[32]; /* of the dataset */
+        int place;     /* in ParticleColumns.own */
+        float *values;
+    } own[COLUMNS_OWN];
 } SnapshotStep;
 
 /* Arrays for `count` particles, not initialised; false, and nothing to free, when memory is short. */
 bool snapshot_step_allocate(SnapshotStep *step, size_t count);
+/* The same for the columns that a method adds to the saved state; NULL: none. */
+bool snapshot_step_own(SnapshotStep *step, const Method *method);
 void snapshot_step_free(SnapshotStep *step); /* a zeroed one is allowed */
 
 /* ---- writing ---- */
@@ -122,6 +131,11 @@ double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, siz
 
 /* Reads step `index` into new arrays, that the caller frees. */
 bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
+
+/* Reads into that step what the method adds to the saved state. False, and the step is empty, where the file
+   lacks it. */
+bool snapshot_read_own(SnapshotReader *reader, size_t index, const Method *method, SnapshotStep *step,
+                       Error *error);
 
 void snapshot_reader_close(SnapshotReader *reader); /* NULL is allowed */
 

@@ -52,7 +52,8 @@ hid_t snapshot_access(void);
 
 /* A Snapshot that appends to a file that has so many whole steps, and takes over its lock, which is
    then no longer the caller's. NULL with the reason. */
-Snapshot *snapshot_continue(const char *path, size_t steps, OutputLock *lock, Error *error);
+Snapshot *snapshot_continue(const char *path, const Method *method, size_t steps, OutputLock *lock,
+                            Error *error);
 
 /* The text attribute of the root in new memory; NULL when there is none. */
 char *snapshot_root_text(const SnapshotReader *reader, const char *name);

@@ -302,3 +302,25 @@ bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step
     return error_set(error, "%s: Step#%zu: '%s' is missing or of another length", reader->path, index,
                      missing);
 }
+
+bool snapshot_read_own(SnapshotReader *reader, size_t index, const Method *method, SnapshotStep *step,
+                       Error *error)
+{
+    const char *missing = NULL;
+    if (!snapshot_step_own(step, method)) {
+        snapshot_step_free(step);
+        return error_set(error, "%s: out of memory", reader->path);
+    }
+    const hid_t group = open_step(reader->file, index);
+    for (int k = 0; k < step->own_count && !missing; k++)
+        if (group < 0 ||
+            !read_field(group, step->own[k].name, H5T_IEEE_F32LE, step->count, step->own[k].values))
+            missing = step->own[k].name;
+    if (missing)
+        error_set(error, "%s: Step#%zu: '%s' is missing or of another length", reader->path, index, missing);
+    if (group >= 0)
+        H5Gclose(group);
+    if (missing)
+        snapshot_step_free(step);
+    return !missing;
+}

@@ -134,6 +134,8 @@ static bool state_of(const SnapshotStep *step, const Method *method, WorldState 
     for (size_t k = 0; k < sizeof to / sizeof *to; k++)
         if (to[k] && step->count > 0)
             memcpy(to[k], from[k], step->count * sizeof(float));
+    for (int k = 0; k < step->own_count && step->count > 0; k++)
+        memcpy(p->own[step->own[k].place], step->own[k].values, step->count * sizeof(float));
     for (size_t i = 0; i < step->count; i++) {
         p->fluid[i] = (uint8_t)step->fluid[i];
         p->id[i] = (uint32_t)step->id[i];
@@ -148,7 +150,8 @@ static bool read_last(SnapshotReader *reader, const char *path, const Method *me
     const size_t steps = snapshot_count_steps(reader);
     if (steps == 0)
         return error_set(error, "%s: has no whole step to resume from; remove it to start anew", path);
-    if (!snapshot_read_step(reader, steps - 1, &step, error))
+    if (!snapshot_read_step(reader, steps - 1, &step, error) ||
+        !snapshot_read_own(reader, steps - 1, method, &step, error))
         return false;
     const bool known = step.restart.version != 0;
     const bool read = known && state_of(&step, method, state);
@@ -180,7 +183,8 @@ Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand
     OutputLock lock = {.state = OUTPUT_UNLOCKED};
     *busy = !output_lock(&lock, path, error);
     const size_t steps = *busy ? 0 : read_end(path, scene, hand, state, error);
-    Snapshot *snapshot = steps > 0 ? snapshot_continue(path, steps, &lock, error) : NULL;
+    Snapshot *snapshot =
+        steps > 0 ? snapshot_continue(path, method_find(scene->world.method), steps, &lock, error) : NULL;
     output_unlock(&lock);
     return snapshot;
 }

@@ -2,6 +2,7 @@
 #include "app/output/snapshot.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 void snapshot_step_free(SnapshotStep *step)
@@ -9,6 +10,8 @@ void snapshot_step_free(SnapshotStep *step)
 #define X(name, type, field) free(step->field);
     SNAPSHOT_FIELDS(X)
 #undef X
+    for (int k = 0; k < step->own_count; k++)
+        free(step->own[k].values);
     *step = (SnapshotStep){0};
 }
 
@@ -24,6 +27,31 @@ bool snapshot_step_allocate(SnapshotStep *step, size_t count)
 #undef X
     if (!all)
         snapshot_step_free(step);
+    return all;
+}
+
+/* The components of a column of three are datasets NAME_0, NAME_1, NAME_2, as those of the velocity. */
+static bool add_own(SnapshotStep *step, const ColumnDef *column, size_t some)
+{
+    const int first = (int)((column->at - COLUMN_OWN(0)) / sizeof(float *));
+    bool all = true;
+    for (int c = 0; c < column->components; c++) {
+        const int k = step->own_count++;
+        snprintf(step->own[k].name, sizeof step->own[k].name, column->components > 1 ? "%s_%d" : "%s",
+                 column->name, c);
+        step->own[k].place = first + c;
+        all &= (step->own[k].values = calloc(some, sizeof(float))) != NULL;
+    }
+    return all;
+}
+
+bool snapshot_step_own(SnapshotStep *step, const Method *method)
+{
+    const ColumnDef *column = method ? method->columns : NULL;
+    bool all = true;
+    for (; column && column->name; column++)
+        if (column->flags & COLUMN_SAVED && column->at >= COLUMN_OWN(0))
+            all &= add_own(step, column, step->count ? step->count : 1);
     return all;
 }
 

@@ -56,6 +56,9 @@ static void read_range(void *context, size_t begin, size_t end)
     for (int s = 0; s < SCALAR_COUNT; s++)
         for (size_t k = begin; out->scalar[s] && k < end; k++)
             out->scalar[s][k] = scalar_of(cpu, (Scalar)s, cpu_owned(cpu, k));
+    for (int c = 0; c < COLUMNS_OWN; c++)
+        for (size_t k = begin; out->own[c] && k < end; k++)
+            out->own[c][k] = p->own[c][cpu_owned(cpu, k)];
 }
 
 bool cpu_read(void *state, const ParticleArrays *out)

@@ -1,5 +1,5 @@
 /* The columns of the particles: one table says of each what it is called, what it holds, and what becomes of
-   it. Allocation, sorting and saving are loops over the rows. A method adds rows of its own
+   it. Allocation, sorting, saving and files are loops over the rows. A method adds rows of its own
    (sim/world/method.h). */
 #ifndef SLOSH_COLUMN_H
 #define SLOSH_COLUMN_H

@@ -23,9 +23,9 @@ static bool box_still(const BoxState *box)
 static bool closed(const World *world)
 {
     const WorldDef *def = &world->def;
-    bool closed = def->retries > 0 && world->backend->energy && !world->layer && def->drain_count == 0 &&
-                  !world->constants.lid && world->constants.tension_model == TENSION_NONE &&
-                  box_still(&world->box);
+    bool closed = def->retries > 0 && world->backend->energy && world->method->energy && !world->layer &&
+                  def->drain_count == 0 && !world->constants.lid &&
+                  world->constants.tension_model == TENSION_NONE && box_still(&world->box);
     for (int i = 0; i < def->solid_count; i++)
         closed &= def->solids[i].motion_count == 0;
     for (int k = 0; k < 3; k++)

@@ -4,6 +4,7 @@
 
 #include "sim/base/scalar.h"
 #include "sim/box/box_filter.h"
+#include "sim/world/column.h"
 #include "sim/world/step_control.h"
 
 #include <stdint.h>
@@ -81,6 +82,7 @@ typedef struct ParticleArrays {
     float *scalar[SCALAR_COUNT]; /* 1 a particle */
     uint32_t *fluid;             /* index into WorldDef.fluids */
     uint32_t *id;                /* place in the initial state */
+    float *own[COLUMNS_OWN];     /* 1 a particle: the method's own columns, of the backend cpu */
 } ParticleArrays;
 
 #endif

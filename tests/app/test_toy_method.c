@@ -1,0 +1,85 @@
+/* A method that the program does not have (tests/sim/toy_method.h) in a file: a run goes on from it. */
+#include "tests/app/output_fixture.h"
+
+#include "app/output/snapshot.h"
+#include "app/scene/keys.h"
+#include "sim/world/world.h"
+#include "tests/sim/toy_method.h"
+
+#include <hdf5.h>
+
+static const char text[] = "box: {size: [1, 1, 1]}\n"
+                           "particles: {spacing: 0.1}\n"
+                           "fluids: [{fill: [{block: {min: [-0.4, 0, -0.4], max: [0.2, 0.5, 0.4]}}]}]\n"
+                           "solver: {method: toy, step: {dt: 0.004, substeps: 2}}\n";
+
+static void step_on(World *world, int frames)
+{
+    Error error;
+    for (int k = 0; k < frames; k++)
+        if (!world_step(world, NULL, &error))
+            fail_msg("%s", error.message);
+}
+
+/* A file of the state after three frames; the hash of the one after six. */
+static uint64_t write_file(const Scene *scene)
+{
+    Error error;
+    World *world = world_create(&scene->world, &error);
+    Snapshot *file = snapshot_create("a.h5part", scene, &error);
+    step_on(world, 3);
+    assert_true(snapshot_append(file, world, &error));
+    snapshot_close(file);
+    step_on(world, 3);
+    const uint64_t hash = world_hash(world);
+    world_destroy(world);
+    return hash;
+}
+
+static void a_run_goes_on_from_a_file(void **state)
+{
+    (void)state;
+    static Scene scene;
+    Error error = {{0}};
+    WorldState last = {.count = 0};
+    bool busy;
+    toy_add();
+    assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
+    const uint64_t hash = write_file(&scene);
+    Snapshot *file = snapshot_resume("a.h5part", &scene, "", &last, &busy, &error);
+    World *world = world_create(&scene.world, &error);
+    assert_true(file && world && world_load(world, &last, &error));
+    step_on(world, 3);
+    assert_true(world_hash(world) == hash);
+    assert_true(snapshot_append(file, world, &error));
+    snapshot_close(file);
+    world_destroy(world);
+    world_state_free(&last);
+}
+
+static void a_file_without_its_column_is_refused(void **state)
+{
+    (void)state;
+    static Scene scene;
+    Error error = {{0}};
+    WorldState last = {.count = 0};
+    bool busy;
+    toy_add();
+    assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
+    write_file(&scene);
+    const hid_t edit = H5Fopen("a.h5part", H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Ldelete(edit, "Step#0/age", H5P_DEFAULT) >= 0);
+    H5Fclose(edit);
+    assert_null(snapshot_resume("a.h5part", &scene, "", &last, &busy, &error));
+    assert_contains(error.message, "Step#0: 'age' is missing");
+    world_state_free(&last);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_run_goes_on_from_a_file, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(a_file_without_its_column_is_refused, folder_setup, folder_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
