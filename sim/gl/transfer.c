@@ -14,6 +14,14 @@ void transfer_free(Transfer *transfer)
     free(transfer->name);
 }
 
+bool transfer_holds(const Method *method)
+{
+    const ColumnDef *column = method->columns;
+    while (column && column->name && !(column->flags & COLUMN_SAVED && column->at >= COLUMN_OWN(0)))
+        column++;
+    return !column || !column->name;
+}
+
 bool transfer_make(Transfer *transfer, size_t count)
 {
     *transfer = (Transfer){.count = count,

@@ -15,6 +15,9 @@ typedef struct Transfer {
     uint32_t *name;  /* 2: id, fluid */
 } Transfer;
 
+/* Whether it has room for all that the method saves of a particle: none of its own columns. */
+bool transfer_holds(const Method *method);
+
 /* Room for `count` particles; false when memory is short. */
 bool transfer_make(Transfer *transfer, size_t count);
 void transfer_free(Transfer *transfer);

@@ -3,6 +3,7 @@
 
 #include "app/output/snapshot.h"
 #include "app/scene/keys.h"
+#include "sim/gl/backends.h"
 #include "sim/world/world.h"
 #include "tests/sim/toy_method.h"
 
@@ -75,11 +76,29 @@ static void a_file_without_its_column_is_refused(void **state)
     world_state_free(&last);
 }
 
+/* It has no shaders, and its age would be lost in their buffers. */
+static void a_gpu_has_no_such_method(void **state)
+{
+    (void)state;
+    static Scene scene;
+    Error error = {{0}};
+    toy_add();
+    backends_add();
+    assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
+    assert_true(world_can(&scene.world, &error));
+    snprintf(scene.world.backend, sizeof scene.world.backend, "compute");
+    assert_false(world_can(&scene.world, &error));
+    assert_string_equal(error.message, "backend compute has no method toy; use backend cpu");
+    snprintf(scene.world.backend, sizeof scene.world.backend, "fragment");
+    assert_false(world_can(&scene.world, &error));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_run_goes_on_from_a_file, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(a_file_without_its_column_is_refused, folder_setup, folder_teardown),
+        cmocka_unit_test(a_gpu_has_no_such_method),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,8 @@
 #include "sim/gl/backends.h"
 #include "sim/gl/limits.h"
 #include "sim/gl/program.h"
+#include "sim/gl/shader_source.h"
+#include "sim/gl/transfer.h"
 
 #include <epoxy/gl.h>
 #include <stdio.h>
@@ -248,10 +250,25 @@ static bool compute_reload(void *state, Error *error)
     return programs_create(state, error);
 }
 
+/* A method with passes that have no shader, or with more to save than the buffers hold, is the CPU's. */
+static bool compute_can(const WorldDef *def, Error *error)
+{
+    const Method *method = method_find(def->method);
+    int count = 0;
+    bool can = transfer_holds(method);
+    for (const Pass *const *pass = method->passes; can && *pass; pass++) {
+        char path[64];
+        snprintf(path, sizeof path, "sim/%s.comp", (*pass)->shader ? (*pass)->shader : "");
+        can = ++count <= COMPUTE_PASS_COUNT - COMPUTE_METHOD && shader_source_has(path);
+    }
+    return can || error_set(error, "backend compute has no method %s; use backend cpu", def->method);
+}
+
 const Backend backend_compute = {
     .name = "compute",
     .gpu = true,
     .help = "compute shaders on the GPU (OpenGL 4.5)",
+    .can = compute_can,
     .create = compute_create,
     .destroy = compute_destroy,
     .adapt = compute_adapt,
