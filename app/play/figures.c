@@ -23,7 +23,7 @@ static void add_model(const Model *model, PlayFigures *figures)
     figures->threads = threads_of(def);
     figures->substeps = def->substeps;
     figures->dt = def->dt;
-    figures->particles = model->particles.count;
+    figures->particles = status->particles;
     figures->scenes_opened = model->scenes_opened;
     figures->step = status->step;
     figures->time = status->time;

@@ -3,58 +3,9 @@
 #include "sim/base/stage.h"
 #include "sim/world/world.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-typedef struct EditingKey {
-    int glfw;
-    unsigned ui;
-} EditingKey;
-
-static const EditingKey editing_keys[] = {
-    {GLFW_KEY_ENTER, UI_KEY_ENTER},
-    {GLFW_KEY_KP_ENTER, UI_KEY_ENTER},
-    {GLFW_KEY_ESCAPE, UI_KEY_ESCAPE},
-    {GLFW_KEY_BACKSPACE, UI_KEY_BACKSPACE},
-    {GLFW_KEY_DELETE, UI_KEY_DELETE},
-    {GLFW_KEY_LEFT, UI_KEY_LEFT},
-    {GLFW_KEY_RIGHT, UI_KEY_RIGHT},
-    {GLFW_KEY_HOME, UI_KEY_HOME},
-    {GLFW_KEY_END, UI_KEY_END},
-    {GLFW_KEY_TAB, UI_KEY_TAB},
-    {GLFW_KEY_A, UI_KEY_A},
-    {GLFW_KEY_C, UI_KEY_C},
-    {GLFW_KEY_V, UI_KEY_V},
-    {GLFW_KEY_X, UI_KEY_X},
-    {GLFW_KEY_LEFT_CONTROL, UI_KEY_CTRL},
-    {GLFW_KEY_RIGHT_CONTROL, UI_KEY_CTRL},
-    {GLFW_KEY_LEFT_SHIFT, UI_KEY_SHIFT},
-    {GLFW_KEY_RIGHT_SHIFT, UI_KEY_SHIFT},
-};
-
-/* A press and its release may come between two pictures: what was down at any time counts. */
-static void take_key(Overlay *overlay, const WindowEvent *event)
-{
-    for (size_t i = 0; i < sizeof editing_keys / sizeof *editing_keys; i++) {
-        if (editing_keys[i].glfw != event->key)
-            continue;
-        overlay->keys_down =
-            event->down ? overlay->keys_down | editing_keys[i].ui : overlay->keys_down & ~editing_keys[i].ui;
-        overlay->input.keys |= overlay->keys_down;
-    }
-}
-
-static void take_button(Overlay *overlay, const WindowEvent *event)
-{
-    if (event->button < 0 || event->button >= 3)
-        return;
-    overlay->buttons_down[event->button] = event->down;
-    overlay->input.button[event->button] |= event->down;
-}
 
 bool overlay_start(Overlay *overlay, float letters, Error *error)
 {
@@ -72,25 +23,14 @@ void overlay_end(Overlay *overlay)
 void overlay_set_letters(Overlay *overlay, float letters)
 {
     Error error = {{0}};
-    overlay->input.changed |= ui_set_pixels(overlay->ui, letters, &error);
+    overlay->input.now.changed |= ui_set_pixels(overlay->ui, letters, &error);
 }
 
 void overlay_event(Overlay *overlay, const WindowEvent *event)
 {
-    UiInput *input = &overlay->input;
-    const size_t used = strlen(input->text);
-    if (event->kind == WINDOW_BUTTON)
-        take_button(overlay, event);
-    if (event->kind == WINDOW_KEY)
-        take_key(overlay, event);
-    if (event->kind == WINDOW_WHEEL)
-        input->wheel += (float)event->y;
-    if (event->kind == WINDOW_TEXT && event->codepoint < 128 && used + 1 < sizeof input->text)
-        input->text[used] = (char)event->codepoint;
-    if (event->kind == WINDOW_MOVE || event->kind == WINDOW_BUTTON) {
-        input->mouse[0] = (float)event->x;
-        input->mouse[1] = (float)event->y;
-    }
+    widget_input_add(&overlay->input, event);
+    if (event->kind == WINDOW_MOVE || event->kind == WINDOW_BUTTON)
+        memcpy(overlay->mouse, (float[]){(float)event->x, (float)event->y}, sizeof overlay->mouse);
 }
 
 bool overlay_takes(const Overlay *overlay, const WindowEvent *event)
@@ -103,7 +43,7 @@ bool overlay_takes(const Overlay *overlay, const WindowEvent *event)
     case WINDOW_MOVE:
         return ui_wants_mouse(overlay->ui);
     case WINDOW_WHEEL:
-        return ui_covers(overlay->ui, overlay->input.mouse[0], overlay->input.mouse[1]);
+        return ui_covers(overlay->ui, overlay->mouse[0], overlay->mouse[1]);
     case WINDOW_KEY:
         return event->down && ui_wants_keys(overlay->ui);
     default:
@@ -197,21 +137,6 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
     data->scalar_range[1] = view->range_auto ? particles->scalar_max[view->color_by] : view->range[1];
 }
 
-/* What is held stays, what has come once has been seen. Whether something was let go, which the next picture
-   sees first. */
-static bool input_seen(Overlay *overlay)
-{
-    UiInput *input = &overlay->input;
-    const bool let_go = memcmp(input->button, overlay->buttons_down, sizeof input->button) != 0 ||
-                        input->keys != overlay->keys_down;
-    memcpy(input->button, overlay->buttons_down, sizeof input->button);
-    input->keys = overlay->keys_down;
-    input->wheel = 0;
-    memset(input->text, 0, sizeof input->text);
-    input->changed = false;
-    return let_go;
-}
-
 double overlay_covered_left(const Overlay *overlay, int width)
 {
     const double part = overlay->panel ? panel_width(overlay->ui, width) / fmax(width, 1) : 0;
@@ -225,7 +150,7 @@ static void follow_devices(Overlay *overlay, HandPost *post, double now)
     const uint64_t reports = hand_post_reports(post);
     if (reports == overlay->reports_shown || now < overlay->bars_ms + BARS_MS)
         return;
-    overlay->input.changed = true;
+    overlay->input.now.changed = true;
     overlay->reports_shown = reports;
     overlay->bars_ms = now;
 }
@@ -248,13 +173,13 @@ static void queue_events(const PanelEvents *events, AskQueue *asks)
 }
 
 /* The widgets, when any of them has changed. */
-static bool draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
+static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
     PanelEvents events = {.command = PLAY_NONE};
     float pictures[METER_HISTORY];
     PanelData data;
-    if (!ui_begin(overlay->ui, facts->width, facts->height, &overlay->input))
-        return false;
+    if (!ui_begin(overlay->ui, facts->width, facts->height, &overlay->input.now))
+        return;
     collect(overlay, model, facts, pictures, &data);
     if (overlay->panel)
         panel_draw(overlay->widgets, overlay->ui, facts->width, facts->height, &data, &events);
@@ -262,7 +187,7 @@ static bool draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *fac
     if (overlay->help)
         panel_help_draw(overlay->ui, facts->width, facts->height);
     queue_events(&events, asks);
-    return input_seen(overlay);
+    overlay->input.now.changed = false;
 }
 
 bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
@@ -270,14 +195,17 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
     const double now = wall_ms();
     const int shown = overlay->panel + 2 * overlay->help;
     simulator_watch(model->open.simulator, overlay->panel && overlay->watches);
-    if (!shown)
+    if (!shown) {
+        widget_input_skip(&overlay->input);
         return false;
+    }
     follow_devices(overlay, model->post, now);
-    overlay->input.dt = 1e-3 * fmin(now - overlay->drawn_ms, 1000);
-    overlay->input.changed |= shown != overlay->shown;
+    overlay->input.now.dt = 1e-3 * fmin(now - overlay->drawn_ms, 1000);
+    overlay->input.now.changed |= shown != overlay->shown;
     overlay->drawn_ms = now;
     overlay->shown = shown;
-    const bool again = draw_widgets(overlay, model, facts, asks);
+    widget_input_next(&overlay->input);
+    draw_widgets(overlay, model, facts, asks);
     ui_end(overlay->ui);
-    return again;
+    return overlay->input.count > 0;
 }

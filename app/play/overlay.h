@@ -6,16 +6,15 @@
 #include "app/play/ask.h"
 #include "app/play/meter.h"
 #include "app/play/model.h"
+#include "app/play/widget_input.h"
 #include "app/window/window.h"
-#include "render/ui/ui.h"
 
 typedef struct Overlay {
     bool panel, help; /* shown */
     Ui *ui;
     Panel *widgets;
-    UiInput input;
-    bool buttons_down[3];
-    unsigned keys_down;
+    WidgetInput input;
+    float mouse[2];  /* where the last event had it */
     double drawn_ms; /* wall time of the last drawing */
     int shown;       /* what was drawn then */
     bool watches;    /* with the gauges */

@@ -114,6 +114,7 @@ typedef struct SimulatorStatus {
     double dt;               /* of the last step, s */
     StepLimit limit;         /* what bounded it */
     uint64_t step, frames;   /* since the scene's start */
+    size_t particles;        /* of the last state */
     size_t lost;             /* particles without a place in the grid, in the last step known */
     double real_time_factor; /* simulated over wall time in the last second; 0 while paused */
     double solved_ms;        /* wall time of these frames */

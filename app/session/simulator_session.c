@@ -29,6 +29,7 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     status->dt = info->dt;
     status->limit = info->limit;
     status->hand = info->hand;
+    status->particles = info->count;
     status->lost = info->lost;
     simulator->obeyed[simulator->obeyed_next] = (Obeyed){info->step, simulator->taken};
     simulator->obeyed_next = (simulator->obeyed_next + 1) % OBEYED_MAX;

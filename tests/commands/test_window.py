@@ -111,6 +111,10 @@ class Window(CommandTest):
     def open(self, *arguments, size=(WIDTH, HEIGHT)):
         """Starts the window and waits until it shows its fluid."""
         self.start(*arguments, size=size)
+        self.filled()
+
+    def filled(self):
+        """Until it shows a fluid, and has taken what was done to it."""
         end = time.monotonic() + 60
         while self.display.colors(self.window) < FLUID_COLORS:
             self.assertIsNone(self.process.poll(), 'the window ended')
@@ -256,9 +260,11 @@ class Keys(Window):
                     'Tab',  # scene.yaml, round and round
                     'bracketleft', 'bracketleft'):  # zz.yaml, still.yaml
             self.keys(key)
-            time.sleep(0.5)
+            self.filled()
+            time.sleep(0.3)
         self.keys('Tab')
-        time.sleep(0.5)
+        self.filled()
+        time.sleep(0.3)
         out = self.quit()
         self.assertRegex(self.messages, r'yy\.yaml:1:\d+: box\.size')
         self.assertEqual((os.path.basename(out['scene']), out['particles']), ('zz.yaml', 300))
