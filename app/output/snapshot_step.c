@@ -33,7 +33,7 @@ bool snapshot_step_allocate(SnapshotStep *step, size_t count)
 /* The components of a column of three are datasets NAME_0, NAME_1, NAME_2, as those of the velocity. */
 static bool add_own(SnapshotStep *step, const ColumnDef *column, size_t some)
 {
-    const int first = (int)((column->at - COLUMN_OWN(0)) / sizeof(float *));
+    const int first = column_own(column);
     bool all = true;
     for (int c = 0; c < column->components; c++) {
         const int k = step->own_count++;
@@ -50,7 +50,7 @@ bool snapshot_step_own(SnapshotStep *step, const Method *method)
     const ColumnDef *column = method ? method->columns : NULL;
     bool all = true;
     for (; column && column->name; column++)
-        if (column->flags & COLUMN_SAVED && column->at >= COLUMN_OWN(0))
+        if (column->flags & COLUMN_SAVED && column_own(column) >= 0)
             all &= add_own(step, column, step->count ? step->count : 1);
     return all;
 }

@@ -62,24 +62,6 @@ static bool arrays_create(Cpu *cpu, Error *error)
                            cpu->capacity - s->boundary.count, s->cells.count);
 }
 
-static void particles_set(const Constants *constants, CpuParticles *p, const InitialState *initial)
-{
-    for (size_t i = 0; i < initial->count; i++) {
-        p->x[i] = initial->position[3 * i];
-        p->y[i] = initial->position[3 * i + 1];
-        p->z[i] = initial->position[3 * i + 2];
-        p->id[i] = (uint32_t)i;
-        p->fluid[i] = initial->fluid ? initial->fluid[i] : 0;
-        if (p->compression && initial->density)
-            p->compression[i] = (float)(initial->density[i] / (double)constants->density[p->fluid[i]] - 1);
-        if (!initial->velocity)
-            continue;
-        p->vx[i] = initial->velocity[3 * i];
-        p->vy[i] = initial->velocity[3 * i + 1];
-        p->vz[i] = initial->velocity[3 * i + 2];
-    }
-}
-
 static void *cpu_create(const Constants *constants, const InitialState *initial, size_t capacity, int threads,
                         Error *error)
 {
@@ -98,7 +80,7 @@ static void *cpu_create(const Constants *constants, const InitialState *initial,
         cpu_destroy(cpu);
         return NULL;
     }
-    particles_set(constants, &cpu->now, initial);
+    particles_set(&cpu->now, constants, initial);
     if (constants->boundary.count > 0)
         cpu_boundary_append(cpu);
     return cpu;

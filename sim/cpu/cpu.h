@@ -5,6 +5,7 @@
 #include "sim/base/parallel.h"
 #include "sim/cpu/pair_set.h"
 #include "sim/world/backend.h"
+#include "sim/world/particles.h"
 
 typedef ParticleColumns CpuParticles;
 
@@ -109,14 +110,5 @@ bool cpu_read(void *state, const ParticleArrays *out);
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge);
 void cpu_energy(void *state, const double gravity[3], WorldGauge *gauge);
-
-/* rho / rho0 - 1: carried, or calibrated so that p = c^2 (rho - rho0) holds. */
-static inline float cpu_compression(const Cpu *cpu, size_t i)
-{
-    const Constants *s = cpu->constants;
-    if (cpu->now.compression)
-        return cpu->now.compression[i];
-    return s->compression * (1 / (cpu->now.volume[i] * s->rest_number_density) - 1);
-}
 
 #endif

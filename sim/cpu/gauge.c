@@ -18,7 +18,8 @@ static void gauge_range(void *context, size_t begin, size_t end)
     for (size_t k = begin; k < end; k++) {
         const size_t i = cpu_owned(cpu, k);
         const float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-        gauge_add(gauge, cpu->constants, pass->gravity, p->fluid[i], (double)cpu_compression(cpu, i), x, v);
+        gauge_add(gauge, cpu->constants, pass->gravity, p->fluid[i],
+                  (double)particle_compression(p, cpu->constants, i), x, v);
     }
 }
 

@@ -10,55 +10,10 @@ typedef struct Read {
     const ParticleArrays *out;
 } Read;
 
-static float scalar_of(const Cpu *cpu, Scalar scalar, size_t i)
-{
-    const CpuParticles *p = &cpu->now;
-    switch (scalar) {
-    case SCALAR_SPEED:
-        return sqrtf(p->vx[i] * p->vx[i] + p->vy[i] * p->vy[i] + p->vz[i] * p->vz[i]);
-    case SCALAR_DENSITY:
-        return cpu->constants->density[p->fluid[i]] * (1 + cpu_compression(cpu, i));
-    case SCALAR_PRESSURE:
-        return cpu->now.pressure[i];
-    case SCALAR_COMPRESSION:
-        return cpu_compression(cpu, i);
-    case SCALAR_FLUID:
-        return (float)p->fluid[i];
-    case SCALAR_ID:
-        return (float)p->id[i];
-    case SCALAR_COUNT:
-        break;
-    }
-    return 0;
-}
-
 static void read_range(void *context, size_t begin, size_t end)
 {
     const Read *read = context;
-    const Cpu *cpu = read->cpu;
-    const CpuParticles *p = &cpu->now;
-    const ParticleArrays *out = read->out;
-    for (size_t k = begin; k < end; k++) {
-        const size_t i = cpu_owned(cpu, k);
-        if (out->position) {
-            float *x = out->position + 4 * k;
-            x[0] = p->x[i], x[1] = p->y[i], x[2] = p->z[i], x[3] = cpu->now.volume[i];
-        }
-        if (out->velocity) {
-            float *v = out->velocity + 4 * k;
-            v[0] = p->vx[i], v[1] = p->vy[i], v[2] = p->vz[i], v[3] = 0;
-        }
-        if (out->fluid)
-            out->fluid[k] = p->fluid[i];
-        if (out->id)
-            out->id[k] = p->id[i];
-    }
-    for (int s = 0; s < SCALAR_COUNT; s++)
-        for (size_t k = begin; out->scalar[s] && k < end; k++)
-            out->scalar[s][k] = scalar_of(cpu, (Scalar)s, cpu_owned(cpu, k));
-    for (int c = 0; c < COLUMNS_OWN; c++)
-        for (size_t k = begin; out->own[c] && k < end; k++)
-            out->own[c][k] = p->own[c][cpu_owned(cpu, k)];
+    particles_read(&read->cpu->now, read->cpu->constants, read->cpu->owned_at, begin, end, read->out);
 }
 
 bool cpu_read(void *state, const ParticleArrays *out)

@@ -3,6 +3,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+int column_own(const ColumnDef *column)
+{
+    return column->at < COLUMN_OWN(0) ? -1 : (int)((column->at - COLUMN_OWN(0)) / sizeof(float *));
+}
+
+bool columns_save_own(const ColumnDef *own)
+{
+    while (own && own->name && !(own->flags & COLUMN_SAVED && column_own(own) >= 0))
+        own++;
+    return own && own->name;
+}
+
 static void add_rows(ColumnRows *rows, const ColumnDef *from, unsigned flags,
                      const struct Constants *constants)
 {

@@ -51,6 +51,12 @@ typedef struct ColumnDef {
 /* Where the method's own column k stands. */
 #define COLUMN_OWN(k) (offsetof(ParticleColumns, own) + (size_t)(k) * sizeof(float *))
 
+/* Which of the method's own a column's first component is; -1: none of them. */
+int column_own(const ColumnDef *column);
+
+/* Whether a method, by its rows (NULL: none), saves some of its own. */
+bool columns_save_own(const ColumnDef *own);
+
 /* Those of every method, ended by a NULL name. */
 extern const ColumnDef columns_common[];
 

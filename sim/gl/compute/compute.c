@@ -5,7 +5,6 @@
 #include "sim/gl/limits.h"
 #include "sim/gl/program.h"
 #include "sim/gl/shader_source.h"
-#include "sim/gl/transfer.h"
 
 #include <epoxy/gl.h>
 #include <stdio.h>
@@ -18,17 +17,10 @@ static const char *const pass_names[] = {
 #undef X
 };
 
-static bool no_memory(const Compute *c, Error *error)
+bool compute_no_memory(const Compute *c, Error *error)
 {
     return error_set(error, "the GPU has no memory for %zu particles and %zu cells; use a larger spacing",
                      c->count, c->constants->cells.count);
-}
-
-static void particles_destroy(ComputeParticles *particles)
-{
-    glDeleteBuffers(1, &particles->position);
-    glDeleteBuffers(1, &particles->velocity);
-    glDeleteBuffers(1, &particles->name);
 }
 
 static void compute_destroy(void *state)
@@ -38,9 +30,9 @@ static void compute_destroy(void *state)
                               c->totals[0],    c->totals[1], c->totals[2],      c->pressure,
                               c->acceleration, c->walls,     c->constant_block, c->step,
                               c->terms,        c->slope,     c->drag,           c->uneven};
-    particles_destroy(&c->now);
-    particles_destroy(&c->spare);
-    particles_destroy(&c->marked);
+    compute_particles_destroy(&c->now);
+    compute_particles_destroy(&c->spare);
+    compute_particles_destroy(&c->marked);
     glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
     glDeleteBuffers(COMPUTE_SHOWN, c->shown);
     mailbox_destroy(&c->watch);
@@ -67,14 +59,6 @@ unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
     return name;
 }
 
-bool compute_particles_create(Compute *c, ComputeParticles *particles, Error *error)
-{
-    particles->position = compute_buffer(c, "particle positions", 16 * c->capacity);
-    particles->velocity = compute_buffer(c, "particle velocities", 16 * c->capacity);
-    particles->name = compute_buffer(c, "particle ids and fluids", 8 * c->capacity);
-    return !c->full || no_memory(c, error);
-}
-
 static bool buffers_create(Compute *c, Error *error)
 {
     const size_t n = c->capacity, cells = c->constants->cells.count;
@@ -95,7 +79,7 @@ static bool buffers_create(Compute *c, Error *error)
     const bool bounded = compute_boundary_create(c);
     return (bounded && !c->full && mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
             mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
-           no_memory(c, error);
+           compute_no_memory(c, error);
 }
 
 static void walls_upload(Compute *c)
@@ -213,14 +197,14 @@ static void *compute_create(const Constants *constants, const InitialState *init
     c->constants = constants;
     c->count = initial->count;
     c->capacity = capacity;
-    if (!buffers_create(c, error) || !(compute_term_buffers(c) || no_memory(c, error))) {
+    if (!buffers_create(c, error) || !(compute_term_buffers(c) || compute_no_memory(c, error))) {
         compute_destroy(c);
         return NULL;
     }
     walls_upload(c);
     compute_constants(c);
     if (c->full) {
-        no_memory(c, error);
+        compute_no_memory(c, error);
         compute_destroy(c);
         return NULL;
     }
@@ -255,7 +239,7 @@ static bool compute_can(const WorldDef *def, Error *error)
 {
     const Method *method = method_find(def->method);
     int count = 0;
-    bool can = transfer_holds(method);
+    bool can = !columns_save_own(method->columns);
     for (const Pass *const *pass = method->passes; can && *pass; pass++) {
         char path[64];
         snprintf(path, sizeof path, "sim/%s.comp", (*pass)->shader ? (*pass)->shader : "");

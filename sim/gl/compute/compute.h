@@ -115,7 +115,18 @@ ComputePass compute_method_pass(const Compute *compute, const Pass *pass);
 
 /* A storage buffer of `bytes`, zeroed. */
 unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
+
+/* particles.c. False with the reason. */
 bool compute_particles_create(Compute *compute, ComputeParticles *particles, Error *error);
+void compute_particles_destroy(ComputeParticles *particles);
+void compute_particles_copy(const Compute *compute, ComputeParticles from, ComputeParticles to);
+
+/* What the buffers have of the particles, into columns that columns_destroy frees. False when memory is
+   short. */
+bool compute_download(const Compute *compute, ParticleColumns *columns);
+
+/* Says so; false. */
+bool compute_no_memory(const Compute *compute, Error *error);
 
 /* After a kick of dt, s. */
 void compute_watch_send(Compute *compute, float dt);

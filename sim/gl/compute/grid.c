@@ -39,13 +39,6 @@ void compute_scan(Compute *compute, unsigned buffer, size_t size)
         run_blocks(compute, COMPUTE_SCAN_ADD, values[level], values[level + 1], sizes[level]);
 }
 
-void compute_swap(Compute *c)
-{
-    const ComputeParticles other = c->spare;
-    c->spare = c->now;
-    c->now = other;
-}
-
 void compute_grid(void *state)
 {
     Compute *c = state;

@@ -45,20 +45,12 @@ StepWatch compute_watch(void *state)
     return seen;
 }
 
-static void copy_particles(const Compute *c, const ComputeParticles *from, const ComputeParticles *to)
-{
-    glCopyNamedBufferSubData(from->position, to->position, 0, 0, (GLsizeiptr)(16 * c->count));
-    glCopyNamedBufferSubData(from->velocity, to->velocity, 0, 0, (GLsizeiptr)(16 * c->count));
-    glCopyNamedBufferSubData(from->name, to->name, 0, 0, (GLsizeiptr)(8 * c->count));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
 bool compute_mark(void *state, Error *error)
 {
     Compute *c = state;
     if (!c->marked.position && !compute_particles_create(c, &c->marked, error))
         return false;
-    copy_particles(c, &c->now, &c->marked);
+    compute_particles_copy(c, c->now, c->marked);
     return true;
 }
 
@@ -66,6 +58,6 @@ void compute_back(void *state, size_t count, size_t guarded)
 {
     Compute *c = state;
     compute_set_count(c, count);
-    copy_particles(c, &c->marked, &c->now);
+    compute_particles_copy(c, c->marked, c->now);
     compute_watch_reset(c, guarded);
 }

@@ -43,6 +43,7 @@ static bool fragment_can(const WorldDef *def, Error *error)
     char method[NAME_SIZE + 8];
     snprintf(method, sizeof method, "method %s", def->method);
     return !lacks(method, !fragment_has(method_find(def->method)), error) &&
+           !lacks("columns of a method's own", columns_save_own(method_find(def->method)->columns), error) &&
            !lacks("periodic sides", def->periodic[0] || def->periodic[1] || def->periodic[2], error) &&
            !lacks("solids", def->solid_count > 0, error) && !lacks("emitters", flow_emits(def), error) &&
            !lacks("drains", def->drain_count > 0, error) &&

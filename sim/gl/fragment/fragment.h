@@ -9,7 +9,6 @@
 #define SLOSH_FRAGMENT_H
 
 #include "sim/gl/mailbox.h"
-#include "sim/gl/transfer.h"
 #include "sim/world/backend.h"
 
 enum {

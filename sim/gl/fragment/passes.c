@@ -36,7 +36,7 @@ bool fragment_has(const Method *method)
     for (const Pass *const *pass = method->passes; *pass; pass++)
         if (!shader_of(*pass, path) || !shader_source_has(path) || of_stage[(*pass)->stage]++ > 0)
             return false;
-    return transfer_holds(method) && of_stage[STAGE_DENSITY] == 1 && of_stage[STAGE_FORCE] == 1;
+    return of_stage[STAGE_DENSITY] == 1 && of_stage[STAGE_FORCE] == 1;
 }
 
 /* What follows the vertex shader of a pass: its own, or the method's of its stage. */
