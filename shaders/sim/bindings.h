@@ -11,8 +11,8 @@
 #define FLOW_BLOCK         7
 #define EXACT_SHAPES_BLOCK 8
 
-/* Storage buffers, of which a driver need not have more than eight; solids need eight more. A pass has one of
-   each number. */
+/* Storage buffers, of which a driver need not have more than eight; solids and a method's own columns need
+   more. A pass has one of each number. */
 #define POSITIONS_BUFFER  0
 #define NAMES_BUFFER      1
 #define STARTS_BUFFER     2 /* of the cells */
@@ -26,6 +26,10 @@
 #define UNEVENS_BUFFER       6
 #define DRAG_BUFFER          6
 #define RESTS_BUFFER         7
+
+/* Only for methods with columns of their own to keep */
+#define OWN_BUFFER     8
+#define OLD_OWN_BUFFER 9
 
 #define BOUNDARY_POSITIONS_BUFFER  12
 #define BOUNDARY_VELOCITIES_BUFFER 13

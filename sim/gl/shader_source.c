@@ -46,11 +46,6 @@ static const EmbeddedShader *embedded(const char *path)
     return shader->path ? shader : NULL;
 }
 
-bool shader_source_has(const char *path)
-{
-    return embedded(path) != NULL;
-}
-
 static char *read_embedded(const char *path)
 {
     const EmbeddedShader *shader = embedded(path);
@@ -87,6 +82,14 @@ uint64_t shader_source_stamp(void)
                     (uint64_t)status.st_mtim.tv_nsec + 1;
     }
     return stamp;
+}
+
+bool shader_source_has(const char *path)
+{
+    char name[NAME_MAX_SIZE];
+    struct stat status;
+    name_in_directory(path, name);
+    return *shader_directory ? stat(name, &status) == 0 : embedded(path) != NULL;
 }
 
 static char *read_from_directory(const char *path)

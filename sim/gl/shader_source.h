@@ -40,7 +40,7 @@ uint64_t shader_source_stamp(void);
 bool shader_source_load(ShaderSource *source, const char *path, const char *defines, Error *error);
 void shader_source_free(ShaderSource *source);
 
-/* Whether the program has it. */
+/* Whether it is there, in the program or the directory. */
 bool shader_source_has(const char *path);
 
 /* Copies the compiler's log with "file:line:" in place of its numbers. */

@@ -65,7 +65,7 @@ void particles_read(const ParticleColumns *p, const Constants *constants, const 
         for (size_t k = begin; out->scalar[s] && k < end; k++)
             out->scalar[s][k] = scalar_of(p, constants, (Scalar)s, at ? at[k] : k);
     for (int c = 0; c < COLUMNS_OWN; c++)
-        for (size_t k = begin; out->own[c] && k < end; k++)
+        for (size_t k = begin; out->own[c] && p->own[c] && k < end; k++)
             out->own[c][k] = p->own[c][at ? at[k] : k];
 }
 

@@ -82,7 +82,7 @@ typedef struct ParticleArrays {
     float *scalar[SCALAR_COUNT]; /* 1 a particle */
     uint32_t *fluid;             /* index into WorldDef.fluids */
     uint32_t *id;                /* place in the initial state */
-    float *own[COLUMNS_OWN];     /* 1 a particle: the method's own columns, of the backend cpu */
+    float *own[COLUMNS_OWN];     /* 1 a particle: the method's own columns; on a GPU those that are kept */
 } ParticleArrays;
 
 #endif

@@ -3,9 +3,11 @@
 
 #include "app/output/snapshot.h"
 #include "app/scene/keys.h"
+#include "app/session/headless.h"
 #include "sim/gl/backends.h"
 #include "sim/world/world.h"
 #include "tests/sim/toy_method.h"
+#include "tests/sim/toy_shaders.h"
 
 #include <hdf5.h>
 
@@ -37,15 +39,16 @@ static uint64_t write_file(const Scene *scene)
     return hash;
 }
 
-static void a_run_goes_on_from_a_file(void **state)
+static void goes_on_from_a_file(const char *backend)
 {
-    (void)state;
     static Scene scene;
     Error error = {{0}};
     WorldState last = {.count = 0};
     bool busy;
     toy_add();
     assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
+    snprintf(scene.world.backend, sizeof scene.world.backend, "%s", backend);
+    scene.world.reproducible = true;
     const uint64_t hash = write_file(&scene);
     Snapshot *file = snapshot_resume("a.h5part", &scene, "", &last, &busy, &error);
     World *world = world_create(&scene.world, &error);
@@ -56,6 +59,25 @@ static void a_run_goes_on_from_a_file(void **state)
     snapshot_close(file);
     world_destroy(world);
     world_state_free(&last);
+}
+
+static void a_run_goes_on_from_a_file(void **state)
+{
+    (void)state;
+    goes_on_from_a_file("cpu");
+}
+
+static void and_on_a_gpu(void **state)
+{
+    (void)state;
+    Error error;
+    Headless *context = headless_create(HEADLESS_GPU_AUTO, &error);
+    assert_non_null(context);
+    backends_add();
+    toy_shaders_add();
+    goes_on_from_a_file("compute");
+    toy_shaders_remove();
+    headless_destroy(context);
 }
 
 static void a_file_without_its_column_is_refused(void **state)
@@ -76,7 +98,7 @@ static void a_file_without_its_column_is_refused(void **state)
     world_state_free(&last);
 }
 
-/* It has no shaders, and its age would be lost in their buffers. */
+/* The program has no shaders of it. */
 static void a_gpu_has_no_such_method(void **state)
 {
     (void)state;
@@ -97,6 +119,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_run_goes_on_from_a_file, folder_setup, folder_teardown),
+        cmocka_unit_test_setup_teardown(and_on_a_gpu, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(a_file_without_its_column_is_refused, folder_setup, folder_teardown),
         cmocka_unit_test(a_gpu_has_no_such_method),
     };

@@ -17,7 +17,8 @@ static void body(const CpuRange *range)
 }
 
 static const CpuPass on_cpu = {.loops = {{body, CPU_GRAIN}}};
-static const Pass spring = {.name = "spring", .cpu = &on_cpu, .reads = "position", .writes = "age volume"};
+static const Pass spring = {
+    .name = "spring", .cpu = &on_cpu, .shader = "toy/spring", .reads = "position", .writes = "age volume"};
 enum { KEPT = COLUMN_SAVED | COLUMN_SORTED };
 static const ColumnDef columns[] = {{"age", "s", COLUMN_OWN(0), 1, .flags = KEPT}, {0}};
 

@@ -15,6 +15,7 @@ static const struct {
     {"Accelerations", offsetof(Compute, acceleration)},
     {"Slopes", offsetof(Compute, slope)},
     {"Unevens", offsetof(Compute, uneven)},
+    {"Own", offsetof(Compute, now.own)},
     {"Starts", offsetof(Compute, start)},
     {"WallTables", offsetof(Compute, walls)},
     {"DragTables", offsetof(Compute, drag)},

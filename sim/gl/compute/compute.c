@@ -127,7 +127,15 @@ static bool pass_wanted(const Compute *c, ComputePass pass)
         const Pass *of = method_pass(c, pass);
         return of && (!of->needed || of->needed(c->constants));
     }
+    if (pass == COMPUTE_OWN_MOVE || pass == COMPUTE_OWN_GATHER)
+        return c->own.count > 0;
     return pass == COMPUTE_GAUGE ? c->program[pass] != 0 : compute_pass_named(c->constants, pass);
+}
+
+static void all_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
+{
+    compute_defines(c->constants, out);
+    compute_own_defines(c, out);
 }
 
 /* Terms that the scene does not name are not compiled in. What was compiled stays where the new does not
@@ -137,7 +145,7 @@ static bool programs_create(Compute *c, Error *error)
     char defines[COMPUTE_DEFINES_MAX];
     unsigned program[COMPUTE_PASS_COUNT] = {0};
     bool ok = true;
-    compute_defines(c->constants, defines);
+    all_defines(c, defines);
     for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++)
         if (pass_wanted(c, (ComputePass)p))
             ok = (program[p] = compute_program(c, (ComputePass)p, defines, error)) != 0;
@@ -157,23 +165,29 @@ static size_t larger(size_t a, size_t b)
     return a > b ? a : b;
 }
 
-/* Of the largest array: two vec4 a particle where there is shifting, else one; start of cells; walls. */
+/* Of the largest array: two vec4 a particle where there is shifting, else one; the method's own columns;
+   start of cells; walls. */
 static size_t most_bytes(const Constants *s, size_t capacity)
 {
-    const size_t particles = (s->shifting > 0 ? 32 : 16) * capacity, cells = 4 * (s->cells.count + 2);
+    const size_t own = 4 * (size_t)compute_own_of(s->method).count;
+    const size_t particles = larger(s->shifting > 0 ? 32 : 16, own) * capacity,
+                 cells = 4 * (s->cells.count + 2);
     const size_t walls = s->continuity ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
     return larger(larger(particles, 16 * s->boundary.count), larger(cells, walls));
 }
 
-/* Solids stand at the bindings 12 to 15, beside those of the pass that binds most. */
+/* Solids stand at the bindings 12 to 15, a method's own columns at 8 and 9, beside those of the pass that
+   binds most. */
 static bool supported(const Constants *s, size_t capacity, Error *error)
 {
-    const bool solids = s->solid_count > 0;
+    const bool solids = s->solid_count > 0, own = compute_own_of(s->method).count > 0;
     const GlLimits have = gl_limits();
     const GlNeeds needs = {.who = solids ? "backend compute with solids" : "backend compute",
                            .instead = "use backend cpu",
-                           .least = {.compute_blocks = solids ? 11 : 8,
-                                     .bindings = solids ? 16 : 8,
+                           .least = {.compute_blocks = (solids ? 11 : 8) + own,
+                                     .bindings = solids ? 16
+                                                 : own  ? 10
+                                                        : 8,
                                      .block_bytes = (int64_t)most_bytes(s, capacity)}};
     return gl_limits_allow(&have, &needs, error);
 }
@@ -197,6 +211,7 @@ static void *compute_create(const Constants *constants, const InitialState *init
     c->constants = constants;
     c->count = initial->count;
     c->capacity = capacity;
+    c->own = compute_own_of(constants->method);
     if (!buffers_create(c, error) || !(compute_term_buffers(c) || compute_no_memory(c, error))) {
         compute_destroy(c);
         return NULL;
@@ -220,7 +235,7 @@ static bool compute_adapt(void *state, Error *error)
 {
     Compute *c = state;
     char defines[COMPUTE_DEFINES_MAX];
-    compute_defines(c->constants, defines);
+    all_defines(c, defines);
     if (!compute_term_buffers(c))
         return error_set(error, "the GPU has no memory for another term; use a larger spacing");
     if (strcmp(defines, c->defines) != 0 && !programs_create(c, error))
@@ -234,12 +249,12 @@ static bool compute_reload(void *state, Error *error)
     return programs_create(state, error);
 }
 
-/* A method with passes that have no shader, or with more to save than the buffers hold, is the CPU's. */
+/* A method with passes that have no shader is the CPU's. */
 static bool compute_can(const WorldDef *def, Error *error)
 {
     const Method *method = method_find(def->method);
     int count = 0;
-    bool can = !columns_save_own(method->columns);
+    bool can = true;
     for (const Pass *const *pass = method->passes; can && *pass; pass++) {
         char path[64];
         snprintf(path, sizeof path, "sim/%s.comp", (*pass)->shader ? (*pass)->shader : "");

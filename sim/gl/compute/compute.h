@@ -14,8 +14,8 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
-    COMPUTE_NAMED = 16,
-    COMPUTE_DEFINES_MAX = 1024
+    COMPUTE_NAMED = 17,
+    COMPUTE_DEFINES_MAX = 2048
 };
 
 /* What show.comp writes: a scalar by its number, the fluid, the id. */
@@ -26,7 +26,13 @@ typedef struct ComputeParticles {
     unsigned position; /* vec4: x y z, volume */
     unsigned velocity; /* vec4: x y z; rho / rho0 - 1 where particles carry their density, else 0 */
     unsigned name;     /* uvec2: id, fluid */
+    unsigned own;      /* float, a column behind the other: ComputeOwn; 0: the method keeps none */
 } ComputeParticles;
+
+/* What a method keeps of a particle in columns of its own: of each its place in ParticleColumns.own. */
+typedef struct ComputeOwn {
+    int count, place[COLUMNS_OWN];
+} ComputeOwn;
 
 /* The passes: shaders/sim/NAME.comp. Behind them stand those of the method, in its order. */
 #define COMPUTE_PASSES(X)                                                                                    \
@@ -48,7 +54,9 @@ typedef struct ComputeParticles {
     X(EMIT_MARK, "compute/emit_mark")                                                                        \
     X(EMIT_ADD, "compute/emit_add")                                                                          \
     X(DRAIN_MARK, "compute/drain_mark")                                                                      \
-    X(DRAIN_GATHER, "compute/drain_gather")
+    X(DRAIN_GATHER, "compute/drain_gather")                                                                  \
+    X(OWN_MOVE, "compute/own_move")                                                                          \
+    X(OWN_GATHER, "compute/own_gather")
 
 typedef enum ComputePass {
 #define X(NAME, name) COMPUTE_##NAME,
@@ -79,7 +87,8 @@ typedef struct Compute {
     size_t gridded;         /* by `grid`: how many it has seen */
     ComputeBoundary boundary;
     ComputeFlow flow;
-    ComputeParticles now, spare, marked;  /* marked: none before the first `mark` */
+    ComputeParticles now, spare, marked; /* marked: none before the first `mark` */
+    ComputeOwn own;
     unsigned cell, rank, order, start;    /* start: cells + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
     unsigned pressure;                    /* vec2: p, p V^2 */
@@ -124,6 +133,19 @@ void compute_particles_copy(const Compute *compute, ComputeParticles from, Compu
 /* What the buffers have of the particles, into columns that columns_destroy frees. False when memory is
    short. */
 bool compute_download(const Compute *compute, ParticleColumns *columns);
+
+/* own.c: of a method that keeps no columns of its own these do nothing. Lines for the shaders behind those
+   of compute_defines; the columns to and from plain arrays, those that are NULL left out, or to another
+   buffer; 0 for so many particles; from `now` to `spare` in another order, or past the drained. */
+ComputeOwn compute_own_of(const Method *method);
+void compute_own_rows(const Method *method, ColumnRows *rows); /* adds them */
+void compute_own_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
+void compute_own_upload(const Compute *compute, const ParticleColumns *from);
+void compute_own_download(const Compute *compute, const ParticleColumns *to);
+void compute_own_copy(const Compute *compute, unsigned from, unsigned to);
+void compute_own_clear(const Compute *compute, size_t first, size_t count);
+void compute_own_move(const Compute *compute, unsigned order);
+void compute_own_gather(const Compute *compute, unsigned marks);
 
 /* Says so; false. */
 bool compute_no_memory(const Compute *compute, Error *error);

@@ -74,6 +74,7 @@ static size_t emit_part(Compute *c, const EmitLayer *layer, size_t most)
          [VELOCITIES_BUFFER] = c->now.velocity, [MARKS_BUFFER] = c->flow.marks, [NAMES_BUFFER] = c->now.name);
     compute_run(c, COMPUTE_EMIT_ADD, layer->count);
     const size_t fit = sum_of(c->flow.marks, layer->count), number = fit < most ? fit : most;
+    compute_own_clear(c, c->count, number);
     compute_set_count(c, c->count + number);
     return number;
 }
@@ -157,6 +158,7 @@ size_t compute_drain(void *state, const Fill *regions, int count)
          [POSITIONS_BUFFER] = c->spare.position, [VELOCITIES_BUFFER] = c->spare.velocity,
          [NAMES_BUFFER] = c->spare.name);
     compute_run(c, COMPUTE_DRAIN_GATHER, c->count);
+    compute_own_gather(c, c->order);
     compute_swap(c);
     compute_set_count(c, stay);
     return gone;

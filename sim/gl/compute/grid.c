@@ -64,6 +64,7 @@ void compute_grid(void *state)
          [POSITIONS_BUFFER] = c->spare.position, [VELOCITIES_BUFFER] = c->spare.velocity,
          [NAMES_BUFFER] = c->spare.name);
     compute_run(c, COMPUTE_MOVE, c->count);
+    compute_own_move(c, order);
     compute_swap(c);
     c->gridded = c->count;
     compute_boundary_grid(c);

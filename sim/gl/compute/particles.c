@@ -53,6 +53,9 @@ bool compute_particles_create(Compute *c, ComputeParticles *particles, Error *er
 {
     for (int b = POSITION; b < MOVED; b++)
         *moved_in(particles, b) = compute_buffer(c, moved[b].label, entry_bytes(b) * c->capacity);
+    if (c->own.count > 0)
+        particles->own =
+            compute_buffer(c, "columns of the method's own", 4 * (size_t)c->own.count * c->capacity);
     return !c->full || compute_no_memory(c, error);
 }
 
@@ -60,6 +63,7 @@ void compute_particles_destroy(ComputeParticles *particles)
 {
     for (int b = POSITION; b < MOVED; b++)
         glDeleteBuffers(1, moved_in(particles, b));
+    glDeleteBuffers(1, &particles->own);
 }
 
 void compute_particles_copy(const Compute *c, ComputeParticles from, ComputeParticles to)
@@ -67,6 +71,7 @@ void compute_particles_copy(const Compute *c, ComputeParticles from, ComputePart
     for (int b = POSITION; b < MOVED; b++)
         glCopyNamedBufferSubData(*moved_in(&from, b), *moved_in(&to, b), 0, 0,
                                  (GLsizeiptr)(entry_bytes(b) * c->count));
+    compute_own_copy(c, from.own, to.own);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -85,6 +90,7 @@ static void upload(const Compute *c, const ParticleColumns *from, uint32_t *entr
         packing_pack(&packing, b, c->constants->method, from, c->count, NULL, entries);
         glNamedBufferSubData(buffer_of(c, b), 0, (GLsizeiptr)(entry_bytes(b) * c->count), entries);
     }
+    compute_own_upload(c, from);
 }
 
 static void download(const Compute *c, const ParticleColumns *to, uint32_t *entries)
@@ -94,6 +100,7 @@ static void download(const Compute *c, const ParticleColumns *to, uint32_t *entr
         glGetNamedBufferSubData(buffer_of(c, b), 0, (GLsizeiptr)(entry_bytes(b) * c->count), entries);
         packing_unpack(&packing, b, c->constants->method, entries, c->count, to);
     }
+    compute_own_download(c, to);
 }
 
 /* Room for the largest entries of so many. */
@@ -102,9 +109,16 @@ static uint32_t *entries_create(size_t count)
     return malloc(4 * PACKED_WORDS * (count + 1));
 }
 
+static ColumnRows rows_of(const Compute *c)
+{
+    ColumnRows rows = packing_rows(&packing, c->constants->method);
+    compute_own_rows(c->constants->method, &rows);
+    return rows;
+}
+
 bool compute_download(const Compute *c, ParticleColumns *columns)
 {
-    const ColumnRows rows = packing_rows(&packing, c->constants->method);
+    const ColumnRows rows = rows_of(c);
     uint32_t *entries = entries_create(c->count);
     *columns = (ParticleColumns){0};
     const bool done = entries && columns_create(columns, &rows, c->count, NULL);
@@ -118,7 +132,7 @@ bool compute_download(const Compute *c, ParticleColumns *columns)
 
 bool compute_set_particles(Compute *c, const InitialState *initial)
 {
-    const ColumnRows rows = packing_rows(&packing, c->constants->method);
+    const ColumnRows rows = rows_of(c);
     ParticleColumns columns = {0};
     uint32_t *entries = entries_create(c->count);
     const bool done = entries && columns_create(&columns, &rows, c->count, NULL);

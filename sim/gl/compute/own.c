@@ -1,0 +1,97 @@
+/* What a method keeps of each particle in columns of its own: one storage buffer with all of them, a column
+   behind the other, with room for `capacity` numbers each. Shaders read it by shaders/sim/own.glsl. */
+#include "sim/gl/compute/compute.h"
+
+#include "shaders/sim/bindings.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool kept(const ColumnDef *column)
+{
+    return column_own(column) >= 0 && column->flags & (COLUMN_SAVED | COLUMN_SORTED);
+}
+
+ComputeOwn compute_own_of(const Method *method)
+{
+    ComputeOwn own = {0};
+    for (const ColumnDef *column = method->columns; column && column->name; column++)
+        for (int k = 0; kept(column) && k < column->components; k++)
+            own.place[own.count++] = column_own(column) + k;
+    return own;
+}
+
+void compute_own_rows(const Method *method, ColumnRows *rows)
+{
+    for (const ColumnDef *column = method->columns; column && column->name; column++)
+        if (kept(column))
+            rows->row[rows->count++] = column;
+}
+
+void compute_own_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
+{
+    size_t used = strlen(out), at = 0;
+    if (c->own.count > 0)
+        used +=
+            (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used,
+                             "#define OWN_TOTAL %du\n#define OWN_STRIDE %zuu\n", c->own.count, c->capacity);
+    for (const ColumnDef *column = c->constants->method->columns; column && column->name; column++)
+        if (kept(column)) {
+            used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define OWN_%s %zuu\n",
+                                     column->name, at * c->capacity);
+            at += (size_t)column->components;
+        }
+}
+
+/* Where entry i of the k-th column is, bytes. */
+static GLintptr place_of(const Compute *c, int k, size_t i)
+{
+    return (GLintptr)(4 * ((size_t)k * c->capacity + i));
+}
+
+void compute_own_upload(const Compute *c, const ParticleColumns *from)
+{
+    compute_own_clear(c, 0, c->count);
+    for (int k = 0; k < c->own.count; k++)
+        if (from->own[c->own.place[k]])
+            glNamedBufferSubData(c->now.own, place_of(c, k, 0), (GLsizeiptr)(4 * c->count),
+                                 from->own[c->own.place[k]]);
+}
+
+void compute_own_download(const Compute *c, const ParticleColumns *to)
+{
+    for (int k = 0; k < c->own.count; k++)
+        if (to->own[c->own.place[k]])
+            glGetNamedBufferSubData(c->now.own, place_of(c, k, 0), (GLsizeiptr)(4 * c->count),
+                                    to->own[c->own.place[k]]);
+}
+
+void compute_own_copy(const Compute *c, unsigned from, unsigned to)
+{
+    for (int k = 0; k < c->own.count; k++)
+        glCopyNamedBufferSubData(from, to, place_of(c, k, 0), place_of(c, k, 0), (GLsizeiptr)(4 * c->count));
+}
+
+void compute_own_clear(const Compute *c, size_t first, size_t count)
+{
+    for (int k = 0; k < c->own.count && count > 0; k++)
+        glClearNamedBufferSubData(c->now.own, GL_R32F, place_of(c, k, first), (GLsizeiptr)(4 * count), GL_RED,
+                                  GL_FLOAT, NULL);
+}
+
+void compute_own_move(const Compute *c, unsigned order)
+{
+    if (c->own.count == 0)
+        return;
+    BIND([ORDERS_BUFFER] = order, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
+    compute_run(c, COMPUTE_OWN_MOVE, c->count);
+}
+
+void compute_own_gather(const Compute *c, unsigned marks)
+{
+    if (c->own.count == 0)
+        return;
+    BIND([MARKS_BUFFER] = marks, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
+    compute_run(c, COMPUTE_OWN_GATHER, c->count);
+}

@@ -1,0 +1,34 @@
+/* The program's shaders and the toy method's among them, as a folder of links. */
+#ifndef SLOSH_TESTS_TOY_SHADERS_H
+#define SLOSH_TESTS_TOY_SHADERS_H
+
+#include "sim/gl/shader_source.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static char toy_folder[] = "/tmp/slosh-toy-XXXXXX";
+
+static inline void toy_shell(const char *command)
+{
+    char line[1000];
+    snprintf(line, sizeof line, command, toy_folder, toy_folder);
+    assert_int_equal(system(line), 0);
+}
+
+static inline void toy_shaders_add(void)
+{
+    assert_non_null(mkdtemp(toy_folder));
+    toy_shell("cp -rs " SLOSH_SOURCE_DIR "/shaders/. %s && cp -rs " SLOSH_SOURCE_DIR
+              "/tests/sim/toy %s/sim/");
+    shader_source_set_directory(toy_folder);
+}
+
+static inline void toy_shaders_remove(void)
+{
+    shader_source_set_directory(NULL);
+    toy_shell("rm -r %s");
+    snprintf(toy_folder, sizeof toy_folder, "/tmp/slosh-toy-XXXXXX");
+}
+
+#endif
