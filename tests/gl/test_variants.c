@@ -3,6 +3,8 @@
    or copy is behind a barrier for that; no program has one buffer in two blocks, and none of the solver's has
    a block without a buffer. */
 #include "tests/gl/compare.h"
+#include "tests/sim/toy_method.h"
+#include "tests/sim/toy_shaders.h"
 
 #include "render/renderer.h"
 #include "sim/gl/limits.h"
@@ -541,6 +543,16 @@ static void draw_views(const WorldDef *def, bool solids)
 }
 
 /* All forms of all shaders, of which no step and no picture comes. */
+/* A method that keeps columns of its own. */
+static void toy_lives(void)
+{
+    const WorldDef base = pool_def("compute");
+    toy_add();
+    toy_shaders_add();
+    LIVE(base, set_name(d.method, "toy"), add_flow(&d));
+    toy_shaders_remove();
+}
+
 static void every_form_is_made(void **state)
 {
     (void)state;
@@ -574,6 +586,7 @@ static void worlds_live(void **state)
     wcsph_def(&def)->delta_sph = wcsph_def(&def)->shifting = 0.1;
     def.reproducible = true;
     live(&def);
+    toy_lives();
     worlds_only = false;
     assert_int_equal(unbound, 0);
     printf("worlds have up to %d storage blocks in a compute shader, %d bindings\n", most.compute_blocks,
