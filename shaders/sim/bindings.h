@@ -27,9 +27,10 @@
 #define DRAG_BUFFER          6
 #define RESTS_BUFFER         7
 
-/* Only for methods with columns of their own to keep */
+/* Only for methods with columns of their own */
 #define OWN_BUFFER     8
 #define OLD_OWN_BUFFER 9
+#define SCRATCH_BUFFER 10
 
 #define BOUNDARY_POSITIONS_BUFFER  12
 #define BOUNDARY_VELOCITIES_BUFFER 13

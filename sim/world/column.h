@@ -34,9 +34,10 @@ typedef enum ColumnType { COLUMN_FLOAT, COLUMN_INDEX, COLUMN_BYTE } ColumnType;
 
 /* What becomes of a column; scratch, which each step makes anew, has none of these. */
 enum {
-    COLUMN_SAVED = 1,  /* a part of the saved state */
-    COLUMN_SORTED = 2, /* goes with its particle when the grid sorts them */
-    COLUMN_FLUIDS = 4, /* 0 for the particles of solids */
+    COLUMN_SAVED = 1,   /* a part of the saved state */
+    COLUMN_SORTED = 2,  /* goes with its particle when the grid sorts them */
+    COLUMN_FLUIDS = 4,  /* 0 for the particles of solids */
+    COLUMN_SHADERS = 8, /* scratch of the method's own that its shaders have too */
 };
 
 typedef struct ColumnDef {

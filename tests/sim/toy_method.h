@@ -11,7 +11,8 @@ static void body(const CpuRange *range)
     const CpuParticles *p = &range->cpu->now;
     for (size_t i = range->begin; i < range->end; i++) {
         p->own[0][i] += range->input->dt * (float)p->id[i];
-        p->ax[i] = -(50 + 1000 * p->own[0][i]) * p->x[i];
+        p->own[1][i] = 50 + 1000 * p->own[0][i];
+        p->ax[i] = -p->own[1][i] * p->x[i];
         p->volume[i] = 1 / range->cpu->constants->rest_number_density;
     }
 }
@@ -20,7 +21,9 @@ static const CpuPass on_cpu = {.loops = {{body, CPU_GRAIN}}};
 static const Pass spring = {
     .name = "spring", .cpu = &on_cpu, .shader = "toy/spring", .reads = "position", .writes = "age volume"};
 enum { KEPT = COLUMN_SAVED | COLUMN_SORTED };
-static const ColumnDef columns[] = {{"age", "s", COLUMN_OWN(0), 1, .flags = KEPT}, {0}};
+static const ColumnDef columns[] = {{"age", "s", COLUMN_OWN(0), 1, .flags = KEPT},
+                                    {"stiffness", "1/s2", COLUMN_OWN(1), 1, .flags = COLUMN_SHADERS},
+                                    {0}};
 
 static void substep(const Substep *step)
 {

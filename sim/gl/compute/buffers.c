@@ -16,6 +16,7 @@ static const struct {
     {"Slopes", offsetof(Compute, slope)},
     {"Unevens", offsetof(Compute, uneven)},
     {"Own", offsetof(Compute, now.own)},
+    {"Scratch", offsetof(Compute, scratch)},
     {"Starts", offsetof(Compute, start)},
     {"WallTables", offsetof(Compute, walls)},
     {"DragTables", offsetof(Compute, drag)},

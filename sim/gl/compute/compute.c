@@ -26,10 +26,10 @@ bool compute_no_memory(const Compute *c, Error *error)
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,         c->rank,      c->order,          c->start,
-                              c->totals[0],    c->totals[1], c->totals[2],      c->pressure,
-                              c->acceleration, c->walls,     c->constant_block, c->step,
-                              c->terms,        c->slope,     c->drag,           c->uneven};
+    const GLuint buffers[] = {c->cell,           c->rank,      c->order,    c->start,        c->totals[0],
+                              c->totals[1],      c->totals[2], c->pressure, c->acceleration, c->walls,
+                              c->constant_block, c->step,      c->terms,    c->slope,        c->drag,
+                              c->uneven,         c->scratch};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
@@ -169,25 +169,25 @@ static size_t larger(size_t a, size_t b)
    start of cells; walls. */
 static size_t most_bytes(const Constants *s, size_t capacity)
 {
-    const size_t own = 4 * (size_t)compute_own_of(s->method).count;
+    const size_t own = 4 * larger((size_t)compute_own_of(s->method).count, (size_t)compute_scratch_of(s));
     const size_t particles = larger(s->shifting > 0 ? 32 : 16, own) * capacity,
                  cells = 4 * (s->cells.count + 2);
     const size_t walls = s->continuity ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
     return larger(larger(particles, 16 * s->boundary.count), larger(cells, walls));
 }
 
-/* Solids stand at the bindings 12 to 15, a method's own columns at 8 and 9, beside those of the pass that
+/* Solids stand at the bindings 12 to 15, a method's own columns at 8 to 10, beside those of the pass that
    binds most. */
 static bool supported(const Constants *s, size_t capacity, Error *error)
 {
-    const bool solids = s->solid_count > 0, own = compute_own_of(s->method).count > 0;
+    const bool solids = s->solid_count > 0;
+    const int columns = (compute_own_of(s->method).count > 0) + (compute_scratch_of(s) > 0);
+    const int plain = columns > 0 ? 11 : 8;
     const GlLimits have = gl_limits();
     const GlNeeds needs = {.who = solids ? "backend compute with solids" : "backend compute",
                            .instead = "use backend cpu",
-                           .least = {.compute_blocks = (solids ? 11 : 8) + own,
-                                     .bindings = solids ? 16
-                                                 : own  ? 10
-                                                        : 8,
+                           .least = {.compute_blocks = (solids ? 11 : 8) + columns,
+                                     .bindings = solids ? 16 : plain,
                                      .block_bytes = (int64_t)most_bytes(s, capacity)}};
     return gl_limits_allow(&have, &needs, error);
 }
@@ -212,7 +212,8 @@ static void *compute_create(const Constants *constants, const InitialState *init
     c->count = initial->count;
     c->capacity = capacity;
     c->own = compute_own_of(constants->method);
-    if (!buffers_create(c, error) || !(compute_term_buffers(c) || compute_no_memory(c, error))) {
+    if (!buffers_create(c, error) ||
+        !((compute_term_buffers(c) && compute_scratch_fit(c)) || compute_no_memory(c, error))) {
         compute_destroy(c);
         return NULL;
     }
@@ -236,7 +237,7 @@ static bool compute_adapt(void *state, Error *error)
     Compute *c = state;
     char defines[COMPUTE_DEFINES_MAX];
     all_defines(c, defines);
-    if (!compute_term_buffers(c))
+    if (!compute_term_buffers(c) || !compute_scratch_fit(c))
         return error_set(error, "the GPU has no memory for another term; use a larger spacing");
     if (strcmp(defines, c->defines) != 0 && !programs_create(c, error))
         return false;

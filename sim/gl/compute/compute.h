@@ -14,7 +14,7 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
-    COMPUTE_NAMED = 17,
+    COMPUTE_NAMED = 18,
     COMPUTE_DEFINES_MAX = 2048
 };
 
@@ -89,6 +89,8 @@ typedef struct Compute {
     ComputeFlow flow;
     ComputeParticles now, spare, marked; /* marked: none before the first `mark` */
     ComputeOwn own;
+    unsigned scratch; /* float, a column behind the other; 0: the method's shaders have none */
+    int scratch_total;
     unsigned cell, rank, order, start;    /* start: cells + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
     unsigned pressure;                    /* vec2: p, p V^2 */
@@ -134,7 +136,12 @@ void compute_particles_copy(const Compute *compute, ComputeParticles from, Compu
    short. */
 bool compute_download(const Compute *compute, ParticleColumns *columns);
 
-/* own.c: of a method that keeps no columns of its own these do nothing. Lines for the shaders behind those
+/* own.c: how many columns of scratch a scene has, components counted; a buffer for them. False when memory is
+   short. */
+int compute_scratch_of(const Constants *constants);
+bool compute_scratch_fit(Compute *compute);
+
+/* Of a method that keeps no columns of its own these do nothing. Lines for the shaders behind those
    of compute_defines; the columns to and from plain arrays, those that are NULL left out, or to another
    buffer; 0 for so many particles; from `now` to `spare` in another order, or past the drained. */
 ComputeOwn compute_own_of(const Method *method);

@@ -1,5 +1,6 @@
 /* What a method keeps of each particle in columns of its own: one storage buffer with all of them, a column
-   behind the other, with room for `capacity` numbers each. Shaders read it by shaders/sim/own.glsl. */
+   behind the other, with room for `capacity` numbers each. Another has the scratch of its shaders.
+   shaders/sim/own.glsl and scratch.glsl read them. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
@@ -11,6 +12,36 @@
 static bool kept(const ColumnDef *column)
 {
     return column_own(column) >= 0 && column->flags & (COLUMN_SAVED | COLUMN_SORTED);
+}
+
+static bool is_scratch(const Constants *constants, const ColumnDef *column)
+{
+    return column_own(column) >= 0 && !kept(column) && column->flags & COLUMN_SHADERS &&
+           (!column->needed || column->needed(constants));
+}
+
+int compute_scratch_of(const Constants *constants)
+{
+    int total = 0;
+    for (const ColumnDef *column = constants->method->columns; column && column->name; column++)
+        if (is_scratch(constants, column))
+            total += column->components;
+    return total;
+}
+
+/* It only grows: programs of before, with more columns, may have to go on with it. */
+bool compute_scratch_fit(Compute *c)
+{
+    const int total = compute_scratch_of(c->constants);
+    if (total <= c->scratch_total)
+        return true;
+    const unsigned buffer = compute_buffer(c, "scratch of the method's own", 4 * (size_t)total * c->capacity);
+    glDeleteBuffers(1, c->full ? &buffer : &c->scratch);
+    if (c->full)
+        return c->full = false;
+    c->scratch = buffer;
+    c->scratch_total = total;
+    return true;
 }
 
 ComputeOwn compute_own_of(const Method *method)
@@ -29,19 +60,28 @@ void compute_own_rows(const Method *method, ColumnRows *rows)
             rows->row[rows->count++] = column;
 }
 
+/* Where a column's first component stands in its buffer. */
+static void define(const Compute *c, const char *buffer, const ColumnDef *column, size_t *at,
+                   char out[COMPUTE_DEFINES_MAX])
+{
+    const size_t used = strlen(out);
+    snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s_%s %zuu\n", buffer, column->name,
+             *at * c->capacity);
+    *at += (size_t)column->components;
+}
+
 void compute_own_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
 {
-    size_t used = strlen(out), at = 0;
-    if (c->own.count > 0)
-        used +=
-            (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used,
-                             "#define OWN_TOTAL %du\n#define OWN_STRIDE %zuu\n", c->own.count, c->capacity);
+    size_t own = 0, scratch = 0;
     for (const ColumnDef *column = c->constants->method->columns; column && column->name; column++)
-        if (kept(column)) {
-            used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define OWN_%s %zuu\n",
-                                     column->name, at * c->capacity);
-            at += (size_t)column->components;
-        }
+        if (kept(column))
+            define(c, "OWN", column, &own, out);
+        else if (is_scratch(c->constants, column))
+            define(c, "SCRATCH", column, &scratch, out);
+    const size_t used = strlen(out);
+    if (own + scratch > 0)
+        snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define OWN_TOTAL %zuu\n#define OWN_STRIDE %zuu\n",
+                 own, c->capacity);
 }
 
 /* Where entry i of the k-th column is, bytes. */
