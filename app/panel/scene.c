@@ -66,26 +66,39 @@ static void path_of(const Key *key, int element, char path[PATH_LENGTH])
         snprintf(path, PATH_LENGTH, "%s", key->path);
 }
 
-static void draw_fluids(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events)
+/* What an element of the list is called: what its key `name` has, or "drains 1". */
+static void name_of(const Key *list, const void *element, int index, char name[NAME_LENGTH])
+{
+    char path[PATH_LENGTH];
+    snprintf(path, sizeof path, "%s[].name", list->path);
+    const Key *key = scene_key_find(path);
+    if (key)
+        key_value_text(key, element, name, NAME_LENGTH);
+    else
+        snprintf(name, NAME_LENGTH, "%.30s %d", list->path, index + 1);
+}
+
+static void draw_element(Ui *ui, const Key *list, int index, const Scene *scene, const Scene *start,
+                         PanelEvents *events)
 {
     int count;
     const Key *keys = scene_keys(&count);
-    for (int f = 0; f < scene->world.fluid_count; f++) {
-        ui_text(ui, scene->world.fluids[f].name);
-        for (int i = 0; i < count; i++) {
-            char label[NAME_LENGTH], path[PATH_LENGTH];
-            if (!(keys[i].flags & KEY_LIVE) || strncmp(keys[i].path, "fluids[]", 8) != 0)
-                continue;
-            label_of(&keys[i], label);
-            path_of(&keys[i], f, path);
-            panel_key(ui,
-                      &(PanelKey){.key = &keys[i],
-                                  .base = &scene->world.fluids[f],
-                                  .start = &start->world.fluids[f],
-                                  .path = path,
-                                  .label = label},
-                      events);
-        }
+    const char *element = (const char *)scene + key_list_at(list, index);
+    char label[NAME_LENGTH], path[PATH_LENGTH];
+    name_of(list, element, index, label);
+    ui_text(ui, label);
+    for (int i = 0; i < count; i++) {
+        if (!(keys[i].flags & KEY_LIVE) || key_list(&keys[i]) != list)
+            continue;
+        label_of(&keys[i], label);
+        path_of(&keys[i], index, path);
+        panel_key(ui,
+                  &(PanelKey){.key = &keys[i],
+                              .base = element,
+                              .start = (const char *)start + key_list_at(list, index),
+                              .path = path,
+                              .label = label},
+                  events);
     }
 }
 
@@ -108,7 +121,7 @@ void panel_scene(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *ev
     char last[NAME_LENGTH] = "", group[NAME_LENGTH];
     bool open = false;
     for (int i = 0; i < count; i++) {
-        const bool list = strstr(keys[i].path, "[]") != NULL;
+        const Key *list = key_list(&keys[i]);
         if (!(keys[i].flags & KEY_LIVE) || is_elsewhere(&keys[i]))
             continue;
         group_of(&keys[i], group);
@@ -117,7 +130,8 @@ void panel_scene(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *ev
             open = ui_section(ui, group, false);
         memcpy(last, group, sizeof last);
         if (open && list && first)
-            draw_fluids(ui, scene, start, events);
+            for (int e = 0; e < key_list_count(list, scene); e++)
+                draw_element(ui, list, e, scene, start, events);
         else if (open && !list)
             draw_key(ui, &keys[i], scene, start, NULL, events);
     }

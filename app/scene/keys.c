@@ -31,6 +31,26 @@ const Key *scene_key_find(const char *path)
     return NULL;
 }
 
+const Key *key_list(const Key *key)
+{
+    char path[128];
+    const char *brackets = strstr(key->path, "[].");
+    if (!brackets || strstr(brackets + 1, "[]."))
+        return NULL;
+    snprintf(path, sizeof path, "%.*s", (int)(brackets - key->path), key->path);
+    return scene_key_find(path);
+}
+
+int key_list_count(const Key *list, const Scene *scene)
+{
+    return *(const int *)(const void *)((const char *)scene + list->aux);
+}
+
+size_t key_list_at(const Key *list, int index)
+{
+    return list->offset + (size_t)index * list->size;
+}
+
 const char *key_name_in(const Key *key, const char *parent)
 {
     const size_t length = strlen(parent);

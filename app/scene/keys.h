@@ -16,6 +16,12 @@ const Key *scene_key_find(const char *path);
 /* The part of row's path below `parent` when the row stands directly in it ("size" in "box"), else NULL. */
 const char *key_name_in(const Key *key, const char *parent);
 
+/* The list in whose elements a row's member stands, where that is no element of another list: "fluids" of
+   "fluids[].color". NULL: there is none. */
+const Key *key_list(const Key *key);
+int key_list_count(const Key *list, const Scene *scene);
+size_t key_list_at(const Key *list, int index); /* where the element stands in a Scene, bytes */
+
 /* The owner of a row, its own or of a mapping above it; NULL: whatever the scene is, the key is read. */
 const KeyOwner *key_owner(const Key *key);
 

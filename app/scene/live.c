@@ -18,22 +18,48 @@ typedef struct Change {
     const char *setting;
     char path[PATH_SIZE];
     const Key *key;
-    int fluid; /* index in the path */
+    const Key *list; /* in whose elements it stands; NULL: none */
+    int element;     /* index in the path */
     Error *error;
 } Change;
 
-/* The tree of a scene that says nothing but that it has its fluids, and the setting: what the checks read and
-   messages point at. tree_free is needed in either case. */
-static bool tree_make(Tree *tree, const Scene *scene, const char *setting, Error *error)
+/* Whether keys of the list's elements may change. */
+static bool list_is_live(const Key *list)
 {
-    char fluid[FLUIDS_MAX][32];
-    if (!tree_read(tree, scene->path, "{}", 2, error))
-        return false;
-    for (int f = 0; f < scene->world.fluid_count; f++) {
-        snprintf(fluid[f], sizeof fluid[f], "fluids[%d]=", f);
-        if (!tree_set(tree, fluid[f], NULL, error))
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int i = 0; i < count; i++)
+        if (keys[i].flags & KEY_LIVE && key_list(&keys[i]) == list)
+            return true;
+    return false;
+}
+
+/* The tree gets the list's elements, which say nothing. */
+static bool tree_add_list(Tree *tree, const Scene *scene, const Key *list, Error *error)
+{
+    for (int e = 0; e < key_list_count(list, scene); e++) {
+        char *setting = tree_alloc(tree, PATH_SIZE); /* the tree keeps it */
+        if (!setting)
+            return error_set(error, "no memory");
+        snprintf(setting, PATH_SIZE, "%s[%d]=", list->path, e);
+        if (!tree_set(tree, setting, NULL, error))
             return false;
     }
+    return true;
+}
+
+/* The tree of a scene that says nothing but that its lists with live keys have elements, and the setting:
+   what the checks read and messages point at. tree_free is needed in either case. */
+static bool tree_make(Tree *tree, const Scene *scene, const char *setting, Error *error)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    if (!tree_read(tree, scene->path, "{}", 2, error))
+        return false;
+    for (int i = 0; i < count; i++)
+        if (keys[i].type == KEY_LIST && list_is_live(&keys[i]) &&
+            !tree_add_list(tree, scene, &keys[i], error))
+            return false;
     return tree_set(tree, setting, NULL, error);
 }
 
@@ -53,6 +79,19 @@ static bool unknown_key(const Change *change)
                      change->setting, change->path);
 }
 
+static bool find_element(const Scene *scene, Change *change)
+{
+    const char *index = strchr(change->path, '[');
+    change->list = key_list(change->key);
+    change->element = index ? (int)strtol(index + 1, NULL, 10) : 0;
+    const int count = change->list ? key_list_count(change->list, scene) : 0;
+    if (!change->list || change->element < count)
+        return true;
+    const char *list = change->list->path;
+    return error_set(change->error, "--set %s: the scene has no %s[%d]; use at most %s[%d]", change->setting,
+                     list, change->element, list, count - 1);
+}
+
 static bool find_key(const Scene *scene, Change *change)
 {
     change->key = scene_key_find(change->path);
@@ -62,11 +101,8 @@ static bool find_key(const Scene *scene, Change *change)
         return error_set(change->error,
                          "--set %s: %s cannot change while the simulation runs; set it before the start",
                          change->setting, change->path);
-    const char *index = strchr(change->path, '[');
-    change->fluid = index ? (int)strtol(index + 1, NULL, 10) : 0;
-    if (change->fluid >= scene->world.fluid_count)
-        return error_set(change->error, "--set %s: the scene has no fluids[%d]; use at most fluids[%d]",
-                         change->setting, change->fluid, scene->world.fluid_count - 1);
+    if (!find_element(scene, change))
+        return false;
     if (strncmp(change->path, "view.camera.", strlen("view.camera.")) == 0 && scene->view.camera_auto)
         return error_set(change->error,
                          "--set %s: the camera is automatic; give the scene a view.camera with from and to",
@@ -74,14 +110,12 @@ static bool find_key(const Scene *scene, Change *change)
     return true;
 }
 
-/* The fluids are the only list with keys that may change. */
-static char *base_of(Scene *scene, const Change *change)
+static void *base_of(Scene *scene, const Change *change)
 {
-    const bool of_fluid = strncmp(change->key->path, "fluids[]", strlen("fluids[]")) == 0;
-    return of_fluid ? (char *)&scene->world.fluids[change->fluid] : (char *)scene;
+    return (char *)scene + (change->list ? key_list_at(change->list, change->element) : 0);
 }
 
-static bool in_world(const Scene *scene, const Change *change, const char *base)
+static bool in_world(const Scene *scene, const Change *change, const void *base)
 {
     const uintptr_t world = (uintptr_t)&scene->world, field = (uintptr_t)base + change->key->offset;
     return field >= world && field < world + sizeof scene->world && !(change->key->flags & KEY_IDLE);
@@ -91,7 +125,7 @@ static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_
 {
     Scene after = *scene;
     tree->dimensions = scene->world.dimensions;
-    char *base = base_of(&after, change);
+    void *base = base_of(&after, change);
     if (!value_read(tree, change->key, tree_near(tree, change->path), change->path, base, change->error) ||
         !scene_check(tree, &after, change->error))
         return false;

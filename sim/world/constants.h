@@ -82,8 +82,8 @@ typedef struct Constants {
 
 /* False with the reason: a def out of range, too many cells, no memory. */
 bool constants_create(Constants *constants, const WorldDef *def, Error *error);
-/* Takes what may change while a world lives: viscosities, sound speed, negative pressure. False with the
-   reason, no memory among them: nothing has changed. */
+/* Takes what of the def may change while a world lives (sim/world/live.h). False with the reason, no memory
+   among them: nothing has changed. */
 bool constants_change(Constants *constants, const WorldDef *def, Error *error);
 
 /* Takes the viscosities of the def, which differ from those before by the time alone; true where one does. */

@@ -32,10 +32,11 @@ bool world_state_reserve(WorldState *state, const Method *method, size_t count)
 
 void world_save_numbers(World *world, WorldNumbers *numbers)
 {
-    const WorldDef *def = &world->def;
+    WorldDef def = world->def;
     WorldInfo info;
     world_sound(world);
     world_info(world, &info);
+    world_def_at(&def, info.time);
     *numbers = (WorldNumbers){
         .version = WORLD_STATE_VERSION,
         .step = (double)world->step,
@@ -48,20 +49,9 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
         .target = world->target,
         .filter = world->filter,
         .box = world->box,
-        .sound_speed = def->sound_speed,
-        .negative_pressure = def->negative_pressure,
-        .dt = def->dt,
-        .substeps = def->substeps,
-        .cfl_number = def->cfl_number,
-        .max_dt = def->max_dt,
-        .limits = def->limits,
         .energy = world->energy,
     };
-    memcpy(numbers->gravity, def->gravity, sizeof numbers->gravity);
-    for (int f = 0; f < def->fluid_count; f++) {
-        numbers->viscosity[f] = fluid_viscosity_at(&def->fluids[f], info.time);
-        numbers->table[f] = def->fluids[f].viscosity_table;
-    }
+    live_save(&def, numbers->live);
 }
 
 bool world_save(World *world, WorldState *state, Error *error)
@@ -89,9 +79,8 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
             return error_set(error, "the saved state is damaged: a number of it is not finite");
     if (!(numbers->step >= numbers->since_step && numbers->since_step >= 0 && numbers->step < 0x1p53 &&
           numbers->stepping.dt > 0 && numbers->stepping.refine >= 1 && numbers->stepping.limit >= 0 &&
-          numbers->stepping.limit < STEP_LIMIT_COUNT && numbers->substeps >= 1 &&
-          numbers->substeps < 0x1p31 && numbers->guarded >= 0 && numbers->emitted >= 0 &&
-          numbers->emitted < 0x1p31 && numbers->drained >= 0))
+          numbers->stepping.limit < STEP_LIMIT_COUNT && live_sound(numbers->live) && numbers->guarded >= 0 &&
+          numbers->emitted >= 0 && numbers->emitted < 0x1p31 && numbers->drained >= 0))
         return error_set(error, "the saved state is damaged: its steps do not count");
     return true;
 }
@@ -119,24 +108,6 @@ static bool particles_check(const World *world, const WorldState *state, Error *
     return whole || error_set(error, "the saved state is damaged: its particles are not those of the scene");
 }
 
-static WorldDef def_of(const WorldDef *present, const WorldNumbers *numbers)
-{
-    WorldDef def = *present;
-    memcpy(def.gravity, numbers->gravity, sizeof def.gravity);
-    def.sound_speed = numbers->sound_speed;
-    def.negative_pressure = numbers->negative_pressure != 0;
-    def.dt = numbers->dt;
-    def.substeps = (int)numbers->substeps;
-    def.cfl_number = numbers->cfl_number;
-    def.max_dt = numbers->max_dt;
-    def.limits = numbers->limits;
-    for (int f = 0; f < def.fluid_count; f++) {
-        def.fluids[f].viscosity = numbers->viscosity[f];
-        def.fluids[f].viscosity_table = numbers->table[f];
-    }
-    return def;
-}
-
 void world_put_back(World *world, const WorldNumbers *numbers, size_t count)
 {
     world->kicked = false;
@@ -152,8 +123,10 @@ bool world_load(World *world, const WorldState *state, Error *error)
     const WorldNumbers *numbers = &state->numbers;
     if (!numbers_check(numbers, error) || !particles_check(world, state, error))
         return false;
-    const WorldDef before = world->def, def = def_of(&world->def, numbers);
+    const WorldDef before = world->def;
+    WorldDef def = before;
     Error none;
+    live_load(numbers->live, &def);
     if (!world_adopt(world, &def, error))
         return false;
     if (!world->backend->load(world->state, &state->particles, state->count, (size_t)numbers->guarded)) {

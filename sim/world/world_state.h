@@ -4,6 +4,7 @@
 #define SLOSH_WORLD_STATE_H
 
 #include "sim/world/column.h"
+#include "sim/world/live.h"
 #include "sim/world/method.h"
 #include "sim/world/step_control.h"
 #include "sim/world/world.h"
@@ -21,24 +22,17 @@ typedef struct EnergyMark {
 /* What is not of a particle. Doubles only, so that it is also an array of WORLD_NUMBERS of them: files keep
    it as that. */
 typedef struct WorldNumbers {
-    double version;               /* WORLD_STATE_VERSION */
-    double step, since_step;      /* substeps; where the present dt began */
-    double since_time;            /* s, then */
-    double guarded;               /* as WorldInfo has it */
-    double emitted, drained;      /* the same */
-    StepState stepping;           /* how it steps */
-    BoxTarget target;             /* of the hand */
-    BoxFilter filter;             /* where its part of the pose is */
-    BoxState box;                 /* the pose, in the world's frame */
-    double gravity[3];            /* these down to the limits may change while a world lives */
-    double sound_speed;           /* m/s */
-    double negative_pressure;     /* 0 or 1 */
-    double dt, substeps;          /* of a frame, s */
-    double cfl_number, max_dt;    /* of mode cfl, s */
-    BoxLimits limits;             /* of the hand */
-    double viscosity[FLUIDS_MAX]; /* Pa s */
-    TimeTable table[FLUIDS_MAX];  /* of viscosity over time */
-    EnergyMark energy;            /* stands last: files may end before it */
+    double version;            /* WORLD_STATE_VERSION */
+    double step, since_step;   /* substeps; where the present dt began */
+    double since_time;         /* s, then */
+    double guarded;            /* as WorldInfo has it */
+    double emitted, drained;   /* the same */
+    StepState stepping;        /* how it steps */
+    BoxTarget target;          /* of the hand */
+    BoxFilter filter;          /* where its part of the pose is */
+    BoxState box;              /* the pose, in the world's frame */
+    double live[LIVE_NUMBERS]; /* of the def, what may change while a world lives */
+    EnergyMark energy;         /* stands last: files may end before it */
 } WorldNumbers;
 
 enum {

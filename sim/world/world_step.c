@@ -327,18 +327,7 @@ bool world_adopt(World *world, const WorldDef *def, Error *error)
 bool world_change(World *world, const WorldDef *def, Error *error)
 {
     WorldDef after = world->def;
-    memcpy(after.gravity, def->gravity, sizeof after.gravity);
-    for (int f = 0; f < after.fluid_count; f++) {
-        after.fluids[f].viscosity = def->fluids[f].viscosity;
-        after.fluids[f].viscosity_table = def->fluids[f].viscosity_table;
-    }
-    after.sound_speed = def->sound_speed;
-    after.negative_pressure = def->negative_pressure;
-    after.dt = def->dt;
-    after.substeps = def->substeps;
-    after.cfl_number = def->cfl_number;
-    after.max_dt = def->max_dt;
-    after.limits = def->limits;
+    live_copy(def, &after);
     if (!world_adopt(world, &after, error))
         return false;
     energy_forget(world);

@@ -88,8 +88,10 @@ static void flows_decay_by_the_integral(void **state)
 static double viscosity_now(World *world)
 {
     WorldNumbers numbers;
+    WorldDef def = {.fluid_count = 1};
     world_save_numbers(world, &numbers);
-    return numbers.viscosity[0];
+    live_load(numbers.live, &def);
+    return def.fluids[0].viscosity;
 }
 
 static double time_now(World *world)

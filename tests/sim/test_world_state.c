@@ -133,7 +133,9 @@ static void what_is_no_state_is_refused(void **state)
     saved.numbers.since_step = good.step + 1;
     refuse(world, &saved, "do not count");
     saved.numbers = good;
-    saved.numbers.dt = -1;
+    WorldDef bad = def;
+    bad.dt = -1;
+    live_save(&bad, saved.numbers.live);
     refuse(world, &saved, "dt");
     saved.numbers = good;
     saved.count--;
