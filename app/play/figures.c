@@ -13,7 +13,8 @@ static int threads_of(const WorldDef *def)
 {
     if (world_on_gpu(def))
         return 0;
-    return def->threads ? def->threads : world_processors();
+    const int threads = *world_threads(def);
+    return threads ? threads : world_processors();
 }
 
 static void add_model(const Model *model, PlayFigures *figures)

@@ -57,8 +57,9 @@ static void adopt(Model *model, const PlayScene *opened)
    and 18 with one. The bits do not depend on it. */
 static void share_processors(WorldDef *def)
 {
-    if (def->threads == 0 && gl_renderer_is_software())
-        def->threads = world_processors() > 1 ? world_processors() / 2 : 1;
+    int *threads = world_threads(def);
+    if (*threads == 0 && gl_renderer_is_software())
+        *threads = world_processors() > 1 ? world_processors() / 2 : 1;
 }
 
 bool model_save_now(Model *model, const char *path, Error *error)

@@ -6,6 +6,7 @@
 #include "render/frame/view.h"
 #include "render/renderer.h"
 #include "sim/base/key_rows.h"
+#include "sim/world/backend.h"
 #include "sim/world/method.h"
 #include "sim/world/world.h"
 
@@ -101,6 +102,18 @@ static void add_methods(void)
     }
 }
 
+/* The own settings of each backend. */
+static void add_backends(void)
+{
+    static KeyOwner owners[BACKENDS_MAX];
+    const Backend *const *backend = backend_list();
+    for (int i = 0; backend[i]; i++) {
+        owners[i] = (KeyOwner){.name = backend[i]->name, .key = "solver.backend", .value = backend[i]->name};
+        add_rows(backend[i]->keys, offsetof(Scene, world.of_backend) + (size_t)i * sizeof(BackendDef),
+                 &owners[i]);
+    }
+}
+
 /* The own settings of each view. */
 static void add_views(void)
 {
@@ -125,6 +138,7 @@ static void table_make(void)
     add_rows(preset_keys, 0, NULL);
     add_methods();
     add_rows(backend_keys, world, NULL);
+    add_backends();
     add_rows(solver_keys, world, NULL);
     add_rows(step_keys, world, NULL);
     add_rows(realtime_keys, 0, NULL);

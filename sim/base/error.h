@@ -19,4 +19,7 @@ static inline const char *plural(size_t count)
     return count == 1 ? "" : "s";
 }
 
+/* A number with a comma at each thousand: "16,384". */
+void number_grouped(size_t number, char text[32]);
+
 #endif

@@ -1,7 +1,21 @@
 #include "sim/cpu/cpu.h"
 
+#include "sim/base/key_rows.h"
+#include "sim/world/world.h"
+
 #include <stdlib.h>
 #include <string.h>
+
+typedef struct CpuDef {
+    int threads; /* 0: one a processor */
+} CpuDef;
+
+/* clang-format off */
+static const Key keys[] = {
+    INTEGER("solver.threads", I, 0, 1024, offsetof(CpuDef, threads), "how many; 0: one a processor"),
+    KEYS_END,
+};
+/* clang-format on */
 
 /* Zeroed and aligned to a cache line, with room for the lanes past the end. */
 static void *array(Cpu *cpu, size_t count, size_t size)
@@ -62,9 +76,20 @@ static bool arrays_create(Cpu *cpu, Error *error)
                            cpu->capacity - s->boundary.count, s->cells.count);
 }
 
-static void *cpu_create(const Constants *constants, const InitialState *initial, size_t capacity, int threads,
-                        Error *error)
+static CpuDef *cpu_def(const WorldDef *def)
 {
+    return backend_def(def, &backend_cpu);
+}
+
+int *world_threads(const WorldDef *def)
+{
+    return &cpu_def(def)->threads;
+}
+
+static void *cpu_create(const Constants *constants, const WorldDef *def, const InitialState *initial,
+                        size_t capacity, Error *error)
+{
+    const int threads = cpu_def(def)->threads;
     Cpu *cpu = calloc(1, sizeof *cpu);
     if (!cpu) {
         error_set(error, "no memory");
@@ -158,6 +183,7 @@ static bool cpu_load(void *state, const ParticleColumns *from, size_t count, siz
 const Backend backend_cpu = {
     .name = "cpu",
     .help = "threads and SIMD on the processor; the reference",
+    .keys = keys,
     .create = cpu_create,
     .destroy = cpu_destroy,
     .adapt = cpu_adapt,

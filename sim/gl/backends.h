@@ -6,6 +6,20 @@
 
 extern const Backend backend_compute, backend_fragment;
 
+/* The settings of fragment's grid, whose layers hold four particles a cell each. */
+typedef struct FragmentDef {
+    int grid_layers; /* 0: as many as a lattice needs */
+    int lost_limit;  /* so many particles may find no place in the grid in a step */
+} FragmentDef;
+
+/* Of fragment's grid, for a world of this def. */
+int fragment_layers(const WorldDef *def);
+
+static inline FragmentDef *fragment_def(const WorldDef *def)
+{
+    return backend_def(def, &backend_fragment);
+}
+
 /* Adds them to the list of sim/world/backend.h; before any scene is read. */
 void backends_add(void);
 

@@ -12,13 +12,18 @@
 #include <stdint.h>
 
 enum { FLUIDS_MAX = 8, FILLS_MAX = 16, EMITS_MAX = 4, DRAINS_MAX = 8, NAME_SIZE = 32 };
-enum { METHODS_MAX = 8, METHOD_DEF_SIZE = 256 };
+enum { METHODS_MAX = 8, METHOD_DEF_SIZE = 256, BACKENDS_MAX = 4, BACKEND_DEF_SIZE = 64 };
 
 /* Room for a method's own settings, a struct that only the method knows: see method_def in
- * sim/world/method.h. */
+   sim/world/method.h. */
 typedef struct MethodDef {
     _Alignas(8) unsigned char bytes[METHOD_DEF_SIZE];
 } MethodDef;
+
+/* The same of a backend: see backend_def in sim/world/backend.h. */
+typedef struct BackendDef {
+    _Alignas(8) unsigned char bytes[BACKEND_DEF_SIZE];
+} BackendDef;
 
 typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER } FillKind;
 
@@ -80,16 +85,14 @@ typedef struct WorldDef {
     double support;    /* support radius h over spacing */
     double jitter; /* of the lattice that fills give: each point moves by up to so many spacings along each
                       axis, the same way in each run */
-    char method[NAME_SIZE];  /* see method_list */
-    char backend[NAME_SIZE]; /* see backend_list */
-    int threads;             /* 0: one a processor */
-    int grid_layers;    /* of backend fragment's grid, four particles a cell each; 0: what a lattice needs */
-    int lost_limit;     /* so many particles may find no place in it in a step */
-    double sound_speed; /* c, m/s: p = c^2 (rho - rho0) */
-    bool negative_pressure;           /* false: p = max(0, p) */
-    bool reproducible;                /* the same bits each time on compute too; the others always are */
-    MethodDef of_method[METHODS_MAX]; /* own settings of each method of the list, in its order */
-    int tension_model;                /* a TensionModel of sim/matter/tension.h */
+    char method[NAME_SIZE];              /* see method_list */
+    char backend[NAME_SIZE];             /* see backend_list */
+    double sound_speed;                  /* c, m/s: p = c^2 (rho - rho0) */
+    bool negative_pressure;              /* false: p = max(0, p) */
+    bool reproducible;                   /* the same bits each time on compute too; the others always are */
+    MethodDef of_method[METHODS_MAX];    /* own settings of each method of the list, in its order */
+    BackendDef of_backend[BACKENDS_MAX]; /* the same of each backend */
+    int tension_model;                   /* a TensionModel of sim/matter/tension.h */
     int wall_slip; /* a Slip of sim/matter/solid.h: how viscous fluid passes the walls of the box */
     double lid[3]; /* velocity of the wall at the top, in its plane, m/s: for walls without slip */
     StepMode step_mode;

@@ -5,8 +5,6 @@
 
 #define AT(field) offsetof(WorldDef, field)
 
-static const KeyOwner cpu = {.name = "cpu", .key = "solver.backend", .value = "cpu"};
-static const KeyOwner fragment = {.name = "fragment", .key = "solver.backend", .value = "fragment"};
 static const KeyOwner fixed = {.name = "fixed", .key = "solver.step.mode", .value = "fixed"};
 static const KeyOwner cfl = {.name = "cfl", .key = "solver.step.mode", .value = "cfl"};
 
@@ -30,13 +28,8 @@ const Key box_keys[] = {
     KEYS_END,
 };
 
-/* What each backend and method has. */
+/* What every method and backend has. */
 const Key solver_keys[] = {
-    INTEGER("solver.threads", I, 0, 1024, AT(threads), "how many; 0: one a processor", .owner = &cpu),
-    INTEGER("solver.grid_layers", 0, 0, 63, AT(grid_layers),
-            "layers of its grid, four particles a cell each; 0: as many as a lattice at rest needs, 7 at support 2.1; 1: paper 003's", .owner = &fragment),
-    INTEGER("solver.lost_limit", 0, 0, 2000000000, AT(lost_limit),
-            "so many particles may find no place in the grid in a step; more end the run", .owner = &fragment),
     NUMBER("solver.sound_speed", L, "m/s", 0.001, 1e4, AT(sound_speed),
            "stiffness: 3 to 10 times the greatest speed of the flow; more is stiffer and needs smaller steps"),
     BOOLEAN("solver.negative_pressure", L, AT(negative_pressure), "whether fluid may pull as well as push"),

@@ -3,6 +3,7 @@
 #ifndef SLOSH_BACKEND_H
 #define SLOSH_BACKEND_H
 
+#include "sim/base/key.h"
 #include "sim/box/frame_step.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/solid_step.h"
@@ -15,15 +16,18 @@ struct ParticleBuffers; /* sim/gl/particle_buffers.h */
 
 typedef struct Backend {
     const char *name, *help;
+    const Key *keys; /* of its own settings, ended by a row without a path; NULL: it has none */
+    const void *def; /* the struct of these settings with its defaults */
+    size_t def_size; /* bytes; at most BACKEND_DEF_SIZE */
     /* Its steps run behind the caller's back in a GL context, current wherever a world of it is used, and
        `watch` is asked once a frame. */
     bool gpu;
     /* Whether it has all that the def names, or the reason; needs no context. NULL: it has all. */
     bool (*can)(const WorldDef *def, Error *error);
-    /* The state of `initial->count` particles, with room for `capacity`; NULL with the reason. `solver`
-       outlives it. */
-    void *(*create)(const Constants *constants, const InitialState *initial, size_t capacity, int threads,
-                    Error *error);
+    /* The state of `initial->count` particles, with room for `capacity`; NULL with the reason. The constants
+       outlive it, the def does not. */
+    void *(*create)(const Constants *constants, const WorldDef *def, const InitialState *initial,
+                    size_t capacity, Error *error);
     void (*destroy)(void *state);
     /* After constants_change; false with the reason when what its new terms need is not to be had. */
     bool (*adapt)(void *state, Error *error);
@@ -71,15 +75,28 @@ typedef struct Backend {
        step or call. NULL: the backend has none. */
     void (*share)(void *state, unsigned attributes, struct ParticleBuffers *out);
     void (*info)(const void *state, WorldInfo *info); /* threads, state_bytes, guarded */
+    /* Which of its settings to raise when its grid loses particles, with their values. NULL: it loses none.
+     */
+    void (*to_raise)(const void *state, char text[128]);
 } Backend;
 
 extern const Backend backend_cpu;
 
-/* Adds one to the list, once: those that need more than sim has. It outlives all worlds. Not for several
-   threads at once. */
+/* Adds one to the list, unless it is there: those that need more than sim has, before the first scene is
+   read. It outlives all worlds. Not for several threads at once. */
 void backend_add(const Backend *backend);
+
+/* All backends, ended by NULL. */
+const Backend *const *backend_list(void);
 
 /* NULL when there is none of that name. */
 const Backend *backend_find(const char *name);
+
+/* The backend's own settings in a def; not const, as memchr's result is not. NULL where the backend is not in
+   the list. */
+void *backend_def(const WorldDef *def, const Backend *backend);
+
+/* Fills in the defaults of all backends' settings. */
+void backends_default(WorldDef *def);
 
 #endif

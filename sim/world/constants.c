@@ -16,12 +16,6 @@ static double length2(const double v[3])
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 }
 
-static bool grid_check(const WorldDef *def, Error *error)
-{
-    return (def->grid_layers >= 0 && def->lost_limit >= 0) ||
-           error_set(error, "grid_layers and lost_limit must not be negative");
-}
-
 static bool motions_check(const Motion *motions, int count, int dimensions, Error *error)
 {
     if (count < 0 || count > MOTIONS_MAX)
@@ -166,7 +160,7 @@ static bool def_check(const WorldDef *def, Error *error)
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
     return fluids_check(def, error) &&
-           motions_check(def->motions, def->motion_count, def->dimensions, error) && grid_check(def, error) &&
+           motions_check(def->motions, def->motion_count, def->dimensions, error) &&
            solids_check(def, error) && flow_check(def, error) && periodic_check(def, error);
 }
 
@@ -270,13 +264,6 @@ static void tension_set(Constants *constants, const WorldDef *def)
     constants->tension_model = any ? (TensionModel)def->tension_model : TENSION_NONE;
 }
 
-/* The lattice puts ceil(support)^dimensions particles into a cell at most. */
-static int layers_for(const WorldDef *def)
-{
-    const double most = pow(ceil(def->support), def->dimensions);
-    return def->grid_layers > 0 ? def->grid_layers : (int)ceil(most / 4);
-}
-
 bool constants_create(Constants *constants, const WorldDef *def, Error *error)
 {
     memset(constants, 0, sizeof *constants);
@@ -315,8 +302,6 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     constants->dimensions = def->dimensions;
     constants->emits = flow_emits(def);
     constants->drains = def->drain_count > 0;
-    constants->grid_layers = layers_for(def);
-    constants->lost_limit = (size_t)def->lost_limit;
     constants->solid_count = def->solid_count;
     memcpy(constants->solids, def->solids, sizeof constants->solids);
     if (!boundary_create(&constants->boundary, def))

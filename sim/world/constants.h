@@ -73,8 +73,6 @@ typedef struct Constants {
     WallDrag drag;         /* made once `no_slip` is first true */
     int dimensions;
     bool emits, drains; /* fluid may come; go */
-    int grid_layers;    /* of backend fragment's grid: each holds four particles a cell */
-    size_t lost_limit;  /* so many may find no place in it */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
     Boundary boundary; /* of the solids */

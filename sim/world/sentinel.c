@@ -76,30 +76,17 @@ static bool give_up(World *world, StepTrouble trouble, double time, Error *error
                      also, advice);
 }
 
-static void grouped(size_t number, char text[32])
-{
-    char digits[24];
-    const int count = snprintf(digits, sizeof digits, "%zu", number);
-    for (int i = 0; i < count; i++) {
-        *text++ = digits[i];
-        if (i + 1 < count && (count - i - 1) % 3 == 0)
-            *text++ = ',';
-    }
-    *text = 0;
-}
-
 /* A smaller step does not mend it: no retry. */
 static bool give_up_lost(World *world, Error *error)
 {
     WorldInfo info = {0};
-    char lost[32], limit[32];
+    char lost[32], settings[128];
     world->backend->info(world->state, &info);
     if (world->def.retries > 0)
         restore(world);
-    grouped(info.lost, lost);
-    grouped(world->constants.lost_limit, limit);
-    return error_set(error, "%s %s; raise solver.grid_layers (%d) or solver.lost_limit (%s)", lost,
-                     step_trouble_words(STEP_TROUBLE_LOST), world->constants.grid_layers, limit);
+    number_grouped(info.lost, lost);
+    world->backend->to_raise(world->state, settings);
+    return error_set(error, "%s %s; raise %s", lost, step_trouble_words(STEP_TROUBLE_LOST), settings);
 }
 
 bool sentinel_back(World *world, double time, Error *error)

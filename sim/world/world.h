@@ -98,7 +98,10 @@ WorldDef world_def_default(void);
 const Named *world_methods(void);
 const Named *world_backends(void);
 
-/* Processors, of which threads: 0 uses all. */
+/* The def's threads of the backend on the CPU, to be read and set; 0: one a processor. */
+int *world_threads(const WorldDef *def);
+
+/* Processors of this machine. */
 int world_processors(void);
 
 #endif

@@ -1,3 +1,4 @@
+#include "sim/world/backend.h"
 #include "sim/world/method.h"
 #include "sim/world/world.h"
 
@@ -22,5 +23,6 @@ WorldDef world_def_default(void)
     };
     snprintf(def.method, sizeof def.method, "%s", method_list()[0]->name);
     methods_default(&def);
+    backends_default(&def);
     return def;
 }

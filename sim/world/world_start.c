@@ -150,7 +150,7 @@ bool world_start(World *world, Error *error)
         world->count = world->initial = initial.count;
         world->capacity = flow_capacity(&world->def, initial.count);
         world->state =
-            world->backend->create(&world->constants, &initial, world->capacity, world->def.threads, error);
+            world->backend->create(&world->constants, &world->def, &initial, world->capacity, error);
         for (size_t i = 0; i < initial.count; i++)
             world->mass += (double)world->constants.mass[initial.fluid ? initial.fluid[i] : 0];
         ok = world->state && layer_create(world, error);

@@ -10,28 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BACKENDS_MAX = 4 };
-static const Backend *backends[BACKENDS_MAX] = {&backend_cpu};
-static int backend_count = 1;
-
-void backend_add(const Backend *backend)
-{
-    if (!backend_find(backend->name) && backend_count < BACKENDS_MAX)
-        backends[backend_count++] = backend;
-}
-
-const Backend *backend_find(const char *name)
-{
-    for (int i = 0; i < backend_count; i++)
-        if (strcmp(backends[i]->name, name) == 0)
-            return backends[i];
-    return NULL;
-}
-
 const Named *world_backends(void)
 {
     static Named list[BACKENDS_MAX + 1];
-    for (int i = 0; i < backend_count; i++)
+    const Backend *const *backends = backend_list();
+    for (int i = 0; backends[i]; i++)
         list[i] = (Named){backends[i]->name, backends[i]->help};
     return list;
 }

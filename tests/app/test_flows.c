@@ -15,7 +15,7 @@ static World *start(const char *name, const char *spacing, const char *dt)
     Error error = {0};
     if (!scene_load(name, &settings, &scene, NULL, &error))
         fail_msg("%s", error.message);
-    scene.world.threads = 1; /* small */
+    *world_threads(&scene.world) = 1; /* small */
     World *world = world_create(&scene.world, &error);
     if (!world)
         fail_msg("%s", error.message);

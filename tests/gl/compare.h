@@ -49,7 +49,7 @@ static inline WorldDef scene_def(const char *name, double spacing)
     if (!scene_load(name, &settings, &scene, NULL, &error))
         fail_msg("%s", error.message);
     scene.world.spacing = spacing;
-    scene.world.threads = 1;
+    *world_threads(&scene.world) = 1;
     scene.world.reproducible = true;
     return scene.world;
 }

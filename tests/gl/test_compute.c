@@ -144,7 +144,7 @@ static void compare_sort(size_t count, double width)
     float *x = malloc(12 * count);
     uint32_t seed = (uint32_t)count;
     WorldDef def = fixture_def(2, 1, 2);
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.dt = 1e-6;
     for (size_t i = 0; i < 3 * count; i++)
         x[i] = (float)(0.005 + width * fixture_random(&seed));
@@ -182,7 +182,7 @@ static void no_particle_at_all(void **state)
         (Emit){.centre = {0, 0.5, 0}, .direction = {1, 0, 0}, .radius = 0.2, .speed = 2, .start = 0.02};
     def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {-1, 0, -0.5}, .max = {-0.25, 1, 0.5}};
     def.most = 1000;
-    def.threads = 1;
+    *world_threads(&def) = 1;
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
     assert_true(info_of(gpu).count > 100);
     fixture_step(cpu, 5);

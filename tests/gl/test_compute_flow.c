@@ -16,7 +16,7 @@ static WorldDef jet_def(int dimensions)
     def.spacing = dimensions == 2 ? 0.03 : 0.06;
     def.sound_speed = 20;
     def.dt = 0.002;
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.most = 3000;
     def.fluid_count = 2;
     def.fluids[0].viscosity = 1;
@@ -55,7 +55,7 @@ static WorldDef fountain_def(int dimensions)
     def.spacing = 0.05;
     def.sound_speed = 20;
     def.dt = 0.004;
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.most = 2000;
     def.gravity[1] = -6;
     def.fluids[0].viscosity = 10;
@@ -278,7 +278,7 @@ static WorldDef boiling_def(int retries)
 {
     WorldDef def = fixture_def(1.2, 0.9, 0.8);
     def.sound_speed = 20;
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.retries = retries;
     def.dt = 0.8;
     def.substeps = 8;

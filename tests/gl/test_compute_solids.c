@@ -12,7 +12,7 @@ static WorldDef solids_def(int dimensions)
     def.spacing = dimensions == 2 ? 0.025 : 0.06;
     def.sound_speed = 15;
     def.dt = 0.001;
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.fluid_count = 2;
     def.fluids[0].viscosity = 1;
     def.fluids[1] = (FluidDef){.name = "oil", .density = 700, .viscosity = 3};

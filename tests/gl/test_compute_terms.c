@@ -260,7 +260,7 @@ static void neighbours_are_those_of_the_last_grid(void **state)
         World *world[2];
         WorldSums sums[2];
         def.dimensions = dimensions;
-        def.threads = 1;
+        *world_threads(&def) = 1;
         def.dt = 0.14;
         def.gravity[1] = 0;
         def.gravity[0] = 7; /* drifts 0.07 m after the kick */

@@ -26,7 +26,7 @@ static WorldDef column_def(const char *backend)
     def.sound_speed = 20;
     def.dt = 0.002;
     def.substeps = 2;
-    def.threads = 1;
+    *world_threads(&def) = 1;
     snprintf(def.backend, sizeof def.backend, "%s", backend);
     fixture_block(&def, 0, -0.2, 0, -0.2, 0.2, 0.4, 0.2);
     return def;

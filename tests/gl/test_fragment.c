@@ -53,7 +53,7 @@ static void the_watch_sees_what_the_cpu_sees(void **state)
 {
     (void)state;
     WorldDef def = fixture_def(1, 1, 1);
-    def.threads = 1;
+    *world_threads(&def) = 1;
     const float position[] = {0, 0.001F, 0, 0.3F, 0.3F, 0.4999F, 0.2F, 0.5F, 0},
                 velocity[] = {0, -1, 0, 0, 0, -7, 20, 0, 0};
     const InitialState initial = {.count = 3, .position = position, .velocity = velocity};
@@ -143,9 +143,24 @@ static WorldDef crowd_def(float position[3 * CROWD], InitialState *initial, int 
     def.initial = initial;
     def.gravity[1] = 0;
     def.sound_speed = 0.01;
-    def.grid_layers = layers;
-    def.lost_limit = limit;
+    *fragment_def(&def) = (FragmentDef){layers, limit};
     return def;
+}
+
+/* As many layers of four as a lattice needs, unless the def says otherwise. */
+static void layers_follow_the_support(void **state)
+{
+    (void)state;
+    static const struct {
+        int dimensions, given, layers;
+        double support;
+    } cases[] = {{3, 0, 7, 2.1}, {3, 0, 2, 2},   {2, 0, 3, 2.1},
+                 {2, 0, 4, 3.1}, {3, 1, 1, 2.1}, {2, 9, 9, 2.1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        WorldDef def = {.dimensions = cases[i].dimensions, .support = cases[i].support};
+        fragment_def(&def)->grid_layers = cases[i].given;
+        assert_int_equal(fragment_layers(&def), cases[i].layers);
+    }
 }
 
 /* The paper's four places a cell, and as many as there may be. */
@@ -377,7 +392,7 @@ static void what_it_cannot_do_is_said(void **state)
     def.fluids[0].surface_tension = 1;
     refused(&def, "backend fragment has no surface tension; use backend compute or cpu");
     def = coarse_def(3);
-    def.grid_layers = 64;
+    fragment_def(&def)->grid_layers = 64;
     refused(&def, "backend fragment has up to 63 layers; solver.grid_layers is 64");
     def = stirred_def(2);
     def.box_size[0] = def.box_size[1] = 1000;
@@ -412,6 +427,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(buckets_hold_every_particle, no_gl_errors),
+        cmocka_unit_test(layers_follow_the_support),
         cmocka_unit_test_teardown(what_finds_no_place_is_counted, no_gl_errors),
         cmocka_unit_test_teardown(more_lost_than_the_limit_ends_the_run, no_gl_errors),
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),

@@ -12,7 +12,7 @@ static WorldDef toy_def(bool flows)
 {
     WorldDef def = fixture_def(1, 1, 1);
     strcpy(def.method, "toy");
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.spacing = 0.08;
     fixture_block(&def, 0, -0.4, 0, -0.4, 0.2, 0.5, 0.4);
     if (!flows)

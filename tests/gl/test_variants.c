@@ -335,7 +335,7 @@ static WorldDef pool_def(const char *backend)
 {
     WorldDef def = fixture_def(0.8, 0.6, 0.5);
     def.sound_speed = 20;
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.retries = 1;
     def.reproducible = false;
     def.fluids[0].viscosity = 1;

@@ -2,6 +2,7 @@
 #include "tests/scene/scene_text.h"
 
 #include "app/scene/advise.h"
+#include "sim/gl/backends.h"
 
 #include <dirent.h>
 
@@ -142,6 +143,7 @@ static void shipped_scenes_need_no_advice(void **state)
 
 int main(void)
 {
+    backends_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_is_told_where_it_holds),
         cmocka_unit_test(a_running_scene_is_asked_again),

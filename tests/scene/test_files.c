@@ -2,6 +2,7 @@
 #include "tests/scene/scene_text.h"
 
 #include "app/base/path.h"
+#include "sim/gl/backends.h"
 #include "sim/matter/seed.h"
 
 #include <dirent.h>
@@ -172,6 +173,7 @@ static void an_unreadable_file_is_refused(void **state)
 
 int main(void)
 {
+    backends_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_shipped_scene_loads),
         cmocka_unit_test(particles_come_near_in_every_scene),

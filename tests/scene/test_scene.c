@@ -76,7 +76,7 @@ static void every_value_reaches_its_field(void **state)
     assert_true(shake->axis[2] == 2 && shake->amplitude == 0.1 && shake->frequency == 0.5 &&
                 shake->start == 1);
     assert_true(shake->duration == 4 && turn->angle_deg == -30 && turn->duration == 2);
-    assert_true(s.world.sound_speed == 12.5 && s.world.negative_pressure && s.world.threads == 2);
+    assert_true(s.world.sound_speed == 12.5 && s.world.negative_pressure && *world_threads(&s.world) == 2);
     assert_true(s.world.dt == 5e-3 && s.world.substeps == 4);
     assert_string_equal(s.view.kind, "none");
     assert_string_equal(s.view.colormap, "plasma");

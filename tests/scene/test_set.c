@@ -74,7 +74,7 @@ static void later_settings_win(void **state)
     SceneSettings settings = {.count = 3,
                               .set = {"solver.step={dt: 0.1}", "solver.step.dt=0.2", "solver.threads=3"}};
     assert_true(parse_text(LEAST, &settings, &scene, &error));
-    assert_true(scene.world.dt == 0.2 && scene.world.threads == 3 && settings.dt_set);
+    assert_true(scene.world.dt == 0.2 && *world_threads(&scene.world) == 3 && settings.dt_set);
 }
 
 static void bad_settings_are_named(void **state)

@@ -2,6 +2,7 @@
 #ifndef SLOSH_TEST_FIXTURE_H
 #define SLOSH_TEST_FIXTURE_H
 
+#include "sim/gl/backends.h"
 #include "sim/world/world.h"
 
 /* cmocka's needs */
@@ -86,6 +87,13 @@ static inline WorldDef fixture_def(double width, double height, double depth)
     def.reproducible = true;
     snprintf(def.backend, sizeof def.backend, "%s", fixture_backend());
     return def;
+}
+
+/* Layers of fragment's grid, where that is the backend. */
+static inline void fixture_layers(WorldDef *def, int layers)
+{
+    if (fixture_on_fragment())
+        ((FragmentDef *)backend_def(def, backend_find("fragment")))->grid_layers = layers;
 }
 
 static inline void fixture_block(WorldDef *def, int fluid, double x0, double y0, double z0, double x1,

@@ -107,7 +107,7 @@ static void lone_particle_follows_the_parabola(void **state)
     def.spacing = fixture_coarse(0.05, 0.2);
     def.dt = 0.018;
     def.substeps = 3;
-    def.grid_layers = 1;
+    fixture_layers(&def, 1);
     def.motion_count = WILD;
     memcpy(def.motions, wild, sizeof wild);
     const float x0[3] = {0.5f, 4.5f, -0.3f}, v0[3] = {0.4f, 2.5f, 0.3f};

@@ -284,7 +284,7 @@ static void threads_change_no_bit(void **state)
     uint64_t hash[3];
     for (int t = 0; t < 3; t++) {
         WorldDef def = busy_def("mueller");
-        def.threads = t + 1;
+        *world_threads(&def) = t + 1;
         World *world = fixture_world(&def);
         fixture_step(world, 100);
         hash[t] = world_hash(world);

@@ -104,7 +104,7 @@ static void compare(const char *density_kernel, bool negative_pressure, double w
     static Reference reference;
     WorldDef def = two_fluids(density_kernel, negative_pressure);
     make_cloud(&cloud, width, 21);
-    def.grid_layers = 30; /* backend fragment: the densest cells hold hundreds */
+    fixture_layers(&def, 30); /* backend fragment: the densest cells hold hundreds */
     def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, NULL};
     World *world = fixture_world(&def);
     brute_accelerations(&def, &cloud, &reference);

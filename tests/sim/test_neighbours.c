@@ -77,7 +77,7 @@ static void neighbours_equal_brute_force(void **state)
             if (fixture_on_fragment() && (w < 2 || c == 1))
                 continue; /* hundreds of particles a cell are more than its grid has places for */
             WorldDef def = fixture_def(widths[w], 1.1, 0.9);
-            def.grid_layers = 20;
+            fixture_layers(&def, 20);
             InitialState initial = {.count = COUNT, .position = x};
             clouds[c].make(x, COUNT, def.box_size);
             def.initial = &initial;
@@ -179,7 +179,7 @@ static uint64_t hash_after(const WorldDef *def, int threads, const char *simd)
     else
         unsetenv("SLOSH_SIMD");
     WorldDef with = *def;
-    with.threads = threads;
+    *world_threads(&with) = threads;
     World *world = fixture_world(&with);
     fixture_step(world, fixture_count(60, 30));
     const uint64_t hash = world_hash(world);

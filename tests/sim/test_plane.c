@@ -50,7 +50,7 @@ static void sums_equal_brute_force(void **state)
     WorldDef def = plane_def("mueller", 8, 8);
     memset(def.gravity, 0, sizeof def.gravity);
     def.dt = 1e-4;
-    def.grid_layers = 10; /* random places */
+    fixture_layers(&def, 10); /* random places */
     def.fluids[0].viscosity = 30;
     uint32_t seed = 3;
     for (int i = 0; i < COUNT; i++)
@@ -221,7 +221,7 @@ static void coinciding_pairs_stay_in_the_plane(void **state)
         float density[2 * PAIRS];
         for (int i = 0; i < 2 * PAIRS; i++)
             density[i] = 1020;
-        def.grid_layers = 10;
+        fixture_layers(&def, 10);
         def.initial = &(InitialState){.count = 2 * PAIRS, .position = x, .density = density};
         World *world = fixture_world(&def);
         fixture_step(world, 1);
@@ -263,7 +263,7 @@ static void what_hits_a_corner_stays_in_the_plane(void **state)
 static WorldDef rocked(const char *method, int threads)
 {
     WorldDef def = plane_def(method, 1.5, 1);
-    def.threads = threads;
+    *world_threads(&def) = threads;
     fixture_block(&def, 0, -0.75, 0, 0, 0.2, 0.6, 0);
     def.motions[0] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0.2, 0}, .amplitude = 0.05, .frequency = 1};
     def.motions[1] = (Motion){.kind = MOTION_ROCK, .axis = {0, 0, 1}, .angle_deg = 10, .frequency = 0.7};

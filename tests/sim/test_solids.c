@@ -233,7 +233,7 @@ static WorldDef cup_def(int dimensions, Motion motion)
     def.sound_speed = fixture_coarse(60, 30);
     def.dt = 0.016; /* a frame */
     def.substeps = fixture_count(80, 40);
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.gravity[1] = -150; /* keeps what it can in the cup */
     def.fluids[0].viscosity = 10;
     def.solids[def.solid_count++] = (SolidDef){.kind = SOLID_BOWL,
@@ -367,7 +367,7 @@ static void threads_change_no_bit(void **state)
     uint64_t hash[2];
     for (int t = 0; t < 2; t++) {
         WorldDef def = busy_def("wcsph");
-        def.threads = t ? 3 : 1;
+        *world_threads(&def) = t ? 3 : 1;
         World *world = fixture_world(&def);
         fixture_step(world, 100);
         hash[t] = world_hash(world);
@@ -410,7 +410,7 @@ static PlateFlow plate_flow(const char *method, int slip)
     WorldDef def = fixture_def(2, 1, 1);
     snprintf(def.method, sizeof def.method, "%s", method);
     def.dimensions = 2;
-    def.threads = 1; /* its worlds are small */
+    *world_threads(&def) = 1; /* its worlds are small */
     def.support = 2.6;
     def.spacing = fixture_coarse(0.025, 0.05);
     def.gravity[1] = -1;

@@ -263,7 +263,7 @@ static void cfl_follows_the_flow(void **state)
     for (int threads = 1; threads <= 2; threads++) {
         WorldDef def = falling_block();
         def.step_mode = STEP_CFL;
-        def.threads = threads;
+        *world_threads(&def) = threads;
         def.retries = 3;
         World *world = fixture_world(&def);
         double time = 0, longest = 0, shortest = 1;
@@ -417,7 +417,7 @@ static void a_session_with_trouble_comes_out_the_same(void **state)
     def.fluids[0].viscosity = 50;
     uint64_t hash[3];
     for (int run = 0; run < 3; run++) {
-        def.threads = 1 + run % 2;
+        *world_threads(&def) = 1 + run % 2;
         World *world = fixture_world(&def);
         WorldState saved = {.count = 0};
         for (int i = 0; i < 40; i++) {
@@ -456,27 +456,6 @@ static void what_is_lost_is_trouble_above_the_limit(void **state)
     assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_DENSITY);
     watch.bounded = false;
     assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_SPEED);
-}
-
-/* As many layers of four as a lattice needs, unless the def says otherwise. */
-static void layers_follow_the_support(void **state)
-{
-    (void)state;
-    static const struct {
-        int dimensions, given, layers;
-        double support;
-    } cases[] = {{3, 0, 7, 2.1}, {3, 0, 2, 2},   {2, 0, 3, 2.1},
-                 {2, 0, 4, 3.1}, {3, 1, 1, 2.1}, {2, 9, 9, 2.1}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        WorldDef def = fixture_def(1, 1, 1);
-        Constants constants;
-        def.dimensions = cases[i].dimensions;
-        def.support = cases[i].support;
-        def.grid_layers = cases[i].given;
-        assert_true(constants_create(&constants, &def, &error));
-        assert_int_equal(constants.grid_layers, cases[i].layers);
-        constants_destroy(&constants);
-    }
 }
 
 /* States fall on the times asked for, by steps of at least 3/4 of what the limits allow, and a run that stops
@@ -529,7 +508,6 @@ int main(void)
         cmocka_unit_test(calm_brings_the_step_back),
         cmocka_unit_test(a_session_with_trouble_comes_out_the_same),
         cmocka_unit_test(what_is_lost_is_trouble_above_the_limit),
-        cmocka_unit_test(layers_follow_the_support),
         cmocka_unit_test(steps_end_where_they_are_asked_to),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,7 +11,7 @@ static void toy_lives(void **state)
     toy_add();
     WorldDef def = fixture_def(1, 1, 1);
     strcpy(def.method, "toy"), fixture_block(&def, 0, -0.4, 0, -0.4, 0.2, 0.5, 0.4);
-    World *one = fixture_world(&def), *three = (def.threads = 3, fixture_world(&def));
+    World *one = fixture_world(&def), *three = (*world_threads(&def) = 3, fixture_world(&def));
     fixture_step(one, 30);
     assert_true(world_save(one, &saved, &error) && world_load(three, &saved, &error));
     fixture_step(one, 5), fixture_step(three, 5);

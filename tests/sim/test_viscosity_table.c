@@ -25,7 +25,7 @@ static WorldDef vortex_def(float x[3 * COUNT], float v[3 * COUNT], InitialState 
     WorldDef def = fixture_def(EDGE, EDGE, 0);
     def.dimensions = 2;
     def.support = 2.6;
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.gravity[1] = 0;
     def.dt = 0.001;
     def.fluids[0].density = 2000;
@@ -136,7 +136,7 @@ static void steps_follow_the_viscosity(void **state)
 static WorldDef thinning_def(StepMode mode)
 {
     WorldDef def = fixture_def(0.8, 0.8, 0.8);
-    def.threads = 1;
+    *world_threads(&def) = 1;
     def.retries = 3;
     def.step_mode = mode;
     def.fluid_count = 2;

@@ -428,7 +428,7 @@ static void any_threads_give_the_same_bits(void **state)
             WorldDef def = no_slip_box(&methods[m], 4, 1.5);
             def.gravity[0] = 5;
             def.gravity[1] = -9;
-            def.threads = threads;
+            *world_threads(&def) = threads;
             def.fluids[0].viscosity = 20;
             World *world = fixture_world(&def);
             fixture_step(world, 100);

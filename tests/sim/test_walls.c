@@ -224,7 +224,7 @@ static void leave_corners(int dimensions, double support, int side, int layers, 
     def.support = support;
     def.sound_speed = 10;
     def.fluids[0].viscosity = 5;
-    def.grid_layers = 5;
+    fixture_layers(&def, 5);
     def.initial = &(InitialState){.count = (size_t)count, .position = x};
     World *world = fixture_world(&def);
     fixture_step(world, steps);

@@ -459,7 +459,7 @@ static WorldDef splash(int threads)
 {
     WorldDef def = fixture_def(1.5, 1, 0.8);
     strcpy(def.method, "wcsph");
-    def.threads = threads;
+    *world_threads(&def) = threads;
     def.sound_speed = 20;
     wcsph_def(&def)->delta_sph = 0.1;
     def.fluid_count = 2;

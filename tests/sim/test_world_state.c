@@ -15,7 +15,7 @@ static void must(bool ok)
 static WorldDef moving_def(int threads)
 {
     WorldDef def = fixture_def(1, 1, 1);
-    def.threads = threads;
+    *world_threads(&def) = threads;
     def.retries = 3;
     def.substeps = 3;
     def.dt = 0.01;

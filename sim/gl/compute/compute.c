@@ -192,10 +192,10 @@ static bool supported(const Constants *s, size_t capacity, Error *error)
     return gl_limits_allow(&have, &needs, error);
 }
 
-static void *compute_create(const Constants *constants, const InitialState *initial, size_t capacity,
-                            int threads, Error *error)
+static void *compute_create(const Constants *constants, const WorldDef *def, const InitialState *initial,
+                            size_t capacity, Error *error)
 {
-    (void)threads;
+    (void)def;
     if (epoxy_gl_version() < 45) {
         error_set(error, "backend compute needs OpenGL 4.5, and there is %d.%d", epoxy_gl_version() / 10,
                   epoxy_gl_version() % 10);

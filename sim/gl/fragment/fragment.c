@@ -2,10 +2,25 @@
 
 #include "sim/gl/backends.h"
 
+#include "sim/base/key_rows.h"
+
 #include <epoxy/gl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define AT(field) offsetof(FragmentDef, field)
+
+/* clang-format off */
+static const Key keys[] = {
+    INTEGER("solver.grid_layers", 0, 0, 63, AT(grid_layers),
+            "layers of its grid, four particles a cell each; 0: as many as a lattice at rest needs, 7 at support 2.1; 1: paper 003's"),
+    INTEGER("solver.lost_limit", 0, 0, 2000000000, AT(lost_limit),
+            "so many particles may find no place in the grid in a step; more end the run"),
+    KEYS_END,
+};
+/* clang-format on */
 
 static void fragment_destroy(void *state)
 {
@@ -33,8 +48,27 @@ static bool lacks(const char *what, bool asked, Error *error)
     return asked && !error_set(error, "backend fragment has no %s; use backend compute or cpu", what);
 }
 
+/* The lattice puts ceil(support)^dimensions particles into a cell at most. */
+int fragment_layers(const WorldDef *def)
+{
+    const int given = fragment_def(def)->grid_layers;
+    const double most = pow(ceil(def->support), def->dimensions);
+    return given > 0 ? given : (int)ceil(most / 4);
+}
+
+static void fragment_to_raise(const void *state, char text[128])
+{
+    const Fragment *f = state;
+    char limit[32];
+    number_grouped(f->lost_limit, limit);
+    snprintf(text, 128, "solver.grid_layers (%d) or solver.lost_limit (%s)", f->layers, limit);
+}
+
 static bool fragment_can(const WorldDef *def, Error *error)
 {
+    const FragmentDef *own = fragment_def(def);
+    if (own->grid_layers < 0 || own->lost_limit < 0)
+        return error_set(error, "grid_layers and lost_limit must not be negative");
     bool viscous = false, tense = false;
     for (int f = 0; f < def->fluid_count; f++) {
         viscous |= fluid_viscosity_most(&def->fluids[f]) > 0;
@@ -84,10 +118,10 @@ static bool fill(Fragment *f, const InitialState *initial, Error *error)
            (fragment_set_particles(f, initial) || error_set(error, "no memory for %zu particles", f->count));
 }
 
-static void *fragment_create(const Constants *constants, const InitialState *initial, size_t capacity,
-                             int threads, Error *error)
+static void *fragment_create(const Constants *constants, const WorldDef *def, const InitialState *initial,
+                             size_t capacity, Error *error)
 {
-    (void)threads, (void)capacity;
+    (void)capacity;
     if (epoxy_gl_version() < 45) {
         error_set(error, "backend fragment needs OpenGL 4.5, and there is %d.%d", epoxy_gl_version() / 10,
                   epoxy_gl_version() % 10);
@@ -100,7 +134,8 @@ static void *fragment_create(const Constants *constants, const InitialState *ini
     }
     f->constants = constants;
     f->count = initial->count;
-    f->layers = constants->grid_layers;
+    f->layers = fragment_layers(def);
+    f->lost_limit = (size_t)fragment_def(def)->lost_limit;
     shape_for(f->count, &f->bits, &f->width, &f->height);
     shape_for(constants->cells.count, &f->bucket_bits, &f->bucket_width, &f->bucket_height);
     if (!fits(f, error)) {
@@ -139,6 +174,8 @@ static bool fragment_reload(void *state, Error *error)
 
 const Backend backend_fragment = {
     .name = "fragment",
+    .keys = keys,
+    .to_raise = fragment_to_raise,
     .gpu = true,
     .help = "fragment shaders on the GPU, after Harada 2007: methods with such shaders, without solids",
     .can = fragment_can,

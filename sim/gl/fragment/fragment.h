@@ -72,6 +72,7 @@ typedef struct Fragment {
     int bits, width, height;                      /* of the textures of particles; width = 2^bits */
     int bucket_bits, bucket_width, bucket_height; /* of the buckets, likewise */
     int layers;
+    size_t lost_limit;     /* so many particles may find no place in a step */
     unsigned position[2];  /* x y z (m), fluid */
     unsigned velocity[2];  /* x y z (m/s), 0 */
     unsigned held[2];      /* uint: by `drift`, how often the guard held the particle */

@@ -75,7 +75,7 @@ StepWatch fragment_watch(void *state)
                        .max_acceleration = sqrtf(float_of_bits(found[1])),
                        .max_compression = float_of_bits(found[2]),
                        .lost = f->lost,
-                       .lost_limit = f->constants->lost_limit};
+                       .lost_limit = f->lost_limit};
 }
 
 static void copy_texture(const Fragment *f, unsigned from, unsigned to)
