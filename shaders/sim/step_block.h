@@ -7,7 +7,7 @@
 
 UNIFORM_BLOCK(StepBlock, STEP_BLOCK)
 {
-    vec4 rotation[3]; /* the drift: sim/box/frame_step.h; rows, w: 0 */
+    vec4 rotation[3]; /* the drift: sim/box/box_step.h; rows, w: 0 */
     vec3 omega0;
     float drift_dt; /* s */
     vec3 omega1;

@@ -86,7 +86,7 @@ uint32_t cpu_cell_of(const Constants *constants, const float x[3]);
 
 void cpu_grid(void *state);
 void cpu_run_pass(void *state, const Pass *pass, const PassInput *input);
-void cpu_drift(void *state, const FrameStep *step);
+void cpu_drift(void *state, const BoxStep *step);
 
 /* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; moves them along; finds them
    after a sort; gives those at `i` no share in the fluids' terms; fills in what the forces need of them, and

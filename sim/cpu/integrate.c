@@ -5,7 +5,7 @@
 
 typedef struct Drift {
     Cpu *cpu;
-    const FrameStep *step;
+    const BoxStep *step;
 } Drift;
 
 /* How often the guards held a particle of the run [begin, end). */
@@ -18,7 +18,7 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end)
     for (size_t i = begin; i < end; i++) {
         float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
         const float before[3] = {x[0], x[1], x[2]};
-        frame_advance(drift->step, x, v);
+        box_advance(drift->step, x, v);
         if (solids)
             held += cpu_guard_solids(cpu, solids, before, x, v);
         held += walls_guard(&cpu->constants->walls, x, v);
@@ -44,7 +44,7 @@ static void drift_range(void *context, size_t begin, size_t end)
         __atomic_fetch_add(&drift->cpu->guarded, held, __ATOMIC_RELAXED);
 }
 
-void cpu_drift(void *state, const FrameStep *step)
+void cpu_drift(void *state, const BoxStep *step)
 {
     Cpu *cpu = state;
     Drift drift = {cpu, step};

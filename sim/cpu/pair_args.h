@@ -2,7 +2,7 @@
 #ifndef SLOSH_PAIR_ARGS_H
 #define SLOSH_PAIR_ARGS_H
 
-#include "sim/box/frame_step.h"
+#include "sim/box/box_step.h"
 #include "sim/world/cell_rows.h"
 #include "sim/world/column.h"
 

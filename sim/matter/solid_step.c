@@ -1,6 +1,6 @@
 #include "sim/matter/solid_step.h"
 
-#include "sim/box/frame_step.h"
+#include "sim/box/box_step.h"
 
 #include <math.h>
 
@@ -77,7 +77,7 @@ float solid_clearance(const SolidDef *solid, const SolidPose *pose, int dimensio
 void solid_velocity_at(const SolidPose *pose, const float x[3], float v[3])
 {
     const float arm[3] = {x[0] - pose->x[0], x[1] - pose->x[1], x[2] - pose->x[2]};
-    frame_cross(pose->w, arm, v);
+    box_cross(pose->w, arm, v);
     for (int k = 0; k < 3; k++)
         v[k] += pose->v[k];
 }
@@ -87,9 +87,9 @@ void solid_acceleration_at(const SolidStep *step, const float x[3], float a[3])
     const SolidPose *pose = &step->end;
     const float arm[3] = {x[0] - pose->x[0], x[1] - pose->x[1], x[2] - pose->x[2]};
     float swirl[3], euler[3], inward[3];
-    frame_cross(pose->w, arm, swirl);
-    frame_cross(pose->w, swirl, inward);
-    frame_cross(step->alpha, arm, euler);
+    box_cross(pose->w, arm, swirl);
+    box_cross(pose->w, swirl, inward);
+    box_cross(step->alpha, arm, euler);
     for (int k = 0; k < 3; k++)
         a[k] = step->change[k] + euler[k] + inward[k];
 }

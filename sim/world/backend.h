@@ -4,7 +4,7 @@
 #define SLOSH_BACKEND_H
 
 #include "sim/base/key.h"
-#include "sim/box/frame_step.h"
+#include "sim/box/box_step.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/solid_step.h"
 #include "sim/world/constants.h"
@@ -39,7 +39,7 @@ typedef struct Backend {
     /* Puts the solids there: `pose` has one for each. For a world with solids, before all else. */
     void (*pose)(void *state, const SolidPose *pose);
     /* Free flight over `step`, then the last guard of walls and solids, which come to their end poses. */
-    void (*drift)(void *state, const FrameStep *step);
+    void (*drift)(void *state, const BoxStep *step);
     /* Sorts the particles by cell; in a cell by id, but on compute only where the def says reproducible. */
     void (*grid)(void *state);
     /* A pass of the method. */

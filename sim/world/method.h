@@ -10,7 +10,7 @@
 #include "sim/matter/world_def.h"
 #include "sim/world/column.h"
 
-struct ApparentGravity; /* sim/box/frame_step.h */
+struct ApparentGravity; /* sim/box/box_step.h */
 struct Constants;       /* sim/world/constants.h */
 struct CpuPass;         /* sim/cpu/pass.h */
 struct Substep;         /* sim/world/substep.h */

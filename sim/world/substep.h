@@ -12,7 +12,7 @@ typedef struct Substep {
     const Constants *constants;
     StageClock *clock; /* may be NULL */
     double dt;         /* s */
-    FrameStep first_half, second_half;
+    BoxStep first_half, second_half;
     int guide_count; /* of the emitters at work */
     Guide guides[GUIDES_MAX];
     SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */

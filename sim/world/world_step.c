@@ -146,8 +146,8 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->clock = clock;
     step->dt = dt;
     step->constants = &world->constants;
-    frame_step(&begin, &middle, 0.5 * dt, &step->first_half);
-    frame_step(&middle, &world->box, 0.5 * dt, &step->second_half);
+    box_step(&begin, &middle, 0.5 * dt, &step->first_half);
+    box_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
     for (int i = 0; i < world->def.solid_count; i++)
         for (int half = 0; half < 2; half++)

@@ -2,7 +2,7 @@
  * bucket's. */
 #include "fixture.h"
 
-#include "sim/box/frame_step.h"
+#include "sim/box/box_step.h"
 
 /* A turn about an axis that itself moves, and a shake: nothing is constant in the box's frame. */
 static const Motion wild[] = {

@@ -1,4 +1,4 @@
-// Free flight from one pose of the box into the next (sim/box/frame_step.h), then the last guard of solids and walls.
+// Free flight from one pose of the box into the next (sim/box/box_step.h), then the last guard of solids and walls.
 #define WRITES_WATCH
 #include "sim/constants.glsl"
 #ifdef SOLIDS

@@ -1,4 +1,4 @@
-// Free flight from one pose of the box into the next (sim/box/frame_step.h), then the walls' last guard.
+// Free flight from one pose of the box into the next (sim/box/box_step.h), then the walls' last guard.
 #include "sim/fragment/own.glsl"
 uniform usampler2D held; // how often the guard held each particle
 uniform vec3 rotation[3], omega0, omega1, shift, velocity_change;

@@ -104,7 +104,7 @@ static void put_step(const Compute *compute, const StepBlock *block, size_t begi
                          (const char *)block + begin);
 }
 
-void compute_set_drift(Compute *compute, const FrameStep *step)
+void compute_set_drift(Compute *compute, const BoxStep *step)
 {
     StepBlock block = {.drift_dt = step->dt, .still = step->still};
     for (int k = 0; k < 3; k++)

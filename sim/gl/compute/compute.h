@@ -198,7 +198,7 @@ void compute_term_constants(Compute *compute);
 /* Fills the uniform blocks. */
 void compute_constants(Compute *compute);
 void compute_vary(void *state);
-void compute_set_drift(Compute *compute, const FrameStep *step);
+void compute_set_drift(Compute *compute, const BoxStep *step);
 void compute_set_force(Compute *compute, const ApparentGravity *gravity);
 void compute_set_kick(Compute *compute, const float gravity[3], float dt);
 
@@ -221,7 +221,7 @@ size_t compute_emit(void *state, const EmitLayer *layer, size_t most);
 void compute_guide(void *state, const Guide *guides, int count);
 size_t compute_drain(void *state, const Fill *regions, int count);
 void compute_grid(void *state);
-void compute_drift(void *state, const FrameStep *step);
+void compute_drift(void *state, const BoxStep *step);
 void compute_pass(void *state, const Pass *pass, const PassInput *input);
 void compute_kick(void *state, const float gravity[3], float dt);
 StepWatch compute_watch(void *state);

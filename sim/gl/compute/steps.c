@@ -31,7 +31,7 @@ void compute_run(const Compute *compute, ComputePass pass, size_t count)
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
 }
 
-void compute_drift(void *state, const FrameStep *step)
+void compute_drift(void *state, const BoxStep *step)
 {
     Compute *c = state;
     compute_set_drift(c, step);

@@ -154,7 +154,7 @@ uint32_t *fragment_buckets_read(const Fragment *fragment);
 uint32_t fragment_bucket_at(const Fragment *fragment, const uint32_t *places, size_t cell, int place);
 
 void fragment_grid(void *state);
-void fragment_drift(void *state, const FrameStep *step);
+void fragment_drift(void *state, const BoxStep *step);
 
 /* Whether it can run the method: each pass is of the stage density or force, one of each, and has a shader
    shaders/sim/SHADER.frag. */

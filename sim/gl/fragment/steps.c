@@ -13,7 +13,7 @@ static void draw(const Fragment *f, FragmentPass pass, const unsigned *targets, 
     gl_state_restore(&kept);
 }
 
-static void set_drift(const Fragment *f, const FrameStep *step)
+static void set_drift(const Fragment *f, const BoxStep *step)
 {
     const FragmentPass pass = FRAGMENT_DRIFT;
     const GLuint program = f->program[pass];
@@ -26,7 +26,7 @@ static void set_drift(const Fragment *f, const FrameStep *step)
     glProgramUniform1i(program, fragment_uniform(f, pass, "still"), step->still ? 1 : 0);
 }
 
-void fragment_drift(void *state, const FrameStep *step)
+void fragment_drift(void *state, const BoxStep *step)
 {
     Fragment *f = state;
     set_drift(f, step);

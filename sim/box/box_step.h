@@ -3,15 +3,15 @@
 
    It is the straight flight in the world, seen from the two poses: the exact change of the box's velocity and
    rotation, Coriolis as a rotation, no sampled acceleration, so that nothing drifts. */
-#ifndef SLOSH_FRAME_STEP_H
-#define SLOSH_FRAME_STEP_H
+#ifndef SLOSH_BOX_STEP_H
+#define SLOSH_BOX_STEP_H
 
 #include "sim/box/box_motion.h"
 
 /* With D = R1^T R0 - I, x1 = (I + D) (x0 + (v0 + omega0 x x0) dt - shift),
    v1 = (I + D) (v0 + omega0 x x0) - velocity_change - omega1 x x1.
    D is kept apart from I, since near-identity rotations rounded to float would shrink or grow the fluid. */
-typedef struct FrameStep {
+typedef struct BoxStep {
     bool still;                     /* the box does not move: x1 = x0 + v0 dt */
     float dt;                       /* s */
     float rotation[3][3];           /* D */
@@ -20,9 +20,9 @@ typedef struct FrameStep {
     float shift[3];                 /* P1 - P0 - V0 dt of the box's origin, in the axes of the begin, m */
     float velocity_change[3];       /* V1 - V0 of the box's origin, in the axes of the end, m/s */
     const struct SolidStep *solids; /* what the solids do meanwhile; NULL without solids */
-} FrameStep;
+} BoxStep;
 
-void frame_step(const BoxState *begin, const BoxState *end, double dt, FrameStep *step);
+void box_step(const BoxState *begin, const BoxState *end, double dt, BoxStep *step);
 
 /* What a body at rest in the box feels, in the box's axes of `middle`, from the velocities at both ends of a
    step: gravity less the acceleration of the box; at x it is origin - alpha x x - omega x (omega x x). */
@@ -35,7 +35,7 @@ typedef struct ApparentGravity {
 void apparent_gravity(const double gravity[3], const BoxState *begin, const BoxState *middle,
                       const BoxState *end, double dt, ApparentGravity *out);
 
-static inline void frame_cross(const float a[3], const float b[3], float out[3])
+static inline void box_cross(const float a[3], const float b[3], float out[3])
 {
     out[0] = a[1] * b[2] - a[2] * b[1];
     out[1] = a[2] * b[0] - a[0] * b[2];
@@ -43,7 +43,7 @@ static inline void frame_cross(const float a[3], const float b[3], float out[3])
 }
 
 /* Applies the step to one particle. */
-static inline void frame_advance(const FrameStep *step, float x[3], float v[3])
+static inline void box_advance(const BoxStep *step, float x[3], float v[3])
 {
     if (step->still) {
         for (int k = 0; k < 3; k++)
@@ -51,7 +51,7 @@ static inline void frame_advance(const FrameStep *step, float x[3], float v[3])
         return;
     }
     float swirl[3], w[3], y[3];
-    frame_cross(step->omega0, x, swirl);
+    box_cross(step->omega0, x, swirl);
     for (int k = 0; k < 3; k++) {
         w[k] = v[k] + swirl[k];
         y[k] = x[k] + (w[k] * step->dt - step->shift[k]);
@@ -59,7 +59,7 @@ static inline void frame_advance(const FrameStep *step, float x[3], float v[3])
     for (int k = 0; k < 3; k++)
         x[k] =
             y[k] + (step->rotation[k][0] * y[0] + step->rotation[k][1] * y[1] + step->rotation[k][2] * y[2]);
-    frame_cross(step->omega1, x, swirl);
+    box_cross(step->omega1, x, swirl);
     for (int k = 0; k < 3; k++)
         v[k] = w[k] +
                (step->rotation[k][0] * w[0] + step->rotation[k][1] * w[1] + step->rotation[k][2] * w[2]) -
@@ -70,9 +70,9 @@ static inline void frame_advance(const FrameStep *step, float x[3], float v[3])
 static inline void apparent_gravity_at(const ApparentGravity *gravity, const float x[3], float out[3])
 {
     float euler[3], inner[3], outer[3];
-    frame_cross(gravity->alpha, x, euler);
-    frame_cross(gravity->omega, x, inner);
-    frame_cross(gravity->omega, inner, outer);
+    box_cross(gravity->alpha, x, euler);
+    box_cross(gravity->omega, x, inner);
+    box_cross(gravity->omega, inner, outer);
     for (int k = 0; k < 3; k++)
         out[k] = gravity->origin[k] - euler[k] - outer[k];
 }

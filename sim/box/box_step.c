@@ -1,4 +1,4 @@
-#include "sim/box/frame_step.h"
+#include "sim/box/box_step.h"
 
 static bool equal(const double *a, const double *b, int count)
 {
@@ -44,9 +44,9 @@ static void rotation_less_identity(const double q1[4], const double q0[4], float
     }
 }
 
-void frame_step(const BoxState *begin, const BoxState *end, double dt, FrameStep *step)
+void box_step(const BoxState *begin, const BoxState *end, double dt, BoxStep *step)
 {
-    *step = (FrameStep){.still = same_pose_at_rest(begin, end), .dt = (float)dt};
+    *step = (BoxStep){.still = same_pose_at_rest(begin, end), .dt = (float)dt};
     if (step->still)
         return;
 
