@@ -18,7 +18,7 @@ static void sample(CaseRun *run)
         sum[1] += v[1];
         sum[2] += (double)x[0] * v[1] - (double)x[1] * v[0];
     }
-    curve_add(&run->column[ENERGY], run->info.time, e.kinetic + e.compression);
+    curve_add(&run->column[ENERGY], run->info.time, e.kinetic + e.elastic);
     for (int k = 0; k < 3; k++)
         curve_add(&run->column[MOMENTUM_X + k], run->info.time, sum[k]);
 }

@@ -11,7 +11,7 @@ static void sample(CaseRun *run)
 {
     Energies e;
     metric_energies(&run->cloud, run->def, &e);
-    curve_add(&run->column[ENERGY], run->info.time, e.kinetic + e.potential + e.compression);
+    curve_add(&run->column[ENERGY], run->info.time, e.kinetic + e.potential + e.elastic);
     curve_add(&run->column[PRESSURE], run->info.time,
               metric_hydrostatic(&run->cloud, run->def->fluids[0].density, -run->def->gravity[1], NULL));
 }

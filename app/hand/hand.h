@@ -2,7 +2,7 @@
 
    Each device adds its part to a HandInput: drags and rates move the box for good; offsets (sticks) move it
    for as long as they last, and so does the turn of a device that is held like the box. The hand sums them up
-   in the frame of the picture; how fast the box follows is the filter's affair (sim/box/box_filter.h). */
+   in the axes of the picture; how fast the box follows is the filter's affair (sim/box/box_filter.h). */
 #ifndef SLOSH_HAND_H
 #define SLOSH_HAND_H
 

@@ -147,7 +147,7 @@ void metric_energies(const Cloud *cloud, const WorldDef *def, Energies *energies
         }
         energies->kinetic += 0.5 * mass * v2;
         if (method->energy && (cloud->pressure[i] > 0 || def->negative_pressure))
-            energies->compression += mass * c2 * method->energy(ratio - 1);
+            energies->elastic += mass * c2 * method->energy(ratio - 1);
     }
 }
 

@@ -34,7 +34,7 @@ void metric_axes(const Cloud *cloud, double axes[2]);
 double metric_mean_pressure(const Cloud *cloud, const double centre[3], double radius);
 
 typedef struct Energies {
-    double kinetic, potential, compression; /* J; potential over y = 0 */
+    double kinetic, potential, elastic; /* J; potential over y = 0; elastic: of compression */
 } Energies;
 
 /* Of the particles in the box's frame, with the masses and the equation of state of `def`. */

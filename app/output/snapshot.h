@@ -119,7 +119,7 @@ typedef struct SnapshotScene {
     double box_size[3];             /* m */
     size_t fluid_count;
     double density[FLUIDS_MAX]; /* of each fluid at rest, kg/m3 */
-    double compression;         /* relative change of density over that of number density */
+    double stiffness_scale;     /* relative change of density over that of number density */
 } SnapshotScene;
 
 /* False with what is missing or cannot be: afterwards lengths and densities are more than 0. */

@@ -154,7 +154,7 @@ static bool setting_word(const char *settings, const char *key, char word[NAME_S
 }
 
 /* As sim/kernel/lattice.h calibrates a density that is summed up; particles may carry it instead. */
-static double read_compression(const SnapshotReader *reader, const SnapshotScene *scene)
+static double read_stiffness_scale(const SnapshotReader *reader, const SnapshotScene *scene)
 {
     Lattice lattice = {.stiffness_scale = 1};
     char name[NAME_SIZE] = "", *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
@@ -206,7 +206,7 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
         return false;
     /* a box of two dimensions is a spacing deep: WorldDef */
     scene->dimensions = scene->box_size[2] > 1.001 * scene->spacing ? 3 : 2;
-    scene->compression = read_compression(reader, scene);
+    scene->stiffness_scale = read_stiffness_scale(reader, scene);
     return true;
 }
 

@@ -24,7 +24,7 @@ UNIFORM_BLOCK(ConstantBlock, CONSTANT_BLOCK)
     float kernel_scale;        /* of the sum of the kernel's shape */
     float pressure_scale;      /* of its gradient's */
     float viscosity_scale;     /* of its Laplacian's */
-    float compression_scale;   /* relative change of density over that of n / n0 */
+    float stiffness_scale;     /* relative change of density over that of n / n0 */
     ivec3 first_cell;          /* of the grid, in cells from the box's centre */
     int particle_total;
     ivec3 grid_size; /* cells along each axis */

@@ -14,7 +14,7 @@ UNIFORM_BLOCK(WatchBlock, WATCH_BLOCK)
 {
     uint greatest_speed2; /* bits of floats, which are in their order where they are not negative */
     uint greatest_acceleration2;
-    uint greatest_compression;
+    uint greatest_density_ratio;
     uint guarded;      /* how often a guard held a particle */
     uint went_too_far; /* 1: a particle did */
 }

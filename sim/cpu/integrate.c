@@ -118,7 +118,7 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
     }
     atomic_greatest(&cpu->watch.max_speed, sqrtf(speed2));
     atomic_greatest(&cpu->watch.max_acceleration, sqrtf(acceleration2));
-    atomic_greatest(&cpu->watch.max_compression, 1 / (volume * cpu->constants->rest_number_density));
+    atomic_greatest(&cpu->watch.max_density_ratio, 1 / (volume * cpu->constants->rest_number_density));
     if (!bounded)
         __atomic_store_n(&cpu->watch.bounded, false, __ATOMIC_RELAXED);
 }

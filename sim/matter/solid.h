@@ -63,7 +63,7 @@ void solid_normal(const SolidDef *solid, int dimensions, const double x[3], doub
    to see, as for one that is accelerated along it. */
 bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, double high);
 
-/* Radius of a ball about the frame's origin that holds it, m. */
+/* Radius of a ball about the origin of the solid's own frame that holds the solid, m. */
 double solid_reach(const SolidDef *solid);
 
 #endif

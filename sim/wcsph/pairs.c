@@ -64,8 +64,9 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
-/* Sum of F v_ij . x_ij, the compression of the flow, less the diffusion of relative density within a fluid:
-   what its differences have beyond its gradient (Molteni and Colagrossi 2009; Antuono 2010). */
+/* Sum of F v_ij . x_ij, the rate at which the flow draws together, less the diffusion of relative density
+   within a fluid: what its differences have beyond its gradient (Molteni and Colagrossi 2009; Antuono 2010).
+ */
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                             const bool diffusive)
 {

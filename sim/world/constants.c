@@ -200,9 +200,8 @@ static bool cells_set(CellGrid *cells, const WorldDef *def, double h, Error *err
 
 static void fluids_set(Constants *constants, const WorldDef *def)
 {
-    const double compression = constants->lattice.stiffness_scale;
-    const double c2 = def->sound_speed * def->sound_speed * compression;
-    constants->compression = (float)compression;
+    const double c2 = def->sound_speed * def->sound_speed * constants->lattice.stiffness_scale;
+    constants->stiffness_scale = (float)constants->lattice.stiffness_scale;
     constants->fluid_count = def->fluid_count;
     constants->negative_pressure = def->negative_pressure;
     constants->reproducible = def->reproducible;

@@ -41,8 +41,8 @@ typedef struct Constants {
     int fluid_count;
     float mass[FLUIDS_MAX];      /* of a particle: rho0 / n0, kg */
     float density[FLUIDS_MAX];   /* rho0, kg/m3 */
-    float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0 compression, Pa */
-    float compression;           /* relative change of density over that of n / n0, see Lattice */
+    float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0 stiffness_scale, Pa */
+    float stiffness_scale;       /* relative change of density over that of n / n0, see Lattice */
     float viscosity[FLUIDS_MAX]; /* mu, Pa s; of the step in hand where it varies */
     bool viscous;                /* some mu is not zero, now or ever */
     bool varies;                 /* some mu is a table over time */

@@ -13,7 +13,7 @@ static inline float particle_compression(const ParticleColumns *p, const Constan
 {
     if (p->compression)
         return p->compression[i];
-    return constants->compression * (1 / (p->volume[i] * constants->rest_number_density) - 1);
+    return constants->stiffness_scale * (1 / (p->volume[i] * constants->rest_number_density) - 1);
 }
 
 /* Entries [begin, end) of `out`: the particles at[k], or with NULL the particles k. */

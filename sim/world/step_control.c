@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 static const double GROWTH = 1.1, FIRST = 0.1;
-static const float COMPRESSION_MOST = 5;
+static const float DENSITY_RATIO_MOST = 5;
 
 const char *step_limit_name(StepLimit limit)
 {
@@ -30,7 +30,7 @@ StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel)
 {
     if (!watch->bounded)
         return STEP_TROUBLE_SPEED;
-    if (sentinel && watch->max_compression > COMPRESSION_MOST)
+    if (sentinel && watch->max_density_ratio > DENSITY_RATIO_MOST)
         return STEP_TROUBLE_DENSITY;
     return watch->lost > watch->lost_limit ? STEP_TROUBLE_LOST : STEP_TROUBLE_NONE;
 }

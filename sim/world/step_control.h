@@ -39,10 +39,10 @@ typedef struct StepState {
 
 /* What a substep found, over all particles. */
 typedef struct StepWatch {
-    bool bounded;           /* no particle moves further than the support radius in the step, none is NaN */
-    float max_speed;        /* m/s */
-    float max_acceleration; /* m/s2, gravity included */
-    float max_compression;  /* of number density over that at rest */
+    bool bounded;            /* no particle moves further than the support radius in the step, none is NaN */
+    float max_speed;         /* m/s */
+    float max_acceleration;  /* m/s2, gravity included */
+    float max_density_ratio; /* of number density over that at rest */
     size_t lost,
         lost_limit; /* particles without a place in the grid, at most in one step, and how many may be */
 } StepWatch;

@@ -34,7 +34,7 @@ struct World {
     double gauge_time;                  /* of the state at this time, s */
 };
 
-/* Makes the backend's state from the def's initial state or fills, with a solver that is there. */
+/* Makes the backend's state from the def's initial state or fills, with constants that are there. */
 bool world_start(World *world, Error *error);
 
 /* Lets fluid in that emitters send out in the step ahead, and out where it drains. */

@@ -21,7 +21,7 @@ static const SnapshotScene scene = {.dimensions = 3,
                                     .box_size = {4, 2, 4},
                                     .fluid_count = 2,
                                     .density = {1000, 500},
-                                    .compression = 1};
+                                    .stiffness_scale = 1};
 
 typedef bool Inside(double x, double y, double z);
 

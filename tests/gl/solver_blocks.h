@@ -21,7 +21,7 @@
 #define SOLVER_BLOCKS                                                                                        \
     BLOCK("sim/constant_block.h", ConstantBlock, CONSTANT(support), CONSTANT(inverse_support),               \
           CONSTANT(rest_number_density), CONSTANT(spacing), CONSTANT(kernel_scale),                          \
-          CONSTANT(pressure_scale), CONSTANT(viscosity_scale), CONSTANT(compression_scale),                  \
+          CONSTANT(pressure_scale), CONSTANT(viscosity_scale), CONSTANT(stiffness_scale),                    \
           CONSTANT(first_cell), CONSTANT(particle_total), CONSTANT(grid_size), CONSTANT(cell_total),         \
           CONSTANT(first_row), CONSTANT(last_row), CONSTANT(first_single_row), CONSTANT(last_single_row),    \
           CONSTANT(half_size), CONSTANT(wall_range), CONSTANT(wall_nodes), CONSTANT(dimensions),             \
@@ -38,7 +38,7 @@
               TERM(drag_range), TERM(drag_steps), TERM(shift_speed), TERM(drag_offset),                      \
               TERM(density_return), TERM(lid_velocity)),                                                     \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \
-              WATCH(greatest_compression), WATCH(guarded), WATCH(went_too_far)),                             \
+              WATCH(greatest_density_ratio), WATCH(guarded), WATCH(went_too_far)),                           \
         BLOCK("sim/solid_steps_block.h", SolidStepsBlock, STEPS(solid_total), STEPS(boundary_total),         \
               STEPS(solids[0].begin.x), STEPS(solids[0].begin.r[0]), STEPS(solids[0].end.x),                 \
               STEPS(solids[0].end.r[0]), STEPS(solids[0].velocity), STEPS(solids[0].sticks),                 \

@@ -447,12 +447,12 @@ static void a_session_with_trouble_comes_out_the_same(void **state)
 static void what_is_lost_is_trouble_above_the_limit(void **state)
 {
     (void)state;
-    StepWatch watch = {.bounded = true, .max_compression = 1, .lost = 5, .lost_limit = 5};
+    StepWatch watch = {.bounded = true, .max_density_ratio = 1, .lost = 5, .lost_limit = 5};
     assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_NONE);
     watch.lost = 6;
     assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_LOST);
     assert_int_equal(step_trouble_of(&watch, false), STEP_TROUBLE_LOST);
-    watch.max_compression = 6;
+    watch.max_density_ratio = 6;
     assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_DENSITY);
     watch.bounded = false;
     assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_SPEED);

@@ -44,6 +44,6 @@ void main()
     if (gl_LocalInvocationID.x == 0u) {
         atomicMax(greatest_speed2, greatest[0]);
         atomicMax(greatest_acceleration2, greatest[1]);
-        atomicMax(greatest_compression, greatest[2]);
+        atomicMax(greatest_density_ratio, greatest[2]);
     }
 }

@@ -13,7 +13,7 @@ shared uint least, greatest;
 #ifdef CONTINUITY
 float compression_of(uint i) { return velocity[i].w; }
 #else
-float compression_of(uint i) { return compression_scale * (1.0 / (position[i].w * rest_number_density) - 1.0); }
+float compression_of(uint i) { return stiffness_scale * (1.0 / (position[i].w * rest_number_density) - 1.0); }
 #endif
 
 float value_of(uint i)

@@ -4,7 +4,7 @@ uniform sampler2D fields;
 uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
 layout(location = 0) out uint word; // bits of a float, or a number
 
-float compression_of(int i) { return compression_scale * (1.0 / (of_particle(fields, i).x * rest_number_density) - 1.0); }
+float compression_of(int i) { return stiffness_scale * (1.0 / (of_particle(fields, i).x * rest_number_density) - 1.0); }
 
 float value_of(int i)
 {

@@ -65,7 +65,7 @@ void compute_constants(Compute *compute)
                        .kernel_scale = s->kernel_scale,
                        .pressure_scale = s->pressure_scale,
                        .viscosity_scale = s->viscosity_scale,
-                       .compression_scale = s->compression,
+                       .stiffness_scale = s->stiffness_scale,
                        .particle_total = (int)compute->count,
                        .dimensions = s->dimensions};
     grid_constants(s, &c);

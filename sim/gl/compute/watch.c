@@ -37,7 +37,7 @@ StepWatch compute_watch(void *state)
     const StepWatch seen = {.bounded = watched->went_too_far == 0 && speed2 <= fastest * fastest,
                             .max_speed = sqrtf(speed2),
                             .max_acceleration = sqrtf(float_of_bits(watched->greatest_acceleration2)),
-                            .max_compression = float_of_bits(watched->greatest_compression)};
+                            .max_density_ratio = float_of_bits(watched->greatest_density_ratio)};
     c->guarded = watched->guarded;
     c->longest = 0;
     glClearNamedBufferSubData(c->watch.buffer, GL_R32UI, 0, offsetof(WatchBlock, guarded), GL_RED_INTEGER,

@@ -73,7 +73,7 @@ StepWatch fragment_watch(void *state)
     return (StepWatch){.bounded = speed2 <= fastest * fastest,
                        .max_speed = sqrtf(speed2),
                        .max_acceleration = sqrtf(float_of_bits(found[1])),
-                       .max_compression = float_of_bits(found[2]),
+                       .max_density_ratio = float_of_bits(found[2]),
                        .lost = f->lost,
                        .lost_limit = f->lost_limit};
 }
