@@ -1,7 +1,10 @@
 /* Stages: the one list of their names, and the clock of those that run on the CPU.
 
    A stage belongs to a part of the program; times are summed over a frame, since a frame runs a stage once
-   per substep. GL stages are timed by sim/gl/timer.h, under the same names. */
+   per substep. GL stages are timed by sim/gl/timer.h, under the same names.
+
+   The names are for people, in tables and JSON: methods and views share them, and a new one takes those that
+   fit. Where none fits, a row here is all that it adds. */
 #ifndef SLOSH_STAGE_H
 #define SLOSH_STAGE_H
 

@@ -1,10 +1,15 @@
 /* The density that particles carry, and what follows from it. */
 #include "sim/wcsph/passes.h"
-#include "sim/wcsph/state.h"
 
 PAIR_LOOPS(wcsph_slope);
 PAIR_LOOPS(wcsph_rate);
 PAIR_LOOPS(wcsph_images_rate);
+
+/* p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1: its powers, without the difference. */
+static float wcsph_tait(float b, float e)
+{
+    return b * e * (7 + e * (21 + e * (35 + e * (35 + e * (21 + e * (7 + e))))));
+}
 
 /* Pressure, and V = V0 rho0 / rho. */
 static void state_body(const CpuRange *range)
