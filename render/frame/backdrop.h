@@ -16,7 +16,7 @@ typedef struct Backdrop {
     double seen[BACKDROP_KEY_SIZE]; /* all that sky and lit floor of the last picture depend on */
     bool kept;                      /* `kept_color` holds the backdrop of `seen` */
     unsigned kept_framebuffer, kept_color;
-    unsigned kept_target; /* number of the target that these are as large as; 0: there are none */
+    unsigned kept_target; /* number of the target whose size both have; 0: neither is made yet */
 } Backdrop;
 
 bool backdrop_create(Backdrop *backdrop, Error *error);

@@ -6,7 +6,7 @@
 #include "render/frame/frame.h"
 
 typedef struct Behind {
-    unsigned target_number; /* of the target that it was made for */
+    unsigned target_number; /* number of the target whose size the textures have */
     unsigned color, depth;  /* textures like the target's; no depth without solids */
 } Behind;
 

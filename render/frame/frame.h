@@ -24,7 +24,7 @@ typedef struct Frame {
     Camera camera;
     float box_to_world[16];
     float world_to_light[16];  /* orthographic, to 0..1 in the shadow map, 1 nearest to the light */
-    float light_depth;         /* m that 0..1 of that stands for, in each axis */
+    float light_depth;         /* m in the world between 0 and 1 of the shadow map's depth */
     float to_light[3];         /* unit vector, world */
     float floor_height;        /* m, world */
     float floor_center[2];     /* x z, m */

@@ -20,12 +20,14 @@ typedef struct ViewKind {
     const Key *keys; /* of its own settings, ended by a row without a path; NULL: it has none */
     const void *def; /* the struct of these settings with its defaults */
     size_t def_size; /* bytes; at most VIEW_OWN_SIZE */
-    /* False with the reason, and the key that it is about, where no driver could draw that; NULL: never. */
+    /* False, with the reason and the key at fault, where no driver could draw the subject; NULL: all can be
+     * drawn. */
     bool (*check)(const Subject *subject, const char **key, Error *error);
     double radius; /* of a particle, in spacings, where ViewDef.radius is 0 */
     /* Changes the radii, which are those of balls so far; NULL: particles are such balls. */
     void (*radii)(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii);
-    /* Whether particles are drawn as something that takes a GPU more room than balls; NULL: they are not. */
+    /* The shapes of particles, where a GPU needs more memory for them than for balls; NULL: they are balls.
+     */
     const ViewShapes *(*shapes)(const ViewDef *def);
     /* The state behind a View, or NULL with the reason. It stays while the world has solids or has none: a
        view looks there for what it needs to stand with them. */
@@ -37,7 +39,7 @@ typedef struct ViewKind {
     /* Whether a view made for `a` may draw `b`, both with defs of this kind, as far as keys with KEY_REBUILD
        do not say so; NULL: it may. What else differs is read anew for each picture. */
     bool (*same)(const Subject *a, const Subject *b);
-    /* Whether it can draw such a one; NULL: always. */
+    /* Whether the view, as it was made, can draw the subject; NULL: it always can. */
     bool (*accepts)(void *state, const Subject *subject, Error *error);
     /* Says in the frame what colours and legend show, where that is not the def's scalar; NULL: it is. */
     void (*show)(const ViewDef *def, Frame *frame);
@@ -70,7 +72,7 @@ View *view_create(const Subject *subject, Error *error);
 void view_destroy(View *view); /* NULL is allowed */
 const ViewKind *view_kind(const View *view);
 
-/* Of particles as that kind draws them; NULL: no view does. */
+/* The radii of particles as that kind of view draws them; `kind` may be NULL, for no view. */
 ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const ParticleBuffers *particles);
 
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);

@@ -19,7 +19,7 @@ typedef struct Slots {
 void slots_create(Slots *slots);
 void slots_destroy(Slots *slots);
 
-/* The writer: a slot that nobody reads; then it is the newest. */
+/* For the writer: `begin` gives a slot that nobody reads; with `end` this slot is the newest. */
 int slots_write_begin(Slots *slots);
 void slots_write_end(Slots *slots);
 

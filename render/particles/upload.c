@@ -50,7 +50,8 @@ static Layout make_layout(size_t capacity, unsigned attributes)
     return layout;
 }
 
-/* Read too, since the range of the scalars is taken from what was written: that asks for cached memory. */
+/* Mapped for reading too: the range of the scalars is taken from what was written, and reads need cached
+ * memory. */
 static bool slot_create(Slot *slot, size_t size)
 {
     const GLbitfield access =

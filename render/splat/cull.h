@@ -23,7 +23,7 @@ typedef struct Cull {
     unsigned map[2];         /* buffers: a depth a cell, and the same before it was widened along y */
     unsigned kept, commands; /* see cull_test.comp, cull_sum.comp */
     unsigned lists[CULL_LISTS];
-    size_t cells, capacity; /* that map has, that lists have */
+    size_t cells, capacity; /* how many `map` has room for; how many particles `lists` have room for */
     float point_limit;      /* largest point that the driver draws, pixels */
 } Cull;
 

@@ -30,10 +30,11 @@ const char *ellipsoids_defines(const SplatDef *def);
 bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error);
 void ellipsoids_destroy(Ellipsoids *ellipsoids);
 
-/* Of that state, from its positions. Where they are wanted. */
+/* Makes the ellipsoids of these particles from their positions; nothing where the view wants no ellipsoids.
+ */
 void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame);
 
-/* For shaders that include common/ball.glsl; nothing where they are not wanted. */
+/* Binds them for shaders that include common/ball.glsl; nothing where the view wants no ellipsoids. */
 void ellipsoids_bind(const Ellipsoids *ellipsoids);
 
 #endif

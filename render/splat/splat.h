@@ -13,7 +13,7 @@ const Ellipsoids *splat_ellipsoids(const void *state);
 unsigned
 splat_thickness_map(const void *state); /* see render/splat/thickness.h; 0 where the shading wants none */
 
-/* Those that were shaded: the filter's depth and normals, where there is one. */
+/* The maps that the last picture was shaded from: with a filter its depth and normals. */
 const SplatMaps *splat_shown_maps(const void *state);
 
 #endif

@@ -35,7 +35,7 @@ typedef struct SplatDef {
     SplatFilter filter;
     double filter_size;    /* half the kernel's width, in radii */
     double filter_range;   /* depths farther apart are two surfaces, in radii */
-    int filter_iterations; /* of one pass along x and one along y */
+    int filter_iterations; /* each is one pass along x and one along y */
     bool antialias;        /* smooth outlines, and spheres smaller than a pixel */
 } SplatDef;
 
@@ -55,7 +55,7 @@ extern const char *const splat_show_names[];
 extern const char *const splat_shading_names[];
 extern const char *const splat_filter_names[];
 
-/* To see what culling left out wants it too. */
+/* Whether spheres are culled: also where the picture shows what culling left out. */
 bool splat_culls(const SplatDef *def);
 
 /* What culling left out is shown of the spheres, not of a level. */

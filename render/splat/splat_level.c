@@ -132,7 +132,7 @@ typedef struct Search {
 /* Over all pixels that particles may cover; a depth that the shader writes becomes the limit. */
 static void fill(const Search *search, GLuint program, GLuint framebuffer)
 {
-    glTextureBarrier(); /* some read texels that they write */
+    glTextureBarrier(); /* some passes read the texels that they write */
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, search->frame->width, search->frame->height);
     glDisable(GL_BLEND);

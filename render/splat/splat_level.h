@@ -25,7 +25,7 @@ typedef struct SplatLevel {
     unsigned march_framebuffer, sum_framebuffer, single_framebuffer, next_framebuffer;
 } SplatLevel;
 
-/* How far behind the first sphere the first round looks, m: the spheres that culling must leave it. */
+/* How far behind the first sphere the first round looks, m: culling must keep the spheres up to there. */
 float splat_level_range(const Frame *frame);
 
 /* V W(0): the field in a lone particle's centre. In a flat box W is the kernel of two dimensions, for the

@@ -23,7 +23,7 @@ typedef struct SplatMaps {
 /* In `nearest` where no sphere is; as in splat_depth.frag. */
 #define SPLAT_NOTHING 1e30F
 
-/* Made anew where they are not those of that target; with `covers` from the first time on, or never. */
+/* Makes the maps anew when the target is another one. `covers`: the same in each call. */
 void splat_maps_follow(SplatMaps *maps, const Target *target, bool covers);
 
 void splat_maps_delete(SplatMaps *maps);

@@ -42,7 +42,8 @@ void splat_sprites_draw(SplatSprites *sprites, SplatSprite sprite, unsigned prog
 void splat_sprites_draw_points(SplatSprites *sprites, unsigned program, const ParticleBuffers *particles,
                                const Frame *frame, const CullList *list);
 
-/* State of passes whose sprites mix with what is there, by that equation, and know no depth buffer. */
+/* Sets the GL state of passes whose sprites are blended by `equation` with what is in the framebuffer,
+ * without depth test. */
 void splat_sprites_begin(unsigned framebuffer, const Frame *frame, unsigned equation);
 
 #endif

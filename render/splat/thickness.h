@@ -8,7 +8,7 @@
 #include "render/splat/splat_sprites.h"
 
 typedef struct Thickness {
-    unsigned target_number, cell;      /* made for that target, that many of its pixels a texel */
+    unsigned target_number, cell;      /* the target's number; pixels of the target along a texel */
     unsigned map, framebuffer;         /* R32F, m; linear filter */
     unsigned program[SPLAT_POINT + 1]; /* by sprite */
 } Thickness;

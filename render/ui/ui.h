@@ -82,14 +82,14 @@ typedef struct UiWindow {
 void ui_window_begin(Ui *ui, const UiWindow *window);
 void ui_window_end(Ui *ui);
 
-/* A heading over all: a click on it hides or shows what follows; whether to show it. */
+/* A heading over everything: a click hides or shows what follows. True: what follows is to be shown. */
 bool ui_title(Ui *ui, const char *text);
 void ui_text(Ui *ui, const char *text);    /* wrapped, as the next two */
 void ui_faint(Ui *ui, const char *text);   /* what matters less */
 void ui_warning(Ui *ui, const char *text); /* what matters more */
 void ui_gap(Ui *ui);                       /* half a line */
 
-/* A heading that shows or hides what follows; whether to show it. */
+/* A heading: a click hides or shows what follows. True: what follows is to be shown. */
 bool ui_section(Ui *ui, const char *name, bool open_at_start);
 
 /* A line of two columns; both wrap. */

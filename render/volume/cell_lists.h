@@ -8,7 +8,7 @@
 typedef struct CellLists {
     unsigned count, scan, place;         /* programs */
     unsigned starts, particles, scalars; /* buffers; the last where a scalar is carried */
-    size_t cells, capacity;              /* that they have */
+    size_t cells, capacity;              /* that the buffers have room for; the same of particles */
 } CellLists;
 
 /* The lists' size for a grid; their cells are at least `radius` cells of the grid wide. Returns how many a

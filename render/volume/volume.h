@@ -35,7 +35,7 @@ bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, Vol
 void volume_grid_crop(const VolumeGrid *whole, const double low[3], const double high[3], double support,
                       VolumeGrid *out);
 
-/* Makes volumes by one method, each in the place of the one before. */
+/* Makes volumes by one method; each new volume takes the place of the last. */
 typedef struct Voxelizer Voxelizer;
 
 /* With `scalar` volumes carry one. VOLUME_AUTO takes the fastest. NULL when the driver lacks what the method

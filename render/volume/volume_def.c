@@ -19,7 +19,7 @@ const VolumeDef volume_usual = {
     .cells = 128,
     .slice_axis = 2,
     .slice = 0.5,
-    .raycast = {.level = 0.5, /* the field of a fluid that ends at a plane, at that plane */
+    .raycast = {.level = 0.5, /* of a fluid that fills half the space the field at its plane surface */
                 .step = 1,
                 .threshold = 0.99, /* what is left is 2 of 255 */
                 .ramp = {0.35, 0.65},

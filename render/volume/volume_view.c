@@ -39,7 +39,7 @@ static ParticleBuffers space_of(const WorldDef *world)
     return space;
 }
 
-/* What no driver would take; what this one does not is found with it. */
+/* What no driver could draw. What the present driver cannot draw is found when the view is made. */
 static bool check(const Subject *subject, const char **key, Error *error)
 {
     const ParticleBuffers space = space_of(subject->world);
@@ -74,7 +74,8 @@ static bool create_raycast(VolumeView *view, const Subject *subject, Error *erro
     return view->casting != 0;
 }
 
-/* Fluids are carried where the picture has the colours of several, a scalar where it has that one's. */
+/* The volume carries the fluids where the picture has the colours of several, and a scalar where it has that
+ * scalar's colours. */
 static bool carries_fluids(const Subject *subject)
 {
     return volume_def(subject->def)->show == VOLUME_SHADED && subject->def->color_by == SCALAR_FLUID &&

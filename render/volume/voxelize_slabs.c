@@ -17,7 +17,7 @@ typedef struct Region {
 typedef struct Slabs {
     bool scalar;
     size_t capacity;         /* particles that there is room for */
-    float *position, *value; /* of those that count; the latter is the scalar */
+    float *position, *value; /* of particles inside the grid; `value` is their scalar */
     FieldSlabs slabs;
     size_t cells;            /* that there is room for */
     float *field, *weighted; /* values of the grid; the latter NULL without a scalar */

@@ -149,7 +149,7 @@ static float table_at(const WallDrag *drag, const Face *const faces[], int count
     return sum;
 }
 
-/* Faces - edges + corners; all, or those that the lid is one of. */
+/* Faces - edges + corners: all of them, or only those that the lid belongs to. */
 static float drag_sum(const WallDrag *drag, const float x[3], bool lid_only)
 {
     Face face[6];

@@ -9,7 +9,8 @@ typedef struct Images {
     float h2;
 } Images;
 
-/* Those of the first `from` in the wall across `axis` that stands at `wall`, d away on that side. */
+/* Mirrors the first `from` images in the wall across `axis` that stands at `wall`, d away from the point, on
+ * `side`. */
 static void mirror(Images *images, int from, int axis, float wall, float side, float d)
 {
     for (int k = 0; k < from; k++) {

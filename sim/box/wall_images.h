@@ -17,7 +17,8 @@ enum { IMAGES_MAX = 27 };
 
 typedef struct Image {
     float x[3];    /* m */
-    float sign[3]; /* of each axis: -1 in a mirror, else 1; velocities and forces have it too */
+    float sign[3]; /* of each axis: -1 where it is mirrored, else 1; velocities and forces take the same signs
+                    */
 } Image;
 
 /* The particle at x (box's frame, m, inside the box), then its images that see fluid within h: how many.

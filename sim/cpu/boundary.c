@@ -65,7 +65,7 @@ static void place_solids(const Place *place)
 void cpu_boundary_move(Cpu *cpu, const SolidStep *steps)
 {
     Place place = {.cpu = cpu};
-    bool moves = false; /* this one, or one before it, which may uncover it */
+    bool moves = false; /* this solid, or one before it, whose move may uncover particles of this one */
     for (int k = 0; k < cpu->constants->solid_count; k++) {
         cpu->solid[k] = steps[k];
         moves |= !steps[k].still;

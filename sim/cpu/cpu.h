@@ -23,10 +23,11 @@ typedef struct Cpu {
     uint32_t *order;                     /* by `grid`: old place of each new one */
     uint32_t *cell_start;                /* by `grid`: cells + 2; the last cell is for what is set aside */
     size_t gridded;                      /* by `grid`: how many it has seen */
-    uint32_t *owned_at;          /* by `grid`: where the fluids' particles stand; NULL without solids */
-    uint32_t *boundary_at;       /* and the solids' */
-    uint32_t *owned_before;      /* of each particle: how many of the fluids' stand before it; one more */
-    SolidStep solid[SOLIDS_MAX]; /* the last that they did: they are at its end */
+    uint32_t *owned_at;     /* by `grid`: where the fluids' particles stand; NULL without solids */
+    uint32_t *boundary_at;  /* and the solids' */
+    uint32_t *owned_before; /* of each particle: how many of the fluids' particles stand before it; one entry
+                               more, for all */
+    SolidStep solid[SOLIDS_MAX]; /* the last move of each: solids stand at the end of it */
     WorldSums *partial;          /* by `sums`: one a range */
     WorldGauge gauge;            /* by `gauge` */
     size_t bytes;                /* of all these */

@@ -6,7 +6,7 @@
 
 static const float ROOM = 0.9f; /* least distance to others, in spacings */
 
-/* Whether nobody is near: of those whom the grid has, and of those that came since. */
+/* Whether no particle is near x: neither of those in the grid, nor of those that came after it was made. */
 static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
 {
     const float least = ROOM * cpu->constants->spacing;

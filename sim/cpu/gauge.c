@@ -23,7 +23,7 @@ static void gauge_range(void *context, size_t begin, size_t end)
     }
 }
 
-/* Sums in an order that no thread count changes, in the memory that `sums` has for its own. */
+/* Sums in an order that does not depend on the number of threads, in the same memory as `sums`. */
 void cpu_energy(void *state, const double gravity[3], WorldGauge *gauge)
 {
     Cpu *cpu = state;

@@ -8,7 +8,8 @@
    near inside its high side is not. */
 bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance);
 
-/* The corners of the least block with faces along the axes around it, m; of a ball in two dimensions too. */
+/* The corners of the least block around the fill whose faces are along the axes, m; a ball in two dimensions
+ * has one too. */
 void fill_bounds(const Fill *fill, double low[3], double high[3]);
 
 /* m3, or in two dimensions m2. */

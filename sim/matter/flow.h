@@ -12,7 +12,7 @@ typedef struct EmitLayer {
     float *position; /* 3 a particle, box's frame, m */
     float velocity[3];
     int fluid;
-    uint32_t first_id; /* of those that find room, in the order given */
+    uint32_t first_id; /* particles that find room have ids from here on, in the order given */
 } EmitLayer;
 
 /* Layers that the emitter sends out in [begin, end) s: the first of them and how many. */

@@ -35,7 +35,8 @@ static double friction_weight(const Lattice *lattice, Friction friction, double 
                                              : morris;
 }
 
-/* Of the lattice's first `axes` axes: a thread, a film, all of it. Its density over that of rest. */
+/* Sites along the lattice's first `axes` axes: a thread, a film, or the whole lattice. Returns their density
+ * over that at rest. */
 static double sites_fill(Sites *sites, const Lattice *lattice, double spacing, Friction friction, int axes,
                          double h, const Kernel *summed)
 {

@@ -6,7 +6,8 @@
 
 enum {
     ARTIFICIAL, /* viscosity of the particle's fluid, Pa s */
-    RELATIVE,   /* rho / rho0 - 1 as diffusion reads it, while the continuity changes that of neighbours */
+    RELATIVE,   /* copy of the compression, for diffusion: the pass of continuity changes the column of
+                   neighbours meanwhile */
     SLOPE,      /* its gradient, 1/m */
     UNEVEN = SLOPE + 3, /* what shifting goes by: sum of F x_ij, 1/m4 */
     FULL = UNEVEN + 3,  /* of F r^2, 1/m3; then 0 to 1, how far from a surface */

@@ -34,7 +34,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
         const f8 ri = f8_splat(args->own[RELATIVE][i]), fi = f8_splat(args->kind[i]);
-        int solid = 0; /* it sees one */
+        int solid = 0; /* whether a boundary particle is in reach */
         f8 xx = f8_splat(0), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx, bx = xx, by = xx, bz = xx;
 
         rows_of(args, args->cell[i], &rows);

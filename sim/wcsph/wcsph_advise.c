@@ -28,7 +28,8 @@ static void advise_kernel(const MethodAdvice *advice)
             def->support, kernel->name, lattice.neighbours);
 }
 
-/* Whether the scene chose an alpha, and has no fluid that it is for. */
+/* Whether the scene chose an alpha, though each of its fluids has a viscosity, which takes the place of
+ * alpha. */
 static bool alpha_in_vain(const MethodAdvice *advice)
 {
     const WorldDef *def = advice->def;
@@ -40,7 +41,7 @@ static bool alpha_in_vain(const MethodAdvice *advice)
     return in_vain;
 }
 
-/* Where that is half of the friction before, or less, or the other one was chosen. */
+/* Says where a viscosity gives less than half the friction of alpha, or alpha was chosen in vain. */
 static void advise_artificial(const MethodAdvice *advice)
 {
     const WorldDef *def = advice->def;

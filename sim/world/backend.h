@@ -31,12 +31,13 @@ typedef struct Backend {
     void (*destroy)(void *state);
     /* After constants_change; false with the reason when what its new terms need is not to be had. */
     bool (*adapt)(void *state, Error *error);
-    /* After constants_vary: the viscosities, and nothing else of it, are others. NULL: it reads them there.
-     */
+    /* After constants_vary: of the constants only the viscosities have changed. NULL: the backend reads them
+       there in each pass. */
     void (*vary)(void *state);
-    /* Reads its shaders again; false: those before stay. NULL: it has none. */
+    /* Reads its shaders again; false: the shaders of before stay. NULL: it has no shaders. */
     bool (*reload)(void *state, Error *error);
-    /* Puts the solids there: `pose` has one for each. For a world with solids, before all else. */
+    /* Puts the solids into their poses, one pose a solid. In a world with solids this comes before all else.
+     */
     void (*pose)(void *state, const SolidPose *pose);
     /* Free flight over `step`, then the last guard of walls and solids, which come to their end poses. */
     void (*drift)(void *state, const BoxStep *step);
@@ -48,9 +49,9 @@ typedef struct Backend {
     void (*kick)(void *state, const float gravity[3], float dt);
     /* What the kicks since the last call or `load` found; waits for them. */
     StepWatch (*watch)(void *state);
-    /* Gives what the guides hold their velocities. */
+    /* Gives the particles in each guide the guide's velocity. */
     void (*guide)(void *state, const Guide *guides, int count);
-    void (*sums)(void *state, WorldSums *sums); /* all of it but nothing that needs the box's pose */
+    void (*sums)(void *state, WorldSums *sums);           /* all members but those that need the box's pose */
     bool (*read)(void *state, const ParticleArrays *out); /* false when memory is short */
     /* Begins to gather what sim/world/gauge.h says, with the gravity in the box's frame, m/s2; false when it
        cannot. Then whether it has come, without waiting: sums of the gauge, the mean divided. */

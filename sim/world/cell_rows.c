@@ -1,6 +1,6 @@
 #include "sim/world/cell_rows.h"
 
-/* The cell at `place` along one axis, where it is none of the box's own: across a periodic side. */
+/* The cell at `place` along one axis, for a place outside the box: across a periodic side. */
 static int across(const Constants *s, int k, int place, float *shift)
 {
     const int cells = s->cells.size[k] - 2;

@@ -10,7 +10,7 @@ static const double GAIN = 0.1, STEPS = 200;
 static const double EVERY = 8, FASTER = 1.2;
 
 static const double STILL = 1e-6;      /* m/s, rad/s: a hand at rest comes to its place as a spring does */
-static const double COMPRESSED = 0.01; /* of density: energy that is always there to play with */
+static const double COMPRESSED = 0.01; /* its energy is part of what a gain is compared with */
 
 static bool box_still(const BoxState *box)
 {

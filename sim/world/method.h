@@ -22,7 +22,7 @@ typedef struct Pass {
     const struct CpuPass *cpu;
     const char *shader; /* shaders/sim/SHADER.comp; NULL: backends that need one have no such method */
     const char *reads, *writes;                        /* names of columns, blanks between them */
-    bool (*needed)(const struct Constants *constants); /* NULL: always; else only then it is run */
+    bool (*needed)(const struct Constants *constants); /* whether the pass is run; NULL: always */
 } Pass;
 
 /* What a pass may want to know of the step. */

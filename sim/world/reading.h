@@ -15,7 +15,7 @@ typedef struct WorldTrouble {
     unsigned count; /* in all */
     StepTrouble what;
     double time;        /* when it was found, s */
-    double back_to;     /* the state that it went back to, s */
+    double back_to;     /* time of the state that the world went back to, s */
     int tries, retries; /* halvings in force, and how many there may be */
 } WorldTrouble;
 
@@ -25,8 +25,8 @@ typedef struct WorldInfo {
     uint64_t step;                      /* substeps since the start */
     size_t count, capacity;             /* particles; as many as emitters may fill it up to */
     uint64_t emitted, drained;          /* of them, since the start */
-    bool full;                          /* emitters wait: there are as many as there may be */
-    int threads;                        /* that the backend uses */
+    bool full;                          /* emitters wait: the world has as many particles as it may have */
+    int threads;                        /* in use by the backend */
     double support_radius;              /* h, m */
     double spacing;                     /* m */
     double box_size[3];                 /* m */

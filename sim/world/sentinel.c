@@ -47,7 +47,7 @@ static void restore(World *world)
     world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
     world->filter = numbers->filter;
     world->box = numbers->box;
-    if (world->energy.until > 0) /* else forgotten since, by a change that stays */
+    if (world->energy.until > 0) /* 0: forgotten since then, by a change that going back does not undo */
         world->energy = numbers->energy;
     world->stepping.max_speed = numbers->stepping.max_speed;
     world->stepping.max_acceleration = numbers->stepping.max_acceleration;

@@ -76,7 +76,7 @@ void world_sums(World *world, WorldSums *sums);
  */
 void world_gauge_ask(World *world);
 
-/* True once for each time that it was asked for, as soon as it has come; never waits. On the CPU at once. */
+/* True once for each question, as soon as its answer has come; never waits. On the CPU it comes at once. */
 bool world_gauge(World *world, WorldGauge *gauge);
 
 /* False, and nothing of use in the arrays, when memory is short. */

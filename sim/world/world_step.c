@@ -164,7 +164,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
         step->gravity[k] = (float)gravity[k];
 }
 
-/* The size of the next step; where it is another than the last one's, the time counts on from here. */
+/* The size of the next step. Where it differs from the last step's, time counts on from here. */
 static void choose_step(World *world)
 {
     const WorldDef *def = &world->def;

@@ -37,7 +37,7 @@ struct World {
 /* Makes the backend's state from the def's initial state or fills, with constants that are there. */
 bool world_start(World *world, Error *error);
 
-/* Lets fluid in that emitters send out in the step ahead, and out where it drains. */
+/* Adds the fluid that emitters send out in the step ahead, and takes fluid out of the drains. */
 void world_flow(World *world);
 
 /* What follows from the particles alone: the solids' places, grid, densities. */
@@ -46,7 +46,7 @@ void world_settle(World *world);
 /* Particles that the backend has got back or taken: how many, and all that follows from them. */
 void world_put_back(World *world, const WorldNumbers *numbers, size_t count);
 
-/* Viscosities that are tables are those of `time` (s) from here on. */
+/* From here on a viscosity that is a table has its value at `time` (s). */
 void world_vary(World *world, double time);
 
 /* s, of a step by its number, as far as the present step size holds. */

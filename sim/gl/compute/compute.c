@@ -120,7 +120,7 @@ unsigned compute_program(const Compute *c, ComputePass pass, const char *defines
     return program_create(name, (const char *const[]){path, NULL}, defines, error);
 }
 
-/* Whether the programs are to have it: by the scene's terms, or since somebody asked for it. */
+/* Whether the pass needs a program: the scene's terms need the pass, or somebody has asked for it. */
 static bool pass_wanted(const Compute *c, ComputePass pass)
 {
     if (pass >= COMPUTE_METHOD) {

@@ -118,7 +118,7 @@ typedef struct Compute {
                                           need */
 } Compute;
 
-/* Compiles one pass with such lines before it; 0 with the reason. */
+/* Compiles one pass with the lines `defines` in front of its source; 0 with the reason. */
 unsigned compute_program(const Compute *compute, ComputePass pass, const char *defines, Error *error);
 
 /* Where a pass of the method stands. */
@@ -210,7 +210,7 @@ bool compute_boundary_create(Compute *compute);
 void compute_boundary_destroy(Compute *compute);
 void compute_boundary_bind(const Compute *compute);
 void compute_boundary_move(Compute *compute, const SolidStep *steps);
-void compute_boundary_grid(Compute *compute); /* sorts them where they have moved */
+void compute_boundary_grid(Compute *compute); /* sorts boundary particles after they have moved */
 void compute_boundary_fill(const Compute *compute);
 
 void compute_flow_create(Compute *compute);

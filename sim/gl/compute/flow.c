@@ -112,7 +112,7 @@ void compute_guide(void *state, const Guide *guides, int count)
     compute_sweep(c, COMPUTE_GUIDE, c->count);
 }
 
-/* The least float that is not below: a float is below the one where it is below the other. */
+/* The least float not below `bound`: any float is below the result exactly where it is below `bound`. */
 static float not_below(double bound)
 {
     const float near = (float)fmax(-3e38, fmin(bound, 3e38));

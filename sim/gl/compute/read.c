@@ -17,7 +17,8 @@ bool compute_read(void *state, const ParticleArrays *out)
     return true;
 }
 
-/* Others with r < h, of those that the last grid shows next to `cell`, where it had particle i. */
+/* How many other particles have r < h, among those that the last grid has in and around `cell`; it had
+ * particle i there. */
 static size_t neighbours_of(const Constants *s, const ParticleColumns *p, const uint32_t *start, size_t cell,
                             size_t i)
 {

@@ -182,7 +182,7 @@ static size_t neighbours_of_cell(const Fragment *f, const ParticleColumns *p, co
     return sum;
 }
 
-/* Of those that the buckets show: a particle without a place has no neighbours, and is nobody's. */
+/* Counts what the buckets hold: a particle without a place has no neighbours, and is no neighbour. */
 static double neighbours_mean(const Fragment *f, const ParticleColumns *p)
 {
     uint32_t *places = fragment_buckets_read(f);
