@@ -25,7 +25,7 @@ static void run_range(void *context, size_t begin, size_t end)
 void cpu_run_pass(void *state, const Pass *pass, const PassInput *input)
 {
     Cpu *cpu = state;
-    const bool mirrors = pass->cpu->mirrors && cpu->boundary_at;
+    const bool mirrors = pass->mirrors && cpu->boundary_at;
     if (mirrors)
         cpu_boundary_fill(cpu, input->apparent);
     for (const CpuLoop *loop = pass->cpu->loops; loop->body; loop++) {

@@ -21,7 +21,6 @@ typedef struct CpuLoop {
 
 typedef struct CpuPass {
     CpuLoop loops[3]; /* ended by one without a body */
-    bool mirrors;     /* the particles of solids stand for the fluid next to them meanwhile */
 } CpuPass;
 
 /* The pair sums of a range. */

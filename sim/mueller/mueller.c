@@ -32,6 +32,11 @@ static StepFriction mueller_friction(const WorldDef *def, const Lattice *lattice
                                             def->support * def->spacing, mueller_kernels(def).density)};
 }
 
+static float mueller_pressure(const Constants *constants, int fluid, float x)
+{
+    return mueller_state(constants, fluid, x / constants->stiffness_scale);
+}
+
 /* Of p = c^2 (rho - rho0); small x keep their digits. */
 static double mueller_energy(double x)
 {
@@ -69,6 +74,7 @@ const Method method_mueller = {
     .def_size = sizeof usual,
     .kernels = mueller_kernels,
     .friction = mueller_friction,
+    .pressure = mueller_pressure,
     .energy = mueller_energy,
     .advise = mueller_advise,
     .columns = mueller_columns,

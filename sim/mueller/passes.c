@@ -6,15 +6,14 @@
 PAIR_LOOPS(mueller_density);
 PAIR_LOOPS(mueller_force);
 
-/* p = c^2 (rho - rho0), Müller 2003, eq. 12, with rho as cpu_read gives it; the sum of the pairs stands in
-   `volume`. */
+/* The sum of the pairs stands in `volume`. */
 static void finish_density(Cpu *cpu, size_t i)
 {
     const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]};
     const float n = p->volume[i] + walls_number_density(&s->walls, x);
-    const float pressure = s->stiffness[p->fluid[i]] * (n / s->rest_number_density - 1);
+    const float pressure = mueller_state(s, p->fluid[i], n / s->rest_number_density - 1);
 
     p->volume[i] = 1 / n;
     p->pressure[i] = s->negative_pressure ? pressure : fmaxf(pressure, 0);
@@ -76,7 +75,7 @@ static void force_body(const CpuRange *range)
 }
 
 static const CpuPass density = {.loops = {{density_body, CPU_GRAIN}}};
-static const CpuPass force = {.loops = {{force_body, CPU_GRAIN}}, .mirrors = true};
+static const CpuPass force = {.loops = {{force_body, CPU_GRAIN}}};
 
 const Pass mueller_densities = {
     .name = "density",
@@ -94,6 +93,7 @@ const Pass mueller_forces = {
     .shader = "mueller/force",
     .reads = "position velocity id fluid volume pressure pressure_term viscosity tension kind",
     .writes = "acceleration",
+    .mirrors = true,
 };
 
 static bool many_viscous(const Constants *constants)

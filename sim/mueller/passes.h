@@ -4,6 +4,12 @@
 
 #include "sim/cpu/pass.h"
 
+/* The equation of state, p = c^2 (rho - rho0), of n / n0 - 1: Müller 2003, eq. 12. */
+static inline float mueller_state(const Constants *constants, int fluid, float crowded)
+{
+    return constants->stiffness[fluid] * crowded;
+}
+
 /* Number density, volume and pressure of every particle: Müller 2003, eq. 3 and 12. */
 extern const Pass mueller_densities;
 

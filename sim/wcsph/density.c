@@ -5,12 +5,6 @@ PAIR_LOOPS(wcsph_slope);
 PAIR_LOOPS(wcsph_rate);
 PAIR_LOOPS(wcsph_images_rate);
 
-/* p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1: its powers, without the difference. */
-static float wcsph_tait(float b, float e)
-{
-    return b * e * (7 + e * (21 + e * (35 + e * (35 + e * (21 + e * (7 + e))))));
-}
-
 /* Pressure, and V = V0 rho0 / rho. */
 static void state_body(const CpuRange *range)
 {
@@ -23,7 +17,7 @@ static void state_body(const CpuRange *range)
             cpu_boundary_terms(cpu, i);
             continue;
         }
-        const float e = p->compression[i], pressure = wcsph_tait(s->tait[fluid], e);
+        const float e = p->compression[i], pressure = wcsph_state_of(s, fluid, e);
         p->volume[i] = 1 / ((1 + e) * s->rest_number_density);
         p->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
         p->pressure_term[i] = p->pressure[i] * p->volume[i] * p->volume[i];

@@ -33,13 +33,14 @@ static void force_body(const CpuRange *range)
     cpu_force_end(range);
 }
 
-static const CpuPass force = {.loops = {{force_body, CPU_GRAIN}}, .mirrors = true};
+static const CpuPass force = {.loops = {{force_body, CPU_GRAIN}}};
 
 const Pass wcsph_forces = {
     .name = "force",
     .stage = STAGE_FORCE,
     .cpu = &force,
     .shader = "wcsph/force",
-    .reads = "position velocity id fluid volume pressure_term viscosity artificial tension kind",
+    .reads = "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind",
     .writes = "acceleration uneven full dense",
+    .mirrors = true,
 };

@@ -47,7 +47,8 @@ static StepFriction wcsph_friction(const WorldDef *def, const Lattice *lattice)
     const double h = def->support * def->spacing;
     const Friction form = own->viscosity_form == VISCOSITY_RADIAL ? FRICTION_RADIAL : FRICTION_MORRIS;
     StepFriction friction = {.laminar = friction_rate(lattice, def->spacing, form, h, NULL),
-                             .alpha = own->artificial_viscosity};
+                             .alpha = own->artificial_viscosity,
+                             .walls = form == FRICTION_RADIAL ? DRAG_RADIAL : DRAG_MORRIS};
     if (own->artificial_viscosity > 0)
         friction.artificial = friction_rate(lattice, def->spacing, FRICTION_ARTIFICIAL, h, NULL);
     return friction;
@@ -138,6 +139,7 @@ const Method method_wcsph = {
     .check = wcsph_check,
     .kernels = wcsph_kernels_of,
     .friction = wcsph_friction,
+    .pressure = wcsph_state_of,
     .energy = wcsph_energy,
     .constants = wcsph_constants,
     .advise = wcsph_advise,

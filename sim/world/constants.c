@@ -231,11 +231,6 @@ static void own_set(Constants *constants, const WorldDef *def)
         method->constants(constants, def);
 }
 
-static DragWeight drag_weight_of(const Constants *constants)
-{
-    return !constants->continuity ? DRAG_LAPLACIAN : constants->radial > 0 ? DRAG_RADIAL : DRAG_MORRIS;
-}
-
 /* The tables of what the walls do, as far as the def needs them and they are not there. */
 static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
 {
@@ -244,7 +239,7 @@ static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
         needed |= def->wall_slip == SLIP_NONE && fluid_viscosity_most(&def->fluids[f]) > 0;
     if (!needed || constants->drag.table[0] ||
         wall_drag_create(&constants->drag, def->box_size, def->periodic, def->spacing,
-                         def->support * def->spacing, &constants->lattice, drag_weight_of(constants)))
+                         def->support * def->spacing, &constants->lattice, constants->friction.walls))
         return true;
     return error_set(error, "no memory for the friction of the walls");
 }
@@ -268,7 +263,7 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     memset(constants, 0, sizeof *constants);
     const double h = def->support * def->spacing;
     const Method *method = method_find(def->method);
-    const MethodKernels kernels = method->kernels(def);
+    const MethodKernels kernels = method_kernels(def);
     const Kernel *kernel = kernels.density;
     if (!kernel)
         return error_set(error, "unknown kernel; `slosh info` lists them");

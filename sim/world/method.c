@@ -33,6 +33,13 @@ const Method *method_find(const char *name)
     return NULL;
 }
 
+MethodKernels method_kernels(const WorldDef *def)
+{
+    const Method *method = method_find(def->method);
+    const Kernel *spiky = density_kernel_find("spiky");
+    return method->kernels ? method->kernels(def) : (MethodKernels){spiky, spiky};
+}
+
 void *method_def(const WorldDef *def, const Method *method)
 {
     int at = 0;

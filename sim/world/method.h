@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "sim/base/key.h"
 #include "sim/base/stage.h"
+#include "sim/box/wall_drag.h"
 #include "sim/kernel/kernel.h"
 #include "sim/kernel/lattice.h"
 #include "sim/matter/world_def.h"
@@ -22,6 +23,7 @@ typedef struct Pass {
     const struct CpuPass *cpu;
     const char *shader; /* shaders/sim/SHADER.comp; NULL: backends that need one have no such method */
     const char *reads, *writes;                        /* names of columns, blanks between them */
+    bool mirrors;                                      /* meanwhile the particles of solids stand for fluid */
     bool (*needed)(const struct Constants *constants); /* whether the pass is run; NULL: always */
 } Pass;
 
@@ -40,6 +42,7 @@ typedef struct MethodKernels {
 typedef struct StepFriction {
     double laminar, artificial; /* the latter 0 where the def has none */
     double alpha;               /* of the artificial viscosity */
+    DragWeight walls;           /* how walls that hold fluid weigh theirs */
 } StepFriction;
 
 /* Where a method says what of a scene will not hold or has no effect, though nothing in it is wrong. */
@@ -63,10 +66,11 @@ typedef struct Method {
                              tables */
     /* False with the reason: a setting is not in order, whichever the method. */
     bool (*check)(const WorldDef *def, Error *error);
-    MethodKernels (*kernels)(const WorldDef *def);
+    MethodKernels (*kernels)(const WorldDef *def);                         /* NULL: spiky for both */
     StepFriction (*friction)(const WorldDef *def, const Lattice *lattice); /* NULL: it has none */
-    /* Energy of compression over m c^2, of x = rho / rho0 - 1: the integral of p / rho^2. NULL: it has none.
-     */
+    /* Of x = rho / rho0 - 1: pressure, Pa; energy of compression over m c^2, the integral of p / rho^2. Both
+       NULL: it has none. */
+    float (*pressure)(const struct Constants *constants, int fluid, float x);
     double (*energy)(double x);
     /* Its own part of the constants, behind all others; again when what is live has changed. NULL: none. */
     void (*constants)(struct Constants *constants, const WorldDef *def);
@@ -85,6 +89,9 @@ void method_add(const Method *method);
 
 /* NULL when there is none of that name. */
 const Method *method_find(const char *name);
+
+/* Of the def's method; NULL for a kernel of an unknown name. */
+MethodKernels method_kernels(const WorldDef *def);
 
 /* The method's own settings in a def; not const, as memchr's result is not. NULL where the method is not in
  * the list. */

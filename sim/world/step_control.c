@@ -38,7 +38,7 @@ StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel)
 StepFriction step_friction(const WorldDef *def)
 {
     const Method *method = method_find(def->method);
-    const MethodKernels kernels = method->kernels(def);
+    const MethodKernels kernels = method_kernels(def);
     Lattice lattice;
     lattice_calibrate(def->dimensions, def->spacing, def->support * def->spacing, kernels.density,
                       kernels.slope, &lattice);

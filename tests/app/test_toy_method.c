@@ -45,7 +45,7 @@ static void goes_on_from_a_file(const char *backend)
     Error error = {{0}};
     WorldState last = {.count = 0};
     bool busy;
-    toy_add();
+    method_add(&toy);
     assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
     snprintf(scene.world.backend, sizeof scene.world.backend, "%s", backend);
     scene.world.reproducible = true;
@@ -87,7 +87,7 @@ static void a_file_without_its_column_is_refused(void **state)
     Error error = {{0}};
     WorldState last = {.count = 0};
     bool busy;
-    toy_add();
+    method_add(&toy);
     assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
     write_file(&scene);
     const hid_t edit = H5Fopen("a.h5part", H5F_ACC_RDWR, H5P_DEFAULT);
@@ -104,7 +104,7 @@ static void a_gpu_has_no_such_method(void **state)
     (void)state;
     static Scene scene;
     Error error = {{0}};
-    toy_add();
+    method_add(&toy);
     backends_add();
     assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
     assert_true(world_can(&scene.world, &error));

@@ -129,7 +129,7 @@ static void it_goes_back(void **state)
 
 static int setup(void **state)
 {
-    toy_add();
+    method_add(&toy);
     toy_shaders_add();
     return compare_setup(state);
 }

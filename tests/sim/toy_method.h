@@ -18,8 +18,11 @@ static void body(const CpuRange *range)
 }
 
 static const CpuPass on_cpu = {.loops = {{body, CPU_GRAIN}}};
-static const Pass spring = {
-    .name = "spring", .cpu = &on_cpu, .shader = "toy/spring", .reads = "position", .writes = "age volume"};
+static const Pass spring = {.name = "spring",
+                            .cpu = &on_cpu,
+                            .shader = "toy/spring",
+                            .reads = "position id age",
+                            .writes = "age stiffness volume acceleration"};
 enum { KEPT = COLUMN_SAVED | COLUMN_SORTED };
 static const ColumnDef columns[] = {{"age", "s", COLUMN_OWN(0), 1, .flags = KEPT},
                                     {"stiffness", "1/s2", COLUMN_OWN(1), 1, .flags = COLUMN_SHADERS},
@@ -40,12 +43,5 @@ static Method toy = {.name = "toy",
                      .passes = (const Pass *const[]){&spring, NULL},
                      .settle = &spring,
                      .substep = substep};
-
-/* Its kernels are Müller's. */
-static inline void toy_add(void)
-{
-    toy.kernels = method_find("mueller")->kernels;
-    method_add(&toy);
-}
 
 #endif

@@ -4,7 +4,6 @@
 #include "shaders/sim/bindings.h"
 
 #include <epoxy/gl.h>
-#include <string.h>
 
 void compute_bind(const unsigned *buffers, int count)
 {
@@ -40,13 +39,6 @@ void compute_drift(void *state, const BoxStep *step)
     compute_sweep(c, COMPUTE_DRIFT, c->count);
 }
 
-/* Whether the boundary particles are to stand for the fluid next to them: who reads this column reads theirs.
- */
-static bool meets_boundary(const Compute *c, const Pass *pass)
-{
-    return c->constants->solid_count > 0 && strstr(pass->reads, "pressure_term");
-}
-
 void compute_pass(void *state, const Pass *pass, const PassInput *input)
 {
     Compute *c = state;
@@ -55,7 +47,7 @@ void compute_pass(void *state, const Pass *pass, const PassInput *input)
         glProgramUniform1f(c->program[at], PASS_DT_AT, input->dt);
     if (pass->stage == STAGE_FORCE && input->apparent)
         compute_set_force(c, input->apparent);
-    if (meets_boundary(c, pass))
+    if (pass->mirrors && c->constants->solid_count > 0)
         compute_boundary_fill(c);
     compute_sweep(c, at, c->count);
 }
