@@ -7,6 +7,7 @@
 #define STEP_BLOCK         2
 #define TERM_BLOCK         3
 #define WATCH_BLOCK        4
+#define METHOD_BLOCK       5 /* the method's own: its folder has it */
 #define SOLID_STEPS_BLOCK  6
 #define FLOW_BLOCK         7
 #define EXACT_SHAPES_BLOCK 8
@@ -21,9 +22,7 @@
 #define WALLS_BUFFER      7
 
 #define WATCH_BUFFER         2 /* of those that write it */
-#define SLOPES_BUFFER        5
 #define ACCELERATIONS_BUFFER 5
-#define UNEVENS_BUFFER       6
 #define DRAG_BUFFER          6
 #define RESTS_BUFFER         7
 

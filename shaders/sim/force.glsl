@@ -12,14 +12,16 @@ layout(std430, binding = ACCELERATIONS_BUFFER) writeonly buffer Accelerations { 
 
 // What a pair takes of one of the two.
 struct Side {
-    float pressure, volume, viscosity, artificial; // pressure: p V^2
+    float pressure, volume, viscosity, extra; // pressure: p V^2
     vec3 v;
 };
+
+float extra_of(uint fluid); // the method's: what else of a fluid its pairs want; solids have 0
 
 Side side_of(uint i, float volume)
 {
     uint fluid = name[i].y;
-    return Side(pressure[i].y, volume, fluids[fluid].viscosity, fluid_terms[fluid].artificial_viscosity, velocity[i].xyz);
+    return Side(pressure[i].y, volume, fluids[fluid].viscosity, extra_of(fluid), velocity[i].xyz);
 }
 
 vec3 pair_force(Side own, Side other, vec3 d, float r2); // the method's: on `own`, which is d from `other`

@@ -3,7 +3,7 @@
 // Energy of compression over m c^2, of x = rho / rho0 - 1.
 float gauge_compression_energy(float x)
 {
-#ifdef CONTINUITY
+#ifdef CARRIES_DENSITY
     return x * x * (2.5 + x * (10.0 / 3.0 + x * (2.5 + x * (1.0 + x / 6.0))) + 1.0 / (1.0 + x)) / 7.0;
 #else
     if (abs(x) > 0.1)

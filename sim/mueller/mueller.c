@@ -8,6 +8,7 @@
 #include "sim/world/substep.h"
 
 #include <math.h>
+#include <string.h>
 
 static const MuellerDef usual = {
     .density_kernel = "spiky", /* the paper's poly6 heats the fluid: see docs/methods.md */
@@ -24,6 +25,19 @@ static MethodKernels mueller_kernels(const WorldDef *def)
     return (MethodKernels){density_kernel_find(mueller_def(def)->density_kernel),
                            density_kernel_find("spiky")};
 }
+
+static void mueller_set(Constants *constants, const WorldDef *def)
+{
+    const MuellerConstants own = {.poly6 = mueller_kernels(def).density->value == kernel_poly6};
+    memcpy(constants->of_method, &own, sizeof own);
+}
+
+static bool sums_poly6(const Constants *constants)
+{
+    return mueller_constants(constants)->poly6;
+}
+
+static const ShaderTerm terms[] = {{"POLY6", sums_poly6}, {0}};
 
 static StepFriction mueller_friction(const WorldDef *def, const Lattice *lattice)
 {
@@ -76,9 +90,11 @@ const Method method_mueller = {
     .friction = mueller_friction,
     .pressure = mueller_pressure,
     .energy = mueller_energy,
+    .constants = mueller_set,
     .advise = mueller_advise,
     .columns = mueller_columns,
     .passes = passes,
+    .terms = terms,
     .settle = &mueller_densities,
     .substep = mueller_substep,
 };

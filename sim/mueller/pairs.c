@@ -1,5 +1,6 @@
 /* The pair sums of mueller. */
 #include "sim/cpu/pair_loop.h"
+#include "sim/mueller/passes.h"
 
 /* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). poly6 = (1 - q^2)^3, spiky = (1 - q)^3; the
    scale comes last. */
@@ -26,7 +27,7 @@ SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, c
 
 PAIR_LOOP(mueller_density)
 {
-    if (args->constants->poly6)
+    if (mueller_constants(args->constants)->poly6)
         density_range(args, begin, end, true);
     else
         density_range(args, begin, end, false);

@@ -4,6 +4,16 @@
 
 #include "sim/cpu/pass.h"
 
+/* What a def means in numbers for mueller alone. */
+typedef struct MuellerConstants {
+    bool poly6; /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
+} MuellerConstants;
+
+static inline const MuellerConstants *mueller_constants(const Constants *constants)
+{
+    return (const MuellerConstants *)(const void *)constants->of_method;
+}
+
 /* The equation of state, p = c^2 (rho - rho0), of n / n0 - 1: Müller 2003, eq. 12. */
 static inline float mueller_state(const Constants *constants, int fluid, float crowded)
 {

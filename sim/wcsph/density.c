@@ -10,6 +10,7 @@ static void state_body(const CpuRange *range)
 {
     Cpu *cpu = range->cpu;
     const Constants *s = cpu->constants;
+    const WcsphBlock *own = wcsph_constants(s);
     const CpuParticles *p = &cpu->now;
     for (size_t i = range->begin; i < range->end; i++) {
         const int fluid = p->fluid[i];
@@ -24,7 +25,7 @@ static void state_body(const CpuRange *range)
         if (p->own[RELATIVE])
             p->own[RELATIVE][i] = e;
         if (p->own[ARTIFICIAL])
-            p->own[ARTIFICIAL][i] = s->artificial_viscosity[fluid];
+            p->own[ARTIFICIAL][i] = own->wcsph_fluids[fluid].artificial_viscosity;
         cpu_fill_terms(cpu, i);
     }
 }
@@ -63,11 +64,6 @@ const Pass wcsph_state = {
     .writes = "volume pressure pressure_term relative kind viscosity artificial tension",
 };
 
-static bool diffuses(const Constants *constants)
-{
-    return constants->diffusion > 0;
-}
-
 const Pass wcsph_gradient = {
     .name = "slope",
     .stage = STAGE_DENSITY,
@@ -75,7 +71,7 @@ const Pass wcsph_gradient = {
     .shader = "wcsph/slope",
     .reads = "position fluid compression",
     .writes = "volume pressure pressure_term relative kind viscosity artificial tension slope",
-    .needed = diffuses,
+    .needed = wcsph_diffuses,
 };
 
 const Pass wcsph_continuity = {

@@ -4,9 +4,10 @@
 
 #include "sim/cpu/pair_loop.h"
 #include "sim/wcsph/columns.h"
+#include "sim/wcsph/constants.h"
 
 /* f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q); of the quintic's powers of
-   3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient` takes care of. */
+   3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient_scale` takes care of. */
 SIMD_INLINE f8 shape(f8 q, const ShapeKernel kernel)
 {
     const f8 one = f8_splat(1), zero = f8_splat(0), t = one - q;
@@ -35,9 +36,9 @@ SIMD_INLINE f8 height(f8 q, const ShapeKernel kernel)
 /* `body(args, begin, end, kernel)` with the kernel as a constant, so that each has a loop of its own. */
 #define FOR_KERNEL(args, begin, end, body)                                                                   \
     do {                                                                                                     \
-        if ((args)->constants->kernel == KERNEL_WENDLAND_C2)                                                 \
+        if (wcsph_constants((args)->constants)->kernel_shape == KERNEL_WENDLAND_C2)                          \
             body(args, begin, end, KERNEL_WENDLAND_C2);                                                      \
-        else if ((args)->constants->kernel == KERNEL_QUINTIC)                                                \
+        else if (wcsph_constants((args)->constants)->kernel_shape == KERNEL_QUINTIC)                         \
             body(args, begin, end, KERNEL_QUINTIC);                                                          \
         else                                                                                                 \
             body(args, begin, end, KERNEL_CUBIC);                                                            \

@@ -25,9 +25,10 @@ static void renormalise(const float m[6], const float b[3], float out[3])
 SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
+    const WcsphBlock *w = wcsph_constants(s);
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const float scale = s->gradient / s->rest_number_density; /* m is 1 in the lattice */
+    const float scale = w->gradient_scale / s->rest_number_density; /* m is 1 in the lattice */
     const f8 first_solid = f8_splat(FLUIDS_MAX);
     Rows rows = ROWS_NONE;
 
@@ -71,9 +72,10 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
                             const bool diffusive)
 {
     const Constants *s = args->constants;
+    const WcsphBlock *w = wcsph_constants(s);
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const f8 diffusion = f8_splat(s->diffusion), half = f8_splat(0.5f);
+    const f8 diffusion = f8_splat(w->diffusion), half = f8_splat(0.5f);
     Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
@@ -104,7 +106,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
             }
             sum += f8_masked(near, f * flow);
         }
-        args->fx[i] = -s->gradient * f8_sum(sum);
+        args->fx[i] = -w->gradient_scale * f8_sum(sum);
     }
 }
 
@@ -115,9 +117,10 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
                              const bool viscous, const bool radial, const bool artificial, const bool shifts)
 {
     const Constants *s = args->constants;
+    const WcsphBlock *w = wcsph_constants(s);
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const f8 soft = f8_splat(h * h / 400), scale = f8_splat(s->radial);
+    const f8 soft = f8_splat(h * h / 400), scale = f8_splat(w->radial_friction);
     Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
@@ -168,14 +171,14 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
             fy += push * d.y;
             fz += push * d.z;
         }
-        args->fx[i] = s->gradient * f8_sum(fx);
-        args->fy[i] = s->gradient * f8_sum(fy);
-        args->fz[i] = s->gradient * f8_sum(fz);
+        args->fx[i] = w->gradient_scale * f8_sum(fx);
+        args->fy[i] = w->gradient_scale * f8_sum(fy);
+        args->fz[i] = w->gradient_scale * f8_sum(fz);
         if (shifts) {
-            args->own[UNEVEN][i] = s->gradient * f8_sum(ex);
-            args->own[UNEVEN + 1][i] = s->gradient * f8_sum(ey);
-            args->own[UNEVEN + 2][i] = s->gradient * f8_sum(ez);
-            args->own[FULL][i] = s->gradient * f8_sum(full);
+            args->own[UNEVEN][i] = w->gradient_scale * f8_sum(ex);
+            args->own[UNEVEN + 1][i] = w->gradient_scale * f8_sum(ey);
+            args->own[UNEVEN + 2][i] = w->gradient_scale * f8_sum(ez);
+            args->own[FULL][i] = w->gradient_scale * f8_sum(full);
             args->own[DENSE][i] = s->kernel_scale * (1 + f8_sum(dense));
         }
     }
@@ -192,7 +195,7 @@ SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const S
 SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                               const bool artificial, const bool shifts)
 {
-    if (args->viscosity && args->constants->radial > 0)
+    if (args->viscosity && wcsph_constants(args->constants)->radial_friction > 0)
         wcsph_range(args, begin, end, kernel, true, true, artificial, shifts);
     else if (args->viscosity)
         wcsph_range(args, begin, end, kernel, true, false, artificial, shifts);

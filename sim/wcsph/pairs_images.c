@@ -115,22 +115,24 @@ SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, c
                            const bool shifts)
 {
     const Constants *s = args->constants;
+    const WcsphBlock *w = wcsph_constants(s);
     const float *sign = image->sign;
-    args->fx[i] += sign[0] * s->gradient * f8_sum(found.fx);
-    args->fy[i] += sign[1] * s->gradient * f8_sum(found.fy);
-    args->fz[i] += sign[2] * s->gradient * f8_sum(found.fz);
+    args->fx[i] += sign[0] * w->gradient_scale * f8_sum(found.fx);
+    args->fy[i] += sign[1] * w->gradient_scale * f8_sum(found.fy);
+    args->fz[i] += sign[2] * w->gradient_scale * f8_sum(found.fz);
     if (!shifts)
         return;
-    args->own[UNEVEN][i] += sign[0] * s->gradient * f8_sum(found.ex);
-    args->own[UNEVEN + 1][i] += sign[1] * s->gradient * f8_sum(found.ey);
-    args->own[UNEVEN + 2][i] += sign[2] * s->gradient * f8_sum(found.ez);
-    args->own[FULL][i] += s->gradient * f8_sum(found.full);
+    args->own[UNEVEN][i] += sign[0] * w->gradient_scale * f8_sum(found.ex);
+    args->own[UNEVEN + 1][i] += sign[1] * w->gradient_scale * f8_sum(found.ey);
+    args->own[UNEVEN + 2][i] += sign[2] * w->gradient_scale * f8_sum(found.ez);
+    args->own[FULL][i] += w->gradient_scale * f8_sum(found.full);
     args->own[DENSE][i] += s->kernel_scale * f8_sum(found.dense);
 }
 
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
+    const WcsphBlock *w = wcsph_constants(s);
     Rows rows = ROWS_NONE;
     Image image[IMAGES_MAX];
     for (size_t i = begin; i < end; i++) {
@@ -142,7 +144,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         f8 sum = f8_splat(0);
         for (int k = 1; k < images; k++)
             sum += image_flow(args, i, rows, &image[k], kernel);
-        args->fx[i] -= s->gradient * f8_sum(sum);
+        args->fx[i] -= w->gradient_scale * f8_sum(sum);
     }
 }
 

@@ -4,12 +4,14 @@
 
 #include "sim/cpu/pass.h"
 #include "sim/wcsph/columns.h"
+#include "sim/wcsph/constants.h"
 
 /* The equation of state, Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1: its powers,
    without the difference. */
 static inline float wcsph_state_of(const Constants *constants, int fluid, float e)
 {
-    return constants->tait[fluid] * e * (7 + e * (21 + e * (35 + e * (35 + e * (21 + e * (7 + e))))));
+    return wcsph_constants(constants)->wcsph_fluids[fluid].tait * e *
+           (7 + e * (21 + e * (35 + e * (35 + e * (21 + e * (7 + e))))));
 }
 
 /* Volume and pressure, by the density that particles carry; what pair sums need of each. */

@@ -14,7 +14,8 @@ static void shift_body(const CpuRange *range)
     const CpuParticles *p = &range->cpu->now;
     float *const x[3] = {p->x, p->y, p->z};
     const float dt = range->input->dt;
-    const float most = 0.1f * s->spacing, scale = s->shifting * dt / s->rest_number_density;
+    const float most = 0.1f * s->spacing,
+                scale = wcsph_constants(s)->shift_speed * dt / s->rest_number_density;
     const float part = fminf(dt * s->sound_speed / (SHIFT_RETURN * s->support_radius), 1);
     for (size_t i = range->begin; i < range->end; i++) {
         for (int k = 0; k < 3; k++)
@@ -25,11 +26,6 @@ static void shift_body(const CpuRange *range)
 
 static const CpuPass shift = {.loops = {{shift_body, 4 * CPU_GRAIN}}};
 
-static bool shifts(const Constants *constants)
-{
-    return constants->shifting > 0;
-}
-
 const Pass wcsph_shift = {
     .name = "shift",
     .stage = STAGE_FORCE,
@@ -37,5 +33,5 @@ const Pass wcsph_shift = {
     .shader = "wcsph/shift",
     .reads = "position compression uneven full dense",
     .writes = "position compression",
-    .needed = shifts,
+    .needed = wcsph_shifts,
 };

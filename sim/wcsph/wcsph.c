@@ -6,6 +6,8 @@
 #include "sim/wcsph/passes.h"
 #include "sim/world/substep.h"
 
+#include <string.h>
+
 #define AT(field) offsetof(WcsphDef, field)
 
 static const WcsphDef usual = {
@@ -55,34 +57,36 @@ static StepFriction wcsph_friction(const WorldDef *def, const Lattice *lattice)
 }
 
 /* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
-static void kernel_set(Constants *constants, const WorldDef *def)
+static void kernel_set(WcsphBlock *own, const Lattice *lattice, const WorldDef *def)
 {
     static const double f_half[] = {[KERNEL_CUBIC] = 3,
                                     [KERNEL_WENDLAND_C2] = 2.5,
                                     [KERNEL_QUINTIC] = (1.5 * 1.5 * 1.5 * 1.5 - 6 * 0.0625) / 0.5};
     const Kernel *kernel = wcsph_kernels_of(def).density;
-    const double h = def->support * def->spacing, r = 0.5 * h, scale = constants->lattice.gradient_scale;
-    constants->kernel = (ShapeKernel)(kernel - shape_kernels);
+    const double h = def->support * def->spacing, r = 0.5 * h, scale = lattice->gradient_scale;
+    own->kernel_shape = (int)(kernel - shape_kernels);
     if (wcsph_def(def)->viscosity_form == VISCOSITY_RADIAL)
-        constants->radial = (float)constants->lattice.radial_scale;
-    constants->gradient = (float)(-kernel->derivative(r, h) / r * scale / f_half[constants->kernel]);
+        own->radial_friction = (float)lattice->radial_scale;
+    own->gradient_scale = (float)(-kernel->derivative(r, h) / r * scale / f_half[own->kernel_shape]);
 }
 
-static void wcsph_constants(Constants *constants, const WorldDef *def)
+static void wcsph_set(Constants *constants, const WorldDef *def)
 {
-    const WcsphDef *own = wcsph_def(def);
+    const WcsphDef *said = wcsph_def(def);
+    WcsphBlock own = {.density_return = constants->sound_speed / (SHIFT_RETURN * constants->support_radius)};
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
-    kernel_set(constants, def);
-    constants->diffusion = (float)(2 * own->delta_sph * c * reach);
-    constants->shifting = (float)(own->shifting * c * reach);
-    constants->artificial = false;
+    kernel_set(&own, &constants->lattice, def);
+    own.diffusion = (float)(2 * said->delta_sph * c * reach);
+    own.shift_speed = (float)(said->shifting * c * reach);
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
-        const double alpha = fluid_viscosity_most(fluid) > 0 ? 0 : own->artificial_viscosity;
-        constants->tait[f] = (float)(fluid->density * c * c / 7);
-        constants->artificial_viscosity[f] = (float)(0.5 * alpha * c * reach * fluid->density);
-        constants->artificial |= alpha > 0;
+        const double alpha = fluid_viscosity_most(fluid) > 0 ? 0 : said->artificial_viscosity;
+        own.wcsph_fluids[f] = (WcsphFluid){(float)(fluid->density * c * c / 7),
+                                           (float)(0.5 * alpha * c * reach * fluid->density)};
+        own.any_artificial |= alpha > 0;
     }
+    _Static_assert(sizeof own <= METHOD_CONSTANTS_SIZE, "constants hold it");
+    memcpy(constants->of_method, &own, sizeof own);
 }
 
 /* Of p = rho0 c^2 / 7 ((rho / rho0)^7 - 1); small x keep their digits. */
@@ -94,7 +98,7 @@ static double wcsph_energy(double x)
 /* Half a step of the equation of continuity, after the pass `ready`, which diffusion has need of. */
 static void continuity(const Substep *step, const Pass *ready)
 {
-    if (step->constants->diffusion > 0)
+    if (wcsph_diffuses(step->constants))
         substep_run(step, ready, 0);
     substep_run(step, &wcsph_continuity, 0.5 * step->dt);
 }
@@ -119,7 +123,7 @@ static void wcsph_substep(const Substep *step)
         substep_kick(step);
     STAGE (step->clock, STAGE_DENSITY)
         continuity(step, &wcsph_state);
-    if (step->constants->shifting > 0)
+    if (wcsph_shifts(step->constants))
         STAGE (step->clock, STAGE_FORCE)
             substep_run(step, &wcsph_shift, step->dt);
     STAGE (step->clock, STAGE_INTEGRATE)
@@ -128,6 +132,32 @@ static void wcsph_substep(const Substep *step)
 
 static const Pass *const passes[] = {&wcsph_state,  &wcsph_gradient, &wcsph_continuity,
                                      &wcsph_forces, &wcsph_shift,    NULL};
+
+static bool is_radial(const Constants *constants)
+{
+    return wcsph_constants(constants)->radial_friction > 0;
+}
+
+static bool has_wendland_c2(const Constants *constants)
+{
+    return wcsph_constants(constants)->kernel_shape == KERNEL_WENDLAND_C2;
+}
+
+static bool has_quintic(const Constants *constants)
+{
+    return wcsph_constants(constants)->kernel_shape == KERNEL_QUINTIC;
+}
+
+static const ShaderTerm terms[] = {{"KERNEL_WENDLAND_C2", has_wendland_c2},
+                                   {"KERNEL_QUINTIC", has_quintic},
+                                   {"RADIAL", is_radial},
+                                   {"ARTIFICIAL", wcsph_is_artificial},
+                                   {"DIFFUSION", wcsph_diffuses},
+                                   {"SHIFTING", wcsph_shifts},
+                                   {0}};
+
+/* Of vec4, see slope.comp and evenness.glsl. */
+static const ShaderBuffer buffers[] = {{"Slopes", 16, wcsph_diffuses}, {"Unevens", 32, wcsph_shifts}, {0}};
 
 const Method method_wcsph = {
     .name = "wcsph",
@@ -141,10 +171,12 @@ const Method method_wcsph = {
     .friction = wcsph_friction,
     .pressure = wcsph_state_of,
     .energy = wcsph_energy,
-    .constants = wcsph_constants,
+    .constants = wcsph_set,
     .advise = wcsph_advise,
     .columns = wcsph_columns,
     .passes = passes,
+    .terms = terms,
+    .buffers = buffers,
     .settle = &wcsph_state,
     .substep = wcsph_substep,
 };

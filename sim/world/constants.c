@@ -276,8 +276,6 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     lattice_calibrate(def->dimensions, def->spacing, h, kernel, kernels.slope, &constants->lattice);
     constants->friction = step_friction(def);
     constants->method = method;
-    constants->continuity = method->carries_density;
-    constants->poly6 = kernel->value == kernel_poly6;
     constants->support_radius = (float)h;
     constants->spacing = (float)def->spacing;
     constants->rest_number_density = (float)constants->lattice.number_density;
@@ -288,7 +286,7 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     tension_set(constants, def);
     fluids_set(constants, def);
     own_set(constants, def);
-    if (constants->continuity)
+    if (method->carries_density)
         walls_place(&constants->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
     else if (!walls_create(&constants->walls, def->box_size, def->periodic, def->spacing, h, kernel,
                            &constants->lattice))

@@ -15,10 +15,6 @@
 #include "sim/world/method.h"
 #include "sim/world/step_control.h"
 
-/* Times in which sound crosses a support radius: after so many the density that shifted particles carry,
-   which does not know of shifts and would drift by a percent a second, comes back to that of their places. */
-#define SHIFT_RETURN 20.0F
-
 /* The grid of cells of side h: cell (i, j, k) holds floor(x / h) = first + (i, j, k), of one global lattice
    whatever the box; one empty layer on each side saves the neighbour search its bounds. Along a periodic axis
    a whole number of cells, of side h at least, fills the box from its low side on. */
@@ -33,7 +29,6 @@ typedef struct Constants {
     const Method *method;
     float support_radius;      /* h, m */
     float rest_number_density; /* n0, 1/m3 */
-    bool poly6;                /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
     float kernel_scale;        /* its value at r = 0, calibrated, 1/m3 */
     float pressure_scale;      /* -dW_spiky/dr = pressure_scale * (1 - r/h)^2, 1/m4, calibrated */
     float viscosity_scale;     /* Laplacian = viscosity_scale * (1 - r/h), 1/m5, calibrated */
@@ -48,19 +43,10 @@ typedef struct Constants {
     bool varies;                 /* some mu is a table over time */
     bool negative_pressure;
     bool reproducible;
-    bool continuity; /* the particles carry their density; the next eight are of such a method */
-    ShapeKernel kernel;
-    float radial;           /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
-    float gradient;         /* -W'(r) / r = gradient f(r / h), calibrated, 1/m5; f by kernel */
-    float tait[FLUIDS_MAX]; /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
-    bool artificial;
-    float artificial_viscosity[FLUIDS_MAX]; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
-    float diffusion;                        /* 2 delta c (h / 2), m2/s; 0: none */
-    float sound_speed;                      /* m/s */
-    float shifting;                         /* chi c h / 2, m2/s; 0: none: Lind 2012 */
-    TensionModel tension_model;             /* none where no fluid has a tension */
-    float tension[FLUIDS_MAX];              /* sigma, N/m; of cohesion times its scale */
-    float colour;                           /* colour_scale */
+    float sound_speed;          /* m/s */
+    TensionModel tension_model; /* none where no fluid has a tension */
+    float tension[FLUIDS_MAX];  /* sigma, N/m; of cohesion times its scale */
+    float colour;               /* colour_scale */
     CellGrid cells;
     Periodic periodic;
     int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
@@ -76,6 +62,8 @@ typedef struct Constants {
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
     Boundary boundary; /* of the solids */
+    /* The method's own struct: on a GPU also the uniform block METHOD_BLOCK of its shaders. */
+    _Alignas(16) unsigned char of_method[METHOD_CONSTANTS_SIZE];
 } Constants;
 
 /* False with the reason: a def out of range, too many cells, no memory. */

@@ -33,6 +33,21 @@ typedef struct PassInput {
     const struct ApparentGravity *apparent; /* NULL outside of a step */
 } PassInput;
 
+/* What only some scenes name: there a line "#define NAME 1" stands before the shaders. */
+typedef struct ShaderTerm {
+    const char *name;
+    bool (*needed)(const struct Constants *constants);
+} ShaderTerm;
+
+/* A storage buffer of the method's shaders, which have its columns of scratch together there. */
+typedef struct ShaderBuffer {
+    const char *block; /* by that name they find it */
+    size_t size;       /* bytes a particle */
+    bool (*needed)(const struct Constants *constants);
+} ShaderBuffer;
+
+enum { METHOD_BUFFERS_MAX = 4, METHOD_CONSTANTS_SIZE = 256 };
+
 /* What a method's density is made with, and what its forces are the slope of. */
 typedef struct MethodKernels {
     const Kernel *density, *slope;
@@ -72,12 +87,15 @@ typedef struct Method {
        NULL: it has none. */
     float (*pressure)(const struct Constants *constants, int fluid, float x);
     double (*energy)(double x);
-    /* Its own part of the constants, behind all others; again when what is live has changed. NULL: none. */
+    /* Fills Constants.of_method, behind all others; again when what is live has changed. NULL: it has none.
+     */
     void (*constants)(struct Constants *constants, const WorldDef *def);
     void (*advise)(const MethodAdvice *advice); /* NULL: never */
     const ColumnDef *columns;                   /* of its own, ended by a NULL name; NULL: none */
     const Pass *const *passes;                  /* all of them, ended by NULL */
-    const Pass *settle;                         /* what follows from the saved columns: volume, pressure */
+    const ShaderTerm *terms;                    /* ended by a NULL name; NULL: none */
+    const ShaderBuffer *buffers; /* METHOD_BUFFERS_MAX at most, ended by a NULL block; NULL: none */
+    const Pass *settle;          /* what follows from the saved columns: volume, pressure */
     void (*substep)(const struct Substep *step);
 } Method;
 

@@ -77,7 +77,7 @@ static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *s
                        Error *error)
 {
     const bool swirls = vortices_any(def);
-    const bool thins = constants->continuity && (def->solid_count > 0 || swirls);
+    const bool thins = constants->method->carries_density && (def->solid_count > 0 || swirls);
     const size_t count = seed_count(def, def->spacing);
     if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)
         return error_set(error, count ? "more than 2^31 particles; use a larger spacing"

@@ -4,6 +4,7 @@
 
 #include "tests/gl/compare.h"
 
+#include "sim/wcsph/constants.h"
 #include "sim/world/world_struct.h"
 
 /* Two viscous fluids over each other, stirred, in a box that moves in all ways. */
@@ -35,16 +36,20 @@ static inline double pair_terms(const Constants *s, const State *state, size_t i
     const uint32_t fi = state->fluid[i], fj = state->fluid[j];
     const double vi = (double)state->position[4 * i + 3], vj = (double)state->position[4 * j + 3];
     const double mu = (double)(s->viscosity[fi] + s->viscosity[fj]);
-    const double alpha =
-        s->continuity ? (double)(s->artificial_viscosity[fi] + s->artificial_viscosity[fj]) : 0;
+    const bool carries = s->method->carries_density;
+    const WcsphBlock *wcsph = wcsph_constants(s);
+    const double radial = carries ? (double)wcsph->radial_friction : 0;
+    const double alpha = carries ? (double)(wcsph->wcsph_fluids[fi].artificial_viscosity +
+                                            wcsph->wcsph_fluids[fj].artificial_viscosity)
+                                 : 0;
     double u = 0;
     for (size_t k = 0; k < 3; k++)
         u = hypot(u, (double)(state->velocity[4 * i + k] - state->velocity[4 * j + k]));
     double sum =
         gradient * (fabs((double)state->pressure[i]) * vi * vi + fabs((double)state->pressure[j]) * vj * vj);
     sum += vi * vj * u *
-           (s->continuity ? ((s->radial > 0 ? mu * (double)s->radial * r * r : mu) + alpha) * gradient / r
-                          : 0.5 * mu * s->lattice.laplacian_scale * kernel_viscosity_laplacian(r, h));
+           (carries ? ((radial > 0 ? mu * radial * r * r : mu) + alpha) * gradient / r
+                    : 0.5 * mu * s->lattice.laplacian_scale * kernel_viscosity_laplacian(r, h));
     if (fi != fj || !s->tension_model)
         return sum;
     const double t = h * h - r * r, dims = s->dimensions;
@@ -136,7 +141,7 @@ static inline void compare_step(const char *label, World *cpu, World *gpu)
                    a.position + 4 * i);
         assert_true(b.velocity[4 * i + 3] == 0);
     }
-    if (cpu->constants.continuity)
+    if (cpu->constants.method->carries_density)
         rate = compare_rates(cpu, gpu, before, &a);
     printf("%dD, %s: density off by %.1e of rest, its rate by %.1e, acceleration by %.1e of its terms\n",
            cpu->def.dimensions, label, density.off, rate.off, change.off);

@@ -9,10 +9,12 @@
 #include "shaders/sim/step_block.h"
 #include "shaders/sim/term_block.h"
 #include "shaders/sim/watch_block.h"
+#include "shaders/sim/wcsph/wcsph_block.h"
 
 #define CONSTANT(member) MEMBER(ConstantBlock, member)
 #define STEP(member)     MEMBER(StepBlock, member)
 #define TERM(member)     MEMBER(TermBlock, member)
+#define WCSPH(member)    MEMBER(WcsphBlock, member)
 #define WATCH(member)    MEMBER(WatchBlock, member)
 #define STEPS(member)    MEMBER(SolidStepsBlock, member)
 #define SHAPE(member)    MEMBER(ExactShapesBlock, member)
@@ -32,11 +34,13 @@
         BLOCK("sim/step_block.h", StepBlock, STEP(rotation[0]), STEP(omega0), STEP(drift_dt), STEP(omega1),  \
               STEP(still), STEP(shift), STEP(velocity_change), STEP(gravity), STEP(kick_dt),                 \
               STEP(felt_origin), STEP(felt_alpha), STEP(felt_omega)),                                        \
-        BLOCK("sim/term_block.h", TermBlock, TERM(gradient_scale), TERM(diffusion), TERM(colour_scale),      \
-              TERM(radial_friction), TERM(fluid_terms[0].tait), TERM(fluid_terms[0].artificial_viscosity),   \
+        BLOCK("sim/term_block.h", TermBlock, TERM(colour_scale), TERM(drag_range),                           \
               TERM(fluid_terms[0].tension), TERM(fluid_terms[7].tension), TERM(drag_nodes),                  \
-              TERM(drag_range), TERM(drag_steps), TERM(shift_speed), TERM(drag_offset),                      \
-              TERM(density_return), TERM(lid_velocity)),                                                     \
+              TERM(drag_steps), TERM(drag_offset), TERM(lid_velocity)),                                      \
+        BLOCK("sim/wcsph/wcsph_block.h", WcsphBlock, WCSPH(gradient_scale), WCSPH(diffusion),                \
+              WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(kernel_shape),        \
+              WCSPH(any_artificial), WCSPH(wcsph_fluids[0].tait),                                            \
+              WCSPH(wcsph_fluids[0].artificial_viscosity), WCSPH(wcsph_fluids[7].artificial_viscosity)),     \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \
               WATCH(greatest_density_ratio), WATCH(guarded), WATCH(went_too_far)),                           \
         BLOCK("sim/solid_steps_block.h", SolidStepsBlock, STEPS(solid_total), STEPS(boundary_total),         \

@@ -64,8 +64,8 @@ VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]
 
 
 
-# What GLSL includes too: C fills it. Views and backends have their own in a folder of their name.
-SHADERS = {"sim/gl": "shared sim", "render": "shared render"}
+# What GLSL includes too: C fills it. Methods, views and backends have their own in a folder of their name.
+SHADERS = {"sim": "", "sim/gl": "shared sim", "render": "shared render"}
 
 
 def folder(floor, room):
@@ -86,7 +86,8 @@ def may():
             if floor == "sim/gl":
                 own.append("sim/gl")
             down = [w for w in under if not (floor == "app" and room in DRAWS_NOTHING and not w.startswith("sim/"))]
-            blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), room] if floor in SHADERS]
+            own_shaders = f"sim/{room}" if floor == "sim" else room
+            blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), own_shaders] if floor in SHADERS]
             allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks]
     return allowed
 

@@ -10,7 +10,7 @@ layout(location = GRAVITY_C2_AT) uniform vec4 gravity_c2; // in the box's frame;
 shared vec4 sums[64];
 shared float greatest[64];
 
-#ifdef CONTINUITY
+#ifdef CARRIES_DENSITY
 float compression_of(uint i) { return velocity[i].w; }
 #else
 float compression_of(uint i) { return stiffness_scale * (1.0 / (position[i].w * rest_number_density) - 1.0); }

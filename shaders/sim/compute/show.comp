@@ -10,7 +10,7 @@ layout(std430, binding = RANGES_BUFFER) buffer Ranges { uint range[]; }; // leas
 layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
 shared uint least, greatest;
 
-#ifdef CONTINUITY
+#ifdef CARRIES_DENSITY
 float compression_of(uint i) { return velocity[i].w; }
 #else
 float compression_of(uint i) { return stiffness_scale * (1.0 / (position[i].w * rest_number_density) - 1.0); }

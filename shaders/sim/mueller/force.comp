@@ -3,6 +3,8 @@
 #include "sim/force.glsl"
 #include "sim/walls.glsl"
 
+float extra_of(uint fluid) { return 0.0; }
+
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
     float r = sqrt(r2), t = 1.0 - r * inverse_support;

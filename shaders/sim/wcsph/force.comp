@@ -6,6 +6,8 @@
 #include "sim/wcsph/images.glsl"
 #include "sim/wcsph/evenness.glsl"
 
+float extra_of(uint fluid) { return wcsph_fluids[fluid].artificial_viscosity; }
+
 // Pressure and laminar or artificial viscosity.
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
@@ -19,7 +21,7 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     force += f * both * (own.viscosity + other.viscosity) * u;
 #endif
 #ifdef ARTIFICIAL
-    push += both * (own.artificial + other.artificial) * dot(u, d) / (r2 + support * support / 400.0);
+    push += both * (own.extra + other.extra) * dot(u, d) / (r2 + support * support / 400.0);
 #endif
     return force + f * push * d;
 }

@@ -1,5 +1,5 @@
 // What the passes of wcsph share: sim/wcsph/pairs.c, sim/wcsph/density.c.
-#include "shaders/sim/term_block.h"
+#include "shaders/sim/wcsph/wcsph_block.h"
 
 // f(q) = -w'(q) / q of the kernel, up to a factor that gradient_scale takes care of.
 float shape(float q)
@@ -42,7 +42,7 @@ struct State {
 // Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1, by its powers; V = V0 rho0 / rho.
 State state_of(float e, uint fluid)
 {
-    float b = fluid_terms[fluid].tait;
+    float b = wcsph_fluids[fluid].tait;
     float p = b * e * (7.0 + e * (21.0 + e * (35.0 + e * (35.0 + e * (21.0 + e * (7.0 + e))))));
 #ifndef NEGATIVE_PRESSURE
     p = p > 0.0 ? p : 0.0;

@@ -13,8 +13,6 @@ static const struct {
     {"Names", offsetof(Compute, now.name)},
     {"Pressures", offsetof(Compute, pressure)},
     {"Accelerations", offsetof(Compute, acceleration)},
-    {"Slopes", offsetof(Compute, slope)},
-    {"Unevens", offsetof(Compute, uneven)},
     {"Own", offsetof(Compute, now.own)},
     {"Scratch", offsetof(Compute, scratch)},
     {"Starts", offsetof(Compute, start)},
@@ -44,15 +42,23 @@ void compute_find_buffers(Compute *c, ComputePass pass)
     c->takes_dt[pass] = program && glGetUniformLocation(program, "dt") >= 0;
     for (int k = 0; k < COMPUTE_NAMED; k++)
         c->bindings[pass][k] = (int8_t)(program ? binding_of(program, named[k].block) : -1);
+    const ShaderBuffer *own = c->constants->method->buffers;
+    for (int k = 0; own && own[k].block; k++)
+        c->bindings[pass][COMPUTE_NAMED + k] = (int8_t)(program ? binding_of(program, own[k].block) : -1);
+}
+
+static void bind(int binding, unsigned buffer)
+{
+    if (binding >= 0 && buffer)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)binding, buffer);
 }
 
 void compute_sweep(const Compute *c, ComputePass pass, size_t count)
 {
     compute_boundary_bind(c);
-    for (int k = 0; k < COMPUTE_NAMED; k++) {
-        const unsigned *buffer = (const unsigned *)(const void *)((const char *)c + named[k].at);
-        if (c->bindings[pass][k] >= 0 && *buffer)
-            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)c->bindings[pass][k], *buffer);
-    }
+    for (int k = 0; k < COMPUTE_NAMED; k++)
+        bind(c->bindings[pass][k], *(const unsigned *)(const void *)((const char *)c + named[k].at));
+    for (int k = 0; k < METHOD_BUFFERS_MAX; k++)
+        bind(c->bindings[pass][COMPUTE_NAMED + k], c->method_buffers[k]);
     compute_run(c, pass, count);
 }

@@ -26,14 +26,15 @@ bool compute_no_memory(const Compute *c, Error *error)
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,           c->rank,      c->order,    c->start,        c->totals[0],
-                              c->totals[1],      c->totals[2], c->pressure, c->acceleration, c->walls,
-                              c->constant_block, c->step,      c->terms,    c->slope,        c->drag,
-                              c->uneven,         c->scratch};
+    const GLuint buffers[] = {c->cell,         c->rank,      c->order,          c->start,
+                              c->totals[0],    c->totals[1], c->totals[2],      c->pressure,
+                              c->acceleration, c->walls,     c->constant_block, c->step,
+                              c->terms,        c->of_method, c->drag,           c->scratch};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
     glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
+    glDeleteBuffers(METHOD_BUFFERS_MAX, c->method_buffers);
     glDeleteBuffers(COMPUTE_SHOWN, c->shown);
     mailbox_destroy(&c->watch);
     mailbox_destroy(&c->ranges);
@@ -85,7 +86,7 @@ static bool buffers_create(Compute *c, Error *error)
 static void walls_upload(Compute *c)
 {
     const Walls *walls = &c->constants->walls;
-    if (c->constants->continuity) /* it has none */
+    if (c->constants->method->carries_density) /* it has none */
         return;
     c->walls = compute_buffer(c, "wall tables", walls_entries(walls, walls->dimensions) * sizeof(WallSums));
     for (int t = 0; t < walls->dimensions && !c->full; t++) {
@@ -165,14 +166,16 @@ static size_t larger(size_t a, size_t b)
     return a > b ? a : b;
 }
 
-/* Of the largest array: two vec4 a particle where there is shifting, else one; the method's own columns;
-   start of cells; walls. */
+/* Of the largest array: a vec4 a particle, or what the method has; start of cells; walls. */
 static size_t most_bytes(const Constants *s, size_t capacity)
 {
-    const size_t own = 4 * larger((size_t)compute_own_of(s->method).count, (size_t)compute_scratch_of(s));
-    const size_t particles = larger(s->shifting > 0 ? 32 : 16, own) * capacity,
-                 cells = 4 * (s->cells.count + 2);
-    const size_t walls = s->continuity ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
+    size_t particle =
+        larger(16, 4 * larger((size_t)compute_own_of(s->method).count, (size_t)compute_scratch_of(s)));
+    for (const ShaderBuffer *own = s->method->buffers; own && own->block; own++)
+        particle = larger(particle, own->needed(s) ? own->size : 0);
+    const size_t particles = particle * capacity, cells = 4 * (s->cells.count + 2);
+    const size_t walls =
+        s->method->carries_density ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
     return larger(larger(particles, 16 * s->boundary.count), larger(cells, walls));
 }
 

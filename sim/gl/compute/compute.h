@@ -14,7 +14,7 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
-    COMPUTE_NAMED = 18,
+    COMPUTE_NAMED = 16,
     COMPUTE_DEFINES_MAX = 2048
 };
 
@@ -105,15 +105,14 @@ typedef struct Compute {
     unsigned constant_block, step;        /* uniform blocks */
     unsigned program[COMPUTE_PASS_COUNT];
     bool takes_dt[COMPUTE_PASS_COUNT];
-    int8_t bindings[COMPUTE_PASS_COUNT]
-                   [COMPUTE_NAMED];        /* of the buffers that a pass finds by name; -1: none */
+    /* Of the buffers that a pass finds by name, the method's last; -1: none. */
+    int8_t bindings[COMPUTE_PASS_COUNT][COMPUTE_NAMED + METHOD_BUFFERS_MAX];
     bool full;                             /* the GPU's memory */
     size_t bytes, guarded_before, guarded; /* of all these buffers; before the last load, and since */
 
-    unsigned slope;                    /* vec4: see slope.comp; 0: no diffusion of density */
-    unsigned drag;                     /* tables; 0: walls let fluid slip */
-    unsigned uneven;                   /* vec4, vec4: see force.comp; 0: no shifting */
-    unsigned terms;                    /* uniform block */
+    unsigned method_buffers[METHOD_BUFFERS_MAX]; /* 0 is one that the scene does not need */
+    unsigned drag;                               /* tables; 0: walls let fluid slip */
+    unsigned terms, of_method;                   /* uniform blocks */
     char defines[COMPUTE_DEFINES_MAX]; /* that the programs were made with; 0 is one that the scene does not
                                           need */
 } Compute;

@@ -24,6 +24,7 @@ void compute_run(const Compute *compute, ComputePass pass, size_t count)
     glBindBufferBase(GL_UNIFORM_BUFFER, CONSTANT_BLOCK, compute->constant_block);
     glBindBufferBase(GL_UNIFORM_BUFFER, STEP_BLOCK, compute->step);
     glBindBufferBase(GL_UNIFORM_BUFFER, TERM_BLOCK, compute->terms);
+    glBindBufferBase(GL_UNIFORM_BUFFER, METHOD_BLOCK, compute->of_method);
     glBindBufferBase(GL_UNIFORM_BUFFER, WATCH_BLOCK, compute->watch.buffer);
     glUseProgram(compute->program[pass]);
     compute_dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);

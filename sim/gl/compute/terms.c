@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool diffusive(const Constants *s)
+static size_t put_define(char out[COMPUTE_DEFINES_MAX], size_t used, const char *name)
 {
-    return s->continuity && s->diffusion > 0;
+    return used + (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s 1\n", name);
 }
 
 void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
@@ -19,21 +19,14 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
         const char *name;
     } terms[] = {
         {s->solid_count > 0, "SOLIDS"},
-        {s->radial > 0, "RADIAL"},
         {s->reproducible, "REPRODUCIBLE"},
-        {s->poly6, "POLY6"},
         {s->viscous, "VISCOUS"},
         {s->negative_pressure, "NEGATIVE_PRESSURE"},
-        {s->continuity, "CONTINUITY"},
-        {s->continuity && s->kernel == KERNEL_WENDLAND_C2, "KERNEL_WENDLAND_C2"},
-        {s->continuity && s->kernel == KERNEL_QUINTIC, "KERNEL_QUINTIC"},
-        {s->continuity && s->artificial, "ARTIFICIAL"},
-        {diffusive(s), "DIFFUSION"},
+        {s->method->carries_density, "CARRIES_DENSITY"},
         {s->tension_model != TENSION_NONE, "TENSION"},
         {s->tension_model == TENSION_COHESION, "COHESION"},
         {s->no_slip, "NO_SLIP"},
         {s->lid, "LID"},
-        {s->shifting > 0, "SHIFTING"},
     };
     size_t used = 0;
     if (s->periodic.any)
@@ -47,7 +40,10 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
 #undef X
     for (size_t k = 0; k < sizeof terms / sizeof *terms; k++)
         if (terms[k].named)
-            used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s 1\n", terms[k].name);
+            used = put_define(out, used, terms[k].name);
+    for (const ShaderTerm *own = s->method->terms; own && own->name; own++)
+        if (own->needed(s))
+            used = put_define(out, used, own->name);
 }
 
 bool compute_pass_named(const Constants *s, ComputePass pass)
@@ -98,10 +94,10 @@ static void drag_upload(Compute *c)
 bool compute_term_buffers(Compute *c)
 {
     const Constants *s = c->constants;
-    if (diffusive(s) && !c->slope)
-        c->slope = compute_buffer(c, "slopes of density", 16 * c->capacity);
-    if (s->shifting > 0 && !c->uneven)
-        c->uneven = compute_buffer(c, "unevenness", 32 * c->capacity);
+    const ShaderBuffer *own = s->method->buffers;
+    for (int k = 0; own && own[k].block; k++)
+        if (own[k].needed(s) && !c->method_buffers[k])
+            c->method_buffers[k] = compute_buffer(c, own[k].block, own[k].size * c->capacity);
     if (s->no_slip && !c->drag)
         drag_upload(c);
     if (!c->full)
@@ -123,23 +119,24 @@ static void drag_constants(const WallDrag *drag, TermBlock *terms)
     terms->drag_range = drag->range;
 }
 
+static void uniforms(unsigned *buffer, const void *values, size_t size)
+{
+    if (!*buffer) {
+        glCreateBuffers(1, buffer);
+        glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
+    }
+    glNamedBufferSubData(*buffer, 0, (GLsizeiptr)size, values);
+}
+
 void compute_term_constants(Compute *c)
 {
     const Constants *s = c->constants;
-    TermBlock terms = {.gradient_scale = s->gradient,
-                       .diffusion = s->diffusion,
-                       .colour_scale = s->colour,
-                       .radial_friction = s->radial,
-                       .shift_speed = s->shifting,
-                       .density_return = s->sound_speed / (SHIFT_RETURN * s->support_radius)};
+    TermBlock terms = {.colour_scale = s->colour};
     for (int f = 0; f < s->fluid_count; f++)
-        terms.fluid_terms[f] = (FluidTerms){s->tait[f], s->artificial_viscosity[f], s->tension[f]};
+        terms.fluid_terms[f] = (FluidTerms){s->tension[f]};
     if (s->no_slip)
         drag_constants(&s->drag, &terms);
     memcpy(terms.lid_velocity, s->lid_velocity, sizeof s->lid_velocity);
-    if (!c->terms) {
-        glCreateBuffers(1, &c->terms);
-        glNamedBufferStorage(c->terms, sizeof terms, NULL, GL_DYNAMIC_STORAGE_BIT);
-    }
-    glNamedBufferSubData(c->terms, 0, sizeof terms, &terms);
+    uniforms(&c->terms, &terms, sizeof terms);
+    uniforms(&c->of_method, s->of_method, sizeof s->of_method);
 }

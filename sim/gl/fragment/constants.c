@@ -64,8 +64,11 @@ static void put_terms(Text *to, const Constants *s)
     X(COUNT, , )
 #undef X
     put(to, "#define FLUIDS %d\n#define WALL_TEXTURE 1\n", s->fluid_count);
-    put(to, "%s%s%s", s->poly6 ? "#define POLY6 1\n" : "", s->viscous ? "#define VISCOUS 1\n" : "",
+    put(to, "%s%s", s->viscous ? "#define VISCOUS 1\n" : "",
         s->negative_pressure ? "#define NEGATIVE_PRESSURE 1\n" : "");
+    for (const ShaderTerm *own = s->method->terms; own && own->name; own++)
+        if (own->needed(s))
+            put(to, "#define %s 1\n", own->name);
 }
 
 static void put_kernel(Text *to, const Constants *s)

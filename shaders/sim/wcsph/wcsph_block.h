@@ -1,0 +1,32 @@
+/* The constants of wcsph, of which C and shaders read the same; wcsph_set of sim/wcsph/wcsph.c fills it. */
+#ifndef SLOSH_WCSPH_BLOCK_H
+#define SLOSH_WCSPH_BLOCK_H
+
+#include "shaders/shared/block.h"
+#include "shaders/sim/bindings.h"
+
+/* Storage buffers, beside those of shaders/sim/bindings.h */
+#define SLOPES_BUFFER  5
+#define UNEVENS_BUFFER 6
+
+BLOCK_STRUCT(WcsphFluid)
+{
+    float tait;                 /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
+    float artificial_viscosity; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
+}
+BLOCK_END(WcsphFluid);
+
+UNIFORM_BLOCK(WcsphBlock, METHOD_BLOCK)
+{
+    float gradient_scale;  /* -W'(r) / r over f(r / h), calibrated, 1/m5; f by kernel */
+    float diffusion;       /* 2 delta c (h / 2), m2/s; 0: none */
+    float radial_friction; /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
+    float shift_speed;     /* chi c h / 2, m2/s; 0: none: Lind 2012 */
+    float density_return;  /* of shifting, 1/s */
+    int kernel_shape;      /* a ShapeKernel of sim/kernel/kernel.h */
+    int any_artificial;    /* some fluid has an artificial viscosity */
+    WcsphFluid wcsph_fluids[FLUIDS_MOST];
+}
+BLOCK_END(WcsphBlock);
+
+#endif

@@ -1,0 +1,21 @@
+/* What a def means in numbers for wcsph alone, and which terms it names. */
+#ifndef SLOSH_WCSPH_CONSTANTS_H
+#define SLOSH_WCSPH_CONSTANTS_H
+
+#include "shaders/sim/wcsph/wcsph_block.h"
+#include "sim/world/constants.h"
+
+/* Times in which sound crosses a support radius: after so many the density that shifted particles carry,
+   which does not know of shifts and would drift by a percent a second, comes back to that of their places. */
+#define SHIFT_RETURN 20.0F
+
+static inline const WcsphBlock *wcsph_constants(const Constants *constants)
+{
+    return (const WcsphBlock *)(const void *)constants->of_method;
+}
+
+bool wcsph_diffuses(const Constants *constants);
+bool wcsph_shifts(const Constants *constants);
+bool wcsph_is_artificial(const Constants *constants);
+
+#endif
