@@ -128,13 +128,29 @@ static const char *below_shaders(const char *path)
     return path + (strncmp(path, folder, sizeof folder - 1) == 0 ? sizeof folder - 1 : 0);
 }
 
+/* The path that `#include NAME` means; none where no line `#define NAME path` stands before. */
+static bool named_path(const ShaderSource *source, const char *line, char path[SHADER_PATH_MAX])
+{
+    char name[SHADER_PATH_MAX], wanted[SHADER_PATH_MAX + 16];
+    path[0] = 0;
+    if (sscanf(line, " #include %127[A-Z_]", name) != 1)
+        return false;
+    snprintf(wanted, sizeof wanted, "\n#define %s ", name);
+    const char *found = strstr(source->text, wanted);
+    if (found)
+        sscanf(found + strlen(wanted), "%127s", path);
+    return true;
+}
+
 /* A line that is no include is copied. */
 static bool append_source_line(ShaderSource *source, const char *line, size_t size, int file, int number,
                                Error *error)
 {
     char path[SHADER_PATH_MAX], from[SHADER_PATH_MAX + 16], copy[SHADER_PATH_MAX + 16];
     snprintf(copy, sizeof copy, "%.*s", (int)size, line);
-    if (sscanf(copy, " #include \"%127[^\"]\"", path) != 1)
+    if (named_path(source, copy, path) && !path[0])
+        return append(source, "\n", 1) || error_set(error, "out of memory for shaders");
+    if (!path[0] && sscanf(copy, " #include \"%127[^\"]\"", path) != 1)
         return (append(source, line, size) && (line[size - 1] != '\n' || !ends_group(copy) ||
                                                append_line_mark(source, number + 1, file))) ||
                error_set(error, "out of memory for shaders");

@@ -1,9 +1,11 @@
 /* The text of a shader: embedded in the program, or read from a folder, with its includes pasted in.
 
    A line `#include "common/frame.glsl"` pastes that file, once a shader; paths count from the folder
-   shaders/. Headers that C includes too are named as C names them, "shaders/shared/frame_block.h". The
-   compiler is told by #line which file and line it reads, and shader_source_log turns its numbers back into
-   names. The language is GLSL 4.50; of .vert, .geom and .frag below sim/ GLSL 3.30. */
+   shaders/. Headers that C includes too are named as C names them, "shaders/shared/frame_block.h". A
+   line `#include NAME` pastes the file that a line `#define NAME common/frame.glsl` before the shader says,
+   and nothing where there is none. The compiler is told by #line which file and line it reads, and
+   shader_source_log turns its numbers back into names. The language is GLSL 4.50; of .vert, .geom and .frag
+   below sim/ GLSL 3.30. */
 #ifndef SLOSH_SHADER_SOURCE_H
 #define SLOSH_SHADER_SOURCE_H
 

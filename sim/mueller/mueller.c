@@ -90,6 +90,7 @@ const Method method_mueller = {
     .friction = mueller_friction,
     .pressure = mueller_pressure,
     .energy = mueller_energy,
+    .energy_shader = "mueller/energy",
     .constants = mueller_set,
     .advise = mueller_advise,
     .columns = mueller_columns,

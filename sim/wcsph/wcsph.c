@@ -171,6 +171,7 @@ const Method method_wcsph = {
     .friction = wcsph_friction,
     .pressure = wcsph_state_of,
     .energy = wcsph_energy,
+    .energy_shader = "wcsph/energy",
     .constants = wcsph_set,
     .advise = wcsph_advise,
     .columns = wcsph_columns,

@@ -87,6 +87,7 @@ typedef struct Method {
        NULL: it has none. */
     float (*pressure)(const struct Constants *constants, int fluid, float x);
     double (*energy)(double x);
+    const char *energy_shader; /* shaders/sim/ENERGY_SHADER.glsl: the same for GPUs; NULL: none */
     /* Fills Constants.of_method, behind all others; again when what is live has changed. NULL: it has none.
      */
     void (*constants)(struct Constants *constants, const WorldDef *def);

@@ -111,6 +111,23 @@ static void test_good_program(void **state)
     glDeleteProgram(program);
 }
 
+/* A file may be included by a name that stands before the shader; a name that nobody has said pastes none. */
+static void test_include_by_a_name(void **state)
+{
+    (void)state;
+    Error error = {0};
+    write_shader("good.frag",
+                 "#include PART\n#ifdef OTHER_PART\n#include OTHER_PART\n#endif\nout vec4 color;\n"
+                 "void main() { color = vec4(one()); }\n");
+    const char *stages[] = {"good.vert", "good.frag", NULL};
+    const unsigned program = program_create("by name", stages, "#define PART good.glsl\n", &error);
+    if (!program)
+        fail_msg("%s", error.message);
+    glDeleteProgram(program);
+    assert_int_equal(program_create("by name", stages, "#define PART none.glsl\n", &error), 0);
+    assert_non_null(strstr(error.message, "good.frag:1: there is no shader \"none.glsl\""));
+}
+
 static void test_errors_are_counted(void **state)
 {
     (void)state;
@@ -128,6 +145,7 @@ int main(void)
         cmocka_unit_test_teardown(test_error_in_the_file, no_gl_errors),
         cmocka_unit_test_teardown(test_error_in_an_include, no_gl_errors),
         cmocka_unit_test_teardown(test_missing_include, no_gl_errors),
+        cmocka_unit_test_teardown(test_include_by_a_name, no_gl_errors),
         cmocka_unit_test_teardown(test_does_not_link, no_gl_errors),
         cmocka_unit_test_teardown(test_unknown_kind_of_file, no_gl_errors),
         cmocka_unit_test_teardown(test_good_program, no_gl_errors),

@@ -44,6 +44,9 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
     for (const ShaderTerm *own = s->method->terms; own && own->name; own++)
         if (own->needed(s))
             used = put_define(out, used, own->name);
+    if (s->method->energy_shader)
+        snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define ENERGY_OF_METHOD sim/%s.glsl\n",
+                 s->method->energy_shader);
 }
 
 bool compute_pass_named(const Constants *s, ComputePass pass)

@@ -69,6 +69,8 @@ static void put_terms(Text *to, const Constants *s)
     for (const ShaderTerm *own = s->method->terms; own && own->name; own++)
         if (own->needed(s))
             put(to, "#define %s 1\n", own->name);
+    if (s->method->energy_shader)
+        put(to, "#define ENERGY_OF_METHOD sim/%s.glsl\n", s->method->energy_shader);
 }
 
 static void put_kernel(Text *to, const Constants *s)
