@@ -39,7 +39,8 @@ typedef struct ShaderTerm {
     bool (*needed)(const struct Constants *constants);
 } ShaderTerm;
 
-/* A storage buffer of the method's shaders, which have its columns of scratch together there. */
+/* A storage buffer of the method's shaders that has several columns of scratch side by side in a vec4, since
+   pair loops read them together. Other scratch is a row with COLUMN_SHADERS. */
 typedef struct ShaderBuffer {
     const char *block; /* by that name they find it */
     size_t size;       /* bytes a particle */
