@@ -119,7 +119,8 @@ static bool figures(const Samples *samples, const char *gl_clock, BenchResult *r
         wall += samples->frame_ms[f];
     result->frame_ms = quantile(samples->frame_ms, samples->frames, 0.5);
     result->frames = samples->frames;
-    result->particle_steps_per_second = (double)result->particles * (double)samples->steps / (1e-3 * sim);
+    if (sim > 0) /* a method may have no stage */
+        result->particle_steps_per_second = (double)result->particles * (double)samples->steps / (1e-3 * sim);
     result->real_time_factor = samples->simulated / (1e-3 * wall);
     free(work);
     return true;

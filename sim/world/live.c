@@ -1,6 +1,7 @@
 #include "sim/world/live.h"
 
 #include "sim/base/key.h"
+#include "sim/world/method.h"
 
 #include <assert.h>
 #include <math.h>
@@ -133,11 +134,25 @@ void live_load(const double numbers[LIVE_NUMBERS], WorldDef *def)
     }
 }
 
+static void copy_rows(const Key *rows, const char *from, char *to)
+{
+    for (const Key *key = rows; key && key->path; key++) {
+        Members members = {.count = 0};
+        if (key->flags & KEY_LIVE)
+            add_row(&members, key, NULL, 0);
+        for (const Member *m = members.of; m < members.of + members.count; m++)
+            for (int k = 0; k < m->numbers; k++)
+                put(m, to + m->at, k, get(m, from + m->at, k));
+    }
+}
+
 void live_copy(const WorldDef *from, WorldDef *to)
 {
     double numbers[LIVE_NUMBERS] = {0};
     live_save(from, numbers);
     live_load(numbers, to);
+    for (const Method *const *m = method_list(); *m; m++)
+        copy_rows((*m)->keys, method_def(from, *m), method_def(to, *m));
 }
 
 bool live_sound(const double numbers[LIVE_NUMBERS])

@@ -58,9 +58,9 @@ void world_set_target(World *world, const BoxTarget *target);
 void world_carry(World *world, const BoxTarget *target);
 
 /* Takes from `def` what may change while a world lives: gravity, viscosities, sound speed, negative pressure,
-   dt, substeps, number and max_dt of mode cfl, the hand's limits; all else must be as it was. It holds from
-   the next step on, and is as much a part of the world's history as a target is. False with the reason:
-   nothing has changed. */
+   dt, substeps, number and max_dt of mode cfl, the hand's limits, live keys of methods; all else must be as
+   it was. It holds from the next step on, and is as much a part of the world's history as a target is. False
+   with the reason: nothing has changed. */
 bool world_change(World *world, const WorldDef *def, Error *error);
 
 /* Reads the shaders of a backend on a GPU again; false with the reason where one is wrong: those before stay.

@@ -2,6 +2,7 @@
  */
 #include "tests/render/toy_view.h"
 #include "tests/render/ui_fixture.h"
+#include "tests/sim/toy_method.h"
 
 #include "app/hand/play_commands.h"
 #include "app/panel/panel.h"

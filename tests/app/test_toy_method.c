@@ -2,6 +2,7 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/output/snapshot.h"
+#include "app/recording/sim_command.h"
 #include "app/scene/keys.h"
 #include "app/session/headless.h"
 #include "sim/gl/backends.h"
@@ -45,7 +46,6 @@ static void goes_on_from_a_file(const char *backend)
     Error error = {{0}};
     WorldState last = {.count = 0};
     bool busy;
-    method_add(&toy);
     assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
     snprintf(scene.world.backend, sizeof scene.world.backend, "%s", backend);
     scene.world.reproducible = true;
@@ -87,7 +87,6 @@ static void a_file_without_its_column_is_refused(void **state)
     Error error = {{0}};
     WorldState last = {.count = 0};
     bool busy;
-    method_add(&toy);
     assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
     write_file(&scene);
     const hid_t edit = H5Fopen("a.h5part", H5F_ACC_RDWR, H5P_DEFAULT);
@@ -98,13 +97,33 @@ static void a_file_without_its_column_is_refused(void **state)
     world_state_free(&last);
 }
 
+/* As the panel, the window and a recording change it. */
+static void its_key_reaches_the_world_that_runs(void **state)
+{
+    (void)state;
+    static Scene scene;
+    Error error = {{0}};
+    const SimCommand set[2] = {{0, SIM_SET, {.setting = "solver.springs=50"}},
+                               {0, SIM_SET, {.setting = "solver.springs=200"}}};
+    uint64_t hash[2];
+    for (int k = 0; k < 2; k++) {
+        assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
+        World *world = world_create(&scene.world, &error);
+        step_on(world, 3);
+        assert_true(sim_command_apply(&set[k], &world, &scene, &error));
+        step_on(world, 3);
+        hash[k] = world_hash(world);
+        world_destroy(world);
+    }
+    assert_true(hash[0] != hash[1]);
+}
+
 /* The program has no shaders of it. */
 static void a_gpu_has_no_such_method(void **state)
 {
     (void)state;
     static Scene scene;
     Error error = {{0}};
-    method_add(&toy);
     backends_add();
     assert_true(scene_parse("toy.yaml", text, strlen(text), NULL, &scene, NULL, &error));
     assert_true(world_can(&scene.world, &error));
@@ -121,6 +140,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_run_goes_on_from_a_file, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(and_on_a_gpu, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(a_file_without_its_column_is_refused, folder_setup, folder_teardown),
+        cmocka_unit_test(its_key_reaches_the_world_that_runs),
         cmocka_unit_test(a_gpu_has_no_such_method),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

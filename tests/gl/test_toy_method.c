@@ -77,6 +77,25 @@ static void steps_are_those_of_the_cpu(void **state)
     }
 }
 
+/* The shader reads it in the method's block. */
+static void a_live_key_reaches_both(void **state)
+{
+    (void)state;
+    WorldDef def = toy_def(false);
+    World *const worlds[] = {world_on(def, "cpu"), world_on(def, "compute")};
+    *(double *)method_def(&def, &toy) = 800;
+    for (int k = 0; k < 2; k++) {
+        Error error;
+        fixture_step(worlds[k], 5);
+        if (!world_change(worlds[k], &def, &error))
+            fail_msg("%s", error.message);
+        fixture_step(worlds[k], 20);
+    }
+    compare(worlds[0], worlds[1], "a live key");
+    world_destroy(worlds[0]);
+    world_destroy(worlds[1]);
+}
+
 static void it_moves_from_backend_to_backend(void **state)
 {
     (void)state;
@@ -129,7 +148,6 @@ static void it_goes_back(void **state)
 
 static int setup(void **state)
 {
-    method_add(&toy);
     toy_shaders_add();
     return compare_setup(state);
 }
@@ -144,6 +162,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
+        cmocka_unit_test_teardown(a_live_key_reaches_both, no_gl_errors),
         cmocka_unit_test_teardown(it_moves_from_backend_to_backend, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(it_goes_back, no_gl_errors),

@@ -547,7 +547,6 @@ static void draw_views(const WorldDef *def, bool solids)
 static void toy_lives(void)
 {
     const WorldDef base = pool_def("compute");
-    method_add(&toy);
     toy_shaders_add();
     LIVE(base, set_name(d.method, "toy"), add_flow(&d));
     toy_shaders_remove();

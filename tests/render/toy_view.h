@@ -1,4 +1,5 @@
-/* A view in one file: it fills the part of the picture in which particles may be with a shade of its own. */
+/* A view in one file: it fills the part of the picture in which particles may be with a shade of its own.
+   It adds itself to the list. */
 #ifndef SLOSH_TESTS_TOY_VIEW_H
 #define SLOSH_TESTS_TOY_VIEW_H
 
@@ -48,7 +49,7 @@ static const ViewKind view_toy = {.name = "toy",
                                   .create = toy_create,
                                   .destroy = free,
                                   .draw = toy_draw};
-static __attribute__((constructor)) void toy_add(void)
+static __attribute__((constructor)) void toy_view_add(void)
 {
     view_add(&view_toy);
 }

@@ -215,6 +215,5 @@ int main(void)
         cmocka_unit_test(energy_is_the_integral_of_pressure),
         cmocka_unit_test(particles_have_the_pressure_of_their_method),
     };
-    method_add(&toy);
     return cmocka_run_group_tests_name("sim.method", tests, NULL, NULL);
 }

@@ -8,7 +8,6 @@ static void toy_lives(void **state)
     (void)state;
     Error error;
     WorldState saved = {.count = 0};
-    method_add(&toy);
     WorldDef def = fixture_def(1, 1, 1);
     strcpy(def.method, "toy"), fixture_block(&def, 0, -0.4, 0, -0.4, 0.2, 0.5, 0.4);
     World *one = fixture_world(&def), *three = (*world_threads(&def) = 3, fixture_world(&def));

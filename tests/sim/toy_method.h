@@ -1,47 +1,58 @@
-/* A method that the program does not have: springs that harden with the age of their particles, a column of
-   its own. */
+/* A method in one file: springs that harden with the age of their particles. It adds itself to the list. */
 #ifndef SLOSH_TESTS_TOY_METHOD_H
 #define SLOSH_TESTS_TOY_METHOD_H
 
+#include "sim/base/key_rows.h"
 #include "sim/cpu/pass.h"
 #include "sim/world/substep.h"
+
+static const double soft = 50; /* its settings are one number */
+static const Key spring_keys[] = {NUMBER("solver.springs", L, "1/s2", 0, 1000, 0, "stiffness when new"),
+                                  KEYS_END};
+static Method toy;
+
+static void spring_constants(Constants *constants, const WorldDef *def)
+{
+    *(float *)(void *)constants->of_method = (float)*(double *)method_def(def, &toy);
+}
 
 static void body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     for (size_t i = range->begin; i < range->end; i++) {
         p->own[0][i] += range->input->dt * (float)p->id[i];
-        p->own[1][i] = 50 + 1000 * p->own[0][i];
+        p->own[1][i] = *(const float *)(const void *)range->cpu->constants->of_method + 1000 * p->own[0][i];
         p->ax[i] = -p->own[1][i] * p->x[i];
         p->volume[i] = 1 / range->cpu->constants->rest_number_density;
     }
 }
 
+/* clang-format off */
 static const CpuPass on_cpu = {.loops = {{body, CPU_GRAIN}}};
-static const Pass spring = {.name = "spring",
-                            .cpu = &on_cpu,
-                            .shader = "toy/spring",
-                            .reads = "position id age",
-                            .writes = "age stiffness volume acceleration"};
-enum { KEPT = COLUMN_SAVED | COLUMN_SORTED };
-static const ColumnDef columns[] = {{"age", "s", COLUMN_OWN(0), 1, .flags = KEPT},
-                                    {"stiffness", "1/s2", COLUMN_OWN(1), 1, .flags = COLUMN_SHADERS},
-                                    {0}};
+static const Pass spring = {.name = "spring", .stage = STAGE_FORCE, .cpu = &on_cpu, .shader = "toy/spring",
+                            .reads = "position id age", .writes = "age stiffness volume acceleration"};
+static const ColumnDef of_spring[] = {{"age", "s", COLUMN_OWN(0), 1, .flags = COLUMN_SAVED | COLUMN_SORTED},
+                                      {"stiffness", "1/s2", COLUMN_OWN(1), 1, .flags = COLUMN_SHADERS}, {0}};
 
 static void substep(const Substep *step)
 {
     step->backend->drift(step->state, &step->first_half);
     step->backend->grid(step->state);
-    substep_run(step, &spring, step->dt);
+    STAGE (step->clock, STAGE_FORCE)
+        substep_run(step, &spring, step->dt);
     substep_kick(step);
     step->backend->drift(step->state, &step->second_half);
 }
 
-static Method toy = {.name = "toy",
-                     .help = "springs that harden",
-                     .columns = columns,
-                     .passes = (const Pass *const[]){&spring, NULL},
-                     .settle = &spring,
-                     .substep = substep};
+static Method toy = {.name = "toy", .help = "springs that harden",
+                     .keys = spring_keys, .def = &soft, .def_size = sizeof soft,
+                     .constants = spring_constants, .columns = of_spring,
+                     .passes = (const Pass *const[]){&spring, NULL}, .settle = &spring, .substep = substep};
+/* clang-format on */
+
+static __attribute__((constructor)) void toy_method_add(void)
+{
+    method_add(&toy);
+}
 
 #endif
