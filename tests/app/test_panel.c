@@ -9,7 +9,7 @@
 #include "app/scene/keys.h"
 #include "app/scene/live.h"
 
-enum { HISTORY = 120 };
+enum { HISTORY = 120, TALL = 4000 }; /* all sections open, and room for more keys */
 
 static const char *const sections[] = {"History", "Colours", "World", "Fluids", "Solver", "Hand", "View"};
 enum { SECTIONS = sizeof sections / sizeof *sections };
@@ -146,7 +146,7 @@ static void open_sections(Desk *desk)
 
 static Desk *all_open(Session *session, const char *scene)
 {
-    Desk *desk = session_open(session, scene, 400, 2700, 13);
+    Desk *desk = session_open(session, scene, 400, TALL, 13);
     open_sections(desk);
     return desk;
 }
@@ -204,7 +204,7 @@ static void click_for_change(Desk *desk, const Key *key, const char *path, float
     if (key->type == KEY_COLOR)
         desk_click(desk, middle + 60, seen->rect[3] + 60);
     if (key->type == KEY_CHOICE || key->type == KEY_COLOR)
-        desk_click(desk, 395, 2695); /* closes it */
+        desk_click(desk, 395, TALL - 5); /* closes it */
 }
 
 /* Thousands of frames of which nobody looks at one: the widgets work as ever. session_close ends it. */

@@ -16,7 +16,10 @@ static void toy_lives(void **state)
     fixture_step(one, 5), fixture_step(three, 5);
     assert_float_equal(saved.particles.own[0][5], 0.06 * saved.particles.id[5], 1e-4);
     assert_true(world_hash(one) && world_hash(one) == world_hash(three));
-    assert_string_equal(world_methods()[2].name, "toy");
+    const Named *last = world_methods();
+    while (last[1].name)
+        last++;
+    assert_string_equal(last->name, "toy");
     world_state_free(&saved), world_destroy(one), world_destroy(three);
 }
 

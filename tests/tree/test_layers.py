@@ -11,6 +11,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIM_LIBRARY = sys.argv.pop(1)
 FILES_MAX = 40  # in a folder
 
+
+def own_folders(floor, what):
+    """The methods or the views of the program: each is a folder, in which a .c file defines it."""
+    return sorted({path.parent.name for path in (ROOT / floor).glob("*/*.c")
+                   if re.search(rf"^const {what}_{path.parent.name} =", path.read_text(), re.M)})
+
+
 # Each room with the rooms of its floor that it may include; all of them are above it in the list.
 SIM = {
     "base": "",
@@ -20,19 +27,18 @@ SIM = {
     "mesh": "base kernel",
     "world": "base kernel box matter",
     "cpu": "base kernel box matter world",
-    "mueller": "base kernel box matter world cpu",
-    "wcsph": "base kernel box matter world cpu",
 }
+METHODS = own_folders("sim", "Method method")
+SIM |= {name: "base kernel box matter world cpu" for name in METHODS}
 GL = {"": "", "compute": "", "fragment": ""}
 RENDER = {
     "frame": "",
     "particles": "",
     "ui": "frame",
-    "spheres": "frame particles",
-    "splat": "frame particles",
-    "volume": "frame particles",
-    "": "frame particles spheres splat volume ui",
 }
+VIEWS = own_folders("render", "ViewKind view")
+RENDER |= {name: "frame particles" for name in VIEWS}
+RENDER[""] = " ".join(["frame particles ui", *VIEWS])
 APP = {
     "base": "",
     "metric": "base",
@@ -80,7 +86,7 @@ def may():
         under = [where for name in below for where in rooms[name]]
         under = [where for where in under if not where.startswith("sim/gl/")]  # backends: by name only
         if floor != "sim/gl":
-            under = [where for where in under if where not in ("sim/mueller", "sim/wcsph", "sim/cpu")]
+            under = [where for where in under if where not in ("sim/cpu", *(f"sim/{name}" for name in METHODS))]
         for room, names in table.items():
             own = [folder(floor, name) for name in names.split()]
             if floor == "sim/gl":
@@ -171,8 +177,7 @@ class Layers(unittest.TestCase):
 
     def test_a_view_is_named_in_its_folder_and_in_lists(self):
         paths = list(sources())
-        views = {match.group(1) for path in paths if path.suffix == ".c"
-                 for match in re.finditer(r"^const ViewKind view_(\w+) =", path.read_text(), re.M)}
+        views = set(VIEWS)
         self.assertGreaterEqual(views, {"spheres", "splat", "volume"})
         found = []
         for path in paths:
@@ -187,8 +192,7 @@ class Layers(unittest.TestCase):
 
     def test_a_method_is_named_in_its_folder_and_in_lists(self):
         paths = list(sources())
-        methods = {match.group(1) for path in paths if path.suffix == ".c"
-                   for match in re.finditer(r"^const Method method_(\w+) =", path.read_text(), re.M)}
+        methods = set(METHODS)
         self.assertGreaterEqual(methods, {"mueller", "wcsph"})
         word = re.compile("|".join(methods), re.I)
         named = {str(path.relative_to(ROOT)) for path in paths
