@@ -225,9 +225,20 @@ static void act(Play *play, const Ask *ask)
     }
 }
 
+/* Said before the rest is done, which may have more to say. */
+static void left_out(Play *play, int lost)
+{
+    Error words;
+    error_set(&words, "too much was asked for during one picture: the last %d of it were left out", lost);
+    notice_error(&play->notice, words.message);
+}
+
 void act_all(Play *play)
 {
     Ask ask;
+    const int lost = ask_lost(&play->asks);
+    if (lost > 0)
+        left_out(play, lost);
     while (ask_next(&play->asks, &ask))
         act(play, &ask);
 }

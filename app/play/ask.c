@@ -15,6 +15,15 @@ void ask_add(AskQueue *queue, const Ask *ask)
     }
     if (queue->count < ASKS_MAX)
         queue->asks[(queue->first + queue->count++) % ASKS_MAX] = *ask;
+    else
+        queue->lost++;
+}
+
+int ask_lost(AskQueue *queue)
+{
+    const int lost = queue->lost;
+    queue->lost = 0;
+    return lost;
 }
 
 void ask_command(AskQueue *queue, PlayCommand command)

@@ -36,13 +36,17 @@ enum { ASKS_MAX = 64 };
 /* Zero-initialise it. */
 typedef struct AskQueue {
     int first, count;
+    int lost;           /* for ask_lost */
     Ask asks[ASKS_MAX]; /* a ring */
 } AskQueue;
 
 /* Adds a copy. Turns, ways and zooms of the camera add up while nothing else comes in between. What comes to
-   a full queue is left out: nobody has pressed so much during one picture. */
+   a full queue is left out, and counted. */
 void ask_add(AskQueue *queue, const Ask *ask);
 void ask_command(AskQueue *queue, PlayCommand command);
+
+/* How many have found the queue full since the last call. */
+int ask_lost(AskQueue *queue);
 
 /* Takes the oldest; false when there is none. */
 bool ask_next(AskQueue *queue, Ask *ask);

@@ -108,13 +108,15 @@ static void camera_moves_add_up_until_another_comes(void **state)
     no_more();
 }
 
-static void a_full_queue_keeps_what_it_has(void **state)
+static void a_full_queue_keeps_what_it_has_and_counts_the_rest(void **state)
 {
     (void)state;
     for (int round = 0; round < 3; round++) { /* round the ring */
         for (int i = 0; i < ASKS_MAX + 5; i++)
             ask_command(&asks, i == 0 ? PLAY_PAUSE : PLAY_STEP);
         assert_int_equal(asks.count, ASKS_MAX);
+        assert_int_equal(ask_lost(&asks), 5);
+        assert_int_equal(ask_lost(&asks), 0); /* it is said once */
         assert_int_equal(next(ASK_COMMAND).command, PLAY_PAUSE);
         for (int i = 1; i < ASKS_MAX; i++)
             assert_int_equal(next(ASK_COMMAND).command, PLAY_STEP);
@@ -201,7 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(what_is_asked_waits_in_its_order, begin),
         cmocka_unit_test_setup(camera_moves_add_up_until_another_comes, begin),
-        cmocka_unit_test_setup(a_full_queue_keeps_what_it_has, begin),
+        cmocka_unit_test_setup(a_full_queue_keeps_what_it_has_and_counts_the_rest, begin),
         cmocka_unit_test_setup(what_only_holds_asks_for_nothing, begin),
         cmocka_unit_test_setup(what_is_held_moves_the_box, begin),
         cmocka_unit_test_setup(a_lost_focus_lets_go_once, begin),
