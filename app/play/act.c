@@ -1,4 +1,5 @@
-#include "app/play/act.h"
+/* Does what is asked of the window, between two pictures. */
+#include "app/play/parts.h"
 
 #include "render/frame/colormap.h"
 #include "sim/base/scalar.h"

@@ -1,4 +1,6 @@
-#include "app/play/hands.h"
+/* What the hand does: by mouse, keys and gamepad, and by motion devices. It moves the box at once, through
+   the simulator's own queue; all else that it asks for is queued. */
+#include "app/play/parts.h"
 
 #include <math.h>
 

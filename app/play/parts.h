@@ -1,5 +1,5 @@
 /* The parts of a live window, each with its owner. What flows goes one way: input -> what is asked for ->
-   model -> picture; only act.c, hands.c and play.c see all of them. */
+   model -> picture; only the files that are named below, and play.c, see all of them. */
 #ifndef SLOSH_PLAY_PARTS_H
 #define SLOSH_PLAY_PARTS_H
 
@@ -12,6 +12,7 @@
 #include "app/play/notice.h"
 #include "app/play/overlay.h"
 #include "app/play/picture.h"
+#include "app/window/shake.h"
 #include "app/window/window.h"
 
 typedef struct Play {
@@ -26,6 +27,8 @@ typedef struct Play {
     Files files;
     PlayMeter meter;
     Notice notice;
+    double shake_seconds; /* given: more than 0: a script shakes the box for so long, then all ends */
+    WindowShake shake;
     bool quit;
 } Play;
 
@@ -35,5 +38,24 @@ static inline CameraSight play_sight(const Play *play)
     const int width = play->picture.width;
     return (CameraSight){width, play->picture.height, overlay_covered_left(&play->overlay, width)};
 }
+
+/* events.c: once a loop, between two pictures: all that has come, each event done before the next one is
+   looked at. */
+void events_take(Play *play);
+
+/* In the middle of a picture: a box that is held follows a picture sooner. */
+void events_follow_hand(Play *play);
+
+/* hands.c: what the hand does, between two pictures or in the middle of one; there must be a state. */
+void hands_look(Play *play);
+
+/* act.c: all that waits, in the order in which it was asked for. */
+void act_all(Play *play);
+
+/* Opens a scene: what it was before stays where it cannot be opened. */
+bool act_open(Play *play, const char *scene, const SceneSettings *settings, Error *error);
+
+/* draw.c: one picture of the newest state on the screen. */
+void draw_picture(Play *play);
 
 #endif

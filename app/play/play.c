@@ -3,11 +3,8 @@
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
 #include "app/device/devices.h"
-#include "app/play/act.h"
 #include "app/play/figures.h"
-#include "app/play/hands.h"
 #include "app/play/parts.h"
-#include "app/window/shake.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
 
@@ -22,7 +19,6 @@ typedef struct Session {
     Play play;
     const PlaySetup *setup;
     Devices *devices; /* NULL: not started yet, or left alone */
-    WindowShake shake;
 } Session;
 
 /* A HandPost whose devices the window leaves to it. */
@@ -74,99 +70,6 @@ static bool start(Session *session, Error *error)
            overlay_start(&play->overlay, letters, error);
 }
 
-/* Before the first picture there is nothing that a mouse could take. */
-static bool too_early(const Play *play, WindowEventKind kind)
-{
-    return !play->model.has_particles &&
-           (kind == WINDOW_BUTTON || kind == WINDOW_MOVE || kind == WINDOW_WHEEL || kind == WINDOW_FOCUS);
-}
-
-static bool overlay_has(const Play *play, const WindowEvent *event)
-{
-    return play->model.has_particles && play->input.drag == PLAY_NONE && overlay_takes(&play->overlay, event);
-}
-
-static void take_event(Play *play, const WindowEvent *event)
-{
-    const bool redraw = event->kind == WINDOW_RESIZE || event->kind == WINDOW_EXPOSE;
-    overlay_event(&play->overlay, event);
-    play->picture.dirty |= redraw || play->overlay.panel || play->overlay.help;
-    if (!too_early(play, event->kind) && !overlay_has(play, event))
-        input_take(&play->input, event, play->picture.height, &play->asks);
-}
-
-/* Letters and signs count as the user's keyboard has them. */
-static WindowEvent on_layout(const WindowEvent *event)
-{
-    WindowEvent own = *event;
-    if (own.kind == WINDOW_KEY)
-        own.key = play_key_on_layout(own.key, own.label);
-    return own;
-}
-
-/* The script's events that are due. */
-static bool next_shake(Session *session, WindowEvent *event)
-{
-    const Play *play = &session->play;
-    return session->setup->shake_seconds > 0 && play->model.has_particles &&
-           window_shake_next(&session->shake, wall_ms(), play->picture.width, play->picture.height, event);
-}
-
-static bool shaken_enough(const Session *session)
-{
-    const double began = session->shake.began_ms, seconds = session->setup->shake_seconds;
-    return seconds > 0 && began > 0 && wall_ms() - began >= 1000 * seconds;
-}
-
-/* Once a loop, between two pictures: all that has come, each event done before the next one is looked at. */
-static void take_events(Session *session)
-{
-    Play *play = &session->play;
-    WindowEvent event;
-    act_all(play); /* what the panel and the hand asked for during the last picture */
-    while (next_shake(session, &event)) {
-        take_event(play, &event);
-        act_all(play);
-    }
-    play->quit |= shaken_enough(session);
-    window_poll(play->window);
-    while (window_next(play->window, &event)) {
-        event = on_layout(&event);
-        take_event(play, &event);
-        act_all(play);
-    }
-    if (play->model.has_particles)
-        hands_look(play);
-    act_all(play);
-}
-
-/* What moves the box that is held. An event that asks for anything waits, and all that come after it. */
-static void take_moves(Session *session)
-{
-    Play *play = &session->play;
-    WindowEvent event;
-    while (next_shake(session, &event))
-        take_event(play, &event);
-    window_poll(play->window);
-    while (window_peek(play->window, &event)) {
-        event = on_layout(&event);
-        if (!input_only_holds(&play->input, &event))
-            break;
-        take_event(play, &event);
-        window_next(play->window, &event);
-    }
-}
-
-/* In the middle of a picture: a box that is held follows a picture sooner. */
-static void follow_hand(Session *session)
-{
-    Play *play = &session->play;
-    if (input_holds_box(&play->input))
-        take_moves(session);
-    if (play->model.has_particles)
-        hands_look(play);
-}
-
 /* Motion devices begin when there is a box that they could move. */
 static bool start_devices(Session *session, Error *error)
 {
@@ -199,78 +102,6 @@ static void follow_shaders(Play *play)
         notice_error(&play->notice, error.message);
 }
 
-static void draw_overlay(Play *play)
-{
-    const OverlayFacts facts = {.width = play->picture.width,
-                                .height = play->picture.height,
-                                .renderer = window_renderer(play->window),
-                                .meter = &play->meter,
-                                .gl_times = play->picture.timer ? &play->picture.gl_times : NULL,
-                                .movie = play->files.video != NULL};
-    const double began = meter_thread_cpu_ms();
-    play->picture.dirty |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
-    if (play->overlay.panel || play->overlay.help)
-        meter_panel(&play->meter, meter_thread_cpu_ms() - began);
-}
-
-static void draw_fluid(Session *session)
-{
-    Play *play = &session->play;
-    Picture *picture = &play->picture;
-    const CameraSight sight = play_sight(play);
-    picture_draw(picture, &play->model.particles, sight.covered_left);
-    follow_hand(session);
-    picture_present(picture);
-    files_take(&play->files, picture->renderer, picture->width, picture->height, &play->notice);
-    draw_overlay(play);
-}
-
-static const char *words_of(const Play *play)
-{
-    const char *notice = notice_now(&play->notice);
-    if (notice)
-        return notice;
-    return play->model.status.failed   ? play->model.status.message
-           : play->model.has_particles ? NULL
-                                       : "filling the box ...";
-}
-
-static void count_picture(Play *play, double began)
-{
-    Model *model = &play->model;
-    const double now = wall_ms();
-    meter_drawn(&play->meter, now - began);
-    if (!model->has_particles)
-        return;
-    if (meter_begin(&play->meter, now))
-        model->simulated_s = -model->status.simulated_s;
-    meter_picture(&play->meter, now, simulator_obeyed(model->open.simulator, model->particles.step));
-}
-
-/* One picture of the newest state on the screen. */
-static void draw(Session *session)
-{
-    Play *play = &session->play;
-    Picture *picture = &play->picture;
-    const double began = wall_ms();
-    if (!picture_visible(picture))
-        return;
-    model_take(&play->model);
-    picture->dirty = false;
-    picture->begun_ms = began;
-    if (play->model.has_particles)
-        draw_fluid(session);
-    else
-        picture_clear(picture, &play->model.open.scene.view);
-    picture_words(picture, words_of(play));
-    picture_close(picture);
-    do
-        follow_hand(session);
-    while (!picture_done(picture));
-    window_present(play->window);
-    count_picture(play, began);
-}
-
 static bool hand_busy(const Play *play)
 {
     WindowGamepad pad;
@@ -279,9 +110,8 @@ static bool hand_busy(const Play *play)
 
 /* A picture when there is something new to see, and no more than the display shows. A solver on the GPU has
    its turns in between. */
-static void pause_or_draw(Session *session)
+static void pause_or_draw(Play *play)
 {
-    Play *play = &session->play;
     const Picture *picture = &play->picture;
     PlayScene *open = &play->model.open;
     const double work = simulator_work(open->simulator, WORK_MS);
@@ -289,7 +119,7 @@ static void pause_or_draw(Session *session)
     const bool wanted =
         picture_visible(picture) && (picture->dirty || play_scene_fresh(open) || files_due(&play->files));
     if (wanted && now >= due)
-        draw(session);
+        draw_picture(play);
     else if (wanted)
         window_wait(play->window, 1e-3 * fmin(fmax(due - now, 0.1), work));
     else
@@ -300,7 +130,7 @@ static bool run(Session *session, Error *error)
 {
     Play *play = &session->play;
     while (!play->quit && !interrupted()) {
-        take_events(session);
+        events_take(play);
         if (!start_devices(session, error))
             return false;
         model_listen(&play->model);
@@ -311,7 +141,7 @@ static bool run(Session *session, Error *error)
             return false;
         play->picture.dirty |= notice_changed(&play->notice);
         if (!play->quit)
-            pause_or_draw(session);
+            pause_or_draw(play);
     }
     return true;
 }
@@ -322,7 +152,7 @@ static bool finish(Session *session, Error *error)
     Play *play = &session->play;
     const char *record = session->setup->record;
     if (play->files.shoot) /* asked for in the last moment */
-        draw(session);
+        draw_picture(play);
     window_hide(play->window);
     const bool movie = files_end(&play->files, &play->notice);
     return (!record || model_save_now(&play->model, record, error)) &&
@@ -372,6 +202,7 @@ int play(const PlaySetup *setup, PlayFigures *figures)
     }
     session->setup = setup;
     session->play.notice.quiet = setup->quiet;
+    session->play.shake_seconds = setup->shake_seconds;
     input_begin(&session->play.input);
     interrupt_install();
     const bool ok = play_session(session, figures);

@@ -1,0 +1,72 @@
+/* One picture: the fluid, what lies over it, and what is counted of it. */
+#include "app/play/parts.h"
+#include "sim/base/stage.h"
+
+static void draw_overlay(Play *play)
+{
+    const OverlayFacts facts = {.width = play->picture.width,
+                                .height = play->picture.height,
+                                .renderer = window_renderer(play->window),
+                                .meter = &play->meter,
+                                .gl_times = play->picture.timer ? &play->picture.gl_times : NULL,
+                                .movie = play->files.video != NULL};
+    const double began = meter_thread_cpu_ms();
+    play->picture.dirty |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
+    if (play->overlay.panel || play->overlay.help)
+        meter_panel(&play->meter, meter_thread_cpu_ms() - began);
+}
+
+static void draw_fluid(Play *play)
+{
+    Picture *picture = &play->picture;
+    const CameraSight sight = play_sight(play);
+    picture_draw(picture, &play->model.particles, sight.covered_left);
+    events_follow_hand(play);
+    picture_present(picture);
+    files_take(&play->files, picture->renderer, picture->width, picture->height, &play->notice);
+    draw_overlay(play);
+}
+
+static const char *words_of(const Play *play)
+{
+    const char *notice = notice_now(&play->notice);
+    if (notice)
+        return notice;
+    return play->model.status.failed   ? play->model.status.message
+           : play->model.has_particles ? NULL
+                                       : "filling the box ...";
+}
+
+static void count_picture(Play *play, double began)
+{
+    Model *model = &play->model;
+    const double now = wall_ms();
+    meter_drawn(&play->meter, now - began);
+    if (!model->has_particles)
+        return;
+    if (meter_begin(&play->meter, now))
+        model->simulated_s = -model->status.simulated_s;
+    meter_picture(&play->meter, now, simulator_obeyed(model->open.simulator, model->particles.step));
+}
+
+void draw_picture(Play *play)
+{
+    Picture *picture = &play->picture;
+    const double began = wall_ms();
+    if (!picture_visible(picture))
+        return;
+    model_take(&play->model);
+    picture->dirty = false;
+    picture->begun_ms = began;
+    if (play->model.has_particles)
+        draw_fluid(play);
+    else
+        picture_clear(picture, &play->model.open.scene.view);
+    picture_words(picture, words_of(play));
+    picture_close(picture);
+    do
+        events_follow_hand(play);
+    while (!picture_done(picture));
+    window_present(play->window);
+    count_picture(play, began);
+}

@@ -1,0 +1,90 @@
+/* What comes to the window, on its way to what is asked for. */
+#include "app/play/parts.h"
+#include "sim/base/stage.h"
+
+/* Before the first picture there is nothing that a mouse could take. */
+static bool too_early(const Play *play, WindowEventKind kind)
+{
+    return !play->model.has_particles &&
+           (kind == WINDOW_BUTTON || kind == WINDOW_MOVE || kind == WINDOW_WHEEL || kind == WINDOW_FOCUS);
+}
+
+static bool overlay_has(const Play *play, const WindowEvent *event)
+{
+    return play->model.has_particles && play->input.drag == PLAY_NONE && overlay_takes(&play->overlay, event);
+}
+
+static void take_event(Play *play, const WindowEvent *event)
+{
+    const bool redraw = event->kind == WINDOW_RESIZE || event->kind == WINDOW_EXPOSE;
+    overlay_event(&play->overlay, event);
+    play->picture.dirty |= redraw || play->overlay.panel || play->overlay.help;
+    if (!too_early(play, event->kind) && !overlay_has(play, event))
+        input_take(&play->input, event, play->picture.height, &play->asks);
+}
+
+/* Letters and signs count as the user's keyboard has them. */
+static WindowEvent on_layout(const WindowEvent *event)
+{
+    WindowEvent own = *event;
+    if (own.kind == WINDOW_KEY)
+        own.key = play_key_on_layout(own.key, own.label);
+    return own;
+}
+
+/* The script's events that are due. */
+static bool next_shake(Play *play, WindowEvent *event)
+{
+    return play->shake_seconds > 0 && play->model.has_particles &&
+           window_shake_next(&play->shake, wall_ms(), play->picture.width, play->picture.height, event);
+}
+
+static bool shaken_enough(const Play *play)
+{
+    const double began = play->shake.began_ms, seconds = play->shake_seconds;
+    return seconds > 0 && began > 0 && wall_ms() - began >= 1000 * seconds;
+}
+
+void events_take(Play *play)
+{
+    WindowEvent event;
+    act_all(play); /* what the panel and the hand asked for during the last picture */
+    while (next_shake(play, &event)) {
+        take_event(play, &event);
+        act_all(play);
+    }
+    play->quit |= shaken_enough(play);
+    window_poll(play->window);
+    while (window_next(play->window, &event)) {
+        event = on_layout(&event);
+        take_event(play, &event);
+        act_all(play);
+    }
+    if (play->model.has_particles)
+        hands_look(play);
+    act_all(play);
+}
+
+/* What moves the box that is held. An event that asks for anything waits, and all that come after it. */
+static void take_moves(Play *play)
+{
+    WindowEvent event;
+    while (next_shake(play, &event))
+        take_event(play, &event);
+    window_poll(play->window);
+    while (window_peek(play->window, &event)) {
+        event = on_layout(&event);
+        if (!input_only_holds(&play->input, &event))
+            break;
+        take_event(play, &event);
+        window_next(play->window, &event);
+    }
+}
+
+void events_follow_hand(Play *play)
+{
+    if (input_holds_box(&play->input))
+        take_moves(play);
+    if (play->model.has_particles)
+        hands_look(play);
+}
