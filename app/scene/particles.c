@@ -65,6 +65,23 @@ static double greatest_spacing(const Scene *scene)
     return 0.5 * (scene->world.dimensions == 3 ? fmin(width, size[2]) : width);
 }
 
+/* Takes the spacing. A fixed step goes with it, unless it was chosen too; by Courant number it does so by
+   itself. */
+static void step_follow(Scene *scene, const SceneSettings *settings, const Best *best, Notes *notes)
+{
+    char with[160] = "";
+    const double scale = best->spacing / scene->world.spacing, dt = scene->world.dt;
+    scene->world.spacing = best->spacing;
+    if (!settings->dt_set && scene->world.step_mode == STEP_FIXED) {
+        scene->world.dt = dt * scale;
+        snprintf(with, sizeof with,
+                 "; solver.step.dt goes with it from %.4g to %.4g s (--set solver.step.dt=... chooses it)",
+                 dt, scene->world.dt);
+    }
+    notes_add(notes, "--particles %zu: a spacing of %.4g m gives %zu%s", settings->particles, best->spacing,
+              best->count, with);
+}
+
 bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
                          Error *error)
 {
@@ -82,15 +99,6 @@ bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *se
     if (best.count == 0 || best.spacing > greatest_spacing(scene))
         return error_set(error, "--particles %zu: too few to fill this scene; use more", wanted);
 
-    const double scale = best.spacing / scene->world.spacing, dt = scene->world.dt;
-    scene->world.spacing = best.spacing;
-    if (settings->dt_set || scene->world.step_mode == STEP_CFL)
-        return true;
-    scene->world.dt = dt * scale;
-    notes_add(
-        notes,
-        "--particles %zu: a spacing of %.4g m gives %zu; solver.step.dt goes with it from %.4g to %.4g s "
-        "(--set solver.step.dt=... chooses it)",
-        wanted, best.spacing, best.count, dt, scene->world.dt);
+    step_follow(scene, settings, &best, notes);
     return true;
 }

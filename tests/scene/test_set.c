@@ -140,7 +140,12 @@ static void particles_choose_the_spacing_and_scale_dt(void **state)
     settings.set[settings.count++] = "solver.step.dt=0.003";
     assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
     assert_true(scene.world.dt == 0.003);
-    assert_int_equal(notes.count, 0);
+    assert_string_equal(notes.line[0], "--particles 4000: a spacing of 0.05 m gives 4000");
+
+    settings.set[0] = "solver.step={mode: cfl}"; /* whose step follows the spacing by itself */
+    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
+    assert_true(scene.world.dt == world_def_default().dt);
+    assert_string_equal(notes.line[0], "--particles 4000: a spacing of 0.05 m gives 4000");
 }
 
 static void particles_that_cannot_be_are_refused(void **state)
