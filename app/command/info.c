@@ -60,14 +60,13 @@ static void put_backend(Info *info, const Named *backend, const WorldDef *scene,
     json_t *row = put_row(info, backend->name, backend->help);
     snprintf(def.backend, sizeof def.backend, "%s", backend->name);
     const bool on_gpu = world_on_gpu(&def);
-    World *world = on_gpu && !no_context ? world_create(&def, &error) : NULL;
-    const char *reason = !on_gpu || world ? NULL : no_context ? no_context : error.message;
+    const bool fits = !on_gpu || (!no_context && world_fits(&def, &error));
+    const char *reason = fits ? NULL : no_context ? no_context : error.message;
     if (reason && !info->quiet)
         printf("  %-12s cannot run here: %s\n", "", reason);
     json_object_set_new(row, "runs", json_boolean(!reason));
     if (reason)
         json_object_set_new(row, "reason", json_string(reason));
-    world_destroy(world);
 }
 
 /* A block of fluid in a box. */

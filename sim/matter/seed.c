@@ -48,6 +48,44 @@ static bool taken_before(const WorldDef *def, int fluid, int index, const double
     return false;
 }
 
+/* Blocks that share no point. */
+static bool blocks_apart(const Fill *a, const Fill *b, int dimensions)
+{
+    for (int k = 0; k < dimensions && a->kind == FILL_BLOCK && b->kind == FILL_BLOCK; k++)
+        if (a->max[k] <= b->min[k] || b->max[k] <= a->min[k])
+            return true;
+    return false;
+}
+
+/* Whether all that decides about a point of the fill is whether each coordinate is within the block. */
+static bool is_plain_block(const WorldDef *def, int fluid, int index)
+{
+    const Fill *fill = &def->fluids[fluid].fills[index];
+    for (int f = 0; f <= fluid; f++)
+        for (int i = 0; i < (f == fluid ? index : def->fluids[f].fill_count); i++)
+            if (!blocks_apart(fill, &def->fluids[f].fills[i], def->dimensions))
+                return false;
+    return fill->kind == FILL_BLOCK && def->solid_count == 0;
+}
+
+/* The points of a plain block: those along each axis, multiplied. */
+static size_t block_count(const WorldDef *def, const Fill *block, const FillAxis axes[3])
+{
+    size_t count = 1;
+    for (int k = 0; k < 3; k++) {
+        size_t along = 0;
+        double x[3];
+        for (int a = 0; a < 3; a++)
+            x[a] = block->min[a] - slack * def->spacing; /* is within */
+        for (long i = axes[k].begin; i < axes[k].end; i++) {
+            x[k] = axes[k].first + (double)i * axes[k].step;
+            along += fill_covers(def, block, x);
+        }
+        count *= along;
+    }
+    return count;
+}
+
 static size_t seed_fill(const Stand *stand, int fluid, int index, float *position)
 {
     const WorldDef *def = stand->def;
@@ -55,6 +93,8 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
     FillAxis axes[3];
     size_t count = 0;
     fill_lattice(def, fill, axes);
+    if (!position && is_plain_block(def, fluid, index))
+        return block_count(def, fill, axes);
     const FillAxis *ax = &axes[0], *ay = &axes[1], *az = &axes[2];
     for (long iz = az->begin; iz < az->end; iz++)
         for (long iy = ay->begin; iy < ay->end; iy++)

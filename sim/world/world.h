@@ -27,6 +27,9 @@ void world_destroy(World *world); /* NULL is allowed */
    too. */
 bool world_can(const WorldDef *def, Error *error);
 
+/* Whether a world of the def could be made here: shaders and buffers are tried, and nothing is computed. */
+bool world_fits(const WorldDef *def, Error *error);
+
 /* Whether the def's backend works on a GPU: a GL context must then be current wherever a world of it is used,
    the same one, from before world_create until after world_destroy. */
 bool world_on_gpu(const WorldDef *def);

@@ -81,7 +81,8 @@ void world_stop_at(World *world, double time)
     world->stop = time;
 }
 
-World *world_create(const WorldDef *def, Error *error)
+/* Its particles are in their places, and nothing of them is known. */
+static World *world_unsettled(const WorldDef *def, Error *error)
 {
     World *world = calloc(1, sizeof *world);
     if (!world) {
@@ -98,6 +99,21 @@ World *world_create(const WorldDef *def, Error *error)
         world_destroy(world);
         return NULL;
     }
+    return world;
+}
+
+bool world_fits(const WorldDef *def, Error *error)
+{
+    World *world = world_unsettled(def, error);
+    world_destroy(world);
+    return world != NULL;
+}
+
+World *world_create(const WorldDef *def, Error *error)
+{
+    World *world = world_unsettled(def, error);
+    if (!world)
+        return NULL;
     world_vary(world, 0);
     world->filter = box_filter_at_rest();
     world->target = (BoxTarget){.orientation = {0, 0, 0, 1}};

@@ -75,6 +75,38 @@ static void assert_no_world(const WorldDef *def, const char *sentence)
     assert_null(world_create(def, &error));
     if (!strstr(error.message, sentence))
         fail_msg("%s", error.message);
+    error = (Error){0};
+    assert_false(world_fits(def, &error));
+    if (!strstr(error.message, sentence))
+        fail_msg("%s", error.message);
+}
+
+static int dispatched;
+static PFNGLDISPATCHCOMPUTEPROC dispatch;
+
+static void APIENTRY counted_dispatch(GLuint x, GLuint y, GLuint z)
+{
+    dispatched++;
+    dispatch(x, y, z);
+}
+
+/* `slosh info` asks of every scene, whose particles may be millions on a software driver. */
+static void what_fits_is_found_without_computing(void **state)
+{
+    (void)state;
+    Error error = {0};
+    WorldDef def = fixture_def(1, 1.2, 1);
+    snprintf(def.backend, sizeof def.backend, "compute");
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
+    dispatch = (PFNGLDISPATCHCOMPUTEPROC)eglGetProcAddress("glDispatchCompute");
+    PFNGLDISPATCHCOMPUTEPROC before = epoxy_glDispatchCompute;
+    epoxy_glDispatchCompute = counted_dispatch;
+    assert_true(world_fits(&def, &error));
+    assert_int_equal(dispatched, 0);
+    World *world = world_create(&def, &error);
+    assert_true(world && dispatched > 0);
+    world_destroy(world);
+    epoxy_glDispatchCompute = before;
 }
 
 /* 1,000 particles of 16 bytes, with shifting of 32. */
@@ -147,6 +179,7 @@ static void views_ask(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_fits_is_found_without_computing),
         cmocka_unit_test(each_limit_has_its_sentence),
         cmocka_unit_test_teardown(worlds_ask, no_gl_errors),
         cmocka_unit_test_teardown(views_ask, no_gl_errors),

@@ -32,6 +32,29 @@ static void a_cylinder_has_its_points(void **state)
     free(fluid);
 }
 
+static size_t written(const WorldDef *def)
+{
+    static float x[3 * 20000];
+    return seed_lattice(def, x, NULL);
+}
+
+/* Blocks that stand alone are counted along their axes: as many as are written, wherever their faces are. */
+static void what_is_counted_is_written(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 400; i++) {
+        const double s = 0.1, a = s * (i % 7) / 3, b = s * (i % 11) / 4, c = i % 5 ? s * i / 90 : 0;
+        WorldDef def = fixture_def(1, 1, 1);
+        def.dimensions = i % 4 ? 3 : 2;
+        fixture_block(&def, 0, -0.5 + a, b, -0.3, -0.5 + a + c, 0.2 + b, 0.3 - b);
+        fixture_block(&def, 0, -0.5 + a + c, b, -0.5, 0.5, 0.2 + b + a, 0.5 - a);   /* touches it */
+        fixture_block(&def, 0, -0.2, 0.3 + b - a, -0.3, 0.1 + c, 0.8 - b, 0.3 - b); /* may overlap both */
+        assert_int_equal(seed_lattice(&def, NULL, NULL), written(&def));
+        def.fluids[0].fill_count = 1 + i % 2;
+        assert_int_equal(seed_lattice(&def, NULL, NULL), written(&def));
+    }
+}
+
 /* The block around a fill touches it on each side. */
 static void bounds_are_close(void **state)
 {
@@ -63,6 +86,7 @@ static void a_cylinder_needs_three_dimensions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_counted_is_written),
         cmocka_unit_test(a_cylinder_has_its_points),
         cmocka_unit_test(bounds_are_close),
         cmocka_unit_test(a_cylinder_needs_three_dimensions),
