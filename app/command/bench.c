@@ -295,18 +295,19 @@ static int bench_play(const Args *args, Error *error)
         return fail(error, EXIT_FAILED);
     }
     int code = 0;
-    for (size_t i = 0; i < count && code == 0 && !interrupted(); i++) {
-        const PlaySetup setup = {.scene = args->scene_count ? args->scenes[i] : scene,
+    size_t done = 0;
+    for (; done < count && code == 0 && !interrupted(); done++) {
+        const PlaySetup setup = {.scene = args->scene_count ? args->scenes[done] : scene,
                                  .settings = &args->settings,
                                  .width = args->width,
                                  .height = args->height,
                                  .shake_seconds = args->seconds,
                                  .quiet = args->quiet};
-        code = play(&setup, &figures[i]);
+        code = play(&setup, &figures[done]);
         if (code == 0 && !args->quiet)
-            play_print(&figures[i], stdout);
+            play_print(&figures[done], stdout);
     }
-    if (code == 0 && args->json && !play_write_json_array(figures, count, args->json, error))
+    if (args->json && !play_write_json_array(figures, done, args->json, error))
         code = fail(error, EXIT_FAILED);
     free(figures);
     return code;

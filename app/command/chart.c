@@ -12,6 +12,7 @@
 typedef struct Runs {
     ChartRows kept, rows;
     bool made[CHART_JOBS_MAX]; /* by an older run */
+    bool written;              /* --json is */
     int there;                 /* rows of the plan that have their figures */
 } Runs;
 
@@ -133,10 +134,26 @@ static bool finish(const ChartPlan *plan, Runs *runs, Error *error)
     name_error(plan, name);
     const ChartWords words = {title, name, plan->note};
     chart_rows_merge(&runs->kept, plan->csv, rows);
-    return chart_rows_write(&runs->kept, plan->csv, error) &&
-           (!args->json ||
-            chart_write_json(rows, args->scenes[0], name + strlen("error: "), floor, args->json, error)) &&
-           chart_draw(rows, &words, floor, args->output, error) && check_rows(plan, rows, error);
+    const bool drawn = chart_rows_write(&runs->kept, plan->csv, error) &&
+                       chart_draw(rows, &words, floor, args->output, error) && check_rows(plan, rows, error);
+    if (!args->json)
+        return drawn;
+    Error no_json;
+    runs->written = true;
+    if (chart_write_json(rows, args->scenes[0], name + strlen("error: "), floor,
+                         drawn ? NULL : error->message, args->json, &no_json))
+        return drawn;
+    *error = drawn ? no_json : *error;
+    return false;
+}
+
+/* What failed before there were figures of all. */
+static void write_failure(const ChartPlan *plan, const Runs *runs, const Error *error)
+{
+    const Args *args = plan->args;
+    Error no_json;
+    if (args->json && !runs->written && json_file_check(args->json, &no_json))
+        failure_json_write(failure_json("chart", "scene", args->scenes[0], args->output, error), args->json);
 }
 
 static bool check_outputs(const ChartPlan *plan, ChartRows *kept, Error *error)
@@ -171,9 +188,11 @@ static int chart(ChartPlan *plan, Error *error)
         fprintf(stderr, "stopped after %d of %d runs; the same command goes on\n", runs.there, plan->count);
         return EXIT_INTERRUPTED;
     }
-    if (!ok)
-        fprintf(stderr, "%s\n", error->message);
-    return ok ? 0 : EXIT_FAILED;
+    if (ok)
+        return 0;
+    fprintf(stderr, "%s\n", error->message);
+    write_failure(plan, &runs, error);
+    return EXIT_FAILED;
 }
 
 int cmd_chart(const Args *args)

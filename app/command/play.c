@@ -39,7 +39,7 @@ int cmd_play(const Args *args)
         (args->json && !json_file_check(args->json, &error)))
         return fail(&error, EXIT_FAILED);
     const int code = play(&setup, &figures);
-    if (code == 0 && args->json && !play_write_json(&figures, args->json, &error))
+    if (args->json && !play_write_json(&figures, args->json, &error))
         return fail(&error, EXIT_FAILED);
     return code;
 }

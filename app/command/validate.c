@@ -175,7 +175,9 @@ static int finish(const Plan *plan, const CaseResult *results, int done, bool ra
 {
     const Args *args = plan->args;
     Error no_json, no_plot;
-    const bool written = !args->json || validate_write_json(results, (size_t)done, args->json, &no_json);
+    const char *failure = ran ? NULL : error->message;
+    const bool written =
+        !args->json || validate_write_json(results, (size_t)done, failure, args->json, &no_json);
     const bool drawn = plot_all(args, results, done, &no_plot);
     if (!written)
         fprintf(stderr, "%s\n", no_json.message);
@@ -191,25 +193,35 @@ static int finish(const Plan *plan, const CaseResult *results, int done, bool ra
     return ran && written && drawn && !missed ? 0 : EXIT_FAILED;
 }
 
+/* Nothing was run. */
+static int fail(const char *json, const Error *error)
+{
+    Error no_json;
+    fprintf(stderr, "%s\n", error->message);
+    if (json && !validate_write_json(NULL, 0, error->message, json, &no_json))
+        fprintf(stderr, "%s\n", no_json.message);
+    return EXIT_FAILED;
+}
+
 static int validate(const Plan *plan, bool wants_context, Error *error)
 {
     const Args *args = plan->args;
     int done = 0;
     Headless *context = NULL;
     CaseResult *results = calloc((size_t)plan->count + 1, sizeof *results);
-    bool ok = results || error_set(error, "no memory for the results");
-    ok = ok && (!args->json || json_file_check(args->json, error)) &&
-         (!args->output || make_folder(args->output, error));
+    const bool can_write = !args->json || json_file_check(args->json, error);
+    bool ok = can_write && (results || error_set(error, "no memory for the results")) &&
+              (!args->output || make_folder(args->output, error));
     if (ok && wants_context)
         ok = (context = headless_create(args->gpu, error)) != NULL;
     if (context)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
-    int code = EXIT_FAILED;
+    int code;
     if (ok) {
         const bool ran = run_all(plan, results, &done, error);
         code = finish(plan, results, done, ran, error);
     } else {
-        fprintf(stderr, "%s\n", error->message);
+        code = fail(can_write ? args->json : NULL, error);
     }
     for (int i = 0; results && i < plan->count; i++)
         case_result_free(&results[i]);

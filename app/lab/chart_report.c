@@ -78,15 +78,15 @@ static json_t *orders_json(const ChartRows *rows, double floor)
 }
 
 bool chart_write_json(const ChartRows *rows, const char *subject, const char *error_name, double floor,
-                      const char *path, Error *error)
+                      const char *failure, const char *path, Error *error)
 {
     json_t *runs = json_array();
     bool ok = runs != NULL;
     for (int i = 0; ok && i < rows->count; i++)
         ok = json_array_append_new(runs, row_json(rows, i)) == 0;
     json_t *all =
-        ok ? json_pack("{s:s, s:s, s:o, s:o, s:O}", "chart", subject, "error_of", error_name, "floor",
-                       number_json(floor), "orders", orders_json(rows, floor), "runs", runs)
+        ok ? json_pack("{s:s, s:s, s:o, s:o, s:O, s:s*}", "chart", subject, "error_of", error_name, "floor",
+                       number_json(floor), "orders", orders_json(rows, floor), "runs", runs, "error", failure)
            : NULL;
     const bool written = json_file_write(all, path, error);
     json_decref(all);

@@ -7,9 +7,9 @@
 /* A line a row, the floor's but for their spread. */
 void chart_print(const ChartRows *rows, double floor, FILE *file);
 
-/* {"chart": subject, "error_of": error_name, "floor", "orders": [...], "runs": [...]}; what is not known is
- * null. */
+/* {"chart": subject, "error_of": error_name, "floor", "orders": [...], "runs": [...], "error": failure};
+   what is not known is null. `failure`: why there is no chart, or NULL. */
 bool chart_write_json(const ChartRows *rows, const char *subject, const char *error_name, double floor,
-                      const char *path, Error *error);
+                      const char *failure, const char *path, Error *error);
 
 #endif

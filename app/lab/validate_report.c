@@ -56,22 +56,24 @@ static json_t *figure_json(const CaseResult *result, int m)
     const CaseMetric *metric = &result->of->metrics[m];
     const Figure *figure = &result->run.figures[m];
     const WorldDef *def = &result->scene.world;
-    return json_pack(
-        "{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:f, s:b, s:f, s:I, s:s}", "case", result->of->name, "metric",
-        metric->name, "method", def->method, "backend", def->backend, "value", number_json(figure->value),
-        "reference", number_json(figure->reference), "error", number_json(figure->error), "tolerance",
-        case_tolerance(metric, result->level, def->method), "passed", case_passed(result, m), "seconds",
-        result->seconds, "particles", (json_int_t)result->particles, "unit", metric->unit);
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:f, s:b, s:f, s:I, s:s, s:s*}", "case",
+                     result->of->name, "metric", metric->name, "method", def->method, "backend", def->backend,
+                     "value", number_json(figure->value), "reference", number_json(figure->reference),
+                     "error", number_json(figure->error), "tolerance",
+                     case_tolerance(metric, result->level, def->method), "passed", case_passed(result, m),
+                     "seconds", result->seconds, "particles", (json_int_t)result->particles, "unit",
+                     metric->unit, "failure", *result->failure ? result->failure : NULL);
 }
 
-bool validate_write_json(const CaseResult *results, size_t count, const char *path, Error *error)
+bool validate_write_json(const CaseResult *results, size_t count, const char *failure, const char *path,
+                         Error *error)
 {
     json_t *cases = json_array();
     bool ok = cases != NULL;
     for (size_t i = 0; i < count; i++)
         for (int m = 0; ok && m < CASE_METRICS && results[i].of->metrics[m].name; m++)
             ok = json_array_append_new(cases, figure_json(&results[i], m)) == 0;
-    json_t *all = ok ? json_pack("{s:O}", "cases", cases) : NULL;
+    json_t *all = ok ? json_pack("{s:O, s:s*}", "cases", cases, "error", failure) : NULL;
     const bool written = json_file_write(all, path, error);
     json_decref(all);
     json_decref(cases);

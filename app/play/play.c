@@ -175,21 +175,29 @@ static bool close_all(Session *session)
     return true;
 }
 
+/* Said at once; the first one stays in the figures. */
+static void failed(const Error *error, PlayFigures *figures)
+{
+    fprintf(stderr, "%s\n", error->message);
+    if (!*figures->failure.message)
+        figures->failure = *error;
+}
+
 static bool play_session(Session *session, PlayFigures *figures)
 {
     Play *play = &session->play;
     Error error = {{0}};
     const bool started = start(session, &error);
-    bool ok = started && run(session, &error);
-    if (!ok)
-        fprintf(stderr, "%s\n", error.message);
-    if (!started)
-        return false;
-    simulator_status(play->model.open.simulator, &play->model.status);
-    figures_of(play, figures);
-    if (finish(session, &error))
-        return ok;
-    fprintf(stderr, "%s\n", error.message);
+    const bool ran = started && run(session, &error);
+    if (started) {
+        simulator_status(play->model.open.simulator, &play->model.status);
+        figures_of(play, figures);
+    }
+    if (!ran)
+        failed(&error, figures);
+    if (!started || finish(session, &error))
+        return ran;
+    failed(&error, figures);
     return false;
 }
 
@@ -205,6 +213,7 @@ int play(const PlaySetup *setup, PlayFigures *figures)
     session->play.shake_seconds = setup->shake_seconds;
     input_begin(&session->play.input);
     interrupt_install();
+    snprintf(figures->scene, sizeof figures->scene, "%s", setup->scene);
     const bool ok = play_session(session, figures);
     if (close_all(session))
         free(session);

@@ -12,7 +12,7 @@ static json_t *vector(const double *v, int count)
     return array;
 }
 
-static json_t *figures_json(const PlayFigures *f)
+static json_t *session_json(const PlayFigures *f)
 {
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s, s:[i, i], s:I, s:f, s:i}", "scene", f->scene,
                              "backend", f->backend, "method", f->method, "view", f->view, "threads",
@@ -50,6 +50,14 @@ static json_t *figures_json(const PlayFigures *f)
         return json;
     json_decref(json);
     return NULL;
+}
+
+static json_t *figures_json(const PlayFigures *f)
+{
+    json_t *json = *f->renderer ? session_json(f) : json_pack("{s:s}", "scene", f->scene);
+    if (json && *f->failure.message)
+        json_object_set_new(json, "error", json_string(f->failure.message));
+    return json;
 }
 
 static bool write_and_free(json_t *json, const char *path, Error *error)

@@ -35,9 +35,10 @@ typedef struct PlayFigures {
     double box_position[3], box_orientation[4]; /* the hand's part of the pose */
     double camera_from[3], camera_to[3];
     int gl_errors;
+    Error failure; /* why it ended early, if it did; without a renderer, before there was a window */
 } PlayFigures;
 
-/* An object. False with the reason when the file can't be written. */
+/* An object, with "error" of a session that failed. False with the reason when the file can't be written. */
 bool play_write_json(const PlayFigures *figures, const char *path, Error *error);
 
 /* An array, as every `bench --json`. */

@@ -68,13 +68,28 @@ static void a_run_that_broke_says_so_itself(void **state)
     assert_non_null(strstr(text, "a particle moved too far"));
 }
 
+static void json_says_what_failed(void **state)
+{
+    (void)state;
+    char text[4096], path[] = "/tmp/validate_report_XXXXXX";
+    Error error = {{0}};
+    close(mkstemp(path));
+    CaseResult *result = result_of(none, none);
+    snprintf(result->failure, sizeof result->failure, "a particle moved too far");
+    assert_true(validate_write_json(result, 1, "no memory", path, &error));
+    all_of(fopen(path, "r"), text);
+    unlink(path);
+    assert_non_null(strstr(text, "\"failure\": \"a particle moved too far\""));
+    assert_non_null(strstr(text, "\"error\": \"no memory\""));
+}
+
 static void a_figure_without_a_value_is_null(void **state)
 {
     (void)state;
     char text[4096], path[] = "/tmp/validate_report_XXXXXX";
     Error error = {{0}};
     close(mkstemp(path));
-    assert_true(validate_write_json(result_of(none, good), 1, path, &error));
+    assert_true(validate_write_json(result_of(none, good), 1, NULL, path, &error));
     all_of(fopen(path, "r"), text);
     unlink(path);
     assert_non_null(strstr(text, "\"value\": null"));
@@ -89,6 +104,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_figure_without_a_value_is_words),
         cmocka_unit_test(a_run_that_broke_says_so_itself),
+        cmocka_unit_test(json_says_what_failed),
         cmocka_unit_test(a_figure_without_a_value_is_null),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

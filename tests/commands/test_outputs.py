@@ -231,6 +231,32 @@ class Failures(CommandTest):
         self.assertEqual(found[1], {'scene': 'scene.yaml', 'backend': 'cpu', 'method': 'mueller', 'view': 'none',
                                     'swept': 'solver.sound_speed=9000'})
 
+    def test_validate(self):
+        self.write('file', '')
+        found, said = self.failed('validate', 'free_fall', '--coarse', '--quiet', '-o', 'file/plots')
+        self.assertEqual(found, {'cases': [], 'error': said.strip()})
+        found, said = self.failed('validate', 'dam_break_2d', '--coarse', '--quiet', '--method', 'mueller',
+                                  '--set', 'solver.step={mode: fixed, dt: 1, substeps: 1, retries: 0}')
+        self.assertIn('the simulation blew up', found['cases'][0]['failure'])
+        self.assertNotIn('error', found)
+
+    def test_chart(self):
+        found, said = self.failed('chart', 'scene.yaml', '-o', 'no/a.svg', '--quiet')
+        self.assertEqual(found, {'command': 'chart', 'scene': 'scene.yaml', 'output': 'no/a.svg', 'error': said.splitlines()[-1]})
+        found, said = self.failed('chart', 'scene.yaml', '-o', 'a.svg', '--quiet', '--time', '0.02', '--backend', 'cpu',
+                                  '--particles', '60', '--set', 'solver.step={dt: 1, retries: 0}')
+        self.assertIn(found['error'], said.splitlines())
+        self.assertGreater(len(found['runs']), 1)
+
+    def test_the_window(self):
+        env = {'DISPLAY': ':none', 'PATH': os.environ['PATH']}
+        for name, of in (('bench', lambda found: found[0]), ('play', lambda found: found)):
+            more = ['--play'] if name == 'bench' else []
+            done = subprocess.run([command.PROGRAM, name, 'scene.yaml', *more, '--json', 'a.json'], cwd=self.folder, env=env,
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(of(json.loads(self.read('a.json'))), {'scene': 'scene.yaml', 'error': done.stderr.strip()})
+
     def test_export_and_replay(self):
         self.assertEqual(self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet')[0], 0)
         found, said = self.failed('export', 'a.h5part', '-o', 'no/a.vtp')
