@@ -5,6 +5,7 @@
 #include "app/scene/preset.h"
 #include "app/scene/value.h"
 
+#include <ctype.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -27,20 +28,58 @@ static void path_join(char out[PATH_SIZE], const char *parent, const char *name)
     snprintf(out, PATH_SIZE, "%.80s%s%.40s", parent, *parent ? "." : "", name);
 }
 
-/* A key that is known elsewhere ("spacing" for particles.spacing) is worth a hint too. */
-static const char *known_elsewhere(const char *name)
+static const char *last_of(const Key *key)
+{
+    const char *dot = strrchr(key->path, '.');
+    return dot ? dot + 1 : key->path;
+}
+
+/* A key that is known elsewhere ("spacing" for particles.spacing) is worth a hint too, one that belongs below
+   the place before all others. */
+static const char *known_elsewhere(const char *name, const char *parent)
 {
     int count;
     const Key *keys = scene_keys(&count), *best = NULL;
     Suggestion near = suggest_for(name);
-    for (int i = 0; i < count; i++) {
-        const char *dot = strrchr(keys[i].path, '.'), *last = dot ? dot + 1 : keys[i].path;
-        const int distance = near.distance;
-        suggest_offer(&near, last);
-        if (near.distance < distance)
-            best = &keys[i];
-    }
+    for (int round = 0; round < 2; round++)
+        for (int i = 0; i < count; i++) {
+            const int distance = near.distance;
+            if (round == 1 || (*parent && strncmp(keys[i].path, parent, strlen(parent)) == 0))
+                suggest_offer(&near, last_of(&keys[i]));
+            if (near.distance < distance)
+                best = &keys[i];
+        }
     return best ? best->path : NULL;
+}
+
+/* Whether the help of a kind says that it is "a ball". */
+static bool is_a(const Key *kind, const char *word)
+{
+    const size_t length = strlen(word);
+    for (const char *at = kind->help; (at = strstr(at, "a ")); at += 2)
+        if ((at == kind->help || at[-1] == ' ') && strncmp(at + 2, word, length) == 0 &&
+            !isalpha((unsigned char)at[2 + length]))
+            return true;
+    return false;
+}
+
+/* Lists have words of their own for one shape: a fill's ball is a solid's sphere. The kind here that is what
+   the word means; NULL: none. */
+static const char *kind_here(const Place *place, const char *word)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int i = 0; i < count; i++) {
+        const char *name = key_name_in(&keys[i], place->parent);
+        if (!name || keys[i].type != KEY_VARIANT)
+            continue;
+        if (is_a(&keys[i], word))
+            return name;
+        for (int k = 0; k < count; k++)
+            if (keys[k].type == KEY_VARIANT && strcmp(last_of(&keys[k]), word) == 0 && is_a(&keys[k], name))
+                return name;
+    }
+    return NULL;
 }
 
 static bool unknown_key(const Place *place, const Node *child)
@@ -57,10 +96,11 @@ static bool unknown_key(const Place *place, const Node *child)
         suggest_offer(&near, name);
         snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", name);
     }
-    if (near.best)
+    const char *here = near.best ? near.best : kind_here(place, child->key);
+    if (here)
         return tree_error_key(place->tree, child, place->error, "unknown key '%.60s'; did you mean '%s'?",
-                              child->key, near.best);
-    const char *elsewhere = known_elsewhere(child->key);
+                              child->key, here);
+    const char *elsewhere = known_elsewhere(child->key, place->parent);
     if (elsewhere)
         return tree_error_key(place->tree, child, place->error,
                               "unknown key '%.60s' here; did you mean '%s'?", child->key, elsewhere);

@@ -174,12 +174,32 @@ static void unknown_keys_name_the_nearest_known_one(void **state)
                    "scene.yaml:7:1: unknown key 'gravitiy'; did you mean 'gravity'?");
     assert_refused(LEAST "spacing: 3\n",
                    "scene.yaml:7:1: unknown key 'spacing' here; did you mean 'particles.spacing'?");
+    assert_refused(LEAST "block: {min: [0, 0, 0]}\n",
+                   "scene.yaml:7:1: unknown key 'block' here; did you mean 'fluids[].fill[].block'?");
+    assert_refused(LEAST "solids: [{axis: [0, 1, 0]}]\n",
+                   "scene.yaml:7:11: unknown key 'axis' here; did you mean 'solids[].box.axis'?");
     assert_refused(LEAST "solver: {xyzzy: 3}\n",
                    "scene.yaml:7:10: unknown key 'xyzzy'; known here: method, ");
     assert_refused(LEAST "motion:\n  - wobble: {}\n",
                    "scene.yaml:8:5: unknown key 'wobble'; known here: shake, rock, turn, spin, accelerate");
     assert_refused(LEAST "motion:\n  - spin: {axis: [0, 1, 0], rate: 1, frequency: 2}\n",
                    "scene.yaml:8:38: unknown key 'frequency'");
+}
+
+/* What a fill calls a ball is a sphere among solids. */
+static void a_kind_by_another_lists_name_is_found(void **state)
+{
+    (void)state;
+    static const char *const kinds[][2] = {{"ball", "sphere"}, {"disc", "sphere"}, {"block", "box"}};
+    for (int i = 0; i < 3; i++) {
+        char text[512], message[128];
+        snprintf(text, sizeof text, LEAST "solids: [{%s: {radius: 1}}]\n", kinds[i][0]);
+        snprintf(message, sizeof message, "scene.yaml:7:11: unknown key '%s'; did you mean '%s'?",
+                 kinds[i][0], kinds[i][1]);
+        assert_refused(text, message);
+    }
+    assert_refused(LEAST "drains: [{sphere: {radius: 1}}]\n",
+                   "scene.yaml:7:11: unknown key 'sphere'; did you mean 'ball'?");
 }
 
 static void wrong_types_are_refused(void **state)
@@ -440,6 +460,7 @@ int main(void)
         cmocka_unit_test(binary_noise_is_refused),
         cmocka_unit_test(what_is_too_much_is_refused_at_once),
         cmocka_unit_test(unknown_keys_name_the_nearest_known_one),
+        cmocka_unit_test(a_kind_by_another_lists_name_is_found),
         cmocka_unit_test(wrong_types_are_refused),
         cmocka_unit_test(numbers_must_be_finite_and_in_range),
         cmocka_unit_test(what_is_missing_is_named),
