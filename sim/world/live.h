@@ -13,7 +13,8 @@ enum { LIVE_NUMBERS = 14 + FLUIDS_MAX * (1 + sizeof(TimeTable) / sizeof(double))
 void live_save(const WorldDef *def, double numbers[LIVE_NUMBERS]);
 void live_load(const double numbers[LIVE_NUMBERS], WorldDef *def);
 
-/* From one def into another of the same fluids; live keys of methods too, which the saved state has not. */
+/* From one def into another of the same fluids. Live keys of methods go along, though the saved state has no
+   place for them. */
 void live_copy(const WorldDef *from, WorldDef *to);
 
 /* Whether each whole number is one, and not below its row's least value. */
