@@ -67,6 +67,19 @@ bool walls_create(Walls *walls, const double box_size[3], const bool open[3], do
                   double support_radius, const Kernel *density_kernel, const Lattice *lattice);
 void walls_destroy(Walls *walls);
 
+/* Whether a wall is nearer to x (box's frame, m) than `range`: what most of the fluid is asked, and no more.
+ */
+static inline bool walls_near(const Walls *walls, const float x[3], float range)
+{
+    bool near = false;
+    for (int a = 0; a < 3; a++) {
+        const float centred = a == 1 ? x[1] - walls->half_size[1] : x[a], half = walls->half_size[a];
+        const bool wall = a < walls->dimensions && !walls->open[a];
+        near |= wall && (half + centred < range || half - centred < range);
+    }
+    return near;
+}
+
 /* Adds up what the walls give at x (box's frame, m, inside the box), in the box's axes; false, and zero, when
    no wall is within range. */
 bool walls_at(const Walls *walls, const float x[3], WallSums *sums);

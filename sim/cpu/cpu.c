@@ -3,6 +3,7 @@
 #include "sim/base/key_rows.h"
 #include "sim/world/world.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,10 +34,12 @@ static void cpu_destroy(void *state)
     Cpu *cpu = state;
     columns_destroy(&cpu->now);
     columns_destroy(&cpu->spare);
-    void *const all[] = {cpu->cell,     cpu->spare_cell,  cpu->rank,         cpu->order,  cpu->cell_start,
-                         cpu->owned_at, cpu->boundary_at, cpu->owned_before, cpu->partial};
+    void *const all[] = {cpu->cell,       cpu->spare_cell, cpu->rank,        cpu->order,
+                         cpu->cell_start, cpu->owned_at,   cpu->boundary_at, cpu->owned_before,
+                         cpu->partial,    cpu->place,      cpu->motion};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
+    neighbour_lists_destroy(&cpu->lists);
     free(cpu);
 }
 
@@ -57,6 +60,13 @@ static bool cpu_adapt(void *state, Error *error)
     return columns_fit(state) || error_set(error, "no memory for another term; use a larger spacing");
 }
 
+/* Of a particle amid others at the spacing. */
+static double neighbours_expected(const Constants *s)
+{
+    const double reach = (double)s->support_radius / (double)s->spacing;
+    return s->dimensions == 2 ? M_PI * reach * reach : 4.0 / 3 * M_PI * reach * reach * reach;
+}
+
 static bool arrays_create(Cpu *cpu, Error *error)
 {
     const Constants *s = cpu->constants;
@@ -65,6 +75,9 @@ static bool arrays_create(Cpu *cpu, Error *error)
     for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
         ok &= (*integers[k] = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
     ok &= (cpu->partial = array(cpu, cpu->capacity / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
+    ok &= (cpu->place = array(cpu, cpu->capacity + 1, sizeof *cpu->place)) != NULL;
+    ok &= (cpu->motion = array(cpu, cpu->capacity + 1, sizeof *cpu->motion)) != NULL;
+    ok &= neighbour_lists_create(&cpu->lists, cpu->capacity, neighbours_expected(s), &cpu->bytes);
     if (s->boundary.count > 0) {
         ok &= (cpu->owned_at = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
         ok &= (cpu->owned_before = array(cpu, cpu->capacity + 1, sizeof(uint32_t))) != NULL;
@@ -111,11 +124,12 @@ static void *cpu_create(const Constants *constants, const WorldDef *def, const I
     return cpu;
 }
 
-PairArgs cpu_pair_args(const Cpu *cpu)
+PairArgs cpu_pair_args(Cpu *cpu)
 {
     const CpuParticles *p = &cpu->now;
     PairArgs args = {
         .constants = cpu->constants,
+        .count = cpu->count,
         .cell_start = cpu->cell_start,
         .cell = cpu->cell,
         .id = p->id,
@@ -126,6 +140,9 @@ PairArgs cpu_pair_args(const Cpu *cpu)
         .vx = p->vx,
         .vy = p->vy,
         .vz = p->vz,
+        .place = cpu->place,
+        .motion = cpu->motion,
+        .lists = &cpu->lists,
         .volume = p->volume,
         .pressure_term = p->pressure_term,
         .viscosity = p->viscosity,
@@ -137,6 +154,10 @@ PairArgs cpu_pair_args(const Cpu *cpu)
         .fz = p->az,
     };
     memcpy(args.own, p->own, sizeof args.own);
+    for (int k = 0; k < 3; k++) {
+        args.fold[k] = cpu->constants->periodic.axis[k] ? cpu->constants->periodic.size[k] : 0;
+        args.fold_inverse[k] = args.fold[k] > 0 ? 1 / args.fold[k] : 0;
+    }
     return args;
 }
 

@@ -18,6 +18,8 @@ typedef struct Cpu {
     CpuParticles now;
     CpuParticles spare; /* what `grid` sorts into: its columns then change places with those of `now` */
     ColumnRows saved, sorted, of_fluids; /* columns with these flags */
+    float (*place)[4], (*motion)[4];     /* packed for pair sums: see PairArgs */
+    NeighbourLists lists;                /* by the first pass behind `grid` that has need of them */
     uint32_t *cell, *spare_cell;         /* by `grid`: of each particle, sorted; before the sort */
     uint32_t *rank;                      /* by `grid`: place within the cell before its sort by id */
     uint32_t *order;                     /* by `grid`: old place of each new one */
@@ -43,9 +45,9 @@ typedef struct Cpu {
  */
 #define ASIDE 1e9F
 
-enum { CPU_GRAIN = 512 }; /* particles in a range: some 0.2 ms of work, small against a step */
+enum { CPU_GRAIN = LISTS_GRAIN }; /* particles in a range: some 0.2 ms of work, small against a step */
 
-PairArgs cpu_pair_args(const Cpu *cpu);
+PairArgs cpu_pair_args(Cpu *cpu);
 
 /* The next run of fluid particles at or after *begin, as far as *stop; false when there is none before `end`.
    Without solids it is all. */

@@ -2,7 +2,6 @@
    id: the result depends on positions and ids alone, not on threads or history. */
 #include "sim/cpu/cpu.h"
 
-#include <math.h>
 #include <string.h>
 
 typedef struct CellMap {
@@ -24,12 +23,16 @@ static CellMap cell_map(const Constants *constants)
     return map;
 }
 
-/* Clamped, so that a position that is not finite does no harm before it is reported. */
+/* Clamped, so that a position that is not finite does no harm before it is reported. Without libm, whose
+   floorf is a call on a processor of the first x86-64. */
 static uint32_t cell_along(const CellMap *map, int k, float x)
 {
-    const float index =
-        fminf(fmaxf(floorf((x - map->origin[k]) * map->inverse[k]), map->first[k]), map->last[k]);
-    return (uint32_t)(index - map->first[k]) + 1;
+    const float place = (x - map->origin[k]) * map->inverse[k];
+    const float held = place < map->last[k]    ? (place > map->first[k] ? place : map->first[k])
+                       : place >= map->last[k] ? map->last[k]
+                                               : map->first[k];
+    const int towards_zero = (int)held, whole = towards_zero - ((float)towards_zero > held);
+    return (uint32_t)(whole - (int)map->first[k]) + 1;
 }
 
 static uint32_t cell_at(const CellMap *map, float x, float y, float z)
@@ -110,6 +113,7 @@ void cpu_grid(void *state)
 
     columns_swap(&cpu->sorted, &cpu->now, &cpu->spare);
     cpu->gridded = cpu->count;
+    cpu->lists.ready = false;
     if (cpu->boundary_at)
         cpu_boundary_find(cpu);
 }

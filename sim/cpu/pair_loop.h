@@ -34,15 +34,16 @@ static void direction_of_ids(uint32_t a, uint32_t b, int dimensions, float out[3
         out[k] *= scale;
 }
 
-/* With the length `least` and a direction by their ids for coincident pairs (DESIGN 3). By value, so that
-   what has no such pair, nearly always, stays in registers. */
-static __attribute__((noinline, unused)) Separation separate(const PairArgs *args, size_t i, uint32_t j,
-                                                             int bits, float least, Separation d)
+/* Coincident pairs get a direction by their ids and a length that is nothing beside h (DESIGN 3). By value,
+   so that what has no such pair, nearly always, stays in registers. */
+static __attribute__((noinline, unused)) Separation separate(const PairArgs *args, size_t i,
+                                                             const uint32_t *j, Separation d)
 {
+    const float least = 1e-6f * args->constants->support_radius;
     for (int k = 0; k < LANES; k++)
-        if (bits >> k & 1) {
+        if (d.r2[k] < least * least) {
             float direction[3] = {0};
-            direction_of_ids(args->id[i], args->id[j + (uint32_t)k], args->constants->dimensions, direction);
+            direction_of_ids(args->id[i], args->id[j[k]], args->constants->dimensions, direction);
             d.x[k] = direction[0] * least;
             d.y[k] = direction[1] * least;
             d.z[k] = direction[2] * least;

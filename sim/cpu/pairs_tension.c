@@ -14,20 +14,19 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 wide = f8_splat(h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 repulsion = f8_splat(h * h * h * h * h * h / 64);
-    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
+        const Near near = near_of(args, i);
         const f8 ti = f8_splat(args->tension[i]), fi = f8_splat(args->kind[i]);
         f8 fx = f8_splat(0), fy = fx, fz = fx;
-        rows_of(args, args->cell[i], &rows);
-        NEIGHBOURS (rows, row, j) {
-            Separation d = separation(args, at, &rows, row, j);
-            const i8 near = (d.r2 < h2) & (d.r2 >= least2) & (f8_load(args->kind + j) == fi) & d.there;
-            if (!i8_bits(near))
+        NEIGHBOURS (near, j) {
+            const Separation d = separation(args, at, near, j);
+            const i8 same = (d.r2 < h2) & (d.r2 >= least2) & (f8_gather(args->kind, j) == fi);
+            if (!i8_bits(same))
                 continue;
-            const f8 r = f8_sqrt(f8_select(near, d.r2, h2));
-            const f8 pull = f8_masked(near, (ti + f8_load(args->tension + j)) * f8_load(args->volume + j) *
+            const f8 r = f8_sqrt(f8_select(same, d.r2, h2));
+            const f8 pull = f8_masked(same, (ti + f8_gather(args->tension, j)) * motion(args, j).w *
                                                 cohesion(r, wide, repulsion) / r);
             fx -= pull * d.x;
             fy -= pull * d.y;
@@ -47,18 +46,17 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
     const Constants *s = args->constants;
     const float h = s->support_radius, dims = s->last_row - s->first_row > 3 ? 3 : 2;
     const f8 h2 = f8_splat(h * h), inner = f8_splat(dims * h * h), outer = f8_splat(dims + 4);
-    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
+        const Near near = near_of(args, i);
         const f8 fi = f8_splat(args->kind[i]);
         f8 nx = f8_splat(0), ny = nx, nz = nx, bend = nx;
-        rows_of(args, args->cell[i], &rows);
-        NEIGHBOURS (rows, row, j) {
-            Separation d = separation(args, at, &rows, row, j);
+        NEIGHBOURS (near, j) {
+            const Separation d = separation(args, at, near, j);
             const f8 t = h2 - d.r2;
-            const i8 near = (d.r2 < h2) & (f8_load(args->kind + j) == fi) & d.there;
-            const f8 volume = f8_masked(near, f8_load(args->volume + j) * t);
+            const i8 same = (d.r2 < h2) & (f8_gather(args->kind, j) == fi);
+            const f8 volume = f8_masked(same, motion(args, j).w * t);
             nx -= volume * t * d.x;
             ny -= volume * t * d.y;
             nz -= volume * t * d.z;
@@ -68,7 +66,8 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
         const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         if (length * h < 0.3f)
             continue;
-        const float pull = -args->tension[i] * s->colour * f8_sum(bend) * args->volume[i] / length;
+        const float bent = f8_sum(bend) - args->volume[i] * h * h * (dims * h * h); /* its own too */
+        const float pull = -args->tension[i] * s->colour * bent * args->volume[i] / length;
         args->fx[i] += pull * n[0];
         args->fy[i] += pull * n[1];
         args->fz[i] += pull * n[2];

@@ -1,5 +1,8 @@
 #include "sim/cpu/pass.h"
 
+#include <string.h>
+
+PAIR_LOOPS(lists);
 PAIR_LOOPS(tension);
 
 typedef struct Running {
@@ -15,11 +18,38 @@ static void run_range(void *context, size_t begin, size_t end)
     PairArgs args = cpu_pair_args(cpu);
     args.gravity = running->input->apparent;
     CpuRange range = {cpu, &args, running->input, begin, end};
+    if (running->loop->walks && !cpu->lists.ready)
+        cpu_pairs(&range, &lists);
     if (running->loop->solids)
         running->loop->body(&range);
     else
         for (range.begin = begin; cpu_run(cpu, &range.begin, end, &range.end); range.begin = range.end)
             running->loop->body(&range);
+}
+
+static void pack(void *context, size_t begin, size_t end)
+{
+    Cpu *cpu = context;
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = begin; i < end; i++) {
+        memcpy(cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->pressure_term[i]}, 16);
+        memcpy(cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], p->volume[i]}, 16);
+    }
+}
+
+static void run_loop(Running *running)
+{
+    Cpu *cpu = running->cpu;
+    const bool walks = running->loop->walks;
+    if (walks) {
+        parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, pack, cpu);
+        memcpy(cpu->place[cpu->count], (float[]){PAST, PAST, PAST, 0}, 16);
+        memset(cpu->motion[cpu->count], 0, 16);
+        cpu->lists.full &= cpu->lists.ready; /* they are made anew */
+    }
+    parallel_ranges(cpu->threads, cpu->count, walks ? CPU_GRAIN : 4 * CPU_GRAIN, run_range, running);
+    cpu->lists.ready |= walks;
+    cpu->watch.memory |= cpu->lists.full;
 }
 
 void cpu_run_pass(void *state, const Pass *pass, const PassInput *input)
@@ -30,7 +60,7 @@ void cpu_run_pass(void *state, const Pass *pass, const PassInput *input)
         cpu_boundary_fill(cpu, input->apparent);
     for (const CpuLoop *loop = pass->cpu->loops; loop->body; loop++) {
         Running running = {cpu, loop, input};
-        parallel_ranges(cpu->threads, cpu->count, loop->grain, run_range, &running);
+        run_loop(&running);
     }
     if (mirrors)
         cpu_boundary_restore(cpu);

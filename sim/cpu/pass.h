@@ -15,8 +15,8 @@ typedef struct CpuRange {
 
 typedef struct CpuLoop {
     void (*body)(const CpuRange *range);
-    size_t grain; /* particles in a range: CPU_GRAIN for who walks over neighbours, more for the others */
-    bool solids;  /* over the particles of solids too; else over runs of the fluids' alone */
+    bool walks;  /* over neighbours */
+    bool solids; /* over the particles of solids too; else over runs of the fluids' alone */
 } CpuLoop;
 
 typedef struct CpuPass {

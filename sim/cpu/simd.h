@@ -18,12 +18,30 @@
 typedef float f8 __attribute__((vector_size(32)));
 typedef int32_t i8 __attribute__((vector_size(32)));
 typedef float f8_unaligned __attribute__((vector_size(32), aligned(4), may_alias));
+typedef int32_t i8_unaligned __attribute__((vector_size(32), aligned(4), may_alias));
+
+static const i8 lane_index = {0, 1, 2, 3, 4, 5, 6, 7};
 
 #define SIMD_INLINE static inline __attribute__((always_inline))
 
 SIMD_INLINE f8 f8_load(const float *p)
 {
     return *(const f8_unaligned *)p;
+}
+
+SIMD_INLINE i8 i8_load(const int32_t *p)
+{
+    return *(const i8_unaligned *)p;
+}
+
+SIMD_INLINE void f8_store(float *p, f8 a)
+{
+    *(f8_unaligned *)p = a;
+}
+
+SIMD_INLINE void i8_store(int32_t *p, i8 a)
+{
+    *(i8_unaligned *)p = a;
 }
 
 SIMD_INLINE f8 f8_splat(float x)
@@ -66,6 +84,56 @@ SIMD_INLINE f8 f8_sqrt(f8 a)
 #endif
 }
 
+/* a where it is above 0, else 0. */
+SIMD_INLINE f8 f8_positive(f8 a)
+{
+#if defined(__AVX__)
+    return (f8)_mm256_max_ps((__m256)a, _mm256_setzero_ps());
+#else
+    return f8_masked(a > f8_splat(0), a);
+#endif
+}
+
+/* To the nearest whole number, of |a| < 2^22. */
+SIMD_INLINE f8 f8_round(f8 a)
+{
+    const f8 large = f8_splat(0x1.8p23F);
+    return (a + large) - large;
+}
+
+SIMD_INLINE f8 f8_gather(const float *p, const uint32_t *j)
+{
+    return (f8){p[j[0]], p[j[1]], p[j[2]], p[j[3]], p[j[4]], p[j[5]], p[j[6]], p[j[7]]};
+}
+
+/* Four columns of eight entries. */
+typedef struct f8x4 {
+    f8 x, y, z, w;
+} f8x4;
+
+/* Entries j[0 .. 7] of packed columns: loads of 16 bytes and a transposition, at half the price of four
+   gathers. */
+SIMD_INLINE f8x4 f8_load4(const float (*p)[4], const uint32_t *j)
+{
+#if defined(__AVX__)
+#define PAIR(k)                                                                                              \
+    _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[j[k]])), _mm_load_ps(p[j[(k) + 4]]), 1)
+    const __m256 a = PAIR(0), b = PAIR(1), c = PAIR(2), d = PAIR(3);
+#undef PAIR
+    const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
+    const __m256 AB = _mm256_unpackhi_ps(a, b), CD = _mm256_unpackhi_ps(c, d);
+    return (f8x4){(f8)_mm256_shuffle_ps(ab, cd, 0x44), (f8)_mm256_shuffle_ps(ab, cd, 0xee),
+                  (f8)_mm256_shuffle_ps(AB, CD, 0x44), (f8)_mm256_shuffle_ps(AB, CD, 0xee)};
+#else
+    f8x4 out;
+    for (int k = 0; k < LANES; k++) {
+        const float *from = p[j[k]];
+        out.x[k] = from[0], out.y[k] = from[1], out.z[k] = from[2], out.w[k] = from[3];
+    }
+    return out;
+#endif
+}
+
 /* One bit a lane. */
 SIMD_INLINE int i8_bits(i8 mask)
 {
@@ -83,6 +151,11 @@ SIMD_INLINE int i8_bits(i8 mask)
         bits |= (mask[k] != 0) << k;
     return bits;
 #endif
+}
+
+SIMD_INLINE int i8_sum(i8 a)
+{
+    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }
 
 /* The sum of the lanes, always in this order. */

@@ -5,51 +5,6 @@
 
 #include "sim/cpu/simd.h"
 
-static const i8 lane_index = {0, 1, 2, 3, 4, 5, 6, 7};
-
-/* The rows of cells next to one, cached while the cell stays the same: nine of three cells, more across
-   periodic sides, where a particle at x is as one at x + shift. */
-#ifdef PAIRS_PERIODIC
-enum { ROWS_MOST = CELL_ROWS };
-#define ROW_SHIFT(rows, row, axis, x) ((x) + f8_splat((rows).shift[axis][row]))
-#else
-enum { ROWS_MOST = 9 };
-#define ROW_SHIFT(rows, row, axis, x) (x)
-#endif
-
-typedef struct Rows {
-    uint32_t cell, begin[ROWS_MOST], end[ROWS_MOST];
-    int first, last;
-#ifdef PAIRS_PERIODIC
-    float shift[3][ROWS_MOST]; /* m */
-#endif
-} Rows;
-
-#define ROWS_NONE ((Rows){.cell = UINT32_MAX})
-
-SIMD_INLINE void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
-{
-    if (rows->cell == cell)
-        return;
-    rows->cell = cell;
-#ifdef PAIRS_PERIODIC
-    CellRow row[CELL_ROWS];
-    rows->first = 0;
-    rows->last = cell_rows(args->constants, args->cell_start, cell, row);
-    for (int k = 0; k < rows->last; k++) {
-        rows->begin[k] = row[k].begin;
-        rows->end[k] = row[k].end;
-        for (int a = 0; a < 3; a++)
-            rows->shift[a][k] = row[k].shift[a];
-    }
-#else
-    rows->first = args->constants->first_row;
-    rows->last = args->constants->last_row;
-    for (int row = rows->first; row < rows->last; row++)
-        pair_row(args, cell, row, &rows->begin[row], &rows->end[row]);
-#endif
-}
-
 /* Where sums stand: in all lanes the same. */
 typedef struct Place {
     f8 x, y, z;
@@ -65,41 +20,66 @@ SIMD_INLINE Place place_of(const PairArgs *args, size_t i)
     return (Place){f8_splat(args->x[i]), f8_splat(args->y[i]), f8_splat(args->z[i])};
 }
 
-/* Where the particles of a row see it. */
-SIMD_INLINE Place place_seen(const Rows *rows, int row, Place at)
+/* The particle's own list. */
+typedef struct Near {
+    const uint32_t *first, *end;
+    bool coincident; /* another one stands where it stands, nearly */
+} Near;
+
+SIMD_INLINE Near near_of(const PairArgs *args, size_t i)
 {
-    (void)rows, (void)row;
-    return (Place){ROW_SHIFT(*rows, row, 0, at.x), ROW_SHIFT(*rows, row, 1, at.y),
-                   ROW_SHIFT(*rows, row, 2, at.z)};
+    const NeighbourLists *lists = args->lists;
+    const uint32_t *first = lists->of_range[i / LISTS_GRAIN].index + lists->first[i], count = lists->count[i];
+    return (Near){first, first + (count & ~(uint32_t)LISTS_COINCIDENT), (count & LISTS_COINCIDENT) != 0};
 }
 
-/* Eight who may be neighbours: x_ij = x_i - x_j, m; r^2. */
+/* NEIGHBOURS (near, j) { const Separation d = separation(args, at, near, j); ... }: for each eight
+   neighbours; j points to their indices. */
+#define NEIGHBOURS(near, j) for (const uint32_t *j = (near).first; j < (near).end; j += LANES)
+
+#ifdef PAIRS_PERIODIC
+/* The shortest way between two, along an axis that may go through a side. */
+SIMD_INLINE f8 shortest(f8 d, float size, float inverse)
+{
+    return d - f8_splat(size) * f8_round(d * f8_splat(inverse));
+}
+#endif
+
+/* Eight neighbours: x_ij = x_i - x_j, m; r^2, and of lanes past the list's end far more than h^2; p_j V_j^2.
+ */
 typedef struct Separation {
-    f8 x, y, z, r2;
-    i8 there; /* lanes that are particles of the row */
+    f8 x, y, z, r2, term;
 } Separation;
 
-SIMD_INLINE Separation separation(const PairArgs *args, Place at, const Rows *rows, int row, uint32_t j)
+SIMD_INLINE Separation separation(const PairArgs *args, Place at, Near near, const uint32_t *j)
 {
-    const Place from = place_seen(rows, row, at);
-    Separation d = {.x = from.x - f8_load(args->x + j),
-                    .y = from.y - f8_load(args->y + j),
-                    .z = from.z - f8_load(args->z + j)};
+    const f8x4 p = f8_load4(args->place, j);
+    Separation d = {.x = at.x - p.x, .y = at.y - p.y, .z = at.z - p.z, .term = p.w};
+    (void)near;
+#ifdef PAIRS_PERIODIC
+    const float *size = args->fold, *inverse = args->fold_inverse;
+    d.x = shortest(d.x, size[0], inverse[0]);
+    d.y = shortest(d.y, size[1], inverse[1]);
+    d.z = shortest(d.z, size[2], inverse[2]);
+#endif
     d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
-    d.there = lane_index < i8_splat((int32_t)(rows->end[row] - j));
+#ifdef PAIRS_PERIODIC
+    const i8 there = lane_index < i8_splat((int32_t)(near.end - j));
+    d.r2 = f8_select(there, d.r2, f8_splat(PAST));
+#endif
     return d;
 }
 
-/* Lanes from j on that are not particle i itself. */
-SIMD_INLINE i8 others(size_t i, uint32_t j)
+/* v_j, m/s, and V_j, m3. */
+SIMD_INLINE f8x4 motion(const PairArgs *args, const uint32_t *j)
 {
-    return lane_index != i8_splat((int32_t)((uint32_t)i - j));
+    return f8_load4(args->motion, j);
 }
 
-/* NEIGHBOURS (rows, row, j) { Separation d = separation(args, at, &rows, row, j); ... }: for each eight
-   particles in the rows next to `at`, those from `j` on, `d` away. `continue` goes on to the next eight. */
-#define NEIGHBOURS(rows, row, j)                                                                             \
-    for (int row = (rows).first; row < (rows).last; row++)                                                   \
-        for (uint32_t j = (rows).begin[row]; j < (rows).end[row]; j += LANES)
+/* 1 - r / h, and 0 past the list's end. */
+SIMD_INLINE f8 closeness(f8 q)
+{
+    return f8_positive(f8_splat(1) - q);
+}
 
 #endif

@@ -7,21 +7,19 @@
 SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, const bool poly6)
 {
     const float h = args->constants->support_radius;
-    const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1), zero = f8_splat(0);
-    Rows rows = ROWS_NONE;
+    const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1);
 
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
-        f8 sum = zero;
-        rows_of(args, args->cell[i], &rows);
-        NEIGHBOURS (rows, row, j) {
-            Separation d = separation(args, at, &rows, row, j);
-            const f8 q2 = d.r2 * inverse_h * inverse_h;
-            const f8 t = one - (poly6 ? q2 : f8_sqrt(q2));
-            const i8 near = (t > zero) & d.there;
-            sum += f8_masked(near, t * t * t);
+        const Near near = near_of(args, i);
+        f8 sum = f8_splat(0);
+        NEIGHBOURS (near, j) {
+            const Separation d = separation(args, at, near, j);
+            const f8 t = poly6 ? f8_positive(one - d.r2 * inverse_h * inverse_h)
+                               : closeness(f8_sqrt(d.r2) * inverse_h);
+            sum += t * t * t;
         }
-        args->number_density[i] = args->constants->kernel_scale * f8_sum(sum);
+        args->number_density[i] = args->constants->kernel_scale * (1 + f8_sum(sum)); /* 1: its own */
     }
 }
 
@@ -41,44 +39,36 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
                              const bool many)
 {
     const Constants *s = args->constants;
-    const float h = s->support_radius, least = 1e-6f * h;
-    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const f8 one = f8_splat(1), pressure_scale = f8_splat(s->pressure_scale);
+    const f8 inverse_h = f8_splat(1 / s->support_radius), pressure_scale = f8_splat(s->pressure_scale);
     const float viscosity_scale = s->viscosity_scale * (many ? 0.5f : s->viscosity[0]);
-    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
+        const Near near = near_of(args, i);
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
         const f8 pi = f8_splat(args->pressure_term[i]);
         const f8 mi = f8_splat(viscous && many ? args->viscosity[i] : 0);
         const f8 drag_scale = f8_splat(viscosity_scale * args->volume[i]);
         f8 fx = f8_splat(0), fy = fx, fz = fx;
 
-        rows_of(args, args->cell[i], &rows);
-        NEIGHBOURS (rows, row, j) {
-            Separation d = separation(args, at, &rows, row, j);
-            const i8 near = (d.r2 < h2) & d.there & others(i, j);
-            if (!i8_bits(near))
-                continue;
-            const int coincident = i8_bits(near & (d.r2 < least2));
-            if (__builtin_expect(coincident, 0))
-                d = separate(args, i, j, coincident, least, d);
+        NEIGHBOURS (near, j) {
+            Separation d = separation(args, at, near, j);
+            if (__builtin_expect(near.coincident, 0))
+                d = separate(args, i, j, d);
 
-            const f8 r = f8_sqrt(f8_select(near, d.r2, h2));
-            const f8 t = one - r * inverse_h;
-            const f8 push =
-                f8_masked(near, pressure_scale * (t * t) * (pi + f8_load(args->pressure_term + j)) / r);
+            const f8 r = f8_sqrt(d.r2), t = closeness(r * inverse_h);
+            const f8 push = pressure_scale * (t * t) * (pi + d.term) / r;
             fx += push * d.x;
             fy += push * d.y;
             fz += push * d.z;
             if (viscous) {
-                f8 drag = f8_masked(near, drag_scale * t * f8_load(args->volume + j));
+                const f8x4 v = motion(args, j);
+                f8 drag = drag_scale * t * v.w;
                 if (many)
-                    drag *= mi + f8_load(args->viscosity + j);
-                fx += drag * (f8_load(args->vx + j) - ui);
-                fy += drag * (f8_load(args->vy + j) - vi);
-                fz += drag * (f8_load(args->vz + j) - wi);
+                    drag *= mi + f8_gather(args->viscosity, j);
+                fx += drag * (v.x - ui);
+                fy += drag * (v.y - vi);
+                fz += drag * (v.z - wi);
             }
         }
         args->fx[i] = f8_sum(fx);

@@ -12,11 +12,12 @@ static void finish_density(Cpu *cpu, size_t i)
     const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]};
-    const float n = p->volume[i] + walls_number_density(&s->walls, x);
+    const bool by_wall = walls_near(&s->walls, x, s->walls.range);
+    const float n = p->volume[i] + (by_wall ? walls_number_density(&s->walls, x) : 0);
     const float pressure = mueller_state(s, p->fluid[i], n / s->rest_number_density - 1);
 
     p->volume[i] = 1 / n;
-    p->pressure[i] = s->negative_pressure ? pressure : fmaxf(pressure, 0);
+    p->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
     p->pressure_term[i] = p->pressure[i] * p->volume[i] * p->volume[i];
     cpu_fill_terms(cpu, i);
 }
@@ -56,7 +57,8 @@ static void add_walls(const CpuRange *range, size_t i)
     const CpuParticles *p = &cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]};
     WallSums sums;
-    if (!walls_at(&cpu->constants->walls, x, &sums))
+    if (!walls_near(&cpu->constants->walls, x, cpu->constants->walls.range) ||
+        !walls_at(&cpu->constants->walls, x, &sums))
         return;
     float g[3], force[3];
     apparent_gravity_at(range->input->apparent, x, g);
@@ -74,8 +76,8 @@ static void force_body(const CpuRange *range)
     cpu_force_end(range);
 }
 
-static const CpuPass density = {.loops = {{density_body, CPU_GRAIN}}};
-static const CpuPass force = {.loops = {{force_body, CPU_GRAIN}}};
+static const CpuPass density = {.loops = {{density_body, .walks = true}}};
+static const CpuPass force = {.loops = {{force_body, .walks = true}}};
 
 const Pass mueller_densities = {
     .name = "density",

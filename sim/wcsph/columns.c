@@ -2,14 +2,21 @@
 
 #include "sim/wcsph/constants.h"
 
-static bool viscous(const Constants *constants)
+/* With one fluid it is the same for all: then no column costs less. */
+static bool differs_in_viscosity(const Constants *constants)
 {
-    return constants->viscous;
+    return constants->viscous && constants->fluid_count > 1;
 }
 
 bool wcsph_is_artificial(const Constants *constants)
 {
     return wcsph_constants(constants)->any_artificial != 0;
+}
+
+/* Boundary particles have none. */
+static bool differs_in_artificial(const Constants *constants)
+{
+    return wcsph_is_artificial(constants) && (constants->fluid_count > 1 || constants->solid_count > 0);
 }
 
 bool wcsph_diffuses(const Constants *constants)
@@ -27,9 +34,10 @@ bool wcsph_shifts(const Constants *constants)
 
 const ColumnDef wcsph_columns[] = {
     {"compression", "", AT(compression), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
-    {"viscosity", "Pa s", AT(viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS, .needed = viscous},
+    {"viscosity", "Pa s", AT(viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
+     .needed = differs_in_viscosity},
     {"artificial", "Pa s", OWN(ARTIFICIAL), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
-     .needed = wcsph_is_artificial},
+     .needed = differs_in_artificial},
     {"relative", "", OWN(RELATIVE), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS, .needed = wcsph_diffuses},
     {"slope", "1/m", OWN(SLOPE), 3, COLUMN_FLOAT, .needed = wcsph_diffuses},
     {"kind", "", AT(kind), 1, COLUMN_FLOAT, .needed = wcsph_diffuses},

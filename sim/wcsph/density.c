@@ -48,12 +48,12 @@ static void continuity_body(const CpuRange *range)
 
 #define STATE                                                                                                \
     {                                                                                                        \
-        state_body, 4 * CPU_GRAIN, .solids = true                                                            \
+        state_body, .solids = true                                                                           \
     }
 
 static const CpuPass state = {.loops = {STATE}};
-static const CpuPass slope = {.loops = {STATE, {slope_body, CPU_GRAIN}}};
-static const CpuPass continuity = {.loops = {{continuity_body, CPU_GRAIN}, STATE}};
+static const CpuPass slope = {.loops = {STATE, {slope_body, .walks = true}}};
+static const CpuPass continuity = {.loops = {{continuity_body, .walks = true}, STATE}};
 
 const Pass wcsph_state = {
     .name = "state",

@@ -33,7 +33,7 @@ static void force_body(const CpuRange *range)
     cpu_force_end(range);
 }
 
-static const CpuPass force = {.loops = {{force_body, CPU_GRAIN}}};
+static const CpuPass force = {.loops = {{force_body, .walks = true}}};
 
 const Pass wcsph_forces = {
     .name = "force",

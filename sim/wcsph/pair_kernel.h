@@ -6,11 +6,12 @@
 #include "sim/wcsph/columns.h"
 #include "sim/wcsph/constants.h"
 
-/* f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q); of the quintic's powers of
-   3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient_scale` takes care of. */
+/* Both are 0 from q = 1 on. f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q);
+   of the quintic's powers of 3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient_scale` takes care of.
+ */
 SIMD_INLINE f8 shape(f8 q, const ShapeKernel kernel)
 {
-    const f8 one = f8_splat(1), zero = f8_splat(0), t = one - q;
+    const f8 one = f8_splat(1), zero = f8_splat(0), t = closeness(q);
     if (kernel == KERNEL_WENDLAND_C2)
         return f8_splat(20) * (t * t * t);
     if (kernel == KERNEL_CUBIC)
@@ -23,7 +24,7 @@ SIMD_INLINE f8 shape(f8 q, const ShapeKernel kernel)
 /* w(q) / w(0). */
 SIMD_INLINE f8 height(f8 q, const ShapeKernel kernel)
 {
-    const f8 one = f8_splat(1), zero = f8_splat(0), t = one - q, t2 = t * t;
+    const f8 one = f8_splat(1), zero = f8_splat(0), t = closeness(q), t2 = t * t;
     if (kernel == KERNEL_WENDLAND_C2)
         return t2 * t2 * (one + f8_splat(4) * q);
     if (kernel == KERNEL_CUBIC)

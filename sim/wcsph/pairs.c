@@ -30,25 +30,22 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const float scale = w->gradient_scale / s->rest_number_density; /* m is 1 in the lattice */
     const f8 first_solid = f8_splat(FLUIDS_MAX);
-    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
+        const Near near = near_of(args, i);
         const f8 ri = f8_splat(args->own[RELATIVE][i]), fi = f8_splat(args->kind[i]);
         int solid = 0; /* whether a boundary particle is in reach */
         f8 xx = f8_splat(0), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx, bx = xx, by = xx, bz = xx;
 
-        rows_of(args, args->cell[i], &rows);
-        NEIGHBOURS (rows, row, j) {
-            Separation d = separation(args, at, &rows, row, j);
-            const i8 seen = (d.r2 < h2) & d.there;
-            const f8 kind = f8_load(args->kind + j);
+        NEIGHBOURS (near, j) {
+            Separation d = separation(args, at, near, j);
+            const i8 seen = d.r2 < h2;
+            const f8 kind = f8_gather(args->kind, j);
             solid |= i8_bits(seen & (kind >= first_solid));
-            const i8 near = seen & (d.r2 >= least2) & (kind == fi);
-            if (!i8_bits(near))
-                continue;
-            const f8 f = f8_masked(near, shape(f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h, kernel));
-            const f8 fx = f * d.x, fy = f * d.y, fz = f * d.z, de = ri - f8_load(args->own[RELATIVE] + j);
+            const i8 same = seen & (d.r2 >= least2) & (kind == fi);
+            const f8 f = f8_masked(same, shape(f8_sqrt(d.r2) * inverse_h, kernel));
+            const f8 fx = f * d.x, fy = f * d.y, fz = f * d.z, de = ri - f8_gather(args->own[RELATIVE], j);
             xx += fx * d.x, yy += fy * d.y, zz += fz * d.z;
             xy += fx * d.y, yz += fy * d.z, zx += fz * d.x;
             bx += fx * de, by += fy * de, bz += fz * de;
@@ -74,12 +71,12 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
     const float h = s->support_radius, least = 1e-6f * h;
-    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
     const f8 diffusion = f8_splat(w->diffusion), half = f8_splat(0.5f);
-    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
+        const Near near = near_of(args, i);
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
         const f8 ri = f8_splat(diffusive ? args->own[RELATIVE][i] : 0),
                  fi = f8_splat(diffusive ? args->kind[i] : 0);
@@ -88,26 +85,28 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
                  gz = f8_splat(diffusive ? args->own[SLOPE + 2][i] : 0);
         f8 sum = f8_splat(0);
 
-        rows_of(args, args->cell[i], &rows);
-        NEIGHBOURS (rows, row, j) {
-            Separation d = separation(args, at, &rows, row, j);
-            const i8 near = (d.r2 < h2) & (d.r2 >= least2) & d.there;
-            if (!i8_bits(near))
-                continue;
-            const f8 f = shape(f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h, kernel);
-            f8 flow = (ui - f8_load(args->vx + j)) * d.x + (vi - f8_load(args->vy + j)) * d.y +
-                      (wi - f8_load(args->vz + j)) * d.z;
+        NEIGHBOURS (near, j) {
+            Separation d = separation(args, at, near, j);
+            const f8 f = f8_masked(d.r2 >= least2, shape(f8_sqrt(d.r2) * inverse_h, kernel));
+            const f8x4 v = motion(args, j);
+            f8 flow = (ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z;
             if (diffusive) {
-                const i8 same = f8_load(args->kind + j) == fi;
-                const f8 along = (gx + f8_load(args->own[SLOPE] + j)) * d.x +
-                                 (gy + f8_load(args->own[SLOPE + 1] + j)) * d.y +
-                                 (gz + f8_load(args->own[SLOPE + 2] + j)) * d.z;
-                flow -= f8_masked(same, diffusion * (f8_load(args->own[RELATIVE] + j) - ri + half * along));
+                const i8 same = f8_gather(args->kind, j) == fi;
+                const f8 along = (gx + f8_gather(args->own[SLOPE], j)) * d.x +
+                                 (gy + f8_gather(args->own[SLOPE + 1], j)) * d.y +
+                                 (gz + f8_gather(args->own[SLOPE + 2], j)) * d.z;
+                flow -= f8_masked(same, diffusion * (f8_gather(args->own[RELATIVE], j) - ri + half * along));
             }
-            sum += f8_masked(near, f * flow);
+            sum += f * flow;
         }
         args->fx[i] = -w->gradient_scale * f8_sum(sum);
     }
+}
+
+/* What has no column is the same for all. */
+SIMD_INLINE f8 of_each(const float *column, f8 same, const uint32_t *j)
+{
+    return column ? f8_gather(column, j) : same;
 }
 
 /* Pressure; laminar viscosity (sim/matter/viscosity.h) or artificial one (Monaghan 1992, for pairs that part
@@ -118,52 +117,46 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
 {
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
-    const float h = s->support_radius, least = 1e-6f * h;
-    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const float h = s->support_radius;
+    const f8 inverse_h = f8_splat(1 / h);
     const f8 soft = f8_splat(h * h / 400), scale = f8_splat(w->radial_friction);
-    Rows rows = ROWS_NONE;
 
     for (size_t i = begin; i < end; i++) {
         const Place at = place_of(args, i);
+        const Near near = near_of(args, i);
         const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
         const f8 pi = f8_splat(args->pressure_term[i]), volume = f8_splat(args->volume[i]);
-        const f8 mi = f8_splat(viscous ? args->viscosity[i] : 0),
-                 ai = f8_splat(artificial ? args->own[ARTIFICIAL][i] : 0);
+        const f8 mi = f8_splat(args->viscosity ? args->viscosity[i] : s->viscosity[0]),
+                 ai = f8_splat(args->own[ARTIFICIAL] ? args->own[ARTIFICIAL][i]
+                                                     : w->wcsph_fluids[0].artificial_viscosity);
         f8 fx = f8_splat(0), fy = fx, fz = fx, ex = fx, ey = fx, ez = fx, full = fx, dense = fx;
 
-        rows_of(args, args->cell[i], &rows);
-        NEIGHBOURS (rows, row, j) {
-            Separation d = separation(args, at, &rows, row, j);
-            const i8 near = (d.r2 < h2) & d.there & others(i, j);
-            if (!i8_bits(near))
-                continue;
-            const int coincident = i8_bits(near & (d.r2 < least2));
-            if (__builtin_expect(coincident, 0))
-                d = separate(args, i, j, coincident, least, d);
+        NEIGHBOURS (near, j) {
+            Separation d = separation(args, at, near, j);
+            if (__builtin_expect(near.coincident, 0))
+                d = separate(args, i, j, d);
 
-            const f8 q = f8_sqrt(f8_select(near, d.r2, h2)) * inverse_h;
-            const f8 f = f8_masked(near, shape(q, kernel));
-            f8 push = pi + f8_load(args->pressure_term + j);
+            const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, kernel);
+            f8 push = pi + d.term;
             if (shifts) {
                 ex += f * d.x, ey += f * d.y, ez += f * d.z;
                 full += f * d.r2;
-                dense += f8_masked(near, height(q, kernel));
+                dense += height(q, kernel);
             }
             if (viscous || artificial) {
-                const f8 ux = f8_load(args->vx + j) - ui, uy = f8_load(args->vy + j) - vi,
-                         uz = f8_load(args->vz + j) - wi;
-                const f8 both = volume * f8_load(args->volume + j);
+                const f8x4 v = motion(args, j);
+                const f8 ux = v.x - ui, uy = v.y - vi, uz = v.z - wi, both = volume * v.w;
                 if (viscous && radial)
-                    push +=
-                        both * (mi + f8_load(args->viscosity + j)) * scale * (ux * d.x + uy * d.y + uz * d.z);
+                    push += both * (mi + of_each(args->viscosity, mi, j)) * scale *
+                            (ux * d.x + uy * d.y + uz * d.z);
                 else if (viscous) {
-                    const f8 drag = f * both * (mi + f8_load(args->viscosity + j));
+                    const f8 drag = f * both * (mi + of_each(args->viscosity, mi, j));
                     fx += drag * ux;
                     fy += drag * uy;
                     fz += drag * uz;
                 }
                 if (artificial)
-                    push += both * (ai + f8_load(args->own[ARTIFICIAL] + j)) *
+                    push += both * (ai + of_each(args->own[ARTIFICIAL], ai, j)) *
                             (ux * d.x + uy * d.y + uz * d.z) / (d.r2 + soft);
             }
             push *= f;
@@ -195,9 +188,10 @@ SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const S
 SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                               const bool artificial, const bool shifts)
 {
-    if (args->viscosity && wcsph_constants(args->constants)->radial_friction > 0)
+    const bool viscous = args->constants->viscous;
+    if (viscous && wcsph_constants(args->constants)->radial_friction > 0)
         wcsph_range(args, begin, end, kernel, true, true, artificial, shifts);
-    else if (args->viscosity)
+    else if (viscous)
         wcsph_range(args, begin, end, kernel, true, false, artificial, shifts);
     else
         wcsph_range(args, begin, end, kernel, false, false, artificial, shifts);
@@ -206,7 +200,7 @@ SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, co
 SIMD_INLINE void force_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                             const bool shifts)
 {
-    if (args->own[ARTIFICIAL])
+    if (wcsph_is_artificial(args->constants))
         viscous_with(args, begin, end, kernel, true, shifts);
     else
         viscous_with(args, begin, end, kernel, false, shifts);

@@ -14,6 +14,26 @@ SIMD_INLINE f8 greater(f8 a, f8 b)
     return f8_select(a > b, a, b);
 }
 
+/* Whom an image sees its particle sees too, since it is nearer to all on its own side of the wall; and the
+   image sees the particle. */
+typedef struct Itself {
+    uint32_t j[LANES];
+} Itself;
+
+static Itself itself(const PairArgs *args, size_t i)
+{
+    Itself one;
+    for (int k = 0; k < LANES; k++)
+        one.j[k] = (uint32_t)args->count;
+    one.j[0] = (uint32_t)i;
+    return one;
+}
+
+SIMD_INLINE Near near_itself(const Itself *one)
+{
+    return (Near){one->j, one->j + 1, false};
+}
+
 /* The kernel's gradient over q, not less than at a spacing `apart` for what is nearer: kernels let go of
    pairs that are close, and fluid would stick to its images. */
 SIMD_INLINE f8 image_shape(f8 q, f8 apart, const ShapeKernel kernel)
@@ -23,26 +43,21 @@ SIMD_INLINE f8 image_shape(f8 q, f8 apart, const ShapeKernel kernel)
 }
 
 /* Sum of F v_ij . x_ij over what the image of particle i finds. */
-SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Rows rows, const Image *image,
+SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Near near, const Image *image,
                           const ShapeKernel kernel)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
-    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
     const f8 apart = f8_splat(args->constants->spacing / h);
     const Place at = place_at(image->x);
     const f8 ui = f8_splat(image->sign[0] * args->vx[i]), vi = f8_splat(image->sign[1] * args->vy[i]),
              wi = f8_splat(image->sign[2] * args->vz[i]);
     f8 sum = f8_splat(0);
-    NEIGHBOURS (rows, row, j) {
-        Separation d = separation(args, at, &rows, row, j);
-        const i8 near = (d.r2 < h2) & d.there;
-        if (!i8_bits(near))
-            continue;
-        const f8 f =
-            image_shape(f8_sqrt(greater(f8_select(near, d.r2, h2), least2)) * inverse_h, apart, kernel);
-        const f8 flow = (ui - f8_load(args->vx + j)) * d.x + (vi - f8_load(args->vy + j)) * d.y +
-                        (wi - f8_load(args->vz + j)) * d.z;
-        sum += f8_masked(near, f * flow);
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, at, near, j);
+        const f8 f = image_shape(f8_sqrt(greater(d.r2, least2)) * inverse_h, apart, kernel);
+        const f8x4 v = motion(args, j);
+        sum += f * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
     }
     return sum;
 }
@@ -83,32 +98,25 @@ typedef struct Found {
     f8 fx, fy, fz, ex, ey, ez, full, dense;
 } Found;
 
-SIMD_INLINE Found image_push(const PairArgs *args, size_t i, const Rows rows, const Image *image,
-                             const Rise rise, const ShapeKernel kernel, const bool shifts)
+SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, const Image *image,
+                            const Rise rise, const ShapeKernel kernel, const bool shifts, Found *sum)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
-    const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
     const f8 apart = f8_splat(args->constants->spacing / h);
     const Place at = place_at(image->x);
     const f8 pi = f8_splat(args->pressure_term[i]);
-    Found sum = {f8_splat(0), f8_splat(0), f8_splat(0), f8_splat(0),
-                 f8_splat(0), f8_splat(0), f8_splat(0), f8_splat(0)};
-    NEIGHBOURS (rows, row, j) {
-        Separation d = separation(args, at, &rows, row, j);
-        const i8 near = (d.r2 < h2) & d.there;
-        if (!i8_bits(near))
-            continue;
-        const f8 q = f8_sqrt(greater(f8_select(near, d.r2, h2), least2)) * inverse_h;
-        const f8 f = f8_masked(near, image_shape(q, apart, kernel));
-        const f8 push = f * (pi + image_term(rise, f8_load(args->pressure_term + j), d));
-        sum.fx += push * d.x, sum.fy += push * d.y, sum.fz += push * d.z;
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, at, near, j);
+        const f8 q = f8_sqrt(greater(d.r2, least2)) * inverse_h, f = image_shape(q, apart, kernel);
+        const f8 push = f * (pi + image_term(rise, d.term, d));
+        sum->fx += push * d.x, sum->fy += push * d.y, sum->fz += push * d.z;
         if (shifts) {
-            sum.ex += f * d.x, sum.ey += f * d.y, sum.ez += f * d.z;
-            sum.full += f * d.r2;
-            sum.dense += f8_masked(near, height(q, kernel));
+            sum->ex += f * d.x, sum->ey += f * d.y, sum->ez += f * d.z;
+            sum->full += f * d.r2;
+            sum->dense += height(q, kernel);
         }
     }
-    return sum;
 }
 
 SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, const Found found,
@@ -133,43 +141,51 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 {
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
-    Rows rows = ROWS_NONE;
     Image image[IMAGES_MAX];
     for (size_t i = begin; i < end; i++) {
         const float x[3] = {args->x[i], args->y[i], args->z[i]};
-        const int images = wall_images(&s->walls, x, s->support_radius, image);
-        if (images == 1)
+        if (!walls_near(&s->walls, x, 1.001f * s->support_radius)) /* as wall_images rounds it */
             continue;
-        rows_of(args, args->cell[i], &rows);
+        const int images = wall_images(&s->walls, x, s->support_radius, image);
+        const Itself one = itself(args, i);
+        const Near near = near_of(args, i), self = near_itself(&one);
         f8 sum = f8_splat(0);
         for (int k = 1; k < images; k++)
-            sum += image_flow(args, i, rows, &image[k], kernel);
+            sum +=
+                image_flow(args, i, near, &image[k], kernel) + image_flow(args, i, self, &image[k], kernel);
         args->fx[i] -= w->gradient_scale * f8_sum(sum);
     }
+}
+
+SIMD_INLINE void force_by(const PairArgs *args, size_t i, const Image *image, const float g[3],
+                          const ShapeKernel kernel, const bool shifts)
+{
+    const f8 zero = f8_splat(0);
+    const Itself one = itself(args, i);
+    Found found = {zero, zero, zero, zero, zero, zero, zero, zero};
+    Rise rise;
+    rise_of(args, i, image, g, &rise);
+    image_push(args, i, near_of(args, i), image, rise, kernel, shifts, &found);
+    image_push(args, i, near_itself(&one), image, rise, kernel, shifts, &found);
+    add_found(args, i, image, found, shifts);
 }
 
 SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
-    Rows rows = ROWS_NONE;
     Image image[IMAGES_MAX];
     for (size_t i = begin; i < end; i++) {
         const float x[3] = {args->x[i], args->y[i], args->z[i]};
-        const int images = wall_images(&s->walls, x, s->support_radius, image);
-        if (images == 1)
+        if (!walls_near(&s->walls, x, 1.001f * s->support_radius))
             continue;
+        const int images = wall_images(&s->walls, x, s->support_radius, image);
         float g[3];
-        Rise rise;
         apparent_gravity_at(args->gravity, x, g);
-        rows_of(args, args->cell[i], &rows);
-        for (int k = 1; k < images; k++) {
-            rise_of(args, i, &image[k], g, &rise);
+        for (int k = 1; k < images; k++)
             if (args->own[FULL])
-                add_found(args, i, &image[k], image_push(args, i, rows, &image[k], rise, kernel, true), true);
+                force_by(args, i, &image[k], g, kernel, true);
             else
-                add_found(args, i, &image[k], image_push(args, i, rows, &image[k], rise, kernel, false),
-                          false);
-        }
+                force_by(args, i, &image[k], g, kernel, false);
     }
 }
 

@@ -24,7 +24,7 @@ static void shift_body(const CpuRange *range)
     }
 }
 
-static const CpuPass shift = {.loops = {{shift_body, 4 * CPU_GRAIN}}};
+static const CpuPass shift = {.loops = {{shift_body}}};
 
 const Pass wcsph_shift = {
     .name = "shift",

@@ -28,6 +28,8 @@ const char *step_trouble_words(StepTrouble trouble)
 
 StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel)
 {
+    if (watch->memory)
+        return STEP_TROUBLE_MEMORY;
     if (!watch->bounded)
         return STEP_TROUBLE_SPEED;
     if (sentinel && watch->max_density_ratio > DENSITY_RATIO_MOST)

@@ -40,6 +40,7 @@ typedef struct StepState {
 /* What a substep found, over all particles. */
 typedef struct StepWatch {
     bool bounded;            /* no particle moves further than the support radius in the step, none is NaN */
+    bool memory;             /* was short: some neighbours were not seen */
     float max_speed;         /* m/s */
     float max_acceleration;  /* m/s2, gravity included */
     float max_density_ratio; /* of number density over that at rest */
@@ -53,6 +54,7 @@ typedef struct StepWatch {
     X(SPEED, "a particle moves further than the support radius in one step")                                 \
     X(DENSITY, "fluid is pressed to more than five times its density")                                       \
     X(ENERGY, "energy grows by a tenth without work done")                                                   \
+    X(MEMORY, "there is no memory for the lists of neighbours")                                              \
     X(LOST, "particles found no place in the grid of backend fragment")
 
 typedef enum StepTrouble {

@@ -76,7 +76,7 @@ MORE = {"solid": "mueller", "drain": "mueller", "emitter": "mueller", "cohesion"
         "viscous, no slip": "viscous", "viscous, two fluids": "viscous",
         "wcsph, artificial": "wcsph", "wcsph, diffusion": "wcsph", "wcsph, viscous": "wcsph", "wcsph, shifting": "wcsph"}
 # Of these, those that need an array.
-LARGER = set(MORE) - {"drain", "emitter", "viscous", "viscous, no slip"}
+LARGER = set(MORE) - {"drain", "emitter", "viscous", "viscous, no slip", "wcsph, artificial", "wcsph, viscous"}
 
 
 def settings_of(settings):

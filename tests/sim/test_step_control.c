@@ -456,6 +456,8 @@ static void what_is_lost_is_trouble_above_the_limit(void **state)
     assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_DENSITY);
     watch.bounded = false;
     assert_int_equal(step_trouble_of(&watch, true), STEP_TROUBLE_SPEED);
+    watch.memory = true; /* then no other figure is right */
+    assert_int_equal(step_trouble_of(&watch, false), STEP_TROUBLE_MEMORY);
 }
 
 /* States fall on the times asked for, by steps of at least 3/4 of what the limits allow, and a run that stops

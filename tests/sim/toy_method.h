@@ -28,7 +28,7 @@ static void body(const CpuRange *range)
 }
 
 /* clang-format off */
-static const CpuPass on_cpu = {.loops = {{body, CPU_GRAIN}}};
+static const CpuPass on_cpu = {.loops = {{body}}};
 static const Pass spring = {.name = "spring", .stage = STAGE_FORCE, .cpu = &on_cpu, .shader = "toy/spring",
                             .reads = "position id age", .writes = "age stiffness volume acceleration"};
 static const ColumnDef of_spring[] = {{"age", "s", COLUMN_OWN(0), 1, .flags = COLUMN_SAVED | COLUMN_SORTED},

@@ -1,0 +1,52 @@
+#include "sim/cpu/neighbour_lists.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool fit(ListMemory *memory, size_t indices)
+{
+    uint32_t *index = aligned_alloc(64, (indices * sizeof *index + 63) / 64 * 64);
+    if (!index || indices > UINT32_MAX) {
+        free(index);
+        return false;
+    }
+    if (memory->index)
+        memcpy(index, memory->index, memory->room * sizeof *index);
+    free(memory->index);
+    *memory = (ListMemory){index, (uint32_t)indices};
+    return true;
+}
+
+bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neighbours, size_t *bytes)
+{
+    lists->ranges = particles / LISTS_GRAIN + 1;
+    lists->of_range = calloc(lists->ranges, sizeof *lists->of_range);
+    lists->first = calloc(particles + 1, sizeof *lists->first);
+    lists->count = calloc(particles + 1, sizeof *lists->count);
+    bool ok = lists->of_range && lists->first && lists->count;
+    for (size_t r = 0; ok && r < lists->ranges; r++) {
+        const size_t left = particles - r * LISTS_GRAIN, in_range = left < LISTS_GRAIN ? left : LISTS_GRAIN;
+        ok = fit(&lists->of_range[r], (size_t)((double)in_range * (1.2 * neighbours + 8)) + 1);
+        *bytes += lists->of_range[r].room * sizeof(uint32_t);
+    }
+    *bytes += 2 * particles * sizeof(uint32_t);
+    return ok;
+}
+
+void neighbour_lists_destroy(NeighbourLists *lists)
+{
+    for (size_t r = 0; lists->of_range && r < lists->ranges; r++)
+        free(lists->of_range[r].index);
+    free(lists->of_range);
+    free(lists->first);
+    free(lists->count);
+}
+
+bool neighbour_lists_fit(NeighbourLists *lists, size_t range, size_t indices)
+{
+    ListMemory *memory = &lists->of_range[range];
+    if (indices <= memory->room || fit(memory, indices + indices / 2))
+        return true;
+    __atomic_store_n(&lists->full, true, __ATOMIC_RELAXED);
+    return false;
+}

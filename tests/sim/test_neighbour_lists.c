@@ -1,0 +1,123 @@
+/* The lists of neighbours against brute force over all pairs: of every instruction set, in crowds that no
+   block of candidates holds, in planes, across periodic sides, of particles on one another. */
+#include "fixture.h"
+
+#include "sim/cpu/cpu.h"
+#include "sim/world/world_struct.h"
+
+#include <stdlib.h>
+
+enum { COUNT = 1300 };
+
+typedef struct Cloud {
+    const char *name;
+    double box[3], part; /* of the box that is filled */
+    bool twins, periodic;
+    int dimensions;
+} Cloud;
+
+static const Cloud clouds[] = {
+    {"random", {2.3, 1.1, 0.9}, 1, false, false, 3},
+    {"one cell wide", {0.15, 1.1, 0.9}, 1, false, false, 3},
+    {"a crowd", {1, 1, 1}, 0.2, false, false, 3}, /* all see most of the others */
+    {"twins", {2.3, 1.1, 0.9}, 1, true, false, 3},
+    {"plane", {5, 4, 0}, 1, false, false, 2},
+    {"periodic", {0.8, 0.6, 0.421}, 1, false, true, 3}, /* two cells wide along z */
+    {"periodic plane", {3, 0.421, 0}, 1, true, true, 2},
+};
+
+static void fill(const Cloud *cloud, float x[3 * COUNT])
+{
+    uint32_t seed = 11;
+    for (int i = 0; i < 3 * COUNT; i++) {
+        const double size = cloud->box[i % 3];
+        x[i] = (float)((fixture_random(&seed) - (i % 3 == 1 ? 0 : 0.5)) * size * cloud->part);
+    }
+    for (int i = 3; cloud->twins && i < 3 * COUNT; i++)
+        if (i / 3 % 2)
+            x[i] = x[i - 3];
+}
+
+static World *world_of(const Cloud *cloud, const float x[3 * COUNT])
+{
+    WorldDef def = fixture_def(cloud->box[0], cloud->box[1], cloud->dimensions == 2 ? 1 : cloud->box[2]);
+    def.dimensions = cloud->dimensions;
+    for (int k = 0; k < cloud->dimensions; k++)
+        def.periodic[k] = cloud->periodic;
+    def.initial = &(InitialState){.count = COUNT, .position = x};
+    return fixture_world(&def);
+}
+
+/* 1: near, 0: not, -1: that near to h, or to being coincident, that rounding may decide. */
+static int relation(const Cpu *cpu, size_t i, size_t j, double reach)
+{
+    const CpuParticles *p = &cpu->now;
+    float d[3] = {p->x[i] - p->x[j], p->y[i] - p->y[j], p->z[i] - p->z[j]};
+    periodic_nearest(&cpu->constants->periodic, d);
+    const double r =
+        sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
+    return fabs(r / reach - 1) < 1e-5 ? -1 : r < reach;
+}
+
+static void check_list(const Cpu *cpu, size_t i, const char *name)
+{
+    static uint8_t listed[COUNT];
+    const double h = (double)cpu->constants->support_radius;
+    const uint32_t *list = cpu->lists.of_range[i / LISTS_GRAIN].index + cpu->lists.first[i];
+    const uint32_t count = cpu->lists.count[i] & ~(uint32_t)LISTS_COINCIDENT;
+    bool twin = false;
+    memset(listed, 0, sizeof listed);
+    for (uint32_t k = 0; k < count; k++) {
+        assert_true(list[k] < COUNT && list[k] != i && !listed[list[k]]);
+        listed[list[k]] = 1;
+    }
+    for (uint32_t k = count; k % LANES; k++)
+        assert_int_equal(list[k], COUNT);
+    for (size_t j = 0; j < COUNT; j++) {
+        const int near = relation(cpu, i, j, h);
+        twin |= j != i && relation(cpu, i, j, 1e-6 * h) == 1;
+        if (j != i && near >= 0 && near != listed[j])
+            fail_msg("%s: particle %zu and %zu are %s", name, i, j,
+                     near ? "near, not listed" : "listed, not near");
+    }
+    assert_int_equal((cpu->lists.count[i] & LISTS_COINCIDENT) != 0, twin);
+}
+
+static void check_all(const char *set)
+{
+    static float x[3 * COUNT];
+    setenv("SLOSH_SIMD", set, 1);
+    for (size_t c = 0; c < sizeof clouds / sizeof *clouds; c++) {
+        fill(&clouds[c], x);
+        World *world = world_of(&clouds[c], x);
+        const Cpu *cpu = world->state;
+        assert_true(cpu->lists.ready && !cpu->lists.full);
+        for (size_t i = 0; i < COUNT; i++)
+            check_list(cpu, i, clouds[c].name);
+        world_destroy(world);
+    }
+    unsetenv("SLOSH_SIMD");
+}
+
+static void lists_are_those_of_brute_force(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("the lists are its own");
+    check_all("avx2");
+}
+
+static void in_every_instruction_set(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("the lists are its own");
+    check_all("baseline");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_are_those_of_brute_force),
+        cmocka_unit_test(in_every_instruction_set),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
