@@ -112,6 +112,7 @@ const OptionRow option_rows[] = {
     {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations"},
     {"--view", "NAME", ALL & ~(VALIDATE | CHART), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn"},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
+    {"--simd", "NAME", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.simd", .help = "instructions of the CPU's sums"},
     {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
     {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
     {"--device", "file:PATH", PLAY | DEVICES, OPTION_DEVICE, AT(device),

@@ -238,6 +238,7 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
     world_sums(world, &sums);
     *result = (BenchResult){
         .threads = info.threads,
+        .simd = info.simd,
         .width = setup->width,
         .height = setup->height,
         .particles = info.count,

@@ -24,6 +24,7 @@ typedef struct BenchResult {
     char backend[NAME_SIZE], method[NAME_SIZE], view[NAME_SIZE];
     char swept[256];    /* "key=value" of each sweep, joined by ", "; "" without sweeps */
     char renderer[256]; /* "" when no context was needed */
+    const char *simd;   /* NULL: none is chosen */
     int threads, width, height, frames;
     int substeps; /* of a frame, as they ran: trouble halves the step */
     size_t particles;

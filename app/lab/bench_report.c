@@ -37,9 +37,10 @@ static void print_parts(const BenchResult *r, FILE *file)
 
 void bench_print(const BenchResult *r, FILE *file)
 {
-    char threads[32] = "";
+    char threads[48] = "";
     if (r->threads > 0)
-        snprintf(threads, sizeof threads, "%d thread%s, ", r->threads, plural((size_t)r->threads));
+        snprintf(threads, sizeof threads, "%d thread%s, %s, ", r->threads, plural((size_t)r->threads),
+                 r->simd);
     fprintf(file, "%s: %zu particle%s, %.1f neighbours, %s on %s, %s%d x %g s\n", r->scene, r->particles,
             plural(r->particles), r->neighbours_mean, r->method, r->backend, threads, r->substeps,
             r->dt_substep);
@@ -96,10 +97,10 @@ static json_t *result_json(const BenchResult *r)
     if (r->failure)
         return failed_case_json(r);
     json_t *json =
-        json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:[i, i], s:s, s:s, s:s}", "scene", r->scene, "backend",
-                  r->backend, "method", r->method, "view", r->view, "threads", r->threads, "renderer",
-                  r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height, "processor",
-                  bench_processor(), "compiler", bench_compiler, "options", bench_options);
+        json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:s?, s:[i, i], s:s, s:s, s:s}", "scene", r->scene,
+                  "backend", r->backend, "method", r->method, "view", r->view, "threads", r->threads, "simd",
+                  r->simd, "renderer", r->renderer[0] ? r->renderer : NULL, "size", r->width, r->height,
+                  "processor", bench_processor(), "compiler", bench_compiler, "options", bench_options);
     json_t *more =
         json_pack("{s:I, s:i, s:I, s:f, s:f, s:f, s:f, s:i, s:i, s:o}", "particles", (json_int_t)r->particles,
                   "troubles", (int)r->troubles, "lost", (json_int_t)r->lost, "time", r->time,

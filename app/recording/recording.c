@@ -7,13 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What another machine would do otherwise, and what changes no bit. */
+static bool is_of_the_machine(const char *setting)
+{
+    static const char *const keys[] = {"solver.threads=", "solver.simd="};
+    bool is = false;
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+        is |= strncmp(setting, keys[k], strlen(keys[k])) == 0;
+    return is;
+}
+
 static bool copy_settings(Recording *recording, const SceneSettings *settings)
 {
-    static const char threads[] = "solver.threads=";
     SceneSettings *own = &recording->settings;
     own->particles = settings->particles;
     for (int i = 0; i < settings->count; i++) {
-        if (strncmp(settings->set[i], threads, strlen(threads)) == 0)
+        if (is_of_the_machine(settings->set[i]))
             continue;
         own->set[own->count] = strdup(settings->set[i]);
         if (!own->set[own->count])

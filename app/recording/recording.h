@@ -36,7 +36,7 @@ typedef struct Recording {
     char *path;             /* of the scene */
     char *text;             /* the scene file's bytes; not ended by a 0 */
     size_t size;            /* of the text */
-    SceneSettings settings; /* without solver.threads, which changes no bit */
+    SceneSettings settings; /* without solver.threads and solver.simd, which change no bit */
     SimCommand *commands;   /* their steps never go backwards */
     size_t count, capacity; /* of the commands */
     /* what only a file tells */

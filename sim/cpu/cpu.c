@@ -9,11 +9,13 @@
 
 typedef struct CpuDef {
     int threads; /* 0: one a processor */
+    int simd;    /* of simd_kinds */
 } CpuDef;
 
 /* clang-format off */
 static const Key keys[] = {
     INTEGER("solver.threads", I, 0, 1024, offsetof(CpuDef, threads), "how many; 0: one a processor"),
+    CHOICE_OF("solver.simd", I | KEY_INDEX, simd_kinds, offsetof(CpuDef, simd), "the instructions of its pair sums; all give the same bits"),
     KEYS_END,
 };
 /* clang-format on */
@@ -102,15 +104,20 @@ int *world_threads(const WorldDef *def)
 static void *cpu_create(const Constants *constants, const WorldDef *def, const InitialState *initial,
                         size_t capacity, Error *error)
 {
-    const int threads = cpu_def(def)->threads;
+    const int threads = cpu_def(def)->threads, simd = cpu_def(def)->simd;
+    PairSet pairs;
+    if (!pair_set_choose(simd, constants->periodic.any, &pairs)) {
+        error_set(error, "this processor has no %s; leave solver.simd at auto", simd_kinds[simd].name);
+        return NULL;
+    }
     Cpu *cpu = calloc(1, sizeof *cpu);
     if (!cpu) {
         error_set(error, "no memory");
         return NULL;
     }
+    cpu->pairs = pairs;
     cpu->constants = constants;
     cpu->watch.bounded = true;
-    cpu->pairs = pair_set_choose(constants->periodic.any);
     cpu->threads = threads > 0 ? threads : parallel_processors();
     cpu->count = cpu->owned = initial->count;
     cpu->capacity = capacity + constants->boundary.count;
@@ -165,6 +172,7 @@ static void cpu_info(const void *state, WorldInfo *info)
 {
     const Cpu *cpu = state;
     info->threads = cpu->threads;
+    info->simd = pair_set_name(cpu->pairs);
     info->state_bytes = cpu->bytes;
     info->guarded = cpu->guarded;
 }

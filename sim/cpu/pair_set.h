@@ -22,8 +22,18 @@ typedef struct PairLoops {
     static const PairLoops name = {                                                                          \
         {name##_baseline, name##_avx2, name##_baseline_periodic, name##_avx2_periodic}}
 
-/* The widest that this processor has, or the one that the environment variable SLOSH_SIMD names, if it can.
- */
-PairSet pair_set_choose(bool periodic);
+/* What solver.simd may say, ended by a NULL name: the widest that the processor has first. */
+typedef struct SimdKind {
+    const char *name, *help;
+} SimdKind;
+
+extern const SimdKind simd_kinds[];
+
+/* The set of that number in simd_kinds; of the first the widest that this processor has, or what the
+   environment variable SLOSH_SIMD names, if the processor can. False where it cannot. */
+bool pair_set_choose(int simd, bool periodic, PairSet *set);
+
+/* Its name in simd_kinds. */
+const char *pair_set_name(PairSet set);
 
 #endif

@@ -27,6 +27,7 @@ typedef struct WorldInfo {
     uint64_t emitted, drained;          /* of them, since the start */
     bool full;                          /* emitters wait: the world has as many particles as it may have */
     int threads;                        /* in use by the backend */
+    const char *simd;                   /* the instructions of its pair sums; NULL: it chooses none */
     double support_radius;              /* h, m */
     double spacing;                     /* m */
     double box_size[3];                 /* m */

@@ -73,6 +73,7 @@ static const struct {
     {"solver.grid_layers=3", "solver.backend=fragment", "solver.backend: fragment", false},
     {"solver.lost_limit=3", "solver.backend=fragment", "solver.backend: fragment", false},
     {"solver.threads=3", "solver.backend=cpu", "solver.backend: cpu", false},
+    {"solver.simd=baseline", "solver.backend=cpu", "solver.backend: cpu", false},
     {"solver.step.dt=0.001", "solver.step.mode=fixed", "solver.step.mode: fixed", true},
     {"solver.step.substeps=3", "solver.step.mode=fixed", "solver.step.mode: fixed", true},
     {"solver.step.number=0.1", "solver.step.mode=cfl", "solver.step.mode: cfl", true},

@@ -17,7 +17,7 @@ DEVICE = 'slosh device recording 1\n0.000000 1 plugged dualsense 054c:0ce6 usb t
 VALUES = {
     '--time': '0.004', '--frames': '1', '--fps': '250', '--every': '0.004', '--size': '32x32', '--resume': None,
     '--set': 'gravity=[0, -5, 0]', '--particles': '100', '--backend': 'cpu', '--method': 'mueller', '--view': 'spheres',
-    '--threads': '1', '--gpu': '0', '--shaders': SHADERS, '--device': 'file:device.rec', '--mapping': 'mapping.yaml',
+    '--simd': 'baseline', '--threads': '1', '--gpu': '0', '--shaders': SHADERS, '--device': 'file:device.rec', '--mapping': 'mapping.yaml',
     '--json': 'out.json', '--quiet': None, '--clock': 'finish', '--sweep': 'threads=1', '--frame': 'world',
     '--surface': None, '--level': '0.5', '--cell': '1', '--color-by': 'speed', '--record': 'out.rec', '--watch': None,
     '--seconds': '1', '--coarse': None, '--full': None, '--interpolate': None, '--help': None}

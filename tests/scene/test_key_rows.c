@@ -66,9 +66,8 @@ static void what_is_idle(void **state)
 {
     (void)state;
     static const char *const idle[] = {
-        "title",        "solver.threads",   "solver.preset",    "metrics",
-        "view.kind",    "view.camera.from", "view.splat.level", "fluids[].color",
-        "solver.bounce"};
+        "title",     "solver.threads",   "solver.preset",    "metrics",        "solver.simd",
+        "view.kind", "view.camera.from", "view.splat.level", "fluids[].color", "solver.bounce"};
     static const char *const other[] = {
         "gravity",           "solver.method",  "solver.backend", "fluids[].viscosity",
         "solver.toy_colour", "solver.step.dt", "hand.speed"};
