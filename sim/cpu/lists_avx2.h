@@ -1,0 +1,102 @@
+/* The making of lists by eight lanes, of which those that a mask keeps are moved together. For pairs_lists.c.
+ */
+#ifndef SLOSH_LISTS_AVX2_H
+#define SLOSH_LISTS_AVX2_H
+
+#include "sim/cpu/lists_block.h"
+
+/* COMPRESS(m): a byte for each lane that is set in m, from the lowest on. */
+#define SET(m, b)     ((m) >> (b)&1)
+#define BELOW(m, b)   (__builtin_popcount((m) & ((1 << (b)) - 1)))
+#define LANE(m, b)    ((uint64_t)(SET(m, b) ? (b) : 0) << 8 * BELOW(m, b))
+#define COMPRESS(m)   (LANE(m, 1) | LANE(m, 2) | LANE(m, 3) | LANE(m, 4) | LANE(m, 5) | LANE(m, 6) | LANE(m, 7))
+#define COMPRESS4(m)  COMPRESS(m), COMPRESS((m) + 1), COMPRESS((m) + 2), COMPRESS((m) + 3)
+#define COMPRESS16(m) COMPRESS4(m), COMPRESS4((m) + 4), COMPRESS4((m) + 8), COMPRESS4((m) + 12)
+#define COMPRESS64(m) COMPRESS16(m), COMPRESS16((m) + 16), COMPRESS16((m) + 32), COMPRESS16((m) + 48)
+static const uint64_t compressed[256] = {COMPRESS64(0), COMPRESS64(64), COMPRESS64(128), COMPRESS64(192)};
+
+/* Which lanes stay, and how many. */
+typedef struct Kept {
+    int count;
+    __m256i lanes;
+} Kept;
+
+SIMD_INLINE Kept kept(i8 mask)
+{
+    const int bits = i8_bits(mask);
+    return (Kept){__builtin_popcount((unsigned)bits),
+                  _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)compressed[bits]))};
+}
+
+/* Stores the lanes that stay, one behind the other, and something in the places up to LANES. */
+SIMD_INLINE void keep(void *out, i8 from, Kept kept)
+{
+    _mm256_storeu_si256(out, _mm256_permutevar8x32_epi32((__m256i)from, kept.lanes));
+}
+
+SIMD_INLINE f8 away8(const PairArgs *args, int axis, f8 d)
+{
+    (void)args, (void)axis;
+#ifdef PAIRS_PERIODIC
+    return shortest(d, args->fold[axis], args->fold_inverse[axis]);
+#else
+    return d;
+#endif
+}
+
+/* How far x is from the box along an axis; 0 within. */
+SIMD_INLINE f8 outside(const PairArgs *args, const Around *box, int axis, f8 x)
+{
+    const f8 d = away8(args, axis, x - f8_splat(box->middle[axis]));
+    return f8_positive((f8)((i8)d & i8_splat(INT32_MAX)) - f8_splat(box->half[axis]));
+}
+
+/* Who is in the box or near enough to it, of the particles [begin, end). */
+SIMD_INLINE void block_add(const PairArgs *args, const Around *around_box, uint32_t begin, uint32_t end,
+                           Block *block)
+{
+    const Around box = *around_box;
+    const f8 reach2 = f8_splat(block_reach2(args));
+    const float *const px = args->x, *const py = args->y, *const pz = args->z;
+    int count = block->count;
+    for (uint32_t j = begin; j < end; j += LANES) {
+        const f8 x = f8_load(px + j), y = f8_load(py + j), z = f8_load(pz + j);
+        const f8 dx = outside(args, &box, 0, x), dy = outside(args, &box, 1, y),
+                 dz = outside(args, &box, 2, z);
+        const i8 there = lane_index < i8_splat((int32_t)(end - j));
+        const Kept seen = kept((dx * dx + dy * dy + dz * dz < reach2) & there);
+        keep(block->x + count, (i8)x, seen);
+        keep(block->y + count, (i8)y, seen);
+        keep(block->z + count, (i8)z, seen);
+        keep(block->j + count, lane_index + i8_splat((int32_t)j), seen);
+        count += seen.count;
+    }
+    block->count = count;
+}
+
+/* Adds those of the candidates that are neighbours of particle i. */
+SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const float *y, const float *z,
+                       const int32_t *j, int count, Writer *out)
+{
+    const float h = args->constants->support_radius, least = 1e-6f * h;
+    const f8 h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const Place at = place_of(args, i);
+    const i8 self = i8_splat((int32_t)i);
+    i8 coincident = i8_splat(0); /* counted down */
+    int32_t *to = out->at;
+    for (int k = 0; k < count; k += LANES) {
+        const f8 dx = away8(args, 0, at.x - f8_load(x + k)), dy = away8(args, 1, at.y - f8_load(y + k)),
+                 dz = away8(args, 2, at.z - f8_load(z + k));
+        f8 r2 = dx * dx + dy * dy + dz * dz;
+        if (count - k < LANES)
+            r2 = f8_select(lane_index < i8_splat(count - k), r2, f8_splat(PAST));
+        const Kept seen = kept((r2 < h2) & (i8_load(j + k) != self));
+        keep(to, i8_load(j + k), seen);
+        to += seen.count;
+        coincident += r2 < least2;
+    }
+    out->at = to;
+    out->coincident -= i8_sum(coincident);
+}
+
+#endif

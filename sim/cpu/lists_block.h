@@ -1,0 +1,62 @@
+/* The candidates for neighbours of a cell's particles, for pairs_lists.c and the two ways in which it fills
+   and searches them. */
+#ifndef SLOSH_LISTS_BLOCK_H
+#define SLOSH_LISTS_BLOCK_H
+
+#include "sim/cpu/pair_loop.h"
+
+enum { BLOCK_MOST = 1024 /* 20 kB */ };
+
+/* Candidates: places and indices. */
+typedef struct Block {
+    int count;
+    float x[BLOCK_MOST + LANES], y[BLOCK_MOST + LANES], z[BLOCK_MOST + LANES];
+    int32_t j[BLOCK_MOST + LANES];
+} Block;
+
+/* The box around some particles: its middle and half of its size, m. */
+typedef struct Around {
+    float middle[3], half[3];
+} Around;
+
+static void around(const PairArgs *args, size_t begin, size_t end, Around *box)
+{
+    const float *const column[3] = {args->x, args->y, args->z};
+    for (int k = 0; k < 3; k++) {
+        const float *x = column[k];
+        float low = x[begin], high = low;
+        for (size_t i = begin + 1; i < end; i++) {
+            low = x[i] < low ? x[i] : low;
+            high = x[i] > high ? x[i] : high;
+        }
+        box->middle[k] = 0.5f * (low + high);
+        box->half[k] = 0.5f * (high - low);
+    }
+}
+
+/* How near to that box is near enough: a little more than h, since places in the box are rounded. */
+SIMD_INLINE float block_reach2(const PairArgs *args)
+{
+    const float h = args->constants->support_radius;
+    return h * h * 1.0001f;
+}
+
+/* The shortest way along an axis. */
+SIMD_INLINE float away(const PairArgs *args, int axis, float d)
+{
+    (void)args, (void)axis;
+#ifdef PAIRS_PERIODIC
+    const float turns = d * args->fold_inverse[axis], large = 0x1.8p23F; /* as f8_round does it */
+    return d - args->fold[axis] * ((turns + large) - large);
+#else
+    return d;
+#endif
+}
+
+/* The list that is being written. */
+typedef struct Writer {
+    int32_t *at;
+    int coincident; /* the particle itself is one */
+} Writer;
+
+#endif

@@ -1,0 +1,64 @@
+/* The making of lists without lanes that can be moved: squares of distances by loops that the compiler makes
+   as wide as it can, then the entries to be kept one by one. For pairs_lists.c. */
+#ifndef SLOSH_LISTS_PLAIN_H
+#define SLOSH_LISTS_PLAIN_H
+
+#include "sim/cpu/lists_block.h"
+
+/* How far x is from the box along an axis; 0 within. */
+SIMD_INLINE float outside(const PairArgs *args, const Around *box, int axis, float x)
+{
+    const float d = fabsf(away(args, axis, x - box->middle[axis])) - box->half[axis];
+    return d > 0 ? d : 0;
+}
+
+/* Who is in the box or within h of it, of the particles [begin, end): a little more than h, since places in
+   the box are rounded. */
+static void block_add(const PairArgs *args, const Around *around_box, uint32_t begin, uint32_t end,
+                      Block *block)
+{
+    const Around box = *around_box;
+    const float reach2 = block_reach2(args);
+    const float *const x = args->x + begin, *const y = args->y + begin, *const z = args->z + begin;
+    const int count = (int)(end - begin);
+    float square[BLOCK_MOST + LANES];
+    for (int k = 0; k < count; k++) {
+        const float dx = outside(args, &box, 0, x[k]), dy = outside(args, &box, 1, y[k]),
+                    dz = outside(args, &box, 2, z[k]);
+        square[k] = dx * dx + dy * dy + dz * dz;
+    }
+    int used = block->count;
+    for (int k = 0; k < count; k++) { /* without a branch, which would be taken at random */
+        block->x[used] = x[k];
+        block->y[used] = y[k];
+        block->z[used] = z[k];
+        block->j[used] = (int32_t)begin + k;
+        used += square[k] < reach2;
+    }
+    block->count = used;
+}
+
+/* Adds those of at most BLOCK_MOST candidates that are neighbours of particle i. */
+SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const float *y, const float *z,
+                       const int32_t *j, int count, Writer *out)
+{
+    const float h = args->constants->support_radius, least = 1e-6f * h;
+    const float at[3] = {args->x[i], args->y[i], args->z[i]};
+    float square[BLOCK_MOST + LANES];
+    int coincident = 0;
+    for (int k = 0; k < count; k++) {
+        const float dx = away(args, 0, at[0] - x[k]), dy = away(args, 1, at[1] - y[k]),
+                    dz = away(args, 2, at[2] - z[k]);
+        square[k] = dx * dx + dy * dy + dz * dz;
+        coincident += square[k] < least * least;
+    }
+    out->coincident += coincident;
+    int32_t *to = out->at;
+    for (int k = 0; k < count; k++) {
+        *to = j[k];
+        to += (square[k] < h * h) & (j[k] != (int32_t)i);
+    }
+    out->at = to;
+}
+
+#endif
