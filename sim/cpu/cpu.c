@@ -233,4 +233,5 @@ const Backend backend_cpu = {
     .save = cpu_save,
     .load = cpu_load,
     .info = cpu_info,
+    .micro = &cpu_micro,
 };

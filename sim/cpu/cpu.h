@@ -110,6 +110,7 @@ void cpu_kick(void *state, const float gravity[3], float dt);
 StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
+extern const struct BackendMicro cpu_micro;
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge);
 void cpu_energy(void *state, const double gravity[3], WorldGauge *gauge);

@@ -5,6 +5,7 @@
 
 #include "sim/cpu/cpu.h"
 #include "sim/world/method.h"
+#include "sim/world/micro.h"
 
 typedef struct CpuRange {
     Cpu *cpu;
@@ -20,7 +21,8 @@ typedef struct CpuLoop {
 } CpuLoop;
 
 typedef struct CpuPass {
-    CpuLoop loops[3]; /* ended by one without a body */
+    CpuLoop loops[3];                             /* ended by one without a body */
+    PairCost (*pair)(const Constants *constants); /* counted as sim/world/micro.h says; NULL: no pairs */
 } CpuPass;
 
 /* The pair sums of a range. */

@@ -76,8 +76,22 @@ static void force_body(const CpuRange *range)
     cpu_force_end(range);
 }
 
-static const CpuPass density = {.loops = {{density_body, .walks = true}}};
-static const CpuPass force = {.loops = {{force_body, .walks = true}}};
+/* Of a neighbour {x, p V^2}. */
+static PairCost density_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.gather = 16, .flops = 14};
+}
+
+/* With a viscosity {v, V} too, and that of its fluid where there are several. */
+static PairCost force_pair(const Constants *constants)
+{
+    const bool viscous = constants->viscous, many = viscous && constants->fluid_count > 1;
+    return (PairCost){.gather = 16 + 16 * viscous + 4 * many, .flops = 22 + 11 * viscous + 2 * many};
+}
+
+static const CpuPass density = {.loops = {{density_body, .walks = true}}, .pair = density_pair};
+static const CpuPass force = {.loops = {{force_body, .walks = true}}, .pair = force_pair};
 
 const Pass mueller_densities = {
     .name = "density",

@@ -52,8 +52,23 @@ static void continuity_body(const CpuRange *range)
     }
 
 static const CpuPass state = {.loops = {STATE}};
-static const CpuPass slope = {.loops = {STATE, {slope_body, .walks = true}}};
-static const CpuPass continuity = {.loops = {{continuity_body, .walks = true}, STATE}};
+/* Of a neighbour {x, p V^2}, its fluid and its relative density. */
+static PairCost slope_pair(const Constants *constants)
+{
+    return (PairCost){.gather = 16 + 4 + 4, .flops = 32 + wcsph_shape_flops(constants)};
+}
+
+/* Of a neighbour {x, p V^2} and {v, V}; with diffusion what the slope's pass reads too, and the slope. */
+static PairCost continuity_pair(const Constants *constants)
+{
+    const bool diffuses = wcsph_diffuses(constants);
+    return (PairCost){.gather = 32 + 20 * diffuses,
+                      .flops = 20 + 13 * diffuses + wcsph_shape_flops(constants)};
+}
+
+static const CpuPass slope = {.loops = {STATE, {slope_body, .walks = true}}, .pair = slope_pair};
+static const CpuPass continuity = {.loops = {{continuity_body, .walks = true}, STATE},
+                                   .pair = continuity_pair};
 
 const Pass wcsph_state = {
     .name = "state",

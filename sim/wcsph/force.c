@@ -33,7 +33,24 @@ static void force_body(const CpuRange *range)
     cpu_force_end(range);
 }
 
-static const CpuPass force = {.loops = {{force_body, .walks = true}}};
+/* Of a neighbour {x, p V^2}; with friction {v, V}, and what of it differs from fluid to fluid. */
+static PairCost force_pair(const Constants *constants)
+{
+    static const int heights[] = {[KERNEL_CUBIC] = 8, [KERNEL_WENDLAND_C2] = 6, [KERNEL_QUINTIC] = 18};
+    const WcsphBlock *own = wcsph_constants(constants);
+    const bool many = constants->fluid_count > 1, viscous = constants->viscous,
+               artificial = wcsph_is_artificial(constants);
+    PairCost cost = {.gather = 16, .flops = 18 + wcsph_shape_flops(constants)};
+    if (viscous || artificial) {
+        cost.gather += 16 + 4 * (viscous && many) + 4 * (artificial && many);
+        cost.flops += 4 + (viscous ? (own->radial_friction > 0 ? 10 : 9) : 0) + 11 * artificial;
+    }
+    if (wcsph_shifts(constants))
+        cost.flops += 9 + heights[own->kernel_shape];
+    return cost;
+}
+
+static const CpuPass force = {.loops = {{force_body, .walks = true}}, .pair = force_pair};
 
 const Pass wcsph_forces = {
     .name = "force",

@@ -14,6 +14,13 @@ static inline float wcsph_state_of(const Constants *constants, int fluid, float 
            (7 + e * (21 + e * (35 + e * (35 + e * (21 + e * (7 + e))))));
 }
 
+/* Operations of `shape` in sim/wcsph/pair_kernel.h, counted as sim/world/micro.h says. */
+static inline int wcsph_shape_flops(const Constants *constants)
+{
+    static const int flops[] = {[KERNEL_CUBIC] = 6, [KERNEL_WENDLAND_C2] = 4, [KERNEL_QUINTIC] = 15};
+    return flops[wcsph_constants(constants)->kernel_shape];
+}
+
 /* Volume and pressure, by the density that particles carry; what pair sums need of each. */
 extern const Pass wcsph_state;
 

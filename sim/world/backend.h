@@ -12,6 +12,7 @@
 #include "sim/world/reading.h"
 #include "sim/world/step_control.h"
 
+struct BackendMicro;    /* sim/world/micro.h */
 struct ParticleBuffers; /* sim/gl/particle_buffers.h */
 
 typedef struct Backend {
@@ -79,6 +80,7 @@ typedef struct Backend {
     /* Which of its settings to raise when its grid loses particles, with their values. NULL: it loses none.
      */
     void (*to_raise)(const void *state, char text[128]);
+    const struct BackendMicro *micro; /* of `slosh bench --micro`; NULL: its passes cannot run alone */
 } Backend;
 
 extern const Backend backend_cpu;

@@ -1,0 +1,153 @@
+#include "sim/cpu/ceilings.h"
+
+#include "sim/base/parallel.h"
+#include "sim/base/stage.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+enum {
+    TRIES = 8,
+    ROUNDS = 1 << 17,    /* of a loop in registers: half a millisecond */
+    PIECES = 8,          /* for each thread, so that one that is held up does not hold up all */
+    COPY_LEAST = 1 << 16 /* bytes: of a core's first cache */
+};
+
+PAIR_LOOPS(multiply_add);
+
+static const size_t copied = (size_t)1 << 27; /* bytes, at least, in a try */
+
+typedef struct Loop {
+    PairLoop *run;
+    float told[4]; /* as sim/cpu/pairs_ceiling.c fills it in */
+} Loop;
+
+static void run_piece(void *context, size_t begin, size_t end)
+{
+    Loop *loop = context;
+    float told[4];
+    const PairArgs args = {.fx = told};
+    loop->run(&args, 0, (end - begin) * ROUNDS);
+    if (begin == 0)
+        memcpy(loop->told, told, sizeof told);
+}
+
+static FlopCeiling flops_of(int threads, PairLoop *run)
+{
+    FlopCeiling best = {0};
+    const size_t pieces = (size_t)threads * PIECES;
+    for (int k = 0; k < TRIES; k++) {
+        Loop loop = {.run = run};
+        const double began = wall_ms();
+        parallel_ranges(threads, pieces, 1, run_piece, &loop);
+        const double rate = (double)loop.told[0] * (double)pieces * ROUNDS / (1e-3 * (wall_ms() - began));
+        best.bits = (int)loop.told[1];
+        best.rate = rate > best.rate ? rate : best.rate;
+    }
+    return best;
+}
+
+#if defined(__x86_64__)
+/* The same in one instruction each, outside of the sets, since no pair loop is compiled so. */
+#define FUSED(name, needs, Wide, set1, fmadd)                                                                \
+    __attribute__((target(needs))) static void name(const PairArgs *args, size_t begin, size_t end)          \
+    {                                                                                                        \
+        enum { CHAINS = 12 };                                                                                \
+        const Wide factor = set1(0.999F), term = set1(0.001F);                                               \
+        Wide a[CHAINS];                                                                                      \
+        for (int k = 0; k < CHAINS; k++)                                                                     \
+            a[k] = set1(0.001F * (float)k);                                                                  \
+        for (size_t round = begin; round < end; round++)                                                     \
+            for (int k = 0; k < CHAINS; k++)                                                                 \
+                a[k] = fmadd(a[k], factor, term);                                                            \
+        args->fx[2] = 0;                                                                                     \
+        for (int k = 0; k < CHAINS; k++)                                                                     \
+            args->fx[2] += a[k][0];                                                                          \
+        args->fx[0] = 2.0F * CHAINS * sizeof(Wide) / sizeof(float);                                          \
+        args->fx[1] = 8.0F * sizeof(Wide);                                                                   \
+    }
+FUSED(fused_256, "avx2,fma", __m256, _mm256_set1_ps, _mm256_fmadd_ps)
+FUSED(fused_512, "avx512f", __m512, _mm512_set1_ps, _mm512_fmadd_ps)
+#undef FUSED
+#endif
+
+/* That of the sets where the processor has no such instruction. */
+static FlopCeiling fused_of(int threads, FlopCeiling best)
+{
+    FlopCeiling found[2] = {{0}};
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        found[0] = flops_of(threads, fused_256);
+    if (__builtin_cpu_supports("avx512f"))
+        found[1] = flops_of(threads, fused_512);
+#else
+    (void)threads;
+#endif
+    for (int k = 0; k < 2; k++)
+        best = found[k].rate > best.rate ? found[k] : best;
+    return best;
+}
+
+typedef struct Copying {
+    char *from, *to;
+    size_t part; /* bytes of each thread */
+    int times;
+} Copying;
+
+static void copy_part(void *context, size_t begin, size_t end)
+{
+    const Copying *copying = context;
+    for (int k = 0; k < copying->times; k++) {
+        memcpy(copying->to + begin * copying->part, copying->from + begin * copying->part,
+               (end - begin) * copying->part);
+        __asm__ volatile("" ::: "memory"); /* each of the times is done */
+    }
+}
+
+static CopyCeiling copy_of(int threads, size_t bytes, char *from, char *to)
+{
+    Copying copying = {from, to, bytes / 2 / (size_t)threads / 64 * 64, 1};
+    CopyCeiling best = {.bytes = bytes};
+    parallel_ranges(threads, (size_t)threads, 1, copy_part, &copying);
+    copying.times = bytes < copied ? (int)(copied / bytes) : 1;
+    for (int k = 0; k < TRIES; k++) {
+        const double began = wall_ms();
+        parallel_ranges(threads, (size_t)threads, 1, copy_part, &copying);
+        const double moved = 2.0 * (double)copying.part * threads * copying.times,
+                     rate = moved / (1e-3 * (wall_ms() - began));
+        best.rate = rate > best.rate ? rate : best.rate;
+    }
+    return best;
+}
+
+/* Twice what the last cache holds, for both arrays together: what is copied has left it when it is next
+   copied. */
+static size_t memory_sized(void)
+{
+    const long cache = sysconf(_SC_LEVEL3_CACHE_SIZE);
+    const size_t least = (size_t)1 << 27, twice = cache > 0 ? 2 * (size_t)cache : 0;
+    return twice > least ? twice : least;
+}
+
+bool ceilings_measure(int threads, PairSet set, Ceilings *out)
+{
+    const size_t most = memory_sized();
+    char *from = aligned_alloc(4096, most), *to = from ? from + most / 2 / 4096 * 4096 : NULL;
+    if (!from)
+        return false;
+    memset(from, 1, most);
+    *out = (Ceilings){0};
+    for (size_t bytes = (size_t)threads * COPY_LEAST; bytes < most && out->copies < MICRO_COPIES_MAX - 1;
+         bytes *= 4)
+        out->copy[out->copies++] = copy_of(threads, bytes, from, to);
+    out->copy[out->copies++] = copy_of(threads, most, from, to);
+    free(from);
+    out->multiply_add = flops_of(threads, multiply_add.in[set]);
+    out->fused = fused_of(threads, out->multiply_add);
+    return true;
+}
