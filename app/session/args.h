@@ -78,7 +78,8 @@ typedef struct Args {
     bool full, coarse;         /* validate: finer or coarser than its default set */
     const char *table;         /* bench: NAME, or NULL */
     bool play;                 /* bench: the live window */
-    double seconds;            /* of it; more than 0; default 20 */
+    bool micro;                /* bench: each pass alone */
+    double seconds;            /* of either; more than 0; default 20 */
     const char *record;        /* FILE, or NULL; of devices: raw reports */
     const char *device;        /* "file:PATH", or NULL: what is plugged in */
     bool watch;                /* devices: live values */

@@ -1,0 +1,31 @@
+/* What `slosh bench` measures: scenes, and the settings of each case. */
+#ifndef SLOSH_BENCH_PLAN_H
+#define SLOSH_BENCH_PLAN_H
+
+#include "app/lab/bench_table.h"
+#include "app/scene/scene.h"
+#include "app/session/args.h"
+
+/* Each scene with each combination of the sweeps' values; the last sweep runs fastest. */
+typedef struct Plan {
+    const Args *args;
+    const char *const *scenes;
+    size_t scene_count, combinations;
+    const Table *table; /* or NULL */
+    SceneSettings settings;
+    int sweep_count;
+    Sweep sweeps[ARGS_SWEEPS_MAX];
+    const char *narrowed[ARGS_SWEEPS_MAX]; /* of a table: what said the one value, as SceneSettings has it */
+} Plan;
+
+bool plan_make(const Args *args, Plan *plan, Error *error);
+
+size_t plan_cases(const Plan *plan);
+
+/* What tells the case from others of its scene, for people; "" without sweeps. */
+void plan_case_name(const Plan *plan, size_t index, char *name, size_t size);
+
+/* The scene of a case; `tell`: what the loader notes goes to standard error. */
+bool plan_case_load(const Plan *plan, size_t index, bool tell, Scene *scene, Error *error);
+
+#endif

@@ -1,0 +1,140 @@
+#include "app/base/json_file.h"
+#include "app/lab/bench.h"
+#include "app/lab/micro.h"
+
+#include <string.h>
+
+static const char *const limit_names[] = {
+    [MICRO_MEMORY] = "copy", [MICRO_CACHE] = "cache", [MICRO_FLOPS] = "flops"};
+
+const char *micro_limit_name(MicroLimit limit)
+{
+    return limit_names[limit];
+}
+
+void micro_print_ceilings(const Ceilings *ceilings, int threads, FILE *file)
+{
+    const CopyCeiling *cache = ceilings->copy, *memory = &ceilings->copy[ceilings->copies - 1];
+    fprintf(file, "%s, %d thread%s\n", bench_processor(), threads, plural((size_t)threads));
+    fprintf(file, "  a copy: %.1f GB/s of %zu kB, %.1f GB/s of %zu MB\n", 1e-9 * cache->rate,
+            cache->bytes / 1000, 1e-9 * memory->rate, memory->bytes / 1000000);
+    fprintf(file,
+            "  multiply and add: %.1f Gflop/s of %d bits as the pair loops do it, %.1f of %d bits fused\n\n",
+            1e-9 * ceilings->multiply_add.rate, ceilings->multiply_add.bits, 1e-9 * ceilings->fused.rate,
+            ceilings->fused.bits);
+}
+
+static void print_figure(const MicroFigure *f, FILE *file)
+{
+    char pairs[64] = "", flops[64] = "";
+    if (f->pairs) {
+        snprintf(pairs, sizeof pairs, "%.4g", 1e-6 * f->pairs_per_second);
+        snprintf(flops, sizeof flops, "%.3g", 1e-9 * f->flops_per_second);
+    }
+    fprintf(file, "  %-12s %9.3f %11.4g %9s", f->name, f->ms, 1e-6 * f->particle_steps_per_second,
+            f->pairs ? pairs : "-");
+    if (f->pairs)
+        fprintf(file, " %7.0f %6d %8s %5.1f%%", f->bytes_per_pair, f->pair.flops, flops,
+                100 * f->flops_share);
+    else
+        fprintf(file, " %7s %6s %8s %6s", "-", "-", "-", "-");
+    fprintf(file, " %7.0f %7.3g %6.1f%% of %s\n", f->bytes_per_particle, 1e-9 * f->bytes_per_second,
+            100 * f->share, micro_limit_name(f->limit));
+}
+
+static void print_head(const MicroResult *r, FILE *file)
+{
+    fprintf(file, "%s%s%s: %zu particle%s, %.1f neighbours, %s, ", r->scene, r->swept[0] ? ", " : "",
+            r->swept, r->particles, plural(r->particles), r->neighbours_mean, r->method);
+    if (r->asked <= 0)
+        fprintf(file, "at its start\n");
+    else if (r->time < r->asked)
+        fprintf(file, "at %.3g s: the limit of --seconds came before %g s\n", r->time, r->asked);
+    else
+        fprintf(file, "at %.3g s\n", r->time);
+}
+
+void micro_print(const MicroResult *r, FILE *file)
+{
+    if (r->left_out[0]) {
+        fprintf(file, "%s, %s: left out: %s\n\n", r->scene, r->swept, r->left_out);
+        return;
+    }
+    print_head(r, file);
+    fprintf(file, "  %-12s %9s %11s %9s %7s %6s %8s %6s %7s %7s %7s\n", "pass", "ms", "M part./s",
+            "M pairs/s", "bytes", "flops", "Gflop/s", "fused", "bytes", "GB/s", "limit");
+    fprintf(file, "  %-12s %9s %11s %9s %7s %6s %8s %6s %7s\n", "", "", "", "", "a pair", "a pair", "",
+            "share", "a part.");
+    for (int k = 0; k < r->count; k++)
+        print_figure(&r->figures[k], file);
+    fputc('\n', file);
+}
+
+static json_t *copies_json(const Ceilings *ceilings)
+{
+    json_t *copies = json_array();
+    for (int k = 0; k < ceilings->copies; k++)
+        json_array_append_new(copies, json_pack("{s:I, s:f}", "bytes", (json_int_t)ceilings->copy[k].bytes,
+                                                "bytes_per_second", ceilings->copy[k].rate));
+    return copies;
+}
+
+static json_t *flops_json(const FlopCeiling *ceiling)
+{
+    return json_pack("{s:i, s:f}", "bits", ceiling->bits, "flops_per_second", ceiling->rate);
+}
+
+static json_t *figure_json(const MicroFigure *f)
+{
+    json_t *json = json_pack("{s:s, s:f, s:f, s:f, s:f, s:s, s:f}", "name", f->name, "ms", f->ms,
+                             "particle_steps_per_second", f->particle_steps_per_second, "bytes_per_particle",
+                             f->bytes_per_particle, "bytes_per_second", f->bytes_per_second, "limit",
+                             micro_limit_name(f->limit), "share", f->share);
+    if (!json || !f->pairs)
+        return json;
+    json_object_update_new(json,
+                           json_pack("{s:f, s:f, s:i, s:f, s:f}", "pairs_per_second", f->pairs_per_second,
+                                     "bytes_per_pair", f->bytes_per_pair, "flops_per_pair", f->pair.flops,
+                                     "flops_per_second", f->flops_per_second, "flops_share", f->flops_share));
+    return json;
+}
+
+static json_t *passes_json(const MicroResult *r)
+{
+    json_t *passes = json_array();
+    for (int k = 0; k < r->count; k++)
+        json_array_append_new(passes, figure_json(&r->figures[k]));
+    return passes;
+}
+
+static json_t *result_json(const MicroResult *r, const Ceilings *ceilings)
+{
+    if (r->left_out[0])
+        return json_pack("{s:s, s:s, s:s, s:s}", "scene", r->scene, "method", r->method, "swept", r->swept,
+                         "left_out", r->left_out);
+    json_t *json = json_pack(
+        "{s:s, s:s, s:s, s:i, s:s, s:s, s:s, s:I, s:f, s:f, s:f, s:i}", "scene", r->scene, "backend", "cpu",
+        "method", r->method, "threads", r->threads, "processor", bench_processor(), "compiler",
+        bench_compiler, "options", bench_options, "particles", (json_int_t)r->particles, "time", r->time,
+        "time_asked", r->asked, "neighbours_mean", r->neighbours_mean, "rounds", r->rounds);
+    json_t *more = json_pack("{s:o, s:o, s:o, s:o}", "copy", copies_json(ceilings), "multiply_add",
+                             flops_json(&ceilings->multiply_add), "fused", flops_json(&ceilings->fused),
+                             "passes", passes_json(r));
+    if (json && more && r->swept[0])
+        json_object_set_new(json, "swept", json_string(r->swept));
+    if (json)
+        json_object_update_new(json, more);
+    return json;
+}
+
+bool micro_write_json(const MicroResult *results, size_t count, const Ceilings *ceilings, const char *path,
+                      Error *error)
+{
+    json_t *all = json_array();
+    bool ok = true;
+    for (size_t i = 0; i < count; i++)
+        ok &= json_array_append_new(all, result_json(&results[i], ceilings)) == 0;
+    const bool written = json_file_write(ok ? all : NULL, path, error);
+    json_decref(all);
+    return written;
+}
