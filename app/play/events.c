@@ -48,6 +48,7 @@ static bool shaken_enough(const Play *play)
 void events_take(Play *play)
 {
     WindowEvent event;
+    const double began = meter_thread_cpu_ms();
     act_all(play); /* what the panel and the hand asked for during the last picture */
     while (next_shake(play, &event)) {
         take_event(play, &event);
@@ -63,6 +64,7 @@ void events_take(Play *play)
     if (play->model.has_particles)
         hands_look(play);
     act_all(play);
+    meter_events(&play->meter, meter_thread_cpu_ms() - began);
 }
 
 /* What moves the box that is held. An event that asks for anything waits, and all that come after it. */
@@ -83,8 +85,10 @@ static void take_moves(Play *play)
 
 void events_follow_hand(Play *play)
 {
+    const double began = meter_thread_cpu_ms();
     if (input_holds_box(&play->input))
         take_moves(play);
     if (play->model.has_particles)
         hands_look(play);
+    meter_events(&play->meter, meter_thread_cpu_ms() - began);
 }

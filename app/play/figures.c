@@ -55,6 +55,7 @@ static void add_meter(const PlayMeter *meter, PlayFigures *figures)
     figures->first_picture_ms = meter->first_ms;
     figures->render_ms = meter_drawn_mean(meter);
     figures->panel_ms = meter_panel_mean(meter);
+    figures->events_ms = meter_events_mean(meter);
     figures->latency_median_ms = meter_latency(meter, 0.5);
     figures->latency_p95_ms = meter_latency(meter, 0.95);
     figures->latency_events = meter->latencies;

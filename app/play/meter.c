@@ -115,6 +115,16 @@ double meter_panel_mean(const PlayMeter *meter)
     return meter->panels ? meter->panel_ms / (double)meter->panels : 0;
 }
 
+void meter_events(PlayMeter *meter, double cpu_ms)
+{
+    meter->events_ms += cpu_ms;
+}
+
+double meter_events_mean(const PlayMeter *meter)
+{
+    return meter->drawn ? meter->events_ms / (double)meter->drawn : 0;
+}
+
 int meter_history(const PlayMeter *meter, float out[METER_HISTORY])
 {
     for (int i = 0; i < meter->history_count; i++)

@@ -32,6 +32,7 @@ typedef struct PlayMeter {
     double began_ms, began_cpu_ms;  /* wall and CPU time of the first picture of a state; 0: none yet */
     double drawn_ms, last_drawn_ms; /* wall time of drawing: all pictures; the last one */
     double panel_ms;                /* CPU time of the panel in all of them */
+    double events_ms;               /* CPU time of taking events, in all */
     size_t drawn, panels;           /* how many these were */
 } PlayMeter;
 
@@ -56,6 +57,10 @@ void meter_drawn(PlayMeter *meter, double ms);
 void meter_panel(PlayMeter *meter, double cpu_ms);
 double meter_drawn_mean(const PlayMeter *meter);
 double meter_panel_mean(const PlayMeter *meter);
+
+/* CPU time of taking events, between pictures and in them; for a picture, mean. */
+void meter_events(PlayMeter *meter, double cpu_ms);
+double meter_events_mean(const PlayMeter *meter);
 
 /* The picture-to-picture times, oldest first; how many. */
 int meter_history(const PlayMeter *meter, float out[METER_HISTORY]);

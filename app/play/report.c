@@ -19,12 +19,12 @@ static json_t *session_json(const PlayFigures *f)
                              f->threads, "renderer", f->renderer, "size", f->width, f->height, "particles",
                              (json_int_t)f->particles, "dt", f->dt, "substeps", f->substeps);
     json_t *times =
-        json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:I}", "real_time_factor",
+        json_pack("{s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:I}", "real_time_factor",
                   f->real_time_factor, "pictures_per_second", f->pictures_per_second, "frame_ms", f->frame_ms,
-                  "sim_ms", f->sim_ms, "render_ms", f->render_ms, "panel_ms", f->panel_ms, "first_picture_ms",
-                  f->first_picture_ms, "latency_median_ms", f->latency_median_ms, "latency_p95_ms",
-                  f->latency_p95_ms, "cpus_busy", f->cpus_busy, "wall_seconds", f->wall_s, "latency_events",
-                  (json_int_t)f->latency_events);
+                  "sim_ms", f->sim_ms, "render_ms", f->render_ms, "panel_ms", f->panel_ms, "events_ms",
+                  f->events_ms, "first_picture_ms", f->first_picture_ms, "latency_median_ms",
+                  f->latency_median_ms, "latency_p95_ms", f->latency_p95_ms, "cpus_busy", f->cpus_busy,
+                  "wall_seconds", f->wall_s, "latency_events", (json_int_t)f->latency_events);
     json_t *devices = json_pack("{s:I, s:f, s:f}", "device_reports", (json_int_t)f->device_reports,
                                 "report_median_ms", f->report_median_ms, "report_p99_ms", f->report_p99_ms);
     json_t *state =
@@ -103,8 +103,8 @@ void play_print(const PlayFigures *f, FILE *file)
     fprintf(file, "  real-time factor      %8.3f\n", f->real_time_factor);
     fprintf(file, "  pictures a second     %8.1f\n", f->pictures_per_second);
     fprintf(file, "  solver, a frame       %8.2f ms of %.4g\n", f->sim_ms, 1e3 * f->dt);
-    fprintf(file, "  rendering, a picture  %8.2f ms, of these the panel %.2f (CPU)\n", f->render_ms,
-            f->panel_ms);
+    fprintf(file, "  rendering, a picture  %8.2f ms, of these the panel %.2f (CPU), events %.2f (CPU)\n",
+            f->render_ms, f->panel_ms, f->events_ms);
     fprintf(file, "  start to picture      %8.0f ms\n", f->first_picture_ms);
     fprintf(file,
             "  event to picture      %8.1f ms median, %.1f p95 of %zu; two pictures and a frame are %.1f\n",

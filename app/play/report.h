@@ -29,6 +29,7 @@ typedef struct PlayFigures {
     uint64_t device_reports;
     double report_median_ms, report_p99_ms; /* from the report of a motion device to its command */
     double panel_ms;                        /* CPU time of the panel in a picture, mean; 0 when never shown */
+    double events_ms;                       /* CPU time of events for a picture, mean */
     double cpus_busy;                       /* CPU time over wall time */
     double speed, display_scale;
     bool paused, fullscreen, camera_auto, panel, help;
