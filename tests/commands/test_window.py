@@ -324,6 +324,7 @@ class Mouse(Window):
         out = self.quit()
         self.assertGreater(out['box_position'][0], 0.1)
         self.assertGreater(out['latency_events'], 0)
+        self.assertGreater(out['events_ms'], 0)
         self.assertTrue(out['camera_auto'])
         self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
         text = self.read('a.recording').decode()
