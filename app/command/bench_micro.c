@@ -15,6 +15,7 @@ typedef struct Micro {
     MicroResult *results;
     size_t count;
     double ms_a_particle; /* that the last case took at least */
+    bool broke;           /* a simulation on its way to --time */
 } Micro;
 
 /* All cases are read before the first runs, with few particles: too many are no mistake of the command line.
@@ -44,6 +45,8 @@ static void leave_out(Micro *micro, size_t index, const char *why)
              micro->plan->scenes[index / micro->plan->combinations]);
     plan_case_name(micro->plan, index, result->swept, sizeof result->swept);
     snprintf(result->left_out, sizeof result->left_out, "%.500s", why);
+    if (!micro->plan->args->quiet)
+        micro_print(result, stdout);
 }
 
 static double particles_of(const Scene *scene)
@@ -74,8 +77,11 @@ static bool within_limits(Micro *micro, size_t index, Scene *scene)
     return false;
 }
 
-static bool measure_case(Micro *micro, size_t index, const Scene *scene, Error *error)
+/* A world that cannot be made, for want of memory, is left out, as is a state that a simulation did not come
+   to. */
+static void measure_case(Micro *micro, size_t index, const Scene *scene)
 {
+    Error error;
     const Args *args = micro->plan->args;
     const MicroSetup setup = {.scene = scene,
                               .rounds = args->frames,
@@ -84,7 +90,7 @@ static bool measure_case(Micro *micro, size_t index, const Scene *scene, Error *
     int found;
     MicroResult *results = &micro->results[micro->count];
     const bool first = micro->ceilings.copies == 0;
-    const bool ok = micro_measure(&setup, &micro->ceilings, results, &found, error);
+    const bool ok = micro_measure(&setup, &micro->ceilings, results, &found, &error);
     if (first && found > 0 && !args->quiet)
         micro_print_ceilings(&micro->ceilings, results[0].threads, stdout);
     for (int k = 0; k < found; k++) {
@@ -95,24 +101,19 @@ static bool measure_case(Micro *micro, size_t index, const Scene *scene, Error *
     micro->count += (size_t)found;
     if (found > 0 && results[0].particles > 0)
         micro->ms_a_particle = results[0].least_ms / (double)results[0].particles;
-    return ok;
+    if (ok || interrupted())
+        return;
+    micro->broke |= found > 0;
+    leave_out(micro, index, error.message);
 }
 
-static bool measure_all(Micro *micro, Error *error)
+static void measure_all(Micro *micro)
 {
-    const size_t cases = plan_cases(micro->plan);
-    const bool quiet = micro->plan->args->quiet;
-    for (size_t i = 0; i < cases && !interrupted(); i++) {
+    for (size_t i = 0; i < plan_cases(micro->plan) && !interrupted(); i++) {
         Scene scene;
-        if (!within_limits(micro, i, &scene)) {
-            if (!quiet)
-                micro_print(&micro->results[micro->count - 1], stdout);
-            continue;
-        }
-        if (!measure_case(micro, i, &scene, error))
-            return false;
+        if (within_limits(micro, i, &scene))
+            measure_case(micro, i, &scene);
     }
-    return true;
 }
 
 int bench_micro(const Plan *plan)
@@ -129,11 +130,13 @@ int bench_micro(const Plan *plan)
         fprintf(stderr, "no memory for the results\n");
         return EXIT_FAILED;
     }
-    bool ok = (!args->json || json_file_check(args->json, &error)) && measure_all(&micro, &error);
+    bool ok = !args->json || json_file_check(args->json, &error);
+    if (ok)
+        measure_all(&micro);
     if (ok && args->json && micro.count > 0)
         ok = micro_write_json(micro.results, micro.count, &micro.ceilings, args->json, &error);
     free(micro.results);
     if (!ok)
         fprintf(stderr, "%s\n", error.message);
-    return interrupted() ? EXIT_INTERRUPTED : ok ? 0 : EXIT_FAILED;
+    return interrupted() ? EXIT_INTERRUPTED : ok && !micro.broke ? 0 : EXIT_FAILED;
 }

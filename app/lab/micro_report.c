@@ -57,7 +57,7 @@ static void print_head(const MicroResult *r, FILE *file)
 void micro_print(const MicroResult *r, FILE *file)
 {
     if (r->left_out[0]) {
-        fprintf(file, "%s, %s: left out: %s\n\n", r->scene, r->swept, r->left_out);
+        fprintf(file, "%s%s%s: left out: %s\n\n", r->scene, r->swept[0] ? ", " : "", r->swept, r->left_out);
         return;
     }
     print_head(r, file);
@@ -110,8 +110,7 @@ static json_t *passes_json(const MicroResult *r)
 static json_t *result_json(const MicroResult *r, const Ceilings *ceilings)
 {
     if (r->left_out[0])
-        return json_pack("{s:s, s:s, s:s, s:s}", "scene", r->scene, "method", r->method, "swept", r->swept,
-                         "left_out", r->left_out);
+        return json_pack("{s:s, s:s, s:s}", "scene", r->scene, "swept", r->swept, "left_out", r->left_out);
     json_t *json = json_pack(
         "{s:s, s:s, s:s, s:i, s:s, s:s, s:s, s:I, s:f, s:f, s:f, s:i}", "scene", r->scene, "backend", "cpu",
         "method", r->method, "threads", r->threads, "processor", bench_processor(), "compiler",

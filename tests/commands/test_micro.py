@@ -68,6 +68,13 @@ class Micro(command.CommandTest):
         self.assertLess(results[1]["time"], results[1]["time_asked"])
         self.assertIn("came before 0.5 s", said)
 
+    def test_a_simulation_that_breaks_on_its_way_is_said(self):
+        path = self.path("micro.json")
+        code, _ = self.slosh("bench", "scene.yaml", *FEW, "--time", "1", "--set", "solver.step={dt: 0.2, substeps: 1, retries: 0}", "--json", path)
+        first, second = json.loads(self.read("micro.json"))
+        self.assertEqual((code, first["time"]), (1, 0))
+        self.assertIn("blew up", second["left_out"])
+
     def test_what_it_does_not_measure_is_refused(self):
         for arguments, word in ((("--play",), "--play"), (("--table", "paper003-spheres"), "--table"), (("-o", "a.svg"), "--table"),
                                 (("--sweep", "solver.cats=1"), "cats"), (("--backend", "compute"), "compute"),
