@@ -4,6 +4,7 @@
 
 #include "render/frame/colormap.h"
 #include "render/frame/shadow.h"
+#include "render/particles/casting.h"
 #include "render/particles/particle_bind.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/spheres/spheres_bindings.h"
@@ -15,9 +16,10 @@
 #include <stdlib.h>
 
 typedef struct Spheres {
-    GLuint visibility, points, shading, casting; /* programs */
-    float point_limit;                           /* largest point to be drawn, pixels; 0: quads only */
-    bool solids;                                 /* the target holds more than particles */
+    GLuint visibility, points, shading; /* programs */
+    Casting casting;
+    float point_limit; /* largest point to be drawn, pixels; 0: quads only */
+    bool solids;       /* the target holds more than particles */
     GLuint colormap;
     GLuint framebuffer, seen; /* number of the nearest particle where the target's own depth has one, R32UI */
     unsigned target_number;   /* which the framebuffer was made for */
@@ -31,7 +33,7 @@ static void spheres_destroy(void *state)
     glDeleteProgram(spheres->visibility);
     glDeleteProgram(spheres->points);
     glDeleteProgram(spheres->shading);
-    glDeleteProgram(spheres->casting);
+    casting_destroy(&spheres->casting);
     glDeleteTextures(1, &spheres->colormap);
     glDeleteFramebuffers(1, &spheres->framebuffer);
     glDeleteTextures(1, &spheres->seen);
@@ -51,10 +53,7 @@ static bool create_programs(Spheres *spheres, Error *error)
     spheres->shading = spheres->points ? program_create("spheres shade", shading,
                                                         spheres->solids ? "#define SOLIDS 1\n" : NULL, error)
                                        : 0;
-    spheres->casting = spheres->shading ? program_create_pair("spheres shadow", "render/ball_shadow.vert",
-                                                              "render/depth_only.frag", error)
-                                        : 0;
-    return spheres->casting != 0;
+    return spheres->shading && casting_create(&spheres->casting, NULL, error);
 }
 
 static void *spheres_create(const Subject *subject, Error *error)
@@ -98,12 +97,9 @@ static void follow_target(Spheres *spheres, const Target *target)
 
 static void spheres_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
-    Spheres *spheres = state;
-    glEnable(GL_PROGRAM_POINT_SIZE);
-    glUseProgram(spheres->casting);
-    particle_bind(spheres->casting, particles, frame->def->color_by);
-    glBindVertexArray(spheres->screen);
-    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+    const Spheres *spheres = state;
+    (void)frame;
+    casting_draw(&spheres->casting, particles);
 }
 
 /* A point whose centre is outside the view is lost, and none is larger than the limit. */

@@ -3,7 +3,6 @@
 #include "render/particles/particle_bind.h"
 #include "render/particles/work.h"
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/shadow_maps.h"
 #include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
@@ -16,7 +15,7 @@ enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6, SMALL
 /* A coarse map: see shaders/splat/cull.glsl. */
 typedef struct Grid {
     GLuint columns, rows, side, reach;
-    GLfloat width, height, point_half; /* pixels */
+    GLfloat width, height; /* pixels */
 } Grid;
 
 static GLuint compile(const char *label, const char *file, const char *defines, Error *error)
@@ -24,32 +23,16 @@ static GLuint compile(const char *label, const char *file, const char *defines, 
     return program_create(label, (const char *const[]){file, NULL}, defines, error);
 }
 
-static bool create_programs(Cull *cull, const char *body, Error *error)
+bool cull_create(Cull *cull, const char *body, Error *error)
 {
-    char light[96];
-    snprintf(light, sizeof light, "#define LIGHT 1\n%s", body);
-    const char *defines[] = {body, light};
-    for (int i = 0; i < 2; i++) {
-        cull->occlude[i] = compile("cull occlude", "splat/cull_occlude.comp", defines[i], error);
-        cull->test[i] =
-            cull->occlude[i] ? compile("cull test", "splat/cull_test.comp", defines[i], error) : 0;
-        if (!cull->test[i])
-            return false;
-    }
-    cull->widen = compile("cull widen", "splat/cull_widen.comp", NULL, error);
+    *cull = (Cull){0};
+    work_buffer_remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
+    cull->occlude = compile("cull occlude", "splat/cull_occlude.comp", body, error);
+    cull->test = cull->occlude ? compile("cull test", "splat/cull_test.comp", body, error) : 0;
+    cull->widen = cull->test ? compile("cull widen", "splat/cull_widen.comp", NULL, error) : 0;
     cull->sum = cull->widen ? compile("cull sum", "splat/cull_sum.comp", NULL, error) : 0;
     cull->list = cull->sum ? compile("cull list", "splat/cull_list.comp", NULL, error) : 0;
     return cull->list != 0;
-}
-
-bool cull_create(Cull *cull, const char *body, Error *error)
-{
-    GLfloat range[2] = {0};
-    *cull = (Cull){0};
-    glGetFloatv(GL_POINT_SIZE_RANGE, range);
-    cull->point_limit = range[1];
-    work_buffer_remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
-    return create_programs(cull, body, error);
 }
 
 bool cull_create_limit(Cull *cull, Error *error)
@@ -60,10 +43,8 @@ bool cull_create_limit(Cull *cull, Error *error)
 
 void cull_destroy(Cull *cull)
 {
-    for (int i = 0; i < 2; i++) {
-        glDeleteProgram(cull->occlude[i]);
-        glDeleteProgram(cull->test[i]);
-    }
+    glDeleteProgram(cull->occlude);
+    glDeleteProgram(cull->test);
     glDeleteProgram(cull->widen);
     glDeleteProgram(cull->sum);
     glDeleteProgram(cull->list);
@@ -122,7 +103,6 @@ static void use(GLuint program, const Grid *grid, const ParticleBuffers *particl
     glUniform1ui(CELL_SIDE_AT, grid->side);
     glUniform1ui(WIDEN_REACH_AT, grid->reach);
     glUniform2f(CULL_PIXELS_AT, grid->width, grid->height);
-    glUniform1f(POINT_HALF_AT, grid->point_half);
 }
 
 static void widen(const Cull *cull, const Grid *grid)
@@ -137,8 +117,7 @@ static void widen(const Cull *cull, const Grid *grid)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
 }
 
-static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
-                     int light)
+static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame)
 {
     static const GLfloat nothing = INFINITY;
     const size_t cells = (size_t)grid->columns * grid->rows;
@@ -146,7 +125,7 @@ static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *partic
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferSubData(cull->map[0], GL_R32F, 0, (GLsizeiptr)(cells * sizeof nothing), GL_RED,
                               GL_FLOAT, &nothing);
-    use(cull->occlude[light], grid, particles, frame);
+    use(cull->occlude, grid, particles, frame);
     glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
     work_run(particles->count);
@@ -168,9 +147,9 @@ static void make_lists(Cull *cull, size_t count, unsigned vertices)
 }
 
 static void test(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
-                 int light, float eps, unsigned vertices, bool hidden)
+                 float eps, unsigned vertices, bool hidden)
 {
-    use(cull->test[light], grid, particles, frame);
+    use(cull->test, grid, particles, frame);
     glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
     glUniform1f(EPS_AT, eps);
     glUniform1ui(INVERT_AT, hidden);
@@ -180,10 +159,10 @@ static void test(Cull *cull, const Grid *grid, const ParticleBuffers *particles,
 }
 
 static void make(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
-                 int light, float eps, unsigned vertices, bool hidden)
+                 float eps, unsigned vertices, bool hidden)
 {
-    make_map(cull, grid, particles, frame, light);
-    test(cull, grid, particles, frame, light, eps, vertices, hidden);
+    make_map(cull, grid, particles, frame);
+    test(cull, grid, particles, frame, eps, vertices, hidden);
 }
 
 /* Pixels across of a sphere at that distance in the middle of the picture. */
@@ -207,7 +186,7 @@ void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *fra
 {
     const Grid grid = eye_grid(frame);
     if (particles->count > 0)
-        make(cull, &grid, particles, frame, 0, eps, vertices, hidden);
+        make(cull, &grid, particles, frame, eps, vertices, hidden);
 }
 
 void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *frame, unsigned limit,
@@ -222,19 +201,7 @@ void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *fr
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
     work_run((size_t)grid.columns * grid.rows);
     widen(cull, &grid);
-    test(cull, &grid, particles, frame, 0, 0, vertices, false);
-}
-
-/* As wide as spheres_shadow.vert draws them. */
-bool cull_for_light(Cull *cull, const ParticleBuffers *particles, const Frame *frame)
-{
-    const double side = 1.77245 * frame->shadow_radius / frame->light_depth * SHADOW_MAP_TEXELS;
-    if (side > cull->point_limit || particles->count == 0)
-        return false;
-    Grid grid = make_grid(SHADOW_MAP_TEXELS, SHADOW_MAP_TEXELS, side, fmax(side, 1));
-    grid.point_half = (GLfloat)(side / 2);
-    make(cull, &grid, particles, frame, 1, 0, 1, false);
-    return true;
+    test(cull, &grid, particles, frame, 0, vertices, false);
 }
 
 size_t cull_use(const Cull *cull, CullList list)

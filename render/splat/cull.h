@@ -17,14 +17,12 @@
 typedef enum CullList { CULL_NEAREST, CULL_BLEND, CULL_LISTS } CullList;
 
 typedef struct Cull {
-    unsigned occlude[2], test[2]; /* programs, for the eye and for the light */
-    unsigned widen, sum, list;
-    unsigned limit;          /* program, after cull_create_limit */
+    unsigned occlude, test, widen, sum, list; /* programs */
+    unsigned limit;                           /* program, after cull_create_limit */
     unsigned map[2];         /* buffers: a depth a cell, and the same before it was widened along y */
     unsigned kept, commands; /* see cull_test.comp, cull_sum.comp */
     unsigned lists[CULL_LISTS];
     size_t cells, capacity; /* how many `map` has room for; how many particles `lists` have room for */
-    float point_limit;      /* largest point that the driver draws, pixels */
 } Cull;
 
 /* For particles as splat/splat_body.glsl has them with these defines. False when a shader does not
@@ -44,10 +42,6 @@ bool cull_create_limit(Cull *cull, Error *error);
    pixel; `limit` is reversed, 0 lets all through, 1 nothing. */
 void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *frame, unsigned limit,
                    unsigned vertices);
-
-/* The list CULL_NEAREST for the shadow map, which draws points. False where culling cannot be exact: then all
- * must be drawn. */
-bool cull_for_light(Cull *cull, const ParticleBuffers *particles, const Frame *frame);
 
 /* Binds a list for shaders with LISTED. The command for its drawing stands in cull->commands, at the offset
    that comes back. */

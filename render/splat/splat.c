@@ -1,7 +1,7 @@
 #include "render/splat/splat.h"
 
 #include "render/frame/colormap.h"
-#include "render/frame/shadow.h"
+#include "render/particles/casting.h"
 #include "render/splat/narrow_range.h"
 #include "render/splat/silhouette.h"
 #include "render/splat/splat_level.h"
@@ -20,7 +20,8 @@
 typedef struct SplatView {
     SplatDef def;                                          /* what the programs were made for */
     GLuint depth[SPLAT_POINT + 1], blend[SPLAT_POINT + 1]; /* programs, by sprite */
-    GLuint limit, casting, casting_listed;                 /* programs; the last where culling does */
+    GLuint limit;                                          /* program */
+    Casting casting;
     GLuint colormap;
     SplatSprites sprites;
     Ellipsoids ellipsoids;
@@ -61,8 +62,7 @@ static void splat_destroy(void *state)
         glDeleteProgram(splat->blend[sprite]);
     }
     glDeleteProgram(splat->limit);
-    glDeleteProgram(splat->casting);
-    glDeleteProgram(splat->casting_listed);
+    casting_destroy(&splat->casting);
     glDeleteTextures(1, &splat->colormap);
     splat_level_destroy(&splat->level);
     splat_maps_delete(&splat->maps);
@@ -90,15 +90,6 @@ static bool create_sprites(SplatView *splat, SplatSprite sprite, Error *error)
     return splat->blend[sprite] != 0;
 }
 
-/* For the shadow map, where the light culls and where it cannot. */
-static GLuint create_casting(const SplatDef *def, const char *listed, Error *error)
-{
-    static const char *const stages[] = {"render/ball_shadow.vert", "render/depth_only.frag", NULL};
-    char defines[64];
-    snprintf(defines, sizeof defines, "%s%s", ellipsoids_defines(def), listed);
-    return program_create("splat shadow", stages, defines, error);
-}
-
 static bool create_programs(SplatView *splat, Error *error)
 {
     for (int sprite = SPLAT_QUAD; sprite <= SPLAT_POINT; sprite++)
@@ -106,10 +97,7 @@ static bool create_programs(SplatView *splat, Error *error)
             !create_sprites(splat, (SplatSprite)sprite, error))
             return false;
     splat->limit = program_create_pair("splat limit", "common/screen.vert", "splat/splat_limit.frag", error);
-    splat->casting = splat->limit ? create_casting(&splat->def, "", error) : 0;
-    if (splat->casting && splat_culls(&splat->def))
-        splat->casting_listed = create_casting(&splat->def, "#define LISTED 1\n", error);
-    return splat_culls(&splat->def) ? splat->casting_listed != 0 : splat->casting != 0;
+    return splat->limit && casting_create(&splat->casting, ellipsoids_defines(&splat->def), error);
 }
 
 static bool create_shading(SplatView *splat, const Subject *subject, Error *error)
@@ -162,11 +150,10 @@ static void splat_prepare(void *state, const ParticleBuffers *particles, const F
 
 static void splat_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
-    SplatView *splat = state;
+    const SplatView *splat = state;
+    (void)frame;
     ellipsoids_bind(&splat->ellipsoids);
-    const bool listed = splat_culls(&splat->def) && cull_for_light(&splat->sprites.cull, particles, frame);
-    splat_sprites_draw_points(&splat->sprites, listed ? splat->casting_listed : splat->casting, particles,
-                              frame, listed ? &(CullList){CULL_NEAREST} : NULL);
+    casting_draw(&splat->casting, particles);
 }
 
 static void draw_sprites(SplatView *splat, SplatSprite sprite, GLuint program,

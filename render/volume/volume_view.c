@@ -1,6 +1,6 @@
 #include "render/volume/volume_def.h"
 
-#include "render/particles/particle_bind.h"
+#include "render/particles/casting.h"
 #include "render/volume/fluid_numbers.h"
 #include "render/volume/raycast.h"
 #include "render/volume/volume_slice.h"
@@ -13,10 +13,9 @@
 
 typedef struct VolumeView {
     Voxelizer *voxelizer;
-    VolumeSlice slice;    /* shown alone: nothing below is there */
-    Raycast *raycast;     /* NULL: the slice */
-    unsigned casting;     /* program: particles as the light sees them */
-    unsigned casting_vao; /* without attributes */
+    VolumeSlice slice; /* shown alone: nothing below is there */
+    Raycast *raycast;  /* NULL: the slice */
+    Casting casting;
     FluidNumbers numbers; /* where the volume carries fluids; else zero */
 } VolumeView;
 
@@ -26,8 +25,7 @@ static void destroy(void *state)
     volume_slice_destroy(&view->slice);
     raycast_destroy(view->raycast);
     fluid_numbers_destroy(&view->numbers);
-    glDeleteProgram(view->casting);
-    glDeleteVertexArrays(1, &view->casting_vao);
+    casting_destroy(&view->casting);
     voxelizer_destroy(view->voxelizer);
     free(view);
 }
@@ -66,12 +64,7 @@ static bool accepts(void *state, const Subject *subject, Error *error)
 static bool create_raycast(VolumeView *view, const Subject *subject, Error *error)
 {
     view->raycast = raycast_create(subject, view->voxelizer, error);
-    if (!view->raycast)
-        return false;
-    glCreateVertexArrays(1, &view->casting_vao);
-    view->casting =
-        program_create_pair("volume shadow", "render/ball_shadow.vert", "render/depth_only.frag", error);
-    return view->casting != 0;
+    return view->raycast && casting_create(&view->casting, NULL, error);
 }
 
 /* The volume carries the fluids where the picture has the colours of several, and a scalar where it has that
@@ -111,13 +104,9 @@ static void *create(const Subject *subject, Error *error)
 static void cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     const VolumeView *view = state;
-    if (!view->raycast)
-        return;
-    glEnable(GL_PROGRAM_POINT_SIZE);
-    glUseProgram(view->casting);
-    particle_bind(view->casting, particles, frame->def->color_by);
-    glBindVertexArray(view->casting_vao);
-    glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
+    (void)frame;
+    if (view->raycast)
+        casting_draw(&view->casting, particles);
 }
 
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)

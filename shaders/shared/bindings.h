@@ -20,6 +20,7 @@
 #define SORTED_STORAGE 8
 /* and what is made of neighbours */
 #define SHAPES_STORAGE 9
+#define CAST_STORAGE   10
 
 /* Texture units; views use those between for themselves */
 #define SHADOW_UNIT       0
@@ -41,5 +42,6 @@
 #define GRID_PARTICLES_AT   7
 #define GRID_CORNER_AT      8
 #define GRID_SCALE_AT       9
+#define CASTERS_AT          10
 
 #endif

@@ -18,19 +18,6 @@ struct Disc {
     float radius;       // m
 };
 
-#ifdef LIGHT
-Disc disc_of(uint index)
-{
-    LightPoint point = light_point(index);
-    return Disc(point.pixel, vec2(point.half_side - pixel_margin), point.depth, 0.0, 0.0);
-}
-
-// Greatest depth of the sprite where it is at most `away` radii beside its centre; infinity where it may end before.
-float depth_within(Disc disc, vec2 away)
-{
-    return max(away.x, away.y) < 1.0 ? max(disc.w, 0.0) : uintBitsToFloat(nothing);
-}
-#else
 // The disc through the centre across the eye's axis, which is in the sphere or in the ball within an ellipsoid; nothing where
 // that reaches the near plane.
 Disc disc_of(uint index)
@@ -56,7 +43,6 @@ float depth_within(Disc disc, vec2 away)
     float k = (sqrt(max(length2 - r2, 0.0)) - sqrt(r2) * disc.slant) / length2;
     return r2 < 0.99 ? (disc.w - disc.radius * k) * 1.00001 : uintBitsToFloat(nothing);
 }
-#endif
 
 void main()
 {

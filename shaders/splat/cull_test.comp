@@ -15,21 +15,12 @@ layout(location = INVERT_AT) uniform uint invert; // 1: the hidden ones instead
 layout(std430, binding = CULL_KEPT_STORAGE) writeonly buffer Kept { uvec4 kept[]; }; // bits to be seen, to blend; numbers of both
 
 // x0 x1 y0 y1 of the sprite, pixels; its nearest depth.
-#ifdef LIGHT
-vec4 sprite_of(uint index, out float depth)
-{
-    LightPoint point = light_point(index);
-    depth = point.depth;
-    return point.pixel.xxyy + (max(point.half_side, 0.5) + 1.0 / 64.0) * vec4(-1.0, 1.0, -1.0, 1.0);
-}
-#else
 vec4 sprite_of(uint index, out float depth)
 {
     Body body = body_of(index);
     depth = body_nearest(body);
     return (body_bounds(body) * 0.5 + 0.5) * cull_pixels.xxyy;
 }
-#endif
 
 const uint HIDDEN = 4u;
 

@@ -59,11 +59,10 @@
 #define CELL_SIDE_AT   40
 #define WIDEN_REACH_AT 41
 #define CULL_PIXELS_AT 42
-#define POINT_HALF_AT  43
-#define CULL_COUNT_AT  44
-#define INVERT_AT      45
-#define CHUNKS_AT      46
-#define VERTICES_AT    47
-#define UPWARDS_AT     48
+#define CULL_COUNT_AT  43
+#define INVERT_AT      44
+#define CHUNKS_AT      45
+#define VERTICES_AT    46
+#define UPWARDS_AT     47
 
 #endif

@@ -116,44 +116,6 @@ static void it_leaves_out_what_is_hidden(void **state)
     free(scene.particles);
 }
 
-static void draw_with_shadows(SplatScene *scene, uint8_t *rgb)
-{
-    Error error = {0};
-    ParticleBuffers buffers;
-    scene->state.count = scene->particles->count;
-    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
-    Renderer *renderer = renderer_create(&scene->def, &scene->world, scene->width, scene->height, &error);
-    assert_non_null(renderer);
-    renderer_draw(renderer, &buffers, NULL);
-    renderer_read(renderer, rgb);
-    renderer_destroy(renderer);
-    upload_destroy(upload);
-}
-
-static void compare_shadows(SplatScene *scene)
-{
-    static uint8_t rgb[2][3 * 160 * 120];
-    for (int cull = 0; cull < 2; cull++) {
-        splat_def(&scene->def)->cull = cull;
-        draw_with_shadows(scene, rgb[cull]);
-    }
-    assert_memory_equal(rgb[0], rgb[1], sizeof rgb[0]);
-}
-
-/* The whole picture: the light has its own culling. */
-static void shadows_stay_the_same(void **state)
-{
-    (void)state;
-    SplatScene scene = fluid(30);
-    for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape += 2)
-        for (int drops = 0; drops < 2; drops++) {
-            splat_def(&scene.def)->shape = (SplatShape)shape, splat_def(&scene.def)->drops = drops,
-            scene.def.floor = true;
-            compare_shadows(&scene);
-        }
-    free(scene.particles);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -161,7 +123,6 @@ int main(void)
         cmocka_unit_test_teardown(nor_from_within_the_fluid, no_gl_errors),
         cmocka_unit_test_teardown(nor_behind_gaps_between_sheets, no_gl_errors),
         cmocka_unit_test_teardown(it_leaves_out_what_is_hidden, no_gl_errors),
-        cmocka_unit_test_teardown(shadows_stay_the_same, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

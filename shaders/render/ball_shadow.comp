@@ -1,0 +1,31 @@
+// Particles as the light sees them: squares of the disc's area at the depth of the centre, which the blur and the bilinear texel round
+// off. So small they are cheaper written by hand than set up by a rasteriser (Schütz, Kerbl, Wimmer: Rendering point clouds with
+// compute shaders, 2021): on a software driver a fifth of the time.
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+#include "common/ball.glsl"
+#include "shaders/shared/shadow_maps.h"
+
+layout(local_size_x = 64) in;
+layout(location = CASTERS_AT) uniform uint casters;                  // how many
+layout(std430, binding = CAST_STORAGE) buffer Lit { uint lit[]; }; // bits of a depth, which are ordered as it is
+
+void main()
+{
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
+    if (index >= casters)
+        return;
+    Ball ball = ball_of(index);
+    vec3 at = (box_to_light * vec4(ball.centre, 1.0)).xyz;
+    if (!(all(greaterThanEqual(at, vec3(0.0))) && all(lessThanEqual(at, vec3(1.0))))) // so is what is no number
+        return;
+    const float side = float(SHADOW_MAP_TEXELS); // the map is light_depth wide
+    float reach = 0.5 * max(1.77245 * shadow_radius * (ball.radius / particle_radius) / light_depth * side, 1.0);
+    uvec2 low = uvec2(max(ceil(at.xy * side - reach - 0.5), 0.0)); // texels whose centres are within
+    uvec2 end = uvec2(min(ceil(at.xy * side + reach - 0.5), side));
+    uint depth = floatBitsToUint(at.z + 0.0); // no -0
+    for (uint y = low.y; y < end.y; y++)
+        for (uint texel = y * SHADOW_MAP_TEXELS + low.x; texel < y * SHADOW_MAP_TEXELS + end.x; texel++)
+            if (lit[texel] < depth)
+                atomicMax(lit[texel], depth);
+}
