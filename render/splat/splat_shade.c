@@ -14,12 +14,19 @@ static unsigned create_program(const SplatShade *shade, const Subject *subject, 
                                Error *error)
 {
     const SplatDef *def = splat_def(subject->def);
+    const bool solids = subject->world->solid_count > 0;
     static const char *const stages[] = {"common/screen.vert", "splat/splat_shade.frag", NULL};
     char defines[160];
     snprintf(defines, sizeof defines, "%s%s%s#define SHOW %d\n#define SHADING %d\n",
-             subject->world->solid_count > 0 ? "#define SOLIDS 1\n" : "",
+             solids ? "#define SOLIDS 1\n" : "#define SETTLED 1\n",
              shade->clear ? "#define FLOOR_SHADOW 1\n" : "", more, (int)def->show, (int)def->shading);
     return program_create("splat shade", stages, defines, error);
+}
+
+static unsigned create_settle(Error *error)
+{
+    static const char *const stages[] = {"common/screen.vert", "splat/splat_settle.frag", NULL};
+    return program_create("splat settle", stages, NULL, error);
 }
 
 bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error)
@@ -29,6 +36,8 @@ bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error)
     *shade = (SplatShade){.clear = def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG};
     glCreateVertexArrays(1, &shade->screen);
     shade->program = create_program(shade, subject, "", error);
+    if (shade->program && subject->world->solid_count == 0 && !(shade->settle = create_settle(error)))
+        return false;
     if (shade->program && discs)
         shade->mixing = create_program(shade, subject, "#define MIXING 1\n", error);
     return discs ? shade->mixing != 0 : shade->program != 0;
@@ -38,6 +47,7 @@ void splat_shade_destroy(SplatShade *shade)
 {
     glDeleteProgram(shade->program);
     glDeleteProgram(shade->mixing);
+    glDeleteProgram(shade->settle);
     glDeleteVertexArrays(1, &shade->screen);
     behind_destroy(&shade->behind);
 }
@@ -61,6 +71,18 @@ static void begin_mixing(const Frame *frame)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
+/* The triangle at depth 0 passes then where something has been drawn, and a software driver runs its shader
+ * nowhere else. */
+static void settle(const SplatShade *shade)
+{
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glUseProgram(shade->settle);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_FALSE);
+}
+
 void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame)
 {
     const bool mixing = shade->mixing && splat_sprites_small(frame);
@@ -75,14 +97,17 @@ void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickne
     glBindTextureUnit(NEAREST_UNIT, maps->nearest);
     glBindTextures(COLOR_SUM_UNIT, 3, (GLuint[]){maps->color, maps->normal, maps->weight});
     glBindTextureUnit(THICKNESS_UNIT, thickness);
+    glBindVertexArray(shade->screen);
+    frame_cut_to_bounds(frame);
+    if (shade->settle)
+        settle(shade);
     glUseProgram(program);
     glUniform1f(NEAREST_DEPTH_AT, fmaxf(frame->nearest, frame->camera.near_plane));
     glUniform1f(FARTHEST_DEPTH_AT, frame->farthest);
     if (mixing)
         begin_mixing(frame);
-    glBindVertexArray(shade->screen);
-    frame_cut_to_bounds(frame);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
 }

@@ -9,6 +9,8 @@
 
 typedef struct SplatShade {
     unsigned program;
+    unsigned settle; /* program: the depth before the colour, so that shading runs where fluid is; 0 with
+                        solids, whose depths would let it run, too */
     unsigned mixing; /* program for spheres smaller than pixels, which let through what is behind; where
                         silhouette_by_discs */
     unsigned screen; /* vertex array without attributes */

@@ -18,6 +18,9 @@ layout(binding = WEIGHT_SUM_UNIT) uniform sampler2D weight_map;
 layout(binding = THICKNESS_UNIT) uniform sampler2D thickness_map;  // m, may be coarser
 layout(location = NEAREST_DEPTH_AT) uniform float nearest_depth;   // of a particle, m
 layout(location = FARTHEST_DEPTH_AT) uniform float farthest_depth; // m
+#ifdef SETTLED // splat_settle.frag has left out what is none, as below, and the test of depth follows it
+layout(early_fragment_tests) in;
+#endif
 layout(location = 0) out vec4 color;
 #ifdef MIXING
 #include "splat/splat_cover.glsl"
@@ -69,9 +72,11 @@ void main()
     float depth = texelFetch(nearest_map, pixel, 0).x, weight = texelFetch(weight_map, pixel, 0).x;
     vec3 normal = texelFetch(normal_map, pixel, 0).xyz;
     float length2 = dot(normal, normal);
+#ifndef SETTLED
     if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0) // nothing, or just the rim of a lone sphere
         discard;
     gl_FragDepth = near_plane / depth;
+#endif
     normal *= inversesqrt(length2);
 #if SHOW == 1
     color = vec4(vec3(1.0 - 0.9 * clamp((depth - nearest_depth) / (farthest_depth - nearest_depth), 0.0, 1.0)), 1.0);
