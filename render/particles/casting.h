@@ -10,6 +10,7 @@
 typedef struct Casting {
     unsigned write, show; /* programs */
     unsigned texels;      /* buffer: a depth for each of the shadow map */
+    unsigned rows;        /* texture: `texels`, four at once */
     unsigned screen;      /* vertex array without attributes */
 } Casting;
 

@@ -28,6 +28,7 @@
 #define COLORMAP_UNIT     2
 #define FLOOR_LIGHT_UNIT  3
 #define SOLID_SHADOW_UNIT 4
+#define CAST_UNIT         5
 #define BEHIND_COLOR_UNIT 14
 #define BEHIND_DEPTH_UNIT 15
 
