@@ -105,14 +105,31 @@ static void use(GLuint program, const Grid *grid, const ParticleBuffers *particl
     glUniform2f(CULL_PIXELS_AT, grid->width, grid->height);
 }
 
-static void widen(const Cull *cull, const Grid *grid)
+/* Only around the box: no particle beside it is shaded. Along x as far beyond as maxima along y reach. */
+static void widen_part(const Grid *grid, const Frame *frame, GLuint upwards, GLuint part[4])
 {
+    const int beyond = (int)(grid->reach * (upwards ? 1 : 2)) + 1, side = (int)grid->side;
+    const int cells[2] = {(int)grid->columns, (int)grid->rows};
+    int bounds[4];
+    frame_bounds(frame, bounds);
+    for (int k = 0; k < 2; k++) {
+        const int low = bounds[k] / side - beyond, end = bounds[2 + k] / side + 1 + beyond;
+        part[k] = (GLuint)(low < 0 ? 0 : low);
+        part[2 + k] = (GLuint)(end < cells[k] ? end : cells[k]) - part[k];
+    }
+}
+
+static void widen(const Cull *cull, const Grid *grid, const Frame *frame)
+{
+    GLuint part[4];
     use(cull->widen, grid, NULL, NULL);
     for (GLuint upwards = 0; upwards < 2; upwards++) {
+        widen_part(grid, frame, upwards, part);
+        glUniform4uiv(WIDEN_PART_AT, 1, part);
         glUniform1ui(UPWARDS_AT, upwards);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[upwards]);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_WIDENED_STORAGE, cull->map[1 - upwards]);
-        work_run((size_t)grid->columns * grid->rows);
+        work_run((size_t)part[2] * part[3]);
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
 }
@@ -129,7 +146,7 @@ static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *partic
     glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
     work_run(particles->count);
-    widen(cull, grid);
+    widen(cull, grid, frame);
 }
 
 static void make_lists(Cull *cull, size_t count, unsigned vertices)
@@ -200,7 +217,7 @@ void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *fr
     glBindTextureUnit(LIMIT_UNIT, limit);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
     work_run((size_t)grid.columns * grid.rows);
-    widen(cull, &grid);
+    widen(cull, &grid, frame);
     test(cull, &grid, particles, frame, 0, vertices, false);
 }
 

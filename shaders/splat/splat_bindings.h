@@ -64,5 +64,6 @@
 #define CHUNKS_AT      45
 #define VERTICES_AT    46
 #define UPWARDS_AT     47
+#define WIDEN_PART_AT  48
 
 #endif
