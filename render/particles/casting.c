@@ -43,7 +43,7 @@ void casting_draw(const Casting *casting, const ParticleBuffers *particles)
     glUseProgram(casting->write);
     particle_bind(casting->write, particles, SCALAR_SPEED); /* none is read */
     glUniform1ui(CASTERS_AT, (GLuint)particles->count);
-    work_run(particles->count);
+    work_run_scattered(particles->count);
     glUseProgram(casting->show);
     glBindVertexArray(casting->screen);
     glDrawArrays(GL_TRIANGLES, 0, 3);

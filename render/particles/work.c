@@ -1,5 +1,7 @@
 #include "render/particles/work.h"
 
+#include "shaders/shared/bindings.h"
+
 #include <epoxy/gl.h>
 
 void work_buffer_remake(unsigned *buffer, size_t size, const char *label)
@@ -27,4 +29,26 @@ void work_dispatch(size_t groups)
 void work_run(size_t invocations)
 {
     work_dispatch((invocations + 63) / 64);
+}
+
+static size_t common_divisor(size_t a, size_t b)
+{
+    return b ? common_divisor(b, a % b) : a;
+}
+
+/* Near the golden section: parts of the groups that are done are spread evenly over all. The products stay
+   below 2^32. */
+static size_t scatter_step(size_t groups)
+{
+    size_t step = groups < 65536 ? groups * 618 / 1000 + 1 : 1;
+    while (common_divisor(step, groups) > 1)
+        step++;
+    return step;
+}
+
+void work_run_scattered(size_t invocations)
+{
+    const size_t groups = (invocations + 63) / 64;
+    glUniform1ui(SCATTER_STEP_AT, (GLuint)scatter_step(groups));
+    work_dispatch(groups);
 }

@@ -20,4 +20,7 @@ void work_dispatch(size_t groups);
 /* The same for so many invocations, of which a workgroup has 64. */
 void work_run(size_t invocations);
 
+/* The same for a program of shaders/common/scattered.glsl, which is in use. */
+void work_run_scattered(size_t invocations);
+
 #endif

@@ -145,7 +145,7 @@ static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *partic
     use(cull->occlude, grid, particles, frame);
     glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
-    work_run(particles->count);
+    work_run_scattered(particles->count);
     widen(cull, grid, frame);
 }
 

@@ -4,6 +4,7 @@
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/ball.glsl"
+#include "common/scattered.glsl"
 #include "shaders/shared/shadow_maps.h"
 
 layout(local_size_x = 64) in;
@@ -14,7 +15,7 @@ layout(std430, binding = CAST_STORAGE) buffer Lit { uint lit[]; }; // bits of a 
 
 void main()
 {
-    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
+    uint index = scattered(casters);
     if (index >= casters)
         return;
     Ball ball = ball_of(index);

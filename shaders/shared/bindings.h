@@ -44,5 +44,6 @@
 #define GRID_CORNER_AT      8
 #define GRID_SCALE_AT       9
 #define CASTERS_AT          10
+#define SCATTER_STEP_AT     11
 
 #endif

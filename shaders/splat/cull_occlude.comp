@@ -2,6 +2,7 @@
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/ball.glsl"
+#include "common/scattered.glsl"
 #include "splat/cull.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat_body.glsl"
@@ -46,7 +47,7 @@ float depth_within(Disc disc, vec2 away)
 
 void main()
 {
-    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
+    uint index = scattered(count);
     if (index >= count)
         return;
     Disc disc = disc_of(index);
