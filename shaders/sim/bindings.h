@@ -31,6 +31,8 @@
 #define OLD_OWN_BUFFER 9
 #define SCRATCH_BUFFER 10
 
+#define LISTS_BUFFER 11 /* where a driver has as many bindings */
+
 #define BOUNDARY_POSITIONS_BUFFER  12
 #define BOUNDARY_VELOCITIES_BUFFER 13
 #define BOUNDARY_STATES_BUFFER     14

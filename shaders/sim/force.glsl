@@ -78,6 +78,6 @@ vec3 neighbours_force(uint i, vec3 x, ivec3 at)
     own = side_of(i, position[i].w);
     boundary_sum = vec3(0);
     tension_begin(i);
-    WALK_ROWS(x, at, meet, meet_boundary, add_boundary_row())
+    WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, add_boundary_row())
     return pair_sum + tension_force(i);
 }

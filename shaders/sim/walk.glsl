@@ -5,6 +5,9 @@
 // particle of solids, of whatever distance: j is its index, d = x - where it stands, w the fourth number of its place.
 // What they find goes into variables of the shader. WALK_FLUID leaves boundary particles out; WALK_ROWS does `row_done`
 // behind each row. A shader declares position[] itself.
+//
+// WALK_NEIGHBOURS is for what stands at its own place in the grid, particle i: of the fluid it may leave out what is h or
+// further away. The first pass of a step walks, and makes a list; the others of the step read it: lists.glsl.
 #include "sim/cells.glsl"
 #include "sim/boundary.glsl"
 layout(std430, binding = STARTS_BUFFER) readonly buffer Starts { uint start[]; };
@@ -14,6 +17,8 @@ uvec2 row_of(ivec3 at, int row)
     ivec2 cells = row_cells(at, row);
     return uvec2(start[cells.x], start[cells.y]);
 }
+
+#include "sim/lists.glsl"
 
 #define WALK_RANGE(range_of_row, place, meet)               \
     {                                                       \
@@ -42,4 +47,12 @@ uvec2 row_of(ivec3 at, int row)
 #else
 #define WALK_ROWS(x, at, meet, meet_boundary, row_done) WALK_FLUID(x, at, meet)
 #define WALK(x, at, meet, meet_boundary) WALK_FLUID(x, at, meet)
+#endif
+
+#ifdef LISTS
+#define WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, row_done)    \
+    WALK_LISTED(i, x, at, meet)                                     \
+    WALK_BOUNDARY(x, at, meet_boundary, row_done)
+#else
+#define WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, row_done) WALK_ROWS(x, at, meet, meet_boundary, row_done)
 #endif

@@ -2,8 +2,10 @@
 #include "tests/gl/compare.h"
 
 #include "render/renderer.h"
+#include "sim/gl/compute/compute.h"
 #include "sim/gl/limits.h"
 #include "sim/wcsph/wcsph.h"
+#include "sim/world/world_struct.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -137,6 +139,63 @@ static void worlds_ask(void **state)
     world_destroy(fixture_world(&def));
 }
 
+/* Puts 125 particles as near to each other as half of the spacing. */
+static void gather(World *world)
+{
+    WorldState saved = {0};
+    Error error;
+    assert_true(world_save(world, &saved, &error));
+    for (int i = 0; i < 125; i++) {
+        saved.particles.x[i] = 0.05F * (float)(i % 5);
+        saved.particles.y[i] = 0.4F + 0.05F * (float)(i / 5 % 5);
+        saved.particles.z[i] = 0.05F * (float)(i / 25);
+    }
+    assert_true(world_load(world, &saved, &error));
+    world_state_free(&saved);
+}
+
+/* Whether some particle has more neighbours than its list holds. */
+static bool overfull(const Compute *c)
+{
+    uint32_t *found = calloc(c->count, sizeof *found);
+    size_t more = 0;
+    glGetNamedBufferSubData(c->lists, 0, (GLsizeiptr)(c->count * sizeof *found), found);
+    for (size_t i = 0; i < c->count; i++)
+        more += found[i] > c->list_most;
+    free(found);
+    return more > 0;
+}
+
+/* Where a driver has no binding for lists of neighbours each pass walks the cells, and finds the same: in a
+   lattice, and where more are near than a list holds. */
+static void lists_change_no_bit(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"mueller", "wcsph"};
+    for (int k = 0; k < 4; k++) {
+        WorldDef def = fixture_def(1, 1.2, 1);
+        uint64_t hash[2];
+        def.reproducible = true;
+        def.dt = 1e-5;
+        snprintf(def.backend, sizeof def.backend, "compute");
+        snprintf(def.method, sizeof def.method, "%s", methods[k % 2]);
+        fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
+        for (int without = 0; without < 2; without++) {
+            limit(without ? GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS : 0, 11);
+            World *world = fixture_world(&def);
+            if (k > 1)
+                gather(world);
+            fixture_step(world, 5);
+            assert_true((((const Compute *)world->state)->lists == 0) == without);
+            assert_true(without || overfull(world->state) == (k > 1));
+            hash[without] = world_hash(world);
+            world_destroy(world);
+        }
+        assert_true(hash[0] == hash[1]);
+    }
+    limit(0, 0);
+}
+
 static void assert_no_view(const ViewDef *def, const char *sentence)
 {
     Error error = {0};
@@ -182,6 +241,7 @@ int main(void)
         cmocka_unit_test(what_fits_is_found_without_computing),
         cmocka_unit_test(each_limit_has_its_sentence),
         cmocka_unit_test_teardown(worlds_ask, no_gl_errors),
+        cmocka_unit_test_teardown(lists_change_no_bit, no_gl_errors),
         cmocka_unit_test_teardown(views_ask, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.limits", tests, compare_setup, context_teardown);

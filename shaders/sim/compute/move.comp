@@ -1,5 +1,6 @@
 // Particles into the order of their cells; behind a step that blew up nobody has made it, and they stay where they are.
 #include "sim/constants.glsl"
+#include "sim/lists.glsl"
 layout(std430, binding = ORDERS_BUFFER) readonly buffer Orders { uint order[]; };
 layout(std430, binding = OLD_POSITIONS_BUFFER) readonly buffer OldPositions { vec4 old_position[]; };
 layout(std430, binding = OLD_VELOCITIES_BUFFER) readonly buffer OldVelocities { vec4 old_velocity[]; };
@@ -17,4 +18,7 @@ void main()
     position[i] = old_position[o];
     velocity[i] = old_velocity[o];
     name[i] = old_name[o];
+#ifdef LISTS
+    list[i] = LIST_NONE;
+#endif
 }

@@ -1,6 +1,7 @@
 // mueller: number density, volume, pressure: sim/mueller/pairs.c and finish_density in sim/mueller/passes.c.
 #include "sim/constants.glsl"
 #include "sim/walls.glsl"
+#define LISTS_FIRST
 #include "sim/walk.glsl"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
@@ -26,7 +27,7 @@ void main()
         return;
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
-    WALK(x, at, meet, meet)
+    WALK_NEIGHBOURS(i, x, at, meet, meet, 0)
     float n = kernel_scale * sum + walls_at(x, true).density;
     float p = fluids[name[i].y].stiffness * (n / rest_number_density - 1.0);
 #ifndef NEGATIVE_PRESSURE

@@ -92,7 +92,7 @@ void main()
     self = i;
     own_velocity = velocity[i].xyz;
     own_fluid = name[i].y;
-    WALK(x, at, meet, meet_boundary)
+    WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     walk_images(x, at);
     float rate = -gradient_scale * (sum + image_sum);
     float e = velocity[i].w + rate / rest_number_density * dt;

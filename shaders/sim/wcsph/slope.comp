@@ -2,6 +2,7 @@
 // itself, which neighbours read while `continuity` changes theirs: slope_range in sim/wcsph/pairs.c.
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
+#define LISTS_FIRST
 #include "sim/walk.glsl"
 #include "common/nan.glsl"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
@@ -49,7 +50,7 @@ void main()
     ivec3 at = cell_of(x);
     own_relative = velocity[i].w;
     own_fluid = name[i].y;
-    WALK(x, at, meet, meet_boundary)
+    WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     float scale = gradient_scale / rest_number_density;
     diagonal *= scale;
     if (dimensions == 2)

@@ -16,6 +16,7 @@ static const struct {
     {"Own", offsetof(Compute, now.own)},
     {"Scratch", offsetof(Compute, scratch)},
     {"Starts", offsetof(Compute, start)},
+    {"Lists", offsetof(Compute, lists)},
     {"WallTables", offsetof(Compute, walls)},
     {"DragTables", offsetof(Compute, drag)},
     {"WatchBlock", offsetof(Compute, watch.buffer)},

@@ -26,10 +26,10 @@ bool compute_no_memory(const Compute *c, Error *error)
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,         c->rank,      c->order,          c->start,
-                              c->totals[0],    c->totals[1], c->totals[2],      c->pressure,
-                              c->acceleration, c->walls,     c->constant_block, c->step,
-                              c->terms,        c->of_method, c->drag,           c->scratch};
+    const GLuint buffers[] = {c->cell,           c->rank,      c->order,    c->start,        c->totals[0],
+                              c->totals[1],      c->totals[2], c->pressure, c->acceleration, c->walls,
+                              c->constant_block, c->step,      c->terms,    c->of_method,    c->drag,
+                              c->scratch,        c->lists};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
@@ -137,6 +137,7 @@ static void all_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
 {
     compute_defines(c->constants, out);
     compute_own_defines(c, out);
+    compute_list_defines(c, out);
 }
 
 /* Terms that the scene does not name are not compiled in. What was compiled stays where the new does not
@@ -220,6 +221,7 @@ static void *compute_create(const Constants *constants, const WorldDef *def, con
         compute_destroy(c);
         return NULL;
     }
+    compute_lists_create(c);
     walls_upload(c);
     compute_constants(c);
     if (c->full) {

@@ -14,7 +14,7 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
-    COMPUTE_NAMED = 16,
+    COMPUTE_NAMED = 17,
     COMPUTE_DEFINES_MAX = 2048
 };
 
@@ -91,6 +91,8 @@ typedef struct Compute {
     ComputeOwn own;
     unsigned scratch; /* float, a column behind the other; 0: the method's shaders have none */
     int scratch_total;
+    unsigned lists; /* uint: shaders/sim/lists.glsl; 0: none */
+    size_t list_most;
     unsigned cell, rank, order, start;    /* start: cells + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
     unsigned pressure;                    /* vec2: p, p V^2 */
@@ -139,6 +141,10 @@ bool compute_download(const Compute *compute, ParticleColumns *columns);
    short. */
 int compute_scratch_of(const Constants *constants);
 bool compute_scratch_fit(Compute *compute);
+
+/* lists.c: lists of neighbours, where the driver can have them; lines for the shaders. */
+void compute_lists_create(Compute *compute);
+void compute_list_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
 
 /* Of a method that keeps no columns of its own these do nothing. Lines for the shaders behind those
    of compute_defines; the columns to and from plain arrays, those that are NULL left out, or to another

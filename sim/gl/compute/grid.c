@@ -62,7 +62,7 @@ void compute_grid(void *state)
     BIND([ORDERS_BUFFER] = order, [OLD_POSITIONS_BUFFER] = c->now.position,
          [OLD_VELOCITIES_BUFFER] = c->now.velocity, [OLD_NAMES_BUFFER] = c->now.name,
          [POSITIONS_BUFFER] = c->spare.position, [VELOCITIES_BUFFER] = c->spare.velocity,
-         [NAMES_BUFFER] = c->spare.name);
+         [NAMES_BUFFER] = c->spare.name, [LISTS_BUFFER] = c->lists);
     compute_run(c, COMPUTE_MOVE, c->count);
     compute_own_move(c, order);
     compute_swap(c);

@@ -1,0 +1,47 @@
+// Lists of neighbours, itself among them: which particles within h the first walk after a grid found, for the other passes
+// of the step. sim/gl/compute/lists.c writes the defines. First stands a number a particle, then the lists of each 32
+// particles, interleaved so that 32 invocations read one line of memory. LISTS_FIRST: the pass is the first of its step.
+#ifdef LISTS
+#include "shaders/sim/bindings.h"
+#define LIST_NONE 0xffffffffu
+layout(std430, binding = LISTS_BUFFER) buffer Lists { uint list[]; };
+
+uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + k * 32u + (i & 31u); }
+
+#ifdef LISTS_FIRST
+#define LIST_MADE(i) false
+#else
+#define LIST_MADE(i) (list[i] <= LIST_MOST)
+#endif
+
+// Who has more neighbours than a list holds walks each time. One call of `meet` for both ways, since it is inlined.
+#define WALK_LISTED(i, x, at, meet)                                                         \
+    {                                                                                       \
+        bool made = LIST_MADE(i);                                                           \
+        uint found = 0u;                                                                    \
+        for (int row = made ? LAST_ROW - 1 : FIRST_ROW; row < LAST_ROW; row++) {            \
+            uvec2 range = made ? uvec2(0u, list[i]) : row_of(at, row);                      \
+            for (uint k = range.x; k < range.y; k++) {                                      \
+                uint j = made ? list[list_place(i, k)] : k;                                 \
+                vec4 other = position[j];                                                   \
+                vec3 d = x - other.xyz;                                                     \
+                if (!made && dot(d, d) < support * support && found++ < LIST_MOST)          \
+                    list[list_place(i, found - 1u)] = j;                                    \
+                meet(j, d, other.w);                                                        \
+            }                                                                               \
+        }                                                                                   \
+        if (!made)                                                                          \
+            list[i] = found;                                                                \
+    }
+
+#ifdef SOLIDS
+#define WALK_BOUNDARY(x, at, meet_boundary, row_done)                                       \
+    for (int row = FIRST_ROW; row < LAST_ROW; row++) {                                      \
+        vec3 seen_from = x;                                                                 \
+        WALK_RANGE(boundary_row_of(at, row), boundary_position, meet_boundary)              \
+        row_done;                                                                           \
+    }
+#else
+#define WALK_BOUNDARY(x, at, meet_boundary, row_done)
+#endif
+#endif

@@ -1,0 +1,61 @@
+/* Lists of neighbours, which the first pass of a step makes for those behind it: shaders/sim/lists.glsl.
+   Where the driver has no binding or no memory for them, and where sides are periodic, each pass walks the
+   cells. */
+#include "sim/gl/compute/compute.h"
+#include "sim/gl/limits.h"
+
+#include "shaders/sim/bindings.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Half as many again as the lattice has within the support, and some: fluid in motion is denser here and
+ * there. */
+static size_t list_most(const Constants *s)
+{
+    const double r = (double)s->support_radius / (double)s->spacing, pi = 3.14159265358979;
+    const double lattice = s->dimensions == 2 ? pi * r * r : 4.0 / 3.0 * pi * r * r * r;
+    return 8 * (size_t)ceil((1.5 * lattice + 8) / 8);
+}
+
+/* In blocks of 32 particles. */
+static size_t stride_of(const Compute *c)
+{
+    return (c->capacity + 31) / 32 * 32;
+}
+
+/* Solids and a method's own columns have bindings and blocks of their own, beside the eight of others. */
+static bool allowed(const Compute *c, size_t bytes)
+{
+    const GlLimits have = gl_limits();
+    const int columns = (c->own.count > 0) + (compute_scratch_of(c->constants) > 0);
+    return !c->constants->periodic.any && have.bindings > LISTS_BUFFER &&
+           have.compute_blocks >= 8 + columns + (c->constants->solid_count > 0 ? 4 : 0) &&
+           (int64_t)bytes <= have.block_bytes;
+}
+
+void compute_lists_create(Compute *c)
+{
+    const size_t most = list_most(c->constants), bytes = 4 * (most + 1) * stride_of(c);
+    if (c->full || !allowed(c, bytes))
+        return;
+    c->lists = compute_buffer(c, "lists of neighbours", bytes);
+    c->list_most = most;
+    if (!c->full)
+        return;
+    glDeleteBuffers(1, &c->lists);
+    c->lists = 0;
+    c->bytes -= bytes;
+    c->full = false;
+}
+
+void compute_list_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
+{
+    const size_t used = strlen(out);
+    if (c->lists)
+        snprintf(out + used, COMPUTE_DEFINES_MAX - used,
+                 "#define LISTS 1\n#define LIST_MOST %zuu\n#define LIST_STRIDE %zuu\n", c->list_most,
+                 stride_of(c));
+}
