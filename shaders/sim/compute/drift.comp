@@ -7,11 +7,12 @@
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 
-void main()
+shared uint held_by_group;
+
+// How often a guard held the particle.
+uint fly(uint i)
 {
-    uint i = invocation();
-    if (i >= particle_count())
-        return;
+    uint times = 0u;
     vec3 x = position[i].xyz, v = velocity[i].xyz;
 #ifdef SOLIDS
     vec3 before = x;
@@ -28,7 +29,7 @@ void main()
     }
 #ifdef SOLIDS
     if (solids_guard(before, x, v))
-        atomicAdd(guarded, 1u);
+        times++;
 #endif
     bool held = false;
     int axes = dimensions == 2 ? 2 : 3;
@@ -49,11 +50,26 @@ void main()
         }
     }
     if (held)
-        atomicAdd(guarded, 1u);
+        times++;
 #ifdef PERIODIC
     vec3 from = x - box_low;
     x -= mix(vec3(0), box_whole * floor(from / box_whole), periodic);
 #endif
     position[i].xyz = x;
     velocity[i].xyz = v;
+    return times;
+}
+
+void main()
+{
+    uint i = invocation();
+    if (gl_LocalInvocationID.x == 0u)
+        held_by_group = 0u;
+    barrier();
+    uint times = i < particle_count() ? fly(i) : 0u;
+    if (times > 0u)
+        atomicAdd(held_by_group, times);
+    barrier();
+    if (gl_LocalInvocationID.x == 0u && held_by_group > 0u)
+        atomicAdd(guarded, held_by_group);
 }

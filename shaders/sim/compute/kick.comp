@@ -11,14 +11,12 @@ layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { vec4 acceleration[]; };
-shared uint greatest[3];
+shared uvec3 greatest[64];
 
 void main()
 {
-    uint i = invocation();
-    if (gl_LocalInvocationID.x < 3u)
-        greatest[gl_LocalInvocationID.x] = 0u;
-    barrier();
+    uint i = invocation(), lane = gl_LocalInvocationID.x;
+    uvec3 found = uvec3(0u);
     if (i < particles_there()) { // whatever others of this pass find
         vec3 a = acceleration[i].xyz + gravity;
 #ifdef NO_SLIP
@@ -36,14 +34,21 @@ void main()
         float fastest = support / kick_dt, speed2 = dot(v, v);
         if (is_nan(speed2) || speed2 > fastest * fastest)
             went_too_far = 1u;
-        atomicMax(greatest[0], floatBitsToUint(abs(speed2)));
-        atomicMax(greatest[1], floatBitsToUint(abs(dot(a, a))));
-        atomicMax(greatest[2], floatBitsToUint(abs(1.0 / (position[i].w * rest_number_density))));
+        found = floatBitsToUint(abs(vec3(speed2, dot(a, a), 1.0 / (position[i].w * rest_number_density))));
     }
-    barrier();
-    if (gl_LocalInvocationID.x == 0u) {
-        atomicMax(greatest_speed2, greatest[0]);
-        atomicMax(greatest_acceleration2, greatest[1]);
-        atomicMax(greatest_density_ratio, greatest[2]);
+    greatest[lane] = found;
+    for (uint reach = 32u; reach > 0u; reach >>= 1u) {
+        barrier();
+        if (lane < reach)
+            greatest[lane] = max(greatest[lane], greatest[lane + reach]);
     }
+    if (lane > 0u)
+        return;
+    // Most groups find less than is known: what they read may be of before, and then they only ask once too often.
+    if (greatest[0].x > greatest_speed2)
+        atomicMax(greatest_speed2, greatest[0].x);
+    if (greatest[0].y > greatest_acceleration2)
+        atomicMax(greatest_acceleration2, greatest[0].y);
+    if (greatest[0].z > greatest_density_ratio)
+        atomicMax(greatest_density_ratio, greatest[0].z);
 }

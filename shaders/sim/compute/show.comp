@@ -8,7 +8,7 @@ layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pres
 layout(std430, binding = VALUES_BUFFER) writeonly buffer Values { uint word[]; };
 layout(std430, binding = RANGES_BUFFER) buffer Ranges { uint range[]; }; // least and greatest of each scalar, in the order of bits
 layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
-shared uint least, greatest;
+shared uvec2 ends[64]; // least, greatest
 
 #ifdef CARRIES_DENSITY
 float compression_of(uint i) { return velocity[i].w; }
@@ -35,21 +35,24 @@ float value_of(uint i)
 
 void main()
 {
-    uint i = invocation();
-    if (gl_LocalInvocationID.x == 0u) {
-        least = 0xffffffffu;
-        greatest = 0u;
-    }
-    barrier();
+    uint i = invocation(), lane = gl_LocalInvocationID.x;
+    uvec2 found = uvec2(0xffffffffu, 0u);
     if (i < particle_count()) {
         float value = value_of(i);
         word[i] = scalar == SCALAR_COUNT ? name[i].y : scalar > SCALAR_COUNT ? name[i].x : floatBitsToUint(value);
-        atomicMin(least, in_order(value));
-        atomicMax(greatest, in_order(value));
+        found = uvec2(in_order(value));
     }
-    barrier();
-    if (gl_LocalInvocationID.x == 0u && scalar < SCALAR_COUNT) {
-        atomicMin(range[2 * scalar], least);
-        atomicMax(range[2 * scalar + 1], greatest);
+    ends[lane] = found;
+    for (uint reach = 32u; reach > 0u; reach >>= 1u) {
+        barrier();
+        if (lane < reach)
+            ends[lane] = uvec2(min(ends[lane].x, ends[lane + reach].x), max(ends[lane].y, ends[lane + reach].y));
     }
+    if (lane > 0u || scalar >= SCALAR_COUNT)
+        return;
+    // As kick.comp asks.
+    if (ends[0].x < range[2 * scalar])
+        atomicMin(range[2 * scalar], ends[0].x);
+    if (ends[0].y > range[2 * scalar + 1])
+        atomicMax(range[2 * scalar + 1], ends[0].y);
 }
