@@ -98,7 +98,8 @@ typedef struct Compute {
     unsigned pressure;                    /* vec2: p, p V^2 */
     unsigned acceleration;                /* vec4 */
     unsigned walls;                       /* tables */
-    Mailbox watch;                        /* WatchBlock; sent by each kick */
+    Mailbox watch;                        /* WatchBlock */
+    bool watch_due;                       /* kicks were noted that were not sent */
     float longest;                        /* dt of the kicks since the watch was read, s */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     Mailbox gauge;                        /* GaugePart a group; none before the first `gauge` */
@@ -162,8 +163,10 @@ void compute_own_gather(const Compute *compute, unsigned marks);
 /* Says so; false. */
 bool compute_no_memory(const Compute *compute, Error *error);
 
-/* After a kick of dt, s. */
-void compute_watch_send(Compute *compute, float dt);
+/* After a kick of dt, s; what the kicks have found since the last sending, on its way: once a frame, before
+   pictures, behind which it would have to wait. */
+void compute_watch_note(Compute *compute, float dt);
+void compute_watch_send(Compute *compute);
 
 /* The watch begins anew, with so many guarded before. */
 void compute_watch_reset(Compute *compute, size_t guarded);

@@ -48,6 +48,7 @@ static void read_ranges(Compute *c, unsigned attributes, ParticleBuffers *out)
 void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
 {
     Compute *c = state;
+    compute_watch_send(c);
     out->position = (ParticleAttribute){c->now.position, 0, 16};
     if (attributes & PARTICLE_VELOCITY)
         out->velocity = (ParticleAttribute){c->now.velocity, 0, 16};

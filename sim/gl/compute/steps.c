@@ -58,5 +58,5 @@ void compute_kick(void *state, const float gravity[3], float dt)
     Compute *c = state;
     compute_set_kick(c, gravity, dt);
     compute_sweep(c, COMPUTE_KICK, c->count);
-    compute_watch_send(c, dt);
+    compute_watch_note(c, dt);
 }

@@ -9,16 +9,24 @@
 #include <math.h>
 
 /* How far a particle may go in a step is asked with the longest of them. */
-void compute_watch_send(Compute *c, float dt)
+void compute_watch_note(Compute *c, float dt)
 {
     c->longest = fmaxf(c->longest, dt);
-    mailbox_send(&c->watch);
+    c->watch_due = true;
+}
+
+void compute_watch_send(Compute *c)
+{
+    if (c->watch_due)
+        mailbox_send(&c->watch);
+    c->watch_due = false;
 }
 
 void compute_watch_reset(Compute *c, size_t guarded)
 {
     glClearNamedBufferData(c->watch.buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     mailbox_forget(&c->watch);
+    c->watch_due = false;
     c->longest = 0;
     c->guarded_before = guarded;
     c->guarded = 0;
@@ -27,6 +35,7 @@ void compute_watch_reset(Compute *c, size_t guarded)
 StepWatch compute_watch(void *state)
 {
     Compute *c = state;
+    compute_watch_send(c);
     if (!c->watch.fence)
         return (StepWatch){.bounded = true};
     const WatchBlock *watched = mailbox_wait(&c->watch);

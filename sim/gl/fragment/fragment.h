@@ -91,7 +91,8 @@ typedef struct Fragment {
     unsigned found[FRAGMENT_LEVELS_MOST], held_sum[FRAGMENT_LEVELS_MOST]; /* see watch.frag */
     int level_size[FRAGMENT_LEVELS_MOST][2];
     unsigned watch[2];  /* 2 x 1: see watch_last.frag */
-    Mailbox watched;    /* 8 uint: that, sent by each kick */
+    Mailbox watched;    /* 8 uint: that */
+    bool watch_due;     /* gathered, not sent */
     float longest;      /* dt of the kicks since the watch was read, s */
     size_t lost;        /* greatest number in one step, as last read */
     unsigned marked[2]; /* position and velocity; 0 before the first `mark` */
@@ -140,8 +141,10 @@ void fragment_pack(unsigned texture, unsigned format, unsigned buffer, size_t at
 /* [1], just drawn into, becomes the present one. */
 void fragment_swap(unsigned pair[2]);
 
-/* sim/gl/fragment/watch.c: gathers what a kick found; forgets all of it, with so many guarded before. */
+/* sim/gl/fragment/watch.c: gathers what a kick found; sends what was gathered, once a frame, before pictures;
+   forgets all of it, with so many guarded before. */
 void fragment_watch_gather(Fragment *fragment, const float gravity[3], float dt);
+void fragment_watch_send(Fragment *fragment);
 void fragment_watch_reset(Fragment *fragment, size_t guarded);
 
 /* False when memory is short. */

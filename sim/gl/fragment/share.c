@@ -79,6 +79,7 @@ void fragment_share(void *state, unsigned attributes, ParticleBuffers *out)
 {
     Fragment *f = state;
     GlState kept;
+    fragment_watch_send(f);
     gl_state_keep(&kept);
     fragment_shown_create(f);
     draw(f, FRAGMENT_PLACE, f->placed);

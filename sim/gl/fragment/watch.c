@@ -39,8 +39,16 @@ void fragment_watch_gather(Fragment *f, const float gravity[3], float dt)
     reduce(f);
     gl_state_restore(&kept);
     fragment_swap(f->watch);
+    f->watch_due = true;
+}
+
+void fragment_watch_send(Fragment *f)
+{
+    if (!f->watch_due)
+        return;
     fragment_pack(f->watch[0], GL_RGBA_INTEGER, f->watched.buffer, 0, f->watched.bytes);
     mailbox_send(&f->watched);
+    f->watch_due = false;
 }
 
 static void forget(Fragment *f)
@@ -53,6 +61,7 @@ void fragment_watch_reset(Fragment *f, size_t guarded)
 {
     forget(f);
     mailbox_forget(&f->watched);
+    f->watch_due = false;
     glClearTexImage(f->held[0], 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     f->guarded_before = guarded;
     f->guarded = 0;
@@ -61,6 +70,7 @@ void fragment_watch_reset(Fragment *f, size_t guarded)
 StepWatch fragment_watch(void *state)
 {
     Fragment *f = state;
+    fragment_watch_send(f);
     if (!f->watched.fence)
         return (StepWatch){.bounded = true};
     const uint32_t *found = mailbox_wait(&f->watched);
