@@ -25,6 +25,7 @@
 #define ACCELERATIONS_BUFFER 5
 #define DRAG_BUFFER          6
 #define RESTS_BUFFER         7
+#define NEAR_BUFFER          6 /* what the forces read of others: x y z, p V^2 */
 
 /* Only for methods with columns of their own */
 #define OWN_BUFFER     8

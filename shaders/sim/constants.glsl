@@ -12,6 +12,13 @@ uint particles_there() { return uint(particle_total); }
 uint particle_count() { return went_too_far != 0u ? 0u : particles_there(); }
 uint cell_count() { return went_too_far != 0u ? 0u : uint(cell_total); }
 
+// The fluid of a particle of name[]: of one nobody has to ask.
+#ifdef ONE_FLUID
+#define FLUID_OF(i) 0u
+#else
+#define FLUID_OF(i) name[i].y
+#endif
+
 #ifdef PERIODIC
 const bvec3 periodic = PERIODIC; // across which axes its sides are one
 #endif

@@ -1,13 +1,16 @@
 // What the forces of methods have in common: pairs within the support, surface tension, boundary particles of solids. A
 // method's force.comp says what a pair does, and adds what its walls do.
 #include "shaders/sim/term_block.h"
+#define PLACES near
 #include "sim/walk.glsl"
 #include "sim/pair_direction.glsl"
-layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: p V^2
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
-layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; }; // w: what volume_of takes
 layout(std430, binding = ACCELERATIONS_BUFFER) writeonly buffer Accelerations { vec4 acceleration[]; };
+
+float volume_of(uint i); // the method's: by the velocity's w
+
 #include "sim/tension.glsl"
 
 // What a pair takes of one of the two.
@@ -18,10 +21,10 @@ struct Side {
 
 float extra_of(uint fluid); // the method's: what else of a fluid its pairs want; solids have 0
 
-Side side_of(uint i, float volume)
+Side side_of(uint i, float term)
 {
-    uint fluid = name[i].y;
-    return Side(pressure[i].y, volume, fluids[fluid].viscosity, extra_of(fluid), velocity[i].xyz);
+    uint fluid = FLUID_OF(i);
+    return Side(term, volume_of(i), fluids[fluid].viscosity, extra_of(fluid), velocity[i].xyz);
 }
 
 vec3 pair_force(Side own, Side other, vec3 d, float r2); // the method's: on `own`, which is d from `other`
@@ -31,23 +34,22 @@ Side own;
 vec3 pair_sum = vec3(0), boundary_sum; // boundary_sum: of a row
 
 // Two at one place are taken for a little apart, along a direction that their ids decide.
-void separate(uint a, uint b, inout vec3 d, inout float r2)
-{
-    float least = 1e-6 * support;
-    if (r2 < 1e-12 * support * support) {
-        d = least * direction_of_ids(a, b);
-        r2 = least * least;
+// A macro, so that nobody else reads ids.
+#define SEPARATE(a, b, d, r2)                       \
+    if (r2 < 1e-12 * support * support) {           \
+        float least = 1e-6 * support;               \
+        d = least * direction_of_ids(a, b);         \
+        r2 = least * least;                         \
     }
-}
 
-void meet(uint j, vec3 d, float volume)
+void meet(uint j, vec3 d, float term)
 {
     float r2 = dot(d, d);
     if (r2 >= support * support || j == self)
         return;
-    tension_meet(j, d, r2, volume);
-    separate(name[self].x, name[j].x, d, r2);
-    pair_sum += pair_force(own, side_of(j, volume), d, r2);
+    tension_meet(j, d, r2);
+    SEPARATE(name[self].x, name[j].x, d, r2)
+    pair_sum += pair_force(own, side_of(j, term), d, r2);
 }
 
 #ifdef SOLIDS
@@ -60,7 +62,7 @@ void meet_boundary(uint j, vec3 d, float volume)
         return;
     uvec2 state = boundary_state[j];
     vec4 wall = boundary_velocity[j];
-    separate(name[self].x, BOUNDARY_ID + state.y, d, r2);
+    SEPARATE(name[self].x, BOUNDARY_ID + state.y, d, r2)
     boundary_sum += pair_force(own, Side(uintBitsToFloat(state.x), volume, wall.w, 0.0, wall.xyz), d, r2);
 }
 #endif
@@ -75,7 +77,7 @@ void add_boundary_row()
 vec3 neighbours_force(uint i, vec3 x, ivec3 at)
 {
     self = i;
-    own = side_of(i, position[i].w);
+    own = side_of(i, near[i].w);
     boundary_sum = vec3(0);
     tension_begin(i);
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, add_boundary_row())

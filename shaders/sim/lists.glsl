@@ -23,7 +23,7 @@ uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + 
             uvec2 range = made ? uvec2(0u, list[i]) : row_of(at, row);                      \
             for (uint k = range.x; k < range.y; k++) {                                      \
                 uint j = made ? list[list_place(i, k)] : k;                                 \
-                vec4 other = position[j];                                                   \
+                vec4 other = PLACES[j];                                                     \
                 vec3 d = x - other.xyz;                                                     \
                 if (!made && dot(d, d) < support * support && found++ < LIST_MOST)          \
                     list[list_place(i, found - 1u)] = j;                                    \

@@ -34,17 +34,17 @@ vec3 tension_of_sum(float volume, float tension)
 }
 #endif
 
-void tension_begin(uint i) { tension_fluid = name[i].y; }
+void tension_begin(uint i) { tension_fluid = FLUID_OF(i); }
 
-void tension_meet(uint j, vec3 d, float r2, float volume)
+void tension_meet(uint j, vec3 d, float r2)
 {
-    if (name[j].y == tension_fluid)
-        tension_add(d, r2, volume);
+    if (FLUID_OF(j) == tension_fluid)
+        tension_add(d, r2, volume_of(j));
 }
 
-vec3 tension_force(uint i) { return tension_of_sum(position[i].w, fluid_terms[tension_fluid].tension); }
+vec3 tension_force(uint i) { return tension_of_sum(volume_of(i), fluid_terms[tension_fluid].tension); }
 #else
 #define tension_begin(i)
-#define tension_meet(j, d, r2, volume)
+#define tension_meet(j, d, r2)
 #define tension_force(i) vec3(0)
 #endif

@@ -4,10 +4,14 @@
 // WALK(x, at, meet, meet_boundary) calls meet(j, d, w) for each particle, and meet_boundary(j, d, w) for each boundary
 // particle of solids, of whatever distance: j is its index, d = x - where it stands, w the fourth number of its place.
 // What they find goes into variables of the shader. WALK_FLUID leaves boundary particles out; WALK_ROWS does `row_done`
-// behind each row. A shader declares position[] itself.
+// behind each row. A shader declares position[] itself; one that wants another number with each place defines PLACES,
+// where these stand.
 //
 // WALK_NEIGHBOURS is for what stands at its own place in the grid, particle i: of the fluid it may leave out what is h or
 // further away. The first pass of a step walks, and makes a list; the others of the step read it: lists.glsl.
+#ifndef PLACES
+#define PLACES position
+#endif
 #include "sim/cells.glsl"
 #include "sim/boundary.glsl"
 layout(std430, binding = STARTS_BUFFER) readonly buffer Starts { uint start[]; };
@@ -32,14 +36,14 @@ uvec2 row_of(ivec3 at, int row)
 #define WALK_FLUID(x, at, meet)                             \
     for (int row = FIRST_ROW; row < LAST_ROW; row++) {      \
         vec3 seen_from = row_seen(x, at, row);              \
-        WALK_RANGE(row_of(at, row), position, meet)         \
+        WALK_RANGE(row_of(at, row), PLACES, meet)           \
     }
 
 #ifdef SOLIDS
 #define WALK_ROWS(x, at, meet, meet_boundary, row_done)                         \
     for (int row = FIRST_ROW; row < LAST_ROW; row++) {                          \
         vec3 seen_from = row_seen(x, at, row);                                  \
-        WALK_RANGE(row_of(at, row), position, meet)                             \
+        WALK_RANGE(row_of(at, row), PLACES, meet)                               \
         WALK_RANGE(boundary_row_of(at, row), boundary_position, meet_boundary)  \
         row_done;                                                               \
     }

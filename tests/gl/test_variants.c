@@ -590,7 +590,7 @@ static void worlds_live(void **state)
     assert_int_equal(unbound, 0);
     printf("worlds have up to %d storage blocks in a compute shader, %d bindings\n", most.compute_blocks,
            most.bindings);
-    assert_true(most.compute_blocks == 12 && most.bindings == 16);
+    assert_true(most.compute_blocks == 13 && most.bindings == 16);
 }
 
 static void views_draw(void **state)

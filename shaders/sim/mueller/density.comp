@@ -6,6 +6,9 @@
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
+// For the forces, which read of another both or the first alone: x y z, p V^2; velocity and volume.
+layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };
+layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; };
 
 float sum = 0.0; // of the kernel, but for its scale
 
@@ -29,10 +32,11 @@ void main()
     ivec3 at = cell_of(x);
     WALK_NEIGHBOURS(i, x, at, meet, meet, 0)
     float n = kernel_scale * sum + walls_at(x, true).density;
-    float p = fluids[name[i].y].stiffness * (n / rest_number_density - 1.0);
+    float p = fluids[FLUID_OF(i)].stiffness * (n / rest_number_density - 1.0);
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);
 #endif
-    position[i].w = 1.0 / n;
+    position[i].w = velocity[i].w = 1.0 / n;
     pressure[i] = vec2(p, p / (n * n));
+    near[i] = vec4(x, p / (n * n));
 }

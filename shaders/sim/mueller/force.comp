@@ -3,6 +3,10 @@
 #include "sim/force.glsl"
 #include "sim/walls.glsl"
 
+layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
+
+float volume_of(uint i) { return velocity[i].w; }
+
 float extra_of(uint fluid) { return 0.0; }
 
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
@@ -20,9 +24,9 @@ void main()
     uint i = invocation();
     if (i >= particle_count())
         return;
-    vec3 x = position[i].xyz;
-    Fluid fluid = fluids[name[i].y];
+    vec3 x = near[i].xyz;
+    Fluid fluid = fluids[FLUID_OF(i)];
     vec3 force = neighbours_force(i, x, cell_of(x));
-    force += wall_force(walls_at(x, false), felt_at(x), fluid.density, position[i].w, pressure[i].x, pressure[i].y);
+    force += wall_force(walls_at(x, false), felt_at(x), fluid.density, volume_of(i), pressure[i].x, near[i].w);
     acceleration[i] = vec4(force / fluid.mass, 0.0);
 }

@@ -12,6 +12,7 @@ layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone
+layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };            // x y z, p V^2, for the forces
 #ifdef DIFFUSION
 layout(std430, binding = SLOPES_BUFFER) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1 before this pass
 #endif
@@ -26,7 +27,7 @@ float sum = 0.0, image_sum = 0.0;
 void diffuse(uint j, vec3 d, inout float flow)
 {
 #ifdef DIFFUSION
-    if (name[j].y != own_fluid)
+    if (FLUID_OF(j) != own_fluid)
         return;
     vec4 own = slope[self], other = slope[j];
     flow -= diffusion * (other.w - own.w + 0.5 * dot(own.xyz + other.xyz, d));
@@ -91,7 +92,7 @@ void main()
     ivec3 at = cell_of(x);
     self = i;
     own_velocity = velocity[i].xyz;
-    own_fluid = name[i].y;
+    own_fluid = FLUID_OF(i);
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     walk_images(x, at);
     float rate = -gradient_scale * (sum + image_sum);
@@ -100,4 +101,5 @@ void main()
     velocity[i].w = e;
     position[i].w = state.volume;
     pressure[i] = state.pressure;
+    near[i] = vec4(x, state.pressure.y);
 }

@@ -6,6 +6,8 @@
 #include "sim/wcsph/images.glsl"
 #include "sim/wcsph/evenness.glsl"
 
+float volume_of(uint i) { return volume_at(velocity[i].w); }
+
 float extra_of(uint fluid) { return wcsph_fluids[fluid].artificial_viscosity; }
 
 // Pressure and laminar or artificial viscosity.
@@ -48,7 +50,7 @@ void push_image(float term, vec3 d)
     even_meet_image(f, d, r2);
 }
 
-void meet_image(uint j, vec3 d, float volume) { push_image(pressure[j].y, d); }
+void meet_image(uint j, vec3 d, float term) { push_image(term, d); }
 
 #ifdef SOLIDS
 void meet_boundary_image(uint j, vec3 d, float volume) { push_image(uintBitsToFloat(boundary_state[j].x), d); }
@@ -81,9 +83,9 @@ void main()
     uint i = invocation();
     if (i >= particle_count())
         return;
-    vec3 x = position[i].xyz;
+    vec3 x = near[i].xyz;
     ivec3 at = cell_of(x);
-    Fluid fluid = fluids[name[i].y];
+    Fluid fluid = fluids[FLUID_OF(i)];
     vec3 force = neighbours_force(i, x, at) + images_force(x, at, fluid.density);
     acceleration[i] = vec4(force / fluid.mass, 0.0);
     even_write(i);

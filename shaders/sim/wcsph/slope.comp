@@ -31,7 +31,7 @@ bool next_to_solid = false; // there diffusion has to level the gaps that the fl
 void meet(uint j, vec3 d, float volume)
 {
     float h = support, least = 1e-6 * h, r2 = dot(d, d);
-    if (r2 >= h * h || r2 < least * least || name[j].y != own_fluid)
+    if (r2 >= h * h || r2 < least * least || FLUID_OF(j) != own_fluid)
         return;
     vec3 fd = shape(sqrt(r2) * inverse_support) * d;
     diagonal += fd * d;
@@ -49,7 +49,7 @@ void main()
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
     own_relative = velocity[i].w;
-    own_fluid = name[i].y;
+    own_fluid = FLUID_OF(i);
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     float scale = gradient_scale / rest_number_density;
     diagonal *= scale;

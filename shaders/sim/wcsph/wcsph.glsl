@@ -39,7 +39,10 @@ struct State {
     vec2 pressure; // p, p V^2
 };
 
-// Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1, by its powers; V = V0 rho0 / rho.
+// V = V0 rho0 / rho of e = rho / rho0 - 1.
+float volume_at(float e) { return 1.0 / ((1.0 + e) * rest_number_density); }
+
+// Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1, by its powers.
 State state_of(float e, uint fluid)
 {
     float b = wcsph_fluids[fluid].tait;
@@ -47,6 +50,6 @@ State state_of(float e, uint fluid)
 #ifndef NEGATIVE_PRESSURE
     p = p > 0.0 ? p : 0.0;
 #endif
-    float volume = 1.0 / ((1.0 + e) * rest_number_density);
+    float volume = volume_at(e);
     return State(volume, vec2(p, p * volume * volume));
 }

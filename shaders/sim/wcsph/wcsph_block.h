@@ -7,7 +7,7 @@
 
 /* Storage buffers, beside those of shaders/sim/bindings.h */
 #define SLOPES_BUFFER  5
-#define UNEVENS_BUFFER 6
+#define UNEVENS_BUFFER 7
 
 BLOCK_STRUCT(WcsphFluid)
 {

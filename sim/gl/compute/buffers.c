@@ -12,6 +12,7 @@ static const struct {
     {"Velocities", offsetof(Compute, now.velocity)},
     {"Names", offsetof(Compute, now.name)},
     {"Pressures", offsetof(Compute, pressure)},
+    {"Near", offsetof(Compute, near)},
     {"Accelerations", offsetof(Compute, acceleration)},
     {"Own", offsetof(Compute, now.own)},
     {"Scratch", offsetof(Compute, scratch)},

@@ -29,7 +29,7 @@ static void compute_destroy(void *state)
     const GLuint buffers[] = {c->cell,           c->rank,      c->order,    c->start,        c->totals[0],
                               c->totals[1],      c->totals[2], c->pressure, c->acceleration, c->walls,
                               c->constant_block, c->step,      c->terms,    c->of_method,    c->drag,
-                              c->scratch,        c->lists};
+                              c->scratch,        c->lists,     c->near};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
@@ -70,6 +70,7 @@ static bool buffers_create(Compute *c, Error *error)
     c->order = compute_buffer(c, "particle order", 4 * (n + 1));
     c->start = compute_buffer(c, "cell starts", 4 * (cells + 1));
     c->pressure = compute_buffer(c, "particle pressures", 8 * n);
+    c->near = compute_buffer(c, "particle positions and pressure terms", 16 * n);
     c->acceleration = compute_buffer(c, "particle accelerations", 16 * n);
     size_t level = (n > cells ? n : cells) + COMPUTE_LAYER; /* of what is scanned: sim/gl/compute/flow.c */
     for (int k = 0; k < COMPUTE_SCAN_LEVELS; k++) {
@@ -190,7 +191,7 @@ static bool supported(const Constants *s, size_t capacity, Error *error)
     const GlLimits have = gl_limits();
     const GlNeeds needs = {.who = solids ? "backend compute with solids" : "backend compute",
                            .instead = "use backend cpu",
-                           .least = {.compute_blocks = (solids ? 11 : 8) + columns,
+                           .least = {.compute_blocks = (solids ? 12 : 8) + columns,
                                      .bindings = solids ? 16 : plain,
                                      .block_bytes = (int64_t)most_bytes(s, capacity)}};
     return gl_limits_allow(&have, &needs, error);

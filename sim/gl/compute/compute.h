@@ -14,7 +14,7 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
-    COMPUTE_NAMED = 17,
+    COMPUTE_NAMED = 18,
     COMPUTE_DEFINES_MAX = 2048
 };
 
@@ -24,9 +24,10 @@ enum { COMPUTE_SHOW_FLUID = SCALAR_COUNT, COMPUTE_SHOW_ID, COMPUTE_SHOWN };
 /* What moves when particles are sorted. */
 typedef struct ComputeParticles {
     unsigned position; /* vec4: x y z, volume */
-    unsigned velocity; /* vec4: x y z; rho / rho0 - 1 where particles carry their density, else 0 */
-    unsigned name;     /* uvec2: id, fluid */
-    unsigned own;      /* float, a column behind the other: ComputeOwn; 0: the method keeps none */
+    unsigned
+        velocity;  /* vec4: x y z; rho / rho0 - 1 where particles carry their density, else their volume */
+    unsigned name; /* uvec2: id, fluid */
+    unsigned own;  /* float, a column behind the other: ComputeOwn; 0: the method keeps none */
 } ComputeParticles;
 
 /* What a method keeps of a particle in columns of its own: of each its place in ParticleColumns.own. */
@@ -96,6 +97,7 @@ typedef struct Compute {
     unsigned cell, rank, order, start;    /* start: cells + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
     unsigned pressure;                    /* vec2: p, p V^2 */
+    unsigned near;                        /* vec4: x y z, p V^2, which forces read of others */
     unsigned acceleration;                /* vec4 */
     unsigned walls;                       /* tables */
     Mailbox watch;                        /* WatchBlock */

@@ -32,7 +32,7 @@ static bool allowed(const Compute *c, size_t bytes)
     const GlLimits have = gl_limits();
     const int columns = (c->own.count > 0) + (compute_scratch_of(c->constants) > 0);
     return !c->constants->periodic.any && have.bindings > LISTS_BUFFER &&
-           have.compute_blocks >= 8 + columns + (c->constants->solid_count > 0 ? 4 : 0) &&
+           have.compute_blocks >= 8 + columns + (c->constants->solid_count > 0 ? 5 : 0) &&
            (int64_t)bytes <= have.block_bytes;
 }
 

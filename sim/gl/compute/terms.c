@@ -20,6 +20,7 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
     } terms[] = {
         {s->solid_count > 0, "SOLIDS"},
         {s->reproducible, "REPRODUCIBLE"},
+        {s->fluid_count == 1, "ONE_FLUID"},
         {s->viscous, "VISCOUS"},
         {s->negative_pressure, "NEGATIVE_PRESSURE"},
         {s->method->carries_density, "CARRIES_DENSITY"},
