@@ -35,7 +35,8 @@ static void keep(GlState *s)
 
 void gl_state_keep(GlState *kept)
 {
-    keep(kept);
+    if (kept->depth++ == 0)
+        keep(kept);
     for (int i = 0; i < GL_STATE_CAPABILITIES; i++)
         glDisable(capabilities[i]);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -47,8 +48,10 @@ void gl_state_keep(GlState *kept)
     glPointSize(1);
 }
 
-void gl_state_restore(const GlState *kept)
+void gl_state_restore(GlState *kept)
 {
+    if (--kept->depth > 0)
+        return;
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)kept->framebuffer);
     glBindVertexArray((GLuint)kept->vertex_array);
     glViewport(kept->viewport[0], kept->viewport[1], kept->viewport[2], kept->viewport[3]);

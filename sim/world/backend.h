@@ -40,6 +40,9 @@ typedef struct Backend {
     /* Puts the solids into their poses, one pose a solid. In a world with solids this comes before all else.
      */
     void (*pose)(void *state, const SolidPose *pose);
+    /* Around the passes of a step. NULL: nothing is to be done. */
+    void (*enter)(void *state);
+    void (*leave)(void *state);
     /* Free flight over `step`, then the last guard of walls and solids, which come to their end poses. */
     void (*drift)(void *state, const BoxStep *step);
     /* Sorts the particles by cell; in a cell by id, but on compute only where the def says reproducible. */

@@ -249,7 +249,11 @@ bool world_substep(World *world, StageClock *clock, Error *error)
         STAGE (clock, STAGE_INTEGRATE)
             world_flow(world);
     substep_prepare(world, clock, &step);
+    if (world->backend->enter)
+        world->backend->enter(world->state);
     world->method->substep(&step);
+    if (world->backend->leave)
+        world->backend->leave(world->state);
     world->kicked = true;
     count_step(world);
     if (!world->backend->gpu && (!world_sound(world) || !energy_sound(world)))

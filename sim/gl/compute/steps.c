@@ -21,11 +21,13 @@ void compute_dispatch(size_t groups)
 
 void compute_run(const Compute *compute, ComputePass pass, size_t count)
 {
-    glBindBufferBase(GL_UNIFORM_BUFFER, CONSTANT_BLOCK, compute->constant_block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, STEP_BLOCK, compute->step);
-    glBindBufferBase(GL_UNIFORM_BUFFER, TERM_BLOCK, compute->terms);
-    glBindBufferBase(GL_UNIFORM_BUFFER, METHOD_BLOCK, compute->of_method);
-    glBindBufferBase(GL_UNIFORM_BUFFER, WATCH_BLOCK, compute->watch.buffer);
+    enum { FIRST = CONSTANT_BLOCK }; /* of five in a row */
+    const GLuint blocks[] = {[CONSTANT_BLOCK - FIRST] = compute->constant_block,
+                             [STEP_BLOCK - FIRST] = compute->step,
+                             [TERM_BLOCK - FIRST] = compute->terms,
+                             [WATCH_BLOCK - FIRST] = compute->watch.buffer,
+                             [METHOD_BLOCK - FIRST] = compute->of_method};
+    glBindBuffersBase(GL_UNIFORM_BUFFER, FIRST, sizeof blocks / sizeof *blocks, blocks);
     glUseProgram(compute->program[pass]);
     compute_dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);

@@ -8,6 +8,7 @@
 #ifndef SLOSH_FRAGMENT_H
 #define SLOSH_FRAGMENT_H
 
+#include "sim/gl/gl_state.h"
 #include "sim/gl/mailbox.h"
 #include "sim/world/backend.h"
 
@@ -58,6 +59,31 @@ typedef enum FragmentPass {
     X(FINER, "finer")                                                                                        \
     X(BEFORE, "before")
 
+/* X(name): the uniforms of the shaders */
+#define FRAGMENT_UNIFORMS(X)                                                                                 \
+    X(rotation)                                                                                              \
+    X(omega0)                                                                                                \
+    X(omega1)                                                                                                \
+    X(shift)                                                                                                 \
+    X(velocity_change)                                                                                       \
+    X(dt)                                                                                                    \
+    X(still)                                                                                                 \
+    X(layer)                                                                                                 \
+    X(felt_origin)                                                                                           \
+    X(felt_alpha)                                                                                            \
+    X(felt_omega)                                                                                            \
+    X(gravity)                                                                                               \
+    X(scalar)                                                                                                \
+    X(c2)                                                                                                    \
+    X(fluid_numbers)
+
+typedef enum FragmentUniform {
+#define X(name) FRAGMENT_##name,
+    FRAGMENT_UNIFORMS(X)
+#undef X
+        FRAGMENT_UNIFORM_COUNT
+} FragmentUniform;
+
 typedef enum FragmentSampler {
 #define X(NAME, name) FRAGMENT_SAMPLE_##NAME,
     FRAGMENT_SAMPLERS(X)
@@ -102,9 +128,11 @@ typedef struct Fragment {
     Mailbox ranges;                                                   /* uvec4 a scalar: see range.frag */
     Mailbox gauge;                                                    /* 5 float: see gauge.frag */
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
+    GlState kept; /* of the caller's, while passes run */
     unsigned program[FRAGMENT_PASS_COUNT];
-    char constant_lines[FRAGMENT_CONSTANTS_MAX]; /* with which they were compiled */
-    size_t bytes, guarded_before, guarded;       /* of all textures; before the last load, and since */
+    signed char uniform[FRAGMENT_PASS_COUNT][FRAGMENT_UNIFORM_COUNT]; /* where it is; -1: not there */
+    char constant_lines[FRAGMENT_CONSTANTS_MAX];                      /* with which they were compiled */
+    size_t bytes, guarded_before, guarded; /* of all textures; before the last load, and since */
 } Fragment;
 
 /* Textures and what draws into them. False with the reason. */
@@ -131,9 +159,10 @@ void fragment_draw(const Fragment *fragment, FragmentPass pass, const unsigned *
                    int height);
 
 void fragment_sample(FragmentSampler sampler, unsigned texture);
-int fragment_uniform(const Fragment *fragment, FragmentPass pass, const char *name);
-void fragment_set3(const Fragment *fragment, FragmentPass pass, const char *name, const float value[3]);
-void fragment_set1(const Fragment *fragment, FragmentPass pass, const char *name, float value);
+int fragment_uniform(const Fragment *fragment, FragmentPass pass, FragmentUniform uniform);
+void fragment_set3(const Fragment *fragment, FragmentPass pass, FragmentUniform uniform,
+                   const float value[3]);
+void fragment_set1(const Fragment *fragment, FragmentPass pass, FragmentUniform uniform, float value);
 
 /* Copies all of a texture into a buffer, from a byte on: 32-bit floats, or uints for an _INTEGER format. */
 void fragment_pack(unsigned texture, unsigned format, unsigned buffer, size_t at, size_t bytes);
@@ -155,6 +184,10 @@ bool fragment_set_particles(Fragment *fragment, const InitialState *initial);
    + 1, or 0. */
 uint32_t *fragment_buckets_read(const Fragment *fragment);
 uint32_t fragment_bucket_at(const Fragment *fragment, const uint32_t *places, size_t cell, int place);
+
+/* Around all passes of a step, so that the state of the context is asked for once. */
+void fragment_enter(void *state);
+void fragment_leave(void *state);
 
 void fragment_grid(void *state);
 void fragment_drift(void *state, const BoxStep *step);

@@ -1,7 +1,6 @@
 /* What is plotted of the state: reduced by the targets that the watch has, and on its way back without a
  * wait. */
 #include "sim/gl/fragment/fragment.h"
-#include "sim/gl/gl_state.h"
 
 #include <epoxy/gl.h>
 
@@ -33,15 +32,15 @@ static void reduce(const Fragment *f)
 bool fragment_gauge(void *state, const double gravity[3])
 {
     Fragment *f = state;
-    GlState kept;
     if (!prepare(f))
         return false;
     const float g[3] = {(float)gravity[0], (float)gravity[1], (float)gravity[2]};
-    fragment_set3(f, FRAGMENT_GAUGE_FIRST, "gravity", g);
-    fragment_set1(f, FRAGMENT_GAUGE_FIRST, "c2", f->constants->sound_speed * f->constants->sound_speed);
-    gl_state_keep(&kept);
+    fragment_set3(f, FRAGMENT_GAUGE_FIRST, FRAGMENT_gravity, g);
+    fragment_set1(f, FRAGMENT_GAUGE_FIRST, FRAGMENT_c2,
+                  f->constants->sound_speed * f->constants->sound_speed);
+    gl_state_keep(&f->kept);
     reduce(f);
-    gl_state_restore(&kept);
+    gl_state_restore(&f->kept);
     fragment_pack(f->found[f->levels - 1], GL_RGBA_INTEGER, f->gauge.buffer, 0, 4 * sizeof(float));
     fragment_pack(f->held_sum[f->levels - 1], GL_RED_INTEGER, f->gauge.buffer, 4 * sizeof(float),
                   sizeof(float));

@@ -4,7 +4,6 @@
    in. So each pass puts every cell's next index in: Harada, Koshizuka and Kawaguchi 2007, with more layers
    than one. What one layer leaves is listed by transform feedback, and only that is drawn into the next. */
 #include "sim/gl/fragment/fragment.h"
-#include "sim/gl/gl_state.h"
 
 #include <epoxy/gl.h>
 
@@ -45,7 +44,7 @@ static void list_waiting(const Fragment *f, int layer)
 {
     const GLuint program = f->program[FRAGMENT_WAITING];
     glUseProgram(program);
-    glProgramUniform1i(program, fragment_uniform(f, FRAGMENT_WAITING, "layer"), layer - 1);
+    glProgramUniform1i(program, fragment_uniform(f, FRAGMENT_WAITING, FRAGMENT_layer), layer - 1);
     glTextureBarrier(); /* it was drawn into until now */
     glEnable(GL_RASTERIZER_DISCARD);
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, f->feedback[layer % 2]);
@@ -70,9 +69,8 @@ static void fill_layers(const Fragment *f)
 
 void fragment_grid(void *state)
 {
-    const Fragment *f = state;
-    GlState kept;
-    gl_state_keep(&kept);
+    Fragment *f = state;
+    gl_state_keep(&f->kept);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->bucket_framebuffer[0]);
     glViewport(0, 0, f->bucket_width, f->bucket_height);
     glClearBufferfi(GL_DEPTH_STENCIL, 0, 0, 0);
@@ -83,5 +81,5 @@ void fragment_grid(void *state)
     fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
     fragment_sample(FRAGMENT_SAMPLE_BUCKETS, f->buckets);
     fill_layers(f);
-    gl_state_restore(&kept);
+    gl_state_restore(&f->kept);
 }

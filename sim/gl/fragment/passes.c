@@ -78,9 +78,21 @@ static unsigned pass_create(const Fragment *f, FragmentPass pass, const char *co
     return program;
 }
 
-int fragment_uniform(const Fragment *f, FragmentPass pass, const char *name)
+int fragment_uniform(const Fragment *f, FragmentPass pass, FragmentUniform uniform)
 {
-    return glGetUniformLocation(f->program[pass], name);
+    return f->uniform[pass][uniform];
+}
+
+static void find_uniforms(Fragment *f, int pass)
+{
+    static const char *const names[] = {
+#define X(name) #name,
+        FRAGMENT_UNIFORMS(X)
+#undef X
+    };
+    for (int k = 0; k < FRAGMENT_UNIFORM_COUNT; k++)
+        f->uniform[pass][k] =
+            (signed char)(f->program[pass] ? glGetUniformLocation(f->program[pass], names[k]) : -1);
 }
 
 void fragment_set_fluids(const Fragment *f)
@@ -91,7 +103,7 @@ void fragment_set_fluids(const Fragment *f)
         memcpy(fluids[k], (const float[]){s->mass[k], s->density[k], s->stiffness[k], s->viscosity[k]},
                sizeof fluids[k]);
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
-        const GLint at = f->program[p] ? fragment_uniform(f, (FragmentPass)p, "fluid_numbers") : -1;
+        const GLint at = f->program[p] ? fragment_uniform(f, (FragmentPass)p, FRAGMENT_fluid_numbers) : -1;
         if (at >= 0)
             glProgramUniform4fv(f->program[p], at, s->fluid_count, fluids[0]);
     }
@@ -104,10 +116,14 @@ static bool is_gauge(int pass)
 
 bool fragment_gauge_programs(Fragment *f, Error *error)
 {
-    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++)
-        if (is_gauge(p) && !f->program[p] &&
-            !(f->program[p] = pass_create(f, (FragmentPass)p, f->constant_lines, error)))
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        if (!is_gauge(p) || f->program[p])
+            continue;
+        f->program[p] = pass_create(f, (FragmentPass)p, f->constant_lines, error);
+        find_uniforms(f, p);
+        if (!f->program[p])
             return false;
+    }
     fragment_set_fluids(f);
     return true;
 }
@@ -130,20 +146,21 @@ bool fragment_programs_create(Fragment *f, Error *error)
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
         glDeleteProgram(f->program[p]);
         f->program[p] = made[p];
+        find_uniforms(f, p);
     }
     memcpy(f->constant_lines, constant_lines, sizeof constant_lines);
     fragment_set_fluids(f);
     return true;
 }
 
-void fragment_set3(const Fragment *f, FragmentPass pass, const char *name, const float value[3])
+void fragment_set3(const Fragment *f, FragmentPass pass, FragmentUniform uniform, const float value[3])
 {
-    glProgramUniform3fv(f->program[pass], fragment_uniform(f, pass, name), 1, value);
+    glProgramUniform3fv(f->program[pass], fragment_uniform(f, pass, uniform), 1, value);
 }
 
-void fragment_set1(const Fragment *f, FragmentPass pass, const char *name, float value)
+void fragment_set1(const Fragment *f, FragmentPass pass, FragmentUniform uniform, float value)
 {
-    glProgramUniform1f(f->program[pass], fragment_uniform(f, pass, name), value);
+    glProgramUniform1f(f->program[pass], fragment_uniform(f, pass, uniform), value);
 }
 
 void fragment_sample(FragmentSampler sampler, unsigned texture)

@@ -2,7 +2,6 @@
    buffer; nothing leaves the GPU. */
 #include "sim/gl/float_bits.h"
 #include "sim/gl/fragment/fragment.h"
-#include "sim/gl/gl_state.h"
 #include "sim/gl/particle_buffers.h"
 
 #include <epoxy/gl.h>
@@ -35,7 +34,7 @@ static void draw(const Fragment *f, FragmentPass pass, unsigned target)
 
 static void show(Fragment *f, int what)
 {
-    glProgramUniform1i(f->program[FRAGMENT_SHOW], fragment_uniform(f, FRAGMENT_SHOW, "scalar"), what);
+    glProgramUniform1i(f->program[FRAGMENT_SHOW], fragment_uniform(f, FRAGMENT_SHOW, FRAGMENT_scalar), what);
     draw(f, FRAGMENT_SHOW, f->word);
 }
 
@@ -78,9 +77,8 @@ static void share_scalars(Fragment *f, unsigned attributes, ParticleBuffers *out
 void fragment_share(void *state, unsigned attributes, ParticleBuffers *out)
 {
     Fragment *f = state;
-    GlState kept;
     fragment_watch_send(f);
-    gl_state_keep(&kept);
+    gl_state_keep(&f->kept);
     fragment_shown_create(f);
     draw(f, FRAGMENT_PLACE, f->placed);
     out->position = pack(f, &f->shown_position, f->placed, GL_RGBA, 16);
@@ -95,7 +93,7 @@ void fragment_share(void *state, unsigned attributes, ParticleBuffers *out)
         show(f, SHOW_ID);
         out->id = pack(f, &f->shown[SHOW_ID], f->word, GL_RED_INTEGER, 4);
     }
-    gl_state_restore(&kept);
+    gl_state_restore(&f->kept);
     if (attributes & PARTICLE_RANGES)
         read_ranges(f, attributes, out);
 }

@@ -1,29 +1,39 @@
 /* The stages of a step, each a pass over all particles. */
 #include "sim/gl/fragment/fragment.h"
-#include "sim/gl/gl_state.h"
 
 #include <epoxy/gl.h>
 #include <string.h>
 
-static void draw(const Fragment *f, FragmentPass pass, const unsigned *targets, int count)
+static void draw(Fragment *f, FragmentPass pass, const unsigned *targets, int count)
 {
-    GlState kept;
-    gl_state_keep(&kept);
+    gl_state_keep(&f->kept);
     fragment_draw(f, pass, targets, count, f->width, f->height);
-    gl_state_restore(&kept);
+    gl_state_restore(&f->kept);
+}
+
+void fragment_enter(void *state)
+{
+    Fragment *f = state;
+    gl_state_keep(&f->kept);
+}
+
+void fragment_leave(void *state)
+{
+    Fragment *f = state;
+    gl_state_restore(&f->kept);
 }
 
 static void set_drift(const Fragment *f, const BoxStep *step)
 {
     const FragmentPass pass = FRAGMENT_DRIFT;
     const GLuint program = f->program[pass];
-    glProgramUniform3fv(program, fragment_uniform(f, pass, "rotation"), 3, step->rotation[0]);
-    fragment_set3(f, pass, "omega0", step->omega0);
-    fragment_set3(f, pass, "omega1", step->omega1);
-    fragment_set3(f, pass, "shift", step->shift);
-    fragment_set3(f, pass, "velocity_change", step->velocity_change);
-    fragment_set1(f, pass, "dt", step->dt);
-    glProgramUniform1i(program, fragment_uniform(f, pass, "still"), step->still ? 1 : 0);
+    glProgramUniform3fv(program, fragment_uniform(f, pass, FRAGMENT_rotation), 3, step->rotation[0]);
+    fragment_set3(f, pass, FRAGMENT_omega0, step->omega0);
+    fragment_set3(f, pass, FRAGMENT_omega1, step->omega1);
+    fragment_set3(f, pass, FRAGMENT_shift, step->shift);
+    fragment_set3(f, pass, FRAGMENT_velocity_change, step->velocity_change);
+    fragment_set1(f, pass, FRAGMENT_dt, step->dt);
+    glProgramUniform1i(program, fragment_uniform(f, pass, FRAGMENT_still), step->still ? 1 : 0);
 }
 
 void fragment_drift(void *state, const BoxStep *step)
@@ -46,7 +56,7 @@ static void sample_neighbours(const Fragment *f)
     fragment_sample(FRAGMENT_SAMPLE_WALLS, f->walls);
 }
 
-static void density(const Fragment *f)
+static void density(Fragment *f)
 {
     sample_neighbours(f);
     fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
@@ -54,11 +64,11 @@ static void density(const Fragment *f)
          f->constants->viscous ? 3 : 2);
 }
 
-static void force(const Fragment *f, const ApparentGravity *gravity)
+static void force(Fragment *f, const ApparentGravity *gravity)
 {
-    fragment_set3(f, FRAGMENT_FORCE, "felt_origin", gravity->origin);
-    fragment_set3(f, FRAGMENT_FORCE, "felt_alpha", gravity->alpha);
-    fragment_set3(f, FRAGMENT_FORCE, "felt_omega", gravity->omega);
+    fragment_set3(f, FRAGMENT_FORCE, FRAGMENT_felt_origin, gravity->origin);
+    fragment_set3(f, FRAGMENT_FORCE, FRAGMENT_felt_alpha, gravity->alpha);
+    fragment_set3(f, FRAGMENT_FORCE, FRAGMENT_felt_omega, gravity->omega);
     sample_neighbours(f);
     fragment_sample(FRAGMENT_SAMPLE_FIELDS, f->fields);
     fragment_sample(FRAGMENT_SAMPLE_NEAR, f->near);
@@ -77,8 +87,8 @@ void fragment_pass(void *state, const Pass *pass, const PassInput *input)
 void fragment_kick(void *state, const float gravity[3], float dt)
 {
     Fragment *f = state;
-    fragment_set3(f, FRAGMENT_KICK, "gravity", gravity);
-    fragment_set1(f, FRAGMENT_KICK, "dt", dt);
+    fragment_set3(f, FRAGMENT_KICK, FRAGMENT_gravity, gravity);
+    fragment_set1(f, FRAGMENT_KICK, FRAGMENT_dt, dt);
     fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
     fragment_sample(FRAGMENT_SAMPLE_ACCELERATION, f->acceleration);
     draw(f, FRAGMENT_KICK, &f->velocity[1], 1);

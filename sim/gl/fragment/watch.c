@@ -2,7 +2,6 @@
    the state that the sentinel goes back to. */
 #include "sim/gl/float_bits.h"
 #include "sim/gl/fragment/fragment.h"
-#include "sim/gl/gl_state.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -32,12 +31,11 @@ static void reduce(const Fragment *f)
 
 void fragment_watch_gather(Fragment *f, const float gravity[3], float dt)
 {
-    GlState kept;
     f->longest = fmaxf(f->longest, dt);
-    fragment_set3(f, FRAGMENT_WATCH_FIRST, "gravity", gravity);
-    gl_state_keep(&kept);
+    fragment_set3(f, FRAGMENT_WATCH_FIRST, FRAGMENT_gravity, gravity);
+    gl_state_keep(&f->kept);
     reduce(f);
-    gl_state_restore(&kept);
+    gl_state_restore(&f->kept);
     fragment_swap(f->watch);
     f->watch_due = true;
 }
