@@ -1,6 +1,7 @@
 #include "render/particles/upload.h"
 
 #include "render/particles/slots.h"
+#include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -26,6 +27,8 @@ struct Upload {
     GLsync fence; /* behind the last drawing from the slot in flight, or NULL */
     int drawn;    /* slot, or SLOT_NONE; of the drawing thread */
     Slot slots[SLOTS];
+    GLuint device; /* the drawn slot's state in memory of the GPU; 0: it is drawn from the slot */
+    ParticleBuffers drawn_state;
 };
 
 static size_t place(Layout *layout, size_t capacity, size_t stride, bool wanted)
@@ -82,7 +85,27 @@ Upload *upload_create(size_t capacity, unsigned attributes, Error *error)
             upload_destroy(upload);
             return NULL;
         }
+    if (!upload_set_copies(upload, !gl_renderer_is_software(), error)) {
+        upload_destroy(upload);
+        return NULL;
+    }
     return upload;
+}
+
+bool upload_set_copies(Upload *upload, bool copies, Error *error)
+{
+    glDeleteBuffers(1, &upload->device);
+    upload->device = 0;
+    if (!copies)
+        return true;
+    while (glGetError() != GL_NO_ERROR)
+        continue;
+    glCreateBuffers(1, &upload->device);
+    glObjectLabel(GL_BUFFER, upload->device, -1, "drawn particles");
+    glNamedBufferStorage(upload->device, (GLsizeiptr)upload->layout.size, NULL, 0);
+    return glGetError() != GL_OUT_OF_MEMORY ||
+           error_set(error, "the GPU has no %zu bytes for %zu particles; use fewer particles",
+                     upload->layout.size, upload->capacity);
 }
 
 void upload_destroy(Upload *upload)
@@ -90,6 +113,7 @@ void upload_destroy(Upload *upload)
     if (!upload)
         return;
     glDeleteSync(upload->fence);
+    glDeleteBuffers(1, &upload->device);
     for (int i = 0; i < SLOTS; i++)
         glDeleteBuffers(1, &upload->slots[i].buffer);
     slots_destroy(&upload->turn);
@@ -211,6 +235,30 @@ static void land(Upload *upload)
     slots_landed(&upload->turn);
 }
 
+static void carry(const Upload *upload, ParticleAttribute *attribute, size_t count)
+{
+    if (!attribute->buffer)
+        return;
+    glCopyNamedBufferSubData(attribute->buffer, upload->device, (GLintptr)attribute->offset,
+                             (GLintptr)attribute->offset, (GLsizeiptr)(count * attribute->stride));
+    attribute->buffer = upload->device;
+}
+
+/* GL draws from there in its order, so that one such buffer is enough. */
+static void carry_over(Upload *upload)
+{
+    ParticleBuffers *state = &upload->drawn_state;
+    *state = upload->slots[upload->drawn].state;
+    if (!upload->device)
+        return;
+    carry(upload, &state->position, state->count);
+    carry(upload, &state->velocity, state->count);
+    carry(upload, &state->fluid, state->count);
+    carry(upload, &state->id, state->count);
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        carry(upload, &state->scalar[s], state->count);
+}
+
 bool upload_take(Upload *upload, ParticleBuffers *out)
 {
     if (slots_fresh(&upload->turn)) {
@@ -218,9 +266,10 @@ bool upload_take(Upload *upload, ParticleBuffers *out)
         if (upload->drawn != SLOT_NONE)
             upload->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
         upload->drawn = slots_draw(&upload->turn);
+        carry_over(upload);
     }
     if (upload->drawn == SLOT_NONE)
         return false;
-    *out = upload->slots[upload->drawn].state;
+    *out = upload->drawn_state;
     return true;
 }

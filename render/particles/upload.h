@@ -21,6 +21,11 @@ typedef struct Upload Upload;
 Upload *upload_create(size_t capacity, unsigned attributes, Error *error);
 void upload_destroy(Upload *upload); /* NULL is allowed */
 
+/* Whether each state that is taken is copied once into the GPU's own memory, from which all passes of its
+   pictures read it, and not each over the bus. At first: yes, but on a software renderer, which has one
+   memory. To be said before the first state is taken. False when memory is short. */
+bool upload_set_copies(Upload *upload, bool copies, Error *error);
+
 /* Writes the world's state. False when the world has more particles than the capacity. */
 bool upload_write(Upload *upload, World *world, Error *error);
 

@@ -33,19 +33,23 @@ static void assert_on_gpu(const ParticleAttribute *attribute, const void *wanted
     assert_memory_equal(bytes, wanted, size);
 }
 
-static void test_more_states_than_slots(void **state)
+/* From the slots, or from the GPU's own memory. */
+static void more_states_than_slots(bool copies)
 {
-    (void)state;
     enum { STATES = 3 * SLOTS + 1 };
     Error error = {0};
     Particles *particles = calloc(1, sizeof *particles);
     Upload *upload = upload_create(COUNT, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID, &error);
+    GLuint first = 0;
+    assert_true(upload_set_copies(upload, copies, &error));
     for (int number = 0; number < STATES; number++) {
         ParticleBuffers box = box_state(COUNT, 0.1), buffers;
         fill(particles, number);
         ParticleArrays arrays = arrays_of(particles);
         assert_true(upload_arrays(upload, &arrays, &box, &error));
         assert_true(upload_take(upload, &buffers));
+        first = number == 0 ? buffers.position.buffer : first;
+        assert_true(number != 1 || (buffers.position.buffer == first) == copies);
         assert_on_gpu(&buffers.position, particles->position, 16 * COUNT);
         assert_on_gpu(&buffers.fluid, particles->fluid, 4 * COUNT);
         assert_on_gpu(&buffers.scalar[SCALAR_SPEED], particles->speed, 4 * COUNT);
@@ -58,6 +62,13 @@ static void test_more_states_than_slots(void **state)
     free(particles);
 }
 
+static void test_more_states_than_slots(void **state)
+{
+    (void)state;
+    more_states_than_slots(false);
+    more_states_than_slots(true);
+}
+
 /* What is drawn stays whole, however many states are written meanwhile, and the newest comes next. */
 static void test_drawn_state_stays(void **state)
 {
@@ -66,6 +77,7 @@ static void test_drawn_state_stays(void **state)
     Particles *particles = calloc(1, sizeof *particles);
     Upload *upload = upload_create(COUNT, PARTICLE_SCALAR(SCALAR_SPEED), &error);
     ParticleBuffers box = box_state(COUNT, 0.1), drawn, before, again;
+    assert_true(upload_set_copies(upload, false, &error));
     assert_false(upload_take(upload, &drawn));
     for (int number = 0; number < 40; number++) {
         fill(particles, number);
