@@ -2,13 +2,12 @@
 
 #include "render/particles/work.h"
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/scan.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 
-enum { SCAN_BLOCK = 1024, CELLS_A_PARTICLE = 8, CELLS_LEAST = 4096, CELLS_A_SIDE = 32768 };
+enum { CELLS_A_PARTICLE = 8, CELLS_LEAST = 4096, CELLS_A_SIDE = 32768 };
 
 static GLuint compile(const char *file, Error *error)
 {
@@ -19,27 +18,21 @@ bool neighbourhood_create(Neighbourhood *n, Error *error)
 {
     *n = (Neighbourhood){0};
     n->bin = compile("render/neighbourhood_bin.comp", error);
-    n->scan = n->bin ? compile("sim/compute/scan.comp", error) : 0;
-    n->scan_add = n->scan ? compile("sim/compute/scan_add.comp", error) : 0;
-    n->place = n->scan_add ? compile("render/neighbourhood_place.comp", error) : 0;
+    n->place =
+        n->bin && prefix_sums_create(&n->sums, error) ? compile("render/neighbourhood_place.comp", error) : 0;
     n->sort = n->place ? compile("render/neighbourhood_sort.comp", error) : 0;
     return n->sort != 0;
 }
 
 void neighbourhood_destroy(Neighbourhood *n)
 {
-    const GLuint programs[] = {n->bin, n->scan, n->scan_add, n->place, n->sort};
+    const GLuint programs[] = {n->bin, n->place, n->sort};
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
         glDeleteProgram(programs[i]);
     glDeleteBuffers(5, (GLuint[]){n->cell, n->rank, n->order, n->sorted, n->start});
     glDeleteTextures(1, &n->texels);
-    glDeleteBuffers(NEIGHBOURHOOD_SCAN_LEVELS, n->totals);
+    prefix_sums_destroy(&n->sums);
     *n = (Neighbourhood){0};
-}
-
-static size_t blocks_of(size_t size)
-{
-    return (size + SCAN_BLOCK - 1) / SCAN_BLOCK;
 }
 
 static void reserve(Neighbourhood *n, size_t count, size_t cells)
@@ -55,11 +48,7 @@ static void reserve(Neighbourhood *n, size_t count, size_t cells)
         glTextureBuffer(n->texels, GL_RGBA32UI, n->sorted);
     }
     if (cells > n->cells_capacity) {
-        size_t blocks = cells + 2;
-        work_buffer_remake(&n->start, blocks * sizeof(GLuint), "neighbourhood start");
-        for (int level = 0; level < NEIGHBOURHOOD_SCAN_LEVELS; level++)
-            work_buffer_remake(&n->totals[level], (blocks = blocks_of(blocks)) * sizeof(GLuint),
-                               "neighbourhood totals");
+        work_buffer_remake(&n->start, (cells + 2) * sizeof(GLuint), "neighbourhood start");
         n->cells_capacity = cells;
     }
 }
@@ -100,30 +89,6 @@ static void run(const Neighbourhood *n, GLuint program)
     work_run(n->count);
 }
 
-static void run_blocks(GLuint program, GLuint values, GLuint totals, size_t size)
-{
-    glUseProgram(program);
-    glUniform1ui(SCAN_SIZE_AT, (GLuint)size);
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, SCAN_VALUES_STORAGE, 2, (GLuint[]){values, totals});
-    work_dispatch(blocks_of(size));
-}
-
-/* Exclusive prefix sums of `start`, in place. */
-static void sum_up(const Neighbourhood *n, size_t size)
-{
-    GLuint values[NEIGHBOURHOOD_SCAN_LEVELS + 1] = {n->start};
-    size_t sizes[NEIGHBOURHOOD_SCAN_LEVELS + 1] = {size};
-    int level = 0;
-    do {
-        run_blocks(n->scan, values[level], n->totals[level], sizes[level]);
-        values[level + 1] = n->totals[level];
-        sizes[level + 1] = blocks_of(sizes[level]);
-        level++;
-    } while (sizes[level] > 1 && level < NEIGHBOURHOOD_SCAN_LEVELS);
-    for (level -= 2; level >= 0; level--)
-        run_blocks(n->scan_add, values[level], values[level + 1], sizes[level]);
-}
-
 static void bind_positions(const Neighbourhood *n, const ParticleBuffers *particles)
 {
     const ParticleAttribute *position = &particles->position;
@@ -144,7 +109,7 @@ void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
     bind_positions(n, particles);
     bind_buffers(n);
     run(n, n->bin);
-    sum_up(n, cells + 2);
+    prefix_sums_run(&n->sums, n->start, cells + 2);
     run(n, n->place);
     bind_positions(n, particles);
     run(n, n->sort);

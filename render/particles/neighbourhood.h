@@ -7,22 +7,21 @@
 #ifndef SLOSH_NEIGHBOURHOOD_H
 #define SLOSH_NEIGHBOURHOOD_H
 
+#include "render/particles/prefix_sums.h"
 #include "sim/base/error.h"
 #include "sim/gl/particle_buffers.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { NEIGHBOURHOOD_SCAN_LEVELS = 3 };
-
 typedef struct Neighbourhood {
-    unsigned bin, scan, scan_add, place, sort; /* programs */
-    unsigned cell, rank, order;                /* buffers: uint a particle */
-    unsigned sorted;                           /* uvec4 a particle, by cell: bits of x y z; its number */
-    unsigned texels;                           /* texture: `sorted` */
-    unsigned start; /* uint a cell and two more: where it begins in `sorted`; what is in
-                       no cell comes last */
-    unsigned totals[NEIGHBOURHOOD_SCAN_LEVELS];
+    unsigned bin, place, sort; /* programs */
+    PrefixSums sums;
+    unsigned cell, rank, order; /* buffers: uint a particle */
+    unsigned sorted;            /* uvec4 a particle, by cell: bits of x y z; its number */
+    unsigned texels;            /* texture: `sorted` */
+    unsigned start;             /* uint a cell and two more: where it begins in `sorted`; what is in
+                                   no cell comes last */
     size_t capacity, cells_capacity;
     unsigned size[3]; /* cells along each axis */
     unsigned count;   /* particles */

@@ -28,8 +28,7 @@ bool cell_lists_create(CellLists *lists, bool scalar, Error *error)
 {
     *lists = (CellLists){0};
     lists->count = compile("cell count", "volume/cell_count.comp", NULL, error);
-    lists->scan = lists->count ? compile("cell scan", "volume/cell_scan.comp", NULL, error) : 0;
-    lists->place = lists->scan
+    lists->place = lists->count && prefix_sums_create(&lists->sums, error)
                        ? compile("cell place", "volume/cell_count.comp",
                                  scalar ? "#define PLACE 1\n#define SCALAR 1\n" : "#define PLACE 1\n", error)
                        : 0;
@@ -39,7 +38,7 @@ bool cell_lists_create(CellLists *lists, bool scalar, Error *error)
 void cell_lists_destroy(CellLists *lists)
 {
     glDeleteProgram(lists->count);
-    glDeleteProgram(lists->scan);
+    prefix_sums_destroy(&lists->sums);
     glDeleteProgram(lists->place);
     glDeleteBuffers(3, (GLuint[]){lists->starts, lists->particles, lists->scalars});
     *lists = (CellLists){0};
@@ -76,9 +75,7 @@ void cell_lists_make(CellLists *lists, const VoxelizeJob *job)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(lists->starts, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     run(lists->count, job, count);
-    glUseProgram(lists->scan);
-    glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    prefix_sums_run(&lists->sums, lists->starts, (size_t)size[0] * size[1] * size[2] + 1);
     run(lists->place, job, count);
 }
 

@@ -3,10 +3,12 @@
 #ifndef SLOSH_CELL_LISTS_H
 #define SLOSH_CELL_LISTS_H
 
+#include "render/particles/prefix_sums.h"
 #include "render/volume/voxelize.h"
 
 typedef struct CellLists {
-    unsigned count, scan, place;         /* programs */
+    unsigned count, place; /* programs */
+    PrefixSums sums;
     unsigned starts, particles, scalars; /* buffers; the last where a scalar is carried */
     size_t cells, capacity;              /* that the buffers have room for; the same of particles */
 } CellLists;

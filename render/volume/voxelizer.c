@@ -219,12 +219,14 @@ bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, const VolumeG
 /* Asks the GPU, which this waits for: the grid's size is known on this side. */
 static void find_bounds(const Voxelizer *voxelizer, const VoxelizeJob *job, GLuint found[6])
 {
+    enum { GROUP = 256, GROUPS_MOST = 256 };
     const GLsizeiptr size = 6 * sizeof *found;
+    const size_t groups = (job->particles->count + GROUP - 1) / GROUP;
     glNamedBufferSubData(voxelizer->bounds, 0, size, found);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BOUNDS_STORAGE, voxelizer->bounds);
     glUseProgram(voxelizer->find_bounds);
     particle_bind(voxelizer->find_bounds, job->particles, job->carried);
-    glDispatchCompute(1, 1, 1);
+    glDispatchCompute((GLuint)(groups < GROUPS_MOST ? groups : GROUPS_MOST), 1, 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(voxelizer->bounds, 0, size, found);
 }

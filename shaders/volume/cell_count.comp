@@ -1,4 +1,4 @@
-// How many particles each cell of the lists has; with PLACE these are put in their places. In between, cell_scan.comp turns numbers
+// How many particles each cell of the lists has; with PLACE these are put in their places. In between, prefix sums turn numbers
 // into starts: the counter of a cell stands at its successor's place, and is the start of that in the end.
 #include "volume/volume_particle.glsl"
 #include "shaders/volume/volume_bindings.h"
