@@ -23,40 +23,77 @@ static GLenum stage_kind(const char *path)
     return 0;
 }
 
-static bool compile(GLuint shader, const ShaderSource *source, Error *error)
-{
-    GLint done = GL_FALSE;
-    glShaderSource(shader, 1, (const GLchar *const *)&source->text, NULL);
-    glCompileShader(shader);
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
-    if (done)
-        return true;
-    char log[LOG_MAX], named[LOG_MAX];
-    glGetShaderInfoLog(shader, sizeof log, NULL, log);
-    shader_source_log(source, log, named, sizeof named);
-    return error_set(error, "%s", named);
-}
-
 static bool attach(GLuint program, const char *path, const char *defines, Error *error)
 {
     GLenum kind = stage_kind(path);
     if (!kind)
         return error_set(error, "%s: unknown kind of shader; .vert, .geom, .frag and .comp are known", path);
     ShaderSource source;
-    GLuint shader = glCreateShader(kind);
-    bool done = shader_source_load(&source, path, defines, error) && compile(shader, &source, error);
-    shader_source_free(&source);
-    if (done)
+    const GLuint shader = glCreateShader(kind);
+    const bool done = shader_source_load(&source, path, defines, error);
+    if (done) {
+        glShaderSource(shader, 1, (const GLchar *const *)&source.text, NULL);
+        glCompileShader(shader);
         glAttachShader(program, shader);
+    }
+    shader_source_free(&source);
     glObjectLabel(GL_SHADER, shader, -1, path);
     glDeleteShader(shader); /* lives on as long as the program */
     return done;
 }
 
-static bool link_program(GLuint program, const char *label, Error *error)
+unsigned program_begin(const char *label, const char *const stages[], const char *defines, Error *error)
+{
+    GLuint program = glCreateProgram();
+    glObjectLabel(GL_PROGRAM, program, -1, label);
+    bool done = true;
+    for (int i = 0; done && stages[i]; i++)
+        done = attach(program, stages[i], defines, error);
+    if (done) {
+        glLinkProgram(program);
+        return program;
+    }
+    glDeleteProgram(program);
+    return 0;
+}
+
+/* With the names of files, which are read again. */
+static bool say_log(GLuint shader, const char *path, const char *defines, Error *error)
+{
+    char log[LOG_MAX], named[LOG_MAX];
+    ShaderSource source;
+    glGetShaderInfoLog(shader, sizeof log, NULL, log);
+    if (!shader_source_load(&source, path, defines, error))
+        return false;
+    shader_source_log(&source, log, named, sizeof named);
+    shader_source_free(&source);
+    return error_set(error, "%s", named);
+}
+
+static bool compiled(GLuint program, const char *const stages[], const char *defines, Error *error)
+{
+    enum { STAGES_MOST = 3 };
+    GLuint shaders[STAGES_MOST];
+    GLsizei count = 0;
+    bool done = true;
+    glGetAttachedShaders(program, STAGES_MOST, &count, shaders);
+    for (int i = 0; done && i < count; i++) {
+        GLint good = GL_FALSE, kind = 0;
+        glGetShaderiv(shaders[i], GL_COMPILE_STATUS, &good);
+        glGetShaderiv(shaders[i], GL_SHADER_TYPE, &kind);
+        for (int k = 0; !good && done && stages[k]; k++)
+            if (stage_kind(stages[k]) == (GLenum)kind)
+                done = say_log(shaders[i], stages[k], defines, error);
+    }
+    return done;
+}
+
+bool program_finish(unsigned program, const char *label, const char *const stages[], const char *defines,
+                    Error *error)
 {
     GLint done = GL_FALSE;
-    glLinkProgram(program);
+    if (!compiled(program, stages, defines, error))
+        return false;
     glGetProgramiv(program, GL_LINK_STATUS, &done);
     if (done)
         return true;
@@ -67,12 +104,8 @@ static bool link_program(GLuint program, const char *label, Error *error)
 
 unsigned program_create(const char *label, const char *const stages[], const char *defines, Error *error)
 {
-    GLuint program = glCreateProgram();
-    glObjectLabel(GL_PROGRAM, program, -1, label);
-    bool done = true;
-    for (int i = 0; done && stages[i]; i++)
-        done = attach(program, stages[i], defines, error);
-    if (done && link_program(program, label, error))
+    const GLuint program = program_begin(label, stages, defines, error);
+    if (!program || program_finish(program, label, stages, defines, error))
         return program;
     glDeleteProgram(program);
     return 0;

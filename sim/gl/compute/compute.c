@@ -114,12 +114,33 @@ static const Pass *method_pass(const Compute *c, ComputePass pass)
     return *passes;
 }
 
-unsigned compute_program(const Compute *c, ComputePass pass, const char *defines, Error *error)
+/* The label, and the file. */
+static const char *source_of(const Compute *c, ComputePass pass, char path[64])
 {
     const char *name = pass < COMPUTE_METHOD ? pass_names[pass] : method_pass(c, pass)->shader;
+    snprintf(path, 64, "sim/%s.comp", name);
+    return name;
+}
+
+unsigned compute_program(const Compute *c, ComputePass pass, const char *defines, Error *error)
+{
     char path[64];
-    snprintf(path, sizeof path, "sim/%s.comp", name);
+    const char *name = source_of(c, pass, path);
     return program_create(name, (const char *const[]){path, NULL}, defines, error);
+}
+
+static bool finished(const Compute *c, ComputePass pass, unsigned program, const char *defines, Error *error)
+{
+    char path[64];
+    const char *name = source_of(c, pass, path);
+    return program_finish(program, name, (const char *const[]){path, NULL}, defines, error);
+}
+
+static unsigned begun(const Compute *c, ComputePass pass, const char *defines, Error *error)
+{
+    char path[64];
+    const char *name = source_of(c, pass, path);
+    return program_begin(name, (const char *const[]){path, NULL}, defines, error);
 }
 
 /* Whether the pass needs a program: the scene's terms need the pass, or somebody has asked for it. */
@@ -151,7 +172,9 @@ static bool programs_create(Compute *c, Error *error)
     all_defines(c, defines);
     for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++)
         if (pass_wanted(c, (ComputePass)p))
-            ok = (program[p] = compute_program(c, (ComputePass)p, defines, error)) != 0;
+            ok = (program[p] = begun(c, (ComputePass)p, defines, error)) != 0;
+    for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++)
+        ok = !program[p] || finished(c, (ComputePass)p, program[p], defines, error);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
         glDeleteProgram(ok ? c->program[p] : program[p]);
     if (ok) {
