@@ -36,7 +36,8 @@ void casting_draw(const Casting *casting, const ParticleBuffers *particles)
 {
     if (particles->count == 0)
         return;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                    GL_TEXTURE_FETCH_BARRIER_BIT);
     glClearNamedBufferData(casting->texels, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CAST_STORAGE, casting->texels);
     glBindTextureUnit(CAST_UNIT, casting->rows);

@@ -5,6 +5,7 @@
 #include "common/particles.glsl"
 #include "common/ball.glsl"
 #include "common/scattered.glsl"
+#include "common/nan.glsl"
 #include "shaders/shared/shadow_maps.h"
 
 layout(local_size_x = 64) in;
@@ -20,13 +21,13 @@ void main()
         return;
     Ball ball = ball_of(index);
     vec3 at = (box_to_light * vec4(ball.centre, 1.0)).xyz;
-    if (!(all(greaterThanEqual(at, vec3(0.0))) && all(lessThanEqual(at, vec3(1.0))))) // so is what is no number
+    if (is_nan(vec4(at, 0.0)) || any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0))))
         return;
     const float side = float(SHADOW_MAP_TEXELS); // the map is light_depth wide
     float reach = 0.5 * max(1.77245 * shadow_radius * (ball.radius / particle_radius) / light_depth * side, 1.0);
     uvec2 low = uvec2(max(ceil(at.xy * side - reach - 0.5), 0.0)); // texels whose centres are within
     uvec2 end = uvec2(min(ceil(at.xy * side + reach - 0.5), side));
-    uint depth = floatBitsToUint(at.z + 0.0); // no -0
+    uint depth = floatBitsToUint(at.z) & 0x7fffffffu; // no -0
     for (uint y = low.y; y < end.y; y++)
         for (uint x = low.x & ~3u; x < end.x; x += 4u) {
             uint first = y * SHADOW_MAP_TEXELS + x;

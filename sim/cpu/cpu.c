@@ -49,11 +49,11 @@ static void cpu_destroy(void *state)
 static bool columns_fit(Cpu *cpu)
 {
     const ColumnDef *own = cpu->constants->method->columns;
-    const ColumnRows all = column_rows(own, 0, cpu->constants);
+    cpu->all = column_rows(own, 0, cpu->constants);
     cpu->saved = column_rows(own, COLUMN_SAVED, NULL);
     cpu->sorted = column_rows(own, COLUMN_SORTED, NULL);
     cpu->of_fluids = column_rows(own, COLUMN_FLUIDS, NULL);
-    return columns_create(&cpu->now, &all, cpu->capacity, &cpu->bytes) &&
+    return columns_create(&cpu->now, &cpu->all, cpu->capacity, &cpu->bytes) &&
            columns_create(&cpu->spare, &cpu->sorted, cpu->capacity, &cpu->bytes);
 }
 

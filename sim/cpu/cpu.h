@@ -17,14 +17,14 @@ typedef struct Cpu {
     size_t capacity;     /* room for */
     CpuParticles now;
     CpuParticles spare; /* what `grid` sorts into: its columns then change places with those of `now` */
-    ColumnRows saved, sorted, of_fluids; /* columns with these flags */
-    float (*place)[4], (*motion)[4];     /* packed for pair sums: see PairArgs */
-    NeighbourLists lists;                /* by the first pass behind `grid` that has need of them */
-    uint32_t *cell, *spare_cell;         /* by `grid`: of each particle, sorted; before the sort */
-    uint32_t *rank;                      /* by `grid`: place within the cell before its sort by id */
-    uint32_t *order;                     /* by `grid`: old place of each new one */
-    uint32_t *cell_start;                /* by `grid`: cells + 2; the last cell is for what is set aside */
-    size_t gridded;                      /* by `grid`: how many it has seen */
+    ColumnRows all, saved, sorted, of_fluids; /* columns, and those with these flags */
+    float (*place)[4], (*motion)[4];          /* packed for pair sums: see PairArgs */
+    NeighbourLists lists;                     /* by the first pass behind `grid` that has need of them */
+    uint32_t *cell, *spare_cell;              /* by `grid`: of each particle, sorted; before the sort */
+    uint32_t *rank;                           /* by `grid`: place within the cell before its sort by id */
+    uint32_t *order;                          /* by `grid`: old place of each new one */
+    uint32_t *cell_start;   /* by `grid`: cells + 2; the last cell is for what is set aside */
+    size_t gridded;         /* by `grid`: how many it has seen */
     uint32_t *owned_at;     /* by `grid`: where the fluids' particles stand; NULL without solids */
     uint32_t *boundary_at;  /* and the solids' */
     uint32_t *owned_before; /* of each particle: how many of the fluids' particles stand before it; one entry

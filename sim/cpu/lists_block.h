@@ -5,7 +5,7 @@
 
 #include "sim/cpu/pair_loop.h"
 
-enum { BLOCK_MOST = 1024 /* 20 kB */ };
+enum { BLOCK_MOST = 2048 /* 32 kB: as many as fluid has around a cell at the widest support */ };
 
 /* Candidates: places and indices. */
 typedef struct Block {

@@ -5,11 +5,11 @@
 
 static bool fit(ListMemory *memory, size_t indices)
 {
-    uint32_t *index = aligned_alloc(64, (indices * sizeof *index + 63) / 64 * 64);
-    if (!index || indices > UINT32_MAX) {
-        free(index);
+    if (indices > UINT32_MAX)
         return false;
-    }
+    uint32_t *index = aligned_alloc(64, (indices * sizeof *index + 63) / 64 * 64);
+    if (!index)
+        return false;
     if (memory->index)
         memcpy(index, memory->index, memory->room * sizeof *index);
     free(memory->index);

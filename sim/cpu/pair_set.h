@@ -29,8 +29,9 @@ typedef struct SimdKind {
 
 extern const SimdKind simd_kinds[];
 
-/* The set of that number in simd_kinds; of the first the widest that this processor has, or what the
-   environment variable SLOSH_SIMD names, if the processor can. False where it cannot. */
+/* The set of that number in simd_kinds; of the first the widest that this processor has, but the
+   baseline where the environment variable SLOSH_SIMD says so, for tests of a whole program. False where it
+   cannot. */
 bool pair_set_choose(int simd, bool periodic, PairSet *set);
 
 /* Its name in simd_kinds. */

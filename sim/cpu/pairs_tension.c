@@ -44,7 +44,7 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
 static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
 {
     const Constants *s = args->constants;
-    const float h = s->support_radius, dims = s->last_row - s->first_row > 3 ? 3 : 2;
+    const float h = s->support_radius, dims = (float)s->dimensions;
     const f8 h2 = f8_splat(h * h), inner = f8_splat(dims * h * h), outer = f8_splat(dims + 4);
 
     for (size_t i = begin; i < end; i++) {

@@ -43,9 +43,11 @@ static void run_loop(Running *running)
     const bool walks = running->loop->walks;
     if (walks) {
         parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, pack, cpu);
+        columns_clear(&cpu->all, &cpu->now, cpu->count); /* lists are filled up with it */
         memcpy(cpu->place[cpu->count], (float[]){PAST, PAST, PAST, 0}, 16);
         memset(cpu->motion[cpu->count], 0, 16);
-        cpu->lists.full &= cpu->lists.ready; /* they are made anew */
+        if (!cpu->lists.ready)
+            cpu->lists.full = false;
     }
     parallel_ranges(cpu->threads, cpu->count, walks ? CPU_GRAIN : 4 * CPU_GRAIN, run_range, running);
     cpu->lists.ready |= walks;

@@ -3,9 +3,11 @@
 #include <epoxy/gl.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <string.h>
 
 /* The driver calls back from threads of its own. */
 static atomic_int error_count;
+static atomic_bool asks_for_memory;
 static int forgotten; /* counted before the last gl_debug_install */
 
 enum { MESSAGES = 8 }; /* of the same kind in each picture, mostly */
@@ -16,6 +18,8 @@ static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, G
     (void)id, (void)severity, (void)length, (void)user;
     /* program_create reports what the shader compiler says */
     if (type != GL_DEBUG_TYPE_ERROR || source == GL_DEBUG_SOURCE_SHADER_COMPILER)
+        return;
+    if (atomic_load(&asks_for_memory) && strstr(message, "OUT_OF_MEMORY"))
         return;
     if (atomic_fetch_add(&error_count, 1) < MESSAGES)
         fprintf(stderr, "GL error: %s\n", message);
@@ -29,6 +33,11 @@ void gl_debug_install(void)
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(on_message, NULL);
+}
+
+void gl_debug_asks_for_memory(bool asks)
+{
+    atomic_store(&asks_for_memory, asks);
 }
 
 int gl_debug_errors(void)

@@ -3,8 +3,13 @@
 #ifndef SLOSH_GL_DEBUG_H
 #define SLOSH_GL_DEBUG_H
 
+#include <stdbool.h>
+
 /* Listens to the current context from now on. */
 void gl_debug_install(void);
+
+/* While `asks`, what there is no memory for is no error: who asks for a buffer looks at glGetError. */
+void gl_debug_asks_for_memory(bool asks);
 
 /* Errors since gl_debug_install, of all contexts; takes pending glGetError codes of the current one along. */
 int gl_debug_errors(void);

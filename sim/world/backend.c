@@ -38,7 +38,7 @@ const Backend *backend_find(const char *name)
 void *backend_def(const WorldDef *def, const Backend *backend)
 {
     const int at = place_of(backend);
-    return at < BACKENDS_MAX ? (void *)(uintptr_t)&def->of_backend[at] : NULL;
+    return backends[at] ? (void *)(uintptr_t)&def->of_backend[at] : NULL;
 }
 
 void backends_default(WorldDef *def)

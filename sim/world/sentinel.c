@@ -89,6 +89,14 @@ static bool give_up_lost(World *world, Error *error)
     return error_set(error, "%s %s; raise %s", lost, step_trouble_words(STEP_TROUBLE_LOST), settings);
 }
 
+static bool give_up_memory(World *world, Error *error)
+{
+    if (world->def.retries > 0)
+        restore(world);
+    return error_set(error, "%s; use a larger spacing or a smaller particles.support",
+                     step_trouble_words(STEP_TROUBLE_MEMORY));
+}
+
 bool sentinel_back(World *world, double time, Error *error)
 {
     const StepTrouble trouble = world->seen;
@@ -96,6 +104,8 @@ bool sentinel_back(World *world, double time, Error *error)
     WorldTrouble *told = &world->trouble;
     if (trouble == STEP_TROUBLE_LOST)
         return give_up_lost(world, error);
+    if (trouble == STEP_TROUBLE_MEMORY)
+        return give_up_memory(world, error);
     if (world->def.retries == 0)
         return give_up(world, trouble, time, error);
     restore(world);

@@ -8,7 +8,7 @@ import command
 SCENE = 'scene.yaml'
 
 STAGES_SIM = ["grid", "density", "force", "integrate"]
-FIELDS = ["scene", "backend", "method", "view", "threads", "renderer", "size", "processor", "compiler", "options",
+FIELDS = ["scene", "backend", "method", "view", "threads", "simd", "renderer", "size", "processor", "compiler", "options",
           "particles", "troubles", "lost", "time", "neighbours_mean", "dt",
           "dt_substep", "substeps", "frames", "stages", "sim_ms", "upload_ms", "render_ms", "frame_ms",
           "particle_steps_per_second", "real_time_factor", "bytes_per_particle"]

@@ -3,6 +3,8 @@
 #include "fixture.h"
 
 #include "sim/cpu/cpu.h"
+#include "sim/wcsph/columns.h"
+#include "sim/wcsph/wcsph.h"
 #include "sim/world/world_struct.h"
 
 #include <stdlib.h>
@@ -113,11 +115,38 @@ static void in_every_instruction_set(void **state)
     check_all("baseline");
 }
 
+/* Lists are filled up with the index behind the last particle, where one that came and went may have left
+   anything. */
+static void what_is_left_behind_the_last_counts_for_nothing(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("the columns are its own");
+    static float x[3 * COUNT];
+    fill(&clouds[0], x);
+    WorldDef def = fixture_def(2.3, 1.1, 0.9);
+    strcpy(def.method, "wcsph");
+    wcsph_def(&def)->delta_sph = 0.1;
+    def.dt = 1e-6;
+    def.initial = &(InitialState){.count = COUNT, .position = x};
+    World *world = fixture_world(&def);
+    const CpuParticles *p = &((Cpu *)world->state)->now;
+    float *const left[] = {p->kind, p->own[RELATIVE], p->own[SLOPE], p->own[SLOPE + 1], p->own[SLOPE + 2]};
+    for (size_t k = 0; k < sizeof left / sizeof *left; k++)
+        left[k][COUNT] = NAN;
+    fixture_step(world, 1);
+    State s = fixture_read(world);
+    for (size_t i = 0; i < s.count; i++)
+        assert_true(isfinite(s.density[i]));
+    fixture_free(&s);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lists_are_those_of_brute_force),
         cmocka_unit_test(in_every_instruction_set),
+        cmocka_unit_test(what_is_left_behind_the_last_counts_for_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

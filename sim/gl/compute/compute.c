@@ -2,6 +2,7 @@
 
 #include "shaders/sim/watch_block.h"
 #include "sim/gl/backends.h"
+#include "sim/gl/debug.h"
 #include "sim/gl/limits.h"
 #include "sim/gl/program.h"
 #include "sim/gl/shader_source.h"
@@ -52,8 +53,10 @@ unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
     const size_t size = bytes > 0 ? bytes : 16;
     glCreateBuffers(1, &name);
     glObjectLabel(GL_BUFFER, name, -1, label);
+    gl_debug_asks_for_memory(true);
     glNamedBufferStorage(name, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
     c->full |= glGetError() == GL_OUT_OF_MEMORY;
+    gl_debug_asks_for_memory(false);
     if (!c->full)
         glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     c->bytes += size;
@@ -245,9 +248,9 @@ static void *compute_create(const Constants *constants, const WorldDef *def, con
         compute_destroy(c);
         return NULL;
     }
-    compute_lists_create(c);
     walls_upload(c);
     compute_constants(c);
+    compute_lists_create(c); /* last: the steps can do without */
     if (c->full) {
         compute_no_memory(c, error);
         compute_destroy(c);
