@@ -55,14 +55,20 @@ static bool is_button(const WindowEvent *event)
     return event->button >= 0 && event->button < 3;
 }
 
+static bool moves(const UiInput *now, const WindowEvent *event)
+{
+    return now->mouse[0] != (float)event->x || now->mouse[1] != (float)event->y;
+}
+
 /* Letters and editing keys keep their order, and a slider is where it was dragged to before it is let go. */
-static bool must_wait(const Taken *taken, const WindowEvent *event)
+static bool must_wait(const UiInput *now, const Taken *taken, const WindowEvent *event)
 {
     const unsigned modifiers = UI_KEY_CTRL | UI_KEY_SHIFT;
     switch (event->kind) {
     case WINDOW_BUTTON:
         return is_button(event) && (taken->button[event->button] || (taken->place && !event->down));
     case WINDOW_MOVE:
+        return any_button(taken) && moves(now, event);
     case WINDOW_WHEEL:
         return any_button(taken);
     case WINDOW_KEY:
@@ -108,9 +114,9 @@ static void take(UiInput *now, const WindowEvent *event, Taken *taken)
         take_button(now, event, taken);
         break;
     case WINDOW_MOVE:
+        taken->place |= moves(now, event);
         now->mouse[0] = (float)event->x;
         now->mouse[1] = (float)event->y;
-        taken->place = true;
         break;
     case WINDOW_WHEEL:
         now->wheel += (float)event->y;
@@ -169,7 +175,7 @@ void widget_input_next(WidgetInput *input)
 {
     Taken taken = {.text = false};
     forget(&input->now);
-    while (input->count > 0 && !must_wait(&taken, at(input, 0)))
+    while (input->count > 0 && !must_wait(&input->now, &taken, at(input, 0)))
         take_first(input, &taken);
 }
 

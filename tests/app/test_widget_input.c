@@ -67,6 +67,17 @@ static void two_clicks_in_one_picture(void **state)
     expect(false, 10, 21);
 }
 
+static void a_move_to_the_same_place_takes_no_picture(void **state)
+{
+    (void)state;
+    button(true, 7, 7);
+    move(7, 7);
+    button(false, 7, 7);
+    expect(true, 7, 7);
+    expect(false, 7, 7);
+    assert_int_equal(input.count, 0);
+}
+
 static void a_drag_in_one_picture(void **state)
 {
     (void)state;
@@ -153,6 +164,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(two_clicks_in_one_picture, begin),
+        cmocka_unit_test_setup(a_move_to_the_same_place_takes_no_picture, begin),
         cmocka_unit_test_setup(a_drag_in_one_picture, begin),
         cmocka_unit_test_setup(letters_and_keys_keep_their_order, begin),
         cmocka_unit_test_setup(a_held_modifier_comes_with_its_key, begin),
