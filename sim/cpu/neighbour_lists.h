@@ -2,10 +2,7 @@
 
    A list has the indices of all others with r < h in the order of the grid, itself not among them, filled up
    to whole LANES with the index that no particle has (the number of particles). A range of particles has its
-   lists in one piece of memory, which the thread that works on the range writes and reads.
-
-   Compressed lists against cell ranges that each pass tests again, against lists kept over steps: see
-   docs/performance.md. */
+   lists in one piece of memory, which the thread that works on the range writes and reads. */
 #ifndef SLOSH_NEIGHBOUR_LISTS_H
 #define SLOSH_NEIGHBOUR_LISTS_H
 
