@@ -29,6 +29,7 @@
 
 #include "sim/kernel/lattice.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -67,17 +68,29 @@ bool walls_create(Walls *walls, const double box_size[3], const bool open[3], do
                   double support_radius, const Kernel *density_kernel, const Lattice *lattice);
 void walls_destroy(Walls *walls);
 
-/* Whether a wall is nearer to x (box's frame, m) than `range`: what most of the fluid is asked, and no more.
- */
-static inline bool walls_near(const Walls *walls, const float x[3], float range)
+/* Where no wall is near: box's frame, m. */
+typedef struct WallsFar {
+    float low[3], high[3];
+} WallsFar;
+
+/* Of walls that are farther than `range`, m; of 0: within the box. */
+static inline WallsFar walls_far(const Walls *walls, float range)
 {
-    bool near = false;
+    WallsFar far;
     for (int a = 0; a < 3; a++) {
-        const float centred = a == 1 ? x[1] - walls->half_size[1] : x[a], half = walls->half_size[a];
         const bool wall = a < walls->dimensions && !walls->open[a];
-        near |= wall && (half + centred < range || half - centred < range);
+        const float half = walls->half_size[a];
+        far.low[a] = wall ? (a == 1 ? 0 : -half) + range : -INFINITY;
+        far.high[a] = wall ? (a == 1 ? 2 * half : half) - range : INFINITY;
     }
-    return near;
+    return far;
+}
+
+/* Whether a wall is near to x: what most of the fluid is asked, and no more. */
+static inline bool walls_near(const WallsFar *far, const float x[3])
+{
+    return (x[0] < far->low[0]) | (x[0] > far->high[0]) | (x[1] < far->low[1]) | (x[1] > far->high[1]) |
+           (x[2] < far->low[2]) | (x[2] > far->high[2]);
 }
 
 /* Adds up what the walls give at x (box's frame, m, inside the box), in the box's axes; false, and zero, when

@@ -14,6 +14,7 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end)
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
     const SolidStep *solids = drift->step->solids;
+    const WallsFar inside = walls_far(&cpu->constants->walls, 0);
     size_t held = 0;
     for (size_t i = begin; i < end; i++) {
         float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
@@ -21,7 +22,8 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end)
         box_advance(drift->step, x, v);
         if (solids)
             held += cpu_guard_solids(cpu, solids, before, x, v);
-        held += walls_guard(&cpu->constants->walls, x, v);
+        if (walls_near(&inside, x))
+            held += walls_guard(&cpu->constants->walls, x, v);
         if (cpu->constants->periodic.any)
             periodic_wrap(&cpu->constants->periodic, x);
         p->x[i] = x[0];

@@ -80,7 +80,7 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const Place at = place_of(args, i);
+    const Place at = {f8_splat(args->x[i]), f8_splat(args->y[i]), f8_splat(args->z[i])};
     const i8 self = i8_splat((int32_t)i);
     i8 coincident = i8_splat(0); /* counted down */
     int32_t *to = out->at;
@@ -97,6 +97,43 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
     }
     out->at = to;
     out->coincident -= i8_sum(coincident);
+}
+
+/* A square of LANES by LANES entries is turned. */
+SIMD_INLINE void turn(__m256i row[LANES])
+{
+    __m256i pair[LANES], four[LANES];
+    for (int k = 0; k < LANES; k += 2) {
+        pair[k] = _mm256_unpacklo_epi32(row[k], row[k + 1]);
+        pair[k + 1] = _mm256_unpackhi_epi32(row[k], row[k + 1]);
+    }
+    for (int k = 0; k < LANES; k += 4) {
+        four[k] = _mm256_unpacklo_epi64(pair[k], pair[k + 2]);
+        four[k + 1] = _mm256_unpackhi_epi64(pair[k], pair[k + 2]);
+        four[k + 2] = _mm256_unpacklo_epi64(pair[k + 1], pair[k + 3]);
+        four[k + 3] = _mm256_unpackhi_epi64(pair[k + 1], pair[k + 3]);
+    }
+    for (int k = 0; k < LANES / 2; k++) {
+        row[k] = _mm256_permute2x128_si256(four[k], four[k + 4], 0x20);
+        row[k + 4] = _mm256_permute2x128_si256(four[k], four[k + 4], 0x31);
+    }
+}
+
+/* Side by side: rows of LANES, as many as the longest has and up to whole LANES, with `none` past a list's
+   end. */
+SIMD_INLINE void interleave(const uint32_t *index, const Found *found, uint32_t rows, uint32_t none,
+                            uint32_t *to)
+{
+    for (uint32_t k = 0; k < rows; k += LANES) {
+        __m256i row[LANES];
+        for (int lane = 0; lane < LANES; lane++)
+            row[lane] = k < found->count[lane]
+                            ? (__m256i)i8_load((const int32_t *)index + found->first[lane] + k)
+                            : (__m256i)i8_splat((int32_t)none);
+        turn(row);
+        for (uint32_t lane = 0; lane < LANES; lane++)
+            i8_store((int32_t *)to + (k + lane) * LANES, (i8)row[lane]);
+    }
 }
 
 #endif

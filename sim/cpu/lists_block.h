@@ -53,6 +53,13 @@ SIMD_INLINE float away(const PairArgs *args, int axis, float d)
 #endif
 }
 
+/* The lists of a group as they were found, one behind the other, each filled up to whole LANES: where each
+   begins and how many entries it has. */
+typedef struct Found {
+    uint32_t first[LANES], count[LANES], used;
+    bool coincident;
+} Found;
+
 /* The list that is being written. */
 typedef struct Writer {
     int32_t *at;

@@ -61,4 +61,14 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
     out->at = to;
 }
 
+/* Side by side: rows of LANES, as many as the longest has, with `none` past a list's end. */
+static void interleave(const uint32_t *index, const Found *found, uint32_t rows, uint32_t none, uint32_t *to)
+{
+    for (int lane = 0; lane < LANES; lane++) {
+        const uint32_t *from = index + found->first[lane], count = found->count[lane];
+        for (uint32_t k = 0; k < rows; k++)
+            to[k * LANES + (uint32_t)lane] = k < count ? from[k] : none;
+    }
+}
+
 #endif

@@ -3,6 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Rows of a group of particles with so many neighbours in the mean. */
+static double rows_expected(double neighbours)
+{
+    return 1.2 * neighbours + 8;
+}
+
 static bool fit(ListMemory *memory, size_t indices)
 {
     if (indices > UINT32_MAX)
@@ -20,16 +26,18 @@ static bool fit(ListMemory *memory, size_t indices)
 bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neighbours, size_t *bytes)
 {
     lists->ranges = particles / LISTS_GRAIN + 1;
+    const size_t groups = particles / LANES + 1;
     lists->of_range = calloc(lists->ranges, sizeof *lists->of_range);
-    lists->first = calloc(particles + 1, sizeof *lists->first);
-    lists->count = calloc(particles + 1, sizeof *lists->count);
-    bool ok = lists->of_range && lists->first && lists->count;
+    lists->found = calloc(lists->ranges, sizeof *lists->found);
+    lists->first = calloc(groups, sizeof *lists->first);
+    lists->rows = calloc(groups, sizeof *lists->rows);
+    bool ok = lists->of_range && lists->found && lists->first && lists->rows;
     for (size_t r = 0; ok && r < lists->ranges; r++) {
         const size_t left = particles - r * LISTS_GRAIN, in_range = left < LISTS_GRAIN ? left : LISTS_GRAIN;
-        ok = fit(&lists->of_range[r], (size_t)((double)in_range * (1.2 * neighbours + 8)) + 1);
+        ok = fit(&lists->of_range[r], (size_t)((double)in_range * rows_expected(neighbours)) + LANES * LANES);
         *bytes += lists->of_range[r].room * sizeof(uint32_t);
     }
-    *bytes += 2 * particles * sizeof(uint32_t);
+    *bytes += 2 * groups * sizeof(uint32_t);
     return ok;
 }
 
@@ -37,14 +45,16 @@ void neighbour_lists_destroy(NeighbourLists *lists)
 {
     for (size_t r = 0; lists->of_range && r < lists->ranges; r++)
         free(lists->of_range[r].index);
+    for (size_t r = 0; lists->found && r < lists->ranges; r++)
+        free(lists->found[r].index);
     free(lists->of_range);
+    free(lists->found);
     free(lists->first);
-    free(lists->count);
+    free(lists->rows);
 }
 
-bool neighbour_lists_fit(NeighbourLists *lists, size_t range, size_t indices)
+bool neighbour_lists_fit(NeighbourLists *lists, ListMemory *memory, size_t indices)
 {
-    ListMemory *memory = &lists->of_range[range];
     if (indices <= memory->room || fit(memory, indices + indices / 2))
         return true;
     __atomic_store_n(&lists->full, true, __ATOMIC_RELAXED);

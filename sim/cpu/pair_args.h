@@ -7,8 +7,6 @@
 #include "sim/world/cell_rows.h"
 #include "sim/world/column.h"
 
-enum { LANES = 8 }; /* see sim/cpu/simd.h */
-
 /* Where the one stands whom lists are filled up with, m: its square is finite. */
 #define PAST 1e9F
 

@@ -43,7 +43,7 @@ static __attribute__((noinline, unused)) Separation separate(const PairArgs *arg
     for (int k = 0; k < LANES; k++)
         if (d.r2[k] < least * least) {
             float direction[3] = {0};
-            direction_of_ids(args->id[i], args->id[j[k]], args->constants->dimensions, direction);
+            direction_of_ids(args->id[i + (size_t)k], args->id[j[k]], args->constants->dimensions, direction);
             d.x[k] = direction[0] * least;
             d.y[k] = direction[1] * least;
             d.z[k] = direction[2] * least;

@@ -84,43 +84,80 @@ static size_t most_of(const Rows *rows)
     return most;
 }
 
-static void list_one(const PairArgs *args, size_t i, const Rows *rows, const Block *block, uint32_t *used)
+/* The list of particle i, behind those that the group has already. Empty when memory is short. */
+static void list_one(const PairArgs *args, size_t i, const Rows *rows, const Block *block, Found *found)
 {
     NeighbourLists *lists = args->lists;
-    const size_t range = i / LISTS_GRAIN;
-    lists->first[i] = *used;
-    lists->count[i] = 0;
-    if (!neighbour_lists_fit(lists, range,
-                             *used + (block ? (size_t)block->count : most_of(rows)) + 2 * LANES))
+    ListMemory *memory = &lists->found[i / LISTS_GRAIN];
+    const size_t lane = i % LANES, most = (block ? (size_t)block->count : most_of(rows)) + 2 * LANES;
+    if (!neighbour_lists_fit(lists, memory, found->used + most))
         return;
-    int32_t *const first = (int32_t *)lists->of_range[range].index + *used;
+    int32_t *const first = (int32_t *)memory->index + found->used;
     Writer out = {.at = first};
     if (block)
         list_block(args, i, block, &out);
     else
         list_rows(args, i, rows, &out);
-    const uint32_t count = (uint32_t)(out.at - first);
     i8_store(out.at, i8_splat((int32_t)args->count));
-    lists->count[i] = count | (out.coincident > 1 ? LISTS_COINCIDENT : 0);
-    *used += (count + LANES - 1) / LANES * LANES;
+    const uint32_t count = (uint32_t)(out.at - first);
+    found->first[lane] = found->used;
+    found->count[lane] = count;
+    found->coincident |= out.coincident > 1;
+    found->used += (count + LANES - 1) / LANES * LANES;
+}
+
+/* Lists of the group of particle i, found one by one, come to stand behind the `used` entries of its range.
+ */
+static void list_group(const PairArgs *args, size_t i, const Found *found, uint32_t *used)
+{
+    NeighbourLists *lists = args->lists;
+    ListMemory *memory = &lists->of_range[i / LISTS_GRAIN];
+    uint32_t rows = 0;
+    for (int lane = 0; lane < LANES; lane++)
+        rows = found->count[lane] > rows ? found->count[lane] : rows;
+    const uint32_t room = (rows + LANES - 1) / LANES * LANES * LANES;
+    lists->first[i / LANES] = *used;
+    lists->rows[i / LANES] = 0;
+    if (rows == 0 || !neighbour_lists_fit(lists, memory, (size_t)*used + room))
+        return;
+    interleave(lists->found[i / LISTS_GRAIN].index, found, rows, (uint32_t)args->count,
+               memory->index + *used);
+    lists->rows[i / LANES] = rows | (found->coincident ? LISTS_COINCIDENT : 0);
+    *used += rows * LANES;
+}
+
+typedef struct Making {
+    Found found;
+    uint32_t used; /* entries of the range's memory */
+} Making;
+
+/* Of the particles [begin, end), those of one cell or a part of them. Boundary particles have no lists. */
+static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last, Making *making)
+{
+    const uint32_t cell = args->cell[begin];
+    const bool aside = cell == args->constants->cells.count; /* nobody sees those */
+    Rows rows = {.count = 0};
+    Block block;
+    if (!aside)
+        rows_of(args, cell, &rows);
+    const bool fits = block_make(args, &rows, begin, end, &block);
+    for (size_t i = begin; i < end; i++) {
+        if (!aside && args->fluid[i] < FLUIDS_MAX)
+            list_one(args, i, &rows, fits ? &block : NULL, &making->found);
+        if ((last && i + 1 == end) || (i + 1) % LANES == 0) {
+            list_group(args, i, &making->found, &making->used);
+            making->found = (Found){.used = 0};
+        }
+    }
 }
 
 /* Those of one range, from its first particle on. */
 PAIR_LOOP(lists)
 {
-    Block block;
-    Rows rows;
-    uint32_t used = 0;
+    Making making = {.used = 0};
     for (size_t i = begin, stop; i < end; i = stop) {
-        const uint32_t cell = args->cell[i];
-        if (cell == args->constants->cells.count) /* set aside, and all that follow */
-            return;
-        for (stop = i; stop < end && args->cell[stop] == cell;)
+        for (stop = i + 1; stop < end && args->cell[stop] == args->cell[i];)
             stop++;
-        rows_of(args, cell, &rows);
-        const bool fits = block_make(args, &rows, i, stop, &block);
-        for (size_t k = i; k < stop; k++)
-            if (args->fluid[k] < FLUIDS_MAX)
-                list_one(args, k, &rows, fits ? &block : NULL, &used);
+        list_cell(args, i, stop, stop == end, &making);
     }
 }

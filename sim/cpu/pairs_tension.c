@@ -15,13 +15,14 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
     const f8 wide = f8_splat(h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 repulsion = f8_splat(h * h * h * h * h * h / 64);
 
-    for (size_t i = begin; i < end; i++) {
+    GROUPS(i, begin, end)
+    {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
-        const f8 ti = f8_splat(args->tension[i]), fi = f8_splat(args->kind[i]);
+        const f8 ti = f8_load(args->tension + i), fi = f8_load(args->kind + i);
         f8 fx = f8_splat(0), fy = fx, fz = fx;
         NEIGHBOURS (near, j) {
-            const Separation d = separation(args, at, near, j);
+            const Separation d = separation(args, at, j);
             const i8 same = (d.r2 < h2) & (d.r2 >= least2) & (f8_gather(args->kind, j) == fi);
             if (!i8_bits(same))
                 continue;
@@ -32,10 +33,10 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
             fy -= pull * d.y;
             fz -= pull * d.z;
         }
-        const float scale = 0.5f * args->volume[i];
-        args->fx[i] += scale * f8_sum(fx);
-        args->fy[i] += scale * f8_sum(fy);
-        args->fz[i] += scale * f8_sum(fz);
+        const f8 scale = f8_splat(0.5f) * f8_load(args->volume + i);
+        lanes_add(args->fx, i, begin, end, scale * fx);
+        lanes_add(args->fy, i, begin, end, scale * fy);
+        lanes_add(args->fz, i, begin, end, scale * fz);
     }
 }
 
@@ -46,14 +47,16 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
     const Constants *s = args->constants;
     const float h = s->support_radius, dims = (float)s->dimensions;
     const f8 h2 = f8_splat(h * h), inner = f8_splat(dims * h * h), outer = f8_splat(dims + 4);
+    const f8 colour = f8_splat(s->colour);
 
-    for (size_t i = begin; i < end; i++) {
+    GROUPS(i, begin, end)
+    {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
-        const f8 fi = f8_splat(args->kind[i]);
+        const f8 fi = f8_load(args->kind + i);
         f8 nx = f8_splat(0), ny = nx, nz = nx, bend = nx;
         NEIGHBOURS (near, j) {
-            const Separation d = separation(args, at, near, j);
+            const Separation d = separation(args, at, j);
             const f8 t = h2 - d.r2;
             const i8 same = (d.r2 < h2) & (f8_gather(args->kind, j) == fi);
             const f8 volume = f8_masked(same, motion(args, j).w * t);
@@ -62,15 +65,15 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
             nz -= volume * t * d.z;
             bend -= volume * (inner - outer * d.r2);
         }
-        const float n[3] = {s->colour * f8_sum(nx), s->colour * f8_sum(ny), s->colour * f8_sum(nz)};
-        const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        if (length * h < 0.3f)
-            continue;
-        const float bent = f8_sum(bend) - args->volume[i] * h * h * (dims * h * h); /* its own too */
-        const float pull = -args->tension[i] * s->colour * bent * args->volume[i] / length;
-        args->fx[i] += pull * n[0];
-        args->fy[i] += pull * n[1];
-        args->fz[i] += pull * n[2];
+        const f8 volume = f8_load(args->volume + i);
+        nx *= colour, ny *= colour, nz *= colour;
+        const f8 length = f8_sqrt(nx * nx + ny * ny + nz * nz);
+        const f8 bent = bend - volume * h2 * inner; /* its own too */
+        const f8 pull = f8_masked(length * f8_splat(h) >= f8_splat(0.3f),
+                                  -f8_load(args->tension + i) * colour * bent * volume / length);
+        lanes_add(args->fx, i, begin, end, pull * nx);
+        lanes_add(args->fy, i, begin, end, pull * ny);
+        lanes_add(args->fz, i, begin, end, pull * nz);
     }
 }
 

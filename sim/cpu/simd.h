@@ -1,5 +1,4 @@
-/* One wide type: eight floats, whatever the machine has. Sums therefore run in eight lanes and in one order
-   on every x86-64, with 128-bit registers or with 256-bit ones, to the same bits.
+/* One wide type: eight floats, whatever the machine has: two registers of 128 bits or one of 256.
 
    Arithmetic is GCC's and clang's vector extension; what it lacks is below. */
 #ifndef SLOSH_SIMD_H
@@ -154,12 +153,6 @@ SIMD_INLINE int i8_bits(i8 mask)
 }
 
 SIMD_INLINE int i8_sum(i8 a)
-{
-    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
-}
-
-/* The sum of the lanes, always in this order. */
-SIMD_INLINE float f8_sum(f8 a)
 {
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }

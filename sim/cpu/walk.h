@@ -1,40 +1,60 @@
 /* The walk over neighbours: the one that all pair loops have. For the files that are compiled once for each
-   instruction set. */
+   instruction set.
+
+   LANES particles walk their lists side by side, a lane each: a particle's sum is in the order of its list,
+   at any width, and no sum over lanes is needed. */
 #ifndef SLOSH_WALK_H
 #define SLOSH_WALK_H
 
 #include "sim/cpu/simd.h"
 
-/* Where sums stand: in all lanes the same. */
+/* GROUPS (i, begin, end) { ... }: for each LANES particles i, i + 1, ... some of which are in [begin, end).
+ */
+#define GROUPS(i, begin, end) for (size_t i = (begin) / LANES * LANES; i < (end); i += LANES)
+
+/* Results of the group i, of those that are in [begin, end): others of it may be another thread's. */
+SIMD_INLINE void lanes_store(float *column, size_t i, size_t begin, size_t end, f8 value)
+{
+    if (i >= begin && i + LANES <= end)
+        f8_store(column + i, value);
+    else
+        for (size_t k = 0; k < LANES; k++)
+            if (i + k >= begin && i + k < end)
+                column[i + k] = value[k];
+}
+
+SIMD_INLINE void lanes_add(float *column, size_t i, size_t begin, size_t end, f8 value)
+{
+    lanes_store(column, i, begin, end, f8_load(column + i) + value);
+}
+
+/* Where the particles of a group stand. */
 typedef struct Place {
     f8 x, y, z;
 } Place;
 
-SIMD_INLINE Place place_at(const float x[3])
-{
-    return (Place){f8_splat(x[0]), f8_splat(x[1]), f8_splat(x[2])};
-}
-
 SIMD_INLINE Place place_of(const PairArgs *args, size_t i)
 {
-    return (Place){f8_splat(args->x[i]), f8_splat(args->y[i]), f8_splat(args->z[i])};
+    return (Place){f8_load(args->x + i), f8_load(args->y + i), f8_load(args->z + i)};
 }
 
-/* The particle's own list. */
+/* The lists of a group. */
 typedef struct Near {
     const uint32_t *first, *end;
-    bool coincident; /* another one stands where it stands, nearly */
+    bool coincident; /* where one of them stands stands another one, nearly */
 } Near;
 
 SIMD_INLINE Near near_of(const PairArgs *args, size_t i)
 {
     const NeighbourLists *lists = args->lists;
-    const uint32_t *first = lists->of_range[i / LISTS_GRAIN].index + lists->first[i], count = lists->count[i];
-    return (Near){first, first + (count & ~(uint32_t)LISTS_COINCIDENT), (count & LISTS_COINCIDENT) != 0};
+    const uint32_t *first = lists->of_range[i / LISTS_GRAIN].index + lists->first[i / LANES],
+                   rows = lists->rows[i / LANES];
+    return (Near){first, first + LANES * (rows & ~(uint32_t)LISTS_COINCIDENT),
+                  (rows & LISTS_COINCIDENT) != 0};
 }
 
-/* NEIGHBOURS (near, j) { const Separation d = separation(args, at, near, j); ... }: for each eight
-   neighbours; j points to their indices. */
+/* NEIGHBOURS (near, j) { const Separation d = separation(args, at, j); ... }: for the next neighbour of each;
+   j points to their indices. */
 #define NEIGHBOURS(near, j) for (const uint32_t *j = (near).first; j < (near).end; j += LANES)
 
 #ifdef PAIRS_PERIODIC
@@ -45,17 +65,17 @@ SIMD_INLINE f8 shortest(f8 d, float size, float inverse)
 }
 #endif
 
-/* Eight neighbours: x_ij = x_i - x_j, m; r^2, and of lanes past the list's end far more than h^2; p_j V_j^2.
+/* A neighbour each: x_ij = x_i - x_j, m; r^2, and of lanes past their list's end far more than h^2; p_j
+ * V_j^2.
  */
 typedef struct Separation {
     f8 x, y, z, r2, term;
 } Separation;
 
-SIMD_INLINE Separation separation(const PairArgs *args, Place at, Near near, const uint32_t *j)
+SIMD_INLINE Separation separation(const PairArgs *args, Place at, const uint32_t *j)
 {
     const f8x4 p = f8_load4(args->place, j);
     Separation d = {.x = at.x - p.x, .y = at.y - p.y, .z = at.z - p.z, .term = p.w};
-    (void)near;
 #ifdef PAIRS_PERIODIC
     const float *size = args->fold, *inverse = args->fold_inverse;
     d.x = shortest(d.x, size[0], inverse[0]);
@@ -64,7 +84,7 @@ SIMD_INLINE Separation separation(const PairArgs *args, Place at, Near near, con
 #endif
     d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
 #ifdef PAIRS_PERIODIC
-    const i8 there = lane_index < i8_splat((int32_t)(near.end - j));
+    const i8 there = i8_load((const int32_t *)j) != i8_splat((int32_t)args->count);
     d.r2 = f8_select(there, d.r2, f8_splat(PAST));
 #endif
     return d;

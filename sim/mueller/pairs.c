@@ -7,19 +7,20 @@
 SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, const bool poly6)
 {
     const float h = args->constants->support_radius;
-    const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1);
+    const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1), scale = f8_splat(args->constants->kernel_scale);
 
-    for (size_t i = begin; i < end; i++) {
+    GROUPS(i, begin, end)
+    {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         f8 sum = f8_splat(0);
         NEIGHBOURS (near, j) {
-            const Separation d = separation(args, at, near, j);
+            const Separation d = separation(args, at, j);
             const f8 t = poly6 ? f8_positive(one - d.r2 * inverse_h * inverse_h)
                                : closeness(f8_sqrt(d.r2) * inverse_h);
             sum += t * t * t;
         }
-        args->number_density[i] = args->constants->kernel_scale * (1 + f8_sum(sum)); /* 1: its own */
+        lanes_store(args->number_density, i, begin, end, scale * (one + sum)); /* 1: its own */
     }
 }
 
@@ -40,19 +41,20 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), pressure_scale = f8_splat(s->pressure_scale);
-    const float viscosity_scale = s->viscosity_scale * (many ? 0.5f : s->viscosity[0]);
+    const f8 viscosity_scale = f8_splat(s->viscosity_scale * (many ? 0.5f : s->viscosity[0]));
 
-    for (size_t i = begin; i < end; i++) {
+    GROUPS(i, begin, end)
+    {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
-        const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
-        const f8 pi = f8_splat(args->pressure_term[i]);
-        const f8 mi = f8_splat(viscous && many ? args->viscosity[i] : 0);
-        const f8 drag_scale = f8_splat(viscosity_scale * args->volume[i]);
+        const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
+        const f8 pi = f8_load(args->pressure_term + i);
+        const f8 mi = viscous && many ? f8_load(args->viscosity + i) : f8_splat(0);
+        const f8 drag_scale = viscosity_scale * f8_load(args->volume + i);
         f8 fx = f8_splat(0), fy = fx, fz = fx;
 
         NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, near, j);
+            Separation d = separation(args, at, j);
             if (__builtin_expect(near.coincident, 0))
                 d = separate(args, i, j, d);
 
@@ -71,9 +73,9 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
                 fz += drag * (v.z - wi);
             }
         }
-        args->fx[i] = f8_sum(fx);
-        args->fy[i] = f8_sum(fy);
-        args->fz[i] = f8_sum(fz);
+        lanes_store(args->fx, i, begin, end, fx);
+        lanes_store(args->fy, i, begin, end, fy);
+        lanes_store(args->fz, i, begin, end, fz);
     }
 }
 

@@ -7,13 +7,12 @@ PAIR_LOOPS(mueller_density);
 PAIR_LOOPS(mueller_force);
 
 /* The sum of the pairs stands in `volume`. */
-static void finish_density(Cpu *cpu, size_t i)
+static void finish_density(Cpu *cpu, const WallsFar *far, size_t i)
 {
     const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
     const float x[3] = {p->x[i], p->y[i], p->z[i]};
-    const bool by_wall = walls_near(&s->walls, x, s->walls.range);
-    const float n = p->volume[i] + (by_wall ? walls_number_density(&s->walls, x) : 0);
+    const float n = p->volume[i] + (walls_near(far, x) ? walls_number_density(&s->walls, x) : 0);
     const float pressure = mueller_state(s, p->fluid[i], n / s->rest_number_density - 1);
 
     p->volume[i] = 1 / n;
@@ -22,11 +21,18 @@ static void finish_density(Cpu *cpu, size_t i)
     cpu_fill_terms(cpu, i);
 }
 
+static WallsFar walls_far_of(const CpuRange *range)
+{
+    const Walls *walls = &range->cpu->constants->walls;
+    return walls_far(walls, walls->range);
+}
+
 static void density_body(const CpuRange *range)
 {
+    const WallsFar far = walls_far_of(range);
     cpu_pairs(range, &mueller_density);
     for (size_t i = range->begin; i < range->end; i++)
-        finish_density(range->cpu, i);
+        finish_density(range->cpu, &far, i);
 }
 
 /* The force of the walls on particle i: p_i V_i^2 s - V_i V0 rho0 m g with the sums of sim/box/wall.h. The
@@ -51,14 +57,12 @@ static void wall_force(const Cpu *cpu, size_t i, const float g[3], const WallSum
     }
 }
 
-static void add_walls(const CpuRange *range, size_t i)
+static void add_walls(const CpuRange *range, const float x[3], size_t i)
 {
     const Cpu *cpu = range->cpu;
     const CpuParticles *p = &cpu->now;
-    const float x[3] = {p->x[i], p->y[i], p->z[i]};
     WallSums sums;
-    if (!walls_near(&cpu->constants->walls, x, cpu->constants->walls.range) ||
-        !walls_at(&cpu->constants->walls, x, &sums))
+    if (!walls_at(&cpu->constants->walls, x, &sums))
         return;
     float g[3], force[3];
     apparent_gravity_at(range->input->apparent, x, g);
@@ -70,9 +74,14 @@ static void add_walls(const CpuRange *range, size_t i)
 
 static void force_body(const CpuRange *range)
 {
+    const CpuParticles *p = &range->cpu->now;
+    const WallsFar far = walls_far_of(range);
     cpu_pairs(range, &mueller_force);
-    for (size_t i = range->begin; i < range->end; i++)
-        add_walls(range, i);
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float x[3] = {p->x[i], p->y[i], p->z[i]};
+        if (walls_near(&far, x))
+            add_walls(range, x, i);
+    }
     cpu_force_end(range);
 }
 

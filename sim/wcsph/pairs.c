@@ -4,19 +4,22 @@
      force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...      conserves the energy that goes with that rate */
 #include "sim/wcsph/pair_kernel.h"
 
-/* m^-1 b of the symmetric m = xx yy zz xy yz zx; 0 where det (3 m / trace) is below a quarter, since
-   neighbours hardly span the space then: all around it is 1, in the lattice's own corner 0.77. */
-static void renormalise(const float m[6], const float b[3], float out[3])
+/* m^-1 b of the symmetric m; 0 where det (3 m / trace) is below a quarter, since neighbours hardly span the
+   space then: all around it is 1, in the lattice's own corner 0.77. */
+typedef struct Symmetric {
+    f8 xx, yy, zz, xy, yz, zx;
+} Symmetric;
+
+SIMD_INLINE Place renormalise(const Symmetric m, const Place b)
 {
-    const float cxx = m[1] * m[2] - m[4] * m[4], cyy = m[0] * m[2] - m[5] * m[5],
-                czz = m[0] * m[1] - m[3] * m[3];
-    const float cxy = m[4] * m[5] - m[3] * m[2], cyz = m[3] * m[5] - m[4] * m[0],
-                czx = m[3] * m[4] - m[5] * m[1];
-    const float det = m[0] * cxx + m[3] * cxy + m[5] * czx, mean = (m[0] + m[1] + m[2]) / 3;
-    const float scale = det > 0.25f * (mean * mean * mean) ? 1 / det : 0;
-    out[0] = scale * (cxx * b[0] + cxy * b[1] + czx * b[2]);
-    out[1] = scale * (cxy * b[0] + cyy * b[1] + cyz * b[2]);
-    out[2] = scale * (czx * b[0] + cyz * b[1] + czz * b[2]);
+    const f8 cxx = m.yy * m.zz - m.yz * m.yz, cyy = m.xx * m.zz - m.zx * m.zx,
+             czz = m.xx * m.yy - m.xy * m.xy;
+    const f8 cxy = m.yz * m.zx - m.xy * m.zz, cyz = m.xy * m.zx - m.yz * m.xx,
+             czx = m.xy * m.yz - m.zx * m.yy;
+    const f8 det = m.xx * cxx + m.xy * cxy + m.zx * czx, mean = (m.xx + m.yy + m.zz) / f8_splat(3);
+    const f8 scale = f8_masked(det > f8_splat(0.25f) * (mean * mean * mean), f8_splat(1) / det);
+    return (Place){scale * (cxx * b.x + cxy * b.y + czx * b.z), scale * (cxy * b.x + cyy * b.y + cyz * b.z),
+                   scale * (czx * b.x + cyz * b.y + czz * b.z)};
 }
 
 /* The gradient of relative density within a fluid, exact where that is linear: (sum F x x^T)^-1 sum F (e_i -
@@ -28,37 +31,37 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     const WcsphBlock *w = wcsph_constants(s);
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const float scale = w->gradient_scale / s->rest_number_density; /* m is 1 in the lattice */
+    const f8 scale = f8_splat(w->gradient_scale / s->rest_number_density); /* m is 1 in the lattice */
     const f8 first_solid = f8_splat(FLUIDS_MAX);
 
-    for (size_t i = begin; i < end; i++) {
+    GROUPS(i, begin, end)
+    {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
-        const f8 ri = f8_splat(args->own[RELATIVE][i]), fi = f8_splat(args->kind[i]);
-        int solid = 0; /* whether a boundary particle is in reach */
-        f8 xx = f8_splat(0), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx, bx = xx, by = xx, bz = xx;
+        const f8 ri = f8_load(args->own[RELATIVE] + i), fi = f8_load(args->kind + i);
+        i8 solid = i8_splat(0); /* whether a boundary particle is in reach */
+        const f8 zero = f8_splat(0);
+        Symmetric m = {zero, zero, zero, zero, zero, zero};
+        Place g = {zero, zero, zero};
 
         NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, near, j);
+            Separation d = separation(args, at, j);
             const i8 seen = d.r2 < h2;
             const f8 kind = f8_gather(args->kind, j);
-            solid |= i8_bits(seen & (kind >= first_solid));
+            solid |= seen & (kind >= first_solid);
             const i8 same = seen & (d.r2 >= least2) & (kind == fi);
-            const f8 f = f8_masked(same, shape(f8_sqrt(d.r2) * inverse_h, kernel));
+            const f8 f = scale * f8_masked(same, shape(f8_sqrt(d.r2) * inverse_h, kernel));
             const f8 fx = f * d.x, fy = f * d.y, fz = f * d.z, de = ri - f8_gather(args->own[RELATIVE], j);
-            xx += fx * d.x, yy += fy * d.y, zz += fz * d.z;
-            xy += fx * d.y, yz += fy * d.z, zx += fz * d.x;
-            bx += fx * de, by += fy * de, bz += fz * de;
+            m.xx += fx * d.x, m.yy += fy * d.y, m.zz += fz * d.z;
+            m.xy += fx * d.y, m.yz += fy * d.z, m.zx += fz * d.x;
+            g.x += fx * de, g.y += fy * de, g.z += fz * de;
         }
-        float m[6] = {f8_sum(xx), f8_sum(yy), f8_sum(zz), f8_sum(xy), f8_sum(yz), f8_sum(zx)}, slope[3];
-        const float b[3] = {scale * f8_sum(bx), scale * f8_sum(by), scale * f8_sum(bz)};
-        for (int k = 0; k < 6; k++)
-            m[k] *= scale;
         if (s->dimensions == 2)
-            m[2] = 0.5f * (m[0] + m[1]);
-        renormalise(m, b, slope);
-        for (int k = 0; k < 3; k++)
-            args->own[SLOPE + k][i] = solid ? 0 : slope[k];
+            m.zz = f8_splat(0.5f) * (m.xx + m.yy);
+        g = renormalise(m, g);
+        lanes_store(args->own[SLOPE], i, begin, end, f8_masked(~solid, g.x));
+        lanes_store(args->own[SLOPE + 1], i, begin, end, f8_masked(~solid, g.y));
+        lanes_store(args->own[SLOPE + 2], i, begin, end, f8_masked(~solid, g.z));
     }
 }
 
@@ -74,19 +77,20 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
     const f8 diffusion = f8_splat(w->diffusion), half = f8_splat(0.5f);
 
-    for (size_t i = begin; i < end; i++) {
+    GROUPS(i, begin, end)
+    {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
-        const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
-        const f8 ri = f8_splat(diffusive ? args->own[RELATIVE][i] : 0),
-                 fi = f8_splat(diffusive ? args->kind[i] : 0);
-        const f8 gx = f8_splat(diffusive ? args->own[SLOPE][i] : 0),
-                 gy = f8_splat(diffusive ? args->own[SLOPE + 1][i] : 0),
-                 gz = f8_splat(diffusive ? args->own[SLOPE + 2][i] : 0);
+        const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
+        const f8 none = f8_splat(0), ri = diffusive ? f8_load(args->own[RELATIVE] + i) : none,
+                 fi = diffusive ? f8_load(args->kind + i) : none;
+        const f8 gx = diffusive ? f8_load(args->own[SLOPE] + i) : none,
+                 gy = diffusive ? f8_load(args->own[SLOPE + 1] + i) : none,
+                 gz = diffusive ? f8_load(args->own[SLOPE + 2] + i) : none;
         f8 sum = f8_splat(0);
 
         NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, near, j);
+            Separation d = separation(args, at, j);
             const f8 f = f8_masked(d.r2 >= least2, shape(f8_sqrt(d.r2) * inverse_h, kernel));
             const f8x4 v = motion(args, j);
             f8 flow = (ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z;
@@ -99,7 +103,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
             }
             sum += f * flow;
         }
-        args->fx[i] = -w->gradient_scale * f8_sum(sum);
+        lanes_store(args->fx, i, begin, end, f8_splat(-w->gradient_scale) * sum);
     }
 }
 
@@ -119,20 +123,22 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
     const WcsphBlock *w = wcsph_constants(s);
     const float h = s->support_radius;
     const f8 inverse_h = f8_splat(1 / h);
-    const f8 soft = f8_splat(h * h / 400), scale = f8_splat(w->radial_friction);
+    const f8 gradient = f8_splat(w->gradient_scale), soft = f8_splat(h * h / 400),
+             scale = f8_splat(w->radial_friction);
 
-    for (size_t i = begin; i < end; i++) {
+    GROUPS(i, begin, end)
+    {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
-        const f8 ui = f8_splat(args->vx[i]), vi = f8_splat(args->vy[i]), wi = f8_splat(args->vz[i]);
-        const f8 pi = f8_splat(args->pressure_term[i]), volume = f8_splat(args->volume[i]);
-        const f8 mi = f8_splat(args->viscosity ? args->viscosity[i] : s->viscosity[0]),
-                 ai = f8_splat(args->own[ARTIFICIAL] ? args->own[ARTIFICIAL][i]
-                                                     : w->wcsph_fluids[0].artificial_viscosity);
+        const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
+        const f8 pi = f8_load(args->pressure_term + i), volume = f8_load(args->volume + i);
+        const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]),
+                 ai = args->own[ARTIFICIAL] ? f8_load(args->own[ARTIFICIAL] + i)
+                                            : f8_splat(w->wcsph_fluids[0].artificial_viscosity);
         f8 fx = f8_splat(0), fy = fx, fz = fx, ex = fx, ey = fx, ez = fx, full = fx, dense = fx;
 
         NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, near, j);
+            Separation d = separation(args, at, j);
             if (__builtin_expect(near.coincident, 0))
                 d = separate(args, i, j, d);
 
@@ -164,15 +170,15 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
             fy += push * d.y;
             fz += push * d.z;
         }
-        args->fx[i] = w->gradient_scale * f8_sum(fx);
-        args->fy[i] = w->gradient_scale * f8_sum(fy);
-        args->fz[i] = w->gradient_scale * f8_sum(fz);
+        lanes_store(args->fx, i, begin, end, gradient * fx);
+        lanes_store(args->fy, i, begin, end, gradient * fy);
+        lanes_store(args->fz, i, begin, end, gradient * fz);
         if (shifts) {
-            args->own[UNEVEN][i] = w->gradient_scale * f8_sum(ex);
-            args->own[UNEVEN + 1][i] = w->gradient_scale * f8_sum(ey);
-            args->own[UNEVEN + 2][i] = w->gradient_scale * f8_sum(ez);
-            args->own[FULL][i] = w->gradient_scale * f8_sum(full);
-            args->own[DENSE][i] = s->kernel_scale * (1 + f8_sum(dense));
+            lanes_store(args->own[UNEVEN], i, begin, end, gradient * ex);
+            lanes_store(args->own[UNEVEN + 1], i, begin, end, gradient * ey);
+            lanes_store(args->own[UNEVEN + 2], i, begin, end, gradient * ez);
+            lanes_store(args->own[FULL], i, begin, end, gradient * full);
+            lanes_store(args->own[DENSE], i, begin, end, f8_splat(s->kernel_scale) * (f8_splat(1) + dense));
         }
     }
 }

@@ -14,24 +14,73 @@ SIMD_INLINE f8 greater(f8 a, f8 b)
     return f8_select(a > b, a, b);
 }
 
-/* Whom an image sees its particle sees too, since it is nearer to all on its own side of the wall; and the
-   image sees the particle. */
-typedef struct Itself {
-    uint32_t j[LANES];
-} Itself;
+/* An image of each particle of a group, of those that have one: where it stands, and its mirror's signs. Whom
+   an image sees its particle sees too, since it is nearer to all on its own side of the wall; and the image
+   sees the particle. */
+typedef struct Mirrored {
+    Place at, sign;
+} Mirrored;
 
-static Itself itself(const PairArgs *args, size_t i)
+/* What the images of a group are: of each particle its own first, as wall_images has it. */
+typedef struct Images {
+    int most; /* of a particle */
+    int count[LANES];
+    Image of[LANES][IMAGES_MAX];
+} Images;
+
+/* Of the walls' images: wall_images rounds h. */
+static WallsFar out_of_sight(const Constants *s)
 {
-    Itself one;
-    for (int k = 0; k < LANES; k++)
-        one.j[k] = (uint32_t)args->count;
-    one.j[0] = (uint32_t)i;
-    return one;
+    return walls_far(&s->walls, 1.001f * s->support_radius);
 }
 
-SIMD_INLINE Near near_itself(const Itself *one)
+/* False where no particle of the group has any. */
+static bool images_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
+                      Images *images)
 {
-    return (Near){one->j, one->j + 1, false};
+    const Constants *s = args->constants;
+    images->most = 0;
+    for (size_t k = 0; k < LANES; k++) {
+        images->count[k] = 0;
+        if (i + k < begin || i + k >= end)
+            continue;
+        const float x[3] = {args->x[i + k], args->y[i + k], args->z[i + k]};
+        if (walls_near(far, x))
+            images->count[k] = wall_images(&s->walls, x, s->support_radius, images->of[k]);
+        images->most = images->count[k] > images->most ? images->count[k] : images->most;
+    }
+    return images->most > 1;
+}
+
+/* The m-th of each; far from all where there is none. */
+static Mirrored mirrored(const Images *images, int m)
+{
+    float at[3][LANES], sign[3][LANES];
+    for (int lane = 0; lane < LANES; lane++)
+        for (int k = 0; k < 3; k++) {
+            const bool there = m < images->count[lane];
+            at[k][lane] = there ? images->of[lane][m].x[k] : -PAST;
+            sign[k][lane] = there ? images->of[lane][m].sign[k] : 0;
+        }
+    return (Mirrored){{f8_load(at[0]), f8_load(at[1]), f8_load(at[2])},
+                      {f8_load(sign[0]), f8_load(sign[1]), f8_load(sign[2])}};
+}
+
+typedef struct Themselves {
+    uint32_t j[LANES];
+} Themselves;
+
+static Themselves themselves(const PairArgs *args, size_t i)
+{
+    Themselves own;
+    for (uint32_t k = 0; k < LANES; k++)
+        own.j[k] = i + k < args->count ? (uint32_t)i + k : (uint32_t)args->count;
+    return own;
+}
+
+SIMD_INLINE Near near_themselves(const Themselves *own)
+{
+    return (Near){own->j, own->j + LANES, false};
 }
 
 /* The kernel's gradient over q, not less than at a spacing `apart` for what is nearer: kernels let go of
@@ -42,19 +91,18 @@ SIMD_INLINE f8 image_shape(f8 q, f8 apart, const ShapeKernel kernel)
     return shape(wide, kernel) * (wide / q);
 }
 
-/* Sum of F v_ij . x_ij over what the image of particle i finds. */
-SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Near near, const Image *image,
+/* Sum of F v_ij . x_ij over what the images of the group i find. */
+SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Near near, const Mirrored *image,
                           const ShapeKernel kernel)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
     const f8 apart = f8_splat(args->constants->spacing / h);
-    const Place at = place_at(image->x);
-    const f8 ui = f8_splat(image->sign[0] * args->vx[i]), vi = f8_splat(image->sign[1] * args->vy[i]),
-             wi = f8_splat(image->sign[2] * args->vz[i]);
+    const f8 ui = image->sign.x * f8_load(args->vx + i), vi = image->sign.y * f8_load(args->vy + i),
+             wi = image->sign.z * f8_load(args->vz + i);
     f8 sum = f8_splat(0);
     NEIGHBOURS (near, j) {
-        const Separation d = separation(args, at, near, j);
+        const Separation d = separation(args, image->at, j);
         const f8 f = image_shape(f8_sqrt(greater(d.r2, least2)) * inverse_h, apart, kernel);
         const f8x4 v = motion(args, j);
         sum += f * ((ui - v.x) * d.x + (vi - v.y) * d.y + (wi - v.z) * d.z);
@@ -69,20 +117,42 @@ typedef struct Rise {
     f8 g0, gx, gy, gz, inverse_layer;
 } Rise;
 
-static void rise_of(const PairArgs *args, size_t i, const Image *image, const float g[3], Rise *rise)
+/* What gravity makes of a layer: of each particle of a group rho0 V0^2 g, and one over its length times the
+   spacing. */
+typedef struct Layers {
+    Place pull;
+    f8 inverse;
+} Layers;
+
+static Layers layers_of(const PairArgs *args, size_t i, size_t begin, size_t end)
 {
     const Constants *s = args->constants;
-    const float x[3] = {args->x[i], args->y[i], args->z[i]};
-    const float weight =
-        s->density[args->fluid[i]] / (s->rest_number_density * s->rest_number_density); /* rho0 V0^2 */
-    const float layer = weight * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    float first = 0, along[3];
-    for (int k = 0; k < 3; k++) {
-        along[k] = image->sign[k] < 0 ? weight * g[k] : 0;
-        first += along[k] * (x[k] - image->x[k]);
+    float pull[3][LANES] = {{0}}, inverse[LANES] = {0};
+    for (size_t k = 0; k < LANES; k++) {
+        if (i + k < begin || i + k >= end)
+            continue;
+        const float x[3] = {args->x[i + k], args->y[i + k], args->z[i + k]};
+        float g[3];
+        apparent_gravity_at(args->gravity, x, g);
+        const float weight = s->density[args->fluid[i + k]] /
+                             (s->rest_number_density * s->rest_number_density); /* rho0 V0^2 */
+        const float layer = weight * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+        for (int a = 0; a < 3; a++)
+            pull[a][k] = weight * g[a];
+        inverse[k] = layer > 0 ? 1 / layer : 0;
     }
-    *rise = (Rise){f8_splat(first), f8_splat(2 * along[0]), f8_splat(2 * along[1]), f8_splat(2 * along[2]),
-                   f8_splat(layer > 0 ? 1 / layer : 0)};
+    return (Layers){{f8_load(pull[0]), f8_load(pull[1]), f8_load(pull[2])}, f8_load(inverse)};
+}
+
+static Rise rise_of(const PairArgs *args, size_t i, const Mirrored *image, const Layers *layers)
+{
+    const f8 zero = f8_splat(0), two = f8_splat(2);
+    const Place x = place_of(args, i);
+    const f8 gx = f8_masked(image->sign.x < zero, layers->pull.x),
+             gy = f8_masked(image->sign.y < zero, layers->pull.y),
+             gz = f8_masked(image->sign.z < zero, layers->pull.z);
+    return (Rise){gx * (x.x - image->at.x) + gy * (x.y - image->at.y) + gz * (x.z - image->at.z), two * gx,
+                  two * gy, two * gz, layers->inverse};
 }
 
 /* Of the image of j; it turns no push into a pull. */
@@ -93,21 +163,20 @@ SIMD_INLINE f8 image_term(const Rise rise, f8 term, Separation d)
     return greater(term + share * more, lesser(term, zero));
 }
 
-/* Sums over what the image of particle i finds, in its mirror's axes. */
+/* Sums over what the images of a group find, in their mirrors' axes. */
 typedef struct Found {
     f8 fx, fy, fz, ex, ey, ez, full, dense;
 } Found;
 
-SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, const Image *image,
+SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, const Mirrored *image,
                             const Rise rise, const ShapeKernel kernel, const bool shifts, Found *sum)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
     const f8 apart = f8_splat(args->constants->spacing / h);
-    const Place at = place_at(image->x);
-    const f8 pi = f8_splat(args->pressure_term[i]);
+    const f8 pi = f8_load(args->pressure_term + i);
     NEIGHBOURS (near, j) {
-        const Separation d = separation(args, at, near, j);
+        const Separation d = separation(args, image->at, j);
         const f8 q = f8_sqrt(greater(d.r2, least2)) * inverse_h, f = image_shape(q, apart, kernel);
         const f8 push = f * (pi + image_term(rise, d.term, d));
         sum->fx += push * d.x, sum->fy += push * d.y, sum->fz += push * d.z;
@@ -119,73 +188,71 @@ SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, con
     }
 }
 
-SIMD_INLINE void add_found(const PairArgs *args, size_t i, const Image *image, const Found found,
-                           const bool shifts)
+SIMD_INLINE void add_found(const PairArgs *args, size_t i, size_t begin, size_t end, const Mirrored *image,
+                           const Found found, const bool shifts)
 {
     const Constants *s = args->constants;
-    const WcsphBlock *w = wcsph_constants(s);
-    const float *sign = image->sign;
-    args->fx[i] += sign[0] * w->gradient_scale * f8_sum(found.fx);
-    args->fy[i] += sign[1] * w->gradient_scale * f8_sum(found.fy);
-    args->fz[i] += sign[2] * w->gradient_scale * f8_sum(found.fz);
+    const f8 gradient = f8_splat(wcsph_constants(s)->gradient_scale);
+    lanes_add(args->fx, i, begin, end, image->sign.x * gradient * found.fx);
+    lanes_add(args->fy, i, begin, end, image->sign.y * gradient * found.fy);
+    lanes_add(args->fz, i, begin, end, image->sign.z * gradient * found.fz);
     if (!shifts)
         return;
-    args->own[UNEVEN][i] += sign[0] * w->gradient_scale * f8_sum(found.ex);
-    args->own[UNEVEN + 1][i] += sign[1] * w->gradient_scale * f8_sum(found.ey);
-    args->own[UNEVEN + 2][i] += sign[2] * w->gradient_scale * f8_sum(found.ez);
-    args->own[FULL][i] += w->gradient_scale * f8_sum(found.full);
-    args->own[DENSE][i] += s->kernel_scale * f8_sum(found.dense);
+    lanes_add(args->own[UNEVEN], i, begin, end, image->sign.x * gradient * found.ex);
+    lanes_add(args->own[UNEVEN + 1], i, begin, end, image->sign.y * gradient * found.ey);
+    lanes_add(args->own[UNEVEN + 2], i, begin, end, image->sign.z * gradient * found.ez);
+    lanes_add(args->own[FULL], i, begin, end, gradient * found.full);
+    lanes_add(args->own[DENSE], i, begin, end, f8_splat(s->kernel_scale) * found.dense);
 }
 
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
-    const Constants *s = args->constants;
-    const WcsphBlock *w = wcsph_constants(s);
-    Image image[IMAGES_MAX];
-    for (size_t i = begin; i < end; i++) {
-        const float x[3] = {args->x[i], args->y[i], args->z[i]};
-        if (!walls_near(&s->walls, x, 1.001f * s->support_radius)) /* as wall_images rounds it */
+    const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
+    const WallsFar far = out_of_sight(args->constants);
+    Images images;
+    GROUPS(i, begin, end)
+    {
+        if (!images_of(args, &far, i, begin, end, &images))
             continue;
-        const int images = wall_images(&s->walls, x, s->support_radius, image);
-        const Itself one = itself(args, i);
-        const Near near = near_of(args, i), self = near_itself(&one);
+        const Themselves own = themselves(args, i);
+        const Near near = near_of(args, i), self = near_themselves(&own);
         f8 sum = f8_splat(0);
-        for (int k = 1; k < images; k++)
-            sum +=
-                image_flow(args, i, near, &image[k], kernel) + image_flow(args, i, self, &image[k], kernel);
-        args->fx[i] -= w->gradient_scale * f8_sum(sum);
+        for (int m = 1; m < images.most; m++) {
+            const Mirrored image = mirrored(&images, m);
+            sum += image_flow(args, i, near, &image, kernel) + image_flow(args, i, self, &image, kernel);
+        }
+        lanes_add(args->fx, i, begin, end, -(gradient * sum));
     }
 }
 
-SIMD_INLINE void force_by(const PairArgs *args, size_t i, const Image *image, const float g[3],
-                          const ShapeKernel kernel, const bool shifts)
+SIMD_INLINE void force_by(const PairArgs *args, size_t i, size_t begin, size_t end, const Mirrored *image,
+                          const Layers *layers, const ShapeKernel kernel, const bool shifts)
 {
     const f8 zero = f8_splat(0);
-    const Itself one = itself(args, i);
+    const Themselves own = themselves(args, i);
+    const Rise rise = rise_of(args, i, image, layers);
     Found found = {zero, zero, zero, zero, zero, zero, zero, zero};
-    Rise rise;
-    rise_of(args, i, image, g, &rise);
     image_push(args, i, near_of(args, i), image, rise, kernel, shifts, &found);
-    image_push(args, i, near_itself(&one), image, rise, kernel, shifts, &found);
-    add_found(args, i, image, found, shifts);
+    image_push(args, i, near_themselves(&own), image, rise, kernel, shifts, &found);
+    add_found(args, i, begin, end, image, found, shifts);
 }
 
 SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
-    const Constants *s = args->constants;
-    Image image[IMAGES_MAX];
-    for (size_t i = begin; i < end; i++) {
-        const float x[3] = {args->x[i], args->y[i], args->z[i]};
-        if (!walls_near(&s->walls, x, 1.001f * s->support_radius))
+    const WallsFar far = out_of_sight(args->constants);
+    Images images;
+    GROUPS(i, begin, end)
+    {
+        if (!images_of(args, &far, i, begin, end, &images))
             continue;
-        const int images = wall_images(&s->walls, x, s->support_radius, image);
-        float g[3];
-        apparent_gravity_at(args->gravity, x, g);
-        for (int k = 1; k < images; k++)
+        const Layers layers = layers_of(args, i, begin, end);
+        for (int m = 1; m < images.most; m++) {
+            const Mirrored image = mirrored(&images, m);
             if (args->own[FULL])
-                force_by(args, i, &image[k], g, kernel, true);
+                force_by(args, i, begin, end, &image, &layers, kernel, true);
             else
-                force_by(args, i, &image[k], g, kernel, false);
+                force_by(args, i, begin, end, &image, &layers, kernel, false);
+        }
     }
 }
 
