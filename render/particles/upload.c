@@ -1,6 +1,7 @@
 #include "render/particles/upload.h"
 
 #include "render/particles/slots.h"
+#include "sim/gl/debug.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
@@ -98,12 +99,11 @@ bool upload_set_copies(Upload *upload, bool copies, Error *error)
     upload->device = 0;
     if (!copies)
         return true;
-    while (glGetError() != GL_NO_ERROR)
-        continue;
+    gl_errors_take(0);
     glCreateBuffers(1, &upload->device);
     glObjectLabel(GL_BUFFER, upload->device, -1, "drawn particles");
     glNamedBufferStorage(upload->device, (GLsizeiptr)upload->layout.size, NULL, 0);
-    return glGetError() != GL_OUT_OF_MEMORY ||
+    return gl_errors_take(GL_OUT_OF_MEMORY) == 0 ||
            error_set(error, "the GPU has no %zu bytes for %zu particles; use fewer particles",
                      upload->layout.size, upload->capacity);
 }

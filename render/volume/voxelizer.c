@@ -5,6 +5,7 @@
 #include "render/volume/voxelize.h"
 #include "shaders/volume/volume_bindings.h"
 #include "shaders/volume/volume_block.h"
+#include "sim/gl/debug.h"
 #include "sim/gl/program.h"
 #include "sim/kernel/kernel.h"
 
@@ -98,12 +99,11 @@ unsigned volume_texture(const int size[3], unsigned format, const char *label)
 {
     static const GLfloat none[4] = {0};
     GLuint texture;
-    while (glGetError() != GL_NO_ERROR) /* what is asked below is of this texture */
-        continue;
+    gl_errors_take(0); /* what is asked below is of this texture */
     glCreateTextures(GL_TEXTURE_3D, 1, &texture);
     glObjectLabel(GL_TEXTURE, texture, -1, label);
     glTextureStorage3D(texture, 1, format, size[0], size[1], size[2]);
-    if (glGetError() != GL_NO_ERROR) {
+    if (gl_errors_take(0) > 0) {
         glDeleteTextures(1, &texture);
         return 0;
     }

@@ -25,10 +25,22 @@ static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, G
         fprintf(stderr, "GL error: %s\n", message);
 }
 
+int gl_errors_take(unsigned code)
+{
+    enum { MOST = 32 }; /* without a context, or with one that was lost, there is always another */
+    int found = 0;
+    for (int k = 0; k < MOST; k++) {
+        const GLenum next = glGetError();
+        if (next == GL_NO_ERROR)
+            break;
+        found += code == 0 || next == code;
+    }
+    return found;
+}
+
 void gl_debug_install(void)
 {
-    while (glGetError() != GL_NO_ERROR)
-        continue;
+    gl_errors_take(0);
     forgotten += atomic_exchange(&error_count, 0);
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -43,10 +55,8 @@ void gl_debug_asks_for_memory(bool asks)
 int gl_debug_errors(void)
 {
     /* Where the driver sends no messages the codes still tell. */
-    int codes = 0;
-    while (glGetError() != GL_NO_ERROR)
-        codes++;
-    int messages = atomic_load(&error_count);
+    const int codes = gl_errors_take(0);
+    const int messages = atomic_load(&error_count);
     if (codes > messages)
         atomic_store(&error_count, codes);
     return codes > messages ? codes : messages;

@@ -8,6 +8,9 @@
 /* Listens to the current context from now on. */
 void gl_debug_install(void);
 
+/* Takes what is pending of glGetError's codes; returns how many were `code`, or of any kind for 0. */
+int gl_errors_take(unsigned code);
+
 /* While `asks`, what there is no memory for is no error: who asks for a buffer looks at glGetError. */
 void gl_debug_asks_for_memory(bool asks);
 

@@ -9,6 +9,7 @@
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <limits.h>
 
 static const GlLimits promised = {
     .compute_blocks = 8, .vertex_blocks = 0, .bindings = 8, .block_bytes = 1 << 27};
@@ -196,6 +197,90 @@ static void lists_change_no_bit(void **state)
     limit(0, 0);
 }
 
+static int storage_left; /* so many large buffers the driver has memory for */
+static GLenum short_of;
+static PFNGLNAMEDBUFFERSTORAGEPROC storage;
+static PFNGLGETERRORPROC get_error;
+
+static void APIENTRY limited_storage(GLuint buffer, GLsizeiptr size, const void *data, GLbitfield flags)
+{
+    if (size < 4000 || storage_left-- > 0)
+        storage(buffer, size, data, flags);
+    else
+        short_of = GL_OUT_OF_MEMORY;
+}
+
+static GLenum APIENTRY limited_error(void)
+{
+    const GLenum code = short_of ? short_of : get_error();
+    short_of = GL_NO_ERROR;
+    return code;
+}
+
+/* From now on the driver has memory for so many buffers of at least a number a particle. */
+static void limit_storage(int buffers)
+{
+    storage = (PFNGLNAMEDBUFFERSTORAGEPROC)eglGetProcAddress("glNamedBufferStorage");
+    get_error = (PFNGLGETERRORPROC)eglGetProcAddress("glGetError");
+    epoxy_glNamedBufferStorage = limited_storage;
+    epoxy_glGetError = limited_error;
+    storage_left = buffers;
+}
+
+static WorldDef short_def(void)
+{
+    WorldDef def = fixture_def(1, 1.2, 1);
+    def.dt = 1e-5;
+    snprintf(def.backend, sizeof def.backend, "compute");
+    def.wall_slip = SLIP_NONE;
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
+    return def;
+}
+
+/* What a term or the sentinel needs is asked for again, once there is memory. */
+static void memory_that_was_short_may_come(void **state)
+{
+    (void)state;
+    Error error = {0};
+    WorldDef def = short_def();
+    World *world = fixture_world(&def);
+    def.fluids[0].viscosity = 1; /* friction along the walls is tables */
+    limit_storage(0);
+    assert_false(world_change(world, &def, &error));
+    assert_non_null(strstr(error.message, "no memory"));
+    assert_false(world->backend->mark(world->state, &error));
+    fixture_step(world, 2);
+    limit_storage(INT_MAX);
+    assert_true(world_change(world, &def, &error) && world->backend->mark(world->state, &error));
+    fixture_step(world, 2);
+    world->backend->back(world->state, world->count, 0);
+    fixture_step(world, 2);
+    world_destroy(world);
+}
+
+/* Whichever buffer of a world it is that there is no memory for. */
+static void no_world_is_made_of_too_little(void **state)
+{
+    (void)state;
+    Error error = {0};
+    World *world = NULL;
+    WorldDef def = short_def();
+    def.retries = 3;
+    def.solids[def.solid_count++] =
+        (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 1, 0}, .radius = 0.1, .axis = {0, 1, 0}};
+    int buffers = 0;
+    for (; !world; buffers += 3) {
+        error = (Error){0};
+        limit_storage(buffers);
+        world = world_create(&def, &error);
+        assert_true(world || strstr(error.message, "no memory"));
+    }
+    limit_storage(INT_MAX);
+    assert_in_range(buffers, 10, 40);
+    fixture_step(world, 2);
+    world_destroy(world);
+}
+
 static void assert_no_view(const ViewDef *def, const char *sentence)
 {
     Error error = {0};
@@ -242,6 +327,8 @@ int main(void)
         cmocka_unit_test(each_limit_has_its_sentence),
         cmocka_unit_test_teardown(worlds_ask, no_gl_errors),
         cmocka_unit_test_teardown(lists_change_no_bit, no_gl_errors),
+        cmocka_unit_test_teardown(memory_that_was_short_may_come, no_gl_errors),
+        cmocka_unit_test_teardown(no_world_is_made_of_too_little, no_gl_errors),
         cmocka_unit_test_teardown(views_ask, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.limits", tests, compare_setup, context_teardown);

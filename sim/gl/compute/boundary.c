@@ -96,7 +96,8 @@ bool compute_boundary_create(Compute *c)
     b->state = compute_buffer(c, "boundary pressures", 8 * n);
     b->block = compute_buffer(c, "solids", sizeof(SolidStepsBlock));
     b->exact = compute_buffer(c, "shapes of solids", sizeof(ExactShapesBlock));
-    glNamedBufferSubData(b->rest, 0, (GLsizeiptr)(16 * n), rest);
+    if (b->rest)
+        glNamedBufferSubData(b->rest, 0, (GLsizeiptr)(16 * n), rest);
     free(rest);
     return true;
 }

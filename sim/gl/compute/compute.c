@@ -55,10 +55,14 @@ unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
     glObjectLabel(GL_BUFFER, name, -1, label);
     gl_debug_asks_for_memory(true);
     glNamedBufferStorage(name, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
-    c->full |= glGetError() == GL_OUT_OF_MEMORY;
+    const bool none = gl_errors_take(GL_OUT_OF_MEMORY) > 0;
     gl_debug_asks_for_memory(false);
-    if (!c->full)
-        glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    c->full |= none;
+    if (none) { /* a name without storage would be taken for a buffer */
+        glDeleteBuffers(1, &name);
+        return 0;
+    }
+    glClearNamedBufferData(name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     c->bytes += size;
     return name;
 }
@@ -93,7 +97,7 @@ static void walls_upload(Compute *c)
     if (c->constants->method->carries_density) /* it has none */
         return;
     c->walls = compute_buffer(c, "wall tables", walls_entries(walls, walls->dimensions) * sizeof(WallSums));
-    for (int t = 0; t < walls->dimensions && !c->full; t++) {
+    for (int t = 0; t < walls->dimensions && c->walls; t++) {
         const size_t at = walls_entries(walls, t) * sizeof(WallSums),
                      end = walls_entries(walls, t + 1) * sizeof(WallSums);
         glNamedBufferSubData(c->walls, (GLintptr)at, (GLsizeiptr)(end - at), walls->table[t].sums);

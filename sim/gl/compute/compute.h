@@ -128,7 +128,7 @@ unsigned compute_program(const Compute *compute, ComputePass pass, const char *d
 /* Where a pass of the method stands. */
 ComputePass compute_method_pass(const Compute *compute, const Pass *pass);
 
-/* A storage buffer of `bytes`, zeroed. */
+/* A storage buffer of `bytes`, zeroed; 0, and the GPU is `full`, where there is no memory for it. */
 unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
 
 /* particles.c. False with the reason. */

@@ -43,11 +43,6 @@ void compute_lists_create(Compute *c)
         return;
     c->lists = compute_buffer(c, "lists of neighbours", bytes);
     c->list_most = most;
-    if (!c->full)
-        return;
-    glDeleteBuffers(1, &c->lists);
-    c->lists = 0;
-    c->bytes -= bytes;
     c->full = false;
 }
 

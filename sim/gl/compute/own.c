@@ -36,9 +36,9 @@ bool compute_scratch_fit(Compute *c)
     if (total <= c->scratch_total)
         return true;
     const unsigned buffer = compute_buffer(c, "scratch of the method's own", 4 * (size_t)total * c->capacity);
-    glDeleteBuffers(1, c->full ? &buffer : &c->scratch);
-    if (c->full)
+    if (!buffer)
         return c->full = false;
+    glDeleteBuffers(1, &c->scratch);
     c->scratch = buffer;
     c->scratch_total = total;
     return true;

@@ -15,6 +15,10 @@ static ParticleAttribute show(Compute *c, int what)
 {
     if (!c->shown[what])
         c->shown[what] = compute_buffer(c, "shown", 4 * c->capacity);
+    if (!c->shown[what]) {
+        c->full = false;
+        return (ParticleAttribute){0};
+    }
     BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
          [NAMES_BUFFER] = c->now.name, [PRESSURES_BUFFER] = c->pressure, [VALUES_BUFFER] = c->shown[what],
          [RANGES_BUFFER] = c->ranges.buffer);

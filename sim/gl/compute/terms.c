@@ -88,7 +88,7 @@ static void drag_upload(Compute *c)
     for (int t = 0; t < drag->dimensions; t++)
         all += drag_entries(drag, t);
     c->drag = compute_buffer(c, "tables of the walls' friction", all * sizeof(float));
-    for (int t = 0; t < drag->dimensions && !c->full; t++) {
+    for (int t = 0; t < drag->dimensions && c->drag; t++) {
         const size_t bytes = drag_entries(drag, t) * sizeof(float);
         glNamedBufferSubData(c->drag, (GLintptr)at, (GLsizeiptr)bytes, drag->table[t]);
         at += bytes;
@@ -104,11 +104,9 @@ bool compute_term_buffers(Compute *c)
             c->method_buffers[k] = compute_buffer(c, own[k].block, own[k].size * c->capacity);
     if (s->no_slip && !c->drag)
         drag_upload(c);
-    if (!c->full)
-        return true;
-    glDeleteBuffers(1, &c->drag); /* so that the world can go on without */
-    c->drag = 0;
-    return c->full = false;
+    const bool all = !c->full;
+    c->full = false; /* the world can go on without */
+    return all;
 }
 
 static void drag_constants(const WallDrag *drag, TermBlock *terms)

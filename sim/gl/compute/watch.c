@@ -57,8 +57,11 @@ StepWatch compute_watch(void *state)
 bool compute_mark(void *state, Error *error)
 {
     Compute *c = state;
-    if (!c->marked.position && !compute_particles_create(c, &c->marked, error))
-        return false;
+    if (!c->marked.position && !compute_particles_create(c, &c->marked, error)) {
+        compute_particles_destroy(&c->marked);
+        c->marked = (ComputeParticles){0};
+        return c->full = false;
+    }
     compute_particles_copy(c, c->now, c->marked);
     return true;
 }

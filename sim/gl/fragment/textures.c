@@ -1,4 +1,5 @@
 /* The textures of the backend and the framebuffers that draw into them. */
+#include "sim/gl/debug.h"
 #include "sim/gl/fragment/fragment.h"
 
 #include <epoxy/gl.h>
@@ -129,8 +130,7 @@ static bool watch_create(Fragment *f)
 
 static bool memory_sufficed(const Fragment *f, bool enough, Error *error)
 {
-    for (GLenum code = glGetError(); code != GL_NO_ERROR; code = glGetError())
-        enough &= code != GL_OUT_OF_MEMORY;
+    enough &= gl_errors_take(GL_OUT_OF_MEMORY) == 0;
     return enough || error_set(error,
                                "the GPU has no memory for %zu particles and %zu cells of %d layers; use a "
                                "larger spacing",
