@@ -27,10 +27,10 @@ Side side_of(uint i, float term)
     return Side(term, volume_of(i), fluids[fluid].viscosity, extra_of(fluid), velocity[i].xyz);
 }
 
-vec3 pair_force(Side own, Side other, vec3 d, float r2); // the method's: on `own`, which is d from `other`
+vec3 pair_force(Side one, Side other, vec3 d, float r2); // the method's: on `one`, which is d from `other`
 
 uint self;
-Side own;
+Side self_side;
 vec3 pair_sum = vec3(0), boundary_sum; // boundary_sum: of a row
 
 // Two at one place are taken for a little apart, along a direction that their ids decide.
@@ -49,7 +49,7 @@ void meet(uint j, vec3 d, float term)
         return;
     tension_meet(j, d, r2);
     SEPARATE(name[self].x, name[j].x, d, r2)
-    pair_sum += pair_force(own, side_of(j, term), d, r2);
+    pair_sum += pair_force(self_side, side_of(j, term), d, r2);
 }
 
 #ifdef SOLIDS
@@ -63,7 +63,7 @@ void meet_boundary(uint j, vec3 d, float volume)
     uvec2 state = boundary_state[j];
     vec4 wall = boundary_velocity[j];
     SEPARATE(name[self].x, BOUNDARY_ID + state.y, d, r2)
-    boundary_sum += pair_force(own, Side(uintBitsToFloat(state.x), volume, wall.w, 0.0, wall.xyz), d, r2);
+    boundary_sum += pair_force(self_side, Side(uintBitsToFloat(state.x), volume, wall.w, 0.0, wall.xyz), d, r2);
 }
 #endif
 
@@ -77,7 +77,7 @@ void add_boundary_row()
 vec3 neighbours_force(uint i, vec3 x, ivec3 at)
 {
     self = i;
-    own = side_of(i, near[i].w);
+    self_side = side_of(i, near[i].w);
     boundary_sum = vec3(0);
     tension_begin(i);
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, add_boundary_row())

@@ -4,7 +4,11 @@
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
 
+#include "sim/gl/compute/compute.h"
+#include "sim/gl/program.h"
 #include "sim/world/world_state.h"
+
+#include <epoxy/gl.h>
 
 /* Springs soon swing in and out, so that particles change their cells; emitters and drains where they are
    asked for. */
@@ -146,6 +150,21 @@ static void it_goes_back(void **state)
     world_destroy(world);
 }
 
+/* What they declare has other names. */
+static void own_columns_stand_beside_forces(void **state)
+{
+    (void)state;
+    World *world = world_on(toy_def(false), "compute");
+    const Compute *compute = world->state;
+    Error error = {0};
+    const char *const stages[] = {"sim/toy/forces.comp", NULL};
+    const unsigned program = program_create("forces", stages, compute->defines, &error);
+    if (!program)
+        fail_msg("%s", error.message);
+    glDeleteProgram(program);
+    world_destroy(world);
+}
+
 static int setup(void **state)
 {
     toy_shaders_add();
@@ -166,6 +185,7 @@ int main(void)
         cmocka_unit_test_teardown(it_moves_from_backend_to_backend, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(it_goes_back, no_gl_errors),
+        cmocka_unit_test_teardown(own_columns_stand_beside_forces, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.toy_method", tests, setup, teardown);
 }

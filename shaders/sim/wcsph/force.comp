@@ -46,7 +46,7 @@ void push_image(float term, vec3 d)
     if (r2 >= support * support)
         return;
     float f = image_shape(sqrt(r2));
-    image_push += f * (own.pressure + image_term(term, d)) * d;
+    image_push += f * (self_side.pressure + image_term(term, d)) * d;
     even_meet_image(f, d, r2);
 }
 
