@@ -1,10 +1,16 @@
 // Lists of neighbours, itself among them: which particles within h the first walk after a grid found, for the other passes
 // of the step. sim/gl/compute/lists.c writes the defines. First stands a number a particle, then the lists of each 32
-// particles, interleaved so that 32 invocations read one line of memory. LISTS_FIRST: the pass is the first of its step.
+// particles, interleaved so that 32 invocations read one line of memory. A pass that is the first of its step wherever it runs
+// defines LISTS_FIRST, one that never is LISTS_LATER: it makes none.
 #ifdef LISTS
 #include "shaders/sim/bindings.h"
 #define LIST_NONE 0xffffffffu
-layout(std430, binding = LISTS_BUFFER) buffer Lists { uint list[]; };
+#ifdef LISTS_LATER
+#define LIST_ACCESS readonly
+#else
+#define LIST_ACCESS
+#endif
+layout(std430, binding = LISTS_BUFFER) LIST_ACCESS buffer Lists { uint list[]; };
 
 uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + k * 32u + (i & 31u); }
 
@@ -12,6 +18,18 @@ uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + 
 #define LIST_MADE(i) false
 #else
 #define LIST_MADE(i) (list[i] <= LIST_MOST)
+#endif
+
+#ifdef LISTS_LATER
+#define LIST_ADD(i, j, d)
+#define LIST_END(i)
+#else
+#define LIST_ADD(i, j, d)                                                                   \
+    if (!made && dot(d, d) < support * support && found++ < LIST_MOST)                      \
+        list[list_place(i, found - 1u)] = j;
+#define LIST_END(i)                                                                         \
+    if (!made)                                                                              \
+        list[i] = found;
 #endif
 
 // Who has more neighbours than a list holds walks each time. One call of `meet` for both ways, since it is inlined.
@@ -25,13 +43,11 @@ uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + 
                 uint j = made ? list[list_place(i, k)] : k;                                 \
                 vec4 other = PLACES[j];                                                     \
                 vec3 d = x - other.xyz;                                                     \
-                if (!made && dot(d, d) < support * support && found++ < LIST_MOST)          \
-                    list[list_place(i, found - 1u)] = j;                                    \
+                LIST_ADD(i, j, d)                                                           \
                 meet(j, d, other.w);                                                        \
             }                                                                               \
         }                                                                                   \
-        if (!made)                                                                          \
-            list[i] = found;                                                                \
+        LIST_END(i)                                                                         \
     }
 
 #ifdef SOLIDS

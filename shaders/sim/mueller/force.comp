@@ -1,4 +1,5 @@
 // mueller: accelerations by pressure, viscosity and walls: force_range in sim/mueller/pairs.c, and sim/mueller/passes.c.
+#define LISTS_LATER
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
 #include "sim/walls.glsl"

@@ -130,8 +130,8 @@ typedef struct Fragment {
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
     GlState kept; /* of the caller's, while passes run */
     unsigned program[FRAGMENT_PASS_COUNT];
-    signed char uniform[FRAGMENT_PASS_COUNT][FRAGMENT_UNIFORM_COUNT]; /* where it is; -1: not there */
-    char constant_lines[FRAGMENT_CONSTANTS_MAX];                      /* with which they were compiled */
+    int uniform[FRAGMENT_PASS_COUNT][FRAGMENT_UNIFORM_COUNT]; /* where it is; -1: not there */
+    char constant_lines[FRAGMENT_CONSTANTS_MAX];              /* with which they were compiled */
     size_t bytes, guarded_before, guarded; /* of all textures; before the last load, and since */
 } Fragment;
 

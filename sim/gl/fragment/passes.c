@@ -91,8 +91,7 @@ static void find_uniforms(Fragment *f, int pass)
 #undef X
     };
     for (int k = 0; k < FRAGMENT_UNIFORM_COUNT; k++)
-        f->uniform[pass][k] =
-            (signed char)(f->program[pass] ? glGetUniformLocation(f->program[pass], names[k]) : -1);
+        f->uniform[pass][k] = f->program[pass] ? glGetUniformLocation(f->program[pass], names[k]) : -1;
 }
 
 void fragment_set_fluids(const Fragment *f)
