@@ -243,6 +243,7 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
         .height = setup->height,
         .particles = info.count,
         .troubles = info.trouble.count,
+        .unlisted = info.unlisted,
         .neighbours_mean = sums.neighbours_mean,
         .dt = def->step_mode == STEP_CFL ? info.dt : def->dt,
         .dt_substep = info.dt,

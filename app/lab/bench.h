@@ -29,6 +29,7 @@ typedef struct BenchResult {
     int substeps; /* of a frame, as they ran: trouble halves the step */
     size_t particles;
     unsigned troubles; /* that the sentinel found, the warming up included */
+    size_t unlisted;   /* bytes of lists of neighbours that a GPU has no memory for */
     size_t lost;       /* of them, without a place in the grid, at most in one frame */
     double neighbours_mean;
     double time;           /* simulated when the first frame began, s */

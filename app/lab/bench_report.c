@@ -29,6 +29,9 @@ static void print_parts(const BenchResult *r, FILE *file)
             r->troubles, plural(r->troubles));
     if (r->lost > 0)
         fprintf(file, "  %zu particle%s found no place in the grid\n", r->lost, plural(r->lost));
+    if (r->unlisted > 0)
+        fprintf(file, "  without lists of neighbours: the GPU has no %.3g GB for them\n",
+                1e-9 * (double)r->unlisted);
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
             r->render_ms, r->frame_ms);
     fprintf(file, "  %.3g million particle-steps/s, real-time factor %.2f, %.0f bytes a particle\n\n",

@@ -83,6 +83,9 @@ static void look(Session *session)
     if (session->info.lost && !session->told_lost)
         fprintf(stderr, "%s\n", session_lost_text(&session->info, words));
     session->told_lost |= session->info.lost > 0;
+    if (session->info.unlisted && !session->told_unlisted)
+        fprintf(stderr, "%s\n", session_unlisted_text(&session->info, words));
+    session->told_unlisted |= session->info.unlisted > 0;
 }
 
 const char *session_lost_text(const WorldInfo *info, char words[256])
@@ -109,6 +112,15 @@ const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
     snprintf(words, 256, "t = %.4g s: %s; back to %.4g s with 1/%d of the step (%d of %d)", trouble->time,
              step_trouble_words(trouble->what), trouble->back_to, 1 << trouble->tries, trouble->tries,
              trouble->retries);
+    return words;
+}
+
+const char *session_unlisted_text(const WorldInfo *info, char words[256])
+{
+    snprintf(words, 256,
+             "the GPU has no %.3g GB for lists of neighbours: each pass searches anew, and steps take up to "
+             "twice as long; a smaller particles.support or fewer particles need less",
+             1e-9 * (double)info->unlisted);
     return words;
 }
 

@@ -22,6 +22,7 @@ typedef struct Session {
     double began_ms;  /* wall time of the start */
     bool told_full;   /* that emitters wait */
     bool told_lost;   /* that particles find no place in the grid */
+    bool told_unlisted;
 } Session;
 
 /* Loads the only scene of the command line and the recording of --device, says on standard error what
@@ -55,6 +56,9 @@ const char *session_full_text(const WorldInfo *info, char words[256]);
 
 /* That particles find no place in the grid, in words. */
 const char *session_lost_text(const WorldInfo *info, char words[256]);
+
+/* That there is no memory for what makes steps fast, in words. */
+const char *session_unlisted_text(const WorldInfo *info, char words[256]);
 
 /* What a command says when it is done, on standard error and in --json FILE. */
 typedef struct Summary {

@@ -62,7 +62,7 @@ void simulator_make_world(Simulator *simulator)
     simulator->scene = simulator->start;
     world_destroy(simulator->world);
     simulator->troubles = 0;
-    simulator->told_full = simulator->told_lost = false;
+    simulator->told_full = simulator->told_lost = simulator->told_unlisted = false;
     simulator->world = world_create(&simulator->start.world, &error);
     simulator_gauge_begin(simulator);
     if (!simulator->world || !simulator_publish(simulator, &error))
@@ -193,6 +193,9 @@ static void tell_news(Simulator *simulator, const WorldInfo *info)
     if (info->lost && !simulator->told_lost)
         tell(simulator, false, session_lost_text(info, words));
     simulator->told_lost |= info->lost > 0;
+    if (info->unlisted && !simulator->told_unlisted)
+        tell(simulator, false, session_unlisted_text(info, words));
+    simulator->told_unlisted |= info->unlisted > 0;
     if (info->trouble.count == simulator->troubles)
         return;
     simulator->troubles = info->trouble.count;

@@ -71,9 +71,10 @@ struct Simulator {
     GaugeSample gauge;         /* on its way; its gauge is not there yet */
     double gauge_ms;           /* wall time at which it was asked for */
     Recording recording;
-    unsigned troubles;   /* of the world, that were told */
-    bool told_full;      /* that its emitters wait */
-    bool told_lost;      /* that particles find no place in the grid */
+    unsigned troubles; /* of the world, that were told */
+    bool told_full;    /* that its emitters wait */
+    bool told_lost;    /* that particles find no place in the grid */
+    bool told_unlisted;
     bool recording_lost; /* no memory for all of its commands */
     Upload *upload;
     void (*wake)(void);

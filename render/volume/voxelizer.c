@@ -6,6 +6,7 @@
 #include "shaders/volume/volume_bindings.h"
 #include "shaders/volume/volume_block.h"
 #include "sim/gl/debug.h"
+#include "sim/gl/limits.h"
 #include "sim/gl/program.h"
 #include "sim/kernel/kernel.h"
 
@@ -13,7 +14,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 struct Voxelizer {
     VolumeMethod method;
@@ -122,15 +122,6 @@ static double bytes_of(const VolumeGrid *grid, bool scalar)
     return 4.0 * grid->size[0] * grid->size[1] * grid->size[2] * (scalar ? 2 : 1);
 }
 
-/* Of the machine, or of the GPU where it tells; planes and slabs need as much again for themselves. */
-static double bytes_there(void)
-{
-    GLint kib = 0;
-    if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
-        glGetIntegerv(GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX, &kib);
-    return kib > 0 ? 1024.0 * kib : (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-}
-
 static bool driver_takes(const VolumeGrid *grid)
 {
     GLint width = 0;
@@ -145,7 +136,8 @@ bool voxelizer_fits(const Voxelizer *voxelizer, const VolumeGrid *grid, double s
     const double bytes = bytes_of(grid, voxelizer->scalar);
     if (voxelizer->method == VOLUME_DIRECT)
         return true;
-    if (!driver_takes(grid) || 2.5 * bytes > bytes_there())
+    const double needed = 2.5 * bytes; /* planes and slabs take as much again for themselves */
+    if (!driver_takes(grid) || needed > gl_memory())
         return error_set(
             error,
             "a volume of %d x %d x %d cells (%.0f MB) is more than this driver has room for: take fewer "

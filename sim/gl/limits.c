@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 #include <stddef.h>
+#include <unistd.h>
 
 GlLimits gl_limits(void)
 {
@@ -13,6 +14,14 @@ GlLimits gl_limits(void)
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     limits.block_bytes = bytes;
     return limits;
+}
+
+double gl_memory(void)
+{
+    GLint kib = 0;
+    if (epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
+        glGetIntegerv(GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX, &kib);
+    return kib > 0 ? 1024.0 * kib : (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
 }
 
 bool gl_limits_allow(const GlLimits *have, const GlNeeds *needs, Error *error)

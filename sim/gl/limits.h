@@ -24,6 +24,9 @@ typedef struct GlNeeds {
 /* Needs a current context. */
 GlLimits gl_limits(void);
 
+/* Bytes of the GPU's memory where it tells, else of the machine's. Needs a current context. */
+double gl_memory(void);
+
 /* Whether there is what is needed; if not, the error says what the driver has. */
 bool gl_limits_allow(const GlLimits *have, const GlNeeds *needs, Error *error);
 

@@ -140,6 +140,40 @@ static void worlds_ask(void **state)
     world_destroy(fixture_world(&def));
 }
 
+/* A driver that tells how much memory there is. */
+static const GLubyte *APIENTRY telling(GLenum name, GLuint index)
+{
+    (void)name, (void)index;
+    return (const GLubyte *)"GL_NVX_gpu_memory_info";
+}
+
+/* Their lists of 72 neighbours want 292,000 bytes: of buffers that shaders may have, and of the memory. */
+static void lists_that_do_not_fit_are_said(void **state)
+{
+    (void)state;
+    static const struct {
+        GLenum name;
+        GLint enough, little;
+    } limits[] = {{GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 300000, 250000},
+                  {GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX, 1200, 1000}}; /* kB */
+    WorldDef def = fixture_def(1, 1.2, 1);
+    snprintf(def.backend, sizeof def.backend, "compute");
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
+    PFNGLGETSTRINGIPROC before = epoxy_glGetStringi;
+    for (int k = 0; k < 4; k++) {
+        epoxy_glGetStringi = k > 1 ? telling : before;
+        limit(limits[k / 2].name, k % 2 ? limits[k / 2].little : limits[k / 2].enough);
+        World *world = fixture_world(&def);
+        WorldInfo info;
+        world_info(world, &info);
+        assert_in_range(info.unlisted, k % 2 ? 280000 : 0, k % 2 ? 300000 : 0);
+        assert_true((((const Compute *)world->state)->lists == 0) == (k % 2 == 1));
+        world_destroy(world);
+    }
+    epoxy_glGetStringi = before;
+    limit(0, 0);
+}
+
 /* Puts 125 particles as near to each other as half of the spacing. */
 static void gather(World *world)
 {
@@ -326,6 +360,7 @@ int main(void)
         cmocka_unit_test(what_fits_is_found_without_computing),
         cmocka_unit_test(each_limit_has_its_sentence),
         cmocka_unit_test_teardown(worlds_ask, no_gl_errors),
+        cmocka_unit_test_teardown(lists_that_do_not_fit_are_said, no_gl_errors),
         cmocka_unit_test_teardown(lists_change_no_bit, no_gl_errors),
         cmocka_unit_test_teardown(memory_that_was_short_may_come, no_gl_errors),
         cmocka_unit_test_teardown(no_world_is_made_of_too_little, no_gl_errors),

@@ -94,6 +94,7 @@ typedef struct Compute {
     int scratch_total;
     unsigned lists; /* uint: shaders/sim/lists.glsl; 0: none */
     size_t list_most;
+    size_t unlisted;                      /* bytes of lists that there was no memory for */
     unsigned cell, rank, order, start;    /* start: cells + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
     unsigned pressure;                    /* vec2: p, p V^2 */

@@ -1,6 +1,7 @@
 /* Lists of neighbours, which the first pass of a step makes for those behind it: shaders/sim/lists.glsl.
    Where the driver has no binding or no memory for them, and where sides are periodic, each pass walks the
-   cells. */
+   cells. They are no more than a quarter of the memory: the views need some, and a driver may promise more
+   than there is. */
 #include "sim/gl/compute/compute.h"
 #include "sim/gl/limits.h"
 
@@ -27,23 +28,24 @@ static size_t stride_of(const Compute *c)
 }
 
 /* Solids and a method's own columns have bindings and blocks of their own, beside the eight of others. */
-static bool allowed(const Compute *c, size_t bytes)
+static bool bound(const Compute *c, const GlLimits *have)
 {
-    const GlLimits have = gl_limits();
     const int columns = (c->own.count > 0) + (compute_scratch_of(c->constants) > 0);
-    return !c->constants->periodic.any && have.bindings > LISTS_BUFFER &&
-           have.compute_blocks >= 8 + columns + (c->constants->solid_count > 0 ? 5 : 0) &&
-           (int64_t)bytes <= have.block_bytes;
+    return !c->constants->periodic.any && have->bindings > LISTS_BUFFER &&
+           have->compute_blocks >= 8 + columns + (c->constants->solid_count > 0 ? 5 : 0);
 }
 
 void compute_lists_create(Compute *c)
 {
+    const GlLimits have = gl_limits();
     const size_t most = list_most(c->constants), bytes = 4 * (most + 1) * stride_of(c);
-    if (c->full || !allowed(c, bytes))
+    if (c->full || !bound(c, &have))
         return;
-    c->lists = compute_buffer(c, "lists of neighbours", bytes);
+    if ((int64_t)bytes <= have.block_bytes && (double)bytes <= 0.25 * gl_memory())
+        c->lists = compute_buffer(c, "lists of neighbours", bytes);
     c->list_most = most;
     c->full = false;
+    c->unlisted = c->lists ? 0 : bytes;
 }
 
 void compute_list_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])

@@ -72,5 +72,6 @@ void compute_info(const void *state, WorldInfo *info)
     const Compute *c = state;
     info->threads = 0;
     info->state_bytes = c->bytes;
+    info->unlisted = c->unlisted;
     info->guarded = c->guarded_before + c->guarded;
 }
