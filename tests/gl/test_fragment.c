@@ -127,6 +127,97 @@ static void buckets_hold_every_particle(void **state)
     }
 }
 
+/* x y z, id of each texel. */
+static float *texels_of(const Fragment *f)
+{
+    const size_t bytes = 16 * (size_t)f->width * (size_t)f->height;
+    float *texels = malloc(bytes);
+    glGetTextureImage(f->position[0], 0, GL_RGBA, GL_FLOAT, (GLsizei)bytes, texels);
+    return texels;
+}
+
+/* How many are not where they began. */
+static size_t displaced(const Fragment *f)
+{
+    float *texels = texels_of(f);
+    size_t count = 0;
+    for (size_t i = 0; i < f->count; i++)
+        count += texels[4 * i + 3] != (float)i;
+    free(texels);
+    return count;
+}
+
+/* By cell, and in a cell by id. */
+static void an_order_is_that_of_the_cells(void **state)
+{
+    (void)state;
+    World *cpu = world_on(coarse_def(3), "cpu"), *gpu = world_on(coarse_def(3), "fragment");
+    Fragment *f = gpu->state;
+    Error error;
+    fixture_step(cpu, 100);
+    copy_state(cpu, gpu);
+    f->order_every = 1;
+    assert_int_equal(displaced(f), 0);
+    assert_true(fragment_mark(f, &error));
+    assert_true(displaced(f) > f->count / 2);
+    float *texels = texels_of(f);
+    for (size_t i = 1; i < f->count; i++) {
+        const uint32_t before = cpu_cell_of(&gpu->constants, texels + 4 * i - 4),
+                       cell = cpu_cell_of(&gpu->constants, texels + 4 * i);
+        assert_true(before < cell || (before == cell && texels[4 * i - 1] < texels[4 * i + 3]));
+    }
+    free(texels);
+    world_destroy(cpu);
+    world_destroy(gpu);
+}
+
+/* What views get of a particle is of its id. */
+static void require_shared(World *world)
+{
+    ParticleBuffers shared;
+    State at = fixture_read(world);
+    float *x = malloc(16 * at.count);
+    uint32_t *id = malloc(4 * at.count), *fluid = malloc(4 * at.count);
+    world_share(world, PARTICLE_ID | PARTICLE_FLUID, &shared);
+    glGetNamedBufferSubData(shared.position.buffer, 0, (GLsizeiptr)(16 * at.count), x);
+    glGetNamedBufferSubData(shared.id.buffer, 0, (GLsizeiptr)(4 * at.count), id);
+    glGetNamedBufferSubData(shared.fluid.buffer, 0, (GLsizeiptr)(4 * at.count), fluid);
+    for (size_t i = 0; i < at.count; i++) {
+        assert_in_range(id[i], 0, at.count - 1);
+        assert_memory_equal(x + 4 * i, at.position + (size_t)4 * id[i], 16);
+        assert_int_equal(fluid[i], at.fluid[id[i]]);
+    }
+    free(x);
+    free(id);
+    free(fluid);
+    fixture_free(&at);
+}
+
+/* Also of particles without a place, which are listed apart. */
+static void no_bit_depends_on_the_order(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        WorldDef def = coarse_def(2 + k % 2);
+        uint64_t hash[3];
+        def.retries = 3;
+        fragment_def(&def)->grid_layers = k < 2 ? 0 : 1;
+        fragment_def(&def)->lost_limit = 1000000;
+        for (int every = 0; every < 3; every++) {
+            World *world = world_on(def, "fragment");
+            Fragment *f = world->state;
+            f->order_every = every;
+            fixture_step(world, 40);
+            hash[every] = world_hash(world);
+            assert_true((displaced(f) > f->count / 10) == (every > 0));
+            assert_true(k < 2 || info_of(world).lost > 0);
+            require_shared(world);
+            world_destroy(world);
+        }
+        assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
+    }
+}
+
 enum { CROWD = 700 };
 
 /* Particles at rest without weight: most of them everywhere, 300 of them in one cell. */
@@ -427,6 +518,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(buckets_hold_every_particle, no_gl_errors),
+        cmocka_unit_test_teardown(an_order_is_that_of_the_cells, no_gl_errors),
+        cmocka_unit_test_teardown(no_bit_depends_on_the_order, no_gl_errors),
         cmocka_unit_test(layers_follow_the_support),
         cmocka_unit_test_teardown(what_finds_no_place_is_counted, no_gl_errors),
         cmocka_unit_test_teardown(more_lost_than_the_limit_ends_the_run, no_gl_errors),

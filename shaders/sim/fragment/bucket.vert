@@ -1,4 +1,4 @@
-// A particle becomes one point in the texel of its cell, as deep as its index: after Harada, Koshizuka and Kawaguchi
+// A particle becomes one point in the texel of its cell, as deep as its id: after Harada, Koshizuka and Kawaguchi
 // 2007. Whole numbers up to 2^24 times 2^-24 are exact in the depth buffer.
 #include "sim/fragment/particles.glsl"
 #include "sim/fragment/cells.glsl"
@@ -7,8 +7,9 @@ flat out uint number;
 
 void main()
 {
-    ivec2 texel = bucket_of(cell_index(cell_of(of_particle(position, int(listed) - 1).xyz)));
+    vec4 own = of_particle(position, int(listed) - 1);
+    ivec2 texel = bucket_of(cell_index(cell_of(own.xyz)));
     vec2 at = (2.0 * vec2(texel) + 1.0) / vec2(1 << bucket_bits, bucket_height) - 1.0;
     number = listed;
-    gl_Position = vec4(at, float(listed) / 16777216.0, 1.0);
+    gl_Position = vec4(at, (own.w + 1.0) / 16777216.0, 1.0);
 }

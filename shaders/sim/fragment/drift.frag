@@ -32,8 +32,8 @@ void main()
     int i = own_particle();
     if (i >= particle_count)
         discard;
-    vec4 own = of_particle(position, i);
-    vec3 x = own.xyz, v = of_particle(velocity, i).xyz;
+    vec4 own = of_particle(position, i), moving = of_particle(velocity, i);
+    vec3 x = own.xyz, v = moving.xyz;
     if (still == 1) {
         x += v * dt;
     } else {
@@ -44,5 +44,5 @@ void main()
     }
     new_held = texelFetch(held, texel_of(i), 0).x + (guard(x, v) ? 1u : 0u);
     new_position = vec4(x, own.w);
-    new_velocity = vec4(v, 0.0);
+    new_velocity = vec4(v, moving.w);
 }

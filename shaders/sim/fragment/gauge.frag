@@ -16,7 +16,8 @@ void add(ivec2 at, inout vec4 sum, inout float most)
         return;
     vec4 x = texelFetch(position, at, 0);
     float compression = stiffness_scale * (1.0 / (texelFetch(fields, at, 0).x * rest_number_density) - 1.0);
-    sum += gauge_of(fluid_of(x.w).mass, compression, x.xyz, texelFetch(velocity, at, 0).xyz, gravity, c2);
+    vec4 v = texelFetch(velocity, at, 0);
+    sum += gauge_of(fluid_of(v.w).mass, compression, x.xyz, v.xyz, gravity, c2);
     most = max(most, compression);
 }
 

@@ -11,5 +11,6 @@ void main()
     if (i >= particle_count)
         discard;
     vec3 a = of_particle(acceleration, i).xyz + gravity;
-    new_velocity = vec4(of_particle(velocity, i).xyz + a * dt, 0.0);
+    vec4 own = of_particle(velocity, i);
+    new_velocity = vec4(own.xyz + a * dt, own.w);
 }

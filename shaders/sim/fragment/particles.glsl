@@ -1,7 +1,8 @@
-// Particles are texels: particle i is texel (i mod width, i / width), of a width of 2^particle_bits, of each of these textures, and stays there.
+// Particles are texels: particle i is texel (i mod width, i / width), of a width of 2^particle_bits, of each of these textures,
+// until sim/gl/fragment/order.c moves them.
 // sim/gl/fragment/constants.c writes particle_count, particle_bits and what else is constant before the shader.
-uniform sampler2D position; // x y z, fluid
-uniform sampler2D velocity; // x y z, 0
+uniform sampler2D position; // x y z, id
+uniform sampler2D velocity; // x y z, fluid
 uniform vec4 fluid_numbers[FLUIDS];
 
 struct Fluid { // as in sim/constant_block.h

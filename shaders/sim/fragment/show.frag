@@ -8,7 +8,7 @@ float compression_of(int i) { return stiffness_scale * (1.0 / (of_particle(field
 
 float value_of(int i)
 {
-    float fluid = of_particle(position, i).w;
+    float fluid = of_particle(velocity, i).w;
     switch (scalar) {
     case SCALAR_SPEED:
         return length(of_particle(velocity, i).xyz);
@@ -21,7 +21,7 @@ float value_of(int i)
     case SCALAR_FLUID:
         return fluid;
     }
-    return float(i);
+    return of_particle(position, i).w;
 }
 
 void main()
@@ -30,7 +30,7 @@ void main()
     if (i >= particle_count)
         discard;
     if (scalar > SCALAR_COUNT)
-        word = uint(i);
+        word = uint(of_particle(position, i).w);
     else
-        word = scalar == SCALAR_COUNT ? uint(of_particle(position, i).w) : floatBitsToUint(value_of(i));
+        word = scalar == SCALAR_COUNT ? uint(of_particle(velocity, i).w) : floatBitsToUint(value_of(i));
 }

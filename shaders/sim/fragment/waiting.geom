@@ -11,9 +11,9 @@ out uint waiting;
 
 void main()
 {
-    ivec2 texel = bucket_of(cell_index(cell_of(of_particle(position, int(candidate[0]) - 1).xyz)));
-    uint last = texelFetch(buckets, ivec3(texel, layer), 0).w;
-    if (last == 0u || last >= candidate[0])
+    vec4 own = of_particle(position, int(candidate[0]) - 1);
+    uint last = texelFetch(buckets, ivec3(bucket_of(cell_index(cell_of(own.xyz))), layer), 0).w;
+    if (last == 0u || of_particle(position, int(last) - 1).w >= own.w)
         return;
     waiting = candidate[0];
     EmitVertex();

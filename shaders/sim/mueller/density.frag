@@ -28,18 +28,18 @@ void main()
     int i = own_particle();
     if (i >= particle_count)
         discard;
-    vec4 own = of_particle(position, i);
+    vec4 own = of_particle(position, i), speed = of_particle(velocity, i);
     here = own.xyz;
     sum = 1.0; // itself, whether it has a place or not
     bool placed = meet_neighbours(i, here);
     float n = kernel_scale * sum + walls_at(here, true).density;
-    float p = fluid_of(own.w).stiffness * (n / rest_number_density - 1.0);
+    float p = fluid_of(speed.w).stiffness * (n / rest_number_density - 1.0);
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);
 #endif
     fields = vec4(1.0 / n, p, 0.0, placed ? 0.0 : 1.0);
     near = vec4(here, p / (n * n));
 #ifdef VISCOUS
-    moving = vec4(of_particle(velocity, i).xyz, 1.0 / n);
+    moving = vec4(speed.xyz, 1.0 / n);
 #endif
 }

@@ -23,7 +23,7 @@ void meet(int j)
     if (r2 >= h * h)
         return;
     if (r2 < least * least) {
-        d = least * direction_of_ids(uint(self), uint(j));
+        d = least * direction_of_ids(uint(of_particle(position, self).w), uint(of_particle(position, j).w));
         r2 = least * least;
     }
     float r = sqrt(r2), t = 1.0 - r * inverse_support;
@@ -31,7 +31,7 @@ void meet(int j)
 #ifdef VISCOUS
     vec4 its = of_particle(moving, j);
 #if FLUIDS > 1
-    float mu = viscosity + fluid_of(of_particle(position, j).w).viscosity;
+    float mu = viscosity + fluid_of(of_particle(velocity, j).w).viscosity;
 #else
     float mu = 2.0 * viscosity;
 #endif
@@ -45,7 +45,7 @@ void main()
     if (self >= particle_count)
         discard;
     vec4 own = of_particle(near, self), known = of_particle(fields, self);
-    Fluid fluid = fluid_of(of_particle(position, self).w);
+    Fluid fluid = fluid_of(of_particle(velocity, self).w);
     here = own.xyz;
     pressure_term = own.w;
     force = vec3(0);

@@ -92,7 +92,7 @@ static bool fits(const Fragment *f, Error *error)
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &numbers);
     if (f->count > FRAGMENT_COUNT_MOST)
         return error_set(error,
-                         "backend fragment holds up to %d particles, whose indices its depth buffer keeps "
+                         "backend fragment holds up to %d particles, whose ids its depth buffer keeps "
                          "exactly, not %zu; use a larger spacing or backend compute",
                          FRAGMENT_COUNT_MOST, f->count);
     if (f->width > side || f->height > side || f->bucket_width > side || f->bucket_height > side)
@@ -134,6 +134,7 @@ static void *fragment_create(const Constants *constants, const WorldDef *def, co
     }
     f->constants = constants;
     f->count = initial->count;
+    f->order_every = FRAGMENT_ORDER_EVERY;
     f->layers = fragment_layers(def);
     f->lost_limit = (size_t)fragment_def(def)->lost_limit;
     shape_for(f->count, &f->bits, &f->width, &f->height);

@@ -1,10 +1,11 @@
 /* The backend `fragment`: the solver in fragment shaders, after T. Harada, S. Koshizuka, Y. Kawaguchi,
    "Smoothed particle hydrodynamics on GPUs", 2007. Its state, for the files that make it up.
 
-   Needs a current context, the same one throughout. Particles are texels of float textures and stay where
-   they are: texel = id. A pass draws a triangle over all of them, from one set of textures into another. The
-   neighbours are found through buckets: a texel a cell, which holds four indices, in several layers. Shaders
-   are shaders/sim/fragment and a method's own in its folder, in GLSL 3.30. */
+   Needs a current context, the same one throughout. Particles are texels of float textures; an index says
+   which. They begin in the order of their ids and come into that of their cells now and then. A pass draws a
+   triangle over all of them, from one set of textures into another. The neighbours are found through buckets:
+   a texel a cell, which holds four indices, in several layers. Shaders are shaders/sim/fragment and a
+   method's own in its folder, in GLSL 3.30. */
 #ifndef SLOSH_FRAGMENT_H
 #define SLOSH_FRAGMENT_H
 
@@ -13,7 +14,8 @@
 #include "sim/world/backend.h"
 
 enum {
-    FRAGMENT_COUNT_MOST = 1 << 24, /* indices up to here are exact in a depth of 32 bits */
+    FRAGMENT_COUNT_MOST = 1 << 24, /* ids up to here are exact in a float and a depth of 32 bits */
+    FRAGMENT_ORDER_EVERY = 32,     /* so many frames */
     FRAGMENT_LAYERS_MOST = 63,     /* the stencil, of 8 bits, counts the places of a cell */
     FRAGMENT_LEVELS_MOST = 8,      /* of the reduction, each an eighth of the one before */
     FRAGMENT_CONSTANTS_MAX = 3072  /* characters */
@@ -25,6 +27,9 @@ enum {
     X(DRIFT, "fragment/screen.vert", "fragment/drift.frag", "")                                              \
     X(BUCKET, "fragment/bucket.vert", "fragment/bucket.frag", "")                                            \
     X(WAITING, "fragment/waiting.vert", "fragment/waiting.geom", "")                                         \
+    X(ORDER, "fragment/order.vert", "fragment/order.geom", "")                                               \
+    X(REORDER, "fragment/screen.vert", "fragment/order.frag", "")                                            \
+    X(NUMBER, "fragment/number.vert", "fragment/bucket.frag", "")                                            \
     X(DENSITY, "fragment/screen.vert", NULL, "")                                                             \
     X(FORCE, "fragment/screen.vert", NULL, "")                                                               \
     X(KICK, "fragment/screen.vert", "fragment/kick.frag", "")                                                \
@@ -57,7 +62,8 @@ typedef enum FragmentPass {
     X(BUCKETS, "buckets")                                                                                    \
     X(WALLS, "wall_texture")                                                                                 \
     X(FINER, "finer")                                                                                        \
-    X(BEFORE, "before")
+    X(BEFORE, "before")                                                                                      \
+    X(BY_CELL, "by_cell")
 
 /* X(name): the uniforms of the shaders */
 #define FRAGMENT_UNIFORMS(X)                                                                                 \
@@ -69,6 +75,7 @@ typedef enum FragmentPass {
     X(dt)                                                                                                    \
     X(still)                                                                                                 \
     X(layer)                                                                                                 \
+    X(placeless)                                                                                             \
     X(felt_origin)                                                                                           \
     X(felt_alpha)                                                                                            \
     X(felt_omega)                                                                                            \
@@ -99,18 +106,22 @@ typedef struct Fragment {
     int bucket_bits, bucket_width, bucket_height; /* of the buckets, likewise */
     int layers;
     size_t lost_limit;     /* so many particles may find no place in a step */
-    unsigned position[2];  /* x y z (m), fluid */
-    unsigned velocity[2];  /* x y z (m/s), 0 */
+    unsigned position[2];  /* x y z (m), id */
+    unsigned velocity[2];  /* x y z (m/s), fluid */
     unsigned held[2];      /* uint: by `drift`, how often the guard held the particle */
     unsigned fields;       /* by `density`: volume, p, 0; 1 for a particle without a place, else 0 */
     unsigned near;         /* too, for others to read: x y z, p V^2 */
     unsigned moving;       /* too, where a fluid is viscous: velocity, volume */
     unsigned acceleration; /* by `force`: x y z (m/s2), 0 */
     unsigned buckets;      /* by `grid`: uvec4 a cell and layer: index + 1 of four particles, or 0 */
-    unsigned bucket_depth; /* (index + 1) / 2^24 of what went in last; stencil: how many did */
+    unsigned bucket_depth; /* (id + 1) / 2^24 of what went in last; stencil: how many did */
     unsigned full[FRAGMENT_LAYERS_MOST]; /* queries: whether some cell filled the layer */
-    unsigned listed[3]; /* buffers of uint, index + 1: all; by `grid`, what waits for an even, an odd layer */
-    unsigned lists[3];  /* as vertex arrays */
+    unsigned listed[3]; /* buffers of uint, index + 1: all, by id; by `grid`, what waits for an even, an odd
+                           layer; the second by `mark`, too: all by cell */
+    unsigned by_cell;   /* the second as a texture */
+    unsigned written;   /* a query: how many particles were listed by cell */
+    int order_every, marks;      /* frames from one order to the next, 0: never; those since the last */
+    unsigned lists[3];           /* as vertex arrays */
     unsigned feedback[2];        /* into the latter two */
     unsigned walls, wall_buffer; /* the tables, as a texture; the buffer that it shows */
     int levels;                  /* of the reduction, each coarser than the one before: */
@@ -154,6 +165,14 @@ bool fragment_gauge_programs(Fragment *fragment, Error *error);
 /* Gives the programs what may change of the fluids. */
 void fragment_set_fluids(const Fragment *fragment);
 
+/* Which particles are the texels, from their ids: `listed`. What is drawn from then on, over `width` x
+   `height` texels of up to three textures. */
+void fragment_number(Fragment *fragment);
+void fragment_target(const Fragment *fragment, const unsigned *targets, int count, int width, int height);
+
+/* Once in so many calls, brings the particles into the order of their cells. */
+void fragment_order(Fragment *fragment);
+
 /* Draws the pass over `width` x `height` texels of up to three textures. */
 void fragment_draw(const Fragment *fragment, FragmentPass pass, const unsigned *targets, int count, int width,
                    int height);
@@ -179,8 +198,7 @@ void fragment_watch_reset(Fragment *fragment, size_t guarded);
 /* False when memory is short. */
 bool fragment_set_particles(Fragment *fragment, const InitialState *initial);
 
-/* All places of the buckets, to be freed; NULL when memory is short. What stands at a place of a cell: an
-   index
+/* All places of the buckets, to be freed; NULL when memory is short. What stands at a place of a cell: an id
    + 1, or 0. */
 uint32_t *fragment_buckets_read(const Fragment *fragment);
 uint32_t fragment_bucket_at(const Fragment *fragment, const uint32_t *places, size_t cell, int place);

@@ -1,7 +1,7 @@
-/* The buckets: each particle is a point, drawn into its cell's texel as deep as its index. In the k-th pass
-   the colour mask opens the k-th place; the depth test lets indices pass that are greater than the last one
-   there, and of these, which are drawn in rising order, the stencil lets only the first: it counts what went
-   in. So each pass puts every cell's next index in: Harada, Koshizuka and Kawaguchi 2007, with more layers
+/* The buckets: each particle is a point, drawn into its cell's texel as deep as its id. In the k-th pass the
+   colour mask opens the k-th place; the depth test lets ids pass that are greater than the last one there,
+   and of these, which are drawn in rising order, the stencil lets only the first: it counts what went in. So
+   each pass puts every cell's next particle in: Harada, Koshizuka and Kawaguchi 2007, with more layers
    than one. What one layer leaves is listed by transform feedback, and only that is drawn into the next. */
 #include "sim/gl/fragment/fragment.h"
 

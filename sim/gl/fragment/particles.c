@@ -7,19 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POSITION = 1, VELOCITY, FIELDS, TEXTURES, ID = TEXTURES };
+enum { POSITION = 1, VELOCITY, FIELDS, TEXTURES };
 
 #define AT(member) offsetof(ParticleColumns, member)
 
-/* The id of a particle is its texel. */
 static const Packing packing = {.words = {[POSITION] = 4, [VELOCITY] = 4, [FIELDS] = 4},
                                 .column = {
                                     {POSITION, 0, AT(x), COLUMN_FLOAT},
-                                    {POSITION, 3, AT(fluid), COLUMN_FLOAT},
+                                    {POSITION, 3, AT(id), COLUMN_FLOAT},
                                     {VELOCITY, 0, AT(vx), COLUMN_FLOAT},
+                                    {VELOCITY, 3, AT(fluid), COLUMN_FLOAT},
                                     {FIELDS, 0, AT(volume), COLUMN_FLOAT},
                                     {FIELDS, 1, AT(pressure), COLUMN_FLOAT},
-                                    {ID, 0, AT(id), COLUMN_INDEX},
                                 }};
 
 static unsigned texture_of(const Fragment *f, int texture)
@@ -42,23 +41,45 @@ static size_t texture_bytes(const Fragment *f)
     return 16 * (size_t)f->width * (size_t)f->height;
 }
 
-/* Into columns that columns_destroy frees; false when memory is short. */
+/* The id of each texel's particle, to be freed; NULL when memory is short. */
+static uint32_t *ids_read(const Fragment *f)
+{
+    float *texels = malloc(texture_bytes(f));
+    uint32_t *id = texels ? malloc(sizeof *id * (f->count + 1)) : NULL;
+    if (id)
+        texels_read(f->position[0], GL_RGBA, GL_FLOAT, texture_bytes(f), texels);
+    for (size_t i = 0; id && i < f->count; i++)
+        id[i] = (uint32_t)texels[4 * i + 3];
+    free(texels);
+    return id;
+}
+
+/* A texture's texels in the order of the ids, into `out`. */
+static void texels_by_id(const Fragment *f, int texture, const uint32_t *id, uint32_t *texels, uint32_t *out)
+{
+    texels_read(texture_of(f, texture), GL_RGBA, GL_FLOAT, texture_bytes(f), texels);
+    for (size_t i = 0; i < f->count; i++)
+        memcpy(out + 4 * (size_t)id[i], texels + 4 * i, 16);
+}
+
+/* In the order of the ids, whatever that of the texels, into columns that columns_destroy frees; false when
+   memory is short. */
 static bool download(const Fragment *f, ParticleColumns *columns)
 {
     const Method *method = f->constants->method;
     const ColumnRows rows = packing_rows(&packing, method);
-    uint32_t *texels = malloc(texture_bytes(f));
+    uint32_t *texels = malloc(texture_bytes(f)), *sorted = malloc(texture_bytes(f)), *id = ids_read(f);
     *columns = (ParticleColumns){0};
-    const bool done = texels && columns_create(columns, &rows, f->count, NULL);
+    const bool done = texels && sorted && id && columns_create(columns, &rows, f->count, NULL);
     for (int t = POSITION; done && t < TEXTURES; t++) {
-        texels_read(texture_of(f, t), GL_RGBA, GL_FLOAT, texture_bytes(f), texels);
-        packing_unpack(&packing, t, method, texels, f->count, columns);
+        texels_by_id(f, t, id, texels, sorted);
+        packing_unpack(&packing, t, method, sorted, f->count, columns);
     }
-    for (size_t i = 0; done && i < f->count; i++)
-        columns->id[i] = (uint32_t)i;
     if (!done)
         columns_destroy(columns);
     free(texels);
+    free(sorted);
+    free(id);
     return done;
 }
 
@@ -72,7 +93,7 @@ static void texels_write(const Fragment *f, unsigned texture, const uint32_t *te
 }
 
 /* Each particle into the texel of its id, so that what follows does not depend on the order it came in. */
-static bool upload(const Fragment *f, const ParticleColumns *from)
+static bool upload(Fragment *f, const ParticleColumns *from)
 {
     uint32_t *texels = malloc(texture_bytes(f));
     for (int t = POSITION; texels && t < FIELDS; t++) {
@@ -80,6 +101,8 @@ static bool upload(const Fragment *f, const ParticleColumns *from)
         packing_pack(&packing, t, f->constants->method, from, f->count, from->id, texels);
         texels_write(f, texture_of(f, t), texels);
     }
+    if (texels)
+        fragment_number(f);
     free(texels);
     return texels != NULL;
 }
@@ -133,8 +156,17 @@ uint32_t *fragment_buckets_read(const Fragment *f)
 {
     const size_t bytes = 16 * (size_t)f->bucket_width * (size_t)f->bucket_height * (size_t)f->layers;
     uint32_t *places = bytes <= INT32_MAX ? malloc(bytes) : NULL; /* more, a single read cannot bring */
-    if (places)
+    uint32_t *id = places ? ids_read(f) : NULL;
+    if (id)
         texels_read(f->buckets, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bytes, places);
+    for (size_t k = 0; id && k < bytes / sizeof *places; k++)
+        if (places[k] > 0 && places[k] <= f->count)
+            places[k] = id[places[k] - 1] + 1;
+    if (!id) {
+        free(places);
+        return NULL;
+    }
+    free(id);
     return places;
 }
 

@@ -68,7 +68,7 @@ static unsigned pass_create(const Fragment *f, FragmentPass pass, const char *co
     snprintf(text, sizeof text, "%s%s", passes[pass].defines, constant_lines);
     const char *const stages[] = {vertex, next, NULL};
     const unsigned program = program_create(next + strlen("sim/"), stages, text, error);
-    if (program && pass == FRAGMENT_WAITING)
+    if (program && (pass == FRAGMENT_WAITING || pass == FRAGMENT_ORDER))
         capture(program, "waiting");
     for (int s = 0; program && s < FRAGMENT_SAMPLER_COUNT; s++) {
         const GLint at = glGetUniformLocation(program, samplers[s]);
@@ -167,8 +167,7 @@ void fragment_sample(FragmentSampler sampler, unsigned texture)
     glBindTextureUnit((GLuint)(FIRST_UNIT + (int)sampler), texture);
 }
 
-void fragment_draw(const Fragment *f, FragmentPass pass, const unsigned *targets, int count, int width,
-                   int height)
+void fragment_target(const Fragment *f, const unsigned *targets, int count, int width, int height)
 {
     static const GLenum attachments[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
     for (int k = 0; k < 3; k++)
@@ -176,8 +175,14 @@ void fragment_draw(const Fragment *f, FragmentPass pass, const unsigned *targets
     glNamedFramebufferDrawBuffers(f->framebuffer, count, attachments);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->framebuffer);
     glViewport(0, 0, width, height);
-    glUseProgram(f->program[pass]);
     glBindVertexArray(f->vertex_array);
+}
+
+void fragment_draw(const Fragment *f, FragmentPass pass, const unsigned *targets, int count, int width,
+                   int height)
+{
+    fragment_target(f, targets, count, width, height);
+    glUseProgram(f->program[pass]);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

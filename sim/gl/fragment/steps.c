@@ -71,6 +71,7 @@ static void force(Fragment *f, const ApparentGravity *gravity)
     fragment_set3(f, FRAGMENT_FORCE, FRAGMENT_felt_omega, gravity->omega);
     sample_neighbours(f);
     fragment_sample(FRAGMENT_SAMPLE_FIELDS, f->fields);
+    fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
     fragment_sample(FRAGMENT_SAMPLE_NEAR, f->near);
     fragment_sample(FRAGMENT_SAMPLE_MOVING, f->moving);
     draw(f, FRAGMENT_FORCE, &f->acceleration, 1);

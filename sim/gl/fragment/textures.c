@@ -67,20 +67,15 @@ static void buckets_create(Fragment *f)
     }
 }
 
-/* Lists of indices, the first of all of them. */
-static bool lists_create(Fragment *f)
+/* Lists of indices, room for all of them and, since the first is a texture's, for the texels behind. */
+static void lists_create(Fragment *f)
 {
-    const size_t bytes = 4 * (f->count + 1);
-    uint32_t *all = malloc(bytes);
-    if (!all)
-        return false;
-    for (size_t i = 0; i < f->count; i++)
-        all[i] = (uint32_t)i + 1;
+    const size_t bytes = 4 * (size_t)f->width * ((size_t)f->height + 1);
     glCreateBuffers(3, f->listed);
     glCreateVertexArrays(3, f->lists);
     glCreateTransformFeedbacks(2, f->feedback);
     for (int k = 0; k < 3; k++) {
-        glNamedBufferStorage(f->listed[k], (GLsizeiptr)bytes, k == 0 ? all : NULL, 0);
+        glNamedBufferStorage(f->listed[k], (GLsizeiptr)bytes, NULL, 0);
         glObjectLabel(GL_BUFFER, f->listed[k], -1, "listed particles");
         glVertexArrayVertexBuffer(f->lists[k], 0, f->listed[k], 0, 4);
         glEnableVertexArrayAttrib(f->lists[k], 0);
@@ -89,9 +84,11 @@ static bool lists_create(Fragment *f)
     }
     for (int k = 0; k < 2; k++)
         glTransformFeedbackBufferBase(f->feedback[k], 0, f->listed[1 + k]);
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &f->by_cell);
+    glObjectLabel(GL_TEXTURE, f->by_cell, -1, "particles by cell");
+    glTextureBuffer(f->by_cell, GL_R32UI, f->listed[1]);
+    glCreateQueries(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, 1, &f->written);
     f->bytes += 3 * bytes;
-    free(all);
-    return true;
 }
 
 static void walls_create_texture(Fragment *f)
@@ -142,7 +139,8 @@ bool fragment_textures_create(Fragment *f, Error *error)
     particles_create(f);
     buckets_create(f);
     walls_create_texture(f);
-    const bool enough = watch_create(f) && lists_create(f);
+    const bool enough = watch_create(f);
+    lists_create(f);
     glCreateFramebuffers(1, &f->framebuffer);
     glObjectLabel(GL_FRAMEBUFFER, f->framebuffer, -1, "solver passes");
     glCreateVertexArrays(1, &f->vertex_array);
@@ -177,7 +175,7 @@ void fragment_textures_destroy(Fragment *f)
                                f->held[0],     f->held[1],     f->fields,       f->acceleration,
                                f->buckets,     f->walls,       f->watch[0],     f->watch[1],
                                f->marked[0],   f->marked[1],   f->bucket_depth, f->placed,
-                               f->word,        f->near,        f->moving};
+                               f->word,        f->near,        f->moving,       f->by_cell};
     const GLuint buffers[] = {f->wall_buffer, f->shown_position, f->shown_velocity};
     glDeleteFramebuffers(f->layers, f->bucket_framebuffer);
     glDeleteFramebuffers(1, &f->framebuffer);
@@ -185,6 +183,7 @@ void fragment_textures_destroy(Fragment *f)
     glDeleteTextures(f->levels, f->found);
     glDeleteTextures(f->levels, f->held_sum);
     glDeleteQueries(f->layers, f->full);
+    glDeleteQueries(1, &f->written);
     glDeleteVertexArrays(1, &f->vertex_array);
     glDeleteVertexArrays(3, f->lists);
     glDeleteTransformFeedbacks(2, f->feedback);

@@ -60,6 +60,7 @@ void fragment_watch_reset(Fragment *f, size_t guarded)
     forget(f);
     mailbox_forget(&f->watched);
     f->watch_due = false;
+    f->marks = 0;
     glClearTexImage(f->held[0], 0, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     f->guarded_before = guarded;
     f->guarded = 0;
@@ -97,6 +98,7 @@ bool fragment_mark(void *state, Error *error)
     Fragment *f = state;
     if (!f->marked[0] && !fragment_marked_create(f, error))
         return false;
+    fragment_order(f);
     copy_texture(f, f->position[0], f->marked[0]);
     copy_texture(f, f->velocity[0], f->marked[1]);
     return true;

@@ -1,0 +1,3 @@
+out int number;
+
+void main() { number = gl_VertexID; }
