@@ -94,7 +94,9 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
 }
 
 /* A software driver takes half a kilobyte a particle for each picture and frees it: blocks of 64 KB, which
-   glibc would hand back to the system and fault in anew, page by page, a quarter of a picture's time. */
+   glibc would hand back to the system and fault in anew, page by page, a quarter of a picture's time. glibc
+   knows such a setting for the whole process only: hence here, where pictures begin, and not where there are
+   none. */
 static void keep_freed_memory(void)
 {
 #ifdef __GLIBC__

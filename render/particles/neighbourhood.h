@@ -2,6 +2,11 @@
    filled on the GPU by a counting sort whose order is that of the particles within a cell. Sums over
    neighbours are then the same bits each time.
 
+   The grid of `compute`, which has sorted the same particles, does not serve. It is of the middle of a step,
+   and particles have drifted since: two that are near now may stand two cells apart there, and a picture
+   would tell whether a run has come to its state or has loaded it. Making this one is 5 % of a picture of
+   `splat` (100,000 particles at 1280 x 720 on a software driver, 7.6 of 157 ms).
+
    Particles beside the box stand in the cells at its sides. Those farther than eight cells from it, or no
    numbers, stand in none: they have no neighbours. */
 #ifndef SLOSH_NEIGHBOURHOOD_H

@@ -3,6 +3,7 @@
 
 #include "render/renderer.h"
 #include "sim/gl/compute/compute.h"
+#include "sim/gl/fragment/fragment.h"
 #include "sim/gl/limits.h"
 #include "sim/wcsph/wcsph.h"
 #include "sim/world/world_struct.h"
@@ -231,7 +232,7 @@ static void lists_change_no_bit(void **state)
     limit(0, 0);
 }
 
-static int storage_left; /* so many large buffers the driver has memory for */
+static int storage_left; /* so many textures and large buffers the driver has memory for */
 static GLenum short_of;
 static PFNGLNAMEDBUFFERSTORAGEPROC storage;
 static PFNGLGETERRORPROC get_error;
@@ -244,6 +245,15 @@ static void APIENTRY limited_storage(GLuint buffer, GLsizeiptr size, const void 
         short_of = GL_OUT_OF_MEMORY;
 }
 
+static PFNGLTEXTURESTORAGE2DPROC texture_storage;
+
+static void APIENTRY limited_texture(GLuint texture, GLsizei levels, GLenum format, GLsizei x, GLsizei y)
+{
+    texture_storage(texture, levels, format, x, y); /* it is cleared before anybody asks */
+    if (storage_left-- <= 0)
+        short_of = GL_OUT_OF_MEMORY;
+}
+
 static GLenum APIENTRY limited_error(void)
 {
     const GLenum code = short_of ? short_of : get_error();
@@ -251,11 +261,13 @@ static GLenum APIENTRY limited_error(void)
     return code;
 }
 
-/* From now on the driver has memory for so many buffers of at least a number a particle. */
+/* From now on the driver has memory for so many textures, and buffers of at least a number a particle. */
 static void limit_storage(int buffers)
 {
     storage = (PFNGLNAMEDBUFFERSTORAGEPROC)eglGetProcAddress("glNamedBufferStorage");
+    texture_storage = (PFNGLTEXTURESTORAGE2DPROC)eglGetProcAddress("glTextureStorage2D");
     get_error = (PFNGLGETERRORPROC)eglGetProcAddress("glGetError");
+    epoxy_glTextureStorage2D = limited_texture;
     epoxy_glNamedBufferStorage = limited_storage;
     epoxy_glGetError = limited_error;
     storage_left = buffers;
@@ -288,6 +300,26 @@ static void memory_that_was_short_may_come(void **state)
     assert_true(world_change(world, &def, &error) && world->backend->mark(world->state, &error));
     fixture_step(world, 2);
     world->backend->back(world->state, world->count, 0);
+    fixture_step(world, 2);
+    world_destroy(world);
+}
+
+static void memory_of_textures_may_come(void **state)
+{
+    (void)state;
+    Error error = {0};
+    WorldDef def = short_def();
+    def.wall_slip = SLIP_FREE;
+    snprintf(def.backend, sizeof def.backend, "fragment");
+    World *world = fixture_world(&def);
+    const Fragment *f = world->state;
+    def.fluids[0].viscosity = 1;
+    limit_storage(0);
+    assert_false(world_change(world, &def, &error) || world->backend->mark(world->state, &error));
+    assert_true(f->moving == 0 && f->marked[0] == 0 && f->marked[1] == 0);
+    fixture_step(world, 2);
+    limit_storage(INT_MAX);
+    assert_true(world_change(world, &def, &error) && world->backend->mark(world->state, &error));
     fixture_step(world, 2);
     world_destroy(world);
 }
@@ -363,6 +395,7 @@ int main(void)
         cmocka_unit_test_teardown(lists_that_do_not_fit_are_said, no_gl_errors),
         cmocka_unit_test_teardown(lists_change_no_bit, no_gl_errors),
         cmocka_unit_test_teardown(memory_that_was_short_may_come, no_gl_errors),
+        cmocka_unit_test_teardown(memory_of_textures_may_come, no_gl_errors),
         cmocka_unit_test_teardown(no_world_is_made_of_too_little, no_gl_errors),
         cmocka_unit_test_teardown(views_ask, no_gl_errors),
     };

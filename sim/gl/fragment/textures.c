@@ -3,7 +3,7 @@
 #include "sim/gl/fragment/fragment.h"
 
 #include <epoxy/gl.h>
-#include <stdlib.h>
+#include <string.h>
 
 static size_t texel_bytes(GLenum format)
 {
@@ -147,18 +147,27 @@ bool fragment_textures_create(Fragment *f, Error *error)
     return memory_sufficed(f, enough, error) && fragment_terms_create(f, error);
 }
 
+/* Names without memory, so that they are not taken for textures afterwards; false. */
+static bool drop(unsigned *textures, int count)
+{
+    glDeleteTextures(count, textures);
+    memset(textures, 0, (size_t)count * sizeof *textures);
+    return false;
+}
+
 bool fragment_marked_create(Fragment *f, Error *error)
 {
     f->marked[0] = texture(f, "kept particle positions", GL_RGBA32F, f->width, f->height);
     f->marked[1] = texture(f, "kept particle velocities", GL_RGBA32F, f->width, f->height);
-    return memory_sufficed(f, true, error);
+    return memory_sufficed(f, true, error) || drop(f->marked, 2);
 }
 
 bool fragment_terms_create(Fragment *f, Error *error)
 {
-    if (f->constants->viscous && !f->moving)
-        f->moving = texture(f, "particle velocities and volumes", GL_RGBA32F, f->width, f->height);
-    return memory_sufficed(f, true, error);
+    if (!f->constants->viscous || f->moving)
+        return memory_sufficed(f, true, error);
+    f->moving = texture(f, "particle velocities and volumes", GL_RGBA32F, f->width, f->height);
+    return memory_sufficed(f, true, error) || drop(&f->moving, 1);
 }
 
 void fragment_shown_create(Fragment *f)
