@@ -112,6 +112,14 @@ static bool fits(const Fragment *f, Error *error)
     return true;
 }
 
+/* Never where a list of all particles is more than a texture may show of a buffer. */
+static int order_every(const Fragment *f)
+{
+    GLint texels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+    return f->count <= (size_t)texels ? FRAGMENT_ORDER_EVERY : 0;
+}
+
 static bool fill(Fragment *f, const InitialState *initial, Error *error)
 {
     return fragment_textures_create(f, error) && fragment_programs_create(f, error) &&
@@ -134,7 +142,6 @@ static void *fragment_create(const Constants *constants, const WorldDef *def, co
     }
     f->constants = constants;
     f->count = initial->count;
-    f->order_every = FRAGMENT_ORDER_EVERY;
     f->layers = fragment_layers(def);
     f->lost_limit = (size_t)fragment_def(def)->lost_limit;
     shape_for(f->count, &f->bits, &f->width, &f->height);
@@ -143,6 +150,7 @@ static void *fragment_create(const Constants *constants, const WorldDef *def, co
         free(f);
         return NULL;
     }
+    f->order_every = order_every(f);
     if (!fill(f, initial, error)) {
         fragment_destroy(f);
         return NULL;
