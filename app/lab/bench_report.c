@@ -30,7 +30,7 @@ static void print_parts(const BenchResult *r, FILE *file)
     if (r->lost > 0)
         fprintf(file, "  %zu particle%s found no place in the grid\n", r->lost, plural(r->lost));
     if (r->unlisted > 0)
-        fprintf(file, "  without lists of neighbours: the GPU has no %.3g GB for them\n",
+        fprintf(file, "  without lists of neighbours: %.3g GB are more than the driver allows\n",
                 1e-9 * (double)r->unlisted);
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
             r->render_ms, r->frame_ms);

@@ -118,8 +118,9 @@ const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
 const char *session_unlisted_text(const WorldInfo *info, char words[256])
 {
     snprintf(words, 256,
-             "the GPU has no %.3g GB for lists of neighbours: each pass searches anew, and steps take up to "
-             "twice as long; a smaller particles.support or fewer particles need less",
+             "lists of neighbours would take %.3g GB, more than the driver or its memory allows: each pass "
+             "searches anew, and steps take up to twice as long; fewer particles or a smaller "
+             "particles.support need less",
              1e-9 * (double)info->unlisted);
     return words;
 }

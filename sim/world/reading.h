@@ -41,8 +41,8 @@ typedef struct WorldInfo {
     uint64_t limited[STEP_LIMIT_COUNT]; /* steps by what bounded them, since the start */
     WorldTrouble trouble;
     size_t lost;     /* backend fragment: particles without a place in its grid, in the last step known */
-    size_t unlisted; /* backend compute: bytes of lists of neighbours that there is no memory for, so that
-                        steps take longer; 0: it has them, or is not to have them */
+    size_t unlisted; /* backend compute: bytes of lists of neighbours that are more than the driver or its
+                        memory allows, so that steps take longer; 0: it has them, or is not to have them */
     size_t guarded;  /* times that the last guard of a wall held a particle back, since the start */
     double courant;  /* dt (c + greatest speed) / h of the last step, whatever bounded it; on a GPU the speed
                         is that of the frame before */
