@@ -31,12 +31,13 @@ static const Form forms[] = {
     {"rows of five cells of h/2, tested in each pass", HALVES, nothing, rows_density, rows_force},
     {"lists from rows; gathers", ROWS, lists_of_rows, gathered_density, gathered_force},
     {"lists from rows; packed columns", ROWS, lists_of_rows, packed_density, packed_force},
+    {"the same, cells of h/2", HALVES, lists_of_rows, packed_density, packed_force},
     {"lists from blocks; packed columns", ROWS, lists_of_blocks, packed_density, packed_force},
-    {"the same, each pair once", ROWS, half_lists, once_density, once_force},
+    {"half lists from blocks, each pair once", ROWS, half_lists, once_density, once_force},
     {"**lists side by side: the program**", ROWS, program_lists, program_density, program_force},
     {"the same, a skin of 0.1 h", SKIN_1, program_lists, program_density, program_force},
     {"the same, a skin of 0.2 h", SKIN_2, program_lists, program_density, program_force},
-    {"the same by this test, row behind row", ROWS, turned_lists, program_density, program_force},
+    {"side by side, made by this test", ROWS, turned_lists, program_density, program_force},
     {"the same, cells along a Morton curve", CURVE, turned_lists, program_density, program_force},
 };
 enum { FORMS = sizeof forms / sizeof *forms };
@@ -153,6 +154,15 @@ static void print_row(const Form *form, const double least[3])
            make + both, make + 2 * both);
 }
 
+static double neighbours(Cloud *cloud)
+{
+    double sum = 0;
+    lists_of_blocks(cloud);
+    for (size_t i = 0; i < cloud->args.count; i++)
+        sum += cloud->length[i];
+    return sum / (double)cloud->args.count;
+}
+
 /* Rounds of all forms, one behind the other, so that a slow minute meets all of them. */
 static int time_forms(double particles)
 {
@@ -170,9 +180,9 @@ static int time_forms(double particles)
             time_part(forms[f].density, cloud, &least[f][1]);
             time_part(forms[f].force, cloud, &least[f][2]);
         }
-    printf("| %zu particles | making | density | force | 1 pass | 2 passes | 4 passes |\n"
+    printf("| %zu particles, %.1f neighbours | making | density | force | 1 pass | 2 passes | 4 passes |\n"
            "| --- | --- | --- | --- | --- | --- | --- |\n",
-           clouds[ROWS]->args.count);
+           clouds[ROWS]->args.count, neighbours(clouds[ROWS]));
     for (size_t f = 0; f < FORMS; f++)
         print_row(&forms[f], least[f]);
     for (int k = 0; k < SHAPES; k++)
