@@ -97,6 +97,8 @@ static bool measure_state(const MicroSetup *setup, World *world, double asked, c
     result->rounds = run_rounds(world, setup->rounds, parts, result->count, ms);
     if (result->rounds == 0)
         return error_set(error, "stopped before a round was measured");
+    if (!world_micro_sound(world))
+        return error_set(error, "no memory for lists of neighbours; use fewer particles");
     world_sums(world, &sums);
     result->neighbours_mean = sums.neighbours_mean;
     for (int k = 0; k < result->count; k++) {

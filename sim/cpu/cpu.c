@@ -79,7 +79,7 @@ static bool arrays_create(Cpu *cpu, Error *error)
     ok &= (cpu->partial = array(cpu, cpu->capacity / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
     ok &= (cpu->place = array(cpu, cpu->capacity + 1, sizeof *cpu->place)) != NULL;
     ok &= (cpu->motion = array(cpu, cpu->capacity + 1, sizeof *cpu->motion)) != NULL;
-    ok &= neighbour_lists_create(&cpu->lists, cpu->capacity, neighbours_expected(s), &cpu->bytes);
+    ok &= neighbour_lists_create(&cpu->lists, cpu->capacity, neighbours_expected(s));
     if (s->boundary.count > 0) {
         ok &= (cpu->owned_at = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
         ok &= (cpu->owned_before = array(cpu, cpu->capacity + 1, sizeof(uint32_t))) != NULL;
@@ -173,7 +173,7 @@ static void cpu_info(const void *state, WorldInfo *info)
     const Cpu *cpu = state;
     info->threads = cpu->threads;
     info->simd = pair_set_name(cpu->pairs);
-    info->state_bytes = cpu->bytes;
+    info->state_bytes = cpu->bytes + neighbour_lists_bytes(&cpu->lists);
     info->guarded = cpu->guarded;
 }
 

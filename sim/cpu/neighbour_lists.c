@@ -23,7 +23,7 @@ static bool fit(ListMemory *memory, size_t indices)
     return true;
 }
 
-bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neighbours, size_t *bytes)
+bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neighbours)
 {
     lists->ranges = particles / LISTS_GRAIN + 1;
     const size_t groups = particles / LANES + 1;
@@ -35,9 +35,7 @@ bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neig
     for (size_t r = 0; ok && r < lists->ranges; r++) {
         const size_t left = particles - r * LISTS_GRAIN, in_range = left < LISTS_GRAIN ? left : LISTS_GRAIN;
         ok = fit(&lists->of_range[r], (size_t)((double)in_range * rows_expected(neighbours)) + LANES * LANES);
-        *bytes += lists->of_range[r].room * sizeof(uint32_t);
     }
-    *bytes += 2 * groups * sizeof(uint32_t);
     return ok;
 }
 
@@ -51,6 +49,14 @@ void neighbour_lists_destroy(NeighbourLists *lists)
     free(lists->found);
     free(lists->first);
     free(lists->rows);
+}
+
+size_t neighbour_lists_bytes(const NeighbourLists *lists)
+{
+    size_t indices = 2 * lists->ranges * (LISTS_GRAIN / LANES);
+    for (size_t r = 0; r < lists->ranges; r++)
+        indices += (size_t)lists->of_range[r].room + lists->found[r].room;
+    return indices * sizeof(uint32_t);
 }
 
 bool neighbour_lists_fit(NeighbourLists *lists, ListMemory *memory, size_t indices)

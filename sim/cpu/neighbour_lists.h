@@ -33,10 +33,12 @@ typedef struct NeighbourLists {
     bool full;       /* memory was short: some lists lack neighbours; atomic while they are made */
 } NeighbourLists;
 
-/* Room for the lists of `particles` with some `neighbours` each; false when memory is short. Adds to *bytes.
- */
-bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neighbours, size_t *bytes);
+/* Room for the lists of `particles` with some `neighbours` each; false when memory is short. */
+bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neighbours);
 void neighbour_lists_destroy(NeighbourLists *lists);
+
+/* What they take now; they grow. */
+size_t neighbour_lists_bytes(const NeighbourLists *lists);
 
 /* Room for as many indices in `memory`, a range's, which keeps what it has. False when memory is short: then
    `full` is set. */

@@ -63,6 +63,11 @@ void world_micro_run(World *world, const MicroPart *part)
     world->backend->run(world->state, part->pass, &(PassInput){.dt = 0, .apparent = &apparent});
 }
 
+bool world_micro_sound(World *world)
+{
+    return !world->backend->watch(world->state).memory;
+}
+
 bool world_micro_ceilings(const World *world, Ceilings *out)
 {
     return world->backend->micro && world->backend->micro->ceilings(world->state, out);

@@ -66,6 +66,9 @@ int world_micro_parts(const World *world, MicroPart parts[MICRO_PARTS_MAX]);
    was. */
 void world_micro_run(World *world, const MicroPart *part);
 
+/* False where some of what ran since the last time was short of memory: its figures mean nothing. */
+bool world_micro_sound(World *world);
+
 /* Takes a second or two. False when memory is short, or the backend has none. */
 bool world_micro_ceilings(const World *world, Ceilings *out);
 

@@ -149,12 +149,48 @@ static void what_is_left_behind_the_last_counts_for_nothing(void **state)
     world_destroy(world);
 }
 
+/* In the place of the C library's: of more than a megabyte there is none while memory is short. */
+static bool memory_is_short;
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    void *memory = NULL;
+    if (memory_is_short && size > 1000000)
+        return NULL;
+    return posix_memalign(&memory, alignment, size) == 0 ? memory : NULL;
+}
+
+static void memory_that_is_short_is_trouble(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("the lists are its own");
+    static float x[3 * COUNT];
+    Error error;
+    fill(&clouds[2], x); /* a crowd: its lists take six megabytes */
+    WorldDef def = fixture_def(1, 1, 1);
+    def.initial = &(InitialState){.count = COUNT, .position = x};
+    memory_is_short = true;
+    World *world = world_create(&def, &error);
+    assert_non_null(world);
+    assert_true(((Cpu *)world->state)->lists.full);
+    assert_false(world_step(world, NULL, &error));
+    assert_non_null(strstr(error.message, step_trouble_words(STEP_TROUBLE_MEMORY)));
+    world_destroy(world);
+    memory_is_short = false;
+    world = fixture_world(&def);
+    WorldInfo info;
+    world_info(world, &info);
+    assert_true(info.state_bytes > sizeof(uint32_t) * COUNT * (COUNT - 1));
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lists_are_those_of_brute_force),
         cmocka_unit_test(in_every_instruction_set),
         cmocka_unit_test(what_is_left_behind_the_last_counts_for_nothing),
+        cmocka_unit_test(memory_that_is_short_is_trouble),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
