@@ -160,8 +160,7 @@ static void fill_constants(Cloud *cloud)
 Cloud *cloud_create(size_t side, const Shape *shape)
 {
     Cloud *cloud = calloc(1, sizeof *cloud);
-    size_t bytes = 0;
-    if (!cloud || !neighbour_lists_create(&cloud->side_by_side, side * side * side, 40, &bytes))
+    if (!cloud || !neighbour_lists_create(&cloud->side_by_side, side * side * side, 40))
         abort();
     cloud->shape = *shape;
     cloud->args.count = side * side * side;
