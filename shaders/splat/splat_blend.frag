@@ -57,22 +57,27 @@ vec2 rim_of(Splat hit)
     return rim;
 }
 
+// Software drivers, which alone draw points, blend each block of a shader that may discard, be it hidden or not: there zeros are
+// added instead.
 void main()
 {
     Splat hit = splat_here();
     float nearest = texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x;
-    if (!splat_seen(hit) || hit.depth >= nearest + eps)
+    bool adds = splat_seen(hit) && hit.depth < nearest + eps;
+#ifndef POINT
+    if (!adds)
         discard;
+#endif
     float weight = weight_of(hit, nearest);
     vec2 rim = vec2(0.0);
 #ifdef DISCS
     rim = foremost(hit, nearest, 1e-6) ? rim_of(hit) : vec2(0.0);
 #endif
-    color_sum = vec4(weight * color, rim.x);
-    normal_sum = vec4(weight * hit.normal, rim.y);
+    color_sum = adds ? vec4(weight * color, rim.x) : vec4(0.0);
+    normal_sum = adds ? vec4(weight * hit.normal, rim.y) : vec4(0.0);
 #ifdef DISCS
-    weight_sum = vec2(weight, gain * hit.inside2);
+    weight_sum = adds ? vec2(weight, gain * hit.inside2) : vec2(0.0);
 #else
-    weight_sum = weight;
+    weight_sum = adds ? weight : 0.0;
 #endif
 }
