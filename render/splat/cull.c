@@ -171,6 +171,7 @@ static void test(Cull *cull, const Grid *grid, const ParticleBuffers *particles,
     glUniform1f(EPS_AT, eps);
     glUniform1ui(INVERT_AT, hidden);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_KEPT_STORAGE, cull->kept);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TILE_MARKS_STORAGE, cull->marks);
     work_run(chunks_of(particles->count));
     make_lists(cull, particles->count, vertices);
 }

@@ -20,6 +20,7 @@ typedef struct Cull {
     unsigned occlude, test, widen, sum, list; /* programs */
     unsigned limit;                           /* program, after cull_create_limit */
     unsigned map[2];         /* buffers: a depth a cell, and the same before it was widened along y */
+    unsigned marks;          /* buffer of FluidTiles: those that listed particles touch are marked */
     unsigned kept, commands; /* see cull_test.comp, cull_sum.comp */
     unsigned lists[CULL_LISTS];
     size_t cells, capacity; /* how many `map` has room for; how many particles `lists` have room for */

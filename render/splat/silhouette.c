@@ -14,11 +14,10 @@ bool silhouette_create(Silhouette *silhouette, const Subject *subject, Error *er
     const bool solids = subject->world->solid_count > 0, discs = silhouette_by_discs(splat_def(subject->def));
     char defines[96];
     *silhouette = (Silhouette){0};
-    glCreateVertexArrays(1, &silhouette->screen);
     snprintf(defines, sizeof defines, "%s%s%s", solids ? "#define SOLIDS 1\n" : "",
              discs ? "#define DISCS 1\n" : "", solids || !discs ? "#define ROWS 1\n" : "");
     for (int i = 0; i < SILHOUETTE_PASSES; i++) {
-        const char *const stages[] = {"common/screen.vert", files[i], NULL};
+        const char *const stages[] = {FLUID_TILES_VERTEX, files[i], NULL};
         silhouette->programs[i] = program_create(files[i], stages, defines, error);
         if (!silhouette->programs[i])
             return false;
@@ -38,7 +37,6 @@ void silhouette_destroy(Silhouette *silhouette)
     delete_maps(silhouette);
     for (int i = 0; i < SILHOUETTE_PASSES; i++)
         glDeleteProgram(silhouette->programs[i]);
-    glDeleteVertexArrays(1, &silhouette->screen);
     *silhouette = (Silhouette){0};
 }
 
@@ -59,34 +57,32 @@ static void follow(Silhouette *silhouette, const Target *target)
     silhouette->target_number = target->number;
 }
 
-static void fill(GLuint framebuffer, GLuint program, float step)
+static void fill(const FluidTiles *tiles, GLuint framebuffer, GLuint program, float step)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glUseProgram(program);
     glUniform1f(LEAST_STEP_AT, step);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    fluid_tiles_draw(tiles);
 }
 
 /* The first pass leaves depths where the others have to look: a software driver branches by the test of
    depth, and nowhere else. */
-static void run(const Silhouette *silhouette, float step)
+static void run(const Silhouette *silhouette, const FluidTiles *tiles, float step)
 {
     const unsigned *programs = silhouette->programs;
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_TRUE);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    fill(silhouette->edges_framebuffer, programs[0], step);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    fill(tiles, silhouette->edges_framebuffer, programs[0], step);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
-    fill(silhouette->edges_framebuffer, programs[1], step);
-    fill(silhouette->target_framebuffer, programs[2], step);
+    fill(tiles, silhouette->edges_framebuffer, programs[1], step);
+    fill(tiles, silhouette->target_framebuffer, programs[2], step);
     glDepthMask(GL_TRUE);
 }
 
 void silhouette_draw(Silhouette *silhouette, const SplatMaps *blended, unsigned nearest, float step,
-                     const Frame *frame)
+                     const FluidTiles *tiles, const Frame *frame)
 {
     const Target *target = frame->target;
     follow(silhouette, target);
@@ -95,15 +91,8 @@ void silhouette_draw(Silhouette *silhouette, const SplatMaps *blended, unsigned 
     glBindTextures(NEAREST_UNIT, 7,
                    (GLuint[]){nearest, target->depth, silhouette->picture, silhouette->edges, blended->color,
                               blended->normal, blended->weight});
-    glDepthMask(GL_TRUE);
-    glClearNamedFramebufferfv(silhouette->edges_framebuffer, GL_COLOR, 0, (GLfloat[4]){0});
-    glClearNamedFramebufferfv(silhouette->edges_framebuffer, GL_DEPTH, 0, (GLfloat[]){1});
     glViewport(0, 0, frame->width, frame->height);
     glDisable(GL_BLEND);
-    glBindVertexArray(silhouette->screen);
-    glViewport(0, 0, frame->width, frame->height);
-    frame_cut_to_bounds(frame);
-    run(silhouette, step);
-    glDisable(GL_SCISSOR_TEST);
+    run(silhouette, tiles, step);
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
 }

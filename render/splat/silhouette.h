@@ -12,6 +12,7 @@
 #define SLOSH_SILHOUETTE_H
 
 #include "render/frame/frame.h"
+#include "render/splat/fluid_tiles.h"
 #include "render/splat/splat_maps.h"
 #include "sim/base/error.h"
 
@@ -19,7 +20,6 @@ enum { SILHOUETTE_PASSES = 3 };
 
 typedef struct Silhouette {
     unsigned programs[SILHOUETTE_PASSES]; /* which pixels, their edges, their colours */
-    unsigned screen;                      /* vertex array without attributes */
     unsigned target_number;
     unsigned near;    /* DEPTH_COMPONENT16: where an outline may be */
     unsigned edges;   /* RGBA8: which sides of a pixel are edges; silhouette_edges.frag */
@@ -35,6 +35,6 @@ void silhouette_destroy(Silhouette *silhouette); /* one of zeros is allowed */
 /* Works on the target's colour. `blended` as pass 2 left them, `nearest` the map of depths that was shaded.
    Fluid farther behind than `step`, m, and than its slope explains, is behind an edge. */
 void silhouette_draw(Silhouette *silhouette, const SplatMaps *blended, unsigned nearest, float step,
-                     const Frame *frame);
+                     const FluidTiles *tiles, const Frame *frame);
 
 #endif

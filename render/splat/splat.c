@@ -96,7 +96,7 @@ static bool create_programs(SplatView *splat, Error *error)
         if (splat_sprites_may(&splat->sprites, (SplatSprite)sprite) &&
             !create_sprites(splat, (SplatSprite)sprite, error))
             return false;
-    splat->limit = program_create_pair("splat limit", "common/screen.vert", "splat/splat_limit.frag", error);
+    splat->limit = program_create_pair("splat limit", FLUID_TILES_VERTEX, "splat/splat_limit.frag", error);
     return splat->limit && casting_create(&splat->casting, ellipsoids_defines(&splat->def), error);
 }
 
@@ -178,9 +178,13 @@ static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuf
                          const Frame *frame)
 {
     const bool hidden = splat->def.show == SPLAT_CULLED;
+    FluidTiles *tiles = &splat->sprites.tiles;
+    fluid_tiles_follow(tiles, frame->target);
+    splat->sprites.cull.marks = tiles->marks;
     if (splat_culls(&splat->def))
         cull_for_eye(&splat->sprites.cull, particles, frame, reach_of(splat, frame),
                      sprite == SPLAT_POINT ? 1 : 6, hidden);
+    fluid_tiles_list(tiles, frame, !splat_culls(&splat->def) || splat_level_wanted(&splat->def));
     glClearNamedFramebufferfv(splat->maps.nearest_framebuffer, GL_COLOR, 0, (GLfloat[4]){SPLAT_NOTHING});
     splat_sprites_begin(splat->maps.nearest_framebuffer, frame, GL_MIN);
     counts_begin(frame->counts);
@@ -190,6 +194,7 @@ static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuf
         splat_level_find(&splat->level, &splat->maps, &splat->sprites, sprite, particles, frame);
 }
 
+/* And makes the sums nothing. */
 static void set_limit(SplatView *splat, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, splat->maps.blend_framebuffer);
@@ -198,23 +203,18 @@ static void set_limit(SplatView *splat, const Frame *frame)
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_TRUE);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glBindTextureUnit(NEAREST_UNIT, splat->maps.nearest);
     glUseProgram(splat->limit);
     glUniform1f(EPS_AT, eps_of(frame));
-    glBindVertexArray(splat->sprites.screen);
-    frame_cut_to_bounds(frame);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDisable(GL_SCISSOR_TEST);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    fluid_tiles_draw(&splat->sprites.tiles);
 }
 
 static void blend_attributes(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
                              const Frame *frame)
 {
-    for (int i = 0; i < 3; i++)
-        glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
     const bool level = splat_level_wanted(&splat->def); /* its search has set the limit */
+    for (int i = 0; level && i < 3; i++)
+        glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
     if (!level)
         set_limit(splat, frame);
     splat_sprites_begin(splat->maps.blend_framebuffer, frame, GL_FUNC_ADD);
@@ -263,12 +263,12 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
             splat->shown = narrow_range_draw(&splat->filter, &splat->maps, frame);
         }
     GL_STAGE(frame->timer, STAGE_SHADE)
-    splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, frame);
+    splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, &splat->sprites.tiles, frame);
     if (silhouette_wanted(&splat->def))
         GL_STAGE(frame->timer, STAGE_ANTIALIAS)
         {
             silhouette_draw(&splat->silhouette, &splat->maps, splat->shown.nearest, apart(splat, frame),
-                            frame);
+                            &splat->sprites.tiles, frame);
         }
     if (frame->counts)
         counts_finish(frame->counts, splat_maps_covered(&splat->maps, frame->target),

@@ -59,12 +59,14 @@ uint64_t splat_maps_covered(const SplatMaps *maps, const Target *target)
 {
     const size_t pixels = (size_t)target->width * (size_t)target->height;
     uint64_t covered = 0;
-    float *weight = malloc(pixels * sizeof *weight);
+    const GLsizei size = (GLsizei)(pixels * sizeof(float));
+    float *weight = malloc(2 * (size_t)size);
     if (!weight)
         return 0;
-    glGetTextureImage(maps->weight, 0, GL_RED, GL_FLOAT, (GLsizei)(pixels * sizeof *weight), weight);
+    glGetTextureImage(maps->weight, 0, GL_RED, GL_FLOAT, size, weight);
+    glGetTextureImage(maps->nearest, 0, GL_RED, GL_FLOAT, size, weight + pixels);
     for (size_t i = 0; i < pixels; i++)
-        covered += weight[i] > 0;
+        covered += weight[i] > 0 && weight[pixels + i] < SPLAT_NOTHING;
     free(weight);
     return covered;
 }

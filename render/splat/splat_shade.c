@@ -15,7 +15,7 @@ static unsigned create_program(const SplatShade *shade, const Subject *subject, 
 {
     const SplatDef *def = splat_def(subject->def);
     const bool solids = subject->world->solid_count > 0;
-    static const char *const stages[] = {"common/screen.vert", "splat/splat_shade.frag", NULL};
+    static const char *const stages[] = {FLUID_TILES_VERTEX, "splat/splat_shade.frag", NULL};
     char defines[160];
     snprintf(defines, sizeof defines, "%s%s%s#define SHOW %d\n#define SHADING %d\n",
              solids ? "#define SOLIDS 1\n" : "#define SETTLED 1\n",
@@ -25,7 +25,7 @@ static unsigned create_program(const SplatShade *shade, const Subject *subject, 
 
 static unsigned create_settle(Error *error)
 {
-    static const char *const stages[] = {"common/screen.vert", "splat/splat_settle.frag", NULL};
+    static const char *const stages[] = {FLUID_TILES_VERTEX, "splat/splat_settle.frag", NULL};
     return program_create("splat settle", stages, NULL, error);
 }
 
@@ -34,7 +34,6 @@ bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error)
     const SplatDef *def = splat_def(subject->def);
     const bool discs = silhouette_by_discs(def);
     *shade = (SplatShade){.clear = def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG};
-    glCreateVertexArrays(1, &shade->screen);
     shade->program = create_program(shade, subject, "", error);
     if (shade->program && subject->world->solid_count == 0 && !(shade->settle = create_settle(error)))
         return false;
@@ -48,7 +47,6 @@ void splat_shade_destroy(SplatShade *shade)
     glDeleteProgram(shade->program);
     glDeleteProgram(shade->mixing);
     glDeleteProgram(shade->settle);
-    glDeleteVertexArrays(1, &shade->screen);
     behind_destroy(&shade->behind);
 }
 
@@ -71,19 +69,20 @@ static void begin_mixing(const Frame *frame)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/* The triangle at depth 0 passes then where something has been drawn, and a software driver runs its shader
+/* Tiles at depth 0 pass then where something has been drawn, and a software driver runs its shader
  * nowhere else. */
-static void settle(const SplatShade *shade)
+static void settle(const SplatShade *shade, const FluidTiles *tiles)
 {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glUseProgram(shade->settle);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    fluid_tiles_draw(tiles);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_FALSE);
 }
 
-void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame)
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const FluidTiles *tiles,
+                      const Frame *frame)
 {
     const bool mixing = shade->mixing && splat_sprites_small(frame);
     const unsigned program = mixing ? shade->mixing : shade->program;
@@ -97,17 +96,14 @@ void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickne
     glBindTextureUnit(NEAREST_UNIT, maps->nearest);
     glBindTextures(COLOR_SUM_UNIT, 3, (GLuint[]){maps->color, maps->normal, maps->weight});
     glBindTextureUnit(THICKNESS_UNIT, thickness);
-    glBindVertexArray(shade->screen);
-    frame_cut_to_bounds(frame);
     if (shade->settle)
-        settle(shade);
+        settle(shade, tiles);
     glUseProgram(program);
     glUniform1f(NEAREST_DEPTH_AT, fmaxf(frame->nearest, frame->camera.near_plane));
     glUniform1f(FARTHEST_DEPTH_AT, frame->farthest);
     if (mixing)
         begin_mixing(frame);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    fluid_tiles_draw(tiles);
     glDepthMask(GL_TRUE);
-    glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
 }

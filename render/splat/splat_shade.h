@@ -4,6 +4,7 @@
 #define SLOSH_SPLAT_SHADE_H
 
 #include "render/frame/behind.h"
+#include "render/splat/fluid_tiles.h"
 #include "render/splat/splat_maps.h"
 #include "sim/base/error.h"
 
@@ -13,7 +14,6 @@ typedef struct SplatShade {
                         solids, whose depths would let it run, too */
     unsigned mixing; /* program for spheres smaller than pixels, which let through what is behind; where
                         silhouette_by_discs */
-    unsigned screen; /* vertex array without attributes */
     bool clear;      /* water or jelly: what is behind shows through */
     Behind behind;   /* where clear */
 } SplatShade;
@@ -25,6 +25,7 @@ void splat_shade_destroy(SplatShade *shade);
 /* Writes colour and depth of the surface. Solids are in the target already: the test of depth says who hides
    whom. `thickness`: the texture of render/splat/thickness.h where the shading reads it
    (splat_shade_wants_thickness), else 0. */
-void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const Frame *frame);
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const FluidTiles *tiles,
+                      const Frame *frame);
 
 #endif

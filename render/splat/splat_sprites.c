@@ -15,7 +15,8 @@ bool splat_sprites_create(SplatSprites *sprites, const SplatDef *def, Error *err
     char body[64];
     snprintf(body, sizeof body, "%s%s", ellipsoids_defines(def),
              silhouette_by_discs(def) ? "#define DISCS 1\n" : "");
-    return !splat_culls(def) || cull_create(&sprites->cull, body, error);
+    return fluid_tiles_create(&sprites->tiles, error) &&
+           (!splat_culls(def) || cull_create(&sprites->cull, body, error));
 }
 
 void splat_sprites_destroy(SplatSprites *sprites)
@@ -23,6 +24,7 @@ void splat_sprites_destroy(SplatSprites *sprites)
     glDeleteVertexArrays(1, &sprites->screen);
     quad_indices_destroy(&sprites->quads);
     cull_destroy(&sprites->cull);
+    fluid_tiles_destroy(&sprites->tiles);
 }
 
 bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite)

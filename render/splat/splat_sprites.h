@@ -5,6 +5,7 @@
 
 #include "render/particles/particle_bind.h"
 #include "render/splat/cull.h"
+#include "render/splat/fluid_tiles.h"
 #include "render/splat/splat_def.h"
 
 typedef struct SplatSprites {
@@ -13,7 +14,9 @@ typedef struct SplatSprites {
                         */
     unsigned screen;   /* vertex array without attributes */
     QuadIndices quads;
-    Cull cull; /* where splat_culls */
+    Cull cull;        /* where splat_culls */
+    FluidTiles tiles; /* what listed particles touch; where nothing is culled or a level is looked for, all of
+                         the bounds */
 } SplatSprites;
 
 /* False when a shader does not compile; splat_sprites_destroy is needed in either case. */

@@ -1,4 +1,4 @@
-// Which particles may be seen: a word of 32 bits for as many particles in a row, another for those that may blend, and how many
+// Which particles may be seen, and which tiles of the picture they touch: a word of 32 bits for as many particles in a row, another for those that may blend, and how many
 // these are.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
@@ -13,6 +13,7 @@ layout(location = CULL_COUNT_AT) uniform uint count;
 layout(location = EPS_AT) uniform float eps; // m
 layout(location = INVERT_AT) uniform uint invert; // 1: the hidden ones instead
 layout(std430, binding = CULL_KEPT_STORAGE) writeonly buffer Kept { uvec4 kept[]; }; // bits to be seen, to blend; numbers of both
+layout(std430, binding = TILE_MARKS_STORAGE) writeonly buffer Marks { uint tile_mark[]; }; // splat/tiles_list.comp
 
 // x0 x1 y0 y1 of the sprite, pixels; its nearest depth.
 vec4 sprite_of(uint index, out float depth)
@@ -22,13 +23,21 @@ vec4 sprite_of(uint index, out float depth)
     return (body_bounds(body) * 0.5 + 0.5) * cull_pixels.xxyy;
 }
 
+void mark_tiles(vec4 sprite)
+{
+    uvec2 tiles = (uvec2(cull_pixels) + uint(TILE - 1)) / TILE;
+    vec4 wide = sprite + float(TILE_MARGIN) * vec4(-1.0, 1.0, -1.0, 1.0);
+    uvec4 touched = uvec4(clamp(wide / TILE, vec4(0.0), vec4(tiles.xxyy) - 1.0));
+    for (uint y = touched.z; y <= touched.w; y++)
+        for (uint x = touched.x; x <= touched.y; x++)
+            tile_mark[y * tiles.x + x] = 1u;
+}
+
 const uint HIDDEN = 4u;
 
 // Bit 0: may be nearest somewhere; bit 1: may blend; or HIDDEN. 0 for what is not in the picture, and for NaN.
-uint seen(uint index)
+uint seen(vec4 sprite, float depth)
 {
-    float depth;
-    vec4 sprite = sprite_of(index, depth);
     if (is_nan(sprite) || sprite.x >= sprite.y || sprite.z >= sprite.w)
         return 0u;
     ivec4 cells = clamp(ivec4(floor(sprite / float(cell_side))), ivec4(0), ivec4(cell_count.xxyy) - 1);
@@ -48,9 +57,13 @@ void main()
         return;
     uvec2 bits = uvec2(0u);
     for (uint i = 0u; i < min(32u, count - first); i++) {
-        uint what = seen(first + i);
+        float depth;
+        vec4 sprite = sprite_of(first + i, depth);
+        uint what = seen(sprite, depth);
         if (invert != 0u)
             what = what == HIDDEN ? 3u : 0u;
+        if ((what & 3u) != 0u)
+            mark_tiles(sprite);
         bits |= uvec2(what & 1u, what >> 1 & 1u) << i;
     }
     kept[chunk] = uvec4(bits, bitCount(bits));

@@ -1,6 +1,8 @@
-// Leaves only pixels that may be beside an outline, for render/splat/silhouette.c.
+// The depth of a triangle at depth 0 where pixels may be beside an outline, for render/splat/silhouette.c; no edges yet.
 #include "common/frame.glsl"
 #include "splat/silhouette.glsl"
+
+layout(location = 0) out vec4 edges;
 
 void main()
 {
@@ -12,6 +14,6 @@ void main()
         Seen next = seen_at(pixel + ((i & 1) == 0 ? ivec2(step, 0) : ivec2(0, step)));
         may = may || here.fluid != next.fluid || (here.fluid && abs(here.depth - next.depth) > least);
     }
-    if (!may)
-        discard;
+    edges = vec4(0.0);
+    gl_FragDepth = may ? 0.0 : 1.0;
 }

@@ -12,6 +12,15 @@
 #define BLEND_LIST_STORAGE    8
 #define CULL_COMMANDS_STORAGE 10
 
+/* tiles: marked by what lists particles, which uses none of these for other things */
+#define TILE_RECTS_STORAGE   4
+#define TILE_MARKS_STORAGE   5
+#define TILE_COMMAND_STORAGE 6
+
+/* Tiles: pixels on a side; how far beside its own pixels a pass over all pixels reads */
+#define TILE        16
+#define TILE_MARGIN 2
+
 /* Texture units. The outlines' pass binds 1 to 7 by one call. */
 #define NEAREST_UNIT      1
 #define TARGET_DEPTH_UNIT 2
@@ -65,5 +74,8 @@
 #define VERTICES_AT    46
 #define UPWARDS_AT     47
 #define WIDEN_PART_AT  48
+/* of tiles */
+#define TILES_BOUNDS_AT  49
+#define TILES_PICTURE_AT 50
 
 #endif

@@ -347,6 +347,30 @@ static void maps_can_be_seen(void **state)
     free(scene.particles);
 }
 
+/* A drop, and another picture of it elsewhere by the same view: as by one that never saw it at the first
+ * place. */
+static void nothing_is_left_of_the_picture_before(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        static uint8_t moved[3 * PIXELS], fresh[3 * PIXELS];
+        Scene scene = splat_among_solids();
+        splat_def(&scene.def)->cull = i & 1, splat_def(&scene.def)->antialias = true;
+        particles_add(scene.particles, -0.4, 0.3, 0, 1, 0);
+        if (i & 2)
+            scene_add(&scene, SOLID_SPHERE, -0.3, 0.4, 0.2);
+        Renderer *renderer = drawn(&scene);
+        memcpy(scene.particles->position, (float[3]){-0.2F, 0.4F, 0}, 3 * sizeof(float));
+        draw(&scene, renderer);
+        draw(&scene, renderer);
+        renderer_read(renderer, moved);
+        renderer_destroy(renderer);
+        draw_rgb(&scene, false, fresh);
+        assert_memory_equal(moved, fresh, sizeof fresh);
+        free(scene.particles);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -360,6 +384,7 @@ int main(void)
         cmocka_unit_test_teardown(scalars_colour_it, no_gl_errors),
         cmocka_unit_test_teardown(settings_are_live, no_gl_errors),
         cmocka_unit_test_teardown(maps_can_be_seen, no_gl_errors),
+        cmocka_unit_test_teardown(nothing_is_left_of_the_picture_before, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
