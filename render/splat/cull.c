@@ -10,11 +10,11 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024, REACH_MOST = 6, SMALL_MOST = 2 };
+enum { CHUNK = 32, COMMAND_SIZE = 32, CELLS_A_SIDE = 1024 };
 
 /* A coarse map: see shaders/splat/cull.glsl. */
 typedef struct Grid {
-    GLuint columns, rows, side, reach;
+    GLuint columns, rows, side;
     GLfloat width, height; /* pixels */
 } Grid;
 
@@ -29,8 +29,7 @@ bool cull_create(Cull *cull, const char *body, Error *error)
     work_buffer_remake(&cull->commands, (size_t)CULL_LISTS * COMMAND_SIZE, "cull commands");
     cull->occlude = compile("cull occlude", "splat/cull_occlude.comp", body, error);
     cull->test = cull->occlude ? compile("cull test", "splat/cull_test.comp", body, error) : 0;
-    cull->widen = cull->test ? compile("cull widen", "splat/cull_widen.comp", NULL, error) : 0;
-    cull->sum = cull->widen ? compile("cull sum", "splat/cull_sum.comp", NULL, error) : 0;
+    cull->sum = cull->test ? compile("cull sum", "splat/cull_sum.comp", NULL, error) : 0;
     cull->list = cull->sum ? compile("cull list", "splat/cull_list.comp", NULL, error) : 0;
     return cull->list != 0;
 }
@@ -45,13 +44,12 @@ void cull_destroy(Cull *cull)
 {
     glDeleteProgram(cull->occlude);
     glDeleteProgram(cull->test);
-    glDeleteProgram(cull->widen);
     glDeleteProgram(cull->sum);
     glDeleteProgram(cull->list);
     glDeleteProgram(cull->limit);
-    glDeleteBuffers(2, cull->map);
+    glDeleteTextures(1, &cull->rows);
     glDeleteBuffers(CULL_LISTS, cull->lists);
-    glDeleteBuffers(2, (GLuint[]){cull->kept, cull->commands});
+    glDeleteBuffers(3, (GLuint[]){cull->map, cull->kept, cull->commands});
     *cull = (Cull){0};
 }
 
@@ -60,12 +58,20 @@ static GLuint chunks_of(size_t count)
     return (GLuint)((count + CHUNK - 1) / CHUNK);
 }
 
+/* In whole texels of `rows`. */
+static size_t cells_of(const Grid *grid)
+{
+    return (size_t)(grid->columns + 3) / 4 * 4 * grid->rows;
+}
+
 static void reserve(Cull *cull, size_t count, size_t cells)
 {
     if (cells > cull->cells) {
-        cull->cells = work_capacity(cull->cells, cells);
-        for (int i = 0; i < 2; i++)
-            work_buffer_remake(&cull->map[i], cull->cells * sizeof(GLuint), "cull map");
+        cull->cells = work_capacity(cull->cells, cells) / 4 * 4;
+        work_buffer_remake(&cull->map, cull->cells * sizeof(GLuint), "cull map");
+        glDeleteTextures(1, &cull->rows);
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &cull->rows);
+        glTextureBuffer(cull->rows, GL_RGBA32UI, cull->map);
     }
     if (count > cull->capacity) {
         cull->capacity = work_capacity(cull->capacity, count);
@@ -81,15 +87,14 @@ static GLuint clamp_to(double value, double low, double high)
 }
 
 /* Cells so large that the smallest sprite, `least` pixels wide within all of its rim, covers one wherever it
-   is: that has side + (side - 1) pixels. Maxima reach as far as the largest sprite does. */
-static Grid make_grid(double width, double height, double least, double most)
+   is: that has side + (side - 1) pixels. */
+static Grid make_grid(double width, double height, double least)
 {
     const double coarse = ceil(fmax(width, height) / CELLS_A_SIDE);
     const GLuint side = clamp_to(floor((least + 1) / 2), coarse, 4096);
     return (Grid){.columns = (GLuint)ceil(width / side),
                   .rows = (GLuint)ceil(height / side),
                   .side = side,
-                  .reach = clamp_to(ceil(most / side / 2 + 1), 1, REACH_MOST),
                   .width = (GLfloat)width,
                   .height = (GLfloat)height};
 }
@@ -101,52 +106,23 @@ static void use(GLuint program, const Grid *grid, const ParticleBuffers *particl
         particle_bind(program, particles, frame->def->color_by);
     glUniform2ui(CELLS_AT, grid->columns, grid->rows);
     glUniform1ui(CELL_SIDE_AT, grid->side);
-    glUniform1ui(WIDEN_REACH_AT, grid->reach);
     glUniform2f(CULL_PIXELS_AT, grid->width, grid->height);
-}
-
-/* Only around the box: no particle beside it is shaded. Along x as far beyond as maxima along y reach. */
-static void widen_part(const Grid *grid, const Frame *frame, GLuint upwards, GLuint part[4])
-{
-    const int beyond = (int)(grid->reach * (upwards ? 1 : 2)) + 1, side = (int)grid->side;
-    const int cells[2] = {(int)grid->columns, (int)grid->rows};
-    int bounds[4];
-    frame_bounds(frame, bounds);
-    for (int k = 0; k < 2; k++) {
-        const int low = bounds[k] / side - beyond, end = bounds[2 + k] / side + 1 + beyond;
-        part[k] = (GLuint)(low < 0 ? 0 : low);
-        part[2 + k] = (GLuint)(end < cells[k] ? end : cells[k]) - part[k];
-    }
-}
-
-static void widen(const Cull *cull, const Grid *grid, const Frame *frame)
-{
-    GLuint part[4];
-    use(cull->widen, grid, NULL, NULL);
-    for (GLuint upwards = 0; upwards < 2; upwards++) {
-        widen_part(grid, frame, upwards, part);
-        glUniform4uiv(WIDEN_PART_AT, 1, part);
-        glUniform1ui(UPWARDS_AT, upwards);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[upwards]);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_WIDENED_STORAGE, cull->map[1 - upwards]);
-        work_run((size_t)part[2] * part[3]);
-    }
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
 }
 
 static void make_map(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame)
 {
     static const GLfloat nothing = INFINITY;
-    const size_t cells = (size_t)grid->columns * grid->rows;
+    const size_t cells = cells_of(grid);
     reserve(cull, particles->count, cells);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    glClearNamedBufferSubData(cull->map[0], GL_R32F, 0, (GLsizeiptr)(cells * sizeof nothing), GL_RED,
-                              GL_FLOAT, &nothing);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                    GL_TEXTURE_FETCH_BARRIER_BIT);
+    glClearNamedBufferSubData(cull->map, GL_R32F, 0, (GLsizeiptr)(cells * sizeof nothing), GL_RED, GL_FLOAT,
+                              &nothing);
     use(cull->occlude, grid, particles, frame);
     glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map);
+    glBindTextureUnit(CULL_ROWS_UNIT, cull->rows);
     work_run_scattered(particles->count);
-    widen(cull, grid, frame);
 }
 
 static void make_lists(Cull *cull, size_t count, unsigned vertices)
@@ -166,7 +142,9 @@ static void make_lists(Cull *cull, size_t count, unsigned vertices)
 static void test(Cull *cull, const Grid *grid, const ParticleBuffers *particles, const Frame *frame,
                  float eps, unsigned vertices, bool hidden)
 {
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     use(cull->test, grid, particles, frame);
+    glBindTextureUnit(CULL_ROWS_UNIT, cull->rows);
     glUniform1ui(CULL_COUNT_AT, (GLuint)particles->count);
     glUniform1f(EPS_AT, eps);
     glUniform1ui(INVERT_AT, hidden);
@@ -192,11 +170,7 @@ static double pixels_across(const Frame *frame, double distance)
 
 static Grid eye_grid(const Frame *frame)
 {
-    const float *tangent = frame->camera.tangent;
-    const double slant =
-        1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]; /* spheres at the rim are wider */
-    return make_grid(frame->width, frame->height, pixels_across(frame, frame->farthest) * sqrt(0.5),
-                     fmax(pixels_across(frame, frame->nearest + frame->particle_radius) * slant, SMALL_MOST));
+    return make_grid(frame->width, frame->height, pixels_across(frame, frame->farthest) * sqrt(0.5));
 }
 
 void cull_for_eye(Cull *cull, const ParticleBuffers *particles, const Frame *frame, float eps,
@@ -213,12 +187,11 @@ void cull_to_limit(Cull *cull, const ParticleBuffers *particles, const Frame *fr
     const Grid grid = eye_grid(frame);
     if (particles->count == 0)
         return;
-    reserve(cull, particles->count, (size_t)grid.columns * grid.rows);
+    reserve(cull, particles->count, cells_of(&grid));
     use(cull->limit, &grid, NULL, NULL);
     glBindTextureUnit(LIMIT_UNIT, limit);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map[0]);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CULL_MAP_STORAGE, cull->map);
     work_run((size_t)grid.columns * grid.rows);
-    widen(cull, &grid, frame);
     test(cull, &grid, particles, frame, 0, vertices, false);
 }
 

@@ -17,9 +17,9 @@
 typedef enum CullList { CULL_NEAREST, CULL_BLEND, CULL_LISTS } CullList;
 
 typedef struct Cull {
-    unsigned occlude, test, widen, sum, list; /* programs */
-    unsigned limit;                           /* program, after cull_create_limit */
-    unsigned map[2];         /* buffers: a depth a cell, and the same before it was widened along y */
+    unsigned occlude, test, sum, list; /* programs */
+    unsigned limit;                    /* program, after cull_create_limit */
+    unsigned map, rows;                /* buffer: a depth a cell; texture: the same, four at once */
     unsigned marks;          /* buffer of FluidTiles: those that listed particles touch are marked */
     unsigned kept, commands; /* see cull_test.comp, cull_sum.comp */
     unsigned lists[CULL_LISTS];

@@ -4,9 +4,33 @@
 #include "shaders/splat/splat_bindings.h"
 layout(location = CELLS_AT) uniform uvec2 cell_count; // columns, rows
 layout(location = CELL_SIDE_AT) uniform uint cell_side; // pixels
-layout(location = WIDEN_REACH_AT) uniform uint widen_reach; // how far maxima reach, cells
 layout(location = CULL_PIXELS_AT) uniform vec2 cull_pixels; // of the picture, wide and high
 layout(std430, binding = CULL_MAP_STORAGE) buffer Nearest { uint nearest[]; }; // bits of a depth that is not negative: ordered as it is
+layout(binding = CULL_ROWS_UNIT) uniform usamplerBuffer nearest_rows; // the same, four in a row at once: software drivers read that as fast as a word
 
 const uint nothing = 0x7f800000u; // infinity
+
+uint texels_a_row()
+{
+    return (cell_count.x + 3u) / 4u;
+}
+
+uint cell_at(uint x, uint y)
+{
+    return 4u * y * texels_a_row() + x;
+}
+
+// The greatest of what the cells x0 .. x1, y0 .. y1 hold, or something above `enough`.
+uint greatest_in(uvec4 cells, uint enough)
+{
+    uint greatest = 0u, row = cells.z * texels_a_row();
+    for (uint y = cells.z; y <= cells.w && greatest <= enough; y++, row += texels_a_row())
+        for (uint x = cells.x / 4u; x <= cells.y / 4u; x++) {
+            uvec4 at = 4u * x + uvec4(0u, 1u, 2u, 3u), here = texelFetch(nearest_rows, int(row + x));
+            bvec4 within = bvec4(uvec4(greaterThanEqual(at, cells.xxxx)) & uvec4(lessThanEqual(at, cells.yyyy)));
+            here = mix(uvec4(0u), here, within);
+            greatest = max(greatest, max(max(here.x, here.y), max(here.z, here.w)));
+        }
+    return greatest;
+}
 

@@ -11,10 +11,11 @@ void main()
     uint cell = gl_GlobalInvocationID.x;
     if (cell >= cell_count.x * cell_count.y)
         return;
-    ivec2 low = ivec2(cell % cell_count.x, cell / cell_count.x) * int(cell_side), high = min(low + int(cell_side), ivec2(cull_pixels));
+    uvec2 at = uvec2(cell % cell_count.x, cell / cell_count.x);
+    ivec2 low = ivec2(at) * int(cell_side), high = min(low + int(cell_side), ivec2(cull_pixels));
     float least = 1.0;
     for (int y = low.y; y < high.y; y++)
         for (int x = low.x; x < high.x; x++)
             least = min(least, texelFetch(limit_map, ivec2(x, y), 0).x);
-    nearest[cell] = least > 0.0 ? floatBitsToUint(near_plane / least) : nothing;
+    nearest[cell_at(at.x, at.y)] = least > 0.0 ? floatBitsToUint(near_plane / least) : nothing;
 }

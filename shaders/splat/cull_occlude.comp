@@ -58,10 +58,13 @@ void main()
     vec2 own = floor(disc.middle / side); // of large spheres those around the centre will do
     vec2 low = max(ceil((disc.middle - reach) / side - 0.5), max(own - 2.0, 0.0));
     vec2 high = min(floor((disc.middle + reach) / side - 0.5), min(own + 2.0, vec2(cell_count) - 1.0));
+    uint best = floatBitsToUint(max(disc.w - disc.radius, 0.0)); // most are behind what others have written
+    if (any(greaterThan(low, high)) || greatest_in(uvec4(low, high).xzyw, best) <= best)
+        return;
     for (float y = low.y; y <= high.y; y++)
         for (float x = low.x; x <= high.x; x++) {
             vec2 away = abs((vec2(x, y) + 0.5) * side - disc.middle) + margin;
-            uint depth = floatBitsToUint(depth_within(disc, away * per_radius)), cell = uint(y) * cell_count.x + uint(x);
+            uint depth = floatBitsToUint(depth_within(disc, away * per_radius)), cell = cell_at(uint(x), uint(y));
             if (depth < nearest[cell])
                 atomicMin(nearest[cell], depth);
         }

@@ -33,18 +33,17 @@ void mark_tiles(vec4 sprite)
             tile_mark[y * tiles.x + x] = 1u;
 }
 
-const uint HIDDEN = 4u;
+const uint HIDDEN = 4u, MOST_CELLS = 12u; // that a sprite touches in a row
 
 // Bit 0: may be nearest somewhere; bit 1: may blend; or HIDDEN. 0 for what is not in the picture, and for NaN.
 uint seen(vec4 sprite, float depth)
 {
     if (is_nan(sprite) || sprite.x >= sprite.y || sprite.z >= sprite.w)
         return 0u;
-    ivec4 cells = clamp(ivec4(floor(sprite / float(cell_side))), ivec4(0), ivec4(cell_count.xxyy) - 1);
-    ivec2 middle = (cells.xz + cells.yw) / 2, reach = cells.yw - middle; // the wider side
-    if (max(reach.x, reach.y) > int(widen_reach))
+    uvec4 cells = uvec4(clamp(floor(sprite / float(cell_side)), vec4(0.0), vec4(cell_count.xxyy) - 1.0));
+    if (max(cells.y - cells.x, cells.w - cells.z) > MOST_CELLS)
         return 3u;
-    float behind = uintBitsToFloat(nearest[uint(middle.y) * cell_count.x + uint(middle.x)]);
+    float behind = uintBitsToFloat(greatest_in(cells, floatBitsToUint(max(depth, 0.0))));
     if (depth > (behind + eps) * 1.00001)
         return HIDDEN;
     return depth <= behind * 1.00001 ? 3u : 2u;

@@ -5,7 +5,6 @@
 
 /* Storage buffers of culling; the shapes of particles, which it reads, have 9 */
 #define CULL_MAP_STORAGE     4
-#define CULL_WIDENED_STORAGE 5
 #define CULL_KEPT_STORAGE    6
 /* the two lists, bound in this order by one call */
 #define NEAREST_LIST_STORAGE  7
@@ -30,6 +29,7 @@
 #define NORMAL_SUM_UNIT   6
 #define WEIGHT_SUM_UNIT   7
 #define LIMIT_UNIT        8
+#define CULL_ROWS_UNIT    9
 #define THICKNESS_UNIT    10
 /* those of a level above zero; value and slope are bound by one call */
 #define MARCH_UNIT 11
@@ -66,14 +66,11 @@
 /* of culling */
 #define CELLS_AT       39
 #define CELL_SIDE_AT   40
-#define WIDEN_REACH_AT 41
 #define CULL_PIXELS_AT 42
 #define CULL_COUNT_AT  43
 #define INVERT_AT      44
 #define CHUNKS_AT      45
 #define VERTICES_AT    46
-#define UPWARDS_AT     47
-#define WIDEN_PART_AT  48
 /* of tiles */
 #define TILES_BOUNDS_AT  49
 #define TILES_PICTURE_AT 50
