@@ -14,6 +14,20 @@ layout(binding = CAST_UNIT) uniform usamplerBuffer lit_rows;
 layout(location = CASTERS_AT) uniform uint casters;                  // how many
 layout(std430, binding = CAST_STORAGE) buffer Lit { uint lit[]; }; // bits of a depth, which are ordered as it is
 
+// Which of 8 x 4 texels from `corner` on are within `low` to `end` and behind: a bit each.
+uint behind_in(uvec2 corner, uvec2 low, uvec2 end, uint depth)
+{
+    uint bits = 0u, within = 255u << (max(low.x, corner.x) - corner.x) & 255u >> (8u - min(end.x - corner.x, 8u));
+    for (uint y = corner.y; y < min(corner.y + 4u, end.y); y++)
+        for (uint x = 0u; x < 2u && corner.x + 4u * x < end.x; x++) {
+            uint texel = (y * SHADOW_MAP_TEXELS + corner.x) / 4u + x;
+            uvec4 behind = uvec4(lessThan(texelFetch(lit_rows, int(texel)), uvec4(depth))) << uvec4(0u, 1u, 2u, 3u);
+            bits |= ((behind.x | behind.y | behind.z | behind.w) << 4u * x & within) << 8u * (y - corner.y);
+        }
+    return bits;
+}
+
+// A software driver skips loops only, not what an `if` leaves out: hence bits, and atomics in a loop over these.
 void main()
 {
     uint index = scattered(casters);
@@ -28,13 +42,10 @@ void main()
     uvec2 low = uvec2(max(ceil(at.xy * side - reach - 0.5), 0.0)); // texels whose centres are within
     uvec2 end = uvec2(min(ceil(at.xy * side + reach - 0.5), side));
     uint depth = floatBitsToUint(at.z) & 0x7fffffffu; // no -0
-    for (uint y = low.y; y < end.y; y++)
-        for (uint x = low.x & ~3u; x < end.x; x += 4u) {
-            uint first = y * SHADOW_MAP_TEXELS + x;
-            bvec4 behind = lessThan(texelFetch(lit_rows, int(first / 4u)), uvec4(depth));
-            if (any(behind))
-                for (uint i = 0u; i < 4u; i++)
-                    if (behind[i] && x + i >= low.x && x + i < end.x)
-                        atomicMax(lit[first + i], depth);
-        }
+    for (uint y = low.y; y < end.y; y += 4u)
+        for (uint x = low.x & ~3u; x < end.x; x += 8u)
+            for (uint bits = behind_in(uvec2(x, y), low, end, depth); bits != 0u; bits &= bits - 1u) {
+                uint at_bit = uint(findLSB(bits));
+                atomicMax(lit[(y + at_bit / 8u) * SHADOW_MAP_TEXELS + x + at_bit % 8u], depth);
+            }
 }

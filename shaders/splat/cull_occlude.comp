@@ -55,9 +55,9 @@ void main()
     vec2 reach = disc.radii - margin, per_radius = 1.0 / disc.radii;
     if (is_nan(vec4(disc.middle, disc.radii)) || min(reach.x, reach.y) <= 0.0)
         return;
-    vec2 own = floor(disc.middle / side); // of large spheres those around the centre will do
-    vec2 low = max(ceil((disc.middle - reach) / side - 0.5), max(own - 2.0, 0.0));
-    vec2 high = min(floor((disc.middle + reach) / side - 0.5), min(own + 2.0, vec2(cell_count) - 1.0));
+    vec2 own = floor(disc.middle / side), most = clamp(floor(0.5 * disc.radii / side + 0.5), 1.0, 2.0); // half way to a neighbour will do
+    vec2 low = max(ceil((disc.middle - reach) / side - 0.5), max(own - most, 0.0));
+    vec2 high = min(floor((disc.middle + reach) / side - 0.5), min(own + most, vec2(cell_count) - 1.0));
     uint best = floatBitsToUint(max(disc.w - disc.radius, 0.0)); // most are behind what others have written
     if (any(greaterThan(low, high)) || greatest_in(uvec4(low, high).xzyw, best) <= best)
         return;
