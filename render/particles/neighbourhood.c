@@ -30,9 +30,16 @@ void neighbourhood_destroy(Neighbourhood *n)
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
         glDeleteProgram(programs[i]);
     glDeleteBuffers(5, (GLuint[]){n->cell, n->rank, n->order, n->sorted, n->start});
-    glDeleteTextures(1, &n->texels);
+    glDeleteTextures(2, (GLuint[]){n->texels, n->order_texels});
     prefix_sums_destroy(&n->sums);
     *n = (Neighbourhood){0};
+}
+
+static void show_as_texels(GLuint *texture, GLuint buffer)
+{
+    glDeleteTextures(1, texture);
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, texture);
+    glTextureBuffer(*texture, GL_RGBA32UI, buffer);
 }
 
 static void reserve(Neighbourhood *n, size_t count, size_t cells)
@@ -41,11 +48,10 @@ static void reserve(Neighbourhood *n, size_t count, size_t cells)
         n->capacity = work_capacity(n->capacity, count);
         work_buffer_remake(&n->cell, n->capacity * sizeof(GLuint), "neighbourhood cell");
         work_buffer_remake(&n->rank, n->capacity * sizeof(GLuint), "neighbourhood rank");
-        work_buffer_remake(&n->order, n->capacity * sizeof(GLuint), "neighbourhood order");
+        work_buffer_remake(&n->order, (n->capacity + 3) / 4 * 4 * sizeof(GLuint), "neighbourhood order");
         work_buffer_remake(&n->sorted, n->capacity * 4 * sizeof(GLfloat), "neighbourhood sorted");
-        glDeleteTextures(1, &n->texels);
-        glCreateTextures(GL_TEXTURE_BUFFER, 1, &n->texels);
-        glTextureBuffer(n->texels, GL_RGBA32UI, n->sorted);
+        show_as_texels(&n->texels, n->sorted);
+        show_as_texels(&n->order_texels, n->order);
     }
     if (cells > n->cells_capacity) {
         work_buffer_remake(&n->start, (cells + 2) * sizeof(GLuint), "neighbourhood start");
@@ -112,6 +118,8 @@ void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
     prefix_sums_run(&n->sums, n->start, cells + 2);
     run(n, n->place);
     bind_positions(n, particles);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    glBindTextureUnit(ORDER_UNIT, n->order_texels);
     run(n, n->sort);
 }
 

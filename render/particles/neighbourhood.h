@@ -25,6 +25,7 @@ typedef struct Neighbourhood {
     unsigned cell, rank, order; /* buffers: uint a particle */
     unsigned sorted;            /* uvec4 a particle, by cell: bits of x y z; its number */
     unsigned texels;            /* texture: `sorted` */
+    unsigned order_texels;      /* texture: `order`, four at once */
     unsigned start;             /* uint a cell and two more: where it begins in `sorted`; what is in
                                    no cell comes last */
     size_t capacity, cells_capacity;

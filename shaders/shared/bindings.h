@@ -24,7 +24,8 @@
 
 /* Texture units; views use those between for themselves */
 #define SHADOW_UNIT       0
-#define SORTED_UNIT       1
+#define SORTED_UNIT       1 /* of a neighbourhood; before it is sorted: */
+#define ORDER_UNIT        1
 #define COLORMAP_UNIT     2
 #define FLOOR_LIGHT_UNIT  3
 #define SOLID_SHADOW_UNIT 4

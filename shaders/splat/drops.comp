@@ -1,5 +1,5 @@
 // The radius of each particle: the view's in the fluid, less where neighbours are few. A sum that is large enough is not
-// summed to its end, which is after the particle's own row of cells for most.
+// summed to its end, which is within the particle's own cell for most: hence that one first.
 #include "common/neighbourhood.glsl"
 #include "splat/crowd.glsl"
 layout(std430, binding = SHAPES_STORAGE) writeonly buffer Radii { float radius[]; };
@@ -10,9 +10,11 @@ float crowd_at(vec3 x)
     float sum = -1.0, per_h2 = 1.0 / (support_radius * support_radius); // less itself
     for (uint row = 0u; row < 9u && sum < full_sum; row++) {
         uvec2 range = row_of(at, row);
-        for (uint j = range.x; j < range.y && sum < full_sum; j++) {
+        uint j = row == 0u ? min(start[cell_number(at)], max(range.y, 1u) - 1u) : range.x;
+        for (uint left = range.y - range.x; left > 0u && sum < full_sum; left--) {
             vec3 d = place_of(j) - x;
             sum += near_weight(dot(d, d) * per_h2);
+            j = j + 1u < range.y ? j + 1u : range.x;
         }
     }
     return sum;
