@@ -81,13 +81,29 @@ static void run(const Silhouette *silhouette, const FluidTiles *tiles, float ste
     glDepthMask(GL_TRUE);
 }
 
+static int clamp_to(int value, int end)
+{
+    return value < 0 ? 0 : value < end ? value : end;
+}
+
+/* Of the box's bounds, and what is mixed with from beside them. */
+static void take_picture(const Silhouette *silhouette, const Frame *frame)
+{
+    int part[4];
+    frame_bounds(frame, part);
+    const int x = clamp_to(part[0] - TILE_MARGIN, frame->width),
+              y = clamp_to(part[1] - TILE_MARGIN, frame->height);
+    glCopyImageSubData(frame->target->color, GL_TEXTURE_2D, 0, x, y, 0, silhouette->picture, GL_TEXTURE_2D, 0,
+                       x, y, 0, clamp_to(part[2] + TILE_MARGIN, frame->width) - x,
+                       clamp_to(part[3] + TILE_MARGIN, frame->height) - y, 1);
+}
+
 void silhouette_draw(Silhouette *silhouette, const SplatMaps *blended, unsigned nearest, float step,
                      const FluidTiles *tiles, const Frame *frame)
 {
     const Target *target = frame->target;
     follow(silhouette, target);
-    glCopyImageSubData(target->color, GL_TEXTURE_2D, 0, 0, 0, 0, silhouette->picture, GL_TEXTURE_2D, 0, 0, 0,
-                       0, target->width, target->height, 1);
+    take_picture(silhouette, frame);
     glBindTextures(NEAREST_UNIT, 7,
                    (GLuint[]){nearest, target->depth, silhouette->picture, silhouette->edges, blended->color,
                               blended->normal, blended->weight});
