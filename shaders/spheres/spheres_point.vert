@@ -6,29 +6,24 @@
 #include "common/particles.glsl"
 #include "common/nan.glsl"
 
-layout(location = 0) flat out vec3 along;  // x of a place in the point: constant, slopes
-layout(location = 1) flat out vec3 across; // the same of y
-layout(location = 2) flat out vec3 depth;  // constant, of x, of the root
-layout(location = 3) flat out uint index;
+layout(location = 0) flat out vec4 axes; // x of a place in the point by its two coordinates from the middle; the same of y
+layout(location = 1) flat out uvec4 rest; // depth: bits of its constant, of x, of the root; the particle's number: each vector costs
 
 void main()
 {
-    index = uint(gl_VertexID);
+    uint index = uint(gl_VertexID);
     vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
     float r = particle_radius, w = -centre.z, q = w * w - r * r, out2 = dot(centre.xy, centre.xy);
     float outwards = sqrt(out2), slant = inversesqrt(max(q + out2, 1e-30)), root = sqrt(max(q, 1e-30));
     vec2 direction = outwards > 1e-6 * w ? centre.xy / outwards : vec2(1.0, 0.0);
-    vec2 axes = vec2(r / (q * slant), r / root);
-    vec2 reach = sqrt(axes.x * axes.x * direction * direction + axes.y * axes.y * direction.yx * direction.yx);
+    vec2 half_axes = vec2(r / (q * slant), r / root);
+    vec2 reach = sqrt(half_axes.x * half_axes.x * direction * direction + half_axes.y * half_axes.y * direction.yx * direction.yx);
     float pixel = 2.0 * view_tangent.y * pixel_size.y;
     float size = ceil(8.0 * (2.0 * max(reach.x, reach.y) / pixel)) / 8.0; // hardware rounds to such steps
 
     vec2 unit = vec2(size, -size) * pixel; // gl_PointCoord counts from the top
-    along.yz = direction * unit / axes.x;
-    across.yz = vec2(-direction.y, direction.x) * unit / axes.y;
-    along.x = -0.5 * (along.y + along.z);
-    across.x = -0.5 * (across.y + across.z);
-    depth = near_plane / q * vec3(w, r * slant * outwards, r * slant * root);
+    axes = vec4(direction * unit / half_axes.x, vec2(-direction.y, direction.x) * unit / half_axes.y);
+    rest = uvec4(floatBitsToUint(near_plane / q * vec3(w, r * slant * outwards, r * slant * root)), index);
     gl_Position = !is_nan(q + out2) && w > r + near_plane ? vec4(centre.xy * w / (q * view_tangent), 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
     gl_PointSize = size;
 }
