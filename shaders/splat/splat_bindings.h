@@ -4,14 +4,14 @@
 #define SLOSH_SPLAT_BINDINGS_H
 
 /* Storage buffers of culling; the shapes of particles, which it reads, have 9 */
-#define CULL_MAP_STORAGE     4
-#define CULL_KEPT_STORAGE    6
+#define CULL_MAP_STORAGE  4
+#define CULL_KEPT_STORAGE 6
 /* the two lists, bound in this order by one call */
 #define NEAREST_LIST_STORAGE  7
 #define BLEND_LIST_STORAGE    8
 #define CULL_COMMANDS_STORAGE 10
 
-/* tiles: marked by what lists particles, which uses none of these for other things */
+/* tiles; the marks have a number that culling, which sets them, leaves free */
 #define TILE_RECTS_STORAGE   4
 #define TILE_MARKS_STORAGE   5
 #define TILE_COMMAND_STORAGE 6
