@@ -6,6 +6,11 @@
 #include "sim/wcsph/columns.h"
 #include "sim/wcsph/constants.h"
 
+SIMD_INLINE f8 lesser(f8 a, f8 b)
+{
+    return f8_select(a < b, a, b);
+}
+
 /* Both are 0 from q = 1 on. f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q);
    of the quintic's powers of 3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient_scale` takes care of.
  */

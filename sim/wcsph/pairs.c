@@ -115,7 +115,8 @@ SIMD_INLINE f8 of_each(const float *column, f8 same, const uint32_t *j)
 
 /* Pressure; laminar viscosity (sim/matter/viscosity.h) or artificial one (Monaghan 1992, for pairs that part
    too): V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i V_j (a_i +
-   a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij. With `shifts` what sim/wcsph/shift.c needs as well. */
+   a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij, of no V above that of THINNEST. With `shifts` what
+   sim/wcsph/shift.c needs as well. */
 SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                              const bool viscous, const bool radial, const bool artificial, const bool shifts)
 {
@@ -125,13 +126,14 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
     const f8 inverse_h = f8_splat(1 / h);
     const f8 gradient = f8_splat(w->gradient_scale), soft = f8_splat(h * h / 400),
              scale = f8_splat(w->radial_friction);
+    const f8 most = f8_splat(1 / (THINNEST * s->rest_number_density));
 
     GROUPS(i, begin, end)
     {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
-        const f8 pi = f8_load(args->pressure_term + i), volume = f8_load(args->volume + i);
+        const f8 pi = f8_load(args->pressure_term + i), volume = lesser(f8_load(args->volume + i), most);
         const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]),
                  ai = args->own[ARTIFICIAL] ? f8_load(args->own[ARTIFICIAL] + i)
                                             : f8_splat(w->wcsph_fluids[0].artificial_viscosity);
@@ -151,7 +153,7 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
             }
             if (viscous || artificial) {
                 const f8x4 v = motion(args, j);
-                const f8 ux = v.x - ui, uy = v.y - vi, uz = v.z - wi, both = volume * v.w;
+                const f8 ux = v.x - ui, uy = v.y - vi, uz = v.z - wi, both = volume * lesser(v.w, most);
                 if (viscous && radial)
                     push += both * (mi + of_each(args->viscosity, mi, j)) * scale *
                             (ux * d.x + uy * d.y + uz * d.z);

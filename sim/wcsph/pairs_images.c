@@ -4,11 +4,6 @@
 #include "sim/box/wall_images.h"
 #include "sim/wcsph/pair_kernel.h"
 
-SIMD_INLINE f8 lesser(f8 a, f8 b)
-{
-    return f8_select(a < b, a, b);
-}
-
 SIMD_INLINE f8 greater(f8 a, f8 b)
 {
     return f8_select(a > b, a, b);

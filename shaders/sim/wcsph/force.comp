@@ -16,7 +16,7 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     float f = gradient_scale * shape(sqrt(r2) * inverse_support), push = own.pressure + other.pressure;
     even_meet(f, d, r2);
     vec3 force = vec3(0), u = other.v - own.v;
-    float both = own.volume * other.volume;
+    float most = 1.0 / (THINNEST * rest_number_density), both = min(own.volume, most) * min(other.volume, most);
 #if defined VISCOUS && defined RADIAL
     push += both * (own.viscosity + other.viscosity) * radial_friction * dot(u, d);
 #elif defined VISCOUS
