@@ -31,13 +31,24 @@ ivec2 row_cells(ivec3 at, int row)
     ivec3 cell = at + row_offset(row), cells = grid_size - 2;
     ivec3 inside = cell + cells * (ivec3(lessThan(cell, ivec3(1))) - ivec3(greaterThan(cell, cells)));
     int number = cell_number(ivec3(mix(vec3(cell), vec3(inside), periodic)));
+#ifdef BEHIND_DRIFT
+    // Another row has all that stands in this one: cell_row_again of sim/world/cell_rows.c.
+    if (any(bvec3(mix(vec3(0), vec3(notEqual(cell, inside)) * vec3(equal(cells, ivec3(2))), periodic))))
+        return ivec2(number);
+#endif
     return ivec2(number, number + 1);
 }
 
+#ifndef BEHIND_DRIFT
 vec3 row_seen(vec3 x, ivec3 at, int row) { return x + row_shift(at, row); }
+#endif
 
 // The nearest image of a difference of places.
 vec3 nearest(vec3 d) { return d - mix(vec3(0), box_whole * roundEven(d / box_whole), periodic); }
+#ifdef BEHIND_DRIFT
+vec3 row_seen(vec3 x, ivec3 at, int row) { return x; }
+#define APART(d) nearest(d)
+#endif
 #else
 #define FIRST_ROW first_row
 #define LAST_ROW last_row

@@ -9,10 +9,14 @@
 //
 // WALK_NEIGHBOURS is for what stands at its own place in the grid, particle i: of the fluid it may leave out what is h or
 // further away. The first pass of a step walks, and makes a list; the others of the step read it: lists.glsl.
+// A pass that walks though particles have moved since the grid was made defines BEHIND_DRIFT: some have gone through a side.
 #ifndef PLACES
 #define PLACES position
 #endif
 #include "sim/cells.glsl"
+#ifndef APART
+#define APART(d) (d)
+#endif
 #include "sim/boundary.glsl"
 layout(std430, binding = STARTS_BUFFER) readonly buffer Starts { uint start[]; };
 
@@ -29,7 +33,7 @@ uvec2 row_of(ivec3 at, int row)
         uvec2 range = range_of_row;                         \
         for (uint j = range.x; j < range.y; j++) {          \
             vec4 other = place[j];                          \
-            meet(j, seen_from - other.xyz, other.w);        \
+            meet(j, APART(seen_from - other.xyz), other.w); \
         }                                                   \
     }
 

@@ -34,6 +34,7 @@ bool wcsph_shifts(const Constants *constants)
 
 const ColumnDef wcsph_columns[] = {
     {"compression", "", AT(compression), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
+    {"rate", "1/s", OWN(RATE), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
     {"viscosity", "Pa s", AT(viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = differs_in_viscosity},
     {"artificial", "Pa s", OWN(ARTIFICIAL), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,

@@ -5,7 +5,8 @@ PAIR_LOOPS(wcsph_slope);
 PAIR_LOOPS(wcsph_rate);
 PAIR_LOOPS(wcsph_images_rate);
 
-/* Pressure, and V = V0 rho0 / rho. */
+/* Density += its rate times dt; pressure, and V = V0 rho0 / rho. Diffusion goes by the mean of before and
+   after: so it is stable for steps up to 4 over its own rate, by the latter alone up to 2. */
 static void state_body(const CpuRange *range)
 {
     Cpu *cpu = range->cpu;
@@ -18,12 +19,14 @@ static void state_body(const CpuRange *range)
             cpu_boundary_terms(cpu, i);
             continue;
         }
-        const float e = p->compression[i], pressure = wcsph_state_of(s, fluid, e);
+        const float before = p->compression[i], e = before + p->own[RATE][i] * range->input->dt,
+                    pressure = wcsph_state_of(s, fluid, e);
+        p->compression[i] = e;
         p->volume[i] = 1 / ((1 + e) * s->rest_number_density);
         p->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
         p->pressure_term[i] = p->pressure[i] * p->volume[i] * p->volume[i];
         if (p->own[RELATIVE])
-            p->own[RELATIVE][i] = e;
+            p->own[RELATIVE][i] = 0.5f * (before + e);
         if (p->own[ARTIFICIAL])
             p->own[ARTIFICIAL][i] = own->wcsph_fluids[fluid].artificial_viscosity;
         cpu_fill_terms(cpu, i);
@@ -35,15 +38,15 @@ static void slope_body(const CpuRange *range)
     cpu_pairs(range, &wcsph_slope);
 }
 
-static void continuity_body(const CpuRange *range)
+static void rate_body(const CpuRange *range)
 {
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
-    const float *rate = p->ax;
+    const float *flow = p->ax;
     cpu_pairs(range, &wcsph_rate);
     cpu_pairs(range, &wcsph_images_rate);
     for (size_t i = range->begin; i < range->end; i++)
-        p->compression[i] += rate[i] / s->rest_number_density * range->input->dt;
+        p->own[RATE][i] = flow[i] / s->rest_number_density;
 }
 
 #define STATE                                                                                                \
@@ -66,17 +69,16 @@ static PairCost continuity_pair(const Constants *constants)
                       .flops = 20 + 13 * diffuses + wcsph_shape_flops(constants)};
 }
 
-static const CpuPass slope = {.loops = {STATE, {slope_body, .walks = true}}, .pair = slope_pair};
-static const CpuPass continuity = {.loops = {{continuity_body, .walks = true}, STATE},
-                                   .pair = continuity_pair};
+static const CpuPass slope = {.loops = {{slope_body, .walks = true}}, .pair = slope_pair};
+static const CpuPass continuity = {.loops = {{rate_body, .walks = true}, STATE}, .pair = continuity_pair};
 
 const Pass wcsph_state = {
     .name = "state",
     .stage = STAGE_DENSITY,
     .cpu = &state,
     .shader = "wcsph/state",
-    .reads = "fluid compression",
-    .writes = "volume pressure pressure_term relative kind viscosity artificial tension",
+    .reads = "fluid compression rate",
+    .writes = "compression volume pressure pressure_term relative kind viscosity artificial tension",
 };
 
 const Pass wcsph_gradient = {
@@ -84,8 +86,8 @@ const Pass wcsph_gradient = {
     .stage = STAGE_DENSITY,
     .cpu = &slope,
     .shader = "wcsph/slope",
-    .reads = "position fluid compression",
-    .writes = "volume pressure pressure_term relative kind viscosity artificial tension slope",
+    .reads = "position fluid relative kind",
+    .writes = "slope",
     .needed = wcsph_diffuses,
 };
 
@@ -95,6 +97,6 @@ const Pass wcsph_continuity = {
     .cpu = &continuity,
     .shader = "wcsph/continuity",
     .reads = "position velocity fluid relative kind slope compression",
-    .writes =
-        "compression volume pressure pressure_term relative kind viscosity artificial tension acceleration",
+    .writes = "rate compression volume pressure pressure_term relative kind viscosity artificial tension "
+              "acceleration",
 };

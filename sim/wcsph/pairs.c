@@ -24,13 +24,15 @@ SIMD_INLINE Place renormalise(const Symmetric m, const Place b)
 
 /* The gradient of relative density within a fluid, exact where that is linear: (sum F x x^T)^-1 sum F (e_i -
    e_j) x with x = x_ij (Antuono 2010, with volumes that are all the same). 0 next to solids: diffusion has to
-   level the gaps that the fluid's order leaves there. */
+   level the gaps that the fluid's order leaves there. Next is a little less than h, so that it does not
+   matter that lists are of half a drift ago. */
 SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 next2 = f8_splat(NEXT_TO_SOLID * NEXT_TO_SOLID * h * h);
     const f8 scale = f8_splat(w->gradient_scale / s->rest_number_density); /* m is 1 in the lattice */
     const f8 first_solid = f8_splat(FLUIDS_MAX);
 
@@ -48,7 +50,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
             Separation d = separation(args, at, j);
             const i8 seen = d.r2 < h2;
             const f8 kind = f8_gather(args->kind, j);
-            solid |= seen & (kind >= first_solid);
+            solid |= (d.r2 < next2) & (kind >= first_solid);
             const i8 same = seen & (d.r2 >= least2) & (kind == fi);
             const f8 f = scale * f8_masked(same, shape(f8_sqrt(d.r2) * inverse_h, kernel));
             const f8 fx = f * d.x, fy = f * d.y, fz = f * d.z, de = ri - f8_gather(args->own[RELATIVE], j);

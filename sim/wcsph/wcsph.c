@@ -95,17 +95,19 @@ static double wcsph_energy(double x)
     return x * x * (5.0 / 2 + x * (10.0 / 3 + x * (5.0 / 2 + x * (1 + x / 6))) + 1 / (1 + x)) / 7;
 }
 
-/* Half a step of the equation of continuity, after the pass `ready`, which diffusion has need of. */
-static void continuity(const Substep *step, const Pass *ready)
+/* The rate of density as particles stand and move now, and half a step by it. */
+static void continuity(const Substep *step)
 {
     if (wcsph_diffuses(step->constants))
-        substep_run(step, ready, 0);
+        substep_run(step, &wcsph_gradient, 0);
     substep_run(step, &wcsph_continuity, 0.5 * step->dt);
 }
 
-/* Leapfrog as the symmetric composition drift, continuity, kick, continuity, drift (halves but for the kick):
+/* Leapfrog as the symmetric composition continuity, drift, kick, drift, continuity (halves but for the kick):
    each part is exact by itself where the others hold still, so that the whole is of second order, runs
-   backwards as forwards but for viscosity, and needs one grid a step. */
+   backwards as forwards but for viscosity, and needs one grid a step. The rate at the end of a step is that
+   at the begin of the next: it is summed once, over the neighbours that particles had half a drift ago, since
+   who came nearer than h meanwhile weighs next to nothing. */
 static void wcsph_substep(const Substep *step)
 {
     const Backend *b = step->backend;
@@ -116,22 +118,23 @@ static void wcsph_substep(const Substep *step)
     STAGE (step->clock, STAGE_GRID)
         b->grid(state);
     STAGE (step->clock, STAGE_DENSITY)
-        continuity(step, &wcsph_gradient);
+        substep_run(step, &wcsph_state, 0.5 * step->dt);
     STAGE (step->clock, STAGE_FORCE)
         substep_run(step, &wcsph_forces, step->dt);
     STAGE (step->clock, STAGE_INTEGRATE)
         substep_kick(step);
-    STAGE (step->clock, STAGE_DENSITY)
-        continuity(step, &wcsph_state);
     if (wcsph_shifts(step->constants))
         STAGE (step->clock, STAGE_FORCE)
             substep_run(step, &wcsph_shift, step->dt);
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->second_half);
+    STAGE (step->clock, STAGE_DENSITY)
+        continuity(step);
 }
 
-static const Pass *const passes[] = {&wcsph_state,  &wcsph_gradient, &wcsph_continuity,
-                                     &wcsph_forces, &wcsph_shift,    NULL};
+static const Pass *const passes[] = {&wcsph_state,    &wcsph_forces,     &wcsph_shift,
+                                     &wcsph_gradient, &wcsph_continuity, NULL};
+static const Pass *const start[] = {&wcsph_gradient, &wcsph_continuity, NULL};
 
 static bool is_radial(const Constants *constants)
 {
@@ -179,5 +182,6 @@ const Method method_wcsph = {
     .terms = terms,
     .buffers = buffers,
     .settle = &wcsph_state,
+    .start = start,
     .substep = wcsph_substep,
 };

@@ -98,6 +98,9 @@ typedef struct Method {
     const ShaderTerm *terms;                    /* ended by a NULL name; NULL: none */
     const ShaderBuffer *buffers; /* METHOD_BUFFERS_MAX at most, ended by a NULL block; NULL: none */
     const Pass *settle;          /* what follows from the saved columns: volume, pressure */
+    /* Behind it, once in a new world: what its first step needs of columns that are saved, ended by NULL.
+       NULL: nothing. */
+    const Pass *const *start;
     void (*substep)(const struct Substep *step);
 } Method;
 

@@ -63,7 +63,7 @@ typedef struct BackendMicro {
 int world_micro_parts(const World *world, MicroPart parts[MICRO_PARTS_MAX]);
 
 /* Runs a part over a time of 0: all of them, in their order and as often as one likes, leave the state as it
-   was. */
+   was, but for sums that it has from the last step: these are made anew in another order. */
 void world_micro_run(World *world, const MicroPart *part);
 
 /* False where some of what ran since the last time was short of memory: its figures mean nothing. */

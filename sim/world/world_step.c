@@ -51,6 +51,14 @@ void world_settle(World *world)
     world->backend->run(world->state, world->method->settle, &(PassInput){0});
 }
 
+static void start_method(World *world)
+{
+    const Pass *const *pass = world->method->start;
+    for (; pass && *pass; pass++)
+        if (!(*pass)->needed || (*pass)->needed(&world->constants))
+            world->backend->run(world->state, *pass, &(PassInput){0});
+}
+
 static bool names_check(const WorldDef *def, Error *error)
 {
     if (!backend_find(def->backend))
@@ -121,6 +129,7 @@ World *world_create(const WorldDef *def, Error *error)
     world->trouble.retries = def->retries;
     box_at(world, &world->filter, 0, &world->box);
     world_settle(world);
+    start_method(world);
     energy_sound(world);
     if (sentinel_mark(world, error)) /* what it needs is there before the first step */
         return world;

@@ -261,7 +261,8 @@ static inline StepOff step_off(const Snapshot *before, const Snapshot *a, const 
 }
 
 /* One step of both, which are in the same state: density within 1e-5 of rest density, and where particles
-   carry it within 1e-3 of the greatest change; the change of velocity within 1e-4 of the greatest. */
+   carry it within 3e-5 and 1e-3 of the greatest change, since the cpu's lists lack boundary particles that
+   came nearer than h in half a drift; the change of velocity within 1e-4 of the greatest. */
 static inline void compare_one_step(const char *what, World *cpu, World *gpu)
 {
     Snapshot before = snapshot_read(cpu);
@@ -270,7 +271,7 @@ static inline void compare_one_step(const char *what, World *cpu, World *gpu)
     Snapshot a = snapshot_read(cpu), b = snapshot_read(gpu);
     assert_int_equal(a.count, b.count);
     const StepOff off = step_off(&before, &a, &b);
-    const double least = cpu->constants.method->carries_density ? fmin(1e-5, 1e-3 * off.thickened) : 1e-5;
+    const double least = cpu->constants.method->carries_density ? fmin(3e-5, 1e-3 * off.thickened) : 1e-5;
     const float *x = off.density.x, *y = off.velocity.x;
     printf(
         "%s: density off by %.1e of rest (particle %u), by %.1e of the greatest change, change of velocity by %.1e "

@@ -137,7 +137,7 @@ static void a_step_makes_so_many_calls(void **state)
     def.reproducible = true;
     count_step("compute, mueller, reproducible", &def, 10, 0, 110);
     def = pool_def("compute", "wcsph");
-    count_step("compute, wcsph", &def, 10, 0, 110);
+    count_step("compute, wcsph", &def, 11, 0, 110);
     wcsph_def(&def)->delta_sph = wcsph_def(&def)->shifting = 0.1;
     count_step("compute, wcsph, delta_sph, shifting", &def, 13, 0, 145);
     def = pool_def("fragment", "mueller");

@@ -24,7 +24,7 @@ static int close_context(void **state)
     return 0;
 }
 
-/* With so long steps the drop breaks at every fourth or so: none of what was thrown away is among the
+/* With so long steps the drop breaks twice or so: none of what was thrown away is among the
  * samples. */
 static void samples_are_of_sound_states(void **state)
 {
@@ -32,7 +32,7 @@ static void samples_are_of_sound_states(void **state)
     static CaseResult result;
     Error error = {{0}};
     Progress progress;
-    SceneSettings settings = {.count = 2, .set = {"solver.backend=compute", "solver.step.number=1.6"}};
+    SceneSettings settings = {.count = 2, .set = {"solver.backend=compute", "solver.step.number=1.8"}};
     Case often = *case_find("elliptical_drop", &error);
     often.every = 1e-6; /* after each step */
     const CaseSetup setup = {&often, CASE_COARSE, "wcsph", &settings};
@@ -45,7 +45,7 @@ static void samples_are_of_sound_states(void **state)
     for (size_t i = 1; i < axis->count; i++) {
         const double *was = axis->at[i - 1], *is = axis->at[i];
         const double rate = fabs(is[1] - was[1]) / (is[0] - was[0]);
-        if (!(is[0] > was[0] && rate < 300)) /* its own flow draws it in by 100 m/s */
+        if (!(is[0] > was[0] && rate < 2000)) /* what breaks draws it in by up to some hundred m/s */
             fail_msg("from %g s to %g s the axis changes by %g m/s", was[0], is[0], rate);
     }
     case_result_free(&result);

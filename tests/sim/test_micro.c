@@ -46,6 +46,20 @@ static void test_parts_are_those_of_the_method(void **state)
     }
 }
 
+/* Places, velocities, densities: within roundings of sums over neighbours. */
+static void assert_alike(World *world, World *other)
+{
+    State a = fixture_read(world), b = fixture_read(other);
+    assert_int_equal(a.count, b.count);
+    for (size_t i = 0; i < 4 * a.count; i++) {
+        assert_float_equal(a.position[i], b.position[i], 1e-6);
+        assert_float_equal(a.velocity[i], b.velocity[i], 1e-4);
+        assert_float_equal(a.density[i / 4], b.density[i / 4], 0.01);
+    }
+    fixture_free(&a);
+    fixture_free(&b);
+}
+
 static void test_a_part_that_runs_alone_changes_nothing(void **state)
 {
     (void)state;
@@ -59,7 +73,7 @@ static void test_a_part_that_runs_alone_changes_nothing(void **state)
                 world_micro_run(world, &parts[k]);
         assert_true(world_hash(world) == world_hash(other));
         assert_true(world_step(world, NULL, &error) && world_step(other, NULL, &error));
-        assert_true(world_hash(world) == world_hash(other));
+        assert_alike(world, other);
         world_destroy(other);
         world_destroy(world);
     }

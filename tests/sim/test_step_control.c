@@ -227,8 +227,8 @@ static void friction_stands_the_step_that_it_names(void **state)
     fixture_needs_cpu("the limit is the same on all backends");
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         const Stirred *s = &cases[n];
-        /* where two meet, half of a light one's neighbours are light; radial friction boils slowly at 1.5 */
-        const double beyond = s->two ? 3 : s->form ? 2 : 1.5;
+        /* where two meet, half of a light one's neighbours are light; radial friction boils slowly at 2 */
+        const double beyond = s->two || s->form ? 3 : 1.5;
         const double calm = energy_left(s, STEP_VISCOUS_STANDS), wild = energy_left(s, beyond);
         printf("%s %s %dD %g%s%s%s: %.3g at %g, %.3g at %g of the longest step\n", s->method, s->kernel,
                s->dimensions, s->support, s->form ? " radial" : "", s->two ? " two" : "",

@@ -59,6 +59,7 @@ static WorldDef two_fluids(const char *kernel)
 /* The first step, particle by particle, in double. */
 typedef struct Reference {
     double x[COUNT][3], v[COUNT][3], rate[COUNT], density[COUNT], scale[COUNT], slope[COUNT][3];
+    double diffused[COUNT]; /* density that diffusion goes by */
     double h, n0, gradient, radial;
     const Kernel *kernel;
 } Reference;
@@ -90,7 +91,7 @@ static void reference_slopes(const WorldDef *def, const Cloud *cloud, Reference 
                 continue;
             const double f = -r->gradient * r->kernel->derivative(d, r->h) / d / r->n0;
             for (int k = 0; k < 3; k++) {
-                b[k] += f * x[k] * (r->density[j] - r->density[i]) / rho0;
+                b[k] += f * x[k] * (r->diffused[j] - r->diffused[i]) / rho0;
                 for (int l = 0; l < 3; l++)
                     m[k][l] += f * x[k] * x[l];
             }
@@ -124,6 +125,7 @@ static double image_of(const WorldDef *def, const Reference *r, int walls, int i
 
 static void reference_rate(const WorldDef *def, const Cloud *cloud, Reference *r)
 {
+    reference_slopes(def, cloud, r);
     const double reach = r->h / 2;
     for (int i = 0; i < COUNT; i++) {
         double sum = 0;
@@ -135,8 +137,8 @@ static void reference_rate(const WorldDef *def, const Cloud *cloud, Reference *r
             if (i == j || d >= r->h)
                 continue;
             const double f = -r->gradient * r->kernel->derivative(d, r->h) / d;
-            const double ri = r->density[i] / def->fluids[cloud->fluid[i]].density;
-            const double rj = r->density[j] / def->fluids[cloud->fluid[j]].density;
+            const double ri = r->diffused[i] / def->fluids[cloud->fluid[i]].density;
+            const double rj = r->diffused[j] / def->fluids[cloud->fluid[j]].density;
             sum -= f * dot(v, x);
             double along = 0;
             for (int k = 0; k < 3; k++)
@@ -219,12 +221,19 @@ static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *
     r->gradient = lattice.gradient_scale;
     r->radial = lattice.radial_scale;
     for (int i = 0; i < COUNT; i++) {
-        r->density[i] = cloud->density[i];
+        r->density[i] = r->diffused[i] = cloud->density[i];
         for (int k = 0; k < 3; k++) {
             r->v[i][k] = cloud->v[3 * i + k];
-            r->x[i][k] = cloud->x[3 * i + k] + 0.5 * dt * r->v[i][k];
+            r->x[i][k] = cloud->x[3 * i + k];
         }
     }
+}
+
+static void reference_drift(Reference *r)
+{
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 3; k++)
+            r->x[i][k] += 0.5 * dt * r->v[i][k];
 }
 
 static void step_equals_brute_force(const char *kernel, ViscosityForm form, double width, double middle)
@@ -241,10 +250,12 @@ static void step_equals_brute_force(const char *kernel, ViscosityForm form, doub
     State s = fixture_read(world);
 
     reference_begin(&def, &cloud, &r);
-    reference_slopes(&def, &cloud, &r);
     reference_rate(&def, &cloud, &r);
-    for (int i = 0; i < COUNT; i++)
+    reference_drift(&r);
+    for (int i = 0; i < COUNT; i++) {
+        r.diffused[i] += 0.25 * dt * r.rate[i]; /* the mean of before and after */
         r.density[i] += 0.5 * dt * r.rate[i];
+    }
     reference_force(&def, &cloud, &r, a);
     for (int i = 0; i < COUNT; i++)
         for (int k = 0; k < 3; k++) {
@@ -257,6 +268,7 @@ static void step_equals_brute_force(const char *kernel, ViscosityForm form, doub
                          r.scale[i]);
         }
     double change = 0;
+    reference_drift(&r);
     reference_rate(&def, &cloud, &r);
     for (int i = 0; i < COUNT; i++) {
         const double rho0 = def.fluids[cloud.fluid[i]].density;
@@ -485,7 +497,7 @@ static void any_threads_give_the_same_bits(void **state)
     }
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
     /* On x86-64 with any instruction set; what this build gave when sums equalled brute force. */
-    if (hash[0] != 0x6ecf909872a7c61bULL)
+    if (hash[0] != 0xd4a5946773a46b49ULL)
         fail_msg("the bits have changed: hash %016llx", (unsigned long long)hash[0]);
 }
 

@@ -1,9 +1,12 @@
-// wcsph: the density that particles carry, by the equation of continuity with diffusion and the walls' images, then volume and
-// pressure after it: rate_range in sim/wcsph/pairs.c, continuity_body in sim/wcsph/density.c, sim/wcsph/pairs_images.c.
+// wcsph: the rate of density by the equation of continuity with diffusion and the walls' images, then density by it, volume
+// and pressure: rate_range in sim/wcsph/pairs.c, rate_body in sim/wcsph/density.c, sim/wcsph/pairs_images.c.
+#define BEHIND_DRIFT
+#define OWN_ACCESS writeonly
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/wcsph/images.glsl"
 #include "sim/walk.glsl"
+#include "sim/own.glsl"
 #ifdef SOLIDS
 #include "sim/solids.glsl"
 layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: which solid
@@ -12,9 +15,8 @@ layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone
-layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };            // x y z, p V^2, for the forces
 #ifdef DIFFUSION
-layout(std430, binding = SLOPES_BUFFER) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1 before this pass
+layout(std430, binding = SLOPES_BUFFER) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1, by state.comp
 #endif
 layout(location = PASS_DT_AT) uniform float dt;
 
@@ -29,8 +31,8 @@ void diffuse(uint j, vec3 d, inout float flow)
 #ifdef DIFFUSION
     if (FLUID_OF(j) != own_fluid)
         return;
-    vec4 own = slope[self], other = slope[j];
-    flow -= diffusion * (other.w - own.w + 0.5 * dot(own.xyz + other.xyz, d));
+    vec4 here = slope[self], there = slope[j];
+    flow -= diffusion * (there.w - here.w + 0.5 * dot(here.xyz + there.xyz, d));
 #endif
 }
 
@@ -95,11 +97,11 @@ void main()
     own_fluid = FLUID_OF(i);
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     walk_images(x, at);
-    float rate = -gradient_scale * (sum + image_sum);
-    float e = velocity[i].w + rate / rest_number_density * dt;
+    float rate = -gradient_scale * (sum + image_sum) / rest_number_density;
+    float e = velocity[i].w + rate * dt;
     State state = state_of(e, own_fluid);
+    own[OWN_rate + i] = rate;
     velocity[i].w = e;
     position[i].w = state.volume;
     pressure[i] = state.pressure;
-    near[i] = vec4(x, state.pressure.y);
 }

@@ -1,5 +1,6 @@
 // wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/wcsph/pairs.c, and
 // sim/wcsph/pairs_images.c.
+#define LISTS_FIRST
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
 #include "sim/wcsph/wcsph.glsl"

@@ -1,14 +1,13 @@
-// wcsph: the gradient of relative density within a fluid, exact where that is linear (Antuono 2010), and that density
-// itself, which neighbours read while `continuity` changes theirs: slope_range in sim/wcsph/pairs.c.
+// wcsph: the gradient of relative density within a fluid, exact where that is linear (Antuono 2010): slope_range in
+// sim/wcsph/pairs.c.
+#define BEHIND_DRIFT
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
-#define LISTS_FIRST
 #include "sim/walk.glsl"
 #include "common/nan.glsl"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; }; // w: rho / rho0 - 1
-layout(std430, binding = SLOPES_BUFFER) writeonly buffer Slopes { vec4 slope[]; };
+layout(std430, binding = SLOPES_BUFFER) buffer Slopes { vec4 slope[]; }; // w: the relative density, by state.comp
 
 // m^-1 b of the symmetric m; 0 where neighbours hardly span the space.
 vec3 renormalise(vec3 diagonal, vec3 mixed, vec3 b)
@@ -36,10 +35,14 @@ void meet(uint j, vec3 d, float volume)
     vec3 fd = shape(sqrt(r2) * inverse_support) * d;
     diagonal += fd * d;
     mixed += fd * d.yzx;
-    b += fd * (own_relative - velocity[j].w);
+    b += fd * (own_relative - slope[j].w);
 }
 
-void meet_boundary(uint j, vec3 d, float volume) { next_to_solid = next_to_solid || dot(d, d) < support * support; }
+void meet_boundary(uint j, vec3 d, float volume)
+{
+    float reach = NEXT_TO_SOLID * support;
+    next_to_solid = next_to_solid || dot(d, d) < reach * reach;
+}
 
 void main()
 {
@@ -48,12 +51,12 @@ void main()
         return;
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
-    own_relative = velocity[i].w;
+    own_relative = slope[i].w;
     own_fluid = FLUID_OF(i);
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     float scale = gradient_scale / rest_number_density;
     diagonal *= scale;
     if (dimensions == 2)
         diagonal.z = 0.5 * (diagonal.x + diagonal.y);
-    slope[i] = vec4(next_to_solid ? vec3(0) : renormalise(diagonal, mixed * scale, b * scale), own_relative);
+    slope[i].xyz = next_to_solid ? vec3(0) : renormalise(diagonal, mixed * scale, b * scale);
 }

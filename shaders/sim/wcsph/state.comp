@@ -1,24 +1,31 @@
-// wcsph: volume and pressure by the density that particles carry, which stands ready for diffusion:
-// state_body in sim/wcsph/density.c.
+// wcsph: density by its rate, volume and pressure; what forces read of others; what diffusion goes by: state_body in
+// sim/wcsph/density.c.
+#define OWN_ACCESS readonly
 #include "sim/constants.glsl"
+#include "sim/own.glsl"
 #include "sim/wcsph/wcsph.glsl"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };     // p, p V^2
-layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };     // w: rho / rho0 - 1
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };              // w: rho / rho0 - 1
+layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };                   // x y z, p V^2, for the forces
 #ifdef DIFFUSION
 layout(std430, binding = SLOPES_BUFFER) buffer Slopes { vec4 slope[]; };
 #endif
+layout(location = PASS_DT_AT) uniform float dt;
 
 void main()
 {
     uint i = invocation();
     if (i >= particle_count())
         return;
-    State state = state_of(velocity[i].w, name[i].y);
+    float before = velocity[i].w, e = before + own[OWN_rate + i] * dt;
+    State state = state_of(e, name[i].y);
+    velocity[i].w = e;
     position[i].w = state.volume;
     pressure[i] = state.pressure;
+    near[i] = vec4(position[i].xyz, state.pressure.y);
 #ifdef DIFFUSION
-    slope[i].w = velocity[i].w;
+    slope[i].w = 0.5 * (before + e);
 #endif
 }

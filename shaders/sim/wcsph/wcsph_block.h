@@ -13,6 +13,9 @@
    not stand the step that others do: docs/failures.md. */
 #define THINNEST 0.9f
 
+/* How near to a solid diffusion goes by differences alone, over h. */
+#define NEXT_TO_SOLID 0.95f
+
 BLOCK_STRUCT(WcsphFluid)
 {
     float tait;                 /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */

@@ -46,6 +46,7 @@ void compute_pass(void *state, const Pass *pass, const PassInput *input)
 {
     Compute *c = state;
     const ComputePass at = compute_method_pass(c, pass);
+    compute_boundary_grid(c); /* behind a drift solids may have moved since */
     if (c->takes_dt[at])
         glProgramUniform1f(c->program[at], PASS_DT_AT, input->dt);
     if (pass->stage == STAGE_FORCE && input->apparent)
