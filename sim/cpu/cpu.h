@@ -43,7 +43,7 @@ typedef struct Cpu {
 
 /* Of a boundary particle that is set aside: x, m. Its square is finite, since lanes past a row's end read it.
  */
-#define ASIDE 1e9F
+#define ASIDE PAST
 
 enum { CPU_GRAIN = LISTS_GRAIN }; /* particles in a range: some 0.2 ms of work, small against a step */
 

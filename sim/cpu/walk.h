@@ -84,7 +84,7 @@ SIMD_INLINE Separation separation(const PairArgs *args, Place at, const uint32_t
 #endif
     d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
 #ifdef PAIRS_PERIODIC
-    const i8 there = i8_load((const int32_t *)j) != i8_splat((int32_t)args->count);
+    const i8 there = p.x != f8_splat(PAST); /* nor where boundary particles are set aside */
     d.r2 = f8_select(there, d.r2, f8_splat(PAST));
 #endif
     return d;

@@ -85,6 +85,15 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
     return true;
 }
 
+/* Whether numbers that a method keeps of particle i are any. */
+static bool own_finite(const ParticleColumns *p, size_t i)
+{
+    bool finite = true;
+    for (int k = 0; k < COLUMNS_OWN; k++)
+        finite &= !p->own[k] || isfinite(p->own[k][i]);
+    return finite;
+}
+
 /* Every id once, every number finite. */
 static bool particles_check(const World *world, const WorldState *state, Error *error)
 {
@@ -98,7 +107,7 @@ static bool particles_check(const World *world, const WorldState *state, Error *
     if (!seen)
         return error_set(error, "no memory");
     for (size_t i = 0; i < state->count && whole; i++) {
-        whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) &&
+        whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) && own_finite(p, i) &&
                 (!p->compression || (p->compression[i] > -1 && isfinite(p->compression[i]))) &&
                 p->id[i] < born && !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
         if (whole)

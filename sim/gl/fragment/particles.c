@@ -41,15 +41,18 @@ static size_t texture_bytes(const Fragment *f)
     return 16 * (size_t)f->width * (size_t)f->height;
 }
 
-/* The id of each texel's particle, to be freed; NULL when memory is short. */
+/* The id of each texel's particle, to be freed; NULL when memory is short. A lost context gives anything:
+   then an id is that of its texel, so that nobody writes beside an array. */
 static uint32_t *ids_read(const Fragment *f)
 {
-    float *texels = malloc(texture_bytes(f));
+    float *texels = calloc(1, texture_bytes(f));
     uint32_t *id = texels ? malloc(sizeof *id * (f->count + 1)) : NULL;
     if (id)
         texels_read(f->position[0], GL_RGBA, GL_FLOAT, texture_bytes(f), texels);
-    for (size_t i = 0; id && i < f->count; i++)
-        id[i] = (uint32_t)texels[4 * i + 3];
+    for (size_t i = 0; id && i < f->count; i++) {
+        const float said = texels[4 * i + 3];
+        id[i] = said >= 0 && said < (float)f->count ? (uint32_t)said : (uint32_t)i;
+    }
     free(texels);
     return id;
 }
