@@ -113,6 +113,32 @@ static void refuse(World *world, const WorldState *bad, const char *reason)
     assert_true(world_hash(world) == hash);
 }
 
+/* The rate of density that wcsph keeps is a column of its own. */
+static void a_methods_own_number_is_a_number(void **state)
+{
+    (void)state;
+    WorldDef def = moving_def(1);
+    snprintf(def.method, sizeof def.method, "wcsph");
+    World *world = fixture_world(&def);
+    WorldState saved = {.count = 0};
+    must(world_save(world, &saved, &error));
+    int columns = 0;
+    for (int k = 0; k < COLUMNS_OWN; k++) {
+        float *own = saved.particles.own[k];
+        if (!own)
+            continue;
+        const float kept = own[0];
+        own[0] = INFINITY;
+        refuse(world, &saved, "not those of the scene");
+        own[0] = kept;
+        columns++;
+    }
+    assert_true(columns > 0);
+    assert_true(world_load(world, &saved, &error));
+    world_state_free(&saved);
+    world_destroy(world);
+}
+
 static void what_is_no_state_is_refused(void **state)
 {
     (void)state;
@@ -160,6 +186,7 @@ int main(void)
         cmocka_unit_test(save_load_step_is_step),
         cmocka_unit_test(between_two_steps_of_a_frame),
         cmocka_unit_test(what_is_no_state_is_refused),
+        cmocka_unit_test(a_methods_own_number_is_a_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
