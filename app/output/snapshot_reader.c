@@ -317,7 +317,9 @@ bool snapshot_read_own(SnapshotReader *reader, size_t index, const Method *metho
             !read_field(group, step->own[k].name, H5T_IEEE_F32LE, step->count, step->own[k].values))
             missing = step->own[k].name;
     if (missing)
-        error_set(error, "%s: Step#%zu: '%s' is missing or of another length", reader->path, index, missing);
+        error_set(error,
+                  "%s: Step#%zu: '%s' is missing or of another length; it may be of another version of slosh",
+                  reader->path, index, missing);
     if (group >= 0)
         H5Gclose(group);
     if (missing)

@@ -15,8 +15,7 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
     const f8 wide = f8_splat(h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 repulsion = f8_splat(h * h * h * h * h * h / 64);
 
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ti = f8_load(args->tension + i), fi = f8_load(args->kind + i);
@@ -49,8 +48,7 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
     const f8 h2 = f8_splat(h * h), inner = f8_splat(dims * h * h), outer = f8_splat(dims + 4);
     const f8 colour = f8_splat(s->colour);
 
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 fi = f8_load(args->kind + i);

@@ -9,8 +9,7 @@ SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, c
     const float h = args->constants->support_radius;
     const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1), scale = f8_splat(args->constants->kernel_scale);
 
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         f8 sum = f8_splat(0);
@@ -43,8 +42,7 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
     const f8 inverse_h = f8_splat(1 / s->support_radius), pressure_scale = f8_splat(s->pressure_scale);
     const f8 viscosity_scale = f8_splat(s->viscosity_scale * (many ? 0.5f : s->viscosity[0]));
 
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);

@@ -36,8 +36,7 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     const f8 scale = f8_splat(w->gradient_scale / s->rest_number_density); /* m is 1 in the lattice */
     const f8 first_solid = f8_splat(FLUIDS_MAX);
 
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ri = f8_load(args->own[RELATIVE] + i), fi = f8_load(args->kind + i);
@@ -79,8 +78,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
     const f8 diffusion = f8_splat(w->diffusion), half = f8_splat(0.5f);
 
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
@@ -130,8 +128,7 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
              scale = f8_splat(w->radial_friction);
     const f8 most = f8_splat(1 / (THINNEST * s->rest_number_density));
 
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);

@@ -205,8 +205,7 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
     const WallsFar far = out_of_sight(args->constants);
     Images images;
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         if (!images_of(args, &far, i, begin, end, &images))
             continue;
         const Themselves own = themselves(args, i);
@@ -236,8 +235,7 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
 {
     const WallsFar far = out_of_sight(args->constants);
     Images images;
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         if (!images_of(args, &far, i, begin, end, &images))
             continue;
         const Layers layers = layers_of(args, i, begin, end);

@@ -1,6 +1,8 @@
 /* The neighbour walk in several forms: each against brute force; with --time [PARTICLES] each one's time, as
    the rows of the table in docs/performance.md. */
 #include "fixture.h"
+
+#include "sim/cpu/pair_set.h"
 #include "walk_forms/forms.h"
 
 #include <time.h>
@@ -44,11 +46,8 @@ enum { FORMS = sizeof forms / sizeof *forms };
 
 static bool has_avx2(void)
 {
-#if defined(__x86_64__)
-    return __builtin_cpu_supports("avx2");
-#else
-    return false;
-#endif
+    PairSet set;
+    return pair_set_choose(0, false, &set) && set == PAIR_AVX2; /* the widest that there is */
 }
 
 /* What a walk makes of a particle, and the sum of all terms taken as positive: {sum of (1 - r/h)^3 with its
