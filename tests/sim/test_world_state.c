@@ -117,6 +117,7 @@ static void refuse(World *world, const WorldState *bad, const char *reason)
 static void a_methods_own_number_is_a_number(void **state)
 {
     (void)state;
+    fixture_needs("wcsph");
     WorldDef def = moving_def(1);
     snprintf(def.method, sizeof def.method, "wcsph");
     World *world = fixture_world(&def);
