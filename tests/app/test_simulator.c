@@ -304,7 +304,7 @@ static void a_saved_session_gives_the_same_bits(void **state)
     simulator_reset(rig.simulator);
     simulator_set_realtime(rig.simulator, false); /* always within a frame */
     wait_for(&rig, is_ready);
-    for (int i = 0; !is_past_3000(&rig) && i < 10000; i++) {
+    for (int i = 0; !is_past_3000(&rig) && i < 100000; i++) {
         send_target(&rig, 0.2 * sin(i));
         usleep(500);
         wait_for(&rig, is_ready);
