@@ -15,6 +15,7 @@
     X(GRID, "grid", PART_SIM)                                                                                \
     X(DENSITY, "density", PART_SIM)                                                                          \
     X(FORCE, "force", PART_SIM)                                                                              \
+    X(SOLVE, "solve", PART_SIM)                                                                              \
     X(INTEGRATE, "integrate", PART_SIM)                                                                      \
     X(UPLOAD, "upload", PART_UPLOAD)                                                                         \
     X(SCALARS, "scalars", PART_RENDER)                                                                       \

@@ -220,6 +220,7 @@ const Backend backend_cpu = {
     .drift = cpu_drift,
     .grid = cpu_grid,
     .run = cpu_run_pass,
+    .excess = cpu_excess,
     .kick = cpu_kick,
     .watch = cpu_watch,
     .sums = cpu_sums,

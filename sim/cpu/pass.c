@@ -29,8 +29,13 @@ static void run_range(void *context, size_t begin, size_t end)
 
 static void pack(void *context, size_t begin, size_t end)
 {
-    Cpu *cpu = context;
+    const Running *running = context;
+    Cpu *cpu = running->cpu;
     const CpuParticles *p = &cpu->now;
+    if (running->loop->pack) {
+        running->loop->pack(&(CpuRange){cpu, NULL, running->input, begin, end});
+        return;
+    }
     for (size_t i = begin; i < end; i++) {
         memcpy(cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->pressure_term[i]}, 16);
         memcpy(cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], p->volume[i]}, 16);
@@ -42,7 +47,7 @@ static void run_loop(Running *running)
     Cpu *cpu = running->cpu;
     const bool walks = running->loop->walks;
     if (walks) {
-        parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, pack, cpu);
+        parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, pack, running);
         columns_clear(&cpu->all, &cpu->now, cpu->count); /* lists are filled up with it */
         memcpy(cpu->place[cpu->count], (float[]){PAST, PAST, PAST, 0}, 16);
         memset(cpu->motion[cpu->count], 0, 16);

@@ -64,6 +64,16 @@ SIMD_INLINE f8 f8_masked(i8 mask, f8 a)
     return (f8)((i8)a & mask);
 }
 
+SIMD_INLINE f8 lesser(f8 a, f8 b)
+{
+    return f8_select(a < b, a, b);
+}
+
+SIMD_INLINE f8 greater(f8 a, f8 b)
+{
+    return f8_select(a > b, a, b);
+}
+
 SIMD_INLINE f8 f8_sqrt(f8 a)
 {
 #if defined(__AVX__)

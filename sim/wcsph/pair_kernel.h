@@ -3,41 +3,9 @@
 #define SLOSH_PAIR_KERNEL_H
 
 #include "sim/cpu/pair_loop.h"
+#include "sim/cpu/pair_shape.h"
 #include "sim/wcsph/columns.h"
 #include "sim/wcsph/constants.h"
-
-SIMD_INLINE f8 lesser(f8 a, f8 b)
-{
-    return f8_select(a < b, a, b);
-}
-
-/* Both are 0 from q = 1 on. f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q);
-   of the quintic's powers of 3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that `gradient_scale` takes care of.
- */
-SIMD_INLINE f8 shape(f8 q, const ShapeKernel kernel)
-{
-    const f8 one = f8_splat(1), zero = f8_splat(0), t = closeness(q);
-    if (kernel == KERNEL_WENDLAND_C2)
-        return f8_splat(20) * (t * t * t);
-    if (kernel == KERNEL_CUBIC)
-        return f8_select(q < f8_splat(0.5f), f8_splat(12) - f8_splat(18) * q, f8_splat(6) * (t * t) / q);
-    const f8 a = f8_splat(3) * t, b = a - one, c = b - one;
-    const f8 a2 = a * a, b2 = f8_masked(b > zero, b * b), c2 = f8_masked(c > zero, c * c);
-    return (a2 * a2 - f8_splat(6) * (b2 * b2) + f8_splat(15) * (c2 * c2)) / q;
-}
-
-/* w(q) / w(0). */
-SIMD_INLINE f8 height(f8 q, const ShapeKernel kernel)
-{
-    const f8 one = f8_splat(1), zero = f8_splat(0), t = closeness(q), t2 = t * t;
-    if (kernel == KERNEL_WENDLAND_C2)
-        return t2 * t2 * (one + f8_splat(4) * q);
-    if (kernel == KERNEL_CUBIC)
-        return f8_select(q < f8_splat(0.5f), one - f8_splat(6) * (q * q * t), f8_splat(2) * (t2 * t));
-    const f8 a = f8_splat(3) * t, b = a - one, c = b - one;
-    const f8 a2 = a * a, b2 = f8_masked(b > zero, b * b), c2 = f8_masked(c > zero, c * c);
-    return (a2 * a2 * a - f8_splat(6) * (b2 * b2 * b) + f8_splat(15) * (c2 * c2 * c)) / f8_splat(66);
-}
 
 /* `body(args, begin, end, kernel)` with the kernel as a constant, so that each has a loop of its own. */
 #define FOR_KERNEL(args, begin, end, body)                                                                   \

@@ -169,6 +169,7 @@ const Method method_wcsph = {
     .def = &usual,
     .def_size = sizeof usual,
     .carries_density = true,
+    .mirrors = true,
     .check = wcsph_check,
     .kernels = wcsph_kernels_of,
     .friction = wcsph_friction,

@@ -15,6 +15,12 @@
 struct BackendMicro;    /* sim/world/micro.h */
 struct ParticleBuffers; /* sim/gl/particle_buffers.h */
 
+/* What of a column's values is above 0. */
+typedef struct Excess {
+    double mean;    /* over all particles, those below 0 counted as 0; NaN where one is */
+    float greatest; /* 0 at least */
+} Excess;
+
 typedef struct Backend {
     const char *name, *help;
     const Key *keys; /* of its own settings, ended by a row without a path; NULL: it has none */
@@ -49,6 +55,9 @@ typedef struct Backend {
     void (*grid)(void *state);
     /* A pass of the method. */
     void (*run)(void *state, const Pass *pass, const PassInput *input);
+    /* Of a column of one component, over the fluids' particles, in an order that no thread count changes.
+       NULL: the backend runs no method that iterates. */
+    Excess (*excess)(void *state, const ColumnDef *column);
     /* v += (acceleration + gravity) dt. */
     void (*kick)(void *state, const float gravity[3], float dt);
     /* What the kicks since the last call or `load` found; waits for them. */

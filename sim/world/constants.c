@@ -286,7 +286,7 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     tension_set(constants, def);
     fluids_set(constants, def);
     own_set(constants, def);
-    if (method->carries_density)
+    if (method->mirrors)
         walls_place(&constants->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
     else if (!walls_create(&constants->walls, def->box_size, def->periodic, def->spacing, h, kernel,
                            &constants->lattice))

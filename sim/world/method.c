@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const Method method_mueller, method_wcsph;
+extern const Method method_mueller, method_wcsph, method_dfsph;
 
-static const Method *methods[METHODS_MAX + 1] = {&method_mueller, &method_wcsph};
+static const Method *methods[METHODS_MAX + 1] = {&method_mueller, &method_wcsph, &method_dfsph};
 
 void method_add(const Method *method)
 {

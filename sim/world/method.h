@@ -31,6 +31,7 @@ typedef struct Pass {
 typedef struct PassInput {
     float dt;                               /* s */
     const struct ApparentGravity *apparent; /* NULL outside of a step */
+    float gravity[3]; /* that the kick of the step adds, m/s2; 0 outside of a step */
 } PassInput;
 
 /* What only some scenes name: there a line "#define NAME 1" stands before the shaders. */
@@ -78,8 +79,9 @@ typedef struct Method {
     const Key *keys;      /* of its own settings, ended by a row without a path; NULL: it has none */
     const void *def;      /* the struct of these settings with its defaults */
     size_t def_size;      /* bytes; at most METHOD_DEF_SIZE */
-    bool carries_density; /* its particles do, and walls are mirrors; else density is summed, and walls are
-                             tables */
+    bool carries_density; /* its particles do; else density is summed */
+    bool mirrors;         /* walls of the box are mirrors (sim/box/wall_images.h); else tables */
+    bool incompressible;  /* no sound: steps are bounded by the true greatest speed alone */
     /* False with the reason: a setting is not in order, whichever the method. */
     bool (*check)(const WorldDef *def, Error *error);
     MethodKernels (*kernels)(const WorldDef *def);                         /* NULL: spiky for both */

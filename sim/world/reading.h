@@ -40,6 +40,7 @@ typedef struct WorldInfo {
     StepLimit limit;                    /* what bounded it */
     uint64_t limited[STEP_LIMIT_COUNT]; /* steps by what bounded them, since the start */
     WorldTrouble trouble;
+    StepSolve solves[SOLVES_MAX]; /* of the last step; of a method without solvers all 0 */
     size_t lost;     /* backend fragment: particles without a place in its grid, in the last step known */
     size_t unlisted; /* backend compute: bytes of lists of neighbours that are more than the driver or its
                         memory allows, so that steps take longer; 0: it has them, or is not to have them */

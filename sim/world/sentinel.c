@@ -1,5 +1,7 @@
 #include "sim/world/sentinel.h"
 
+#include "sim/world/iterate.h"
+
 #include <stdio.h>
 
 static const double CALM_STEPS = 200;
@@ -25,6 +27,9 @@ bool world_sound(World *world)
         s->max_speed = watch.max_speed;
         s->max_acceleration = watch.max_acceleration;
         world->seen = world->seen ? world->seen : trouble;
+        for (int k = 0; k < SOLVES_MAX && world->def.retries > 0; k++)
+            if (!world->seen && step_solve_failed(&world->solves[k]))
+                world->seen = STEP_TROUBLE_SOLVE;
         world->kicked = false;
     }
     return world->seen == STEP_TROUBLE_NONE;

@@ -76,8 +76,10 @@ double density_ratio(const WorldDef *def)
 
 double step_sound(const WorldDef *def)
 {
-    const bool carries = method_find(def->method)->carries_density;
-    return def->sound_speed * (carries ? sqrt(fmax(1, density_ratio(def) / 10)) : 1);
+    const Method *method = method_find(def->method);
+    if (method->incompressible)
+        return 0;
+    return def->sound_speed * (method->carries_density ? sqrt(fmax(1, density_ratio(def) / 10)) : 1);
 }
 
 double artificial_kinematic(const WorldDef *def, double alpha)
@@ -131,7 +133,7 @@ double step_cfl(const WorldDef *def, const StepFriction *friction, double max_sp
     const double courant = number * h / (step_sound(def) + max_speed);
     const double most[STEP_LIMIT_COUNT] = {
         [STEP_LIMIT_DT] = INFINITY,
-        [STEP_LIMIT_COURANT] = courant,
+        [STEP_LIMIT_COURANT] = courant, /* INFINITY of what rests and has no sound */
         [STEP_LIMIT_FORCE] = max_acceleration > 0 ? number * sqrt(h / max_acceleration) : INFINITY,
         [STEP_LIMIT_VISCOUS] = fmin(2 * number, STEP_VISCOUS_STANDS) * step_viscous(def, friction),
         [STEP_LIMIT_MAX_DT] = def->max_dt,

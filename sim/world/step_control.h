@@ -37,6 +37,18 @@ typedef struct StepState {
     double calm;             /* steps since the last trouble or relief */
 } StepState;
 
+/* What a solver that iterates did in a step. Doubles only: part of a saved state. */
+typedef struct StepSolve {
+    double iterations; /* 0: it did not run */
+    double mean, most; /* what is left of the residual, as the solver measures it: over all particles, at worst */
+    double tolerance;  /* of the mean */
+} StepSolve;
+
+enum { SOLVES_MAX = 2 };
+
+/* A solver is in trouble where its iterations end with so many times the residual that it may leave. */
+#define STEP_SOLVE_STANDS 10
+
 /* What a substep found, over all particles. */
 typedef struct StepWatch {
     bool bounded;            /* no particle moves further than the support radius in the step, none is NaN */
@@ -54,6 +66,7 @@ typedef struct StepWatch {
     X(SPEED, "a particle moves further than the support radius in one step")                                 \
     X(DENSITY, "fluid is pressed to more than five times its density")                                       \
     X(ENERGY, "energy grows by a tenth without work done")                                                   \
+    X(SOLVE, "the solver of pressure does not converge")                                                     \
     X(MEMORY, "there is no memory for the lists of neighbours")                                              \
     X(LOST, "particles found no place in the grid of backend fragment")
 

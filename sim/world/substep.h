@@ -12,6 +12,7 @@ typedef struct Substep {
     const Constants *constants;
     StageClock *clock; /* may be NULL */
     double dt;         /* s */
+    StepSolve *solves; /* by number, SOLVES_MAX of them: what the solvers of the step did */
     BoxStep first_half, second_half;
     int guide_count; /* of the emitters at work */
     Guide guides[GUIDES_MAX];
@@ -23,7 +24,9 @@ typedef struct Substep {
 /* A pass of the method over `dt` (s). */
 static inline void substep_run(const Substep *step, const Pass *pass, double dt)
 {
-    const PassInput input = {.dt = (float)dt, .apparent = &step->apparent};
+    PassInput input = {.dt = (float)dt, .apparent = &step->apparent};
+    for (int k = 0; k < 3; k++)
+        input.gravity[k] = step->gravity[k];
     step->backend->run(step->state, pass, &input);
 }
 

@@ -171,6 +171,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->clock = clock;
     step->dt = dt;
     step->constants = &world->constants;
+    step->solves = world->solves;
     box_step(&begin, &middle, 0.5 * dt, &step->first_half);
     box_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
@@ -365,10 +366,12 @@ void world_info(const World *world, WorldInfo *info)
         .limit = (StepLimit)world->stepping.limit,
         .trouble = world->trouble,
         .courant = world->step > 0
-                       ? world->stepping.dt * (world->def.sound_speed + world->stepping.max_speed) /
+                       ? world->stepping.dt * ((world->method->incompressible ? 0 : world->def.sound_speed) +
+                                                       world->stepping.max_speed) /
                              (world->def.support * world->def.spacing)
                        : 0,
     };
+    memcpy(info->solves, world->solves, sizeof info->solves);
     memcpy(info->limited, world->limited, sizeof info->limited);
     memcpy(info->box_size, world->def.box_size, sizeof info->box_size);
     memcpy(info->hand.position, world->filter.position, sizeof info->hand.position);

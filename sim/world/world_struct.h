@@ -20,6 +20,7 @@ struct World {
     double since_time;   /* at this time, s */
     StepState stepping;
     double stop;      /* s: a state falls on it in mode cfl; behind: none does */
+    StepSolve solves[SOLVES_MAX]; /* of the last step */
     bool kicked;      /* since the watch was last asked */
     StepTrouble seen; /* then, since the last good state */
     WorldState good;  /* what the sentinel goes back to */

@@ -1,0 +1,141 @@
+/* after: J. Bender, D. Koschier, "Divergence-free SPH for incompressible and viscous fluids", 2017 */
+#include "sim/dfsph/dfsph.h"
+
+#include "sim/base/key_rows.h"
+#include "sim/dfsph/passes.h"
+#include "sim/matter/viscosity.h"
+#include "sim/world/iterate.h"
+
+#include <string.h>
+
+static const DfsphDef usual = {.tolerance = 0.0005, .divergence_tolerance = 0.001, .iterations = 100};
+
+/* clang-format off */
+static const Key keys[] = {
+    NUMBER("solver.tolerance", L, "", 0, 1, offsetof(DfsphDef, tolerance), "mean compression that the solver of density leaves"),
+    NUMBER("solver.divergence_tolerance", L, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "the same of a step's divergence; 0: no solver for it"),
+    INTEGER("solver.iterations", L, 1, 10000, offsetof(DfsphDef, iterations), "of each solver, at most"),
+    KEYS_END,
+};
+/* clang-format on */
+
+static MethodKernels dfsph_kernels(const WorldDef *def)
+{
+    (void)def;
+    return (MethodKernels){&shape_kernels[DFSPH_KERNEL], &shape_kernels[DFSPH_KERNEL]};
+}
+
+static StepFriction dfsph_friction(const WorldDef *def, const Lattice *lattice)
+{
+    return (StepFriction){.laminar = friction_rate(lattice, def->spacing, FRICTION_MORRIS,
+                                                   def->support * def->spacing, NULL),
+                          .walls = DRAG_MORRIS};
+}
+
+/* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it. */
+static double shape_half(void)
+{
+    return DFSPH_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
+}
+
+static void dfsph_set(Constants *constants, const WorldDef *def)
+{
+    const Lattice *lattice = &constants->lattice;
+    const Kernel *kernel = &shape_kernels[DFSPH_KERNEL];
+    const double h = def->support * def->spacing, r = 0.5 * h;
+    const double slope = -kernel->derivative(r, h) / r / shape_half();
+    const DfsphDef *said = dfsph_def(def);
+    const double n0 = lattice->number_density;
+    const DfsphConstants own = {
+        .gradient = (float)(slope * lattice->density_scale),
+        .friction_gradient = (float)(slope * lattice->gradient_scale),
+        .pressure_scale = (float)(n0 * n0 * lattice->density_scale / lattice->gradient_scale),
+        .most = said->iterations,
+        .tolerance = said->tolerance,
+        .divergence_tolerance = said->divergence_tolerance,
+    };
+    _Static_assert(sizeof own <= METHOD_CONSTANTS_SIZE, "constants hold it");
+    memcpy(constants->of_method, &own, sizeof own);
+}
+
+enum { SOLVE_DENSITY, SOLVE_DIVERGENCE };
+
+/* Takes out of the velocities what would press the fluid in the step ahead. */
+static void end_divergence(const Substep *step)
+{
+    const DfsphConstants *own = dfsph_constants(step->constants);
+    const Iteration iteration = {{&dfsph_divergence_push, &dfsph_divergence_rate},
+                                 dfsph_residual,
+                                 own->divergence_tolerance,
+                                 own->most};
+    if (own->divergence_tolerance <= 0)
+        return;
+    substep_run(step, &dfsph_divergence_begin, step->dt);
+    substep_iterate(step, &iteration, SOLVE_DIVERGENCE, step->dt);
+    substep_run(step, &dfsph_divergence_end, step->dt);
+}
+
+/* Accelerations that end the step at rest density. */
+static void hold_density(const Substep *step)
+{
+    const DfsphConstants *own = dfsph_constants(step->constants);
+    const Iteration iteration = {
+        {&dfsph_density_push, &dfsph_density_rate}, dfsph_residual, own->tolerance, own->most};
+    substep_run(step, &dfsph_density_begin, step->dt);
+    substep_iterate(step, &iteration, SOLVE_DENSITY, step->dt);
+    substep_run(step, &dfsph_density_end, step->dt);
+}
+
+/* Both solvers work between the halves of the drift, with one grid and one set of lists: there the velocities of
+   a step that has ended are those of the next one's begin. */
+static void dfsph_substep(const Substep *step)
+{
+    const Backend *b = step->backend;
+    void *state = step->state;
+
+    STAGE (step->clock, STAGE_INTEGRATE)
+        b->drift(state, &step->first_half);
+    STAGE (step->clock, STAGE_GRID)
+        b->grid(state);
+    STAGE (step->clock, STAGE_DENSITY)
+        substep_run(step, &dfsph_state, step->dt);
+    STAGE (step->clock, STAGE_SOLVE)
+        end_divergence(step);
+    STAGE (step->clock, STAGE_FORCE)
+        substep_run(step, &dfsph_others, step->dt);
+    STAGE (step->clock, STAGE_SOLVE)
+        hold_density(step);
+    STAGE (step->clock, STAGE_INTEGRATE) {
+        substep_kick(step);
+        b->drift(state, &step->second_half);
+    }
+}
+
+static const Pass *const passes[] = {&dfsph_state,
+                                     &dfsph_divergence_begin,
+                                     &dfsph_divergence_push,
+                                     &dfsph_divergence_rate,
+                                     &dfsph_divergence_end,
+                                     &dfsph_others,
+                                     &dfsph_density_begin,
+                                     &dfsph_density_push,
+                                     &dfsph_density_rate,
+                                     &dfsph_density_end,
+                                     NULL};
+
+const Method method_dfsph = {
+    .name = "dfsph",
+    .help = "Bender and Koschier 2017: density and divergence held by two solvers that iterate",
+    .keys = keys,
+    .def = &usual,
+    .def_size = sizeof usual,
+    .mirrors = true,
+    .incompressible = true,
+    .kernels = dfsph_kernels,
+    .friction = dfsph_friction,
+    .constants = dfsph_set,
+    .columns = dfsph_columns,
+    .passes = passes,
+    .settle = &dfsph_state,
+    .substep = dfsph_substep,
+};

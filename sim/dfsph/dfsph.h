@@ -1,0 +1,20 @@
+/* The settings of the method dfsph. */
+#ifndef SLOSH_DFSPH_H
+#define SLOSH_DFSPH_H
+
+#include "sim/world/method.h"
+
+typedef struct DfsphDef {
+    double tolerance;            /* mean compression that the solver of density leaves, a fraction */
+    double divergence_tolerance; /* mean compression in a step that the solver of divergence leaves; 0: none runs */
+    int iterations;              /* of each solver, at most */
+} DfsphDef;
+
+extern const Method method_dfsph;
+
+static inline DfsphDef *dfsph_def(const WorldDef *def)
+{
+    return method_def(def, &method_dfsph);
+}
+
+#endif

@@ -1,0 +1,305 @@
+#include "sim/dfsph/passes.h"
+
+#include <math.h>
+#include <string.h>
+
+PAIR_LOOPS(dfsph_factor);
+PAIR_LOOPS(dfsph_images_factor);
+PAIR_LOOPS(dfsph_push);
+PAIR_LOOPS(dfsph_images_push);
+PAIR_LOOPS(dfsph_rate);
+PAIR_LOOPS(dfsph_images_rate);
+PAIR_LOOPS(dfsph_friction);
+
+/* Of relaxed Jacobi: half is what holds whatever the order of the particles. */
+static const float RELAXATION = 0.5f;
+
+static bool of_fluid(const Cpu *cpu, size_t i)
+{
+    return cpu->now.fluid[i] < FLUIDS_MAX;
+}
+
+/* --- state --- */
+
+static void terms_body(const CpuRange *range)
+{
+    Cpu *cpu = range->cpu;
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->pressure_term[i] = 0;
+        if (of_fluid(cpu, i)) {
+            p->own[INVERSE_MASS][i] = 1 / cpu->constants->mass[p->fluid[i]];
+            cpu_fill_terms(cpu, i);
+            continue;
+        }
+        p->own[INVERSE_MASS][i] = 0;
+        cpu_boundary_terms(cpu, i);
+    }
+}
+
+/* D, of what the sums have left in n, acceleration and squares. */
+static void finish_factor(const Cpu *cpu, size_t i)
+{
+    const CpuParticles *p = &cpu->now;
+    const float sx = p->ax[i], sy = p->ay[i], sz = p->az[i];
+    const float d = (sx * sx + sy * sy + sz * sz) * p->own[INVERSE_MASS][i] + p->own[SQUARES][i];
+    p->own[FACTOR][i] = d > 0 ? 1 / d : 0;
+    p->volume[i] = 1 / p->volume[i];
+    p->pressure[i] = dfsph_constants(cpu->constants)->pressure_scale * p->own[DENSITY_TERM][i];
+    p->ax[i] = p->ay[i] = p->az[i] = 0;
+}
+
+static void factor_body(const CpuRange *range)
+{
+    cpu_pairs(range, &dfsph_factor);
+    cpu_pairs(range, &dfsph_images_factor);
+    for (size_t i = range->begin; i < range->end; i++)
+        finish_factor(range->cpu, i);
+}
+
+static const CpuPass state = {.loops = {{terms_body, .solids = true}, {factor_body, .walks = true}}};
+
+const Pass dfsph_state = {
+    .name = "factor",
+    .stage = STAGE_DENSITY,
+    .cpu = &state,
+    .reads = "position id fluid density_term",
+    .writes = "volume pressure pressure_term acceleration viscosity tension kind factor squares inverse_mass",
+};
+
+/* --- what is not pressure --- */
+
+static void others_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const Constants *s = range->cpu->constants;
+    if (s->viscous)
+        cpu_pairs(range, &dfsph_friction);
+    else
+        for (size_t i = range->begin; i < range->end; i++)
+            p->ax[i] = p->ay[i] = p->az[i] = 0;
+    cpu_force_end(range);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->own[OTHER][i] = p->ax[i];
+        p->own[OTHER + 1][i] = p->ay[i];
+        p->own[OTHER + 2][i] = p->az[i];
+    }
+}
+
+static const CpuPass others = {.loops = {{others_body, .walks = true}}};
+
+const Pass dfsph_others = {
+    .name = "force",
+    .stage = STAGE_FORCE,
+    .cpu = &others,
+    .reads = "position velocity id fluid volume viscosity tension kind",
+    .writes = "acceleration other",
+};
+
+/* --- solvers: begin and end --- */
+
+static void begin_with(const CpuRange *range, int kept)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->pressure_term[i] = p->own[kept][i];
+        p->own[RESIDUAL][i] = 0;
+    }
+}
+
+static void keep(const CpuRange *range, int kept)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++)
+        p->own[kept][i] = p->pressure_term[i];
+}
+
+static void density_begin(const CpuRange *range)
+{
+    begin_with(range, DENSITY_TERM);
+}
+
+static void divergence_begin(const CpuRange *range)
+{
+    begin_with(range, DIVERGENCE_TERM);
+}
+
+static void density_end(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    keep(range, DENSITY_TERM);
+    for (size_t i = range->begin; i < range->end; i++)
+        p->pressure[i] = dfsph_constants(range->cpu->constants)->pressure_scale * p->pressure_term[i];
+}
+
+/* The velocities take what the solver found; no other acceleration is at work then. */
+static void divergence_end(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt;
+    keep(range, DIVERGENCE_TERM);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->vx[i] += p->ax[i] * dt;
+        p->vy[i] += p->ay[i] * dt;
+        p->vz[i] += p->az[i] * dt;
+    }
+}
+
+/* --- solvers: an iteration --- */
+
+/* k by Jacobi's step, then {x, k}. */
+static void pack_place(const CpuRange *range)
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt;
+    const float scale = dt > 0 ? RELAXATION * s->rest_number_density / (dt * dt) : 0;
+    const bool pulls = s->negative_pressure;
+    for (size_t i = range->begin; i < range->end; i++) {
+        if (of_fluid(range->cpu, i)) {
+            const float k = p->pressure_term[i] + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i];
+            p->pressure_term[i] = k > 0 || pulls ? k : 0;
+        }
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->pressure_term[i]}, 16);
+    }
+}
+
+/* The velocities at the step's end, of all accelerations and gravity. */
+static void pack_motion(const CpuRange *range, const float gravity[3])
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float t = of_fluid(range->cpu, i) ? dt : 0; /* those of solids have their own */
+        memcpy(range->cpu->motion[i],
+               (float[]){p->vx[i] + t * (p->ax[i] + gravity[0]), p->vy[i] + t * (p->ay[i] + gravity[1]),
+                         p->vz[i] + t * (p->az[i] + gravity[2]), p->volume[i]},
+               16);
+    }
+}
+
+static void pack_density_motion(const CpuRange *range)
+{
+    pack_motion(range, range->input->gravity);
+}
+
+static void pack_divergence_motion(const CpuRange *range)
+{
+    pack_motion(range, (float[3]){0});
+}
+
+static void push(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    cpu_pairs(range, &dfsph_push);
+    cpu_pairs(range, &dfsph_images_push);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->ax[i] *= p->own[INVERSE_MASS][i];
+        p->ay[i] *= p->own[INVERSE_MASS][i];
+        p->az[i] *= p->own[INVERSE_MASS][i];
+    }
+}
+
+static void density_push(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    push(range);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->ax[i] += p->own[OTHER][i];
+        p->ay[i] += p->own[OTHER + 1][i];
+        p->az[i] += p->own[OTHER + 2][i];
+    }
+}
+
+/* n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it. */
+static void rate(const CpuRange *range, bool of_density)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt, n0 = range->cpu->constants->rest_number_density;
+    float *residual = p->own[RESIDUAL];
+    cpu_pairs(range, &dfsph_rate);
+    cpu_pairs(range, &dfsph_images_rate);
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float now = 1 / (p->volume[i] * n0) - 1;
+        residual[i] = (of_density || now < 0 ? now : 0) + dt * residual[i] / n0;
+    }
+}
+
+static void density_rate(const CpuRange *range)
+{
+    rate(range, true);
+}
+
+static void divergence_rate(const CpuRange *range)
+{
+    rate(range, false);
+}
+
+static const CpuPass begins[] = {{.loops = {{divergence_begin}}}, {.loops = {{density_begin}}}};
+static const CpuPass ends[] = {{.loops = {{divergence_end}}}, {.loops = {{density_end}}}};
+
+/* Of a neighbour {x, k}; of a rate {v, V} too. */
+static PairCost push_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.gather = 16, .flops = 23};
+}
+
+static PairCost rate_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.gather = 32, .flops = 26};
+}
+
+static const CpuPass pushes[] = {
+    {.loops = {{push, .walks = true, .pack = pack_place}}, .pair = push_pair},
+    {.loops = {{density_push, .walks = true, .pack = pack_place}}, .pair = push_pair},
+};
+static const CpuPass rates[] = {
+    {.loops = {{divergence_rate, .walks = true, .pack = pack_divergence_motion}}, .pair = rate_pair},
+    {.loops = {{density_rate, .walks = true, .pack = pack_density_motion}}, .pair = rate_pair},
+};
+
+#define SOLVE(NAME, CPU, READS, WRITES)                                                                      \
+    {                                                                                                        \
+        .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .reads = READS, .writes = WRITES                  \
+    }
+
+#define PUSH_READS "position id fluid pressure_term residual factor inverse_mass"
+#define RATE_READS "position velocity id fluid acceleration volume"
+
+const Pass dfsph_divergence_begin =
+    SOLVE("divergence begin", begins[0], "divergence_term", "pressure_term residual");
+const Pass dfsph_divergence_push =
+    SOLVE("divergence push", pushes[0], PUSH_READS, "pressure_term acceleration");
+const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], RATE_READS, "residual");
+const Pass dfsph_divergence_end = SOLVE("divergence end", ends[0], "pressure_term acceleration velocity",
+                                        "divergence_term velocity");
+const Pass dfsph_density_begin = SOLVE("density begin", begins[1], "density_term", "pressure_term residual");
+const Pass dfsph_density_push =
+    SOLVE("density push", pushes[1], PUSH_READS " other", "pressure_term acceleration");
+const Pass dfsph_density_rate = SOLVE("density rate", rates[1], RATE_READS, "residual");
+const Pass dfsph_density_end = SOLVE("density end", ends[1], "pressure_term", "density_term pressure");
+
+static bool many_viscous(const Constants *constants)
+{
+    return constants->viscous && (constants->fluid_count > 1 || constants->solid_count > 0);
+}
+
+#define OWN(k) .at = COLUMN_OWN(k)
+#define KEPT   .flags = COLUMN_SAVED | COLUMN_SORTED
+
+const ColumnDef dfsph_columns[] = {
+    {"density_term", "J m3", OWN(DENSITY_TERM), 1, COLUMN_FLOAT, KEPT},
+    {"divergence_term", "J m3", OWN(DIVERGENCE_TERM), 1, COLUMN_FLOAT, KEPT},
+    {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT},
+    {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
+    {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
+    {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
+    {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
+    {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
+     .needed = many_viscous},
+    {0},
+};
+
+const ColumnDef *const dfsph_residual = &dfsph_columns[RESIDUAL];

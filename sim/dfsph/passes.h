@@ -1,0 +1,57 @@
+/* The passes of dfsph, its columns and constants.
+
+   All particles of all fluids have the volume V0 = 1 / n0 at rest, so what is held is the number density n, that
+   of images in the walls and of boundary particles counted. With grad W_ij = -F x_ij, x_ij = x_i - x_j:
+     force_i = sum (k_i + k_j) F x_ij                 k: a multiplier each, p V0^2
+     dn_i / dt = -sum F v_ij . x_ij                   its adjoint, so that pressure does no work on what keeps n
+     D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what k_i makes of its own rate
+   Masses are in D alone: ratios of density are no matter of the sums. */
+#ifndef SLOSH_DFSPH_PASSES_H
+#define SLOSH_DFSPH_PASSES_H
+
+#include "sim/cpu/pass.h"
+#include "sim/kernel/kernel.h"
+
+#define DFSPH_KERNEL KERNEL_CUBIC
+
+/* Where its columns stand among a particle's own; k of the solver at work is `pressure_term`. */
+enum {
+    DENSITY_TERM,    /* k that the last step's density left, J m3: where the next begins */
+    DIVERGENCE_TERM, /* the same of divergence */
+    FACTOR,          /* 1 / D, kg m8; 0 where a particle sees none */
+    SQUARES,         /* sum F^2 r^2 / m_j, 1 / (kg m8) */
+    INVERSE_MASS,    /* 1/kg; 0 of the particles of solids */
+    RESIDUAL,        /* n / n0 - 1 that the step would end with */
+    OTHER,           /* accelerations but those of pressure, m/s2: 3 */
+};
+
+extern const ColumnDef dfsph_columns[];
+extern const ColumnDef *const dfsph_residual;
+
+/* What a def means in numbers for dfsph alone. */
+typedef struct DfsphConstants {
+    float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m5 */
+    float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
+    float pressure_scale;    /* p over k, 1/m6 */
+    int most;                /* iterations */
+    double tolerance, divergence_tolerance;
+} DfsphConstants;
+
+static inline const DfsphConstants *dfsph_constants(const Constants *constants)
+{
+    return (const DfsphConstants *)(const void *)constants->of_method;
+}
+
+/* What follows from places alone: n, volume, D; what pair sums need of each. */
+extern const Pass dfsph_state;
+
+/* Accelerations but those of pressure. */
+extern const Pass dfsph_others;
+
+/* k and residual that a solver begins with; what it keeps of them. */
+extern const Pass dfsph_divergence_begin, dfsph_density_begin, dfsph_divergence_end, dfsph_density_end;
+
+/* An iteration: k by the residual before, accelerations by k; the residual by accelerations. */
+extern const Pass dfsph_divergence_push, dfsph_divergence_rate, dfsph_density_push, dfsph_density_rate;
+
+#endif

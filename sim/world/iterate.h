@@ -1,0 +1,22 @@
+/* The loop of a solver that iterates: passes until what is left of its residual is little enough. */
+#ifndef SLOSH_ITERATE_H
+#define SLOSH_ITERATE_H
+
+#include "sim/world/substep.h"
+
+/* Data alone, no calls of the method between the passes: a backend that cannot read back in each iteration may
+   take the same decisions where its particles are. */
+typedef struct Iteration {
+    const Pass *passes[4];     /* of an iteration, ended by NULL; the last one measures */
+    const ColumnDef *residual; /* what is above 0 of it counts */
+    double tolerance;          /* of its mean */
+    int most;                  /* iterations */
+} Iteration;
+
+/* Runs the passes over `dt` (s), once at least, and says in step->solves[which] what came of it. */
+void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt);
+
+/* Whether a solver ended far from what it was asked for. */
+bool step_solve_failed(const StepSolve *solve);
+
+#endif
