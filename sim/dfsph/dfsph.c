@@ -65,7 +65,7 @@ static void end_divergence(const Substep *step)
 {
     const DfsphConstants *own = dfsph_constants(step->constants);
     const Iteration iteration = {{&dfsph_divergence_push, &dfsph_divergence_rate},
-                                 dfsph_residual,
+                                 dfsph_miss,
                                  own->divergence_tolerance,
                                  own->most};
     if (own->divergence_tolerance <= 0)
@@ -80,7 +80,7 @@ static void hold_density(const Substep *step)
 {
     const DfsphConstants *own = dfsph_constants(step->constants);
     const Iteration iteration = {
-        {&dfsph_density_push, &dfsph_density_rate}, dfsph_residual, own->tolerance, own->most};
+        {&dfsph_density_push, &dfsph_density_rate}, dfsph_miss, own->tolerance, own->most};
     substep_run(step, &dfsph_density_begin, step->dt);
     substep_iterate(step, &iteration, SOLVE_DENSITY, step->dt);
     substep_run(step, &dfsph_density_end, step->dt);

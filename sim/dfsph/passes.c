@@ -216,12 +216,14 @@ static void rate(const CpuRange *range, bool of_density)
 {
     const CpuParticles *p = &range->cpu->now;
     const float dt = range->input->dt, n0 = range->cpu->constants->rest_number_density;
+    const bool pulls = range->cpu->constants->negative_pressure;
     float *residual = p->own[RESIDUAL];
     cpu_pairs(range, &dfsph_rate);
     cpu_pairs(range, &dfsph_images_rate);
     for (size_t i = range->begin; i < range->end; i++) {
         const float now = 1 / (p->volume[i] * n0) - 1;
         residual[i] = (of_density || now < 0 ? now : 0) + dt * residual[i] / n0;
+        p->own[MISS][i] = p->pressure_term[i] > 0 || pulls ? fabsf(residual[i]) : fmaxf(residual[i], 0);
     }
 }
 
@@ -266,19 +268,19 @@ static const CpuPass rates[] = {
     }
 
 #define PUSH_READS "position id fluid pressure_term residual factor inverse_mass"
-#define RATE_READS "position velocity id fluid acceleration volume"
+#define RATE_READS "position velocity id fluid acceleration volume pressure_term"
 
 const Pass dfsph_divergence_begin =
     SOLVE("divergence begin", begins[0], "divergence_term", "pressure_term residual");
 const Pass dfsph_divergence_push =
     SOLVE("divergence push", pushes[0], PUSH_READS, "pressure_term acceleration");
-const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], RATE_READS, "residual");
+const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], RATE_READS, "residual miss");
 const Pass dfsph_divergence_end = SOLVE("divergence end", ends[0], "pressure_term acceleration velocity",
                                         "divergence_term velocity");
 const Pass dfsph_density_begin = SOLVE("density begin", begins[1], "density_term", "pressure_term residual");
 const Pass dfsph_density_push =
     SOLVE("density push", pushes[1], PUSH_READS " other", "pressure_term acceleration");
-const Pass dfsph_density_rate = SOLVE("density rate", rates[1], RATE_READS, "residual");
+const Pass dfsph_density_rate = SOLVE("density rate", rates[1], RATE_READS, "residual miss");
 const Pass dfsph_density_end = SOLVE("density end", ends[1], "pressure_term", "density_term pressure");
 
 static bool many_viscous(const Constants *constants)
@@ -296,10 +298,11 @@ const ColumnDef dfsph_columns[] = {
     {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
     {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
     {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
+    {"miss", "", OWN(MISS), 1, COLUMN_FLOAT},
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},
 };
 
-const ColumnDef *const dfsph_residual = &dfsph_columns[RESIDUAL];
+const ColumnDef *const dfsph_miss = &dfsph_columns[MISS];

@@ -22,11 +22,12 @@ enum {
     SQUARES,         /* sum F^2 r^2 / m_j, 1 / (kg m8) */
     INVERSE_MASS,    /* 1/kg; 0 of the particles of solids */
     RESIDUAL,        /* n / n0 - 1 that the step would end with */
+    MISS,            /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
     OTHER,           /* accelerations but those of pressure, m/s2: 3 */
 };
 
 extern const ColumnDef dfsph_columns[];
-extern const ColumnDef *const dfsph_residual;
+extern const ColumnDef *const dfsph_miss;
 
 /* What a def means in numbers for dfsph alone. */
 typedef struct DfsphConstants {
