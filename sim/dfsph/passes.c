@@ -11,9 +11,6 @@ PAIR_LOOPS(dfsph_rate);
 PAIR_LOOPS(dfsph_images_rate);
 PAIR_LOOPS(dfsph_friction);
 
-/* Of relaxed Jacobi: half is what holds whatever the order of the particles. */
-static const float RELAXATION = 0.5f;
-
 static bool of_fluid(const Cpu *cpu, size_t i)
 {
     return cpu->now.fluid[i] < FLUIDS_MAX;
@@ -153,7 +150,8 @@ static void pack_place(const CpuRange *range)
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
     const float dt = range->input->dt;
-    const float scale = dt > 0 ? RELAXATION * s->rest_number_density / (dt * dt) : 0;
+    const float relaxed = dfsph_constants(s)->relaxation * s->rest_number_density;
+    const float scale = dt > 0 ? relaxed / (dt * dt) : 0;
     const bool pulls = s->negative_pressure;
     for (size_t i = range->begin; i < range->end; i++) {
         if (of_fluid(range->cpu, i)) {

@@ -12,7 +12,7 @@
 #include "sim/cpu/pass.h"
 #include "sim/kernel/kernel.h"
 
-#define DFSPH_KERNEL KERNEL_CUBIC
+#define DFSPH_KERNEL KERNEL_WENDLAND_C2
 
 /* Where its columns stand among a particle's own; k of the solver at work is `pressure_term`. */
 enum {
@@ -33,6 +33,7 @@ extern const ColumnDef *const dfsph_miss;
 typedef struct DfsphConstants {
     float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m5 */
     float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
+    float relaxation;        /* of Jacobi */
     float pressure_scale;    /* p over k, 1/m6 */
     int most;                /* iterations */
     double tolerance, divergence_tolerance;
