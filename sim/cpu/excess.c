@@ -1,4 +1,5 @@
-/* Sums over a column: a partial sum a range, and these in their order, so that no thread count changes a bit. */
+/* Sums over a column: a partial sum a range, and these in their order, so that no thread count changes a bit.
+ */
 #include "sim/cpu/cpu.h"
 
 typedef struct ExcessPass {

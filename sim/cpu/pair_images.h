@@ -1,5 +1,5 @@
-/* The images of particles in the walls of the box (sim/box/wall_images.h), a group at a time. For the files that
-   are compiled once for each instruction set. */
+/* The images of particles in the walls of the box (sim/box/wall_images.h), a group at a time. For the files
+   that are compiled once for each instruction set. */
 #ifndef SLOSH_PAIR_IMAGES_H
 #define SLOSH_PAIR_IMAGES_H
 
@@ -29,7 +29,7 @@ SIMD_INLINE WallsFar out_of_sight(const Constants *s)
 
 /* False where no particle of the group has any. */
 SIMD_INLINE bool images_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
-                      Images *images)
+                           Images *images)
 {
     const Constants *s = args->constants;
     images->most = 0;

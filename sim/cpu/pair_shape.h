@@ -1,5 +1,5 @@
-/* The kernels that solver.kernel names, in pair loops. For the files that are compiled once for each instruction
-   set. */
+/* The kernels that solver.kernel names, in pair loops. For the files that are compiled once for each
+   instruction set. */
 #ifndef SLOSH_PAIR_SHAPE_H
 #define SLOSH_PAIR_SHAPE_H
 

@@ -16,8 +16,9 @@ typedef struct CpuRange {
 
 typedef struct CpuLoop {
     void (*body)(const CpuRange *range);
-    bool walks;  /* over neighbours */
-    /* Before a walk, for all particles: fills Cpu.place, .motion or both as the walk needs them. NULL: both. */
+    bool walks; /* over neighbours */
+    /* Before a walk, for all particles: fills Cpu.place, .motion or both as the walk needs them. NULL: both.
+     */
     void (*pack)(const CpuRange *range);
     bool solids; /* over the particles of solids too; else over runs of the fluids' alone */
 } CpuLoop;

@@ -28,9 +28,9 @@ static MethodKernels dfsph_kernels(const WorldDef *def)
 
 static StepFriction dfsph_friction(const WorldDef *def, const Lattice *lattice)
 {
-    return (StepFriction){.laminar = friction_rate(lattice, def->spacing, FRICTION_MORRIS,
-                                                   def->support * def->spacing, NULL),
-                          .walls = DRAG_MORRIS};
+    return (StepFriction){
+        .laminar = friction_rate(lattice, def->spacing, FRICTION_MORRIS, def->support * def->spacing, NULL),
+        .walls = DRAG_MORRIS};
 }
 
 /* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it. */
@@ -39,7 +39,8 @@ static double shape_half(void)
     return DFSPH_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
 }
 
-/* Of Jacobi's matrix D^-1 A on the lattice, of a wave k: |sum F x sin(k x)|^2 / sum F^2 r^2, where F = -W' / r. */
+/* Of Jacobi's matrix D^-1 A on the lattice, of a wave k: |sum F x sin(k x)|^2 / sum F^2 r^2, where F = -W' /
+ * r. */
 static double wave_eigenvalue(const WorldDef *def, const double wave[3])
 {
     const double h = def->support * def->spacing, s = def->spacing;
@@ -59,8 +60,8 @@ static double wave_eigenvalue(const WorldDef *def, const double wave[3])
     return (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / squares;
 }
 
-/* Jacobi holds below 2 over the greatest eigenvalue; fluid out of order has greater ones than its lattice, by up
-   to a third. */
+/* Jacobi holds below 2 over the greatest eigenvalue; fluid out of order has greater ones than its lattice, by
+   up to a third. */
 static double relaxation(const WorldDef *def)
 {
     enum { WAVES = 12 };
@@ -101,10 +102,8 @@ enum { SOLVE_DENSITY, SOLVE_DIVERGENCE };
 static void end_divergence(const Substep *step)
 {
     const DfsphConstants *own = dfsph_constants(step->constants);
-    const Iteration iteration = {{&dfsph_divergence_push, &dfsph_divergence_rate},
-                                 dfsph_miss,
-                                 own->divergence_tolerance,
-                                 own->most};
+    const Iteration iteration = {
+        {&dfsph_divergence_push, &dfsph_divergence_rate}, dfsph_miss, own->divergence_tolerance, own->most};
     if (own->divergence_tolerance <= 0)
         return;
     substep_run(step, &dfsph_divergence_begin, step->dt);
@@ -123,8 +122,8 @@ static void hold_density(const Substep *step)
     substep_run(step, &dfsph_density_end, step->dt);
 }
 
-/* Both solvers work between the halves of the drift, with one grid and one set of lists: there the velocities of
-   a step that has ended are those of the next one's begin. */
+/* Both solvers work between the halves of the drift, with one grid and one set of lists: there the velocities
+   of a step that has ended are those of the next one's begin. */
 static void dfsph_substep(const Substep *step)
 {
     const Backend *b = step->backend;

@@ -6,7 +6,8 @@
 
 typedef struct DfsphDef {
     double tolerance;            /* mean compression that the solver of density leaves, a fraction */
-    double divergence_tolerance; /* mean compression in a step that the solver of divergence leaves; 0: none runs */
+    double divergence_tolerance; /* mean compression in a step that the solver of divergence leaves; 0: none
+                                    runs */
     int iterations;              /* of each solver, at most */
 } DfsphDef;
 

@@ -273,8 +273,8 @@ const Pass dfsph_divergence_begin =
 const Pass dfsph_divergence_push =
     SOLVE("divergence push", pushes[0], PUSH_READS, "pressure_term acceleration");
 const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], RATE_READS, "residual miss");
-const Pass dfsph_divergence_end = SOLVE("divergence end", ends[0], "pressure_term acceleration velocity",
-                                        "divergence_term velocity");
+const Pass dfsph_divergence_end =
+    SOLVE("divergence end", ends[0], "pressure_term acceleration velocity", "divergence_term velocity");
 const Pass dfsph_density_begin = SOLVE("density begin", begins[1], "density_term", "pressure_term residual");
 const Pass dfsph_density_push =
     SOLVE("density push", pushes[1], PUSH_READS " other", "pressure_term acceleration");

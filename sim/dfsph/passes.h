@@ -1,11 +1,11 @@
 /* The passes of dfsph, its columns and constants.
 
-   All particles of all fluids have the volume V0 = 1 / n0 at rest, so what is held is the number density n, that
-   of images in the walls and of boundary particles counted. With grad W_ij = -F x_ij, x_ij = x_i - x_j:
+   All particles of all fluids have the volume V0 = 1 / n0 at rest, so what is held is the number density n,
+   that of images in the walls and of boundary particles counted. With grad W_ij = -F x_ij, x_ij = x_i - x_j:
      force_i = sum (k_i + k_j) F x_ij                 k: a multiplier each, p V0^2
-     dn_i / dt = -sum F v_ij . x_ij                   its adjoint, so that pressure does no work on what keeps n
-     D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what k_i makes of its own rate
-   Masses are in D alone: ratios of density are no matter of the sums. */
+     dn_i / dt = -sum F v_ij . x_ij                   its adjoint, so that pressure does no work on what keeps
+   n D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what k_i makes of its own rate Masses are in D alone:
+   ratios of density are no matter of the sums. */
 #ifndef SLOSH_DFSPH_PASSES_H
 #define SLOSH_DFSPH_PASSES_H
 
@@ -22,8 +22,8 @@ enum {
     SQUARES,         /* sum F^2 r^2 / m_j, 1 / (kg m8) */
     INVERSE_MASS,    /* 1/kg; 0 of the particles of solids */
     RESIDUAL,        /* n / n0 - 1 that the step would end with */
-    MISS,            /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
-    OTHER,           /* accelerations but those of pressure, m/s2: 3 */
+    MISS,  /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
+    OTHER, /* accelerations but those of pressure, m/s2: 3 */
 };
 
 extern const ColumnDef dfsph_columns[];

@@ -31,7 +31,7 @@ typedef struct Pass {
 typedef struct PassInput {
     float dt;                               /* s */
     const struct ApparentGravity *apparent; /* NULL outside of a step */
-    float gravity[3]; /* that the kick of the step adds, m/s2; 0 outside of a step */
+    float gravity[3];                       /* that the kick of the step adds, m/s2; 0 outside of a step */
 } PassInput;
 
 /* What only some scenes name: there a line "#define NAME 1" stands before the shaders. */

@@ -108,9 +108,12 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
                  double max_speed, char words[200])
 {
     const double crossing = def->support * def->spacing / step_sound(def), c = def->sound_speed;
+    const bool sounds = !method_find(def->method)->incompressible;
     const char *shorter = def->step_mode == STEP_CFL ? "a smaller solver.step.number"
                                                      : "a smaller solver.step.dt, more solver.step.substeps";
-    if (dt > STEP_SOUND_STANDS * crossing)
+    if (trouble == STEP_TROUBLE_SOLVE)
+        snprintf(words, 200, "use %s, more solver.iterations or a larger solver.tolerance", shorter);
+    else if (dt > STEP_SOUND_STANDS * crossing)
         snprintf(
             words, 200,
             "the step is %.2g times what sound takes to cross a support radius, %.1g at most holds; use %s or a lower solver.sound_speed",
@@ -118,7 +121,7 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
     else if (dt > STEP_VISCOUS_STANDS * step_viscous(def, friction))
         snprintf(words, 200, "friction stands %.3g ms, the step is %.3g ms; use %s or a lower viscosity",
                  1e3 * STEP_VISCOUS_STANDS * step_viscous(def, friction), 1e3 * dt, shorter);
-    else if (trouble == STEP_TROUBLE_DENSITY || 2 * max_speed > c)
+    else if (sounds && (trouble == STEP_TROUBLE_DENSITY || 2 * max_speed > c))
         snprintf(words, 200,
                  "flow of %.3g m/s is much for a solver.sound_speed of %.3g m/s; use a higher one, and %s",
                  max_speed, c, shorter);
@@ -137,7 +140,7 @@ double step_cfl(const WorldDef *def, const StepFriction *friction, double max_sp
         [STEP_LIMIT_FORCE] = max_acceleration > 0 ? number * sqrt(h / max_acceleration) : INFINITY,
         [STEP_LIMIT_VISCOUS] = fmin(2 * number, STEP_VISCOUS_STANDS) * step_viscous(def, friction),
         [STEP_LIMIT_MAX_DT] = def->max_dt,
-        [STEP_LIMIT_GROWTH] = before > 0 ? GROWTH * before : FIRST * courant,
+        [STEP_LIMIT_GROWTH] = before > 0 ? GROWTH * before : FIRST * fmin(courant, def->max_dt),
     };
     *binding = STEP_LIMIT_DT;
     for (int i = 0; i < STEP_LIMIT_COUNT; i++)

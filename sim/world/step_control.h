@@ -40,8 +40,9 @@ typedef struct StepState {
 /* What a solver that iterates did in a step. Doubles only: part of a saved state. */
 typedef struct StepSolve {
     double iterations; /* 0: it did not run */
-    double mean, most; /* what is left of the residual, as the solver measures it: over all particles, at worst */
-    double tolerance;  /* of the mean */
+    double mean,
+        most; /* what is left of the residual, as the solver measures it: over all particles, at worst */
+    double tolerance; /* of the mean */
 } StepSolve;
 
 enum { SOLVES_MAX = 2 };

@@ -365,11 +365,11 @@ void world_info(const World *world, WorldInfo *info)
         .dt = world->stepping.dt,
         .limit = (StepLimit)world->stepping.limit,
         .trouble = world->trouble,
-        .courant = world->step > 0
-                       ? world->stepping.dt * ((world->method->incompressible ? 0 : world->def.sound_speed) +
-                                                       world->stepping.max_speed) /
-                             (world->def.support * world->def.spacing)
-                       : 0,
+        .courant = world->step > 0 ? world->stepping.dt *
+                                         ((world->method->incompressible ? 0 : world->def.sound_speed) +
+                                          world->stepping.max_speed) /
+                                         (world->def.support * world->def.spacing)
+                                   : 0,
     };
     memcpy(info->solves, world->solves, sizeof info->solves);
     memcpy(info->limited, world->limited, sizeof info->limited);

@@ -19,11 +19,11 @@ struct World {
     uint64_t since_step; /* when the present step size began, */
     double since_time;   /* at this time, s */
     StepState stepping;
-    double stop;      /* s: a state falls on it in mode cfl; behind: none does */
+    double stop;                  /* s: a state falls on it in mode cfl; behind: none does */
     StepSolve solves[SOLVES_MAX]; /* of the last step */
-    bool kicked;      /* since the watch was last asked */
-    StepTrouble seen; /* then, since the last good state */
-    WorldState good;  /* what the sentinel goes back to */
+    bool kicked;                  /* since the watch was last asked */
+    StepTrouble seen;             /* then, since the last good state */
+    WorldState good;              /* what the sentinel goes back to */
     WorldTrouble trouble;
     uint64_t limited[STEP_LIMIT_COUNT]; /* steps since the start, by what bounded them */
     BoxTarget target;                   /* of the hand */

@@ -1,0 +1,253 @@
+/* dfsph: what its solvers leave, by sums over all pairs in double precision; what a step keeps. */
+#include "fixture.h"
+#include "sim/dfsph/dfsph.h"
+#include "sim/dfsph/passes.h"
+#include "sim/world/world_state.h"
+#include "sim/world/world_struct.h"
+
+enum { SIDE = 5, N = SIDE * SIDE * SIDE };
+
+typedef struct Cloud {
+    float x[3 * N], v[3 * N];
+    uint8_t fluid[N];
+} Cloud;
+
+/* A shrinking cube out of order in the middle of a large box, half of it a thousandth as dense. */
+static WorldDef cloud_def(Cloud *cloud)
+{
+    WorldDef def = fixture_def(4, 4, 4);
+    uint32_t seed = 3;
+    strcpy(def.method, "dfsph");
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.fluid_count = 2;
+    def.fluids[1] = (FluidDef){.name = "air", .density = 1};
+    for (int i = 0; i < N; i++) {
+        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
+        for (int k = 0; k < 3; k++) {
+            const double x = 0.1 * (index[k] - 0.5 * (SIDE - 1)) + 0.02 * (fixture_random(&seed) - 0.5);
+            cloud->x[3 * i + k] = (float)(x + (k == 1 ? 2 : 0));
+            cloud->v[3 * i + k] = (float)(-3 * x);
+        }
+        cloud->fluid[i] = index[0] > 2;
+    }
+    return def;
+}
+
+static World *cloud_world(WorldDef *def, const Cloud *cloud)
+{
+    def->initial =
+        &(InitialState){.count = N, .position = cloud->x, .velocity = cloud->v, .fluid = cloud->fluid};
+    World *world = fixture_world(def);
+    def->initial = NULL;
+    return world;
+}
+
+/* n / n0 - 1 at the end of a step that particle i comes to, of places in its middle and the velocities after
+ * it. */
+static double ends_with(const World *world, const double *x, const State *s, int i)
+{
+    const Constants *c = &world->constants;
+    const Kernel *kernel = &shape_kernels[DFSPH_KERNEL];
+    const double h = (double)c->support_radius, scale = c->lattice.density_scale, dt = world->def.dt;
+    double n = kernel->value(0, h);
+    for (int j = 0; j < N; j++) {
+        double d[3], r2 = 0, flow = 0;
+        for (int k = 0; k < 3; k++) {
+            d[k] = x[3 * i + k] - x[3 * j + k];
+            r2 += d[k] * d[k];
+            flow += d[k] * ((double)s->velocity[4 * i + k] - (double)s->velocity[4 * j + k]);
+        }
+        const double r = sqrt(r2);
+        if (j != i && r < h)
+            n += kernel->value(r, h) + dt * kernel->derivative(r, h) / r * flow;
+    }
+    return scale * n / c->lattice.number_density - 1;
+}
+
+/* What the solver says that it left is what is left; and it is no more than asked for. */
+static void leaves_what_it_says(void **state)
+{
+    (void)state;
+    static Cloud cloud;
+    WorldDef def = cloud_def(&cloud);
+    dfsph_def(&def)->tolerance = 1e-5;
+    dfsph_def(&def)->iterations = 2000;
+    World *world = cloud_world(&def, &cloud);
+    double x[3 * N], mean = 0, most = 0;
+    for (int i = 0; i < 3 * N; i++)
+        x[i] = (double)cloud.x[i] + 0.5 * def.dt * (double)cloud.v[i];
+    fixture_step(world, 1);
+    State s = fixture_read(world);
+    for (int i = 0; i < N; i++) {
+        const double e = ends_with(world, x, &s, i), miss = s.pressure[i] > 0 ? fabs(e) : fmax(e, 0);
+        mean += miss / N;
+        most = fmax(most, miss);
+    }
+    const StepSolve *solve = &world->solves[0];
+    printf("%g iterations: mean %.3g, said %.3g; most %.3g, said %.3g\n", solve->iterations, mean,
+           solve->mean, most, solve->most);
+    assert_true(solve->iterations > 5);
+    assert_true(solve->mean <= 1e-5);
+    assert_float_equal(mean, solve->mean, 1e-6);
+    assert_float_equal(most, solve->most, 1e-5);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+/* Momentum stays, though the fluids' densities differ by a thousand. */
+static void keeps_momentum(void **state)
+{
+    (void)state;
+    static Cloud cloud;
+    WorldDef def = cloud_def(&cloud);
+    World *world = cloud_world(&def, &cloud);
+    WorldSums before, after;
+    world_sums(world, &before);
+    fixture_step(world, 20);
+    world_sums(world, &after);
+    for (int k = 0; k < 3; k++)
+        assert_float_equal(after.momentum[k], before.momentum[k], 1e-5 * before.momentum_scale);
+    world_destroy(world);
+}
+
+static WorldDef dam_def(int threads)
+{
+    WorldDef def = fixture_def(1.6, 1, 0.4);
+    strcpy(def.method, "dfsph");
+    def.spacing = 0.05;
+    fixture_block(&def, 0, -0.8, 0, -0.2, -0.3, 0.6, 0.2);
+    *world_threads(&def) = threads;
+    return def;
+}
+
+static void same_bits_on_threads(void **state)
+{
+    (void)state;
+    State s[2];
+    for (int k = 0; k < 2; k++) {
+        const WorldDef def = dam_def(k == 0 ? 1 : 3);
+        World *world = fixture_world(&def);
+        fixture_step(world, 100);
+        s[k] = fixture_read(world);
+        world_destroy(world);
+    }
+    assert_memory_equal(s[0].position, s[1].position, 16 * s[0].count);
+    assert_memory_equal(s[0].velocity, s[1].velocity, 16 * s[0].count);
+    fixture_free(&s[0]);
+    fixture_free(&s[1]);
+}
+
+/* A dam that breaks: little compression, no energy out of nothing, nothing through the walls. */
+static void dam_breaks(void **state)
+{
+    (void)state;
+    const WorldDef def = dam_def(2);
+    World *world = fixture_world(&def);
+    double worst = 0, energy = 0, start = 0;
+    for (int frame = 0; frame < 20; frame++) {
+        fixture_step(world, 20);
+        State s = fixture_read(world);
+        double mean = 0;
+        for (size_t i = 0; i < s.count; i++)
+            mean += fmax((double)s.density[i] / 1000 - 1, 0) / (double)s.count;
+        worst = fmax(worst, mean);
+        fixture_free(&s);
+        WorldSums sums;
+        world_sums(world, &sums);
+        energy = sums.kinetic_energy + 9.81 * sums.mass * sums.centre[1];
+        start = frame == 0 ? energy : start;
+        assert_true(energy < 1.01 * start);
+    }
+    printf("mean compression %.4f %% at most; energy %.3f of the start\n", 100 * worst, energy / start);
+    assert_true(worst < 0.0015);
+    world_destroy(world);
+}
+
+/* A column stands: its top stays, and at the floor is the weight of what is above. */
+static void column_stands(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(0.5, 1.5, 0.5);
+    strcpy(def.method, "dfsph");
+    def.spacing = 0.05;
+    def.fluids[0].viscosity = 20;
+    dfsph_def(&def)->tolerance = 1e-4;
+    fixture_block(&def, 0, -0.25, 0, -0.25, 0.25, 1, 0.25);
+    World *world = fixture_world(&def);
+    double pressure = 0;
+    size_t low = 0;
+    fixture_step(world, 100);
+    for (int step = 0; step < 100; step++) {
+        fixture_step(world, 1);
+        State s = fixture_read(world);
+        for (size_t i = 0; i < s.count; i++)
+            if (s.position[4 * i + 1] < 0.1F) {
+                pressure += (double)s.pressure[i];
+                low++;
+            }
+        fixture_free(&s);
+    }
+    WorldSums sums;
+    world_sums(world, &sums);
+    pressure /= (double)low;
+    printf("centre at %.4f m, pressure near the floor %.0f Pa of %.0f\n", sums.centre[1], pressure,
+           9810 * 0.95);
+    assert_float_equal(sums.centre[1], 0.5, 0.005);
+    assert_float_equal(pressure, 9810 * 0.95, 1000);
+    world_destroy(world);
+}
+
+static void goes_on_from_a_saved_state(void **state)
+{
+    (void)state;
+    const WorldDef def = dam_def(1);
+    World *world = fixture_world(&def);
+    WorldState saved = {0};
+    Error error = {0};
+    fixture_step(world, 50);
+    assert_true(world_save(world, &saved, &error));
+    fixture_step(world, 5);
+    State s = fixture_read(world);
+    assert_true(world_load(world, &saved, &error));
+    fixture_step(world, 5);
+    State again = fixture_read(world);
+    assert_memory_equal(s.position, again.position, 16 * s.count);
+    assert_memory_equal(s.velocity, again.velocity, 16 * s.count);
+    fixture_free(&s);
+    fixture_free(&again);
+    world_state_free(&saved);
+    world_destroy(world);
+}
+
+/* A tolerance that nothing reaches is trouble with a name, and ends. */
+static void says_that_it_does_not_converge(void **state)
+{
+    (void)state;
+    WorldDef def = dam_def(1);
+    Error error = {0};
+    def.retries = 3;
+    dfsph_def(&def)->tolerance = 0;
+    dfsph_def(&def)->iterations = 1;
+    World *world = fixture_world(&def);
+    bool good = true;
+    for (int step = 0; step < 10 && good; step++)
+        good = world_step(world, NULL, &error);
+    assert_false(good);
+    assert_non_null(strstr(error.message, "does not converge"));
+    assert_non_null(strstr(error.message, "solver.tolerance"));
+    world_destroy(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(leaves_what_it_says),
+        cmocka_unit_test(keeps_momentum),
+        cmocka_unit_test(same_bits_on_threads),
+        cmocka_unit_test(dam_breaks),
+        cmocka_unit_test(column_stands),
+        cmocka_unit_test(goes_on_from_a_saved_state),
+        cmocka_unit_test(says_that_it_does_not_converge),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
