@@ -100,7 +100,7 @@ static void begin_with(const CpuRange *range, int kept)
     const CpuParticles *p = &range->cpu->now;
     for (size_t i = range->begin; i < range->end; i++) {
         p->pressure_term[i] = p->own[kept][i];
-        p->own[RESIDUAL][i] = 0;
+        p->own[RESIDUAL][i] = p->own[CHANGE][i] = 0;
     }
 }
 
@@ -144,7 +144,7 @@ static void divergence_end(const CpuRange *range)
 
 /* --- solvers: an iteration --- */
 
-/* k by Jacobi's step, then {x, k}. */
+/* k by Jacobi's step and a part of its step before, then {x, k}. */
 static void pack_place(const CpuRange *range)
 {
     const Constants *s = range->cpu->constants;
@@ -153,10 +153,14 @@ static void pack_place(const CpuRange *range)
     const float relaxed = dfsph_constants(s)->relaxation * s->rest_number_density;
     const float scale = dt > 0 ? relaxed / (dt * dt) : 0;
     const bool pulls = s->negative_pressure;
+    const float momentum = dt > 0 ? JACOBI_MOMENTUM : 0;
     for (size_t i = range->begin; i < range->end; i++) {
         if (of_fluid(range->cpu, i)) {
-            const float k = p->pressure_term[i] + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i];
+            const float before = p->pressure_term[i];
+            const float k =
+                before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + momentum * p->own[CHANGE][i];
             p->pressure_term[i] = k > 0 || pulls ? k : 0;
+            p->own[CHANGE][i] = p->pressure_term[i] - before;
         }
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->pressure_term[i]}, 16);
     }
@@ -265,19 +269,20 @@ static const CpuPass rates[] = {
         .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .reads = READS, .writes = WRITES                  \
     }
 
-#define PUSH_READS "position id fluid pressure_term residual factor inverse_mass"
+#define PUSH_READS "position id fluid pressure_term residual factor inverse_mass change"
 #define RATE_READS "position velocity id fluid acceleration volume pressure_term"
 
 const Pass dfsph_divergence_begin =
-    SOLVE("divergence begin", begins[0], "divergence_term", "pressure_term residual");
+    SOLVE("divergence begin", begins[0], "divergence_term", "pressure_term residual change");
 const Pass dfsph_divergence_push =
-    SOLVE("divergence push", pushes[0], PUSH_READS, "pressure_term acceleration");
+    SOLVE("divergence push", pushes[0], PUSH_READS, "pressure_term acceleration change");
 const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], RATE_READS, "residual miss");
 const Pass dfsph_divergence_end =
     SOLVE("divergence end", ends[0], "pressure_term acceleration velocity", "divergence_term velocity");
-const Pass dfsph_density_begin = SOLVE("density begin", begins[1], "density_term", "pressure_term residual");
+const Pass dfsph_density_begin =
+    SOLVE("density begin", begins[1], "density_term", "pressure_term residual change");
 const Pass dfsph_density_push =
-    SOLVE("density push", pushes[1], PUSH_READS " other", "pressure_term acceleration");
+    SOLVE("density push", pushes[1], PUSH_READS " other", "pressure_term acceleration change");
 const Pass dfsph_density_rate = SOLVE("density rate", rates[1], RATE_READS, "residual miss");
 const Pass dfsph_density_end = SOLVE("density end", ends[1], "pressure_term", "density_term pressure");
 
@@ -297,6 +302,7 @@ const ColumnDef dfsph_columns[] = {
     {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
     {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
     {"miss", "", OWN(MISS), 1, COLUMN_FLOAT},
+    {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT},
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},

@@ -14,6 +14,10 @@
 
 #define DFSPH_KERNEL KERNEL_WENDLAND_C2
 
+/* How much of the iteration before goes on: a third of the iterations in large scenes, no more in small ones.
+ */
+#define JACOBI_MOMENTUM 0.6F
+
 /* Where its columns stand among a particle's own; k of the solver at work is `pressure_term`. */
 enum {
     DENSITY_TERM,    /* k that the last step's density left, J m3: where the next begins */
@@ -22,8 +26,9 @@ enum {
     SQUARES,         /* sum F^2 r^2 / m_j, 1 / (kg m8) */
     INVERSE_MASS,    /* 1/kg; 0 of the particles of solids */
     RESIDUAL,        /* n / n0 - 1 that the step would end with */
-    MISS,  /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
-    OTHER, /* accelerations but those of pressure, m/s2: 3 */
+    MISS,   /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
+    CHANGE, /* of k in the iteration before, J m3 */
+    OTHER,  /* accelerations but those of pressure, m/s2: 3 */
 };
 
 extern const ColumnDef dfsph_columns[];
