@@ -14,7 +14,8 @@
 
 #define DFSPH_KERNEL KERNEL_WENDLAND_C2
 
-/* How much of the iteration before goes on: a third of the iterations in large scenes, no more in small ones.
+/* How much of the iteration before goes on: half to a third of the iterations in large scenes, in small ones
+ * as many.
  */
 #define JACOBI_MOMENTUM 0.6F
 
