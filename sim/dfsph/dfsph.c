@@ -9,12 +9,12 @@
 #include <math.h>
 #include <string.h>
 
-static const DfsphDef usual = {.tolerance = 0.0005, .divergence_tolerance = 0.001, .iterations = 100};
+static const DfsphDef usual = {.tolerance = 0.0005, .divergence_tolerance = 0.0001, .iterations = 100};
 
 /* clang-format off */
 static const Key keys[] = {
     NUMBER("solver.tolerance", L, "", 0, 1, offsetof(DfsphDef, tolerance), "mean compression that the solver of density leaves"),
-    NUMBER("solver.divergence_tolerance", L, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "the same of a step's divergence; 0: no solver for it"),
+    NUMBER("solver.divergence_tolerance", L, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "mean compression that a step's velocities may make"),
     INTEGER("solver.iterations", L, 1, 10000, offsetof(DfsphDef, iterations), "of each solver, at most"),
     KEYS_END,
 };
@@ -98,32 +98,35 @@ static void dfsph_set(Constants *constants, const WorldDef *def)
 
 enum { SOLVE_DENSITY, SOLVE_DIVERGENCE };
 
-/* Takes out of the velocities what would press the fluid in the step ahead. */
+static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance)
+{
+    const DfsphConstants *own = dfsph_constants(step->constants);
+    const Iteration iteration = {{passes[1], passes[2]}, dfsph_miss, tolerance, own->most};
+    substep_run(step, passes[0], step->dt);
+    substep_iterate(step, &iteration, which, step->dt);
+    substep_run(step, passes[3], step->dt);
+}
+
+/* Pressure: velocities that, after gravity and all other accelerations, press nothing that is at rest
+ * density. */
 static void end_divergence(const Substep *step)
 {
-    const DfsphConstants *own = dfsph_constants(step->constants);
-    const Iteration iteration = {
-        {&dfsph_divergence_push, &dfsph_divergence_rate}, dfsph_miss, own->divergence_tolerance, own->most};
-    if (own->divergence_tolerance <= 0)
-        return;
-    substep_run(step, &dfsph_divergence_begin, step->dt);
-    substep_iterate(step, &iteration, SOLVE_DIVERGENCE, step->dt);
-    substep_run(step, &dfsph_divergence_end, step->dt);
+    static const Pass *const passes[] = {&dfsph_divergence_begin, &dfsph_divergence_push,
+                                         &dfsph_divergence_rate, &dfsph_divergence_end};
+    solve(step, SOLVE_DIVERGENCE, passes, dfsph_constants(step->constants)->divergence_tolerance);
 }
 
-/* Accelerations that end the step at rest density. */
+/* Moves places to rest density. Velocities have no part in it: given to them, as the papers do, each step's
+   correction flies on into the next one, and fluid at rest boils. */
 static void hold_density(const Substep *step)
 {
-    const DfsphConstants *own = dfsph_constants(step->constants);
-    const Iteration iteration = {
-        {&dfsph_density_push, &dfsph_density_rate}, dfsph_miss, own->tolerance, own->most};
-    substep_run(step, &dfsph_density_begin, step->dt);
-    substep_iterate(step, &iteration, SOLVE_DENSITY, step->dt);
-    substep_run(step, &dfsph_density_end, step->dt);
+    static const Pass *const passes[] = {&dfsph_density_begin, &dfsph_density_push, &dfsph_density_rate,
+                                         &dfsph_density_end};
+    solve(step, SOLVE_DENSITY, passes, dfsph_constants(step->constants)->tolerance);
 }
 
-/* Both solvers work between the halves of the drift, with one grid and one set of lists: there the velocities
-   of a step that has ended are those of the next one's begin. */
+/* Both solvers work between the halves of the drift, with one grid and one set of lists; from there to the
+   middle of the next step particles fly by the velocities that they leave. */
 static void dfsph_substep(const Substep *step)
 {
     const Backend *b = step->backend;
@@ -135,16 +138,16 @@ static void dfsph_substep(const Substep *step)
         b->grid(state);
     STAGE (step->clock, STAGE_DENSITY)
         substep_run(step, &dfsph_state, step->dt);
-    STAGE (step->clock, STAGE_SOLVE)
-        end_divergence(step);
     STAGE (step->clock, STAGE_FORCE)
         substep_run(step, &dfsph_others, step->dt);
     STAGE (step->clock, STAGE_SOLVE)
-        hold_density(step);
-    STAGE (step->clock, STAGE_INTEGRATE) {
+        end_divergence(step);
+    STAGE (step->clock, STAGE_INTEGRATE)
         substep_kick(step);
+    STAGE (step->clock, STAGE_SOLVE)
+        hold_density(step);
+    STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->second_half);
-    }
 }
 
 static const Pass *const passes[] = {&dfsph_state,

@@ -6,8 +6,7 @@
 
 typedef struct DfsphDef {
     double tolerance;            /* mean compression that the solver of density leaves, a fraction */
-    double divergence_tolerance; /* mean compression in a step that the solver of divergence leaves; 0: none
-                                    runs */
+    double divergence_tolerance; /* mean compression that a step's velocities may make, a fraction */
     int iterations;              /* of each solver, at most */
 } DfsphDef;
 

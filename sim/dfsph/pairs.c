@@ -9,8 +9,7 @@ PAIR_LOOP(dfsph_factor)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), gradient = f8_splat(dfsph_constants(s)->gradient);
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         f8 n = f8_splat(1), sx = f8_splat(0), sy = sx, sz = sx, squares = sx;
@@ -36,8 +35,7 @@ PAIR_LOOP(dfsph_push)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), gradient = f8_splat(dfsph_constants(s)->gradient);
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ki = f8_load(args->pressure_term + i);
@@ -60,8 +58,7 @@ PAIR_LOOP(dfsph_rate)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), gradient = f8_splat(dfsph_constants(s)->gradient);
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const Themselves own = themselves(args, i);
@@ -85,8 +82,7 @@ PAIR_LOOP(dfsph_friction)
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius),
              gradient = f8_splat(dfsph_constants(s)->friction_gradient), same = f8_splat(s->viscosity[0]);
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);

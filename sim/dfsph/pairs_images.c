@@ -40,8 +40,7 @@ PAIR_LOOP(dfsph_images_factor)
     const WallsFar far = out_of_sight(s);
     const f8 zero = f8_splat(0);
     Images images;
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         if (!images_of(args, &far, i, begin, end, &images))
             continue;
         const Themselves own = themselves(args, i);
@@ -75,8 +74,7 @@ PAIR_LOOP(dfsph_images_push)
     const WallsFar far = out_of_sight(args->constants);
     const f8 zero = f8_splat(0), gradient = f8_splat(dfsph_constants(args->constants)->gradient);
     Images images;
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         if (!images_of(args, &far, i, begin, end, &images))
             continue;
         const Themselves own = themselves(args, i);
@@ -111,8 +109,7 @@ PAIR_LOOP(dfsph_images_rate)
     const WallsFar far = out_of_sight(args->constants);
     const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient);
     Images images;
-    GROUPS(i, begin, end)
-    {
+    GROUPS (i, begin, end) {
         if (!images_of(args, &far, i, begin, end, &images))
             continue;
         const Themselves own = themselves(args, i);

@@ -42,7 +42,7 @@ static void finish_factor(const Cpu *cpu, size_t i)
     const float d = (sx * sx + sy * sy + sz * sz) * p->own[INVERSE_MASS][i] + p->own[SQUARES][i];
     p->own[FACTOR][i] = d > 0 ? 1 / d : 0;
     p->volume[i] = 1 / p->volume[i];
-    p->pressure[i] = dfsph_constants(cpu->constants)->pressure_scale * p->own[DENSITY_TERM][i];
+    p->pressure[i] = dfsph_constants(cpu->constants)->pressure_scale * p->own[KEPT][i];
     p->ax[i] = p->ay[i] = p->az[i] = 0;
 }
 
@@ -60,7 +60,7 @@ const Pass dfsph_state = {
     .name = "factor",
     .stage = STAGE_DENSITY,
     .cpu = &state,
-    .reads = "position id fluid density_term",
+    .reads = "position id fluid kept_term",
     .writes = "volume pressure pressure_term acceleration viscosity tension kind factor squares inverse_mass",
 };
 
@@ -95,50 +95,59 @@ const Pass dfsph_others = {
 
 /* --- solvers: begin and end --- */
 
-static void begin_with(const CpuRange *range, int kept)
-{
-    const CpuParticles *p = &range->cpu->now;
-    for (size_t i = range->begin; i < range->end; i++) {
-        p->pressure_term[i] = p->own[kept][i];
-        p->own[RESIDUAL][i] = p->own[CHANGE][i] = 0;
-    }
-}
-
-static void keep(const CpuRange *range, int kept)
+static void forget(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     for (size_t i = range->begin; i < range->end; i++)
-        p->own[kept][i] = p->pressure_term[i];
-}
-
-static void density_begin(const CpuRange *range)
-{
-    begin_with(range, DENSITY_TERM);
+        p->own[RESIDUAL][i] = p->own[CHANGE][i] = 0;
 }
 
 static void divergence_begin(const CpuRange *range)
 {
-    begin_with(range, DIVERGENCE_TERM);
-}
-
-static void density_end(const CpuRange *range)
-{
     const CpuParticles *p = &range->cpu->now;
-    keep(range, DENSITY_TERM);
+    forget(range);
     for (size_t i = range->begin; i < range->end; i++)
-        p->pressure[i] = dfsph_constants(range->cpu->constants)->pressure_scale * p->pressure_term[i];
+        p->pressure_term[i] = p->own[KEPT][i];
 }
 
-/* The velocities take what the solver found; no other acceleration is at work then. */
 static void divergence_end(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
-    const float dt = range->input->dt;
-    keep(range, DIVERGENCE_TERM);
     for (size_t i = range->begin; i < range->end; i++) {
-        p->vx[i] += p->ax[i] * dt;
-        p->vy[i] += p->ay[i] * dt;
-        p->vz[i] += p->az[i] * dt;
+        p->own[KEPT][i] = p->pressure_term[i];
+        p->pressure[i] = dfsph_constants(range->cpu->constants)->pressure_scale * p->pressure_term[i];
+    }
+}
+
+/* From no move on: a part of the last step's would be given to fluid at rest again and again, and lifts it.
+   The accelerations stand in OTHER meanwhile. */
+static void density_begin(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    forget(range);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->pressure_term[i] = 0;
+        p->own[OTHER][i] = p->ax[i];
+        p->own[OTHER + 1][i] = p->ay[i];
+        p->own[OTHER + 2][i] = p->az[i];
+    }
+}
+
+/* A step's move is a part of a spacing: no guard of solids looks at it. */
+static void density_end(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float dt2 = range->input->dt * range->input->dt, most = MOVE_MOST * range->cpu->constants->spacing;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float move[3] = {p->ax[i] * dt2, p->ay[i] * dt2, p->az[i] * dt2};
+        const float length = sqrtf(move[0] * move[0] + move[1] * move[1] + move[2] * move[2]);
+        const float share = length > most ? most / length : 1;
+        p->x[i] += share * move[0];
+        p->y[i] += share * move[1];
+        p->z[i] += share * move[2];
+        p->ax[i] = p->own[OTHER][i];
+        p->ay[i] = p->own[OTHER + 1][i];
+        p->az[i] = p->own[OTHER + 2][i];
     }
 }
 
@@ -166,28 +175,35 @@ static void pack_place(const CpuRange *range)
     }
 }
 
-/* The velocities at the step's end, of all accelerations and gravity. */
-static void pack_motion(const CpuRange *range, const float gravity[3])
+/* The velocities with which the particles come to the middle of the next step: by all accelerations, and by
+   half of what the box does to them meanwhile, in the halves of the drift. */
+static void pack_motion(const CpuRange *range, float kicked)
 {
     const CpuParticles *p = &range->cpu->now;
-    const float dt = range->input->dt;
+    const PassInput *input = range->input;
+    const float dt = input->dt;
     for (size_t i = range->begin; i < range->end; i++) {
         const float t = of_fluid(range->cpu, i) ? dt : 0; /* those of solids have their own */
+        const float x[3] = {p->x[i], p->y[i], p->z[i]};
+        float g[3];
+        apparent_gravity_at(input->apparent, x, g);
+        for (int k = 0; k < 3; k++)
+            g[k] = 0.5F * (g[k] - input->gravity[k]) + kicked * input->gravity[k];
         memcpy(range->cpu->motion[i],
-               (float[]){p->vx[i] + t * (p->ax[i] + gravity[0]), p->vy[i] + t * (p->ay[i] + gravity[1]),
-                         p->vz[i] + t * (p->az[i] + gravity[2]), p->volume[i]},
+               (float[]){p->vx[i] + t * (p->ax[i] + g[0]), p->vy[i] + t * (p->ay[i] + g[1]),
+                         p->vz[i] + t * (p->az[i] + g[2]), p->volume[i]},
                16);
     }
 }
 
 static void pack_density_motion(const CpuRange *range)
 {
-    pack_motion(range, range->input->gravity);
+    pack_motion(range, 0);
 }
 
 static void pack_divergence_motion(const CpuRange *range)
 {
-    pack_motion(range, (float[3]){0});
+    pack_motion(range, 1);
 }
 
 static void push(const CpuRange *range)
@@ -202,7 +218,7 @@ static void push(const CpuRange *range)
     }
 }
 
-static void density_push(const CpuRange *range)
+static void divergence_push(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     push(range);
@@ -256,8 +272,8 @@ static PairCost rate_pair(const Constants *constants)
 }
 
 static const CpuPass pushes[] = {
+    {.loops = {{divergence_push, .walks = true, .pack = pack_place}}, .pair = push_pair},
     {.loops = {{push, .walks = true, .pack = pack_place}}, .pair = push_pair},
-    {.loops = {{density_push, .walks = true, .pack = pack_place}}, .pair = push_pair},
 };
 static const CpuPass rates[] = {
     {.loops = {{divergence_rate, .walks = true, .pack = pack_divergence_motion}}, .pair = rate_pair},
@@ -273,18 +289,18 @@ static const CpuPass rates[] = {
 #define RATE_READS "position velocity id fluid acceleration volume pressure_term"
 
 const Pass dfsph_divergence_begin =
-    SOLVE("divergence begin", begins[0], "divergence_term", "pressure_term residual change");
+    SOLVE("divergence begin", begins[0], "kept_term", "pressure_term residual change");
 const Pass dfsph_divergence_push =
-    SOLVE("divergence push", pushes[0], PUSH_READS, "pressure_term acceleration change");
+    SOLVE("divergence push", pushes[0], PUSH_READS " other", "pressure_term acceleration change");
 const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], RATE_READS, "residual miss");
-const Pass dfsph_divergence_end =
-    SOLVE("divergence end", ends[0], "pressure_term acceleration velocity", "divergence_term velocity");
+const Pass dfsph_divergence_end = SOLVE("divergence end", ends[0], "pressure_term", "kept_term pressure");
 const Pass dfsph_density_begin =
-    SOLVE("density begin", begins[1], "density_term", "pressure_term residual change");
+    SOLVE("density begin", begins[1], "acceleration", "pressure_term residual change other");
 const Pass dfsph_density_push =
-    SOLVE("density push", pushes[1], PUSH_READS " other", "pressure_term acceleration change");
+    SOLVE("density push", pushes[1], PUSH_READS, "pressure_term acceleration change");
 const Pass dfsph_density_rate = SOLVE("density rate", rates[1], RATE_READS, "residual miss");
-const Pass dfsph_density_end = SOLVE("density end", ends[1], "pressure_term", "density_term pressure");
+const Pass dfsph_density_end =
+    SOLVE("density end", ends[1], "position acceleration other", "position acceleration");
 
 static bool many_viscous(const Constants *constants)
 {
@@ -292,11 +308,9 @@ static bool many_viscous(const Constants *constants)
 }
 
 #define OWN(k) .at = COLUMN_OWN(k)
-#define KEPT   .flags = COLUMN_SAVED | COLUMN_SORTED
 
 const ColumnDef dfsph_columns[] = {
-    {"density_term", "J m3", OWN(DENSITY_TERM), 1, COLUMN_FLOAT, KEPT},
-    {"divergence_term", "J m3", OWN(DIVERGENCE_TERM), 1, COLUMN_FLOAT, KEPT},
+    {"kept_term", "J m3", OWN(KEPT), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
     {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT},
     {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
     {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},

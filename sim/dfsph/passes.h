@@ -3,9 +3,9 @@
    All particles of all fluids have the volume V0 = 1 / n0 at rest, so what is held is the number density n,
    that of images in the walls and of boundary particles counted. With grad W_ij = -F x_ij, x_ij = x_i - x_j:
      force_i = sum (k_i + k_j) F x_ij                 k: a multiplier each, p V0^2
-     dn_i / dt = -sum F v_ij . x_ij                   its adjoint, so that pressure does no work on what keeps
-   n D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what k_i makes of its own rate Masses are in D alone:
-   ratios of density are no matter of the sums. */
+     dn_i / dt = -sum F v_ij . x_ij                   its adjoint: pressure does no work where n stays
+     D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what k_i makes of its own rate
+   Masses are in D alone: ratios of density are no matter of the sums. */
 #ifndef SLOSH_DFSPH_PASSES_H
 #define SLOSH_DFSPH_PASSES_H
 
@@ -19,17 +19,19 @@
  */
 #define JACOBI_MOMENTUM 0.6F
 
+/* How far the solver of density moves a particle in a step, spacings. */
+#define MOVE_MOST 0.2F
+
 /* Where its columns stand among a particle's own; k of the solver at work is `pressure_term`. */
 enum {
-    DENSITY_TERM,    /* k that the last step's density left, J m3: where the next begins */
-    DIVERGENCE_TERM, /* the same of divergence */
-    FACTOR,          /* 1 / D, kg m8; 0 where a particle sees none */
-    SQUARES,         /* sum F^2 r^2 / m_j, 1 / (kg m8) */
-    INVERSE_MASS,    /* 1/kg; 0 of the particles of solids */
-    RESIDUAL,        /* n / n0 - 1 that the step would end with */
-    MISS,   /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
-    CHANGE, /* of k in the iteration before, J m3 */
-    OTHER,  /* accelerations but those of pressure, m/s2: 3 */
+    KEPT,         /* k that the last step's divergence left, J m3: where the next begins */
+    FACTOR,       /* 1 / D, kg m8; 0 where a particle sees none */
+    SQUARES,      /* sum F^2 r^2 / m_j, 1 / (kg m8) */
+    INVERSE_MASS, /* 1/kg; 0 of the particles of solids */
+    RESIDUAL,     /* n / n0 - 1 that the step would end with */
+    MISS,         /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
+    CHANGE,       /* of k in the iteration before, J m3 */
+    OTHER,        /* accelerations but those of the solver at work, m/s2: 3 */
 };
 
 extern const ColumnDef dfsph_columns[];
