@@ -13,9 +13,9 @@ static const DfsphDef usual = {.tolerance = 0.0005, .divergence_tolerance = 0.00
 
 /* clang-format off */
 static const Key keys[] = {
-    NUMBER("solver.tolerance", L, "", 0, 1, offsetof(DfsphDef, tolerance), "mean compression that the solver of density leaves"),
-    NUMBER("solver.divergence_tolerance", L, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "mean compression that a step's velocities may make"),
-    INTEGER("solver.iterations", L, 1, 10000, offsetof(DfsphDef, iterations), "of each solver, at most"),
+    NUMBER("solver.tolerance", 0, "", 0, 1, offsetof(DfsphDef, tolerance), "mean compression that the solver of density leaves"),
+    NUMBER("solver.divergence_tolerance", 0, "", 0, 1, offsetof(DfsphDef, divergence_tolerance), "mean compression that a step's velocities may make"),
+    INTEGER("solver.iterations", 0, 1, 10000, offsetof(DfsphDef, iterations), "of each solver, at most"),
     KEYS_END,
 };
 /* clang-format on */

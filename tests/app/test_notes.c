@@ -70,6 +70,9 @@ static const struct {
     {"solver.viscosity_form=radial", "solver.method=wcsph", "solver.method: wcsph", false},
     {"solver.delta_sph=0.1", "solver.method=wcsph", "solver.method: wcsph", true},
     {"solver.shifting=0.2", "solver.method=wcsph", "solver.method: wcsph", true},
+    {"solver.tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
+    {"solver.divergence_tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
+    {"solver.iterations=50", "solver.method=dfsph", "solver.method: dfsph", false},
     {"solver.grid_layers=3", "solver.backend=fragment", "solver.backend: fragment", false},
     {"solver.lost_limit=3", "solver.backend=fragment", "solver.backend: fragment", false},
     {"solver.threads=3", "solver.backend=cpu", "solver.backend: cpu", false},
@@ -93,6 +96,7 @@ static const char *rival(const char *owner)
 {
     static const char *const rivals[][2] = {{"solver.method=mueller", "solver.method=wcsph"},
                                             {"solver.method=wcsph", "solver.method=mueller"},
+                                            {"solver.method=dfsph", "solver.method=mueller"},
                                             {"solver.backend=cpu", "solver.backend=compute"},
                                             {"solver.step.mode=fixed", "solver.step.mode=cfl"}};
     for (size_t i = 0; i < sizeof rivals / sizeof *rivals; i++)
