@@ -8,7 +8,10 @@
 
 #define BIT(stage) (1U << (stage))
 
-enum { SIM = BIT(STAGE_GRID) | BIT(STAGE_DENSITY) | BIT(STAGE_FORCE) | BIT(STAGE_INTEGRATE) };
+/* All of the solver's. */
+#define X(NAME, name, part) | ((part) == PART_SIM ? BIT(STAGE_##NAME) : 0U)
+enum { SIM = 0U STAGE_LIST(X) };
+#undef X
 
 static const Table tables[] = {
     {.name = "paper003-spheres",
