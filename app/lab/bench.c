@@ -203,6 +203,7 @@ static bool measure(Stand *stand, int frames, Progress *progress, double done, d
 {
     WorldInfo first, last;
     world_info(stand->world, &first);
+    world_tally_anew(stand->world);
     for (double began = wall_ms(); samples->frames < frames && !interrupted();) {
         StageClock clock;
         if (!frame(stand, &clock, error))
@@ -248,6 +249,7 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
         .dt = def->step_mode == STEP_CFL ? info.dt : def->dt,
         .dt_substep = info.dt,
         .bytes_per_particle = (double)info.state_bytes / (double)info.capacity,
+        .solved = info.solved,
     };
     snprintf(result->swept, sizeof result->swept, "%s", setup->swept ? setup->swept : "");
     snprintf(result->scene, sizeof result->scene, "%s", setup->scene->path);

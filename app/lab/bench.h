@@ -40,6 +40,7 @@ typedef struct BenchResult {
     double particle_steps_per_second;    /* particles * substeps * frames / wall time of all sim stages */
     double real_time_factor;             /* simulated over wall time */
     double bytes_per_particle;           /* of the solver's state */
+    SolveFigures solved;                 /* of the frames' steps */
     ViewCounts counts;                   /* of one more picture behind the frames */
 } BenchResult;
 

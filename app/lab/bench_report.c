@@ -1,5 +1,6 @@
 #include "app/base/json_file.h"
 #include "app/lab/bench.h"
+#include "app/session/solved.h"
 
 #include <jansson.h>
 #include <string.h>
@@ -22,6 +23,7 @@ const char *bench_processor(void)
 
 static void print_parts(const BenchResult *r, FILE *file)
 {
+    char words[SOLVED_WORDS];
     if (r->troubles > 0)
         fprintf(
             file,
@@ -32,6 +34,8 @@ static void print_parts(const BenchResult *r, FILE *file)
     if (r->unlisted > 0)
         fprintf(file, "  without lists of neighbours: %.3g GB are more than the driver allows\n",
                 1e-9 * (double)r->unlisted);
+    if (r->solved.steps > 0)
+        fprintf(file, "  %s\n", solved_text(&r->solved, words));
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
             r->render_ms, r->frame_ms);
     fprintf(file, "  %.3g million particle-steps/s, real-time factor %.2f, %.0f bytes a particle\n\n",
@@ -117,6 +121,8 @@ static json_t *result_json(const BenchResult *r)
         json && more && sums && json_object_update(json, more) == 0 && json_object_update(json, sums) == 0;
     json_decref(more);
     json_decref(sums);
+    if (ok)
+        solved_json(json, &r->solved);
     if (ok && r->counts.counted)
         json_object_set_new(json, "coverage", json_real(r->counts.coverage));
     if (ok && r->swept[0])

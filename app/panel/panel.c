@@ -59,6 +59,21 @@ static void count_text(size_t count, char text[32])
     text[used] = 0;
 }
 
+/* Nothing of a method without solvers that iterate. */
+static void draw_solved(Ui *ui, const PanelData *data)
+{
+    const SolveFigures *solved = &data->solved;
+    char text[96];
+    if (solved->steps == 0)
+        return;
+    snprintf(text, sizeof text, "%.0f, mean %.3g, p95 %.0f", data->iterations, solved->iterations_mean,
+             solved->iterations_p95);
+    ui_row(ui, "iterations", text);
+    snprintf(text, sizeof text, "%.3g %% mean, %.3g %% max", 100 * solved->density_error_mean,
+             100 * solved->density_error_max);
+    ui_row(ui, "solver leaves", text);
+}
+
 static void draw_figures(Ui *ui, const PanelData *data)
 {
     char text[96];
@@ -75,6 +90,7 @@ static void draw_figures(Ui *ui, const PanelData *data)
     ui_row(ui, "pace", text);
     snprintf(text, sizeof text, "%.3g ms, bounded by %s", 1e3 * data->dt, step_limit_name(data->limit));
     ui_row(ui, "time step", text);
+    draw_solved(ui, data);
     snprintf(text, sizeof text, "%.1f a second", data->pictures_per_second);
     ui_row(ui, "pictures", text);
 }

@@ -33,6 +33,8 @@ typedef struct PanelData {
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
     StepLimit limit;         /* what bounded it */
+    double iterations;       /* of solvers that iterate, in the last step; */
+    SolveFigures solved;     /* since the scene's start; steps 0: the method has none */
     double real_time_factor; /* simulated over wall time */
     double speed;            /* that is asked for; 1: real time */
     double pictures_per_second;

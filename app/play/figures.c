@@ -27,6 +27,7 @@ static void add_model(const Model *model, PlayFigures *figures)
     figures->particles = status->particles;
     figures->scenes_opened = model->scenes_opened;
     figures->step = status->step;
+    figures->solved = status->solved;
     figures->time = status->time;
     figures->simulated_s = model->simulated_s + status->simulated_s;
     figures->sim_ms = status->frames ? status->solved_ms / (double)status->frames : 0;

@@ -121,6 +121,7 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
                         .time = particles->time,
                         .dt = status->dt,
                         .limit = status->limit,
+                        .solved = status->solved,
                         .real_time_factor = status->real_time_factor,
                         .speed = model->speed,
                         .pictures_per_second = facts->meter->pictures_per_second,
@@ -132,6 +133,8 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
                         .devices = overlay->devices,
                         .device_count = overlay->device_count,
                         .panel_ms = meter_panel_mean(facts->meter)};
+    for (int k = 0; k < SOLVES_MAX; k++)
+        data->iterations += status->solves[k].iterations;
     collect_stages(model, facts, data);
     data->scalar_range[0] = view->range_auto ? particles->scalar_min[view->color_by] : view->range[0];
     data->scalar_range[1] = view->range_auto ? particles->scalar_max[view->color_by] : view->range[1];

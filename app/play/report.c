@@ -2,6 +2,7 @@
 
 #include "app/base/json_file.h"
 #include "app/lab/bench.h"
+#include "app/session/solved.h"
 #include "sim/world/world.h"
 
 static json_t *vector(const double *v, int count)
@@ -41,6 +42,7 @@ static json_t *session_json(const PlayFigures *f)
     if (json)
         json_object_update(json, times), json_object_update(json, state), json_object_update(json, hands),
             json_object_update(json, devices);
+    solved_json(json, &f->solved);
     const bool whole = json && times && state && hands && devices;
     json_decref(times);
     json_decref(state);
@@ -94,7 +96,7 @@ static const char *what_limits(const PlayFigures *f)
 
 void play_print(const PlayFigures *f, FILE *file)
 {
-    char threads[32] = "";
+    char threads[32] = "", words[SOLVED_WORDS];
     if (f->threads > 0)
         snprintf(threads, sizeof threads, "%d thread%s, ", f->threads, plural((size_t)f->threads));
     fprintf(file, "%s: %zu particle%s, %s on %s, %slive for %.1f s\n", f->scene, f->particles,
@@ -103,6 +105,8 @@ void play_print(const PlayFigures *f, FILE *file)
     fprintf(file, "  real-time factor      %8.3f\n", f->real_time_factor);
     fprintf(file, "  pictures a second     %8.1f\n", f->pictures_per_second);
     fprintf(file, "  solver, a frame       %8.2f ms of %.4g\n", f->sim_ms, 1e3 * f->dt);
+    if (f->solved.steps > 0)
+        fprintf(file, "  %s\n", solved_text(&f->solved, words));
     fprintf(file, "  rendering, a picture  %8.2f ms, of these the panel %.2f (CPU), events %.2f (CPU)\n",
             f->render_ms, f->panel_ms, f->events_ms);
     fprintf(file, "  start to picture      %8.0f ms\n", f->first_picture_ms);

@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/matter/world_def.h"
+#include "sim/world/reading.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,7 +16,8 @@ typedef struct PlayFigures {
     char scene[1024], renderer[256];
     char view[NAME_SIZE], color_by[NAME_SIZE], colormap[NAME_SIZE], backend[NAME_SIZE], method[NAME_SIZE];
     int width, height, threads, substeps;
-    double dt; /* s */
+    double dt;           /* s */
+    SolveFigures solved; /* of the last scene, since its start */
     size_t particles, pictures, scenes_opened;
     uint64_t step;              /* of the last state */
     double time;                /* of the last state, s */

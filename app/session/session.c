@@ -2,6 +2,7 @@
 
 #include "app/base/exit_code.h"
 #include "app/base/json_file.h"
+#include "app/session/solved.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -109,9 +110,10 @@ const char *session_full_text(const WorldInfo *info, char words[256])
 
 const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
 {
+    char what[160];
+    world_trouble_words(trouble, what);
     snprintf(words, 256, "t = %.4g s: %s; back to %.4g s with 1/%d of the step (%d of %d)", trouble->time,
-             step_trouble_words(trouble->what), trouble->back_to, 1 << trouble->tries, trouble->tries,
-             trouble->retries);
+             what, trouble->back_to, 1 << trouble->tries, trouble->tries, trouble->retries);
     return words;
 }
 
@@ -171,6 +173,7 @@ void session_report(const Session *session, const Args *args, const Summary *sum
 {
     const WorldInfo *info = &session->info;
     const double wall = wall_seconds(session);
+    char words[SOLVED_WORDS];
     if (summary->stopped)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", info->time, args->output);
     if (!args->quiet)
@@ -180,6 +183,8 @@ void session_report(const Session *session, const Args *args, const Summary *sum
                 summary->product);
     if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
         print_limits(info);
+    if (!args->quiet && info->solved.steps > 0)
+        fprintf(stderr, "%s\n", solved_text(&info->solved, words));
 }
 
 static json_t *summary_json(const Session *session, const Args *args, const Summary *summary)
@@ -200,6 +205,7 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
         json_object_set_new(json, "lost", json_integer((json_int_t)info->lost));
         json_object_set_new(json, "emitted", json_integer((json_int_t)info->emitted));
         json_object_set_new(json, "drained", json_integer((json_int_t)info->drained));
+        solved_json(json, &info->solved);
     }
     if (json && summary->renderer)
         json_object_set_new(json, "renderer", json_string(summary->renderer));

@@ -170,6 +170,8 @@ const Method method_dfsph = {
     .def_size = sizeof usual,
     .mirrors = true,
     .incompressible = true,
+    .solvers = {[SOLVE_DENSITY] = {"density", "solver.tolerance"},
+                [SOLVE_DIVERGENCE] = {"divergence", "solver.divergence_tolerance"}},
     .kernels = dfsph_kernels,
     .friction = dfsph_friction,
     .constants = dfsph_set,

@@ -19,4 +19,18 @@ void substep_iterate(const Substep *step, const Iteration *iteration, int which,
 /* Whether a solver ended far from what it was asked for. */
 bool step_solve_failed(const StepSolve *solve);
 
+/* What the solvers of many steps did, in bounded memory. Zero-initialise it. */
+enum { SOLVE_EXACT = 64, SOLVE_OCTAVE = 8, SOLVE_CLASSES = SOLVE_EXACT + 9 * SOLVE_OCTAVE };
+typedef struct SolveTally {
+    uint64_t steps, iterations;      /* iterations: of all solvers together */
+    uint64_t most_iterations;        /* of a step */
+    double mean, most;               /* residual of density: sum of the means; greatest */
+    uint64_t classes[SOLVE_CLASSES]; /* steps by their iterations: one number each, then eight an octave */
+} SolveTally;
+
+/* Nothing where no solver ran. */
+void solve_tally_add(SolveTally *tally, const StepSolve solves[SOLVES_MAX]);
+
+SolveFigures solve_tally_figures(const SolveTally *tally);
+
 #endif

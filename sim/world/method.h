@@ -62,6 +62,14 @@ typedef struct StepFriction {
     DragWeight walls;           /* how walls that hold fluid weigh theirs */
 } StepFriction;
 
+enum { SOLVES_MAX = 2 };
+
+/* One of its solvers that iterate, if it has any (sim/world/iterate.h). */
+typedef struct MethodSolver {
+    const char *name;      /* for words: "density"; NULL: there is none of this number */
+    const char *tolerance; /* the path of its key */
+} MethodSolver;
+
 /* Where a method says what of a scene will not hold or has no effect, though nothing in it is wrong. */
 typedef struct MethodAdvice {
     const WorldDef *def; /* each viscosity the greatest that its table has */
@@ -82,6 +90,7 @@ typedef struct Method {
     bool carries_density; /* its particles do; else density is summed */
     bool mirrors;         /* walls of the box are mirrors (sim/box/wall_images.h); else tables */
     bool incompressible;  /* no sound: steps are bounded by the true greatest speed alone */
+    MethodSolver solvers[SOLVES_MAX]; /* what is left of the first one's residual is the error of density */
     /* False with the reason: a setting is not in order, whichever the method. */
     bool (*check)(const WorldDef *def, Error *error);
     MethodKernels (*kernels)(const WorldDef *def);                         /* NULL: spiky for both */

@@ -5,6 +5,7 @@
 #include "sim/base/scalar.h"
 #include "sim/box/box_filter.h"
 #include "sim/world/column.h"
+#include "sim/world/method.h"
 #include "sim/world/step_control.h"
 
 #include <stdint.h>
@@ -14,10 +15,22 @@
 typedef struct WorldTrouble {
     unsigned count; /* in all */
     StepTrouble what;
-    double time;        /* when it was found, s */
-    double back_to;     /* time of the state that the world went back to, s */
-    int tries, retries; /* halvings in force, and how many there may be */
+    double time;                /* when it was found, s */
+    double back_to;             /* time of the state that the world went back to, s */
+    int tries, retries;         /* halvings in force, and how many there may be */
+    const MethodSolver *solver; /* of STEP_TROUBLE_SOLVE: which one, */
+    StepSolve left;             /* and what it came to */
 } WorldTrouble;
+
+/* What the solvers that iterate did in a world's steps, those apart that ended in trouble. A world counts
+   from its start, or from where it was loaded into; that is no part of the saved state. */
+typedef struct SolveFigures {
+    uint64_t steps;                         /* 0, and all else: of a method without such solvers */
+    double iterations_mean, iterations_p95; /* of a step, all its solvers together; the 95th percentile to an
+                                               eighth above 64 */
+    double density_error_mean, density_error_max; /* that the solver of density left, fractions: mean over
+                                                     steps and particles; of any particle in any step */
+} SolveFigures;
 
 /* What a world is, apart from its particles. */
 typedef struct WorldInfo {
@@ -41,6 +54,7 @@ typedef struct WorldInfo {
     uint64_t limited[STEP_LIMIT_COUNT]; /* steps by what bounded them, since the start */
     WorldTrouble trouble;
     StepSolve solves[SOLVES_MAX]; /* of the last step; of a method without solvers all 0 */
+    SolveFigures solved;          /* of all steps */
     size_t lost;     /* backend fragment: particles without a place in its grid, in the last step known */
     size_t unlisted; /* backend compute: bytes of lists of neighbours that are more than the driver or its
                         memory allows, so that steps take longer; 0: it has them, or is not to have them */

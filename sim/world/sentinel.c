@@ -18,6 +18,17 @@ bool sentinel_mark(World *world, Error *error)
     return backend->mark(world->state, error);
 }
 
+/* The first solver that is in trouble. */
+static void look_at_solves(World *world)
+{
+    for (int k = 0; k < SOLVES_MAX && !world->seen; k++)
+        if (step_solve_failed(&world->solves[k])) {
+            world->seen = STEP_TROUBLE_SOLVE;
+            world->trouble.solver = &world->method->solvers[k];
+            world->trouble.left = world->solves[k];
+        }
+}
+
 bool world_sound(World *world)
 {
     StepState *s = &world->stepping;
@@ -27,9 +38,8 @@ bool world_sound(World *world)
         s->max_speed = watch.max_speed;
         s->max_acceleration = watch.max_acceleration;
         world->seen = world->seen ? world->seen : trouble;
-        for (int k = 0; k < SOLVES_MAX && world->def.retries > 0; k++)
-            if (!world->seen && step_solve_failed(&world->solves[k]))
-                world->seen = STEP_TROUBLE_SOLVE;
+        if (!world->seen && world->def.retries > 0)
+            look_at_solves(world);
         world->kicked = false;
     }
     return world->seen == STEP_TROUBLE_NONE;
@@ -66,19 +76,35 @@ static void restore(World *world)
     world_put_back(world, numbers, world->good.count);
 }
 
+void world_trouble_words(const WorldTrouble *trouble, char words[160])
+{
+    const StepSolve *left = &trouble->left;
+    if (trouble->what == STEP_TROUBLE_SOLVE)
+        snprintf(
+            words, 160,
+            "the solver of %s does not converge: solver.iterations %g leaves %.3g %% in the mean, %s is %.3g %%",
+            trouble->solver->name, left->iterations, 100 * left->mean, trouble->solver->tolerance,
+            100 * left->tolerance);
+    else
+        snprintf(words, 160, "%s", step_trouble_words(trouble->what));
+}
+
 static bool give_up(World *world, StepTrouble trouble, double time, Error *error)
 {
     const int retries = world->def.retries;
     const StepState *s = &world->stepping;
     const double dt =
         world->def.step_mode == STEP_CFL ? s->dt * s->refine : world->def.dt / world->def.substeps;
-    char also[96] = "", advice[200];
+    WorldTrouble last = world->trouble;
+    char also[96] = "", advice[200], words[160];
+    last.what = trouble;
+    world_trouble_words(&last, words);
     step_advice(&world->def, &world->constants.friction, trouble, dt, s->max_speed, advice);
     if (retries > 0)
         snprintf(also, sizeof also, ", with 1/%d of the step too; the state at t = %g s is kept",
                  1 << retries, world_time_at(world, (double)world->step));
-    return error_set(error, "the simulation blew up at t = %g s: %s%s; %s", time, step_trouble_words(trouble),
-                     also, advice);
+    return error_set(error, "the simulation %s at t = %g s: %s%s; %s",
+                     trouble == STEP_TROUBLE_SOLVE ? "stopped" : "blew up", time, words, also, advice);
 }
 
 /* A smaller step does not mend it: no retry. */

@@ -112,7 +112,7 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
     const char *shorter = def->step_mode == STEP_CFL ? "a smaller solver.step.number"
                                                      : "a smaller solver.step.dt, more solver.step.substeps";
     if (trouble == STEP_TROUBLE_SOLVE)
-        snprintf(words, 200, "use %s, more solver.iterations or a larger solver.tolerance", shorter);
+        snprintf(words, 200, "use %s, more solver.iterations or a larger tolerance", shorter);
     else if (dt > STEP_SOUND_STANDS * crossing)
         snprintf(
             words, 200,

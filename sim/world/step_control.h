@@ -37,15 +37,13 @@ typedef struct StepState {
     double calm;             /* steps since the last trouble or relief */
 } StepState;
 
-/* What a solver that iterates did in a step. Doubles only: part of a saved state. */
+/* What a solver that iterates did in a step. */
 typedef struct StepSolve {
     double iterations; /* 0: it did not run */
     double mean,
         most; /* what is left of the residual, as the solver measures it: over all particles, at worst */
     double tolerance; /* of the mean */
 } StepSolve;
-
-enum { SOLVES_MAX = 2 };
 
 /* A solver is in trouble where its iterations end with so many times the residual that it may leave. */
 #define STEP_SOLVE_STANDS 10

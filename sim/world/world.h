@@ -70,6 +70,12 @@ bool world_change(World *world, const WorldDef *def, Error *error);
  */
 bool world_reload(World *world, Error *error);
 
+/* What the sentinel found, for a line. */
+void world_trouble_words(const WorldTrouble *trouble, char words[160]);
+
+/* WorldInfo.solved counts from here on. */
+void world_tally_anew(World *world);
+
 void world_info(const World *world, WorldInfo *info);
 
 void world_sums(World *world, WorldSums *sums);

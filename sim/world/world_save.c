@@ -169,6 +169,7 @@ bool world_move(World **world, const char *backend, Error *error)
         return false;
     }
     to->trouble = from->trouble;
+    to->tally = from->tally;
     memcpy(to->limited, from->limited, sizeof to->limited);
     world_destroy(from);
     *world = to;

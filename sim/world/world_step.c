@@ -171,7 +171,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->clock = clock;
     step->dt = dt;
     step->constants = &world->constants;
-    step->solves = world->solves;
+    step->solves = memset(world->solves, 0, sizeof world->solves);
     box_step(&begin, &middle, 0.5 * dt, &step->first_half);
     box_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
@@ -244,6 +244,11 @@ static void count_step(World *world)
     world->limited[(int)world->stepping.limit]++;
 }
 
+void world_tally_anew(World *world)
+{
+    world->tally = (SolveTally){0};
+}
+
 bool world_substep(World *world, StageClock *clock, Error *error)
 {
     Substep step;
@@ -268,6 +273,7 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     count_step(world);
     if (!world->backend->gpu && (!world_sound(world) || !energy_sound(world)))
         return sentinel_back(world, world_time_at(world, (double)world->step), error);
+    solve_tally_add(&world->tally, world->solves);
     s->frame_left--;
     s->calm++;
     return true;
@@ -372,6 +378,7 @@ void world_info(const World *world, WorldInfo *info)
                                    : 0,
     };
     memcpy(info->solves, world->solves, sizeof info->solves);
+    info->solved = solve_tally_figures(&world->tally);
     memcpy(info->limited, world->limited, sizeof info->limited);
     memcpy(info->box_size, world->def.box_size, sizeof info->box_size);
     memcpy(info->hand.position, world->filter.position, sizeof info->hand.position);

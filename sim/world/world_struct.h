@@ -3,6 +3,7 @@
 #define SLOSH_WORLD_STRUCT_H
 
 #include "sim/world/backend.h"
+#include "sim/world/iterate.h"
 #include "sim/world/method.h"
 #include "sim/world/world_state.h"
 
@@ -21,6 +22,7 @@ struct World {
     StepState stepping;
     double stop;                  /* s: a state falls on it in mode cfl; behind: none does */
     StepSolve solves[SOLVES_MAX]; /* of the last step */
+    SolveTally tally;             /* of all of them */
     bool kicked;                  /* since the watch was last asked */
     StepTrouble seen;             /* then, since the last good state */
     WorldState good;              /* what the sentinel goes back to */

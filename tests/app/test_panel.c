@@ -100,6 +100,8 @@ static void fill(Session *session)
                                 .gauge_count = HISTORY,
                                 .particles = 1234567,
                                 .time = 1234.56,
+                                .iterations = 10000,
+                                .solved = {12345, 1234.5, 1279, 0.000123, 0.00456},
                                 .real_time_factor = 0.81,
                                 .speed = 0.015625,
                                 .pictures_per_second = 59.9,

@@ -1,6 +1,7 @@
 """Adaptive steps and the sentinel, as a user meets them."""
 import json
 import os
+import re
 
 import h5py
 
@@ -92,6 +93,35 @@ class Steps(CommandTest):
         self.assertRegex(said, r'the simulation blew up at t = [0-9.]+ s: .*; the state at t = [0-9.e-]+ s is kept')
         kept = float(said.split('the state at t = ')[1].split(' ')[0])
         self.assertAlmostEqual(self.last(), kept, places=6)
+
+    FIGURES = ('iterations_mean', 'iterations_p95', 'density_error_mean', 'density_error_max')
+
+    def check_solved(self, found):
+        mean, p95, error, worst = (found[name] for name in self.FIGURES)
+        self.assertTrue(2 <= mean <= 200 and 2 <= p95 <= 200, found)  # two solvers, of one iteration at least each
+        self.assertTrue(0 < error <= 0.0005 and error < worst < 0.1, found)  # solver.tolerance by itself
+
+    def test_solvers_are_counted(self):
+        said = self.go('--method', 'dfsph', '--threads', '1')
+        self.assertRegex(said, r'[0-9.]+ iterations a step \(p95 [0-9]+\), density error [0-9.e-]+ % mean, [0-9.]+ % max\n')
+        self.check_solved(json.loads(self.read('a.json')))
+        code, said = self.slosh('bench', 'scene.yaml', '--view', 'none', '--frames', '3', '--json', 'b.json', '--method',
+                                'dfsph', '--threads', '1')
+        self.assertEqual(code, 0, said)
+        found = json.loads(self.read('b.json'))[0]
+        self.check_solved(found)
+        self.assertIn('solve', [stage['name'] for stage in found['stages']])
+        self.go('--time', '0.1')
+        self.assertEqual([name for name in self.FIGURES if name in json.loads(self.read('a.json'))], [])
+
+    def test_a_tolerance_that_nothing_reaches(self):
+        said = self.go('--method', 'dfsph', '--set', 'solver.tolerance=0', '--set', 'solver.iterations=1', code=1)
+        words = r'the solver of density does not converge: solver.iterations 1 leaves [0-9.]+ % in the mean, ' \
+                r'solver.tolerance is 0 %'
+        self.assertEqual(len(re.findall(words + r'; back to [0-9.]+ s with 1/[248] of the step', said)), 3, said)
+        self.assertRegex(said, 'the simulation stopped at t = .*' + words + '.*use a smaller solver.step.dt, more '
+                               'solver.step.substeps, more solver.iterations or a larger tolerance\n')
+        self.assertIn('a.h5part: holds the 1 whole snapshot before that', said)
 
     def test_bounds(self):
         for setting in ('mode=rk4', 'number=0', 'number=2.1', 'max_dt=0', 'max_dt=1.1', 'retries=-1', 'retries=11'):

@@ -1,0 +1,24 @@
+#include "app/session/solved.h"
+
+#include <stdio.h>
+
+void solved_json(json_t *object, const SolveFigures *solved)
+{
+    if (!object || solved->steps == 0)
+        return;
+    json_object_set_new(object, "iterations_mean", json_real(solved->iterations_mean));
+    json_object_set_new(object, "iterations_p95", json_real(solved->iterations_p95));
+    json_object_set_new(object, "density_error_mean", json_real(solved->density_error_mean));
+    json_object_set_new(object, "density_error_max", json_real(solved->density_error_max));
+}
+
+const char *solved_text(const SolveFigures *solved, char words[SOLVED_WORDS])
+{
+    words[0] = '\0';
+    if (solved->steps > 0)
+        snprintf(words, SOLVED_WORDS,
+                 "%.3g iterations a step (p95 %.0f), density error %.3g %% mean, %.3g %% max",
+                 solved->iterations_mean, solved->iterations_p95, 100 * solved->density_error_mean,
+                 100 * solved->density_error_max);
+    return words;
+}
