@@ -91,6 +91,7 @@ const Pass dfsph_others = {
     .cpu = &others,
     .reads = "position velocity id fluid volume viscosity tension kind",
     .writes = "acceleration other",
+    .mirrors = true,
 };
 
 /* --- solvers: begin and end --- */
@@ -171,7 +172,8 @@ static void pack_place(const CpuRange *range)
             p->pressure_term[i] = k > 0 || pulls ? k : 0;
             p->own[CHANGE][i] = p->pressure_term[i] - before;
         }
-        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->pressure_term[i]}, 16);
+        const float k = of_fluid(range->cpu, i) ? p->pressure_term[i] : 0; /* those of solids have none */
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], k}, 16);
     }
 }
 
