@@ -1,9 +1,12 @@
 #include "app/scene/advise_parts.h"
 
 #include "app/scene/keys.h"
+#include "sim/world/method.h"
 
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <string.h>
 
 enum { PATH_SIZE = 256 };
 
@@ -27,11 +30,26 @@ void advise(const Tree *tree, const char *path, Notes *notes, const char *format
 
 enum { NEED_SIZE = 128 };
 
+/* A method without sound reads no speed of it; those that do, where the scene's is such a one. */
+static bool lacks_sound(const Scene *scene, const char *path, char need[NEED_SIZE])
+{
+    int used = 0;
+    if (strcmp(path, "solver.sound_speed") != 0 || !method_find(scene->world.method)->incompressible)
+        return false;
+    for (const Method *const *method = method_list(); *method && used < NEED_SIZE; method++)
+        if (!(*method)->incompressible)
+            used += snprintf(need + used, (size_t)(NEED_SIZE - used), "%s%s",
+                             used > 0 ? " or " : "solver.method: ", (*method)->name);
+    return true;
+}
+
 /* Whether the key at `path` has no effect, and what the scene lacks for it. */
 static bool lacks(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
     const Key *key = scene_key_find(path);
     const KeyOwner *owner = key ? key_owner(key) : NULL;
+    if (lacks_sound(scene, path, need))
+        return true;
     if (!owner || key_owner_used(owner, scene, said))
         return false;
     key_owner_need(owner, need, NEED_SIZE);

@@ -124,7 +124,7 @@ void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)
     const double *a = def->gravity, g = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
     const double fall = greatest_fall(def), start = greatest_start(def), c = def->sound_speed;
     const double speed = sqrt(start * start + 2 * g * fall);
-    if (c < least * speed)
+    if (!method_find(def->method)->incompressible && c < least * speed)
         advise(
             tree, "solver.sound_speed", notes,
             "%.3g m/s is little for fluid that may come to %.3g m/s: it is pressed by some %.0f %%; use %.2g "

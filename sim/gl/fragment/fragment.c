@@ -43,9 +43,28 @@ static void shape_for(size_t count, int *bits, int *width, int *height)
     *height = (int)((count + (size_t)*width - 1) >> *bits);
 }
 
-static bool lacks(const char *what, bool asked, Error *error)
+/* "compute or cpu": the other backends that have all of the def, the newest first. */
+static void others_that_can(const WorldDef *def, char names[64])
 {
-    return asked && !error_set(error, "backend fragment has no %s; use backend compute or cpu", what);
+    const Backend *const *list = backend_list();
+    int count = 0, used = 0;
+    while (list[count])
+        count++;
+    names[0] = '\0';
+    while (count-- > 0) {
+        const Backend *other = list[count];
+        if (other != &backend_fragment && (!other->can || other->can(def, NULL)) && used < 64)
+            used += snprintf(names + used, (size_t)(64 - used), "%s%s", used > 0 ? " or " : "", other->name);
+    }
+}
+
+static bool lacks(const WorldDef *def, const char *what, bool asked, Error *error)
+{
+    char others[64];
+    if (!asked)
+        return false;
+    others_that_can(def, others);
+    return !error_set(error, "backend fragment has no %s; use backend %s", what, others);
 }
 
 /* The lattice puts ceil(support)^dimensions particles into a cell at most. */
@@ -76,13 +95,15 @@ static bool fragment_can(const WorldDef *def, Error *error)
     }
     char method[NAME_SIZE + 8];
     snprintf(method, sizeof method, "method %s", def->method);
-    return !lacks(method, !fragment_has(method_find(def->method)), error) &&
-           !lacks("columns of a method's own", columns_save_own(method_find(def->method)->columns), error) &&
-           !lacks("periodic sides", def->periodic[0] || def->periodic[1] || def->periodic[2], error) &&
-           !lacks("solids", def->solid_count > 0, error) && !lacks("emitters", flow_emits(def), error) &&
-           !lacks("drains", def->drain_count > 0, error) &&
-           !lacks("no-slip walls", viscous && def->wall_slip == SLIP_NONE, error) &&
-           !lacks("surface tension", tense && def->tension_model != TENSION_NONE, error);
+    return !lacks(def, method, !fragment_has(method_find(def->method)), error) &&
+           !lacks(def, "columns of a method's own", columns_save_own(method_find(def->method)->columns),
+                  error) &&
+           !lacks(def, "periodic sides", def->periodic[0] || def->periodic[1] || def->periodic[2], error) &&
+           !lacks(def, "solids", def->solid_count > 0, error) &&
+           !lacks(def, "emitters", flow_emits(def), error) &&
+           !lacks(def, "drains", def->drain_count > 0, error) &&
+           !lacks(def, "no-slip walls", viscous && def->wall_slip == SLIP_NONE, error) &&
+           !lacks(def, "surface tension", tense && def->tension_model != TENSION_NONE, error);
 }
 
 static bool fits(const Fragment *f, Error *error)
