@@ -3,6 +3,7 @@
 #define SLOSH_TEST_FIXTURE_H
 
 #include "sim/gl/backends.h"
+#include "sim/world/method.h"
 #include "sim/world/world.h"
 
 /* cmocka's needs */
@@ -30,16 +31,35 @@ static inline bool fixture_on_cpu(void)
     return strcmp(fixture_backend(), "cpu") == 0;
 }
 
-/* How many: particles, steps; fewer on a GPU, which may be a software renderer. */
-static inline int fixture_count(int cpu, int gpu)
+/* The method of tests that name none: SLOSH_TEST_METHOD, mueller without it. */
+static inline const char *fixture_method(void)
 {
-    return fixture_on_cpu() ? cpu : gpu;
+    const char *name = getenv("SLOSH_TEST_METHOD");
+    return name ? name : "mueller";
 }
 
-/* How large: spacings, steps, bounds; coarser on a GPU. */
-static inline double fixture_coarse(double cpu, double gpu)
+/* Whether the method of a def has no sound: then what rests is not pressed. */
+static inline bool fixture_incompressible(const WorldDef *def)
 {
-    return fixture_on_cpu() ? cpu : gpu;
+    return method_find(def->method)->incompressible;
+}
+
+static inline bool fixture_fine(void)
+{
+    return fixture_on_cpu() && strcmp(fixture_method(), "mueller") == 0;
+}
+
+/* How many: particles, steps; fewer on a GPU, which may be a software renderer, and with a method whose steps
+   take longer. */
+static inline int fixture_count(int many, int few)
+{
+    return fixture_fine() ? many : few;
+}
+
+/* How large: spacings, steps, bounds; coarser then. */
+static inline double fixture_coarse(double fine, double coarse)
+{
+    return fixture_fine() ? fine : coarse;
 }
 
 /* Ends a test of what only the CPU has, or that no backend changes. */
@@ -65,10 +85,21 @@ static inline void fixture_needs(const char *term)
     skip();
 }
 
-/* Of mueller and wcsph, in this order, those that the backend has. */
+/* All methods, and how many of them, from the first on, the backend has: for tests that run them all. */
+static const char *const fixture_method_names[] __attribute__((unused)) = {"mueller", "wcsph", "dfsph"};
+
 static inline int fixture_methods(void)
 {
-    return fixture_on_fragment() ? 1 : 2;
+    return fixture_on_fragment() ? 1 : fixture_on_cpu() ? 3 : 2;
+}
+
+/* Ends a test that is of mueller's sums or of its pressure. */
+static inline void fixture_needs_mueller(const char *what)
+{
+    if (strcmp(fixture_method(), "mueller") == 0)
+        return;
+    printf("skipped with %s: %s\n", fixture_method(), what);
+    skip();
 }
 
 /* A box of that size with one inviscid fluid of density 1000 and no fill; spacing 0.1 m, and no sentinel. */
@@ -86,6 +117,7 @@ static inline WorldDef fixture_def(double width, double height, double depth)
     def.retries = 0; /* what a step does is what is tested */
     def.reproducible = true;
     snprintf(def.backend, sizeof def.backend, "%s", fixture_backend());
+    snprintf(def.method, sizeof def.method, "%s", fixture_method());
     return def;
 }
 

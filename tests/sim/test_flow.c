@@ -68,9 +68,9 @@ static void a_jet_is_a_lattice(void **state)
 {
     (void)state;
     for (int dimensions = 2; dimensions <= 3; dimensions++)
-        for (int m = 0; m < 2; m++) {
+        for (int m = 0; m < fixture_methods(); m++) {
             WorldDef def = jet_def(dimensions);
-            snprintf(def.method, sizeof def.method, "%s", m ? "wcsph" : "mueller");
+            snprintf(def.method, sizeof def.method, "%s", fixture_method_names[m]);
             World *world = fixture_world(&def);
             assert_int_equal(info_of(world).count, 0);
             const int layers = fixture_count(40, 12);
@@ -242,9 +242,8 @@ static WorldDef busy_def(const char *method)
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"mueller", "wcsph"};
-    for (int m = 0; m < 2; m++) {
-        const WorldDef def = busy_def(methods[m]);
+    for (int m = 0; m < fixture_methods(); m++) {
+        const WorldDef def = busy_def(fixture_method_names[m]);
         World *world = fixture_world(&def);
         WorldState saved = {0}, late = {0};
         Error error = {0};

@@ -26,9 +26,9 @@ static void cloud_make_in(const double size[3], Cloud *out, int dimensions, cons
     uint32_t seed = 7;
     c.def.dimensions = dimensions;
     c.def.support = 2.6;
-    c.def.negative_pressure = true;
     memset(c.def.gravity, 0, sizeof c.def.gravity);
     snprintf(c.def.method, sizeof c.def.method, "%s", method);
+    c.def.negative_pressure = !fixture_incompressible(&c.def);
     c.def.fluids[0].viscosity = 1;
     c.x = malloc(3 * n * sizeof *c.x);
     c.v = malloc(3 * n * sizeof *c.v);
@@ -183,15 +183,15 @@ static void check_shifted(const double size[3], int dimensions, const char *meth
     cloud_free(&b);
 }
 
-/* Where the box's frame begins is no matter along a periodic axis: all forces, of both methods. */
+/* Where the box's frame begins is no matter along a periodic axis: all forces, of all methods. */
 static void a_shifted_cloud_moves_the_same_way(void **state)
 {
     (void)state;
     fixture_needs("periodic sides");
     for (int dimensions = 2; dimensions <= 3; dimensions++)
         for (int box = 0; box < BOXES; box += BOXES - 1) {
-            check_shifted(boxes[box], dimensions, "mueller");
-            check_shifted(boxes[box], dimensions, "wcsph");
+            for (int m = 0; m < fixture_methods(); m++)
+                check_shifted(boxes[box], dimensions, fixture_method_names[m]);
         }
 }
 
@@ -237,12 +237,12 @@ static void a_lattice_flows_through_the_sides(void **state)
 {
     (void)state;
     fixture_needs("periodic sides");
-    for (int method = 0; method < 2; method++)
+    for (int m = 0; m < fixture_methods(); m++)
         for (int dimensions = 2; dimensions <= 3; dimensions++) {
             WorldDef def = fixture_def(1, 0.8, 0.7);
             def.dimensions = dimensions;
             def.dt = 0.004;
-            snprintf(def.method, sizeof def.method, "%s", method ? "wcsph" : "mueller");
+            snprintf(def.method, sizeof def.method, "%s", fixture_method_names[m]);
             memset(def.gravity, 0, sizeof def.gravity);
             def.periodic[0] = def.periodic[1] = true;
             def.periodic[2] = dimensions == 3;
@@ -275,12 +275,12 @@ static void momentum_is_conserved(void **state)
 {
     (void)state;
     fixture_needs("periodic sides");
-    for (int method = 0; method < 2; method++) {
+    for (int m = 0; m < fixture_methods(); m++) {
         Cloud c;
-        cloud_make(&c, 2, "xy", method ? "wcsph" : "mueller", nowhere);
+        cloud_make(&c, 2, "xy", fixture_method_names[m], nowhere);
         c.def.dt = 2e-4;
-        wcsph_def(&c.def)->shifting = method ? 0.1 : 0;
-        wcsph_def(&c.def)->delta_sph = method ? 0.1 : 0;
+        wcsph_def(&c.def)->shifting = m == 1 ? 0.1 : 0;
+        wcsph_def(&c.def)->delta_sph = m == 1 ? 0.1 : 0;
         World *world = fixture_world(&c.def);
         WorldSums before, after;
         world_sums(world, &before);

@@ -1,5 +1,6 @@
 /* What must hold whatever the scene: momenta in free flight, pressure in a column at rest, density ratios. */
 #include "fixture.h"
+#include "sim/dfsph/dfsph.h"
 #include "sim/mueller/mueller.h"
 
 /* A ball that flies and spins, pressed a little so that it works inside; no gravity, no viscosity, no walls
@@ -15,13 +16,15 @@ static void free_flight_keeps_momenta(void **state)
     memset(def.gravity, 0, sizeof def.gravity);
     def.spacing = 0.1;
     def.sound_speed = 10;
+    /* what has no sound would be moved apart at once, and its spin with it */
+    const double pitch = fixture_incompressible(&def) ? 0.1 : 0.095;
     float *x = malloc(12 * (size_t)count), *v = malloc(12 * (size_t)count);
     uint8_t *fluid = malloc((size_t)count);
     uint32_t seed = 11;
     for (int i = 0; i < count; i++) {
         const int index[3] = {i % side, i / side % side, i / side / side};
         for (int k = 0; k < 3; k++)
-            x[3 * i + k] = (float)(0.095 * index[k] + 0.02 * fixture_random(&seed) + (double)low[k]);
+            x[3 * i + k] = (float)(pitch * index[k] + 0.02 * fixture_random(&seed) + (double)low[k]);
         v[3 * i] = 0.5f - 0.8f * (x[3 * i + 1] - low[1]);
         v[3 * i + 1] = 0.3f + 0.8f * (x[3 * i] - low[0]);
         v[3 * i + 2] = -0.2f;
@@ -35,7 +38,8 @@ static void free_flight_keeps_momenta(void **state)
     world_sums(world, &before);
     fixture_step(world, fixture_count(1000, 200));
     world_sums(world, &after);
-    assert_true(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 1e-3); /* something happened */
+    if (!fixture_incompressible(&def)) /* something happened */
+        assert_true(fabs(after.kinetic_energy / before.kinetic_energy - 1) > 1e-3);
     for (int k = 0; k < 3; k++) {
         const double p = fabs(after.momentum[k] - before.momentum[k]) / before.momentum_scale;
         const double l = fabs(after.angular_momentum[k] - before.angular_momentum[k]) / before.angular_scale;
@@ -98,6 +102,11 @@ static double column_error(void)
     def.sound_speed = fixture_coarse(60, 40); /* ten times sqrt(g H) */
     def.dt = fixture_coarse(0.001, 0.002);
     def.fluids[0].viscosity = fixture_coarse(4000, 2000); /* settles within a few seconds */
+    if (fixture_incompressible(&def)) {
+        def.sound_speed = 1e6; /* not pressed */
+        def.fluids[0].viscosity = 500;
+        dfsph_def(&def)->divergence_tolerance = 1e-5; /* so right is its pressure */
+    }
     float *x = malloc(3 * count * sizeof *x);
     pressed_column(column, x, def.spacing, def.sound_speed);
     def.initial = &(InitialState){.count = count, .position = x};
@@ -164,6 +173,7 @@ static double speed_after_a_jolt(const char *density_kernel)
 static void energy_is_conserved_with_one_kernel(void **state)
 {
     (void)state;
+    fixture_needs_mueller("its kernels are compared");
     const double spiky = speed_after_a_jolt("spiky");
     assert_true(spiky > 0.1 && spiky < 1);
     if (!fixture_on_cpu())
@@ -206,6 +216,7 @@ static void light_stays_over_heavy(void **state)
 static void blow_up_is_reported(void **state)
 {
     (void)state;
+    fixture_needs_mueller("sound makes the step impossible");
     const double sound_speed[] = {40, 1e17}, dt[] = {0.05, 1e9};
     for (int n = 0; n < 2; n++) {
         WorldDef def = fixture_def(1, 2, 1);

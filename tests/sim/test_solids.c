@@ -149,27 +149,26 @@ static void a_tank_with_solids_comes_to_rest(void **state)
 {
     (void)state;
     fixture_needs_cpu("thousands of steps of thousands of particles; gl.compute_solids has each step of it");
-    static const char *const methods[] = {"mueller", "wcsph"};
     /* wcsph: the start's gaps next to round solids stay in the densities until diffusion has levelled them */
     static const int steps[] = {2000, 5000};
     for (int m = 0; m < 2; m++) {
-        WorldDef def = tank_with_solids(methods[m]);
+        WorldDef def = tank_with_solids(fixture_method_names[m]);
         wcsph_def(&def)->delta_sph = 0.1;
         const RestError error = rest_error(&def, steps[m]);
         printf(
             "%s: tank with three solids: pressure off by %.2f %% of rho0 g H (rms), by %.2f %% next to them "
             "(mean), fastest %.3f m/s\n",
-            methods[m], 100 * error.rms, 100 * error.near_solids, error.fastest);
+            fixture_method_names[m], 100 * error.rms, 100 * error.near_solids, error.fastest);
         assert_true(error.rms < 0.06 && fabs(error.near_solids) < 0.05 && error.fastest < 0.2);
     }
 }
 
 /* Water, a pillar and a ball in a box that is shaken at ten times what a hand may do. */
-static void ten_times_the_limits_lose_no_particle(void **state)
+static void shake_at_ten_times_the_limits(const char *method)
 {
-    (void)state;
     WorldDef def = fixture_def(1.2, 0.8, 0.8);
-    def.spacing = fixture_coarse(0.05, 0.1);
+    snprintf(def.method, sizeof def.method, "%s", method);
+    def.spacing = strcmp(method, "dfsph") == 0 ? 0.08 : fixture_coarse(0.05, 0.1);
     def.sound_speed = 60;
     def.dt = 0.0005;
     def.fluids[0].viscosity = 1;
@@ -210,6 +209,14 @@ static void ten_times_the_limits_lose_no_particle(void **state)
     world_destroy(world);
 }
 
+static void ten_times_the_limits_lose_no_particle(void **state)
+{
+    (void)state;
+    shake_at_ten_times_the_limits("mueller");
+    if (fixture_on_cpu())
+        shake_at_ten_times_the_limits("dfsph");
+}
+
 /* Whether a particle is in the hollow of a cup. */
 static bool in_hollow(const SolidDef *cup, double time, const float x[3])
 {
@@ -225,14 +232,15 @@ static bool in_hollow(const SolidDef *cup, double time, const float x[3])
 }
 
 /* A lidless cup, filled, whose path `motion` gives. */
-static WorldDef cup_def(int dimensions, Motion motion)
+static WorldDef cup_def(const char *method, int dimensions, Motion motion)
 {
     WorldDef def = fixture_def(6, 1, 0.6);
     def.dimensions = dimensions;
     def.spacing = 0.02;
     def.sound_speed = fixture_coarse(60, 30);
     def.dt = 0.016; /* a frame */
-    def.substeps = fixture_count(80, 40);
+    snprintf(def.method, sizeof def.method, "%s", method);
+    def.substeps = strcmp(method, "dfsph") == 0 ? 40 : fixture_count(80, 40);
     *world_threads(&def) = 1;
     def.gravity[1] = -150; /* keeps what it can in the cup */
     def.fluids[0].viscosity = 10;
@@ -294,21 +302,29 @@ static double carry_in_cup(const WorldDef *def, int frames)
 
 /* One that comes up to a radius a frame, 12.5 m/s, keeps its fluid; one that goes to and fro by its radius in
    a frame, with 200 g, spills it over its rim, not through its wall. */
-static void a_cup_that_moves_a_radius_a_frame_does_not_leak(void **state)
+static void move_cup(const char *method)
 {
-    (void)state;
     const Motion carry = {.kind = MOTION_ACCELERATE,
                           .axis = {1, 0, 0},
                           .acceleration = fixture_coarse(30, 60),
                           .duration = fixture_coarse(12.5 / 30, 12.5 / 60)},
                  shake = {.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.2, .frequency = 1 / 0.064};
     for (int dimensions = 2; dimensions <= fixture_count(3, 2); dimensions++) {
-        const WorldDef carried = cup_def(dimensions, carry), shaken = cup_def(dimensions, shake);
+        const WorldDef carried = cup_def(method, dimensions, carry),
+                       shaken = cup_def(method, dimensions, shake);
         const double kept = carry_in_cup(&carried, fixture_count(35, 17)), left = carry_in_cup(&shaken, 6);
-        printf("%dD: a cup carried at a radius a frame keeps %.0f %%, a shaken one %.0f %%\n", dimensions,
-               100 * kept, 100 * left);
+        printf("%s, %dD: a cup carried at a radius a frame keeps %.0f %%, a shaken one %.0f %%\n", method,
+               dimensions, 100 * kept, 100 * left);
         assert_true(kept > 0.8);
     }
+}
+
+static void a_cup_that_moves_a_radius_a_frame_does_not_leak(void **state)
+{
+    (void)state;
+    move_cup("mueller");
+    if (fixture_on_cpu())
+        move_cup("dfsph");
 }
 
 static WorldDef busy_def(const char *method)
@@ -340,9 +356,8 @@ static WorldDef busy_def(const char *method)
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"mueller", "wcsph"};
-    for (int m = 0; m < 2; m++) {
-        const WorldDef def = busy_def(methods[m]);
+    for (int m = 0; m < fixture_methods(); m++) {
+        const WorldDef def = busy_def(fixture_method_names[m]);
         World *world = fixture_world(&def), *other = fixture_world(&def);
         WorldState saved = {0};
         Error error = {0};
@@ -365,15 +380,17 @@ static void threads_change_no_bit(void **state)
     (void)state;
     fixture_needs_cpu("has no threads");
     uint64_t hash[2];
-    for (int t = 0; t < 2; t++) {
-        WorldDef def = busy_def("wcsph");
-        *world_threads(&def) = t ? 3 : 1;
-        World *world = fixture_world(&def);
-        fixture_step(world, 100);
-        hash[t] = world_hash(world);
-        world_destroy(world);
+    for (int m = 1; m < fixture_methods(); m++) {
+        for (int t = 0; t < 2; t++) {
+            WorldDef def = busy_def(fixture_method_names[m]);
+            *world_threads(&def) = t ? 3 : 1;
+            World *world = fixture_world(&def);
+            fixture_step(world, 100);
+            hash[t] = world_hash(world);
+            world_destroy(world);
+        }
+        assert_true(hash[0] == hash[1]);
     }
-    assert_true(hash[0] == hash[1]);
 }
 
 /* Mean velocity along x of the layer about a height, over the plate's middle. */
@@ -443,16 +460,16 @@ static PlateFlow plate_flow(const char *method, int slip)
 static void a_plate_drags_fluid_only_where_it_sticks(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"mueller", "wcsph"};
     const double d = sqrt(2 * 0.1 / (2 * M_PI)), y = near_plate(), near = exp(-y / d) * cos(y / d),
                  far = exp(-2 * y / d) * cos(2 * y / d);
     const double most = fixture_coarse(0.03, 0.05); /* seven particles a penetration depth, or four */
-    for (int m = 0; m < 2; m++) {
-        const PlateFlow none = plate_flow(methods[m], SLIP_NONE), slips = plate_flow(methods[m], SLIP_FREE);
+    for (int m = 0; m < fixture_methods(); m++) {
+        const PlateFlow none = plate_flow(fixture_method_names[m], SLIP_NONE),
+                        slips = plate_flow(fixture_method_names[m], SLIP_FREE);
         printf(
             "%s: %g and %g m above a plate that swings fluid moves with %.3f and %.3f of its speed in phase, by "
             "Stokes %.3f and %.3f; where it slips %.3f and %.3f\n",
-            methods[m], y, 2 * y, none.near, none.far, near, far, slips.near, slips.far);
+            fixture_method_names[m], y, 2 * y, none.near, none.far, near, far, slips.near, slips.far);
         assert_true(fabs(none.near - near) < most && fabs(none.far - far) < most);
         assert_true(fabs(slips.near) < fixture_coarse(0.1, 0.15) * near);
     }
