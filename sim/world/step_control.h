@@ -28,6 +28,7 @@ const char *step_limit_name(StepLimit limit);
 /* How a world steps. Doubles only: part of its saved state. */
 typedef struct StepState {
     double dt;               /* of the step in hand or the last one, s */
+    double wanted;           /* dt before refine divides it and the end of a frame fits it, s */
     double limit;            /* a StepLimit: what bounds it */
     double max_speed;        /* m/s, after the last step */
     double max_acceleration; /* m/s2, in the last step */

@@ -36,7 +36,7 @@ typedef struct WorldNumbers {
 } WorldNumbers;
 
 enum {
-    WORLD_STATE_VERSION = 3,
+    WORLD_STATE_VERSION = 4,
     WORLD_NUMBERS = sizeof(WorldNumbers) / sizeof(double),
     WORLD_NUMBERS_LEAST = offsetof(WorldNumbers, energy) / sizeof(double)
 };

@@ -196,12 +196,12 @@ static void choose_step(World *world)
     const WorldDef *def = &world->def;
     StepState *s = &world->stepping;
     StepLimit limit = STEP_LIMIT_DT;
-    const double before = world->step > 0 ? s->refine * s->dt : 0;
-    double dt = def->step_mode == STEP_CFL ? step_cfl(def, &world->constants.friction, s->max_speed,
-                                                      s->max_acceleration, before, &limit) /
-                                                 s->refine
-                                           : def->dt / def->substeps / s->refine;
+    const double before = world->step > 0 ? s->wanted : 0;
+    s->wanted = def->step_mode == STEP_CFL ? step_cfl(def, &world->constants.friction, s->max_speed,
+                                                      s->max_acceleration, before, &limit)
+                                           : def->dt / def->substeps;
     s->limit = limit;
+    double dt = s->wanted / s->refine;
     if (def->step_mode == STEP_CFL)
         dt = step_towards(dt, world->stop - world_time_at(world, (double)world->step));
     if (dt == s->dt)
