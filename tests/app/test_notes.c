@@ -57,7 +57,7 @@ static void a_line_has_its_place(void **state)
 static const char column[] = "box: {size: [1, 1]}\n"
                              "particles: {spacing: 0.1}\n"
                              "fluids: [{fill: [{block: {min: [-0.5, 0], max: [0, 0.8]}}]}]\n"
-                             "solver: {sound_speed: 10}\n";
+                             "solver: {negative_pressure: false}\n";
 
 /* Keys with an owner: a value, what brings the owner into use, and what says in a message that it lacks. */
 static const struct {
@@ -198,7 +198,7 @@ static void files_may_say_how_other_views_shall_be(void **state)
     assert_int_equal(run.count, 1);
     assert_string_equal(run.line[0],
                         "scene.yaml:6:1: metrics has no effect; it needs slosh chart, which alone reads it");
-    snprintf(text, sizeof text, "%.*sshifting: 0.2}\n", (int)(strstr(column, "sound") - column), column);
+    snprintf(text, sizeof text, "%.*sshifting: 0.2}\n", (int)(strstr(column, "negative") - column), column);
     const Notes file = notes_of(text, NULL, NULL, SCENE_FOR_WINDOW, &scene);
     assert_string_equal(file.line[0],
                         "scene.yaml:4:10: solver.shifting has no effect; it needs solver.method: wcsph");
