@@ -240,7 +240,7 @@ static WorldDef cup_def(const char *method, int dimensions, Motion motion)
     def.sound_speed = fixture_coarse(60, 30);
     def.dt = 0.016; /* a frame */
     snprintf(def.method, sizeof def.method, "%s", method);
-    def.substeps = strcmp(method, "dfsph") == 0 ? 40 : fixture_count(80, 40);
+    def.substeps = strcmp(method, "dfsph") == 0 ? 20 : fixture_count(80, 40);
     *world_threads(&def) = 1;
     def.gravity[1] = -150; /* keeps what it can in the cup */
     def.fluids[0].viscosity = 10;
