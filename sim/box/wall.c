@@ -390,6 +390,30 @@ bool walls_guard(const Walls *walls, float x[3], float v[3])
     return held;
 }
 
+/* Half of a short way, half a spacing of a long one. */
+static float folded(const Walls *walls, float way)
+{
+    const float most = 0.5f * walls->spacing;
+    return most * way / (way + 2 * most);
+}
+
+bool walls_fold(const Walls *walls, float rate, float x[3], float v[3])
+{
+    bool held = false;
+    for (int a = 0; a < walls->dimensions; a++) {
+        const float low = a == 1 ? 0 : -walls->half_size[a];
+        const float high = a == 1 ? 2 * walls->half_size[1] : walls->half_size[a];
+        const float from = x[a];
+        if (walls->open[a] || (from >= low && from <= high))
+            continue;
+        x[a] = from < low ? fminf(low + folded(walls, low - from), high)
+                          : fmaxf(high - folded(walls, from - high), low);
+        v[a] += rate * (x[a] - from);
+        held = true;
+    }
+    return held;
+}
+
 size_t walls_entries(const Walls *walls, int tables)
 {
     size_t all = 0;

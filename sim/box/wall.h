@@ -109,6 +109,10 @@ bool walls_contain(const Walls *walls, const float x[3]);
 /* Holds x inside the box and takes the velocity into the wall away; true if it had to. */
 bool walls_guard(const Walls *walls, float x[3], float v[3]);
 
+/* Brings x back into the box, up to half a spacing deep by how far it went: so that what one step takes
+   through a wall does not come to lie on one plane. v gains `rate` (1/s) times the way. True if it had to. */
+bool walls_fold(const Walls *walls, float rate, float x[3], float v[3]);
+
 /* The distance u at which the tables are read for the distance d, m, and its slope. */
 float wall_distance(float d, float spacing, float *slope);
 

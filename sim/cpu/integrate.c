@@ -15,6 +15,7 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end)
     const CpuParticles *p = &cpu->now;
     const SolidStep *solids = drift->step->solids;
     const WallsFar inside = walls_far(&cpu->constants->walls, 0);
+    const bool leaps = cpu->constants->method->leaps;
     size_t held = 0;
     for (size_t i = begin; i < end; i++) {
         float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
@@ -23,7 +24,8 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end)
         if (solids)
             held += cpu_guard_solids(cpu, solids, before, x, v);
         if (walls_near(&inside, x))
-            held += walls_guard(&cpu->constants->walls, x, v);
+            held += leaps ? walls_fold(&cpu->constants->walls, 0.5f / drift->step->dt, x, v)
+                          : walls_guard(&cpu->constants->walls, x, v);
         if (cpu->constants->periodic.any)
             periodic_wrap(&cpu->constants->periodic, x);
         p->x[i] = x[0];
@@ -98,7 +100,9 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
 {
     Cpu *cpu = kick->cpu;
     const CpuParticles *p = &cpu->now;
-    const float fastest = cpu->constants->support_radius / kick->dt;
+    const float fastest = cpu->constants->method->leaps
+                              ? 1e18F
+                              : cpu->constants->support_radius / kick->dt; /* its square is finite */
     float speed2 = 0, acceleration2 = 0, volume = INFINITY;
     bool bounded = true; /* false for NaN as well */
     if (cpu->constants->no_slip)

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const Method method_mueller, method_wcsph, method_dfsph;
+extern const Method method_mueller, method_wcsph, method_dfsph, method_pbf;
 
-static const Method *methods[METHODS_MAX + 1] = {&method_mueller, &method_wcsph, &method_dfsph};
+static const Method *methods[METHODS_MAX + 1] = {&method_mueller, &method_wcsph, &method_dfsph, &method_pbf};
 
 void method_add(const Method *method)
 {

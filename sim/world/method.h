@@ -91,6 +91,8 @@ typedef struct Method {
     bool mirrors;         /* walls of the box are mirrors (sim/box/wall_images.h); else tables */
     bool incompressible;  /* no sound: steps are bounded by the true greatest speed alone */
     MethodSolver solvers[SOLVES_MAX]; /* what is left of the first one's residual is the error of density */
+    bool leaps; /* its particles may move further than h in a step: no trouble, and walls fold what crosses
+                   them */
     /* False with the reason: a setting is not in order, whichever the method. */
     bool (*check)(const WorldDef *def, Error *error);
     MethodKernels (*kernels)(const WorldDef *def);                         /* NULL: spiky for both */

@@ -1,0 +1,330 @@
+#include "sim/pbf/passes.h"
+
+#include <math.h>
+#include <string.h>
+
+PAIR_LOOPS(pbf_sums);
+PAIR_LOOPS(pbf_images_sums);
+PAIR_LOOPS(pbf_push);
+PAIR_LOOPS(pbf_images_push);
+PAIR_LOOPS(pbf_friction);
+
+/* How much of the iteration before goes on. */
+static const float MOMENTUM = 0.6F;
+
+/* What of a multiplier the next step begins with: */
+static const float WARM = 1;
+
+/* The longest way of an iteration, in spacings: fluid that a long step has folded comes apart in several. */
+static const float WAY_MOST = 0.3F;
+
+/* The nearest that an iteration brings a particle to a wall, in spacings: its image pushes it away there. */
+static const float WALL_LEAST = 0.02F;
+
+static bool of_fluid(const Cpu *cpu, size_t i)
+{
+    return cpu->now.fluid[i] < FLUIDS_MAX;
+}
+
+/* --- prediction --- */
+
+static void predict_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt, *g = range->input->gravity;
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->vx[i] += dt * g[0];
+        p->vy[i] += dt * g[1];
+        p->vz[i] += dt * g[2];
+    }
+}
+
+static const CpuPass predict = {.loops = {{predict_body}}};
+
+const Pass pbf_predict = {
+    .name = "predict",
+    .stage = STAGE_INTEGRATE,
+    .cpu = &predict,
+    .reads = "velocity",
+    .writes = "velocity",
+};
+
+/* --- begin --- */
+
+static void clear_way(const CpuParticles *p, size_t i)
+{
+    p->own[RESIDUAL][i] = p->own[CHANGE][i] = p->own[APPLIED][i] = 0;
+    p->own[MOVED][i] = p->own[MOVED + 1][i] = p->own[MOVED + 2][i] = 0;
+}
+
+static void begin_body(const CpuRange *range)
+{
+    Cpu *cpu = range->cpu;
+    const CpuParticles *p = &cpu->now;
+    const float dt = range->input->dt;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const bool fluid = of_fluid(cpu, i);
+        clear_way(p, i);
+        p->own[INVERSE_MASS][i] = fluid ? 1 / cpu->constants->mass[p->fluid[i]] : 0;
+        p->pressure_term[i] = fluid ? WARM * dt * dt * p->own[KEPT_TERM][i] : 0;
+        if (fluid)
+            cpu_fill_terms(cpu, i);
+        else
+            cpu_boundary_terms(cpu, i);
+    }
+}
+
+static const CpuPass begin = {.loops = {{begin_body, .solids = true}}};
+
+#define BEGIN_WRITES "pressure_term viscosity tension kind inverse_mass residual change applied moved"
+
+const Pass pbf_begin = {
+    .name = "begin",
+    .stage = STAGE_SOLVE,
+    .cpu = &begin,
+    .reads = "id fluid kept_term",
+    .writes = BEGIN_WRITES,
+};
+
+/* --- an iteration: places --- */
+
+/* k by Jacobi's step and a part of its step before. */
+static float grown(const CpuParticles *p, size_t i, float scale, float least)
+{
+    const float before = p->pressure_term[i];
+    const float k = before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + MOMENTUM * p->own[CHANGE][i];
+    return k > least ? k : least;
+}
+
+/* {x, dk}. */
+static void pack_growth(const CpuRange *range)
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    const float scale = pbf_constants(s)->relaxation * s->rest_number_density,
+                least = s->negative_pressure ? -INFINITY : 0;
+    for (size_t i = range->begin; i < range->end; i++) {
+        float growth = 0;
+        if (of_fluid(range->cpu, i)) {
+            const float k = grown(p, i, scale, least);
+            p->own[CHANGE][i] = k - p->pressure_term[i];
+            growth = k - p->own[APPLIED][i];
+            p->pressure_term[i] = p->own[APPLIED][i] = k;
+        }
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], growth}, 16);
+    }
+}
+
+/* No further than WAY_MOST; nowhere what is no number. */
+static void shorten(float way[3], float most)
+{
+    const float length2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+    if (length2 <= most * most)
+        return;
+    const float scale = length2 < INFINITY ? most / sqrtf(length2) : 0;
+    for (int k = 0; k < 3; k++)
+        way[k] = scale > 0 ? scale * way[k] : 0;
+}
+
+static void hold(const WallsFar *inside, float x[3])
+{
+    for (int k = 0; k < 3; k++)
+        x[k] = fminf(fmaxf(x[k], inside->low[k]), inside->high[k]);
+}
+
+static void move_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const Constants *s = range->cpu->constants;
+    const WallsFar inside = walls_far(&s->walls, WALL_LEAST * s->spacing);
+    cpu_pairs(range, &pbf_push);
+    cpu_pairs(range, &pbf_images_push);
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float w = p->own[INVERSE_MASS][i], from[3] = {p->x[i], p->y[i], p->z[i]};
+        float way[3] = {w * p->ax[i], w * p->ay[i], w * p->az[i]};
+        shorten(way, WAY_MOST * s->spacing);
+        float x[3] = {from[0] + way[0], from[1] + way[1], from[2] + way[2]};
+        if (walls_near(&inside, x)) {
+            hold(&inside, x);
+            for (int k = 0; k < 3; k++)
+                way[k] = x[k] - from[k];
+        }
+        p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
+        for (int k = 0; k < 3; k++)
+            p->own[MOVED + k][i] += way[k];
+    }
+}
+
+/* Of a neighbour {x, k}; 1/m of it besides. */
+static PairCost push_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.gather = 16, .flops = 23};
+}
+
+static PairCost sums_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.gather = 20, .flops = 31};
+}
+
+static const CpuPass move = {.loops = {{move_body, .walks = true, .pack = pack_growth}}, .pair = push_pair};
+
+const Pass pbf_move = {
+    .name = "move",
+    .stage = STAGE_SOLVE,
+    .cpu = &move,
+    .reads = "position id fluid pressure_term residual factor inverse_mass change applied moved",
+    .writes = "position pressure_term acceleration change applied moved",
+};
+
+/* --- an iteration: number density --- */
+
+static void pack_place(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++)
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], 0}, 16);
+}
+
+static void finish_density(const Cpu *cpu, size_t i)
+{
+    const CpuParticles *p = &cpu->now;
+    const Constants *s = cpu->constants;
+    const float sx = p->ax[i], sy = p->ay[i], sz = p->az[i], w = p->own[INVERSE_MASS][i];
+    const float d = (sx * sx + sy * sy + sz * sz) * w + p->own[SQUARES][i],
+                e = p->volume[i] / s->rest_number_density - 1;
+    p->own[FACTOR][i] = 1 / (d + pbf_constants(s)->least_squares * w);
+    p->own[RESIDUAL][i] = e;
+    p->own[MISS][i] = p->pressure_term[i] > 0 || s->negative_pressure ? fabsf(e) : fmaxf(e, 0);
+    p->volume[i] = 1 / p->volume[i];
+}
+
+static void density_body(const CpuRange *range)
+{
+    cpu_pairs(range, &pbf_sums);
+    cpu_pairs(range, &pbf_images_sums);
+    for (size_t i = range->begin; i < range->end; i++)
+        finish_density(range->cpu, i);
+}
+
+static const CpuPass density = {.loops = {{density_body, .walks = true, .pack = pack_place}},
+                                .pair = sums_pair};
+
+#define DENSITY_WRITES "volume acceleration squares factor residual miss"
+
+const Pass pbf_density = {
+    .name = "density",
+    .stage = STAGE_SOLVE,
+    .cpu = &density,
+    .reads = "position id fluid pressure_term inverse_mass",
+    .writes = DENSITY_WRITES,
+};
+
+/* --- settle --- */
+
+static void settle_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    density_body(range);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->pressure[i] = pbf_constants(range->cpu->constants)->pressure_scale * p->own[KEPT_TERM][i];
+        p->ax[i] = p->ay[i] = p->az[i] = 0;
+    }
+}
+
+static const CpuPass settle = {
+    .loops = {{begin_body, .solids = true}, {settle_body, .walks = true, .pack = pack_place}}};
+
+const Pass pbf_settle = {
+    .name = "settle",
+    .stage = STAGE_DENSITY,
+    .cpu = &settle,
+    .reads = "position id fluid kept_term",
+    .writes = BEGIN_WRITES " " DENSITY_WRITES " pressure",
+};
+
+/* --- force --- */
+
+/* {v, V} at the step's end. */
+static void pack_motion(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float rate = range->input->dt > 0 ? 1 / range->input->dt : 0;
+    pack_place(range);
+    for (size_t i = range->begin; i < range->end; i++)
+        memcpy(range->cpu->motion[i],
+               (float[]){p->vx[i] + rate * p->own[MOVED][i], p->vy[i] + rate * p->own[MOVED + 1][i],
+                         p->vz[i] + rate * p->own[MOVED + 2][i], p->volume[i]},
+               16);
+}
+
+/* Friction, no more of it than the step stands. */
+static void rub(const CpuRange *range)
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    const float stands = pbf_constants(s)->viscous_dt, dt = range->input->dt,
+                part = dt > stands ? stands / dt : 1;
+    if (s->viscous)
+        cpu_pairs(range, &pbf_friction);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->ax[i] = s->viscous ? part * p->ax[i] : 0;
+        p->ay[i] = s->viscous ? part * p->ay[i] : 0;
+        p->az[i] = s->viscous ? part * p->az[i] : 0;
+    }
+}
+
+/* The kick gives velocities all that a step adds, gravity among it, which the flight has had already. */
+static void force_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt, *g = range->input->gravity, rate = 1 / dt;
+    const float scale = pbf_constants(range->cpu->constants)->pressure_scale;
+    rub(range);
+    cpu_force_end(range);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->vx[i] -= dt * g[0];
+        p->vy[i] -= dt * g[1];
+        p->vz[i] -= dt * g[2];
+        p->ax[i] += rate * rate * p->own[MOVED][i];
+        p->ay[i] += rate * rate * p->own[MOVED + 1][i];
+        p->az[i] += rate * rate * p->own[MOVED + 2][i];
+        p->own[KEPT_TERM][i] = rate * rate * p->pressure_term[i];
+        p->pressure[i] = scale * p->own[KEPT_TERM][i];
+    }
+}
+
+static const CpuPass force = {.loops = {{force_body, .walks = true, .pack = pack_motion}}};
+
+const Pass pbf_force = {
+    .name = "force",
+    .stage = STAGE_FORCE,
+    .cpu = &force,
+    .reads = "position velocity id fluid volume viscosity tension kind moved pressure_term",
+    .writes = "velocity acceleration kept_term pressure",
+};
+
+static bool many_viscous(const Constants *constants)
+{
+    return constants->viscous && (constants->fluid_count > 1 || constants->solid_count > 0);
+}
+
+#define OWN(k) .at = COLUMN_OWN(k)
+
+const ColumnDef pbf_columns[] = {
+    {"kept_term", "J m3", OWN(KEPT_TERM), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
+    {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT},
+    {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
+    {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
+    {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
+    {"miss", "", OWN(MISS), 1, COLUMN_FLOAT},
+    {"change", "J m3 s2", OWN(CHANGE), 1, COLUMN_FLOAT},
+    {"applied", "J m3 s2", OWN(APPLIED), 1, COLUMN_FLOAT},
+    {"moved", "m", OWN(MOVED), 3, COLUMN_FLOAT},
+    {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
+     .needed = many_viscous},
+    {0},
+};
+
+const ColumnDef *const pbf_miss = &pbf_columns[MISS];

@@ -1,0 +1,66 @@
+/* The passes of pbf, its columns and constants.
+
+   All particles of all fluids have the volume V0 = 1 / n0 at rest, so what is held is the number density n,
+   that of images in the walls and of boundary particles counted. With grad W_ij = -F x_ij, x_ij = x_i - x_j,
+   an iteration moves
+     x_i by sum (dk_i + dk_j) F x_ij / m_i            dk: what a multiplier k grows by, p V0^2 dt^2
+     k_i by (n_i - n0) / D_i, and never below 0       so that nothing pulls
+     D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what dk_i makes of its own n
+   The whole way of a particle, over dt, is what the velocity takes of it. */
+#ifndef SLOSH_PBF_PASSES_H
+#define SLOSH_PBF_PASSES_H
+
+#include "sim/cpu/pass.h"
+#include "sim/kernel/kernel.h"
+
+#define PBF_KERNEL KERNEL_WENDLAND_C2
+
+/* Where its columns stand among a particle's own; k of the step is `pressure_term`, J m3 s2. */
+enum {
+    KEPT_TERM,    /* k / dt^2 that the last step found, J m3: with it the next begins */
+    FACTOR,       /* 1 / D, kg m8; 0 where a particle sees none */
+    SQUARES,      /* sum F^2 r^2 / m_j, 1 / (kg m8) */
+    INVERSE_MASS, /* 1/kg; 0 of the particles of solids */
+    RESIDUAL,     /* n / n0 - 1 */
+    MISS,         /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
+    CHANGE,       /* of k in the iteration before, J m3 s2 */
+    APPLIED,      /* what of k the places have followed, J m3 s2 */
+    MOVED,        /* the way since the step's free flight, m: 3 */
+};
+
+extern const ColumnDef pbf_columns[];
+extern const ColumnDef *const pbf_miss;
+
+/* What a def means in numbers for pbf alone. */
+typedef struct PbfConstants {
+    float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m5 */
+    float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
+    float relaxation;        /* of Jacobi */
+    float least_squares;     /* a part of sum F^2 r^2 on the lattice, 1/m8: D is no less than that over m */
+    float pressure_scale;    /* p over k / dt^2, 1/m6 */
+    float viscous_dt;        /* the longest step that friction stands, s */
+    int most;                /* iterations */
+    double tolerance;
+} PbfConstants;
+
+static inline const PbfConstants *pbf_constants(const Constants *constants)
+{
+    return (const PbfConstants *)(const void *)constants->of_method;
+}
+
+/* Gravity into the velocities: what follows is free flight. */
+extern const Pass pbf_predict;
+
+/* Behind it: multipliers to begin with. */
+extern const Pass pbf_begin;
+
+/* An iteration: places by what multipliers grow; the number density there. */
+extern const Pass pbf_move, pbf_density;
+
+/* Accelerations of the whole step. */
+extern const Pass pbf_force;
+
+/* Number density and pressure of a state that was read. */
+extern const Pass pbf_settle;
+
+#endif

@@ -1,0 +1,119 @@
+/* after: M. Macklin, M. Müller, "Position Based Fluids", 2013 */
+#include "sim/pbf/pbf.h"
+
+#include "sim/base/key_rows.h"
+#include "sim/kernel/jacobi.h"
+#include "sim/matter/viscosity.h"
+#include "sim/pbf/passes.h"
+#include "sim/world/iterate.h"
+
+#include <math.h>
+#include <string.h>
+
+static const PbfDef usual = {.tolerance = 0.01, .iterations = 20};
+
+/* clang-format off */
+static const Key keys[] = {
+    NUMBER("solver.tolerance", L, "", 0, 1, offsetof(PbfDef, tolerance), "mean compression at which the iterations of a step end early; 0: all of them run"),
+    INTEGER("solver.iterations", L, 1, 10000, offsetof(PbfDef, iterations), "of a step, at most"),
+    KEYS_END,
+};
+/* clang-format on */
+
+static MethodKernels pbf_kernels(const WorldDef *def)
+{
+    (void)def;
+    return (MethodKernels){&shape_kernels[PBF_KERNEL], &shape_kernels[PBF_KERNEL]};
+}
+
+static StepFriction pbf_friction(const WorldDef *def, const Lattice *lattice)
+{
+    return (StepFriction){
+        .laminar = friction_rate(lattice, def->spacing, FRICTION_MORRIS, def->support * def->spacing, NULL),
+        .walls = DRAG_MORRIS};
+}
+
+/* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it. */
+static double shape_half(void)
+{
+    return PBF_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
+}
+
+/* Jacobi with momentum m holds below 2 (1 + m) over the greatest eigenvalue (Polyak 1964); fluid out of order
+   has greater ones than its lattice. */
+static const double RELAXATION = 1.8;
+
+/* Of D on the lattice: D is no less, or few neighbours would be thrown. */
+static const double LEAST = 0.1;
+
+static void pbf_set(Constants *constants, const WorldDef *def)
+{
+    const Lattice *lattice = &constants->lattice;
+    const Kernel *kernel = &shape_kernels[PBF_KERNEL];
+    const double h = def->support * def->spacing, r = 0.5 * h, scale = lattice->density_scale;
+    const double slope = -kernel->derivative(r, h) / r / shape_half();
+    const JacobiLattice jacobi = jacobi_lattice(kernel, def->dimensions, def->spacing, h);
+    const double n0 = lattice->number_density;
+    const PbfConstants own = {
+        .gradient = (float)(slope * scale),
+        .friction_gradient = (float)(slope * lattice->gradient_scale),
+        .relaxation = (float)(RELAXATION / jacobi.greatest),
+        .least_squares = (float)(LEAST * scale * scale * jacobi.squares),
+        .pressure_scale = (float)(n0 * n0 * scale / lattice->gradient_scale),
+        .viscous_dt = (float)(STEP_VISCOUS_STANDS * step_viscous(def, &constants->friction)),
+        .most = pbf_def(def)->iterations,
+        .tolerance = pbf_def(def)->tolerance,
+    };
+    _Static_assert(sizeof own <= METHOD_CONSTANTS_SIZE, "constants hold it");
+    memcpy(constants->of_method, &own, sizeof own);
+}
+
+static void hold_density(const Substep *step)
+{
+    const PbfConstants *own = pbf_constants(step->constants);
+    const Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, own->tolerance, own->most};
+    substep_run(step, &pbf_begin, step->dt);
+    substep_iterate(step, &iteration, 0, step->dt);
+}
+
+/* The whole flight comes first; grid and lists are of where it ends. */
+static void pbf_substep(const Substep *step)
+{
+    const Backend *b = step->backend;
+    void *state = step->state;
+
+    STAGE (step->clock, STAGE_INTEGRATE) {
+        substep_run(step, &pbf_predict, step->dt);
+        b->drift(state, &step->first_half);
+        b->drift(state, &step->second_half);
+    }
+    STAGE (step->clock, STAGE_GRID)
+        b->grid(state);
+    STAGE (step->clock, STAGE_SOLVE)
+        hold_density(step);
+    STAGE (step->clock, STAGE_FORCE)
+        substep_run(step, &pbf_force, step->dt);
+    STAGE (step->clock, STAGE_INTEGRATE)
+        substep_kick(step);
+}
+
+static const Pass *const passes[] = {&pbf_predict, &pbf_begin,  &pbf_move, &pbf_density,
+                                     &pbf_force,   &pbf_settle, NULL};
+
+const Method method_pbf = {
+    .name = "pbf",
+    .help = "Macklin and Mueller 2013: places corrected until nothing is compressed; any step holds",
+    .keys = keys,
+    .def = &usual,
+    .def_size = sizeof usual,
+    .mirrors = true,
+    .incompressible = true,
+    .leaps = true,
+    .kernels = pbf_kernels,
+    .friction = pbf_friction,
+    .constants = pbf_set,
+    .columns = pbf_columns,
+    .passes = passes,
+    .settle = &pbf_settle,
+    .substep = pbf_substep,
+};
