@@ -15,21 +15,22 @@
 
 #define PBF_KERNEL KERNEL_WENDLAND_C2
 
-/* Where its columns stand among a particle's own; k of the step is `pressure_term`, J m3 s2. */
+/* Where its columns stand among a particle's own. */
 enum {
-    KEPT_TERM,    /* k / dt^2 that the last step found, J m3: with it the next begins */
-    FACTOR,       /* 1 / D, kg m8; 0 where a particle sees none */
+    TERM,         /* k / dt^2, J m3: what is left of it is where the next step begins */
+    FACTOR,       /* 1 / D, kg m8 */
     SQUARES,      /* sum F^2 r^2 / m_j, 1 / (kg m8) */
     INVERSE_MASS, /* 1/kg; 0 of the particles of solids */
     RESIDUAL,     /* n / n0 - 1 */
     MISS,         /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
-    CHANGE,       /* of k in the iteration before, J m3 s2 */
-    APPLIED,      /* what of k the places have followed, J m3 s2 */
+    CHANGE,       /* of TERM in the iteration before, J m3 */
+    APPLIED,      /* what of TERM the places have followed, J m3 */
+    WAY,          /* length of the way since the lists were made, in spacings */
     MOVED,        /* the way since the step's free flight, m: 3 */
 };
 
 extern const ColumnDef pbf_columns[];
-extern const ColumnDef *const pbf_miss;
+extern const ColumnDef *const pbf_miss, *const pbf_way;
 
 /* What a def means in numbers for pbf alone. */
 typedef struct PbfConstants {
@@ -53,6 +54,9 @@ extern const Pass pbf_predict;
 
 /* Behind it: multipliers to begin with. */
 extern const Pass pbf_begin;
+
+/* Behind another grid in the same step: all goes on. */
+extern const Pass pbf_again;
 
 /* An iteration: places by what multipliers grow; the number density there. */
 extern const Pass pbf_move, pbf_density;

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-static const PbfDef usual = {.tolerance = 0.01, .iterations = 20};
+static const PbfDef usual = {.tolerance = 0.01, .iterations = 50};
 
 /* clang-format off */
 static const Key keys[] = {
@@ -68,12 +68,44 @@ static void pbf_set(Constants *constants, const WorldDef *def)
     memcpy(constants->of_method, &own, sizeof own);
 }
 
+/* Where particles have gone more than so many spacings, in the mean, since the lists were made, these do not
+   know all neighbours any more. */
+static const double WAY_MOST = 0.2;
+
+/* How often lists are made in a step, at most. */
+enum { LISTS_MOST = 4 };
+
+/* False where the iterations are at their end. */
+static bool lists_again(const Substep *step, const PbfConstants *own, double iterations)
+{
+    const Backend *b = step->backend;
+    StepSolve *solve = &step->solves[0];
+    if (iterations >= own->most || b->excess(step->state, pbf_way).mean <= WAY_MOST)
+        return false;
+    b->grid(step->state);
+    substep_run(step, &pbf_again, step->dt);
+    substep_run(step, &pbf_density, step->dt);
+    const Excess left = b->excess(step->state, pbf_miss);
+    solve->mean = left.mean;
+    solve->most = left.greatest;
+    return !(left.mean <= own->tolerance);
+}
+
 static void hold_density(const Substep *step)
 {
     const PbfConstants *own = pbf_constants(step->constants);
-    const Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, own->tolerance, own->most};
+    Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, own->tolerance, own->most};
+    StepSolve *solve = &step->solves[0];
+    double iterations = 0;
     substep_run(step, &pbf_begin, step->dt);
-    substep_iterate(step, &iteration, 0, step->dt);
+    for (int lists = 0; lists < LISTS_MOST && (lists == 0 || lists_again(step, own, iterations)); lists++) {
+        iteration.most = own->most - (int)iterations;
+        substep_iterate(step, &iteration, 0, step->dt);
+        iterations += solve->iterations;
+    }
+    solve->iterations = iterations;
+    if (own->tolerance == 0) /* a number of iterations was asked for, and no residual */
+        solve->tolerance = 1;
 }
 
 /* The whole flight comes first; grid and lists are of where it ends. */
