@@ -49,7 +49,7 @@ static inline const PbfConstants *pbf_constants(const Constants *constants)
     return (const PbfConstants *)(const void *)constants->of_method;
 }
 
-/* Gravity into the velocities: what follows is free flight. */
+/* What gravity does to a free flight. */
 extern const Pass pbf_predict;
 
 /* Behind it: multipliers to begin with. */

@@ -14,8 +14,8 @@ static const PbfDef usual = {.tolerance = 0.01, .iterations = 50};
 
 /* clang-format off */
 static const Key keys[] = {
-    NUMBER("solver.tolerance", L, "", 0, 1, offsetof(PbfDef, tolerance), "mean compression at which the iterations of a step end early; 0: all of them run"),
-    INTEGER("solver.iterations", L, 1, 10000, offsetof(PbfDef, iterations), "of a step, at most"),
+    NUMBER("solver.tolerance", 0, "", 0, 1, offsetof(PbfDef, tolerance), "mean compression at which the iterations of a step end early; 0: all of them run"),
+    INTEGER("solver.iterations", 0, 1, 10000, offsetof(PbfDef, iterations), "of a step, at most"),
     KEYS_END,
 };
 /* clang-format on */
@@ -75,20 +75,34 @@ static const double WAY_MOST = 0.2;
 /* How often lists are made in a step, at most. */
 enum { LISTS_MOST = 4 };
 
-/* False where the iterations are at their end. */
-static bool lists_again(const Substep *step, const PbfConstants *own, double iterations)
+/* False where that is as little as may be left. */
+static bool compressed(const Substep *step, double tolerance)
+{
+    const Excess left = step->backend->excess(step->state, pbf_miss);
+    step->solves[0].mean = left.mean;
+    step->solves[0].most = left.greatest;
+    return !(left.mean <= tolerance);
+}
+
+/* By the multipliers of the step before. */
+static bool begin_compressed(const Substep *step, double tolerance)
+{
+    substep_run(step, &pbf_begin, step->dt);
+    substep_run(step, &pbf_move, step->dt);
+    substep_run(step, &pbf_density, step->dt);
+    return compressed(step, tolerance);
+}
+
+/* With lists of where the particles are now, where those at hand are of no use any more. */
+static bool again_compressed(const Substep *step, double tolerance)
 {
     const Backend *b = step->backend;
-    StepSolve *solve = &step->solves[0];
-    if (iterations >= own->most || b->excess(step->state, pbf_way).mean <= WAY_MOST)
+    if (b->excess(step->state, pbf_way).mean <= WAY_MOST)
         return false;
     b->grid(step->state);
     substep_run(step, &pbf_again, step->dt);
     substep_run(step, &pbf_density, step->dt);
-    const Excess left = b->excess(step->state, pbf_miss);
-    solve->mean = left.mean;
-    solve->most = left.greatest;
-    return !(left.mean <= own->tolerance);
+    return compressed(step, tolerance);
 }
 
 static void hold_density(const Substep *step)
@@ -97,11 +111,13 @@ static void hold_density(const Substep *step)
     Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, own->tolerance, own->most};
     StepSolve *solve = &step->solves[0];
     double iterations = 0;
-    substep_run(step, &pbf_begin, step->dt);
-    for (int lists = 0; lists < LISTS_MOST && (lists == 0 || lists_again(step, own, iterations)); lists++) {
-        iteration.most = own->most - (int)iterations;
+    *solve = (StepSolve){.tolerance = own->tolerance};
+    bool more = begin_compressed(step, own->tolerance);
+    for (int lists = 1; more && iteration.most > 0; lists++) {
         substep_iterate(step, &iteration, 0, step->dt);
         iterations += solve->iterations;
+        iteration.most = own->most - (int)iterations;
+        more = lists < LISTS_MOST && again_compressed(step, own->tolerance);
     }
     solve->iterations = iterations;
     if (own->tolerance == 0) /* a number of iterations was asked for, and no residual */
@@ -115,8 +131,8 @@ static void pbf_substep(const Substep *step)
     void *state = step->state;
 
     STAGE (step->clock, STAGE_INTEGRATE) {
-        substep_run(step, &pbf_predict, step->dt);
         b->drift(state, &step->first_half);
+        substep_run(step, &pbf_predict, step->dt);
         b->drift(state, &step->second_half);
     }
     STAGE (step->clock, STAGE_GRID)

@@ -1,0 +1,475 @@
+/* pbf: what its iterations leave, by sums over all pairs in double precision; what a step keeps; what it
+   survives. */
+#include "fixture.h"
+#include "sim/box/box_motion.h"
+#include "sim/pbf/passes.h"
+#include "sim/pbf/pbf.h"
+#include "sim/world/world_state.h"
+#include "sim/world/world_struct.h"
+
+enum { SIDE = 5, N = SIDE * SIDE * SIDE };
+
+typedef struct Cloud {
+    float x[3 * N], v[3 * N];
+    uint8_t fluid[N];
+} Cloud;
+
+static WorldDef pbf_world(double width, double height, double depth)
+{
+    WorldDef def = fixture_def(width, height, depth);
+    strcpy(def.method, "pbf");
+    def.dt = 1.0 / 60;
+    return def;
+}
+
+/* A shrinking cube out of order in the middle of a large box, half of it a thousandth as dense. */
+static WorldDef cloud_def(Cloud *cloud)
+{
+    WorldDef def = pbf_world(4, 4, 4);
+    uint32_t seed = 3;
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.fluid_count = 2;
+    def.fluids[1] = (FluidDef){.name = "air", .density = 1};
+    for (int i = 0; i < N; i++) {
+        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
+        for (int k = 0; k < 3; k++) {
+            const double x = 0.1 * (index[k] - 0.5 * (SIDE - 1)) + 0.02 * (fixture_random(&seed) - 0.5);
+            cloud->x[3 * i + k] = (float)(x + (k == 1 ? 2 : 0));
+            cloud->v[3 * i + k] = (float)(-3 * x);
+        }
+        cloud->fluid[i] = index[0] > 2;
+    }
+    return def;
+}
+
+static World *cloud_world(WorldDef *def, const Cloud *cloud)
+{
+    def->initial =
+        &(InitialState){.count = N, .position = cloud->x, .velocity = cloud->v, .fluid = cloud->fluid};
+    World *world = fixture_world(def);
+    def->initial = NULL;
+    return world;
+}
+
+/* n / n0 - 1 of particle i, by all others. */
+static double compression(const World *world, const State *s, size_t i)
+{
+    const Constants *c = &world->constants;
+    const Kernel *kernel = &shape_kernels[PBF_KERNEL];
+    const double h = (double)c->support_radius;
+    double n = 0;
+    for (size_t j = 0; j < s->count; j++) {
+        double r2 = 0;
+        for (int k = 0; k < 3; k++) {
+            const double d = (double)s->position[4 * i + (size_t)k] - (double)s->position[4 * j + (size_t)k];
+            r2 += d * d;
+        }
+        n += r2 < h * h ? kernel->value(sqrt(r2), h) : 0;
+    }
+    return c->lattice.density_scale * n / c->lattice.number_density - 1;
+}
+
+/* What the solver says that it left is what is left; and it is no more than asked for. */
+static void leaves_what_it_says(void **state)
+{
+    (void)state;
+    static Cloud cloud;
+    WorldDef def = cloud_def(&cloud);
+    pbf_def(&def)->tolerance = 1e-4;
+    pbf_def(&def)->iterations = 2000;
+    World *world = cloud_world(&def, &cloud);
+    double mean = 0, most = 0;
+    fixture_step(world, 1);
+    State s = fixture_read(world);
+    for (size_t i = 0; i < N; i++) {
+        const double e = compression(world, &s, i), miss = s.pressure[i] > 0 ? fabs(e) : fmax(e, 0);
+        mean += miss / N;
+        most = fmax(most, miss);
+    }
+    const StepSolve *solve = &world->solves[0];
+    printf("%g iterations: mean %.3g, said %.3g; most %.3g, said %.3g\n", solve->iterations, mean,
+           solve->mean, most, solve->most);
+    assert_true(solve->iterations > 5 && solve->iterations < 2000);
+    assert_true(solve->mean <= 1e-4);
+    assert_float_equal(mean, solve->mean, 1e-5);
+    assert_float_equal(most, solve->most, 1e-4);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+/* Nothing is outside, nothing is no number; the greatest speed, m/s. */
+static double within(World *world)
+{
+    double speed = 0;
+    State s = fixture_read(world);
+    for (size_t i = 0; i < s.count; i++) {
+        const float *x = s.position + 4 * i, *v = s.velocity + 4 * i;
+        assert_true(walls_contain(&world->constants.walls, x));
+        speed = fmax(speed, sqrt((double)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])));
+        assert_true(isfinite(speed));
+    }
+    fixture_free(&s);
+    return speed;
+}
+
+/* By how much of its scale momentum changes in 20 steps. */
+static double momentum_lost(double light)
+{
+    static Cloud cloud;
+    WorldDef def = cloud_def(&cloud);
+    def.box_size[0] = def.box_size[1] = def.box_size[2] = 8;
+    def.fluids[1].density = light;
+    World *world = cloud_world(&def, &cloud);
+    WorldSums before, after;
+    double lost = 0;
+    world_sums(world, &before);
+    fixture_step(world, 10);
+    world_sums(world, &after);
+    for (int k = 0; k < 3; k++)
+        lost = fmax(lost, fabs(after.momentum[k] - before.momentum[k]) / before.momentum_scale);
+    world_destroy(world);
+    return lost;
+}
+
+/* Momentum stays; with densities 1 : 1000 but for what light particles' ways are cut short. */
+static void keeps_momentum(void **state)
+{
+    (void)state;
+    const double same = momentum_lost(1000), apart = momentum_lost(1);
+    printf("momentum lost: %.2g, with 1 : 1000 %.2g\n", same, apart);
+    assert_true(same < 1e-6);
+    assert_true(apart < 2e-3);
+}
+
+static WorldDef dam_def(int threads)
+{
+    WorldDef def = pbf_world(1.6, 1, 0.4);
+    def.spacing = 0.05;
+    fixture_block(&def, 0, -0.8, 0, -0.2, -0.3, 0.6, 0.2);
+    *world_threads(&def) = threads;
+    return def;
+}
+
+static void same_bits_on_threads(void **state)
+{
+    (void)state;
+    static const int threads[] = {1, 2, 3, 8};
+    State first = {0};
+    for (int k = 0; k < 4; k++) {
+        const WorldDef def = dam_def(threads[k]);
+        World *world = fixture_world(&def);
+        fixture_step(world, 40);
+        State s = fixture_read(world);
+        world_destroy(world);
+        if (k == 0) {
+            first = s;
+            continue;
+        }
+        assert_memory_equal(first.position, s.position, 16 * s.count);
+        assert_memory_equal(first.velocity, s.velocity, 16 * s.count);
+        fixture_free(&s);
+    }
+    fixture_free(&first);
+}
+
+static void goes_on_from_a_saved_state(void **state)
+{
+    (void)state;
+    const WorldDef def = dam_def(1);
+    World *world = fixture_world(&def);
+    WorldState saved = {0};
+    Error error = {0};
+    fixture_step(world, 30);
+    assert_true(world_save(world, &saved, &error));
+    fixture_step(world, 5);
+    State s = fixture_read(world);
+    assert_true(world_load(world, &saved, &error));
+    fixture_step(world, 5);
+    State again = fixture_read(world);
+    assert_memory_equal(s.position, again.position, 16 * s.count);
+    assert_memory_equal(s.velocity, again.velocity, 16 * s.count);
+    fixture_free(&s);
+    fixture_free(&again);
+    world_state_free(&saved);
+    world_destroy(world);
+}
+
+/* Mean compression with lists that are new. */
+static double settled_compression(World *world)
+{
+    double mean = 0;
+    world_settle(world);
+    State s = fixture_read(world);
+    for (size_t i = 0; i < s.count; i++)
+        mean += fmax((double)s.density[i] / 1000 - 1, 0) / (double)s.count;
+    fixture_free(&s);
+    return mean;
+}
+
+/* A dam that breaks at 60 steps a second: as little compression as asked for, no energy out of nothing. */
+static void dam_breaks(void **state)
+{
+    (void)state;
+    const WorldDef def = dam_def(2);
+    World *world = fixture_world(&def);
+    double worst = 0, energy = 0, start = 0;
+    for (int step = 0; step < 120; step++) {
+        fixture_step(world, 1);
+        worst = fmax(worst, settled_compression(world));
+        WorldSums sums;
+        world_sums(world, &sums);
+        energy = sums.kinetic_energy + 9.81 * sums.mass * sums.centre[1];
+        start = step == 0 ? energy : start;
+        assert_true(energy < 1.01 * start);
+    }
+    printf("mean compression %.3f %% at most; energy %.3f of the start\n", 100 * worst, energy / start);
+    assert_true(worst < 0.015);
+    world_destroy(world);
+}
+
+/* A column without friction stands still: its multipliers hold its weight. */
+static void column_stands(void **state)
+{
+    (void)state;
+    WorldDef def = pbf_world(0.5, 1.5, 0.5);
+    def.spacing = 0.05;
+    fixture_block(&def, 0, -0.25, 0, -0.25, 0.25, 1, 0.25);
+    World *world = fixture_world(&def);
+    double pressure = 0, speed = 0;
+    size_t low = 0;
+    fixture_step(world, 120);
+    for (int step = 0; step < 60; step++) {
+        fixture_step(world, 1);
+        State s = fixture_read(world);
+        for (size_t i = 0; i < s.count; i++)
+            if (s.position[4 * i + 1] < 0.1F) {
+                pressure += (double)s.pressure[i];
+                low++;
+            }
+        fixture_free(&s);
+        WorldSums sums;
+        world_sums(world, &sums);
+        speed = fmax(speed, sqrt(2 * sums.kinetic_energy / sums.mass));
+    }
+    WorldSums sums;
+    world_sums(world, &sums);
+    pressure /= (double)low;
+    printf("centre at %.4f m, %.3f m/s, pressure near the floor %.0f Pa of %.0f\n", sums.centre[1], speed,
+           pressure, 9810 * 0.95);
+    assert_float_equal(sums.centre[1], 0.5, 0.01); /* 1 % of compression */
+    assert_true(speed < 0.08);
+    assert_float_equal(pressure, 9810 * 0.95, 1000);
+    world_destroy(world);
+}
+
+/* The hand throws and turns the box as it will, as far as its limits let it, ten times a second. */
+static void throw_box(World *world, uint32_t *seed)
+{
+    BoxTarget target;
+    double norm = 0;
+    for (int k = 0; k < 4; k++) {
+        target.orientation[k] = fixture_random(seed) - 0.5;
+        norm += target.orientation[k] * target.orientation[k];
+    }
+    for (int k = 0; k < 4; k++)
+        target.orientation[k] /= sqrt(norm);
+    for (int k = 0; k < 3; k++)
+        target.position[k] = 4 * (fixture_random(seed) - 0.5);
+    world_set_target(world, &target);
+}
+
+static void check_shaken(int dimensions, int every)
+{
+    WorldDef def = dam_def(2);
+    def.dimensions = dimensions;
+    def.dt = 1.0 / 30;
+    def.retries = 3;
+    World *world = fixture_world(&def);
+    uint32_t seed = 5;
+    Error error = {0};
+    double speed = 0, compressed = 0;
+    for (int step = 0; step < 150; step++) {
+        if (step % every == 0)
+            throw_box(world, &seed);
+        if (!world_step(world, NULL, &error))
+            fail_msg("%s", error.message);
+        speed = fmax(speed, within(world));
+        compressed += settled_compression(world) / 150;
+    }
+    WorldInfo info;
+    world_info(world, &info);
+    printf("%dD, thrown every %d steps: %.1f m/s at most, compression %.2f %% in the mean\n", dimensions,
+           every, speed, 100 * compressed);
+    assert_int_equal(info.trouble.count, 0);
+    assert_true(speed < 20); /* the box's 2 m/s, and falls of its height at 3 g */
+    assert_true(compressed < 0.03);
+    world_destroy(world);
+}
+
+static void survives_a_shaken_box(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("hundreds of steps");
+    for (int every = 3; every <= 12; every += 9) {
+        check_shaken(3, every);
+        check_shaken(2, every);
+    }
+}
+
+/* Velocities of a free flight are exact in a box that spins and shakes; places fall by half a step's speed
+   more. */
+static void flies_freely_in_a_moving_box(void **state)
+{
+    (void)state;
+    WorldDef def = pbf_world(8, 8, 8);
+    def.motion_count = 2;
+    def.motions[0] = (Motion){.kind = MOTION_SPIN, .axis = {1, 2, 3}, .rate = 2};
+    def.motions[1] = (Motion){.kind = MOTION_SHAKE, .axis = {1, 0, 1}, .amplitude = 0.2, .frequency = 2};
+    const float x0[3] = {0.5F, 4.5F, -0.3F}, v0[3] = {0.4F, 2.5F, 0.3F};
+    def.initial = &(InitialState){.count = 1, .position = x0, .velocity = v0};
+    World *world = fixture_world(&def);
+    BoxState box;
+    double start[3], speed[3], worst = 0, fastest = 0;
+    box_state_at(def.motions, 2, 8, 0, &box);
+    box_to_world(&box, (double[3]){0.5, 4.5, -0.3}, (double[3]){0.4, 2.5, 0.3}, start, speed);
+    for (int step = 0; step < 50; step++) {
+        WorldInfo info;
+        double x[3], v[3];
+        fixture_step(world, 1);
+        world_info(world, &info);
+        State s = fixture_read(world);
+        box_to_world(&info.box, (double[3]){s.position[0], s.position[1], s.position[2]},
+                     (double[3]){s.velocity[0], s.velocity[1], s.velocity[2]}, x, v);
+        for (int k = 0; k < 3; k++) {
+            const double t = info.time, g = k == 1 ? -9.81 : 0;
+            worst = fmax(worst, fabs(x[k] - (start[k] + speed[k] * t + 0.5 * g * t * (t + def.dt))));
+            fastest = fmax(fastest, fabs(v[k] - (speed[k] + g * t)));
+        }
+        fixture_free(&s);
+    }
+    printf("free flight: %.2g m and %.2g m/s off\n", worst, fastest);
+    assert_true(worst < 1e-3);
+    assert_true(fastest < 1e-3);
+    world_destroy(world);
+}
+
+/* Some hundred particles on one point come apart, and the box stays in order. */
+static void coincident_particles_part(void **state)
+{
+    (void)state;
+    enum { COUNT = 100 };
+    float x[3 * COUNT];
+    for (int i = 0; i < COUNT; i++)
+        memcpy(x + 3 * i, (float[]){0.1F, 0.5F, 0.1F}, 12);
+    WorldDef def = pbf_world(1, 1, 1);
+    def.initial = &(InitialState){.count = COUNT, .position = x};
+    World *world = fixture_world(&def);
+    for (int step = 0; step < 60; step++) {
+        fixture_step(world, 1);
+        assert_true(within(world) < 100); /* a spacing an iteration */
+    }
+    assert_true(settled_compression(world) < 0.02);
+    world_destroy(world);
+}
+
+static void lone_particle_comes_to_rest(void **state)
+{
+    (void)state;
+    const float x[3] = {0.9F, 1, 0.9F}, v[3] = {30, -3, 30};
+    WorldDef def = pbf_world(2, 2, 2);
+    def.initial = &(InitialState){.count = 1, .position = x, .velocity = v};
+    World *world = fixture_world(&def);
+    double speed = 0;
+    for (int step = 0; step < 300; step++) {
+        fixture_step(world, 1);
+        speed = within(world);
+    }
+    State s = fixture_read(world);
+    printf("lone particle: %.3f m/s at %.4f m\n", speed, (double)s.position[1]);
+    assert_true(s.position[1] < 0.1F);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+/* Where there is no room nothing is pressed, however the box is thrown. */
+static void full_box_holds(void **state)
+{
+    (void)state;
+    WorldDef def = pbf_world(0.5, 0.5, 0.5);
+    def.dt = 1.0 / 30;
+    def.spacing = 0.05;
+    fixture_block(&def, 0, -0.25, 0, -0.25, 0.25, 0.5, 0.25);
+    World *world = fixture_world(&def);
+    uint32_t seed = 5;
+    assert_int_equal(world->count, 1000);
+    for (int step = 0; step < 90; step++) {
+        if (step % 6 == 0 && step < 60)
+            throw_box(world, &seed);
+        fixture_step(world, 1);
+        assert_true(within(world) < 20);
+    }
+    printf("full box: %.2f %% compressed\n", 100 * settled_compression(world));
+    assert_true(settled_compression(world) < 0.015);
+    world_destroy(world);
+}
+
+/* A tolerance of 0 asks for a number of iterations: no trouble. */
+static void runs_as_many_iterations_as_asked(void **state)
+{
+    (void)state;
+    WorldDef def = dam_def(1);
+    Error error = {0};
+    def.retries = 3;
+    pbf_def(&def)->tolerance = 0;
+    pbf_def(&def)->iterations = 1;
+    World *world = fixture_world(&def);
+    for (int step = 0; step < 60; step++)
+        if (!world_step(world, NULL, &error))
+            fail_msg("%s", error.message);
+    WorldInfo info;
+    world_info(world, &info);
+    assert_int_equal(info.trouble.count, 0);
+    assert_float_equal(info.solves[0].iterations, 1, 0);
+    assert_true(info.solves[0].mean > 0);
+    within(world);
+    world_destroy(world);
+}
+
+/* A tolerance that nothing reaches is trouble with a name, and ends. */
+static void says_that_it_does_not_converge(void **state)
+{
+    (void)state;
+    WorldDef def = dam_def(1);
+    Error error = {0};
+    def.retries = 3;
+    pbf_def(&def)->tolerance = 1e-9;
+    pbf_def(&def)->iterations = 1;
+    World *world = fixture_world(&def);
+    bool good = true;
+    for (int step = 0; step < 10 && good; step++)
+        good = world_step(world, NULL, &error);
+    assert_false(good);
+    assert_non_null(strstr(error.message, "does not converge"));
+    assert_non_null(strstr(error.message, "solver.tolerance"));
+    world_destroy(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(leaves_what_it_says),
+        cmocka_unit_test(keeps_momentum),
+        cmocka_unit_test(same_bits_on_threads),
+        cmocka_unit_test(goes_on_from_a_saved_state),
+        cmocka_unit_test(dam_breaks),
+        cmocka_unit_test(column_stands),
+        cmocka_unit_test(survives_a_shaken_box),
+        cmocka_unit_test(flies_freely_in_a_moving_box),
+        cmocka_unit_test(coincident_particles_part),
+        cmocka_unit_test(lone_particle_comes_to_rest),
+        cmocka_unit_test(full_box_holds),
+        cmocka_unit_test(runs_as_many_iterations_as_asked),
+        cmocka_unit_test(says_that_it_does_not_converge),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
