@@ -32,9 +32,12 @@ static void advise_viscous(const Tree *tree, const WorldDef *def, const StepFric
     name_friction(def, friction, what);
     advise(
         tree, "solver.step.dt", notes,
-        "the step of %.3g ms is too long for %s: from %.3g ms on friction makes fluid boil instead of calming "
-        "it; use %g substeps or more, or a lower viscosity",
-        1e3 * step, what, 1e3 * stands, substeps_for(def, stands));
+        "the step of %.3g ms is too long for %s: from %.3g ms on friction %s; use %g substeps or more, or a "
+        "lower viscosity",
+        1e3 * step, what, 1e3 * stands,
+        method_find(def->method)->leaps ? "is held to what a step stands, and fluid is thinner"
+                                        : "makes fluid boil instead of calming it",
+        substeps_for(def, stands));
 }
 
 void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
