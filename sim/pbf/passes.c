@@ -19,7 +19,7 @@ static const float WARM = 0.5F;
 
 /* The longest way of an iteration, in spacings: fluid that a long step has folded comes apart in several.
    What is cut short is lost to momentum. */
-static const float WAY_MOST = 1;
+static const float WAY_MOST = 0.2F;
 
 /* The nearest that an iteration brings a particle to a wall, in spacings: right at a wall its image pushes it
    nowhere. */

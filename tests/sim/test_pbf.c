@@ -22,10 +22,10 @@ static WorldDef pbf_world(double width, double height, double depth)
     return def;
 }
 
-/* A shrinking cube out of order in the middle of a large box, half of it a thousandth as dense. */
-static WorldDef cloud_def(Cloud *cloud)
+/* A shrinking cube out of order, m, in the middle of a large box, half of it a thousandth as dense. */
+static WorldDef cloud_def(Cloud *cloud, double disorder)
 {
-    WorldDef def = pbf_world(4, 4, 4);
+    WorldDef def = pbf_world(8, 8, 8);
     uint32_t seed = 3;
     memset(def.gravity, 0, sizeof def.gravity);
     def.fluid_count = 2;
@@ -33,9 +33,9 @@ static WorldDef cloud_def(Cloud *cloud)
     for (int i = 0; i < N; i++) {
         const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
         for (int k = 0; k < 3; k++) {
-            const double x = 0.1 * (index[k] - 0.5 * (SIDE - 1)) + 0.02 * (fixture_random(&seed) - 0.5);
-            cloud->x[3 * i + k] = (float)(x + (k == 1 ? 2 : 0));
-            cloud->v[3 * i + k] = (float)(-3 * x);
+            const double x = 0.1 * (index[k] - 0.5 * (SIDE - 1)) + disorder * (fixture_random(&seed) - 0.5);
+            cloud->x[3 * i + k] = (float)(x + (k == 1 ? 4 : 0));
+            cloud->v[3 * i + k] = (float)(-150 * disorder * x);
         }
         cloud->fluid[i] = index[0] > 2;
     }
@@ -74,7 +74,7 @@ static void leaves_what_it_says(void **state)
 {
     (void)state;
     static Cloud cloud;
-    WorldDef def = cloud_def(&cloud);
+    WorldDef def = cloud_def(&cloud, 0.02);
     pbf_def(&def)->tolerance = 1e-4;
     pbf_def(&def)->iterations = 2000;
     World *world = cloud_world(&def, &cloud);
@@ -112,12 +112,11 @@ static double within(World *world)
     return speed;
 }
 
-/* By how much of its scale momentum changes in 20 steps. */
-static double momentum_lost(double light)
+/* By how much of its scale momentum changes in 10 steps. */
+static double momentum_lost(double light, double disorder)
 {
     static Cloud cloud;
-    WorldDef def = cloud_def(&cloud);
-    def.box_size[0] = def.box_size[1] = def.box_size[2] = 8;
+    WorldDef def = cloud_def(&cloud, disorder);
     def.fluids[1].density = light;
     World *world = cloud_world(&def, &cloud);
     WorldSums before, after;
@@ -131,14 +130,14 @@ static double momentum_lost(double light)
     return lost;
 }
 
-/* Momentum stays; with densities 1 : 1000 but for what light particles' ways are cut short. */
+/* Momentum stays, but for ways that are cut short: light particles' beside heavy ones. */
 static void keeps_momentum(void **state)
 {
     (void)state;
-    const double same = momentum_lost(1000), apart = momentum_lost(1);
+    const double same = momentum_lost(1000, 0.004), apart = momentum_lost(1, 0.02);
     printf("momentum lost: %.2g, with 1 : 1000 %.2g\n", same, apart);
     assert_true(same < 1e-6);
-    assert_true(apart < 2e-3);
+    assert_true(apart < 5e-3);
 }
 
 static WorldDef dam_def(int threads)
@@ -206,6 +205,13 @@ static double settled_compression(World *world)
     return mean;
 }
 
+static double energy_of(World *world)
+{
+    WorldSums sums;
+    world_sums(world, &sums);
+    return sums.kinetic_energy + 9.81 * sums.mass * sums.centre[1];
+}
+
 /* A dam that breaks at 60 steps a second: as little compression as asked for, no energy out of nothing. */
 static void dam_breaks(void **state)
 {
@@ -216,14 +222,31 @@ static void dam_breaks(void **state)
     for (int step = 0; step < 120; step++) {
         fixture_step(world, 1);
         worst = fmax(worst, settled_compression(world));
-        WorldSums sums;
-        world_sums(world, &sums);
-        energy = sums.kinetic_energy + 9.81 * sums.mass * sums.centre[1];
+        energy = energy_of(world);
         start = step == 0 ? energy : start;
         assert_true(energy < 1.01 * start);
     }
     printf("mean compression %.3f %% at most; energy %.3f of the start\n", 100 * worst, energy / start);
     assert_true(worst < 0.015);
+    world_destroy(world);
+}
+
+/* A tall dam, whose pressure takes many iterations to build up: what they push too far is taken back. */
+static void tall_dam_gains_no_energy(void **state)
+{
+    (void)state;
+    WorldDef def = pbf_world(2.5, 3, 0.4);
+    def.spacing = 0.05;
+    fixture_block(&def, 0, -1.25, 0, -0.2, 0.25, 2, 0.2);
+    World *world = fixture_world(&def);
+    const double start = energy_of(world);
+    double most = 0;
+    for (int step = 0; step < 50; step++) {
+        fixture_step(world, 1);
+        most = fmax(most, energy_of(world) / start);
+    }
+    printf("tall dam: energy %.4f of the start at most\n", most);
+    assert_true(most < 1.005);
     world_destroy(world);
 }
 
@@ -462,6 +485,7 @@ int main(void)
         cmocka_unit_test(same_bits_on_threads),
         cmocka_unit_test(goes_on_from_a_saved_state),
         cmocka_unit_test(dam_breaks),
+        cmocka_unit_test(tall_dam_gains_no_energy),
         cmocka_unit_test(column_stands),
         cmocka_unit_test(survives_a_shaken_box),
         cmocka_unit_test(flies_freely_in_a_moving_box),
