@@ -4,7 +4,7 @@
 #include "sim/cpu/pair_shape.h"
 #include "sim/pbf/passes.h"
 
-/* Sum of W into `number_density`, of F x_ij into the force, and of F^2 r^2 / m_j. */
+/* Sum of W into `number_density`, of F x_ij into the force, and of F^2 r^2 / m_j, where `place` has 1 / m. */
 PAIR_LOOP(pbf_sums)
 {
     const Constants *s = args->constants;
@@ -20,7 +20,7 @@ PAIR_LOOP(pbf_sums)
             const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, PBF_KERNEL);
             n += height(q, PBF_KERNEL);
             sx += f * d.x, sy += f * d.y, sz += f * d.z;
-            squares += f * f * d.r2 * f8_gather(args->own[INVERSE_MASS], j);
+            squares += f * f * d.r2 * d.term;
         }
         lanes_store(args->number_density, i, begin, end, f8_splat(s->kernel_scale) * n);
         lanes_store(args->fx, i, begin, end, gradient * sx);
@@ -30,7 +30,7 @@ PAIR_LOOP(pbf_sums)
     }
 }
 
-/* sum (dk_i + dk_j) F x_ij. */
+/* sum (dk_i + dk_j) F x_ij, where `place` has dk. */
 PAIR_LOOP(pbf_push)
 {
     const Constants *s = args->constants;

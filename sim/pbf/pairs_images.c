@@ -29,7 +29,7 @@ SIMD_INLINE void image_sums(const PairArgs *args, const Near near, const Mirrore
         sum->y += weight * image->sign.y * f * d.y;
         sum->z += weight * image->sign.z * f * d.z;
         if (twice == 1)
-            sum->squares += f * f * d.r2 * f8_gather(args->own[INVERSE_MASS], j);
+            sum->squares += f * f * d.r2 * d.term;
     }
 }
 

@@ -17,8 +17,8 @@ static const float MOMENTUM = 0.6F;
    more. */
 static const float WARM = 0.5F;
 
-/* The longest way of an iteration, in spacings: fluid that a long step has folded comes apart in several.
-   What is cut short is lost to momentum. */
+/* The longest way of an iteration, in spacings: fluid that a long step has folded comes apart in several,
+   and is not thrown. What is cut short is lost to momentum. */
 static const float WAY_MOST = 0.2F;
 
 /* The nearest that an iteration brings a particle to a wall, in spacings: right at a wall its image pushes it
@@ -227,11 +227,12 @@ const Pass pbf_move = {
 
 /* --- an iteration: number density --- */
 
+/* {x, 1 / m}. */
 static void pack_place(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     for (size_t i = range->begin; i < range->end; i++)
-        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], 0}, 16);
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
 }
 
 static void finish_density(const Cpu *cpu, size_t i)
