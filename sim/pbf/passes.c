@@ -172,34 +172,64 @@ static void shorten(float way[3], float most)
         way[k] = scale > 0 ? scale * way[k] : 0;
 }
 
-static void hold(const WallsFar *inside, float x[3])
+/* What holds a particle on its way: the walls; solids where they stand at the step's end. */
+typedef struct Hold {
+    const Cpu *cpu;
+    WallsFar inside, box;
+    bool solids;
+    SolidStep standing[SOLIDS_MAX];
+} Hold;
+
+static void hold_make(const Cpu *cpu, Hold *hold)
 {
+    const Constants *s = cpu->constants;
+    hold->cpu = cpu;
+    hold->inside = walls_far(&s->walls, WALL_LEAST * s->spacing);
+    hold->box = walls_far(&s->walls, 0);
+    hold->solids = s->solid_count > 0;
+    for (int k = 0; k < s->solid_count; k++)
+        hold->standing[k] = (SolidStep){.begin = cpu->solid[k].end, .end = cpu->solid[k].end, .still = true};
+}
+
+/* True where it had to. From a solid's surface no further than into the box: a wall would push it into the
+ * solid. */
+static bool held(const Hold *hold, const float from[3], float x[3])
+{
+    float v[3] = {0};
+    const bool by_solid = hold->solids && cpu_guard_solids(hold->cpu, hold->standing, from, x, v);
+    const WallsFar *walls = by_solid ? &hold->box : &hold->inside;
+    const bool by_wall = walls_near(walls, x);
+    for (int k = 0; by_wall && k < 3; k++)
+        x[k] = fminf(fmaxf(x[k], walls->low[k]), walls->high[k]);
+    return by_solid || by_wall;
+}
+
+/* Where what the pairs add up to, kg m, takes particle i. */
+static void move_one(const Hold *hold, size_t i)
+{
+    const CpuParticles *p = &hold->cpu->now;
+    const float w = p->own[INVERSE_MASS][i], from[3] = {p->x[i], p->y[i], p->z[i]},
+                spacing = hold->cpu->constants->spacing;
+    float way[3] = {w * p->ax[i], w * p->ay[i], w * p->az[i]};
+    shorten(way, WAY_MOST * spacing);
+    float x[3] = {from[0] + way[0], from[1] + way[1], from[2] + way[2]};
+    if (held(hold, from, x))
+        for (int k = 0; k < 3; k++)
+            way[k] = x[k] - from[k];
+    p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
     for (int k = 0; k < 3; k++)
-        x[k] = fminf(fmaxf(x[k], inside->low[k]), inside->high[k]);
+        p->own[MOVED + k][i] += way[k];
+    p->own[WAY][i] += sqrtf(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]) / spacing;
 }
 
 static void move_body(const CpuRange *range)
 {
-    const CpuParticles *p = &range->cpu->now;
-    const Constants *s = range->cpu->constants;
-    const WallsFar inside = walls_far(&s->walls, WALL_LEAST * s->spacing);
+    Hold hold;
+    hold_make(range->cpu, &hold);
     cpu_pairs(range, &pbf_push);
     cpu_pairs(range, &pbf_images_push);
-    for (size_t i = range->begin; i < range->end; i++) {
-        const float w = p->own[INVERSE_MASS][i], from[3] = {p->x[i], p->y[i], p->z[i]};
-        float way[3] = {w * p->ax[i], w * p->ay[i], w * p->az[i]};
-        shorten(way, WAY_MOST * s->spacing);
-        float x[3] = {from[0] + way[0], from[1] + way[1], from[2] + way[2]};
-        if (walls_near(&inside, x)) {
-            hold(&inside, x);
-            for (int k = 0; k < 3; k++)
-                way[k] = x[k] - from[k];
-        }
-        p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
-        for (int k = 0; k < 3; k++)
-            p->own[MOVED + k][i] += way[k];
-        p->own[WAY][i] += sqrtf(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]) / s->spacing;
-    }
+    for (size_t i = range->begin; i < range->end; i++)
+        move_one(&hold, i);
 }
 
 /* Of a neighbour {x, k}; 1/m of it besides. */

@@ -339,6 +339,107 @@ static void survives_a_shaken_box(void **state)
     }
 }
 
+/* How deep a particle is in a solid at the world's time, at most, m. */
+static double deepest(World *world)
+{
+    const WorldDef *def = &world->def;
+    WorldInfo info;
+    double most = 0;
+    world_info(world, &info);
+    State s = fixture_read(world);
+    for (int k = 0; k < def->solid_count; k++) {
+        SolidPose pose;
+        solid_pose_at(&def->solids[k], info.time, &pose);
+        for (size_t i = 0; i < s.count; i++)
+            most = fmax(most, -(double)solid_clearance(&def->solids[k], &pose, def->dimensions,
+                                                       s.position + 4 * i, 1));
+    }
+    fixture_free(&s);
+    return most;
+}
+
+/* A dam runs into a pillar while a thin paddle goes to and fro at 4 m/s: nothing is in them. */
+static void solids_keep_fluid_out(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        WorldDef def = dam_def(2);
+        def.dimensions = dimensions;
+        def.dt = 1.0 / 30;
+        def.retries = 3;
+        def.solids[def.solid_count++] = (SolidDef){
+            .kind = SOLID_BOX, .centre = {0.3, 0.3, 0}, .size = {0.2, 0.6, 0.2}, .axis = {0, 1, 0}};
+        def.solids[def.solid_count++] = (SolidDef){
+            .kind = SOLID_BOX,
+            .centre = {-0.3, 0.4, 0},
+            .size = {0.1, 0.8, 0.3},
+            .axis = {0, 1, 0},
+            .motion_count = 1,
+            .motions = {{.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.3, .frequency = 2}}};
+        World *world = fixture_world(&def);
+        double deep = 0, speed = 0;
+        for (int step = 0; step < 90; step++) {
+            fixture_step(world, 1);
+            speed = fmax(speed, within(world));
+            deep = fmax(deep, deepest(world));
+        }
+        printf("%dD: %.2g m deep in solids at most, %.1f m/s\n", dimensions, deep, speed);
+        assert_true(deep < 1e-5);
+        assert_true(speed < 20);
+        world_destroy(world);
+    }
+}
+
+/* Light fluid on heavy fluid stays there, and both rest. */
+static void two_fluids_rest(void **state)
+{
+    (void)state;
+    WorldDef def = pbf_world(0.5, 1.5, 0.5);
+    def.spacing = 0.05;
+    def.fluid_count = 2;
+    def.fluids[1] = (FluidDef){.name = "light", .density = 1};
+    fixture_block(&def, 0, -0.25, 0, -0.25, 0.25, 0.5, 0.25);
+    fixture_block(&def, 1, -0.25, 0.5, -0.25, 0.25, 1, 0.25);
+    World *world = fixture_world(&def);
+    double heavy = 0, light = 0;
+    fixture_step(world, 120);
+    State s = fixture_read(world);
+    for (size_t i = 0; i < s.count; i++)
+        *(s.fluid[i] ? &light : &heavy) += (double)s.position[4 * i + 1] / ((double)s.count / 2);
+    WorldSums sums;
+    world_sums(world, &sums);
+    const double speed = sqrt(2 * sums.kinetic_energy / sums.mass);
+    printf("two fluids: centres at %.4f and %.4f m, %.3f m/s\n", heavy, light, speed);
+    assert_float_equal(heavy, 0.25, 0.01);
+    assert_float_equal(light, 0.75, 0.02);
+    assert_true(speed < 0.1);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+/* A jet of 2 m/s, whose layers come out two spacings a step, keeps its speed. */
+static void jet_flies(void **state)
+{
+    (void)state;
+    WorldDef def = pbf_world(4, 1, 1);
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.spacing = 0.05;
+    def.dt = 1.0 / 30;
+    def.most = 5000;
+    def.fluids[0].emits[def.fluids[0].emit_count++] =
+        (Emit){.centre = {-1.8, 0.5, 0}, .direction = {3, 0, 0}, .radius = 0.2, .speed = 2};
+    World *world = fixture_world(&def);
+    fixture_step(world, 36);
+    WorldSums sums;
+    WorldInfo info;
+    world_sums(world, &sums);
+    world_info(world, &info);
+    printf("jet: %zu particles, %.3f m/s\n", info.count, sums.momentum[0] / sums.mass);
+    assert_true(info.count > 1000);
+    assert_float_equal(sums.momentum[0] / sums.mass, 2, 0.1);
+    world_destroy(world);
+}
+
 /* Velocities of a free flight are exact in a box that spins and shakes; places fall by half a step's speed
    more. */
 static void flies_freely_in_a_moving_box(void **state)
@@ -488,6 +589,9 @@ int main(void)
         cmocka_unit_test(tall_dam_gains_no_energy),
         cmocka_unit_test(column_stands),
         cmocka_unit_test(survives_a_shaken_box),
+        cmocka_unit_test(solids_keep_fluid_out),
+        cmocka_unit_test(two_fluids_rest),
+        cmocka_unit_test(jet_flies),
         cmocka_unit_test(flies_freely_in_a_moving_box),
         cmocka_unit_test(coincident_particles_part),
         cmocka_unit_test(lone_particle_comes_to_rest),
