@@ -370,7 +370,7 @@ static void help_names_what_there_is(void **state)
     char *bench = help_of(COMMAND_BENCH), *play = help_of(COMMAND_PLAY);
     for (int i = 0; table_choice(i); i++)
         assert_non_null(strstr(bench, table_choice(i)));
-    assert_non_null(strstr(play, "which equations: mueller, wcsph, dfsph\n"));
+    assert_non_null(strstr(play, "which equations: mueller, wcsph, dfsph, pbf\n"));
     assert_non_null(strstr(play, "pixels (1280x720)\n"));
     assert_non_null(strstr(bench, "pixels (512x512)\n"));
     free(bench);
