@@ -14,8 +14,8 @@ static const PbfDef usual = {.tolerance = 0.01, .iterations = 50};
 
 /* clang-format off */
 static const Key keys[] = {
-    NUMBER("solver.tolerance", 0, "", 0, 1, offsetof(PbfDef, tolerance), "mean compression at which the iterations of a step end early; 0: all of them run"),
-    INTEGER("solver.iterations", 0, 1, 10000, offsetof(PbfDef, iterations), "of a step, at most"),
+    NUMBER("solver.compression", 0, "", 0, 1, offsetof(PbfDef, tolerance), "mean compression at which the iterations of a step end early; 0: all of them run"),
+    INTEGER("solver.corrections", 0, 1, 10000, offsetof(PbfDef, iterations), "iterations of a step, at most"),
     KEYS_END,
 };
 /* clang-format on */
@@ -156,6 +156,7 @@ const Method method_pbf = {
     .def_size = sizeof usual,
     .mirrors = true,
     .incompressible = true,
+    .solvers = {{"places", "solver.compression", "solver.corrections"}},
     .leaps = true,
     .kernels = pbf_kernels,
     .friction = pbf_friction,

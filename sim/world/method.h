@@ -66,8 +66,8 @@ enum { SOLVES_MAX = 2 };
 
 /* One of its solvers that iterate, if it has any (sim/world/iterate.h). */
 typedef struct MethodSolver {
-    const char *name;      /* for words: "density"; NULL: there is none of this number */
-    const char *tolerance; /* the path of its key */
+    const char *name;                   /* for words: "density"; NULL: there is none of this number */
+    const char *tolerance, *iterations; /* the paths of its keys */
 } MethodSolver;
 
 /* Where a method says what of a scene will not hold or has no effect, though nothing in it is wrong. */

@@ -109,10 +109,11 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
 {
     const double crossing = def->support * def->spacing / step_sound(def), c = def->sound_speed;
     const bool sounds = !method_find(def->method)->incompressible;
+    const MethodSolver *solver = &method_find(def->method)->solvers[0];
     const char *shorter = def->step_mode == STEP_CFL ? "a smaller solver.step.number"
                                                      : "a smaller solver.step.dt, more solver.step.substeps";
     if (trouble == STEP_TROUBLE_SOLVE)
-        snprintf(words, 200, "use %s, more solver.iterations or a larger tolerance", shorter);
+        snprintf(words, 200, "use %s, more %s or a larger %s", shorter, solver->iterations, solver->tolerance);
     else if (dt > STEP_SOUND_STANDS * crossing)
         snprintf(
             words, 200,

@@ -73,6 +73,8 @@ static const struct {
     {"solver.tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
     {"solver.divergence_tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
     {"solver.iterations=50", "solver.method=dfsph", "solver.method: dfsph", false},
+    {"solver.compression=1e-8", "solver.method=pbf", "solver.method: pbf", true},
+    {"solver.corrections=1", "solver.method=pbf", "solver.method: pbf", false},
     {"solver.grid_layers=3", "solver.backend=fragment", "solver.backend: fragment", false},
     {"solver.lost_limit=3", "solver.backend=fragment", "solver.backend: fragment", false},
     {"solver.threads=3", "solver.backend=cpu", "solver.backend: cpu", false},
@@ -94,11 +96,10 @@ enum { OWNED = sizeof owned / sizeof *owned };
 /* What is not the owner in question. */
 static const char *rival(const char *owner)
 {
-    static const char *const rivals[][2] = {{"solver.method=mueller", "solver.method=wcsph"},
-                                            {"solver.method=wcsph", "solver.method=mueller"},
-                                            {"solver.method=dfsph", "solver.method=mueller"},
-                                            {"solver.backend=cpu", "solver.backend=compute"},
-                                            {"solver.step.mode=fixed", "solver.step.mode=cfl"}};
+    static const char *const rivals[][2] = {
+        {"solver.method=mueller", "solver.method=wcsph"}, {"solver.method=wcsph", "solver.method=mueller"},
+        {"solver.method=dfsph", "solver.method=mueller"}, {"solver.method=pbf", "solver.method=mueller"},
+        {"solver.backend=cpu", "solver.backend=compute"}, {"solver.step.mode=fixed", "solver.step.mode=cfl"}};
     for (size_t i = 0; i < sizeof rivals / sizeof *rivals; i++)
         if (strcmp(owner, rivals[i][0]) == 0)
             return rivals[i][1];

@@ -574,7 +574,7 @@ static void says_that_it_does_not_converge(void **state)
         good = world_step(world, NULL, &error);
     assert_false(good);
     assert_non_null(strstr(error.message, "does not converge"));
-    assert_non_null(strstr(error.message, "solver.tolerance"));
+    assert_non_null(strstr(error.message, "solver.compression"));
     world_destroy(world);
 }
 
