@@ -113,14 +113,14 @@ static const CpuPass begins[] = {
     {.loops = {{again_body, .solids = true}}},
 };
 
-#define FILL_WRITES "viscosity tension kind inverse_mass residual change applied way"
+#define FILL_WRITES "viscosity tension kind inverse_mass change applied way"
 
 const Pass pbf_begin = {
     .name = "begin",
     .stage = STAGE_SOLVE,
     .cpu = &begins[0],
     .reads = "id fluid term",
-    .writes = FILL_WRITES " term moved",
+    .writes = FILL_WRITES " residual term moved",
 };
 
 const Pass pbf_again = {
@@ -128,7 +128,7 @@ const Pass pbf_again = {
     .stage = STAGE_SOLVE,
     .cpu = &begins[1],
     .reads = "id fluid term",
-    .writes = FILL_WRITES,
+    .writes = FILL_WRITES " residual",
 };
 
 /* --- an iteration: places --- */
