@@ -33,7 +33,7 @@ uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + 
 #endif
 
 // Who has more neighbours than a list holds walks each time. One call of `meet` for both ways, since it is inlined.
-#define WALK_LISTED(i, x, at, meet)                                                         \
+#define WALK_LISTED(i, from, at, meet)                                                      \
     {                                                                                       \
         bool made = LIST_MADE(i);                                                           \
         uint found = 0u;                                                                    \
@@ -42,7 +42,7 @@ uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + 
             for (uint k = range.x; k < range.y; k++) {                                      \
                 uint j = made ? list[list_place(i, k)] : k;                                 \
                 vec4 other = PLACES[j];                                                     \
-                vec3 d = x - other.xyz;                                                     \
+                vec3 d = from - other.xyz;                                                  \
                 LIST_ADD(i, j, d)                                                           \
                 meet(j, d, other.w);                                                        \
             }                                                                               \

@@ -4,7 +4,6 @@
 #define OWN_ACCESS writeonly
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
-#include "sim/wcsph/images.glsl"
 #include "sim/walk.glsl"
 #include "sim/own.glsl"
 #ifdef SOLIDS

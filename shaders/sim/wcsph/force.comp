@@ -4,7 +4,6 @@
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
 #include "sim/wcsph/wcsph.glsl"
-#include "sim/wcsph/images.glsl"
 #include "sim/wcsph/evenness.glsl"
 
 float volume_of(uint i) { return volume_at(velocity[i].w); }

@@ -1,38 +1,14 @@
 // What the passes of wcsph share: sim/wcsph/pairs.c, sim/wcsph/density.c.
 #include "shaders/sim/wcsph/wcsph_block.h"
+#include "sim/shapes.glsl"
+#include "sim/images.glsl"
 
-// f(q) = -w'(q) / q of the kernel, up to a factor that gradient_scale takes care of.
-float shape(float q)
+// Of a pair r apart: not less than that of a spacing over r.
+float image_shape(float r)
 {
-    float t = 1.0 - q;
-#if defined KERNEL_WENDLAND_C2
-    return 20.0 * (t * t * t);
-#elif defined KERNEL_QUINTIC
-    vec3 powers = max(vec3(3.0 * t, 3.0 * t - 1.0, 3.0 * t - 2.0), 0.0);
-    powers *= powers;
-    powers *= powers;
-    return (powers.x - 6.0 * powers.y + 15.0 * powers.z) / q;
-#else
-    return q < 0.5 ? 12.0 - 18.0 * q : 6.0 * (t * t) / q;
-#endif
+    float q = max(r * inverse_support, 1e-6), wide = max(q, spacing * inverse_support);
+    return shape(wide) * (wide / q);
 }
-
-#ifdef SHIFTING
-// w(q) / w(0).
-float height(float q)
-{
-    float t = 1.0 - q;
-#if defined KERNEL_WENDLAND_C2
-    return t * t * t * t * (1.0 + 4.0 * q);
-#elif defined KERNEL_QUINTIC
-    vec3 base = max(vec3(3.0 * t, 3.0 * t - 1.0, 3.0 * t - 2.0), 0.0), powers = base * base;
-    powers *= powers * base;
-    return (powers.x - 6.0 * powers.y + 15.0 * powers.z) / 66.0;
-#else
-    return q < 0.5 ? 1.0 - 6.0 * q * q * t : 2.0 * t * t * t;
-#endif
-}
-#endif
 
 struct State {
     float volume;

@@ -1,4 +1,4 @@
-// The walls of the box as mirrors, for wcsph: sim/box/wall_images.c, sim/wcsph/pairs_images.c.
+// The walls of the box as mirrors, for methods whose walls are (Method.mirrors): sim/box/wall_images.c.
 struct Image {
     vec3 x;
     vec3 sign; // -1 along the axes in a mirror, else 1
@@ -30,11 +30,4 @@ bool image_of(vec3 x, int walls, out Image image)
         return false;
 #endif
     return dot(near, near) < support * support;
-}
-
-// Of a pair r apart: not less than that of a spacing over r.
-float image_shape(float r)
-{
-    float q = max(r * inverse_support, 1e-6), wide = max(q, spacing * inverse_support);
-    return shape(wide) * (wide / q);
 }
