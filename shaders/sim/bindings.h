@@ -59,6 +59,7 @@
 #define PASS_DT_AT      0 /* s */
 #define SHOWN_SCALAR_AT 0
 #define GRAVITY_C2_AT   0
+#define COLUMN_AT       0 /* the first number of a column of scratch */
 
 /* How many there may be: the scene's limits, which C has as FLUIDS_MAX ... */
 #define FLUIDS_MOST 8

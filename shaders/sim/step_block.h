@@ -19,6 +19,7 @@ UNIFORM_BLOCK(StepBlock, STEP_BLOCK)
     vec3 felt_origin; /* apparent gravity */
     vec3 felt_alpha;
     vec3 felt_omega;
+    vec3 kick_gravity; /* of the kick of this step, for passes before it, m/s2 */
 }
 BLOCK_END(StepBlock);
 

@@ -84,10 +84,10 @@ static void dfsph_set(Constants *constants, const WorldDef *def)
     const DfsphDef *said = dfsph_def(def);
     const double n0 = lattice->number_density;
     const DfsphConstants own = {
-        .gradient = (float)(slope * lattice->density_scale),
-        .friction_gradient = (float)(slope * lattice->gradient_scale),
-        .pressure_scale = (float)(n0 * n0 * lattice->density_scale / lattice->gradient_scale),
-        .relaxation = (float)relaxation(def),
+        .sums = {.gradient = (float)(slope * lattice->density_scale),
+                 .friction_gradient = (float)(slope * lattice->gradient_scale),
+                 .relaxation = (float)relaxation(def),
+                 .pressure_of_term = (float)(n0 * n0 * lattice->density_scale / lattice->gradient_scale)},
         .most = said->iterations,
         .tolerance = said->tolerance,
         .divergence_tolerance = said->divergence_tolerance,
@@ -100,7 +100,7 @@ enum { SOLVE_DENSITY, SOLVE_DIVERGENCE };
 
 static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance)
 {
-    const DfsphConstants *own = dfsph_constants(step->constants);
+    const DfsphConstants *own = dfsph_solvers(step->constants);
     const Iteration iteration = {{passes[1], passes[2]}, dfsph_miss, tolerance, own->most};
     substep_run(step, passes[0], step->dt);
     substep_iterate(step, &iteration, which, step->dt);
@@ -113,7 +113,7 @@ static void end_divergence(const Substep *step)
 {
     static const Pass *const passes[] = {&dfsph_divergence_begin, &dfsph_divergence_push,
                                          &dfsph_divergence_rate, &dfsph_divergence_end};
-    solve(step, SOLVE_DIVERGENCE, passes, dfsph_constants(step->constants)->divergence_tolerance);
+    solve(step, SOLVE_DIVERGENCE, passes, dfsph_solvers(step->constants)->divergence_tolerance);
 }
 
 /* Moves places to rest density. Velocities have no part in it: given to them, as the papers do, each step's
@@ -122,7 +122,7 @@ static void hold_density(const Substep *step)
 {
     static const Pass *const passes[] = {&dfsph_density_begin, &dfsph_density_push, &dfsph_density_rate,
                                          &dfsph_density_end};
-    solve(step, SOLVE_DENSITY, passes, dfsph_constants(step->constants)->tolerance);
+    solve(step, SOLVE_DENSITY, passes, dfsph_solvers(step->constants)->tolerance);
 }
 
 /* Both solvers work between the halves of the drift, with one grid and one set of lists; from there to the
@@ -162,6 +162,15 @@ static const Pass *const passes[] = {&dfsph_state,
                                      &dfsph_density_end,
                                      NULL};
 
+static bool always(const Constants *constants)
+{
+    (void)constants;
+    return true;
+}
+
+/* Of vec4: push.glsl. */
+static const ShaderBuffer buffers[] = {{"Pushes", 16, always}, {"Moves", 16, always}, {0}};
+
 const Method method_dfsph = {
     .name = "dfsph",
     .help = "Bender and Koschier 2017: density and divergence held by two solvers that iterate",
@@ -177,6 +186,7 @@ const Method method_dfsph = {
     .constants = dfsph_set,
     .columns = dfsph_columns,
     .passes = passes,
+    .buffers = buffers,
     .settle = &dfsph_state,
     .substep = dfsph_substep,
 };

@@ -42,7 +42,7 @@ static void finish_factor(const Cpu *cpu, size_t i)
     const float d = (sx * sx + sy * sy + sz * sz) * p->own[INVERSE_MASS][i] + p->own[SQUARES][i];
     p->own[FACTOR][i] = d > 0 ? 1 / d : 0;
     p->volume[i] = 1 / p->volume[i];
-    p->pressure[i] = dfsph_constants(cpu->constants)->pressure_scale * p->own[KEPT][i];
+    p->pressure[i] = dfsph_constants(cpu->constants)->pressure_of_term * p->own[KEPT][i];
     p->ax[i] = p->ay[i] = p->az[i] = 0;
 }
 
@@ -60,6 +60,7 @@ const Pass dfsph_state = {
     .name = "factor",
     .stage = STAGE_DENSITY,
     .cpu = &state,
+    .shader = "dfsph/factor",
     .reads = "position id fluid kept_term",
     .writes = "volume pressure pressure_term acceleration viscosity tension kind factor squares inverse_mass",
 };
@@ -89,6 +90,7 @@ const Pass dfsph_others = {
     .name = "force",
     .stage = STAGE_FORCE,
     .cpu = &others,
+    .shader = "dfsph/force",
     .reads = "position velocity id fluid volume viscosity tension kind",
     .writes = "acceleration other",
     .mirrors = true,
@@ -116,7 +118,7 @@ static void divergence_end(const CpuRange *range)
     const CpuParticles *p = &range->cpu->now;
     for (size_t i = range->begin; i < range->end; i++) {
         p->own[KEPT][i] = p->pressure_term[i];
-        p->pressure[i] = dfsph_constants(range->cpu->constants)->pressure_scale * p->pressure_term[i];
+        p->pressure[i] = dfsph_constants(range->cpu->constants)->pressure_of_term * p->pressure_term[i];
     }
 }
 
@@ -282,27 +284,30 @@ static const CpuPass rates[] = {
     {.loops = {{density_rate, .walks = true, .pack = pack_density_motion}}, .pair = rate_pair},
 };
 
-#define SOLVE(NAME, CPU, READS, WRITES)                                                                      \
+#define SOLVE(NAME, CPU, SHADER, READS, WRITES)                                                              \
     {                                                                                                        \
-        .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .reads = READS, .writes = WRITES                  \
+        .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .shader = "dfsph/" SHADER, .reads = READS,        \
+        .writes = WRITES                                                                                     \
     }
 
 #define PUSH_READS "position id fluid pressure_term residual factor inverse_mass change"
 #define RATE_READS "position velocity id fluid acceleration volume pressure_term"
 
 const Pass dfsph_divergence_begin =
-    SOLVE("divergence begin", begins[0], "kept_term", "pressure_term residual change");
-const Pass dfsph_divergence_push =
-    SOLVE("divergence push", pushes[0], PUSH_READS " other", "pressure_term acceleration change");
-const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], RATE_READS, "residual miss");
-const Pass dfsph_divergence_end = SOLVE("divergence end", ends[0], "pressure_term", "kept_term pressure");
+    SOLVE("divergence begin", begins[0], "divergence_begin", "kept_term", "pressure_term residual change");
+const Pass dfsph_divergence_push = SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " other",
+                                         "pressure_term acceleration change");
+const Pass dfsph_divergence_rate =
+    SOLVE("divergence rate", rates[0], "divergence_rate", RATE_READS, "residual miss");
+const Pass dfsph_divergence_end =
+    SOLVE("divergence end", ends[0], "divergence_end", "pressure_term", "kept_term pressure");
 const Pass dfsph_density_begin =
-    SOLVE("density begin", begins[1], "acceleration", "pressure_term residual change other");
+    SOLVE("density begin", begins[1], "density_begin", "acceleration", "pressure_term residual change other");
 const Pass dfsph_density_push =
-    SOLVE("density push", pushes[1], PUSH_READS, "pressure_term acceleration change");
-const Pass dfsph_density_rate = SOLVE("density rate", rates[1], RATE_READS, "residual miss");
+    SOLVE("density push", pushes[1], "density_push", PUSH_READS, "pressure_term acceleration change");
+const Pass dfsph_density_rate = SOLVE("density rate", rates[1], "density_rate", RATE_READS, "residual miss");
 const Pass dfsph_density_end =
-    SOLVE("density end", ends[1], "position acceleration other", "position acceleration");
+    SOLVE("density end", ends[1], "density_end", "position acceleration other", "position acceleration");
 
 static bool many_viscous(const Constants *constants)
 {
@@ -313,12 +318,12 @@ static bool many_viscous(const Constants *constants)
 
 const ColumnDef dfsph_columns[] = {
     {"kept_term", "J m3", OWN(KEPT), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
-    {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT},
+    {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
     {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
     {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
-    {"miss", "", OWN(MISS), 1, COLUMN_FLOAT},
-    {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT},
+    {"miss", "", OWN(MISS), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
+    {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},

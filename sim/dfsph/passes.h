@@ -9,18 +9,11 @@
 #ifndef SLOSH_DFSPH_PASSES_H
 #define SLOSH_DFSPH_PASSES_H
 
+#include "shaders/sim/dfsph/dfsph_block.h"
 #include "sim/cpu/pass.h"
 #include "sim/kernel/kernel.h"
 
 #define DFSPH_KERNEL KERNEL_WENDLAND_C2
-
-/* How much of the iteration before goes on: half to a third of the iterations in large scenes, in small ones
- * as many.
- */
-#define JACOBI_MOMENTUM 0.6F
-
-/* How far the solver of density moves a particle in a step, spacings. */
-#define MOVE_MOST 0.2F
 
 /* Where its columns stand among a particle's own; k of the solver at work is `pressure_term`. */
 enum {
@@ -37,19 +30,22 @@ enum {
 extern const ColumnDef dfsph_columns[];
 extern const ColumnDef *const dfsph_miss;
 
-/* What a def means in numbers for dfsph alone. */
+/* What a def means in numbers for dfsph alone: of the pair sums, which shaders have too, and of the solvers.
+ */
 typedef struct DfsphConstants {
-    float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m5 */
-    float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
-    float relaxation;        /* of Jacobi */
-    float pressure_scale;    /* p over k, 1/m6 */
-    int most;                /* iterations */
+    DfsphBlock sums;
+    int most; /* iterations */
     double tolerance, divergence_tolerance;
 } DfsphConstants;
 
-static inline const DfsphConstants *dfsph_constants(const Constants *constants)
+static inline const DfsphConstants *dfsph_solvers(const Constants *constants)
 {
     return (const DfsphConstants *)(const void *)constants->of_method;
+}
+
+static inline const DfsphBlock *dfsph_constants(const Constants *constants)
+{
+    return &dfsph_solvers(constants)->sums;
 }
 
 /* What follows from places alone: n, volume, D; what pair sums need of each. */

@@ -3,6 +3,7 @@
 #define SLOSH_SOLVER_BLOCKS_H
 
 #include "shaders/sim/constant_block.h"
+#include "shaders/sim/dfsph/dfsph_block.h"
 #include "shaders/sim/exact_shapes_block.h"
 #include "shaders/sim/flow_block.h"
 #include "shaders/sim/solid_steps_block.h"
@@ -15,6 +16,7 @@
 #define STEP(member)     MEMBER(StepBlock, member)
 #define TERM(member)     MEMBER(TermBlock, member)
 #define WCSPH(member)    MEMBER(WcsphBlock, member)
+#define DFSPH(member)    MEMBER(DfsphBlock, member)
 #define WATCH(member)    MEMBER(WatchBlock, member)
 #define STEPS(member)    MEMBER(SolidStepsBlock, member)
 #define SHAPE(member)    MEMBER(ExactShapesBlock, member)
@@ -33,7 +35,7 @@
           CONSTANT(box_whole)),                                                                              \
         BLOCK("sim/step_block.h", StepBlock, STEP(rotation[0]), STEP(omega0), STEP(drift_dt), STEP(omega1),  \
               STEP(still), STEP(shift), STEP(velocity_change), STEP(gravity), STEP(kick_dt),                 \
-              STEP(felt_origin), STEP(felt_alpha), STEP(felt_omega)),                                        \
+              STEP(felt_origin), STEP(felt_alpha), STEP(felt_omega), STEP(kick_gravity)),                    \
         BLOCK("sim/term_block.h", TermBlock, TERM(colour_scale), TERM(drag_range),                           \
               TERM(fluid_terms[0].tension), TERM(fluid_terms[7].tension), TERM(drag_nodes),                  \
               TERM(drag_steps), TERM(drag_offset), TERM(lid_velocity)),                                      \
@@ -41,6 +43,8 @@
               WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(kernel_shape),        \
               WCSPH(any_artificial), WCSPH(wcsph_fluids[0].tait),                                            \
               WCSPH(wcsph_fluids[0].artificial_viscosity), WCSPH(wcsph_fluids[7].artificial_viscosity)),     \
+        BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(friction_gradient),              \
+              DFSPH(relaxation), DFSPH(pressure_of_term)),                                                   \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \
               WATCH(greatest_density_ratio), WATCH(guarded), WATCH(went_too_far)),                           \
         BLOCK("sim/solid_steps_block.h", SolidStepsBlock, STEPS(solid_total), STEPS(boundary_total),         \

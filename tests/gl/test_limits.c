@@ -207,23 +207,23 @@ static bool overfull(const Compute *c)
 static void lists_change_no_bit(void **state)
 {
     (void)state;
-    static const char *const methods[] = {"mueller", "wcsph"};
-    for (int k = 0; k < 4; k++) {
+    static const char *const methods[] = {"mueller", "wcsph", "dfsph"};
+    for (int k = 0; k < 6; k++) {
         WorldDef def = fixture_def(1, 1.2, 1);
         uint64_t hash[2];
         def.reproducible = true;
         def.dt = 1e-5;
         snprintf(def.backend, sizeof def.backend, "compute");
-        snprintf(def.method, sizeof def.method, "%s", methods[k % 2]);
+        snprintf(def.method, sizeof def.method, "%s", methods[k % 3]);
         fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 1, 0.5);
         for (int without = 0; without < 2; without++) {
             limit(without ? GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS : 0, 11);
             World *world = fixture_world(&def);
-            if (k > 1)
+            if (k > 2)
                 gather(world);
             fixture_step(world, 5);
             assert_true((((const Compute *)world->state)->lists == 0) == without);
-            assert_true(without || overfull(world->state) == (k > 1));
+            assert_true(without || overfull(world->state) == (k > 2));
             hash[without] = world_hash(world);
             world_destroy(world);
         }

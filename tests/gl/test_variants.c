@@ -425,6 +425,17 @@ static void wcsph_lives(void)
     LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
 }
 
+static void dfsph_lives(void)
+{
+    WorldDef base = pool_def("compute");
+    set_name(base.method, "dfsph");
+    LIVE(base, d.fluids[0].viscosity = 0);
+    LIVE(base, d.negative_pressure = true, d.reproducible = true);
+    LIVE(base, d.periodic[0] = true, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
+    LIVE(base, with_a_ball(d.solids, &d.solid_count), add_flow(&d));
+    LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COLOUR_FIELD, d.fluids[0].surface_tension = 0.1);
+}
+
 enum { VIEWS_MAX = 100 };
 
 /* Every view once, and what makes other shaders of it. */
@@ -562,6 +573,7 @@ static void every_form_is_made(void **state)
     mueller_lives("fragment");
     mueller_has_more_on_compute();
     wcsph_lives();
+    dfsph_lives();
     draw_views(&def, false);
     with_a_ball(def.solids, &def.solid_count);
     draw_views(&def, true);
@@ -583,6 +595,8 @@ static void worlds_live(void **state)
     live(&def); /* without diffusion */
     wcsph_def(&def)->delta_sph = wcsph_def(&def)->shifting = 0.1;
     def.reproducible = true;
+    live(&def);
+    set_name(def.method, "dfsph");
     live(&def);
     toy_lives();
     worlds_only = false;

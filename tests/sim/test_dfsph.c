@@ -98,6 +98,7 @@ static void by_id(const CpuParticles *now, const float *column, float *to)
 static void leaves_what_it_says(void **state)
 {
     (void)state;
+    fixture_needs_cpu("reads multipliers where that backend has them");
     static Cloud cloud;
     WorldDef def = cloud_def(&cloud);
     dfsph_def(&def)->tolerance = dfsph_def(&def)->divergence_tolerance = 1e-5;
@@ -157,6 +158,7 @@ static WorldDef dam_def(int threads)
 static void same_bits_on_threads(void **state)
 {
     (void)state;
+    fixture_needs_cpu("threads");
     static const int threads[] = {1, 2, 3, 8};
     uint64_t hash[4];
     for (int k = 0; k < 4; k++) {

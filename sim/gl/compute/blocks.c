@@ -123,11 +123,12 @@ void compute_set_kick(Compute *compute, const float gravity[3], float dt)
     put_step(compute, &block, offsetof(StepBlock, gravity), offsetof(StepBlock, felt_origin));
 }
 
-void compute_set_force(Compute *compute, const ApparentGravity *gravity)
+void compute_set_force(Compute *compute, const PassInput *input)
 {
     StepBlock block = {0};
-    copy3(gravity->origin, block.felt_origin);
-    copy3(gravity->alpha, block.felt_alpha);
-    copy3(gravity->omega, block.felt_omega);
+    copy3(input->apparent->origin, block.felt_origin);
+    copy3(input->apparent->alpha, block.felt_alpha);
+    copy3(input->apparent->omega, block.felt_omega);
+    copy3(input->gravity, block.kick_gravity);
     put_step(compute, &block, offsetof(StepBlock, felt_origin), sizeof block);
 }

@@ -40,6 +40,7 @@ static void compute_destroy(void *state)
     mailbox_destroy(&c->watch);
     mailbox_destroy(&c->ranges);
     mailbox_destroy(&c->gauge);
+    mailbox_destroy(&c->excess);
     compute_boundary_destroy(c);
     compute_flow_destroy(c);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
@@ -86,7 +87,8 @@ static bool buffers_create(Compute *c, Error *error)
     }
     compute_flow_create(c);
     const bool bounded = compute_boundary_create(c);
-    return (bounded && !c->full && mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
+    return (bounded && !c->full && compute_excess_create(c) &&
+            mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
             mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
            compute_no_memory(c, error);
 }
@@ -94,7 +96,7 @@ static bool buffers_create(Compute *c, Error *error)
 static void walls_upload(Compute *c)
 {
     const Walls *walls = &c->constants->walls;
-    if (c->constants->method->carries_density) /* it has none */
+    if (c->constants->method->mirrors) /* it has none */
         return;
     c->walls = compute_buffer(c, "wall tables", walls_entries(walls, walls->dimensions) * sizeof(WallSums));
     for (int t = 0; t < walls->dimensions && c->walls; t++) {
@@ -207,7 +209,7 @@ static size_t most_bytes(const Constants *s, size_t capacity)
         particle = larger(particle, own->needed(s) ? own->size : 0);
     const size_t particles = particle * capacity, cells = 4 * (s->cells.count + 2);
     const size_t walls =
-        s->method->carries_density ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
+        s->method->mirrors ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
     return larger(larger(particles, 16 * s->boundary.count), larger(cells, walls));
 }
 
@@ -314,6 +316,7 @@ const Backend backend_compute = {
     .drift = compute_drift,
     .grid = compute_grid,
     .run = compute_pass,
+    .excess = compute_excess,
     .kick = compute_kick,
     .guide = compute_guide,
     .emit = compute_emit,

@@ -14,6 +14,7 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
+    COMPUTE_EXCESS_GROUPS = 64,
     COMPUTE_NAMED = 18,
     COMPUTE_DEFINES_MAX = 2048
 };
@@ -46,6 +47,7 @@ typedef struct ComputeOwn {
     X(MOVE, "compute/move")                                                                                  \
     X(KICK, "compute/kick")                                                                                  \
     X(GAUGE, "compute/gauge")                                                                                \
+    X(EXCESS, "compute/excess")                                                                              \
     X(SHOW, "compute/show")                                                                                  \
     X(BOUNDARY_BIN, "compute/boundary_bin")                                                                  \
     X(BOUNDARY_PLACE, "compute/boundary_place")                                                              \
@@ -64,7 +66,7 @@ typedef enum ComputePass {
     COMPUTE_PASSES(X)
 #undef X
         COMPUTE_METHOD,
-    COMPUTE_PASS_COUNT = COMPUTE_METHOD + 8
+    COMPUTE_PASS_COUNT = COMPUTE_METHOD + 12
 } ComputePass;
 
 /* Boundary particles of solids; all 0 without solids. */
@@ -104,6 +106,7 @@ typedef struct Compute {
     Mailbox watch;                        /* WatchBlock */
     bool watch_due;                       /* kicks were noted that were not sent */
     float longest;                        /* dt of the kicks since the watch was read, s */
+    Mailbox excess;                       /* ExcessPart a group; none of a method that does not iterate */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     Mailbox gauge;                        /* GaugePart a group; none before the first `gauge` */
     size_t gauged;                        /* particles then */
@@ -145,6 +148,13 @@ bool compute_download(const Compute *compute, ParticleColumns *columns);
    short. */
 int compute_scratch_of(const Constants *constants);
 bool compute_scratch_fit(Compute *compute);
+
+/* Which of the numbers of scratch a column's first is. */
+size_t compute_scratch_place(const Compute *compute, const ColumnDef *column);
+
+/* excess.c: whether passes of the method iterate, then its buffer. False when memory is short. */
+bool compute_iterates(const Method *method);
+bool compute_excess_create(Compute *compute);
 
 /* lists.c: lists of neighbours, where the driver can have them; lines for the shaders. */
 void compute_lists_create(Compute *compute);
@@ -210,7 +220,7 @@ void compute_term_constants(Compute *compute);
 void compute_constants(Compute *compute);
 void compute_vary(void *state);
 void compute_set_drift(Compute *compute, const BoxStep *step);
-void compute_set_force(Compute *compute, const ApparentGravity *gravity);
+void compute_set_force(Compute *compute, const PassInput *input);
 void compute_set_kick(Compute *compute, const float gravity[3], float dt);
 
 /* Exclusive prefix sums of the first `size` numbers of a buffer, in place. */
@@ -235,6 +245,7 @@ void compute_grid(void *state);
 void compute_drift(void *state, const BoxStep *step);
 void compute_pass(void *state, const Pass *pass, const PassInput *input);
 void compute_kick(void *state, const float gravity[3], float dt);
+Excess compute_excess(void *state, const ColumnDef *column);
 StepWatch compute_watch(void *state);
 bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);

@@ -29,6 +29,14 @@ int compute_scratch_of(const Constants *constants)
     return total;
 }
 
+size_t compute_scratch_place(const Compute *c, const ColumnDef *column)
+{
+    size_t place = 0;
+    for (const ColumnDef *row = c->constants->method->columns; row != column; row++)
+        place += is_scratch(c->constants, row) ? (size_t)row->components * c->capacity : 0;
+    return place;
+}
+
 /* It only grows: programs of before, with more columns, may have to go on with it. */
 bool compute_scratch_fit(Compute *c)
 {

@@ -50,7 +50,7 @@ void compute_pass(void *state, const Pass *pass, const PassInput *input)
     if (c->takes_dt[at])
         glProgramUniform1f(c->program[at], PASS_DT_AT, input->dt);
     if (pass->stage == STAGE_FORCE && input->apparent)
-        compute_set_force(c, input->apparent);
+        compute_set_force(c, input);
     if (pass->mirrors && c->constants->solid_count > 0)
         compute_boundary_fill(c);
     compute_sweep(c, at, c->count);

@@ -60,6 +60,8 @@ bool compute_pass_named(const Constants *s, ComputePass pass)
     case COMPUTE_BOUNDARY_SORT:
     case COMPUTE_BOUNDARY_FILL:
         return s->solid_count > 0;
+    case COMPUTE_EXCESS:
+        return compute_iterates(s->method);
     case COMPUTE_GUIDE:
     case COMPUTE_EMIT_MARK:
     case COMPUTE_EMIT_ADD:

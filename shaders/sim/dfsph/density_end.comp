@@ -1,0 +1,16 @@
+// dfsph: places move by what the solver of density has found: density_end in sim/dfsph/passes.c.
+#include "sim/constants.glsl"
+#include "shaders/sim/dfsph/dfsph_block.h"
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
+layout(std430, binding = PUSHES_BUFFER) readonly buffer Pushes { vec4 push[]; }; // accelerations, k
+layout(location = PASS_DT_AT) uniform float dt;
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 way = push[i].xyz * (dt * dt);
+    float size = length(way), most = MOVE_MOST * spacing;
+    position[i].xyz += size > most ? most / size * way : way;
+}

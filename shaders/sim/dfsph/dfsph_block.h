@@ -1,0 +1,28 @@
+/* The constants of dfsph, of which C and shaders read the same; dfsph_set of sim/dfsph/dfsph.c fills it. */
+#ifndef SLOSH_DFSPH_BLOCK_H
+#define SLOSH_DFSPH_BLOCK_H
+
+#include "shaders/shared/block.h"
+#include "shaders/sim/bindings.h"
+
+/* Storage buffers, beside those of shaders/sim/bindings.h */
+#define MOVES_BUFFER  3
+#define PUSHES_BUFFER 7
+
+/* How much of the iteration before goes on: half to a third of the iterations in large scenes, in small ones
+   as many. */
+#define JACOBI_MOMENTUM 0.6F
+
+/* How far the solver of density moves a particle in a step, spacings. */
+#define MOVE_MOST 0.2F
+
+UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
+{
+    float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m5 */
+    float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
+    float relaxation;        /* of Jacobi */
+    float pressure_of_term;  /* p over k, 1/m6 */
+}
+BLOCK_END(DfsphBlock);
+
+#endif

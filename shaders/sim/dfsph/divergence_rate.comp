@@ -1,0 +1,3 @@
+// dfsph: rate.glsl, of the solver of divergence.
+#define DIVERGENCE
+#include "sim/dfsph/rate.glsl"

@@ -1,0 +1,85 @@
+// dfsph, of both solvers: accelerations by k, then the velocities with which particles come to the middle of the next step:
+// dfsph_push in sim/dfsph/pairs.c, dfsph_images_push in sim/dfsph/pairs_images.c, pack_motion in sim/dfsph/passes.c.
+#define LISTS_LATER
+#define PLACES near
+#include "sim/dfsph/dfsph.glsl"
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; };                  // w: k
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };  // w: volume
+layout(std430, binding = PUSHES_BUFFER) writeonly buffer Pushes { vec4 push[]; };             // accelerations, k
+layout(std430, binding = MOVES_BUFFER) writeonly buffer Moves { vec4 move[]; };               // velocities, volume
+#ifdef DIVERGENCE
+layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { vec4 acceleration[]; }; // by all but pressure
+#endif
+layout(location = PASS_DT_AT) uniform float dt;
+
+// The particle's k; sums of (k_i + k_j) F x_ij, and those of an image.
+float own_term;
+vec3 sum = vec3(0), image_sum;
+
+void meet(uint j, vec3 d, float term)
+{
+    if (dot(d, d) >= support * support || j == self)
+        return;
+    SEPARATE(name[self].x, name[j].x, d)
+    sum += (own_term + term) * shape(q_of(d)) * d;
+}
+
+void meet_image(uint j, vec3 d, float term)
+{
+    if (dot(d, d) < support * support)
+        image_sum += (own_term + term) * shape(image_q(d)) * d;
+}
+
+#ifdef SOLIDS
+void meet_boundary(uint j, vec3 d, float volume)
+{
+    if (dot(d, d) >= support * support)
+        return;
+    SEPARATE(name[self].x, BOUNDARY_ID + boundary_state[j].y, d)
+    sum += own_term * shape(q_of(d)) * d;
+}
+
+void meet_boundary_image(uint j, vec3 d, float volume) { meet_image(j, d, 0.0); }
+#endif
+
+// Whom an image sees its particle has in its list: sim/cpu/pair_images.h.
+void walk_images(vec3 x, ivec3 at)
+{
+    int end = images_end(x);
+    Image image;
+    for (int walls = 1; walls < end; walls++) {
+        if (!image_of(x, walls, image))
+            continue;
+        image_sum = vec3(0);
+        WALK_NEIGHBOURS(self, image.x, at, meet_image, meet_boundary_image, 0)
+        sum += image.sign * image_sum;
+    }
+}
+
+// By pressure, by what the box does meanwhile in the halves of the drift; the kick is behind the solver of divergence.
+vec3 flown(uint i, vec3 x, vec3 pressed)
+{
+    vec3 felt = 0.5 * (felt_at(x) - kick_gravity);
+#ifdef DIVERGENCE
+    return velocity[i].xyz + dt * (acceleration[i].xyz + pressed + felt + kick_gravity);
+#else
+    return velocity[i].xyz + dt * (pressed + felt);
+#endif
+}
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 x = near[i].xyz;
+    ivec3 at = cell_of(x);
+    self = i;
+    own_term = near[i].w;
+    WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
+    walk_images(x, at);
+    vec3 pressed = gradient * sum / fluids[FLUID_OF(i)].mass;
+    push[i] = vec4(pressed, own_term);
+    move[i] = vec4(flown(i, x, pressed), velocity[i].w);
+}
