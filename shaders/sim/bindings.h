@@ -54,6 +54,7 @@
 #define VALUES_BUFFER 5
 #define RANGES_BUFFER 6
 #define PARTS_BUFFER  5
+#define SOLVE_BUFFER  6
 
 /* Locations of uniforms: what a pass has of its own */
 #define PASS_DT_AT      0 /* s */

@@ -1,4 +1,4 @@
-/* What a group of excess.comp sums up of a column; sim/gl/compute/excess.c adds the groups' up. */
+/* What a group of excess.comp sums up of a column; decide.comp adds the groups' up. */
 #ifndef SLOSH_EXCESS_PART_H
 #define SLOSH_EXCESS_PART_H
 
@@ -8,7 +8,6 @@ BLOCK_STRUCT(ExcessPart)
 {
     float above; /* the sum of what is above 0 */
     float greatest;
-    float unused[2]; /* C counts them in any case */
 }
 BLOCK_END(ExcessPart);
 

@@ -13,6 +13,7 @@
 #include "sim/world/step_control.h"
 
 struct BackendMicro;    /* sim/world/micro.h */
+struct Iteration;       /* sim/world/iterate.h */
 struct ParticleBuffers; /* sim/gl/particle_buffers.h */
 
 /* What of a column's values is above 0. */
@@ -56,8 +57,11 @@ typedef struct Backend {
     /* A pass of the method. */
     void (*run)(void *state, const Pass *pass, const PassInput *input);
     /* Of a column of one component, over the fluids' particles, in an order that no thread count changes.
-       NULL: the backend runs no method that iterates. */
+       NULL: the backend has `iterate`, or runs no method that iterates. */
     Excess (*excess)(void *state, const ColumnDef *column);
+    /* The loop of substep_iterate where the particles are; `solve` has what the solver did in the step
+       before, then what it did in this one. NULL: that loop asks for the excess after each iteration. */
+    void (*iterate)(void *state, const struct Iteration *iteration, const PassInput *input, StepSolve *solve);
     /* v += (acceleration + gravity) dt. */
     void (*kick)(void *state, const float gravity[3], float dt);
     /* What the kicks since the last call or `load` found; waits for them. */

@@ -5,6 +5,11 @@
 void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt)
 {
     StepSolve *solve = &step->solves[which];
+    if (step->backend->iterate) {
+        const PassInput input = substep_input(step, dt);
+        step->backend->iterate(step->state, iteration, &input, solve);
+        return;
+    }
     *solve = (StepSolve){.tolerance = iteration->tolerance};
     do {
         for (int k = 0; iteration->passes[k]; k++)

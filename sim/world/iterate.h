@@ -4,8 +4,8 @@
 
 #include "sim/world/substep.h"
 
-/* Data alone, no calls of the method between the passes: a backend that cannot read back in each iteration
-   may take the same decisions where its particles are. */
+/* Data alone, no calls of the method between the passes: a backend for which a read-back in each iteration
+   is dear takes the same decisions where its particles are (Backend.iterate). */
 typedef struct Iteration {
     const Pass *passes[4];     /* of an iteration, ended by NULL; the last one measures */
     const ColumnDef *residual; /* what is above 0 of it counts */

@@ -21,12 +21,19 @@ typedef struct Substep {
     float gravity[3];                /* in the box's axes in the middle, m/s2 */
 } Substep;
 
-/* A pass of the method over `dt` (s). */
-static inline void substep_run(const Substep *step, const Pass *pass, double dt)
+/* What passes over `dt` (s) may want to know. */
+static inline PassInput substep_input(const Substep *step, double dt)
 {
     PassInput input = {.dt = (float)dt, .apparent = &step->apparent};
     for (int k = 0; k < 3; k++)
         input.gravity[k] = step->gravity[k];
+    return input;
+}
+
+/* A pass of the method over `dt` (s). */
+static inline void substep_run(const Substep *step, const Pass *pass, double dt)
+{
+    const PassInput input = substep_input(step, dt);
     step->backend->run(step->state, pass, &input);
 }
 

@@ -24,6 +24,7 @@
     X(glUseProgram)                                                                                          \
     X(glLinkProgram)                                                                                         \
     X(glShaderSource)                                                                                        \
+    X(glDispatchComputeIndirect)                                                                             \
     X(glDispatchCompute)                                                                                     \
     X(glMemoryBarrier)                                                                                       \
     X(glBindImageTexture)                                                                                    \
@@ -219,19 +220,33 @@ static void note_images(GLuint program)
     }
 }
 
-static void APIENTRY note_dispatch(GLuint x, GLuint y, GLuint z)
+/* What the program in use may write. */
+static void note_written(void)
 {
     GLint program = 0;
     GLuint seen[BLOCKS_MAX];
     int count = 0;
-    if (texts_only)
-        return;
     glGetIntegerv(GL_CURRENT_PROGRAM, &program);
     note_blocks((GLuint)program, GL_UNIFORM_BLOCK, GL_UNIFORM_BUFFER_BINDING, seen, &count);
     note_blocks((GLuint)program, GL_SHADER_STORAGE_BLOCK, GL_SHADER_STORAGE_BUFFER_BINDING, seen, &count);
     note_images((GLuint)program);
     dispatches++;
+}
+
+static void APIENTRY note_dispatch(GLuint x, GLuint y, GLuint z)
+{
+    if (texts_only)
+        return;
+    note_written();
     real_glDispatchCompute(x, y, z);
+}
+
+static void APIENTRY note_decided_dispatch(GLintptr at)
+{
+    if (texts_only)
+        return;
+    note_written();
+    real_glDispatchComputeIndirect(at);
 }
 
 static void APIENTRY note_barrier(GLbitfield bits)
@@ -313,6 +328,7 @@ static void watch_entries(void)
     epoxy_glLinkProgram = note_program;
     epoxy_glShaderSource = keep_source;
     epoxy_glDispatchCompute = note_dispatch;
+    epoxy_glDispatchComputeIndirect = note_decided_dispatch;
     epoxy_glMemoryBarrier = note_barrier;
     epoxy_glBindImageTexture = note_image;
     epoxy_glClearNamedBufferData = note_clear;

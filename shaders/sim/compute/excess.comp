@@ -22,5 +22,5 @@ void main()
             sums[own] = vec2(sums[own].x + sums[own + half_count].x, max(sums[own].y, sums[own + half_count].y));
     }
     if (own == 0u)
-        part[gl_WorkGroupID.x] = ExcessPart(sums[0].x, sums[0].y, float[2](0.0, 0.0));
+        part[gl_WorkGroupID.x] = ExcessPart(sums[0].x, sums[0].y);
 }

@@ -30,7 +30,7 @@ static void compute_destroy(void *state)
     const GLuint buffers[] = {c->cell,           c->rank,      c->order,    c->start,        c->totals[0],
                               c->totals[1],      c->totals[2], c->pressure, c->acceleration, c->walls,
                               c->constant_block, c->step,      c->terms,    c->of_method,    c->drag,
-                              c->scratch,        c->lists,     c->near};
+                              c->scratch,        c->lists,     c->near,     c->parts};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
@@ -40,7 +40,7 @@ static void compute_destroy(void *state)
     mailbox_destroy(&c->watch);
     mailbox_destroy(&c->ranges);
     mailbox_destroy(&c->gauge);
-    mailbox_destroy(&c->excess);
+    mailbox_destroy(&c->solve);
     compute_boundary_destroy(c);
     compute_flow_destroy(c);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
@@ -87,7 +87,7 @@ static bool buffers_create(Compute *c, Error *error)
     }
     compute_flow_create(c);
     const bool bounded = compute_boundary_create(c);
-    return (bounded && !c->full && compute_excess_create(c) &&
+    return (bounded && !c->full && compute_iterate_create(c) &&
             mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
             mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
            compute_no_memory(c, error);
@@ -316,7 +316,7 @@ const Backend backend_compute = {
     .drift = compute_drift,
     .grid = compute_grid,
     .run = compute_pass,
-    .excess = compute_excess,
+    .iterate = compute_iterate,
     .kick = compute_kick,
     .guide = compute_guide,
     .emit = compute_emit,

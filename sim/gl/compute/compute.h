@@ -14,7 +14,8 @@ enum {
     COMPUTE_GROUP = 64,
     COMPUTE_LAYER = 4096,
     COMPUTE_GAUGE_GROUPS = 64,
-    COMPUTE_EXCESS_GROUPS = 64,
+    COMPUTE_EXCESS_GROUPS = 64, /* as many as decide.comp adds up */
+    COMPUTE_ALONG = 65535,      /* work groups in a row */
     COMPUTE_NAMED = 18,
     COMPUTE_DEFINES_MAX = 2048
 };
@@ -48,6 +49,7 @@ typedef struct ComputeOwn {
     X(KICK, "compute/kick")                                                                                  \
     X(GAUGE, "compute/gauge")                                                                                \
     X(EXCESS, "compute/excess")                                                                              \
+    X(DECIDE, "compute/decide")                                                                              \
     X(SHOW, "compute/show")                                                                                  \
     X(BOUNDARY_BIN, "compute/boundary_bin")                                                                  \
     X(BOUNDARY_PLACE, "compute/boundary_place")                                                              \
@@ -106,7 +108,9 @@ typedef struct Compute {
     Mailbox watch;                        /* WatchBlock */
     bool watch_due;                       /* kicks were noted that were not sent */
     float longest;                        /* dt of the kicks since the watch was read, s */
-    Mailbox excess;                       /* ExcessPart a group; none of a method that does not iterate */
+    unsigned parts;                       /* ExcessPart a group; 0: the method does not iterate */
+    Mailbox solve;                        /* SolveBlock; none of such a method */
+    bool decided;                         /* the method's passes have as many work groups as it says */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     Mailbox gauge;                        /* GaugePart a group; none before the first `gauge` */
     size_t gauged;                        /* particles then */
@@ -152,9 +156,9 @@ bool compute_scratch_fit(Compute *compute);
 /* Which of the numbers of scratch a column's first is. */
 size_t compute_scratch_place(const Compute *compute, const ColumnDef *column);
 
-/* excess.c: whether passes of the method iterate, then its buffer. False when memory is short. */
+/* iterate.c: whether passes of the method iterate; buffers for it. False when memory is short. */
 bool compute_iterates(const Method *method);
-bool compute_excess_create(Compute *compute);
+bool compute_iterate_create(Compute *compute);
 
 /* lists.c: lists of neighbours, where the driver can have them; lines for the shaders. */
 void compute_lists_create(Compute *compute);
@@ -245,7 +249,8 @@ void compute_grid(void *state);
 void compute_drift(void *state, const BoxStep *step);
 void compute_pass(void *state, const Pass *pass, const PassInput *input);
 void compute_kick(void *state, const float gravity[3], float dt);
-Excess compute_excess(void *state, const ColumnDef *column);
+void compute_iterate(void *state, const struct Iteration *iteration, const PassInput *input,
+                     StepSolve *solve);
 StepWatch compute_watch(void *state);
 bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);

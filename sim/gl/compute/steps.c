@@ -2,6 +2,7 @@
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
+#include "shaders/sim/solve_block.h"
 
 #include <epoxy/gl.h>
 
@@ -14,9 +15,8 @@ void compute_bind(const unsigned *buffers, int count)
 
 void compute_dispatch(size_t groups)
 {
-    enum { ALONG = 65535 };
-    const size_t rows = (groups + ALONG - 1) / ALONG;
-    glDispatchCompute((GLuint)(rows > 1 ? ALONG : groups), (GLuint)rows, 1);
+    const size_t rows = (groups + COMPUTE_ALONG - 1) / COMPUTE_ALONG;
+    glDispatchCompute((GLuint)(rows > 1 ? COMPUTE_ALONG : groups), (GLuint)rows, 1);
 }
 
 void compute_run(const Compute *compute, ComputePass pass, size_t count)
@@ -29,7 +29,11 @@ void compute_run(const Compute *compute, ComputePass pass, size_t count)
                              [METHOD_BLOCK - FIRST] = compute->of_method};
     glBindBuffersBase(GL_UNIFORM_BUFFER, FIRST, sizeof blocks / sizeof *blocks, blocks);
     glUseProgram(compute->program[pass]);
-    compute_dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
+    if (compute->decided && pass >= COMPUTE_METHOD) {
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, compute->solve.buffer);
+        glDispatchComputeIndirect(offsetof(SolveBlock, groups_along));
+    } else
+        compute_dispatch((count + COMPUTE_GROUP - 1) / COMPUTE_GROUP);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_UNIFORM_BARRIER_BIT);
 }
 

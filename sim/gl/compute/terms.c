@@ -61,6 +61,7 @@ bool compute_pass_named(const Constants *s, ComputePass pass)
     case COMPUTE_BOUNDARY_FILL:
         return s->solid_count > 0;
     case COMPUTE_EXCESS:
+    case COMPUTE_DECIDE:
         return compute_iterates(s->method);
     case COMPUTE_GUIDE:
     case COMPUTE_EMIT_MARK:

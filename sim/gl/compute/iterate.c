@@ -1,0 +1,79 @@
+/* The loop of a solver that iterates, decided on the GPU: the passes of an iteration take their work groups
+   from a buffer, and behind each iteration a small pass puts 0 there once little enough is left. So many
+   iterations as the step before needed, and some, are asked for at once, and a step waits once a solver as a
+   rule, not once an iteration. */
+#include "sim/world/iterate.h"
+#include "sim/gl/compute/compute.h"
+
+#include "shaders/sim/bindings.h"
+#include "shaders/sim/excess_part.h"
+#include "shaders/sim/solve_block.h"
+
+#include <epoxy/gl.h>
+
+enum { MORE = 2 }; /* iterations than the step before had */
+
+bool compute_iterates(const Method *method)
+{
+    const Pass *const *pass = method->passes;
+    while (*pass && (*pass)->stage != STAGE_SOLVE)
+        pass++;
+    return *pass != NULL;
+}
+
+bool compute_iterate_create(Compute *c)
+{
+    if (!compute_iterates(c->constants->method))
+        return true;
+    c->parts = compute_buffer(c, "parts of a residual", COMPUTE_EXCESS_GROUPS * sizeof(ExcessPart));
+    return c->parts && mailbox_create(&c->solve, "solver", sizeof(SolveBlock));
+}
+
+static void begin(const Compute *c, const Iteration *iteration)
+{
+    const size_t groups = (c->count + COMPUTE_GROUP - 1) / COMPUTE_GROUP;
+    const SolveBlock block = {.groups_along = (uint)(groups > COMPUTE_ALONG ? COMPUTE_ALONG : groups),
+                              .groups_rows = (uint)((groups + COMPUTE_ALONG - 1) / COMPUTE_ALONG),
+                              .groups_deep = 1,
+                              .tolerance = (float)iteration->tolerance,
+                              .iterations_most = (uint)iteration->most};
+    glNamedBufferSubData(c->solve.buffer, 0, sizeof block, &block);
+}
+
+static void decide(Compute *c, const ColumnDef *residual)
+{
+    glProgramUniform1ui(c->program[COMPUTE_EXCESS], COLUMN_AT, (GLuint)compute_scratch_place(c, residual));
+    BIND([SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts);
+    compute_run(c, COMPUTE_EXCESS, (size_t)COMPUTE_EXCESS_GROUPS * COMPUTE_GROUP);
+    BIND([PARTS_BUFFER] = c->parts, [SOLVE_BUFFER] = c->solve.buffer);
+    compute_run(c, COMPUTE_DECIDE, COMPUTE_GROUP);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+}
+
+static void iterate_once(Compute *c, const Iteration *iteration, const PassInput *input)
+{
+    c->decided = true;
+    for (int k = 0; iteration->passes[k]; k++)
+        compute_pass(c, iteration->passes[k], input);
+    c->decided = false;
+    decide(c, iteration->residual);
+}
+
+void compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve)
+{
+    Compute *c = state;
+    const int at_once = (int)solve->iterations + MORE;
+    const SolveBlock *found;
+    int asked = 0;
+    begin(c, iteration);
+    do {
+        for (int k = 0; k < at_once && asked < iteration->most; k++, asked++)
+            iterate_once(c, iteration, input);
+        mailbox_send(&c->solve);
+        found = mailbox_wait(&c->solve);
+    } while (found && !found->ended && asked < iteration->most);
+    *solve = (StepSolve){.tolerance = iteration->tolerance};
+    if (found)
+        *solve = (StepSolve){found->iterations, (double)found->left_mean, (double)found->left_most,
+                             iteration->tolerance};
+}
