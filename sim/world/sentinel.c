@@ -80,11 +80,10 @@ void world_trouble_words(const WorldTrouble *trouble, char words[160])
 {
     const StepSolve *left = &trouble->left;
     if (trouble->what == STEP_TROUBLE_SOLVE)
-        snprintf(
-            words, 160,
-            "the solver of %s does not converge: %s %g leaves %.3g %% in the mean, %s is %.3g %%",
-            trouble->solver->name, trouble->solver->iterations, left->iterations, 100 * left->mean, trouble->solver->tolerance,
-            100 * left->tolerance);
+        snprintf(words, 160,
+                 "the solver of %s does not converge: %s %g leaves %.3g %% in the mean, %s is %.3g %%",
+                 trouble->solver->name, trouble->solver->iterations, left->iterations, 100 * left->mean,
+                 trouble->solver->tolerance, 100 * left->tolerance);
     else
         snprintf(words, 160, "%s", step_trouble_words(trouble->what));
 }

@@ -113,7 +113,8 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
     const char *shorter = def->step_mode == STEP_CFL ? "a smaller solver.step.number"
                                                      : "a smaller solver.step.dt, more solver.step.substeps";
     if (trouble == STEP_TROUBLE_SOLVE)
-        snprintf(words, 200, "use %s, more %s or a larger %s", shorter, solver->iterations, solver->tolerance);
+        snprintf(words, 200, "use %s, more %s or a larger %s", shorter, solver->iterations,
+                 solver->tolerance);
     else if (dt > STEP_SOUND_STANDS * crossing)
         snprintf(
             words, 200,
