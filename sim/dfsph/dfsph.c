@@ -3,6 +3,7 @@
 
 #include "sim/base/key_rows.h"
 #include "sim/dfsph/passes.h"
+#include "sim/kernel/jacobi.h"
 #include "sim/matter/viscosity.h"
 #include "sim/world/iterate.h"
 
@@ -39,41 +40,12 @@ static double shape_half(void)
     return DFSPH_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
 }
 
-/* Of Jacobi's matrix D^-1 A on the lattice, of a wave k: |sum F x sin(k x)|^2 / sum F^2 r^2, where F = -W' /
- * r. */
-static double wave_eigenvalue(const WorldDef *def, const double wave[3])
-{
-    const double h = def->support * def->spacing, s = def->spacing;
-    const int reach = (int)ceil(def->support), deep = def->dimensions == 3 ? reach : 0;
-    double sum[3] = {0}, squares = 0;
-    for (int i = -reach; i <= reach; i++)
-        for (int j = -reach; j <= reach; j++)
-            for (int k = -deep; k <= deep; k++) {
-                const double r = s * sqrt((double)(i * i + j * j + k * k));
-                if (r == 0 || r >= h)
-                    continue;
-                const double slope = -shape_kernels[DFSPH_KERNEL].derivative(r, h);
-                const double part = slope / r * s * sin(wave[0] * i + wave[1] * j + wave[2] * k);
-                sum[0] += part * i, sum[1] += part * j, sum[2] += part * k;
-                squares += slope * slope;
-            }
-    return (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / squares;
-}
-
 /* With momentum Jacobi holds below 2 (1 + JACOBI_MOMENTUM) over the greatest eigenvalue (Polyak 1964); fluid
    out of order has greater ones than its lattice, by up to a half. */
-static double relaxation(const WorldDef *def)
-{
-    enum { WAVES = 12 };
-    double greatest = 0;
-    for (int i = 0; i <= WAVES; i++)
-        for (int j = 0; j <= i; j++)
-            for (int k = 0; k <= (def->dimensions == 3 ? j : 0); k++) {
-                const double wave[3] = {M_PI * i / WAVES, M_PI * j / WAVES, M_PI * k / WAVES};
-                greatest = fmax(greatest, wave_eigenvalue(def, wave));
-            }
-    return 1.8 / greatest;
-}
+static const double RELAXATION = 1.8;
+
+/* Of D on the lattice: D is no less, or particles next to few others or on a wall would be thrown. */
+static const double LEAST = 0.1;
 
 static void dfsph_set(Constants *constants, const WorldDef *def)
 {
@@ -82,12 +54,14 @@ static void dfsph_set(Constants *constants, const WorldDef *def)
     const double h = def->support * def->spacing, r = 0.5 * h;
     const double slope = -kernel->derivative(r, h) / r / shape_half();
     const DfsphDef *said = dfsph_def(def);
-    const double n0 = lattice->number_density;
+    const double n0 = lattice->number_density, scale = lattice->density_scale;
+    const JacobiLattice jacobi = jacobi_lattice(kernel, def->dimensions, def->spacing, h);
     const DfsphConstants own = {
-        .sums = {.gradient = (float)(slope * lattice->density_scale),
+        .sums = {.gradient = (float)(slope * scale),
                  .friction_gradient = (float)(slope * lattice->gradient_scale),
-                 .relaxation = (float)relaxation(def),
-                 .pressure_of_term = (float)(n0 * n0 * lattice->density_scale / lattice->gradient_scale)},
+                 .relaxation = (float)(RELAXATION / jacobi.greatest),
+                 .pressure_of_term = (float)(n0 * n0 * scale / lattice->gradient_scale),
+                 .least_squares = (float)(LEAST * scale * scale * jacobi.squares)},
         .most = said->iterations,
         .tolerance = said->tolerance,
         .divergence_tolerance = said->divergence_tolerance,

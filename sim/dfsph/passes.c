@@ -34,13 +34,16 @@ static void terms_body(const CpuRange *range)
     }
 }
 
-/* D, of what the sums have left in n, acceleration and squares. */
+/* 1 / D, of what the sums have left in n, acceleration and squares. Where places are crowded many k make each
+   rate, and Jacobi's step is shorter. */
 static void finish_factor(const Cpu *cpu, size_t i)
 {
     const CpuParticles *p = &cpu->now;
     const float sx = p->ax[i], sy = p->ay[i], sz = p->az[i];
     const float d = (sx * sx + sy * sy + sz * sz) * p->own[INVERSE_MASS][i] + p->own[SQUARES][i];
-    p->own[FACTOR][i] = d > 0 ? 1 / d : 0;
+    const float least = dfsph_constants(cpu->constants)->least_squares * p->own[INVERSE_MASS][i];
+    const float whole = d > least ? d : least;
+    p->own[FACTOR][i] = whole > 0 ? fminf(1, cpu->constants->rest_number_density / p->volume[i]) / whole : 0;
     p->volume[i] = 1 / p->volume[i];
     p->pressure[i] = dfsph_constants(cpu->constants)->pressure_of_term * p->own[KEPT][i];
     p->ax[i] = p->ay[i] = p->az[i] = 0;

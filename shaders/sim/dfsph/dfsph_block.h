@@ -22,6 +22,7 @@ UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
     float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
     float relaxation;        /* of Jacobi */
     float pressure_of_term;  /* p over k, 1/m6 */
+    float least_squares;     /* D times m is no less, 1/m8 */
 }
 BLOCK_END(DfsphBlock);
 

@@ -79,9 +79,10 @@ void main()
     self = i;
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     walk_images(x, at);
-    float d = dot(slope, slope) / fluids[FLUID_OF(i)].mass + squares;
-    scratch[SCRATCH_factor + i] = d > 0.0 ? 1.0 / d : 0.0;
-    position[i].w = velocity[i].w = 1.0 / (kernel_scale * heights);
+    float mass = fluids[FLUID_OF(i)].mass, n = kernel_scale * heights;
+    float d = max(dot(slope, slope) / mass + squares, least_squares / mass);
+    scratch[SCRATCH_factor + i] = d > 0.0 ? min(1.0, rest_number_density / n) / d : 0.0;
+    position[i].w = velocity[i].w = 1.0 / n;
     pressure[i] = vec2(pressure_of_term * own[OWN_kept_term + i], 0.0);
     near[i] = vec4(x, 0.0);
 }
