@@ -120,7 +120,7 @@ class Steps(CommandTest):
                 r'solver.tolerance is 0 %'
         self.assertEqual(len(re.findall(words + r'; back to [0-9.]+ s with 1/[248] of the step', said)), 3, said)
         self.assertRegex(said, 'the simulation stopped at t = .*' + words + '.*use a smaller solver.step.dt, more '
-                               'solver.step.substeps, more solver.iterations or a larger tolerance\n')
+                               'solver.step.substeps, more solver.iterations or a larger solver.tolerance\n')
         self.assertIn('a.h5part: holds the 1 whole snapshot before that', said)
 
     def test_bounds(self):

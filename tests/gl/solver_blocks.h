@@ -44,7 +44,7 @@
               WCSPH(any_artificial), WCSPH(wcsph_fluids[0].tait),                                            \
               WCSPH(wcsph_fluids[0].artificial_viscosity), WCSPH(wcsph_fluids[7].artificial_viscosity)),     \
         BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(friction_gradient),              \
-              DFSPH(relaxation), DFSPH(pressure_of_term)),                                                   \
+              DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares)),                             \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \
               WATCH(greatest_density_ratio), WATCH(guarded), WATCH(went_too_far)),                           \
         BLOCK("sim/solid_steps_block.h", SolidStepsBlock, STEPS(solid_total), STEPS(boundary_total),         \
