@@ -228,7 +228,8 @@ static void column_stands(void **state)
            pressure, 9810 * 0.95, speed);
     assert_float_equal(sums.centre[1], 0.5, 0.001);
     assert_float_equal(pressure, 9810 * 0.95, 200);
-    assert_true(speed < 0.02);
+    assert_true(speed <
+                0.04); /* 0.005 to 0.022 by the order of sums; 0.13 where corrections of density fly on */
     world_destroy(world);
 }
 
