@@ -145,8 +145,8 @@ static void pbf_substep(const Substep *step)
         substep_kick(step);
 }
 
-static const Pass *const passes[] = {&pbf_predict, &pbf_begin,  &pbf_move, &pbf_density,
-                                     &pbf_force,   &pbf_settle, NULL};
+static const Pass *const passes[] = {&pbf_predict, &pbf_begin, &pbf_move,   &pbf_density,
+                                     &pbf_again,   &pbf_force, &pbf_settle, NULL};
 
 const Method method_pbf = {
     .name = "pbf",
