@@ -150,7 +150,7 @@ static const Pass *const passes[] = {&pbf_predict, &pbf_begin, &pbf_move,   &pbf
 
 const Method method_pbf = {
     .name = "pbf",
-    .help = "Macklin and Mueller 2013: places corrected until nothing is compressed; any step holds",
+    .help = "Macklin and Mueller 2013: places corrected until nothing is compressed; for long steps, 1/60 s",
     .keys = keys,
     .def = &usual,
     .def_size = sizeof usual,
