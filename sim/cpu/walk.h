@@ -72,11 +72,13 @@ typedef struct Separation {
     f8 x, y, z, r2, term;
 } Separation;
 
-SIMD_INLINE Separation separation(const PairArgs *args, Place at, const uint32_t *j)
+/* From neighbours at p, as args->place has them. */
+SIMD_INLINE Separation apart(const PairArgs *args, Place at, f8x4 p)
 {
-    const f8x4 p = f8_load4(args->place, j);
     Separation d = {.x = at.x - p.x, .y = at.y - p.y, .z = at.z - p.z, .term = p.w};
-#ifdef PAIRS_PERIODIC
+#ifndef PAIRS_PERIODIC
+    (void)args;
+#else
     const float *size = args->fold, *inverse = args->fold_inverse;
     d.x = shortest(d.x, size[0], inverse[0]);
     d.y = shortest(d.y, size[1], inverse[1]);
@@ -88,6 +90,11 @@ SIMD_INLINE Separation separation(const PairArgs *args, Place at, const uint32_t
     d.r2 = f8_select(there, d.r2, f8_splat(PAST));
 #endif
     return d;
+}
+
+SIMD_INLINE Separation separation(const PairArgs *args, Place at, const uint32_t *j)
+{
+    return apart(args, at, f8_load4(args->place, j));
 }
 
 /* v_j, m/s, and V_j, m3. */

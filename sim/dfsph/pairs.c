@@ -2,6 +2,7 @@
 #include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/cpu/pair_shape.h"
+#include "sim/dfsph/image.h"
 #include "sim/dfsph/passes.h"
 
 /* Sum of W into `volume`, of F x_ij into the force, and of F^2 r^2 / m_j. */
@@ -30,48 +31,112 @@ PAIR_LOOP(dfsph_factor)
     }
 }
 
-/* sum (k_i + k_j) F x_ij. */
-PAIR_LOOP(dfsph_push)
+/* The images of a group, each of its particle; none where no wall is near. */
+typedef struct Mirrors {
+    int count;
+    Mirrored of[IMAGES_MAX];
+} Mirrors;
+
+SIMD_INLINE void mirrors_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
+                            Mirrors *mirrors)
 {
-    const Constants *s = args->constants;
-    const f8 inverse_h = f8_splat(1 / s->support_radius), gradient = f8_splat(dfsph_constants(s)->gradient);
-    GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
-        const f8 ki = f8_load(args->pressure_term + i);
-        f8 fx = f8_splat(0), fy = fx, fz = fx;
-        NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, j);
-            if (__builtin_expect(near.coincident, 0))
-                d = separate(args, i, j, d);
-            const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL);
-            fx += push * d.x, fy += push * d.y, fz += push * d.z;
-        }
-        lanes_store(args->fx, i, begin, end, gradient * fx);
-        lanes_store(args->fy, i, begin, end, gradient * fy);
-        lanes_store(args->fz, i, begin, end, gradient * fz);
+    Images images;
+    mirrors->count = images_of(args, far, i, begin, end, &images) ? images.most - 1 : 0;
+    for (int m = 0; m < mirrors->count; m++)
+        mirrors->of[m] = mirrored(&images, m + 1);
+}
+
+/* sum (k_i + k_j) F x_ij, that of an image in its mirror's axes. */
+SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 ki, f8x4 near, Place *sum)
+{
+    const Separation d = apart(args, image->at, near);
+    const f8 push = (ki + d.term) * shape(image_q(args->constants, d.r2), DFSPH_KERNEL);
+    sum->x += image->sign.x * push * d.x;
+    sum->y += image->sign.y * push * d.y;
+    sum->z += image->sign.z * push * d.z;
+}
+
+SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki, const Mirrors *mirrors,
+                         Place *sum)
+{
+    const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
+    const Place at = place_of(args, i);
+    NEIGHBOURS (near, j) {
+        const f8x4 p = f8_load4(args->place, j);
+        Separation d = apart(args, at, p);
+        if (__builtin_expect(near.coincident, 0))
+            d = separate(args, i, j, d);
+        const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL);
+        sum->x += push * d.x, sum->y += push * d.y, sum->z += push * d.z;
+        for (int m = 0; mirrors && m < mirrors->count; m++)
+            push_by(args, &mirrors->of[m], ki, p, sum);
     }
 }
 
-/* -sum F v_ij . x_ij, with the velocities that `motion` has. */
+/* Of images the particles' own among them. */
+PAIR_LOOP(dfsph_push)
+{
+    const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient);
+    const WallsFar far = out_of_sight(args->constants);
+    Mirrors mirrors;
+    GROUPS (i, begin, end) {
+        const f8 ki = f8_load(args->pressure_term + i);
+        const Themselves own = themselves(args, i);
+        Place sum = {f8_splat(0), f8_splat(0), f8_splat(0)};
+        mirrors_of(args, &far, i, begin, end, &mirrors);
+        if (mirrors.count == 0)
+            push_of(args, i, near_of(args, i), ki, NULL, &sum);
+        else
+            push_of(args, i, near_of(args, i), ki, &mirrors, &sum);
+        for (int m = 0; m < mirrors.count; m++)
+            push_by(args, &mirrors.of[m], ki, f8_load4(args->place, own.j), &sum);
+        lanes_store(args->fx, i, begin, end, gradient * sum.x);
+        lanes_store(args->fy, i, begin, end, gradient * sum.y);
+        lanes_store(args->fz, i, begin, end, gradient * sum.z);
+    }
+}
+
+/* sum F v_ij . x_ij of an image. */
+SIMD_INLINE f8 rate_by(const PairArgs *args, const Mirrored *image, f8x4 vi, f8x4 near, f8x4 v)
+{
+    const Separation d = apart(args, image->at, near);
+    return shape(image_q(args->constants, d.r2), DFSPH_KERNEL) *
+           ((image->sign.x * vi.x - v.x) * d.x + (image->sign.y * vi.y - v.y) * d.y +
+            (image->sign.z * vi.z - v.z) * d.z);
+}
+
+SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi, const Mirrors *mirrors)
+{
+    const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
+    const Place at = place_of(args, i);
+    f8 sum = f8_splat(0);
+    NEIGHBOURS (near, j) {
+        const f8x4 p = f8_load4(args->place, j), v = motion(args, j);
+        Separation d = apart(args, at, p);
+        if (__builtin_expect(near.coincident, 0))
+            d = separate(args, i, j, d);
+        sum += shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL) *
+               ((vi.x - v.x) * d.x + (vi.y - v.y) * d.y + (vi.z - v.z) * d.z);
+        for (int m = 0; mirrors && m < mirrors->count; m++)
+            sum += rate_by(args, &mirrors->of[m], vi, p, v);
+    }
+    return sum;
+}
+
+/* -sum F v_ij . x_ij, with the velocities that `motion` has; of images the particles' own among them. */
 PAIR_LOOP(dfsph_rate)
 {
-    const Constants *s = args->constants;
-    const f8 inverse_h = f8_splat(1 / s->support_radius), gradient = f8_splat(dfsph_constants(s)->gradient);
+    const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient);
+    const WallsFar far = out_of_sight(args->constants);
+    Mirrors mirrors;
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
         const Themselves own = themselves(args, i);
         const f8x4 vi = motion(args, own.j);
-        f8 sum = f8_splat(0);
-        NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, j);
-            if (__builtin_expect(near.coincident, 0))
-                d = separate(args, i, j, d);
-            const f8x4 v = motion(args, j);
-            sum += shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL) *
-                   ((vi.x - v.x) * d.x + (vi.y - v.y) * d.y + (vi.z - v.z) * d.z);
-        }
+        mirrors_of(args, &far, i, begin, end, &mirrors);
+        f8 sum = mirrors.count == 0 ? rate_of(args, i, near_of(args, i), vi, NULL)
+                                    : rate_of(args, i, near_of(args, i), vi, &mirrors);
+        for (int m = 0; m < mirrors.count; m++)
+            sum += rate_by(args, &mirrors.of[m], vi, f8_load4(args->place, own.j), vi);
         lanes_store(args->own[RESIDUAL], i, begin, end, -(gradient * sum));
     }
 }

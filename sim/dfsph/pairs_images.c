@@ -1,17 +1,10 @@
 /* What the images of the fluid in the walls of the box add to the sums of dfsph: images have their particles'
    multipliers and velocities, mirrored. An image finds of the fluid what its particle finds of images, so the
    pressure of walls is the gradient of the number density that they make, and walls can do no work. */
-#include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/cpu/pair_shape.h"
+#include "sim/dfsph/image.h"
 #include "sim/dfsph/passes.h"
-
-/* Of an image next to its particle: not 0. */
-SIMD_INLINE f8 image_q(const Constants *s, f8 r2)
-{
-    const float h = s->support_radius, least = 1e-6f * h;
-    return f8_sqrt(greater(r2, f8_splat(least * least))) * f8_splat(1 / h);
-}
 
 typedef struct Factor {
     f8 n, x, y, z, squares;
@@ -55,71 +48,5 @@ PAIR_LOOP(dfsph_images_factor)
         lanes_add(args->fy, i, begin, end, sum.y);
         lanes_add(args->fz, i, begin, end, sum.z);
         lanes_add(args->own[SQUARES], i, begin, end, sum.squares);
-    }
-}
-
-SIMD_INLINE void image_push(const PairArgs *args, f8 ki, const Near near, const Mirrored *image, Place *sum)
-{
-    NEIGHBOURS (near, j) {
-        const Separation d = separation(args, image->at, j);
-        const f8 push = (ki + d.term) * shape(image_q(args->constants, d.r2), DFSPH_KERNEL);
-        sum->x += image->sign.x * push * d.x;
-        sum->y += image->sign.y * push * d.y;
-        sum->z += image->sign.z * push * d.z;
-    }
-}
-
-PAIR_LOOP(dfsph_images_push)
-{
-    const WallsFar far = out_of_sight(args->constants);
-    const f8 zero = f8_splat(0), gradient = f8_splat(dfsph_constants(args->constants)->gradient);
-    Images images;
-    GROUPS (i, begin, end) {
-        if (!images_of(args, &far, i, begin, end, &images))
-            continue;
-        const Themselves own = themselves(args, i);
-        const f8 ki = f8_load(args->pressure_term + i);
-        Place sum = {zero, zero, zero};
-        for (int m = 1; m < images.most; m++) {
-            const Mirrored image = mirrored(&images, m);
-            image_push(args, ki, near_of(args, i), &image, &sum);
-            image_push(args, ki, near_themselves(&own), &image, &sum);
-        }
-        lanes_add(args->fx, i, begin, end, gradient * sum.x);
-        lanes_add(args->fy, i, begin, end, gradient * sum.y);
-        lanes_add(args->fz, i, begin, end, gradient * sum.z);
-    }
-}
-
-SIMD_INLINE f8 image_rate(const PairArgs *args, const f8x4 *vi, const Near near, const Mirrored *image)
-{
-    const f8 ui = image->sign.x * vi->x, wi = image->sign.z * vi->z, up = image->sign.y * vi->y;
-    f8 sum = f8_splat(0);
-    NEIGHBOURS (near, j) {
-        const Separation d = separation(args, image->at, j);
-        const f8x4 v = motion(args, j);
-        sum += shape(image_q(args->constants, d.r2), DFSPH_KERNEL) *
-               ((ui - v.x) * d.x + (up - v.y) * d.y + (wi - v.z) * d.z);
-    }
-    return sum;
-}
-
-PAIR_LOOP(dfsph_images_rate)
-{
-    const WallsFar far = out_of_sight(args->constants);
-    const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient);
-    Images images;
-    GROUPS (i, begin, end) {
-        if (!images_of(args, &far, i, begin, end, &images))
-            continue;
-        const Themselves own = themselves(args, i);
-        const f8x4 vi = motion(args, own.j);
-        f8 sum = f8_splat(0);
-        for (int m = 1; m < images.most; m++) {
-            const Mirrored image = mirrored(&images, m);
-            sum += image_rate(args, &vi, near_of(args, i), &image) +
-                   image_rate(args, &vi, near_themselves(&own), &image);
-        }
-        lanes_add(args->own[RESIDUAL], i, begin, end, -(gradient * sum));
     }
 }

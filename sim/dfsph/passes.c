@@ -6,9 +6,7 @@
 PAIR_LOOPS(dfsph_factor);
 PAIR_LOOPS(dfsph_images_factor);
 PAIR_LOOPS(dfsph_push);
-PAIR_LOOPS(dfsph_images_push);
 PAIR_LOOPS(dfsph_rate);
-PAIR_LOOPS(dfsph_images_rate);
 PAIR_LOOPS(dfsph_friction);
 
 static bool of_fluid(const Cpu *cpu, size_t i)
@@ -217,7 +215,6 @@ static void push(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     cpu_pairs(range, &dfsph_push);
-    cpu_pairs(range, &dfsph_images_push);
     for (size_t i = range->begin; i < range->end; i++) {
         p->ax[i] *= p->own[INVERSE_MASS][i];
         p->ay[i] *= p->own[INVERSE_MASS][i];
@@ -244,7 +241,6 @@ static void rate(const CpuRange *range, bool of_density)
     const bool pulls = range->cpu->constants->negative_pressure;
     float *residual = p->own[RESIDUAL];
     cpu_pairs(range, &dfsph_rate);
-    cpu_pairs(range, &dfsph_images_rate);
     for (size_t i = range->begin; i < range->end; i++) {
         const float now = 1 / (p->volume[i] * n0) - 1;
         residual[i] = (of_density || now < 0 ? now : 0) + dt * residual[i] / n0;
