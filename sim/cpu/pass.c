@@ -47,7 +47,8 @@ static void run_loop(Running *running)
     Cpu *cpu = running->cpu;
     const bool walks = running->loop->walks;
     if (walks) {
-        parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, pack, running);
+        if (!running->loop->packed)
+            parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, pack, running);
         columns_clear(&cpu->all, &cpu->now, cpu->count); /* lists are filled up with it */
         memcpy(cpu->place[cpu->count], (float[]){PAST, PAST, PAST, 0}, 16);
         memset(cpu->motion[cpu->count], 0, 16);

@@ -20,6 +20,7 @@ typedef struct CpuLoop {
     /* Before a walk, for all particles: fills Cpu.place, .motion or both as the walk needs them. NULL: both.
      */
     void (*pack)(const CpuRange *range);
+    bool packed; /* the pass before has filled them */
     bool solids; /* over the particles of solids too; else over runs of the fluids' alone */
 } CpuLoop;
 

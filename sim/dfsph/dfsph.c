@@ -40,8 +40,8 @@ static double shape_half(void)
     return DFSPH_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
 }
 
-/* With momentum Jacobi holds below 2 (1 + JACOBI_MOMENTUM) over the greatest eigenvalue (Polyak 1964); fluid
-   out of order has greater ones than its lattice, by up to a half. */
+/* With momentum m Jacobi holds below 2 (1 + m) over the greatest eigenvalue (Polyak 1964); fluid out of order
+   has greater ones than its lattice, by up to a half. */
 static const double RELAXATION = 1.8;
 
 /* Of D on the lattice: D is no less, or particles next to few others or on a wall would be thrown. */
@@ -75,8 +75,11 @@ enum { SOLVE_DENSITY, SOLVE_DIVERGENCE };
 static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance)
 {
     const DfsphConstants *own = dfsph_solvers(step->constants);
-    const Iteration iteration = {{passes[1], passes[2]}, dfsph_miss, tolerance, own->most};
+    const Iteration iteration = {{passes[1], passes[2]}, dfsph_miss, tolerance, own->most, .begun = true};
     substep_run(step, passes[0], step->dt);
+    if (which == SOLVE_DIVERGENCE) /* it begins with multipliers */
+        substep_run(step, passes[1], step->dt);
+    substep_run(step, passes[2], step->dt);
     substep_iterate(step, &iteration, which, step->dt);
     substep_run(step, passes[3], step->dt);
 }

@@ -123,6 +123,27 @@ static void divergence_end(const CpuRange *range)
     }
 }
 
+/* The velocities with which the particles come to the middle of the next step: by all accelerations, and by
+   half of what the box does to them meanwhile, in the halves of the drift. */
+static void pack_motion(const CpuRange *range, float kicked)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const PassInput *input = range->input;
+    const float dt = input->dt;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float t = of_fluid(range->cpu, i) ? dt : 0; /* those of solids have their own */
+        const float x[3] = {p->x[i], p->y[i], p->z[i]};
+        float g[3];
+        apparent_gravity_at(input->apparent, x, g);
+        for (int k = 0; k < 3; k++)
+            g[k] = 0.5F * (g[k] - input->gravity[k]) + kicked * input->gravity[k];
+        memcpy(range->cpu->motion[i],
+               (float[]){p->vx[i] + t * (p->ax[i] + g[0]), p->vy[i] + t * (p->ay[i] + g[1]),
+                         p->vz[i] + t * (p->az[i] + g[2]), p->volume[i]},
+               16);
+    }
+}
+
 /* From no move on: a part of the last step's would be given to fluid at rest again and again, and lifts it.
    The accelerations stand in OTHER meanwhile. */
 static void density_begin(const CpuRange *range)
@@ -134,7 +155,18 @@ static void density_begin(const CpuRange *range)
         p->own[OTHER][i] = p->ax[i];
         p->own[OTHER + 1][i] = p->ay[i];
         p->own[OTHER + 2][i] = p->az[i];
+        p->ax[i] = p->ay[i] = p->az[i] = 0;
     }
+}
+
+static void divergence_motion(const CpuRange *range)
+{
+    pack_motion(range, 1);
+}
+
+static void density_motion(const CpuRange *range)
+{
+    pack_motion(range, 0);
 }
 
 /* A step's move is a part of a spacing: no guard of solids looks at it. */
@@ -158,7 +190,7 @@ static void density_end(const CpuRange *range)
 /* --- solvers: an iteration --- */
 
 /* k by Jacobi's step and a part of its step before, then {x, k}. */
-static void pack_place(const CpuRange *range)
+static void pack_place(const CpuRange *range, float went_on)
 {
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
@@ -166,7 +198,7 @@ static void pack_place(const CpuRange *range)
     const float relaxed = dfsph_constants(s)->relaxation * s->rest_number_density;
     const float scale = dt > 0 ? relaxed / (dt * dt) : 0;
     const bool pulls = s->negative_pressure;
-    const float momentum = dt > 0 ? JACOBI_MOMENTUM : 0;
+    const float momentum = dt > 0 ? went_on : 0;
     for (size_t i = range->begin; i < range->end; i++) {
         if (of_fluid(range->cpu, i)) {
             const float before = p->pressure_term[i];
@@ -180,35 +212,14 @@ static void pack_place(const CpuRange *range)
     }
 }
 
-/* The velocities with which the particles come to the middle of the next step: by all accelerations, and by
-   half of what the box does to them meanwhile, in the halves of the drift. */
-static void pack_motion(const CpuRange *range, float kicked)
+static void pack_density(const CpuRange *range)
 {
-    const CpuParticles *p = &range->cpu->now;
-    const PassInput *input = range->input;
-    const float dt = input->dt;
-    for (size_t i = range->begin; i < range->end; i++) {
-        const float t = of_fluid(range->cpu, i) ? dt : 0; /* those of solids have their own */
-        const float x[3] = {p->x[i], p->y[i], p->z[i]};
-        float g[3];
-        apparent_gravity_at(input->apparent, x, g);
-        for (int k = 0; k < 3; k++)
-            g[k] = 0.5F * (g[k] - input->gravity[k]) + kicked * input->gravity[k];
-        memcpy(range->cpu->motion[i],
-               (float[]){p->vx[i] + t * (p->ax[i] + g[0]), p->vy[i] + t * (p->ay[i] + g[1]),
-                         p->vz[i] + t * (p->az[i] + g[2]), p->volume[i]},
-               16);
-    }
+    pack_place(range, DENSITY_MOMENTUM);
 }
 
-static void pack_density_motion(const CpuRange *range)
+static void pack_divergence(const CpuRange *range)
 {
-    pack_motion(range, 0);
-}
-
-static void pack_divergence_motion(const CpuRange *range)
-{
-    pack_motion(range, 1);
+    pack_place(range, DIVERGENCE_MOMENTUM);
 }
 
 static void push(const CpuRange *range)
@@ -222,6 +233,12 @@ static void push(const CpuRange *range)
     }
 }
 
+static void density_push(const CpuRange *range)
+{
+    push(range);
+    density_motion(range);
+}
+
 static void divergence_push(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -231,6 +248,7 @@ static void divergence_push(const CpuRange *range)
         p->ay[i] += p->own[OTHER + 1][i];
         p->az[i] += p->own[OTHER + 2][i];
     }
+    divergence_motion(range);
 }
 
 /* n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it. */
@@ -258,7 +276,11 @@ static void divergence_rate(const CpuRange *range)
     rate(range, false);
 }
 
-static const CpuPass begins[] = {{.loops = {{divergence_begin}}}, {.loops = {{density_begin}}}};
+/* The motion of solids' particles stays through all iterations. */
+static const CpuPass begins[] = {
+    {.loops = {{divergence_begin}, {divergence_motion, .solids = true}}},
+    {.loops = {{density_begin}, {density_motion, .solids = true}}},
+};
 static const CpuPass ends[] = {{.loops = {{divergence_end}}}, {.loops = {{density_end}}}};
 
 /* Of a neighbour {x, k}; of a rate {v, V} too. */
@@ -275,12 +297,12 @@ static PairCost rate_pair(const Constants *constants)
 }
 
 static const CpuPass pushes[] = {
-    {.loops = {{divergence_push, .walks = true, .pack = pack_place}}, .pair = push_pair},
-    {.loops = {{push, .walks = true, .pack = pack_place}}, .pair = push_pair},
+    {.loops = {{divergence_push, .walks = true, .pack = pack_divergence}}, .pair = push_pair},
+    {.loops = {{density_push, .walks = true, .pack = pack_density}}, .pair = push_pair},
 };
 static const CpuPass rates[] = {
-    {.loops = {{divergence_rate, .walks = true, .pack = pack_divergence_motion}}, .pair = rate_pair},
-    {.loops = {{density_rate, .walks = true, .pack = pack_density_motion}}, .pair = rate_pair},
+    {.loops = {{divergence_rate, .walks = true, .packed = true}}, .pair = rate_pair},
+    {.loops = {{density_rate, .walks = true, .packed = true}}, .pair = rate_pair},
 };
 
 #define SOLVE(NAME, CPU, SHADER, READS, WRITES)                                                              \
@@ -289,11 +311,12 @@ static const CpuPass rates[] = {
         .writes = WRITES                                                                                     \
     }
 
-#define PUSH_READS "position id fluid pressure_term residual factor inverse_mass change"
-#define RATE_READS "position velocity id fluid acceleration volume pressure_term"
+#define PUSH_READS "position velocity id fluid volume pressure_term residual factor inverse_mass change"
+#define RATE_READS "position id fluid volume pressure_term"
 
 const Pass dfsph_divergence_begin =
-    SOLVE("divergence begin", begins[0], "divergence_begin", "kept_term", "pressure_term residual change");
+    SOLVE("divergence begin", begins[0], "divergence_begin",
+          "position velocity fluid volume acceleration kept_term", "pressure_term residual change");
 const Pass dfsph_divergence_push = SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " other",
                                          "pressure_term acceleration change");
 const Pass dfsph_divergence_rate =
@@ -301,7 +324,8 @@ const Pass dfsph_divergence_rate =
 const Pass dfsph_divergence_end =
     SOLVE("divergence end", ends[0], "divergence_end", "pressure_term", "kept_term pressure");
 const Pass dfsph_density_begin =
-    SOLVE("density begin", begins[1], "density_begin", "acceleration", "pressure_term residual change other");
+    SOLVE("density begin", begins[1], "density_begin", "position velocity fluid volume acceleration",
+          "pressure_term residual change other acceleration");
 const Pass dfsph_density_push =
     SOLVE("density push", pushes[1], "density_push", PUSH_READS, "pressure_term acceleration change");
 const Pass dfsph_density_rate = SOLVE("density rate", rates[1], "density_rate", RATE_READS, "residual miss");

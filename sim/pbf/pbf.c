@@ -108,7 +108,7 @@ static bool again_compressed(const Substep *step, double tolerance)
 static void hold_density(const Substep *step)
 {
     const PbfConstants *own = pbf_constants(step->constants);
-    Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, own->tolerance, own->most};
+    Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, own->tolerance, own->most, .begun = false};
     StepSolve *solve = &step->solves[0];
     double iterations = 0;
     *solve = (StepSolve){.tolerance = own->tolerance};

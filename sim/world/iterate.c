@@ -2,6 +2,13 @@
 
 #include <math.h>
 
+static void measure(const Substep *step, const Iteration *iteration, StepSolve *solve)
+{
+    const Excess left = step->backend->excess(step->state, iteration->residual);
+    solve->mean = left.mean;
+    solve->most = left.greatest;
+}
+
 void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt)
 {
     StepSolve *solve = &step->solves[which];
@@ -10,15 +17,15 @@ void substep_iterate(const Substep *step, const Iteration *iteration, int which,
         step->backend->iterate(step->state, iteration, &input, solve);
         return;
     }
-    *solve = (StepSolve){.tolerance = iteration->tolerance};
-    do {
+    *solve = (StepSolve){.tolerance = iteration->tolerance, .mean = INFINITY};
+    if (iteration->begun)
+        measure(step, iteration, solve);
+    while (!(solve->mean <= iteration->tolerance) && solve->iterations < iteration->most) {
         for (int k = 0; iteration->passes[k]; k++)
             substep_run(step, iteration->passes[k], dt);
-        const Excess left = step->backend->excess(step->state, iteration->residual);
         solve->iterations++;
-        solve->mean = left.mean;
-        solve->most = left.greatest;
-    } while (!(solve->mean <= iteration->tolerance) && solve->iterations < iteration->most);
+        measure(step, iteration, solve);
+    }
 }
 
 bool step_solve_failed(const StepSolve *solve)
@@ -49,8 +56,6 @@ void solve_tally_add(SolveTally *tally, const StepSolve solves[SOLVES_MAX])
     uint64_t iterations = 0;
     for (int k = 0; k < SOLVES_MAX; k++)
         iterations += (uint64_t)solves[k].iterations;
-    if (iterations == 0)
-        return;
     tally->steps++;
     tally->iterations += iterations;
     tally->most_iterations = iterations > tally->most_iterations ? iterations : tally->most_iterations;

@@ -11,9 +11,11 @@ typedef struct Iteration {
     const ColumnDef *residual; /* what is above 0 of it counts */
     double tolerance;          /* of its mean */
     int most;                  /* iterations */
+    bool begun;                /* the residual is there before the first of them: none may be needed */
 } Iteration;
 
-/* Runs the passes over `dt` (s), once at least, and says in step->solves[which] what came of it. */
+/* Runs the passes over `dt` (s), once at least where the residual is not there yet, and says in
+   step->solves[which] what came of it. */
 void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt);
 
 /* Whether a solver ended far from what it was asked for. */
@@ -28,7 +30,7 @@ typedef struct SolveTally {
     uint64_t classes[SOLVE_CLASSES]; /* steps by their iterations: one number each, then eight an octave */
 } SolveTally;
 
-/* Nothing where no solver ran. */
+/* Of a method that has solvers. */
 void solve_tally_add(SolveTally *tally, const StepSolve solves[SOLVES_MAX]);
 
 SolveFigures solve_tally_figures(const SolveTally *tally);

@@ -273,7 +273,8 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     count_step(world);
     if (!world->backend->gpu && (!world_sound(world) || !energy_sound(world)))
         return sentinel_back(world, world_time_at(world, (double)world->step), error);
-    solve_tally_add(&world->tally, world->solves);
+    if (world->method->solvers[0].name)
+        solve_tally_add(&world->tally, world->solves);
     s->frame_left--;
     s->calm++;
     return true;

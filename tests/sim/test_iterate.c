@@ -43,17 +43,6 @@ static void percentiles_are_near(void **state)
     }
 }
 
-static void nothing_is_counted_of_a_method_without_solvers(void **state)
-{
-    (void)state;
-    SolveTally tally = {0};
-    const StepSolve solves[SOLVES_MAX] = {{0}};
-    solve_tally_add(&tally, solves);
-    const SolveFigures f = solve_tally_figures(&tally);
-    assert_int_equal(f.steps, 0);
-    assert_true(f.iterations_mean == 0 && f.iterations_p95 == 0 && f.density_error_mean == 0);
-}
-
 static SolveFigures solved(const World *world)
 {
     WorldInfo info;
@@ -70,6 +59,19 @@ static WorldDef column(void)
     return def;
 }
 
+static void nothing_is_counted_of_a_method_without_solvers(void **state)
+{
+    (void)state;
+    WorldDef def = column();
+    strcpy(def.method, "mueller");
+    World *world = fixture_world(&def);
+    fixture_step(world, 2);
+    const SolveFigures f = solved(world);
+    assert_int_equal(f.steps, 0);
+    assert_true(f.iterations_mean == 0 && f.iterations_p95 == 0 && f.density_error_mean == 0);
+    world_destroy(world);
+}
+
 /* Each step is counted, another backend goes on counting, a saved state has none of it. */
 static void a_world_counts(void **state)
 {
@@ -80,7 +82,7 @@ static void a_world_counts(void **state)
     World *world = fixture_world(&def), *other = fixture_world(&def);
     fixture_step(world, 10);
     assert_int_equal(solved(world).steps, 10);
-    assert_true(solved(world).iterations_mean >= 2 && solved(world).density_error_max > 0);
+    assert_true(solved(world).iterations_mean >= 1 && solved(world).density_error_max > 0);
     assert_true(world_save(world, &saved, &error));
     fixture_step(world, 5);
     assert_true(world_move(&world, "cpu", &error));

@@ -9,9 +9,10 @@
 #define MOVES_BUFFER  3
 #define PUSHES_BUFFER 7
 
-/* How much of the iteration before goes on: half to a third of the iterations in large scenes, in small ones
-   as many. */
-#define JACOBI_MOMENTUM 0.6F
+/* How much of the iteration before goes on. What a step leaves to the solver of density are long waves, which
+   Jacobi without it hardly sees; what it leaves to that of divergence are short ones too. */
+#define DENSITY_MOMENTUM    0.9F
+#define DIVERGENCE_MOMENTUM 0.6F
 
 /* How far the solver of density moves a particle in a step, spacings. */
 #define MOVE_MOST 0.2F

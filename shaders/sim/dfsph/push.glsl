@@ -3,6 +3,7 @@
 #define LISTS_LATER
 #define PLACES near
 #include "sim/dfsph/dfsph.glsl"
+#include "sim/dfsph/flown.glsl"
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; };                  // w: k
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };  // w: volume
@@ -57,14 +58,13 @@ void walk_images(vec3 x, ivec3 at)
     }
 }
 
-// By pressure, by what the box does meanwhile in the halves of the drift; the kick is behind the solver of divergence.
-vec3 flown(uint i, vec3 x, vec3 pressed)
+// The kick is behind the solver of divergence.
+vec3 accelerated(uint i, vec3 pressed)
 {
-    vec3 felt = 0.5 * (felt_at(x) - kick_gravity);
 #ifdef DIVERGENCE
-    return velocity[i].xyz + dt * (acceleration[i].xyz + pressed + felt + kick_gravity);
+    return acceleration[i].xyz + pressed + kick_gravity;
 #else
-    return velocity[i].xyz + dt * (pressed + felt);
+    return pressed;
 #endif
 }
 
@@ -81,5 +81,5 @@ void main()
     walk_images(x, at);
     vec3 pressed = gradient * sum / fluids[FLUID_OF(i)].mass;
     push[i] = vec4(pressed, own_term);
-    move[i] = vec4(flown(i, x, pressed), velocity[i].w);
+    move[i] = vec4(flown(velocity[i].xyz, x, accelerated(i, pressed), dt), velocity[i].w);
 }

@@ -4,6 +4,11 @@
 #define LISTS_LATER
 #define PLACES near
 #include "sim/dfsph/dfsph.glsl"
+#ifdef DIVERGENCE
+#define MOMENTUM DIVERGENCE_MOMENTUM
+#else
+#define MOMENTUM DENSITY_MOMENTUM
+#endif
 #include "sim/scratch.glsl"
 #ifdef SOLIDS
 #include "sim/solids.glsl"
@@ -73,7 +78,7 @@ float residual_of(float volume)
 float next_term(uint i, float residual, float before)
 {
     float relaxed = dt > 0.0 ? relaxation * rest_number_density / (dt * dt) : 0.0;
-    float momentum = dt > 0.0 ? JACOBI_MOMENTUM : 0.0;
+    float momentum = dt > 0.0 ? MOMENTUM : 0.0;
     float k = before + relaxed * residual * scratch[SCRATCH_factor + i] + momentum * scratch[SCRATCH_change + i];
 #ifndef NEGATIVE_PRESSURE
     k = k > 0.0 ? k : 0.0;

@@ -35,6 +35,8 @@ static void begin(const Compute *c, const Iteration *iteration)
     const SolveBlock block = {.groups_along = (uint)(groups > COMPUTE_ALONG ? COMPUTE_ALONG : groups),
                               .groups_rows = (uint)((groups + COMPUTE_ALONG - 1) / COMPUTE_ALONG),
                               .groups_deep = 1,
+                              .iterations =
+                                  iteration->begun ? UINT32_MAX : 0, /* the first measure adds one */
                               .tolerance = (float)iteration->tolerance,
                               .iterations_most = (uint)iteration->most};
     glNamedBufferSubData(c->solve.buffer, 0, sizeof block, &block);
@@ -66,6 +68,8 @@ void compute_iterate(void *state, const Iteration *iteration, const PassInput *i
     const SolveBlock *found;
     int asked = 0;
     begin(c, iteration);
+    if (iteration->begun)
+        decide(c, iteration->residual);
     do {
         for (int k = 0; k < at_once && asked < iteration->most; k++, asked++)
             iterate_once(c, iteration, input);
