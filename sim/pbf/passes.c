@@ -12,10 +12,10 @@ PAIR_LOOPS(pbf_friction);
 /* How much of the iteration before goes on: half of the iterations. */
 static const float MOMENTUM = 0.6F;
 
-/* What of its multipliers a step begins with. With all of them what a blow left, or a tolerance, pushes again
-   before it is taken back, and a column that rests jumps; without them there are half as many iterations
+/* What of the multipliers is forgotten in 1/60 s. With all of them what a blow left, or a tolerance, pushes
+   again before it is taken back, and a column that rests jumps; with none there are half as many iterations
    more. */
-static const float WARM = 0.5F;
+static const float FORGOTTEN = 0.5F;
 
 /* The longest way of an iteration, in spacings: fluid that a long step has folded comes apart in several,
    and is not thrown. What is cut short is lost to momentum. */
@@ -80,9 +80,10 @@ static void fill(Cpu *cpu, size_t i)
 static void begin_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
+    const float warm = 1 - FORGOTTEN * pbf_share(range->input->dt);
     for (size_t i = range->begin; i < range->end; i++) {
         fill(range->cpu, i);
-        p->own[TERM][i] *= of_fluid(range->cpu, i) ? WARM : 0;
+        p->own[TERM][i] *= of_fluid(range->cpu, i) ? warm : 0;
         p->own[APPLIED][i] = 0;
         p->own[MOVED][i] = p->own[MOVED + 1][i] = p->own[MOVED + 2][i] = 0;
     }
@@ -133,11 +134,18 @@ const Pass pbf_again = {
 
 /* --- an iteration: places --- */
 
-/* k by Jacobi's step and a part of its step before. */
-static float grown(const CpuParticles *p, size_t i, float scale, float least)
+/* What of n / n0 - 1 the step is to take away; `later`: the part of what it began with that it is to leave.
+ */
+static float asked(const CpuParticles *p, size_t i, float later)
 {
-    const float before = p->own[TERM][i];
-    const float k = before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + MOMENTUM * p->own[CHANGE][i];
+    return p->own[RESIDUAL][i] - later * fmaxf(p->own[BEFORE][i] - 1, 0);
+}
+
+/* k by Jacobi's step and a part of its step before. */
+static float grown(const CpuParticles *p, size_t i, float scale, float least, float later)
+{
+    const float before = p->own[TERM][i], e = asked(p, i, later);
+    const float k = before + scale * e * p->own[FACTOR][i] + MOMENTUM * p->own[CHANGE][i];
     return k > least ? k : least;
 }
 
@@ -148,11 +156,11 @@ static void pack_growth(const CpuRange *range)
     const CpuParticles *p = &range->cpu->now;
     const float dt = range->input->dt, square = dt * dt;
     const float scale = pbf_constants(s)->relaxation * s->rest_number_density / square,
-                least = s->negative_pressure ? -INFINITY : 0;
+                least = s->negative_pressure ? -INFINITY : 0, later = 1 - pbf_share(dt);
     for (size_t i = range->begin; i < range->end; i++) {
         float growth = 0;
         if (of_fluid(range->cpu, i)) {
-            const float k = grown(p, i, scale, least);
+            const float k = grown(p, i, scale, least, later);
             p->own[CHANGE][i] = k - p->own[TERM][i];
             growth = square * (k - p->own[APPLIED][i]);
             p->own[TERM][i] = p->own[APPLIED][i] = k;
@@ -251,7 +259,7 @@ const Pass pbf_move = {
     .name = "move",
     .stage = STAGE_SOLVE,
     .cpu = &move,
-    .reads = "position id fluid term residual factor inverse_mass change applied moved way",
+    .reads = "position id fluid term before residual factor inverse_mass change applied moved way",
     .writes = "position term acceleration change applied moved way",
 };
 
@@ -265,15 +273,18 @@ static void pack_place(const CpuRange *range)
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
 }
 
-static void finish_density(const Cpu *cpu, size_t i)
+static void finish_density(const Cpu *cpu, size_t i, float later)
 {
     const CpuParticles *p = &cpu->now;
     const Constants *s = cpu->constants;
     const float sx = p->ax[i], sy = p->ay[i], sz = p->az[i], w = p->own[INVERSE_MASS][i];
     const float d = (sx * sx + sy * sy + sz * sz) * w + p->own[SQUARES][i],
-                e = p->volume[i] / s->rest_number_density - 1;
+                ratio = p->volume[i] / s->rest_number_density;
     p->own[FACTOR][i] = 1 / (d + pbf_constants(s)->least_squares * w);
-    p->own[RESIDUAL][i] = e;
+    if (p->own[BEFORE][i] == 0)
+        p->own[BEFORE][i] = ratio;
+    p->own[RESIDUAL][i] = ratio - 1;
+    const float e = asked(p, i, later);
     p->own[MISS][i] = p->own[TERM][i] > 0 || s->negative_pressure ? fabsf(e) : fmaxf(e, 0);
     p->volume[i] = 1 / p->volume[i];
 }
@@ -283,19 +294,19 @@ static void density_body(const CpuRange *range)
     cpu_pairs(range, &pbf_sums);
     cpu_pairs(range, &pbf_images_sums);
     for (size_t i = range->begin; i < range->end; i++)
-        finish_density(range->cpu, i);
+        finish_density(range->cpu, i, 1 - pbf_share(range->input->dt));
 }
 
 static const CpuPass density = {.loops = {{density_body, .walks = true, .pack = pack_place}},
                                 .pair = sums_pair};
 
-#define DENSITY_WRITES "volume acceleration squares factor residual miss"
+#define DENSITY_WRITES "volume acceleration squares factor residual miss before"
 
 const Pass pbf_density = {
     .name = "density",
     .stage = STAGE_SOLVE,
     .cpu = &density,
-    .reads = "position id fluid term inverse_mass",
+    .reads = "position id fluid term before inverse_mass",
     .writes = DENSITY_WRITES,
 };
 
@@ -318,7 +329,7 @@ const Pass pbf_settle = {
     .name = "settle",
     .stage = STAGE_DENSITY,
     .cpu = &settle,
-    .reads = "position id fluid term",
+    .reads = "position id fluid term before",
     .writes = FILL_WRITES " " DENSITY_WRITES " pressure",
 };
 
@@ -369,6 +380,7 @@ static void force_body(const CpuRange *range)
         p->ay[i] += rate * rate * p->own[MOVED + 1][i];
         p->az[i] += rate * rate * p->own[MOVED + 2][i];
         p->pressure[i] = scale * p->own[TERM][i];
+        p->own[BEFORE][i] = p->own[RESIDUAL][i] + 1;
     }
 }
 
@@ -378,8 +390,8 @@ const Pass pbf_force = {
     .name = "force",
     .stage = STAGE_FORCE,
     .cpu = &force,
-    .reads = "position velocity id fluid volume viscosity tension kind moved term",
-    .writes = "velocity acceleration pressure",
+    .reads = "position velocity id fluid volume viscosity tension kind moved term residual",
+    .writes = "velocity acceleration pressure before",
 };
 
 static bool many_viscous(const Constants *constants)
@@ -391,6 +403,7 @@ static bool many_viscous(const Constants *constants)
 
 const ColumnDef pbf_columns[] = {
     {"term", "J m3", OWN(TERM), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
+    {"before", "", OWN(BEFORE), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
     {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT},
     {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
     {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
@@ -405,4 +418,5 @@ const ColumnDef pbf_columns[] = {
     {0},
 };
 
-const ColumnDef *const pbf_miss = &pbf_columns[MISS], *const pbf_way = &pbf_columns[WAY];
+const ColumnDef *const pbf_miss = &pbf_columns[MISS], *const pbf_residual = &pbf_columns[RESIDUAL],
+                       *const pbf_way = &pbf_columns[WAY];

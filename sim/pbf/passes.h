@@ -4,7 +4,7 @@
    that of images in the walls and of boundary particles counted. With grad W_ij = -F x_ij, x_ij = x_i - x_j,
    an iteration moves
      x_i by sum (dk_i + dk_j) F x_ij / m_i            dk: what a multiplier k grows by, p V0^2 dt^2
-     k_i by (n_i - n0) / D_i, and never below 0       so that nothing pulls
+     k_i by (n_i - n0) / D_i, and never below 0       so that nothing pulls; less what later steps take away
      D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what dk_i makes of its own n
    The whole way of a particle, over dt, is what the velocity takes of it. */
 #ifndef SLOSH_PBF_PASSES_H
@@ -18,11 +18,13 @@
 /* Where its columns stand among a particle's own. */
 enum {
     TERM,         /* k / dt^2, J m3: what is left of it is where the next step begins */
+    BEFORE,       /* n / n0 when the step begins; 0: not known yet */
     FACTOR,       /* 1 / D, kg m8 */
     SQUARES,      /* sum F^2 r^2 / m_j, 1 / (kg m8) */
     INVERSE_MASS, /* 1/kg; 0 of the particles of solids */
     RESIDUAL,     /* n / n0 - 1 */
-    MISS,         /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
+    MISS,         /* how far the step is from where it is to bring that: of what k holds, on either side; else
+                     from above */
     CHANGE,       /* of TERM in the iteration before, J m3 */
     APPLIED,      /* what of TERM the places have followed, J m3 */
     WAY,          /* length of the way since the lists were made, in spacings */
@@ -30,7 +32,7 @@ enum {
 };
 
 extern const ColumnDef pbf_columns[];
-extern const ColumnDef *const pbf_miss, *const pbf_way;
+extern const ColumnDef *const pbf_miss, *const pbf_residual, *const pbf_way;
 
 /* What a def means in numbers for pbf alone. */
 typedef struct PbfConstants {
@@ -43,6 +45,15 @@ typedef struct PbfConstants {
     int most;                /* iterations */
     double tolerance;
 } PbfConstants;
+
+/* The part that a step takes away of what is compressed when it begins: all of it in 1/60 s, in a shorter
+   step as much less. Places that move become velocity, the way over dt, so that more in a short step would
+   throw the fluid. (J. Baumgarte, "Stabilization of constraints and integrals of motion in dynamical
+   systems", 1972) */
+static inline float pbf_share(float dt)
+{
+    return dt < 1.0F / 60 ? 60 * dt : 1;
+}
 
 static inline const PbfConstants *pbf_constants(const Constants *constants)
 {

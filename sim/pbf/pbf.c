@@ -75,26 +75,16 @@ static const double WAY_MOST = 0.2;
 /* How often lists are made in a step, at most. */
 enum { LISTS_MOST = 4 };
 
-/* False where that is as little as may be left. */
-static bool compressed(const Substep *step, double tolerance)
-{
-    const Excess left = step->backend->excess(step->state, pbf_miss);
-    step->solves[0].mean = left.mean;
-    step->solves[0].most = left.greatest;
-    return !(left.mean <= tolerance);
-}
-
 /* By the multipliers of the step before. */
-static bool begin_compressed(const Substep *step, double tolerance)
+static void begin(const Substep *step)
 {
     substep_run(step, &pbf_begin, step->dt);
     substep_run(step, &pbf_move, step->dt);
     substep_run(step, &pbf_density, step->dt);
-    return compressed(step, tolerance);
 }
 
-/* With lists of where the particles are now, where those at hand are of no use any more. */
-static bool again_compressed(const Substep *step, double tolerance)
+/* False where the lists at hand still do; else those of where the particles are now. */
+static bool listed_again(const Substep *step)
 {
     const Backend *b = step->backend;
     if (b->excess(step->state, pbf_way).mean <= WAY_MOST)
@@ -102,26 +92,43 @@ static bool again_compressed(const Substep *step, double tolerance)
     b->grid(step->state);
     substep_run(step, &pbf_again, step->dt);
     substep_run(step, &pbf_density, step->dt);
-    return compressed(step, tolerance);
+    return true;
 }
 
+/* How often the iterations ran. */
+static int iterate(const Substep *step, double tolerance)
+{
+    const int most = pbf_constants(step->constants)->most;
+    const StepSolve *solve = &step->solves[0];
+    Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, tolerance, most, .begun = false};
+    bool more = true;
+    for (int lists = 1; more; lists++) {
+        substep_iterate(step, &iteration, 0, step->dt);
+        iteration.most -= (int)solve->iterations;
+        more = !(solve->mean <= tolerance) && iteration.most > 0 && lists < LISTS_MOST && listed_again(step);
+    }
+    return most - iteration.most;
+}
+
+/* What is told of a step is what is compressed behind it; of a solver in trouble what such steps would come
+   to. */
 static void hold_density(const Substep *step)
 {
-    const PbfConstants *own = pbf_constants(step->constants);
-    Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, own->tolerance, own->most, .begun = false};
+    const double tolerance = pbf_constants(step->constants)->tolerance,
+                 share = (double)pbf_share((float)step->dt);
     StepSolve *solve = &step->solves[0];
-    double iterations = 0;
-    *solve = (StepSolve){.tolerance = own->tolerance};
-    bool more = begin_compressed(step, own->tolerance);
-    for (int lists = 1; more && iteration.most > 0; lists++) {
-        substep_iterate(step, &iteration, 0, step->dt);
-        iterations += solve->iterations;
-        iteration.most = own->most - (int)iterations;
-        more = lists < LISTS_MOST && again_compressed(step, own->tolerance);
-    }
-    solve->iterations = iterations;
-    if (own->tolerance == 0) /* a number of iterations was asked for, and no residual */
-        solve->tolerance = 1;
+    begin(step);
+    solve->iterations = iterate(step, tolerance * share);
+    solve->tolerance = tolerance;
+    solve->mean /= share;
+    solve->most /= share;
+    if (tolerance == 0) /* a number of iterations was asked for, and no residual */
+        solve->failed = false;
+    if (solve->failed)
+        return;
+    const Excess left = step->backend->excess(step->state, pbf_residual);
+    solve->mean = left.mean;
+    solve->most = left.greatest;
 }
 
 /* The whole flight comes first; grid and lists are of where it ends. */
@@ -150,7 +157,8 @@ static const Pass *const passes[] = {&pbf_predict, &pbf_begin, &pbf_move,   &pbf
 
 const Method method_pbf = {
     .name = "pbf",
-    .help = "Macklin and Mueller 2013: places corrected until nothing is compressed; for long steps, 1/60 s",
+    .help =
+        "Macklin and Mueller 2013: places corrected until nothing is compressed; made for long steps, 1/60 s",
     .keys = keys,
     .def = &usual,
     .def_size = sizeof usual,

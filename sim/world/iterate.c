@@ -9,14 +9,9 @@ static void measure(const Substep *step, const Iteration *iteration, StepSolve *
     solve->most = left.greatest;
 }
 
-void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt)
+/* As often as it takes, with the excess asked for after each. */
+static void iterate_here(const Substep *step, const Iteration *iteration, StepSolve *solve, double dt)
 {
-    StepSolve *solve = &step->solves[which];
-    if (step->backend->iterate) {
-        const PassInput input = substep_input(step, dt);
-        step->backend->iterate(step->state, iteration, &input, solve);
-        return;
-    }
     *solve = (StepSolve){.tolerance = iteration->tolerance, .mean = INFINITY};
     if (iteration->begun)
         measure(step, iteration, solve);
@@ -28,9 +23,15 @@ void substep_iterate(const Substep *step, const Iteration *iteration, int which,
     }
 }
 
-bool step_solve_failed(const StepSolve *solve)
+void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt)
 {
-    return solve->iterations > 0 && !(solve->mean <= STEP_SOLVE_STANDS * solve->tolerance);
+    const PassInput input = substep_input(step, dt);
+    StepSolve *solve = &step->solves[which];
+    if (step->backend->iterate)
+        step->backend->iterate(step->state, iteration, &input, solve);
+    else
+        iterate_here(step, iteration, solve, dt);
+    solve->failed = !(solve->mean <= STEP_SOLVE_STANDS * solve->tolerance);
 }
 
 /* Of so many iterations; what is beyond all classes is in the last one. */

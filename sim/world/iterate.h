@@ -18,9 +18,6 @@ typedef struct Iteration {
    step->solves[which] what came of it. */
 void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt);
 
-/* Whether a solver ended far from what it was asked for. */
-bool step_solve_failed(const StepSolve *solve);
-
 /* What the solvers of many steps did, in bounded memory. Zero-initialise it. */
 enum { SOLVE_EXACT = 64, SOLVE_OCTAVE = 8, SOLVE_CLASSES = SOLVE_EXACT + 9 * SOLVE_OCTAVE };
 typedef struct SolveTally {

@@ -22,7 +22,7 @@ bool sentinel_mark(World *world, Error *error)
 static void look_at_solves(World *world)
 {
     for (int k = 0; k < SOLVES_MAX && !world->seen; k++)
-        if (step_solve_failed(&world->solves[k])) {
+        if (world->solves[k].failed) {
             world->seen = STEP_TROUBLE_SOLVE;
             world->trouble.solver = &world->method->solvers[k];
             world->trouble.left = world->solves[k];

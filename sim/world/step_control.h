@@ -44,6 +44,7 @@ typedef struct StepSolve {
     double mean,
         most; /* what is left of the residual, as the solver measures it: over all particles, at worst */
     double tolerance; /* of the mean */
+    bool failed;      /* ended far from what it was asked for */
 } StepSolve;
 
 /* A solver is in trouble where its iterations end with so many times the residual that it may leave. */

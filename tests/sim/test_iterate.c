@@ -6,7 +6,7 @@
 
 static void add(SolveTally *tally, int density, int divergence, double mean, double most)
 {
-    const StepSolve solves[SOLVES_MAX] = {{density, mean, most, 1e-3}, {divergence, 1, 1, 1}};
+    const StepSolve solves[SOLVES_MAX] = {{density, mean, most, 1e-3, false}, {divergence, 1, 1, 1, false}};
     solve_tally_add(tally, solves);
 }
 

@@ -78,6 +78,8 @@ void compute_iterate(void *state, const Iteration *iteration, const PassInput *i
     } while (found && !found->ended && asked < iteration->most);
     *solve = (StepSolve){.tolerance = iteration->tolerance};
     if (found)
-        *solve = (StepSolve){found->iterations, (double)found->left_mean, (double)found->left_most,
-                             iteration->tolerance};
+        *solve = (StepSolve){.iterations = found->iterations,
+                             .mean = (double)found->left_mean,
+                             .most = (double)found->left_most,
+                             .tolerance = iteration->tolerance};
 }
