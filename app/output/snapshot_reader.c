@@ -255,6 +255,21 @@ static bool read_field(hid_t group, const char *name, hid_t type, size_t count, 
     return read;
 }
 
+/* What files of before have at the end may have changed: it is left out. */
+static bool read_restart(hid_t group, WorldNumbers *restart)
+{
+    enum { MOST = 1024 };
+    double values[MOST];
+    if (read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS, restart))
+        return true;
+    for (size_t count = WORLD_NUMBERS_LEAST; count < MOST; count++)
+        if (read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, count, values)) {
+            memcpy(restart, values, WORLD_NUMBERS_LEAST * sizeof *values);
+            return true;
+        }
+    return false;
+}
+
 /* The name of the first attribute or dataset that is not as it must be, or NULL. */
 static const char *read_group(hid_t group, SnapshotStep *step)
 {
@@ -263,9 +278,7 @@ static const char *read_group(hid_t group, SnapshotStep *step)
         return name;
     SNAPSHOT_ATTRIBUTES(X)
 #undef X
-    if (H5Aexists(group, SNAPSHOT_RESTART) > 0 &&
-        !read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS, &step->restart) &&
-        !read_values(group, SNAPSHOT_RESTART, H5T_NATIVE_DOUBLE, WORLD_NUMBERS_LEAST, &step->restart))
+    if (H5Aexists(group, SNAPSHOT_RESTART) > 0 && !read_restart(group, &step->restart))
         step->restart.version = 0; /* of another version of slosh */
     if (!read_values(group, SNAPSHOT_STEP_NUMBER, H5T_NATIVE_UINT64, 1, &step->step))
         return SNAPSHOT_STEP_NUMBER;

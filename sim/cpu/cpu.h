@@ -114,6 +114,6 @@ bool cpu_read(void *state, const ParticleArrays *out);
 extern const struct BackendMicro cpu_micro;
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge);
-void cpu_energy(void *state, const double gravity[3], WorldGauge *gauge);
+void cpu_energy(void *state, bool turning, EnergySums *sums);
 
 #endif

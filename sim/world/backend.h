@@ -74,8 +74,9 @@ typedef struct Backend {
        cannot. Then whether it has come, without waiting: sums of the gauge, the mean divided. */
     bool (*gauge)(void *state, const double gravity[3]);
     bool (*gauged)(void *state, WorldGauge *gauge);
-    /* The same at once, for sim/world/energy_watch.h; NULL: it would wait. */
-    void (*energy)(void *state, const double gravity[3], WorldGauge *gauge);
+    /* For sim/world/energy_watch.h, at once; `second` and `turn` for boxes that turn alone. NULL: it would
+       wait. */
+    void (*energy)(void *state, bool turning, EnergySums *sums);
     /* Between steps: adds those particles of a layer that are in the box and not next to
        others, at most `most`, and returns how many; takes out what is in a region, and returns how many. */
     size_t (*emit)(void *state, const EmitLayer *layer, size_t most);

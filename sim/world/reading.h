@@ -90,6 +90,14 @@ typedef struct WorldGauge {
     bool total_known; /* their sum is all of the energy; false with surface tension, whose is not known */
 } WorldGauge;
 
+/* What the watch over energy asks of the fluid, in the box's frame. */
+typedef struct EnergySums {
+    double own;       /* energy of motion and of compression, J */
+    double first[3];  /* sum m x, kg m */
+    double second[6]; /* sum m x x: xx, yy, zz, xy, yz, zx, kg m2 */
+    double turn[3];   /* sum m x cross v, kg m2/s */
+} EnergySums;
+
 /* Where world_read writes; NULL where something is not wanted. All arrays hold `count` particles in one
    common order, which changes from step to step; `id` tells who is who. Density (calibrated, so that
    p = c^2 (rho - rho0)), pressure and volume are those that the last substep used, at the middle of it (at

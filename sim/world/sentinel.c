@@ -45,10 +45,18 @@ bool world_sound(World *world)
     return world->seen == STEP_TROUBLE_NONE;
 }
 
+/* Steps of twice the length would boil by friction: the same trouble again. */
+static bool friction_forbids(const World *world)
+{
+    const StepState *s = &world->stepping;
+    return 2 * s->wanted / s->refine >
+           STEP_VISCOUS_STANDS * step_viscous(&world->def, &world->constants.friction);
+}
+
 void sentinel_relieve(World *world)
 {
     StepState *s = &world->stepping;
-    if (s->refine <= 1 || s->calm < CALM_STEPS * s->refine)
+    if (s->refine <= 1 || s->calm < CALM_STEPS * s->refine || friction_forbids(world))
         return;
     s->refine /= 2;
     s->tries--;

@@ -7,7 +7,8 @@
 /* At the begin of a frame: keeps the state. False when memory is short. */
 bool sentinel_mark(World *world, Error *error);
 
-/* At the begin of a frame: after many calm steps the last halving is taken back. */
+/* At the begin of a frame: after many calm steps the last halving is taken back, where friction
+   stands the longer step. */
 void sentinel_relieve(World *world);
 
 /* After a step that ended at `time` with trouble, world->seen: the last good state again, with half the step.

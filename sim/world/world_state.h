@@ -6,6 +6,7 @@
 #include "sim/world/column.h"
 #include "sim/world/live.h"
 #include "sim/world/method.h"
+#include "sim/world/reading.h"
 #include "sim/world/step_control.h"
 #include "sim/world/world.h"
 
@@ -13,10 +14,15 @@
 
 /* What sim/world/energy_watch.h compares with; zero: nothing yet. */
 typedef struct EnergyMark {
-    double least; /* energy of a closed world, J */
-    double until; /* the step after which another takes its place */
-    double next;  /* the step that looks again, sooner if a particle is much faster than */
-    double speed; /* at the last look, m/s */
+    double least;   /* energy of motion and compression less the work done since the first look, J */
+    double until;   /* the step after which another takes its place */
+    double next;    /* the step that looks again, sooner if a particle is much faster than */
+    double speed;   /* at the last look, m/s */
+    double work;    /* since the first look, of gravity and of what the box's motion is for the fluid, J */
+    double stirred; /* its amount since `least`, whatever its sign, J */
+    double time;    /* of the last look, s; what was found there: */
+    EnergySums sums;
+    BoxState box;
 } EnergyMark;
 
 /* What is not of a particle. Doubles only, so that it is also an array of WORLD_NUMBERS of them: files keep
