@@ -73,10 +73,9 @@ void session_tell_uneven(const Session *session, const char *what, double interv
 /* After a step: what is there now, and what the sentinel did. */
 static void look(Session *session)
 {
-    const unsigned troubles = session->info.trouble.count;
     char words[256];
     world_info(session->world, &session->info);
-    if (session->info.trouble.count != troubles)
+    if (session_trouble_is_new(&session->told_trouble, &session->info.trouble))
         fprintf(stderr, "%s\n", session_trouble_text(&session->info.trouble, words));
     if (session->info.full && !session->told_full)
         fprintf(stderr, "%s\n", session_full_text(&session->info, words));
@@ -106,6 +105,17 @@ const char *session_full_text(const WorldInfo *info, char words[256])
         "t = %.4g s: there %s %zu particle%s, as many as particles.most allows: emitters pause until some drain",
         info->time, info->count == 1 ? "is" : "are", info->count, plural(info->count));
     return words;
+}
+
+bool session_trouble_is_new(TroubleTold *told, const WorldTrouble *trouble)
+{
+    unsigned *halvings = &told->halvings[trouble->what];
+    const unsigned bit = 1u << trouble->tries;
+    const bool is_new = trouble->count != told->count && !(*halvings & bit);
+    if (trouble->count != told->count)
+        *halvings |= bit;
+    told->count = trouble->count;
+    return is_new;
 }
 
 const char *session_trouble_text(const WorldTrouble *trouble, char words[256])
@@ -181,6 +191,9 @@ void session_report(const Session *session, const Args *args, const Summary *sum
                 info->count, plural(info->count), info->time, wall, info->time / wall, args->output,
                 summary->products, (int)strlen(summary->product) - (summary->products == 1),
                 summary->product);
+    if (info->trouble.count > 0)
+        fprintf(stderr, "the step was halved %u time%s in all after trouble\n", info->trouble.count,
+                plural(info->trouble.count));
     if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
         print_limits(info);
     if (!args->quiet && info->solved.steps > 0)

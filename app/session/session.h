@@ -13,6 +13,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* What of the sentinel was told: each kind of trouble with each halving once. */
+typedef struct TroubleTold {
+    unsigned count;                        /* of a world's troubles, that were seen */
+    unsigned halvings[STEP_TROUBLE_COUNT]; /* bit n: with 1 / 2^n of the step */
+} TroubleTold;
+
 typedef struct Session {
     Scene scene;
     Headless *context; /* current; NULL where neither solver nor pictures need one */
@@ -20,8 +26,9 @@ typedef struct Session {
     HandReplay *hand; /* of --device: moves the box before each step; NULL: none */
     WorldInfo info;   /* of the present state */
     double began_ms;  /* wall time of the start */
-    bool told_full;   /* that emitters wait */
-    bool told_lost;   /* that particles find no place in the grid */
+    TroubleTold told_trouble;
+    bool told_full; /* that emitters wait */
+    bool told_lost; /* that particles find no place in the grid */
     bool told_unlisted;
 } Session;
 
@@ -47,6 +54,9 @@ bool session_substep(Session *session, Error *error); /* one step of a frame */
 /* Says on standard error where `what`, one each `interval` s, will be at uneven times: mode fixed, and a
    frame that does not divide the interval. */
 void session_tell_uneven(const Session *session, const char *what, double interval);
+
+/* Whether there is trouble that was not told yet; it is then. */
+bool session_trouble_is_new(TroubleTold *told, const WorldTrouble *trouble);
 
 /* What the sentinel did, in words. */
 const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);

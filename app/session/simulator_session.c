@@ -63,7 +63,7 @@ void simulator_make_world(Simulator *simulator)
              simulator->scene.world.backend); /* the one at hand, which this thread can do */
     simulator->scene = simulator->start;
     world_destroy(simulator->world);
-    simulator->troubles = 0;
+    simulator->told_trouble = (TroubleTold){0};
     simulator->told_full = simulator->told_lost = simulator->told_unlisted = false;
     simulator->world = world_create(&simulator->start.world, &error);
     simulator_gauge_begin(simulator);
@@ -198,10 +198,8 @@ static void tell_news(Simulator *simulator, const WorldInfo *info)
     if (info->unlisted && !simulator->told_unlisted)
         tell(simulator, false, session_unlisted_text(info, words));
     simulator->told_unlisted |= info->unlisted > 0;
-    if (info->trouble.count == simulator->troubles)
-        return;
-    simulator->troubles = info->trouble.count;
-    tell(simulator, false, session_trouble_text(&info->trouble, words));
+    if (session_trouble_is_new(&simulator->told_trouble, &info->trouble))
+        tell(simulator, false, session_trouble_text(&info->trouble, words));
 }
 
 void simulator_frame_begin(Simulator *simulator)

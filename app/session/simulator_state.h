@@ -4,6 +4,7 @@
 #define SLOSH_SIMULATOR_STATE_H
 
 #include "app/recording/sim_command.h"
+#include "app/session/session.h"
 #include "app/session/simulator.h"
 #include "sim/world/world.h"
 
@@ -71,9 +72,9 @@ struct Simulator {
     GaugeSample gauge;         /* on its way; its gauge is not there yet */
     double gauge_ms;           /* wall time at which it was asked for */
     Recording recording;
-    unsigned troubles; /* of the world, that were told */
-    bool told_full;    /* that its emitters wait */
-    bool told_lost;    /* that particles find no place in the grid */
+    TroubleTold told_trouble;
+    bool told_full; /* that its emitters wait */
+    bool told_lost; /* that particles find no place in the grid */
     bool told_unlisted;
     bool recording_lost; /* no memory for all of its commands */
     Upload *upload;

@@ -85,6 +85,14 @@ class Steps(CommandTest):
                                r'back to [0-9.]+ s with 1/2 of the step \(1 of 3\)\n')
         self.assertGreater(json.loads(self.read('a.json'))['troubles'], 0)
 
+    def test_the_same_trouble_is_told_once(self):
+        said = self.go('--set', 'solver.step={dt: 0.04, substeps: 1}', '--time', '30', '--every', '10')
+        troubles = json.loads(self.read('a.json'))['troubles']
+        self.assertGreater(troubles, 2)
+        told = re.findall(r'1/[248] of the step', said)
+        self.assertEqual(len(told), len(set(told)), said)
+        self.assertIn(f'the step was halved {troubles} times in all after trouble\n', said)
+
     def test_it_gives_up_with_a_snapshot(self):
         said = self.go('--set', 'solver.step={dt: 0.04, substeps: 1, retries: 0}', code=1)
         self.assertNotIn('kept', said)
