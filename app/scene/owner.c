@@ -37,7 +37,7 @@ static bool is_of_value(const Scene *scene, const Key *key, const char *value)
 bool key_owner_used(const KeyOwner *owner, const Scene *scene, bool said)
 {
     if (owner->command)
-        return scene->purpose == SCENE_FOR_CHART || (!said && scene->purpose != SCENE_FOR_NUMBERS);
+        return scene->purpose == SCENE_FOR_CHART || !said;
     const Key *key = scene_key_find(owner->key);
     if (key->flags & KEY_LIVE && scene->purpose == SCENE_FOR_WINDOW)
         return true;

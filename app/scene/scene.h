@@ -17,9 +17,8 @@ enum { SCENE_METRICS_MAX = 8 };
 
 /* What a scene is read for: some of its keys are for some of these only. */
 typedef enum ScenePurpose {
-    SCENE_FOR_ONE,     /* a command that leaves method, backend and view as they are */
-    SCENE_FOR_NUMBERS, /* the same, without a picture: the particles are what comes out */
-    SCENE_FOR_WINDOW,  /* backend and view may change while it runs */
+    SCENE_FOR_ONE,    /* a command that leaves method, backend and view as they are */
+    SCENE_FOR_WINDOW, /* backend and view may change while it runs */
     SCENE_FOR_CHART
 } ScenePurpose;
 

@@ -15,7 +15,6 @@ int session_open(Session *session, const Args *args, bool draws, Error *error)
 {
     Notes notes;
     SceneSettings settings = args->settings;
-    settings.purpose = draws ? SCENE_FOR_ONE : SCENE_FOR_NUMBERS;
     *session = (Session){.began_ms = wall_ms()};
     if (!scene_load(args->scenes[0], &settings, &session->scene, &notes, error))
         return EXIT_USAGE;

@@ -106,10 +106,8 @@ static void *cpu_create(const Constants *constants, const WorldDef *def, const I
 {
     const int threads = cpu_def(def)->threads, simd = cpu_def(def)->simd;
     PairSet pairs;
-    if (!pair_set_choose(simd, constants->periodic.any, &pairs)) {
-        error_set(error, "this processor has no %s; leave solver.simd at auto", simd_kinds[simd].name);
+    if (!pair_set_choose(simd, constants->periodic.any, &pairs, error))
         return NULL;
-    }
     Cpu *cpu = calloc(1, sizeof *cpu);
     if (!cpu) {
         error_set(error, "no memory");

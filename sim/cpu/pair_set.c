@@ -21,18 +21,26 @@ static bool has_avx2(void)
 #endif
 }
 
-static int widest(void)
+/* What the environment says; -1: nothing that there is. */
+static int wanted_by_environment(void)
 {
     const char *wanted = getenv("SLOSH_SIMD");
-    const bool narrow = wanted && strcmp(wanted, simd_kinds[SIMD_BASELINE].name) == 0;
-    return has_avx2() && !narrow ? SIMD_AVX2 : SIMD_BASELINE;
+    int kind = SIMD_AUTO;
+    while (wanted && simd_kinds[kind].name && strcmp(wanted, simd_kinds[kind].name) != 0)
+        kind++;
+    return simd_kinds[kind].name ? kind : -1;
 }
 
-bool pair_set_choose(int simd, bool periodic, PairSet *set)
+bool pair_set_choose(int simd, bool periodic, PairSet *set, Error *error)
 {
-    const int kind = simd == SIMD_AUTO ? widest() : simd;
-    if (kind == SIMD_AVX2 && !has_avx2())
-        return false;
+    int kind = simd == SIMD_AUTO ? wanted_by_environment() : simd;
+    if (kind < 0)
+        return error_set(error, "SLOSH_SIMD is '%.40s'; auto, avx2 and baseline are there",
+                         getenv("SLOSH_SIMD"));
+    if (simd == SIMD_AVX2 && !has_avx2())
+        return error_set(error, "this processor has no %s; leave solver.simd at auto", simd_kinds[simd].name);
+    if (kind == SIMD_AUTO || !has_avx2())
+        kind = has_avx2() ? SIMD_AVX2 : SIMD_BASELINE;
     if (kind == SIMD_AVX2)
         *set = periodic ? PAIR_AVX2_PERIODIC : PAIR_AVX2;
     else

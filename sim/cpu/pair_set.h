@@ -3,6 +3,7 @@
 #ifndef SLOSH_PAIR_SET_H
 #define SLOSH_PAIR_SET_H
 
+#include "sim/base/error.h"
 #include "sim/cpu/pair_args.h"
 
 /* Those of a box with periodic sides have loops of their own. */
@@ -29,10 +30,10 @@ typedef struct SimdKind {
 
 extern const SimdKind simd_kinds[];
 
-/* The set of that number in simd_kinds; of the first the widest that this processor has, but the
-   baseline where the environment variable SLOSH_SIMD says so, for tests of a whole program. False where it
-   cannot. */
-bool pair_set_choose(int simd, bool periodic, PairSet *set);
+/* The set of that number in simd_kinds; of the first what the environment variable SLOSH_SIMD
+   names, as far as the processor has it, for tests of a whole program; else the widest that the processor
+   has. False, with the reason, where it cannot. */
+bool pair_set_choose(int simd, bool periodic, PairSet *set, Error *error);
 
 /* Its name in simd_kinds. */
 const char *pair_set_name(PairSet set);

@@ -195,10 +195,11 @@ static void files_may_say_how_other_views_shall_be(void **state)
     assert_int_equal(notes_of(text, "metrics=[front]", NULL, SCENE_FOR_CHART, &scene).count, 0);
     assert_int_equal(
         notes_of(text, "view.volume.ior=2", "solver.grid_layers=1", SCENE_FOR_WINDOW, &scene).count, 0);
-    const Notes run = notes_of(text, NULL, NULL, SCENE_FOR_NUMBERS, &scene);
+    const Notes run = notes_of(text, "metrics=[front]", NULL, SCENE_FOR_ONE, &scene);
     assert_int_equal(run.count, 1);
-    assert_string_equal(run.line[0],
-                        "scene.yaml:6:1: metrics has no effect; it needs slosh chart, which alone reads it");
+    assert_string_equal(
+        run.line[0],
+        "--set metrics=[front]: metrics has no effect; it needs slosh chart, which alone reads it");
     snprintf(text, sizeof text, "%.*sshifting: 0.2}\n", (int)(strstr(column, "negative") - column), column);
     const Notes file = notes_of(text, NULL, NULL, SCENE_FOR_WINDOW, &scene);
     assert_string_equal(file.line[0],

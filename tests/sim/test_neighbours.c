@@ -231,6 +231,19 @@ static void golden_hash(void **state)
                  (unsigned long long)golden);
 }
 
+static void an_unknown_set_is_refused(void **state)
+{
+    (void)state;
+    Error error;
+    WorldDef def = fixture_def(0.5, 0.5, 0.5);
+    fixture_block(&def, 0, -1, 0, -1, 1, 0.3, 1);
+    fixture_needs_cpu("sets of instructions are the CPU's");
+    setenv("SLOSH_SIMD", "nonsense", 1);
+    assert_null(world_create(&def, &error));
+    assert_string_equal(error.message, "SLOSH_SIMD is 'nonsense'; auto, avx2 and baseline are there");
+    unsetenv("SLOSH_SIMD");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -239,6 +252,7 @@ int main(void)
         cmocka_unit_test(coincident_pair_parts),
         cmocka_unit_test(equal_bits_for_any_threads_and_simd),
         cmocka_unit_test(golden_hash),
+        cmocka_unit_test(an_unknown_set_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
