@@ -164,6 +164,7 @@ static void *fragment_create(const Constants *constants, const WorldDef *def, co
     f->constants = constants;
     f->count = initial->count;
     f->layers = fragment_layers(def);
+    f->flush = strstr((const char *)glGetString(GL_RENDERER), "zink") != NULL;
     f->lost_limit = (size_t)fragment_def(def)->lost_limit;
     shape_for(f->count, &f->bits, &f->width, &f->height);
     shape_for(constants->cells.count, &f->bucket_bits, &f->bucket_width, &f->bucket_height);

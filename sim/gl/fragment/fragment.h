@@ -105,6 +105,7 @@ typedef struct Fragment {
     int bits, width, height;                      /* of the textures of particles; width = 2^bits */
     int bucket_bits, bucket_width, bucket_height; /* of the buckets, likewise */
     int layers;
+    bool flush;            /* the driver needs it before a grid */
     size_t lost_limit;     /* so many particles may find no place in a step */
     unsigned position[2];  /* x y z (m), id */
     unsigned velocity[2];  /* x y z (m/s), fluid */
