@@ -99,7 +99,7 @@ bool upload_set_copies(Upload *upload, bool copies, Error *error)
     upload->device = 0;
     if (!copies)
         return true;
-    gl_errors_take(0);
+    gl_debug_errors(); /* what is asked below is of this buffer */
     glCreateBuffers(1, &upload->device);
     glObjectLabel(GL_BUFFER, upload->device, -1, "drawn particles");
     glNamedBufferStorage(upload->device, (GLsizeiptr)upload->layout.size, NULL, 0);

@@ -99,7 +99,7 @@ unsigned volume_texture(const int size[3], unsigned format, const char *label)
 {
     static const GLfloat none[4] = {0};
     GLuint texture;
-    gl_errors_take(0); /* what is asked below is of this texture */
+    gl_debug_errors(); /* what is asked below is of this texture */
     glCreateTextures(GL_TEXTURE_3D, 1, &texture);
     glObjectLabel(GL_TEXTURE, texture, -1, label);
     glTextureStorage3D(texture, 1, format, size[0], size[1], size[2]);

@@ -25,16 +25,28 @@ static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, G
         fprintf(stderr, "GL error: %s\n", message);
 }
 
+/* Where the driver sends no messages the codes still tell. Returns what is counted now. */
+static int count_at_least(int codes)
+{
+    const int messages = atomic_load(&error_count);
+    if (codes > messages)
+        atomic_store(&error_count, codes);
+    return codes > messages ? codes : messages;
+}
+
 int gl_errors_take(unsigned code)
 {
     enum { MOST = 32 }; /* without a context, or with one that was lost, there is always another */
-    int found = 0;
+    int found = 0, others = 0;
     for (int k = 0; k < MOST; k++) {
         const GLenum next = glGetError();
         if (next == GL_NO_ERROR)
             break;
-        found += code == 0 || next == code;
+        const bool wanted = code == 0 || next == code;
+        found += wanted;
+        others += !wanted;
     }
+    count_at_least(others);
     return found;
 }
 
@@ -54,12 +66,7 @@ void gl_debug_asks_for_memory(bool asks)
 
 int gl_debug_errors(void)
 {
-    /* Where the driver sends no messages the codes still tell. */
-    const int codes = gl_errors_take(0);
-    const int messages = atomic_load(&error_count);
-    if (codes > messages)
-        atomic_store(&error_count, codes);
-    return codes > messages ? codes : messages;
+    return count_at_least(gl_errors_take(0));
 }
 
 int gl_debug_total(void)

@@ -8,7 +8,8 @@
 /* Listens to the current context from now on. */
 void gl_debug_install(void);
 
-/* Takes what is pending of glGetError's codes; returns how many were `code`, or of any kind for 0. */
+/* Takes what is pending of glGetError's codes; returns how many were `code`, or of any kind for 0: the caller
+   sees to these. The others are errors as if nobody had asked. */
 int gl_errors_take(unsigned code);
 
 /* While `asks`, what there is no memory for is no error: who asks for a buffer looks at glGetError. */
