@@ -2,6 +2,7 @@
 #include "app/base/json_file.h"
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
+#include "app/metric/compression.h"
 #include "app/session/session.h"
 #include "app/session/snapshot_series.h"
 
@@ -16,9 +17,39 @@ static void keep_last(const Session *session, Snapshot *file)
         snapshot_append(file, session->world, &none);
 }
 
+/* What the states with a snapshot say of the solver. */
+typedef struct Look {
+    Cloud cloud;
+    CompressionTally compression;
+    double step_seconds; /* wall time of the steps, without what is written */
+} Look;
+
+static bool step(Session *session, Look *look, Error *error)
+{
+    const double begin = wall_ms();
+    const bool ok = session_step(session, error);
+    world_sound(session->world); /* waits for a GPU, which is what is timed */
+    look->step_seconds += (wall_ms() - begin) / 1000;
+    return ok;
+}
+
+static bool add_snapshot(SnapshotSeries *series, const Session *session, Look *look, Error *error)
+{
+    const size_t before = snapshot_steps(series->file);
+    if (!snapshot_series_add(series, session, error))
+        return false;
+    if (snapshot_steps(series->file) == before)
+        return true;
+    if (!cloud_read(&look->cloud, session->world))
+        return error_set(error, "no memory to read %zu particles; use a larger spacing", session->info.count);
+    compression_add(&look->compression, &look->cloud, &session->scene.world);
+    return true;
+}
+
 /* From the first state to the last, with a snapshot of the first state at or after each multiple of --every.
    Ends early, with a whole file, when a signal came. */
-static bool simulate(Session *session, const Args *args, Snapshot *file, Progress *progress, Error *error)
+static bool simulate(Session *session, const Args *args, Snapshot *file, Look *look, Progress *progress,
+                     Error *error)
 {
     SnapshotSeries series = {.file = file, .every = args->every};
     if (!args->quiet) /* a file has its times in it */
@@ -26,12 +57,12 @@ static bool simulate(Session *session, const Args *args, Snapshot *file, Progres
     if (snapshot_steps(file) > 0)
         snapshot_series_resume(&series, session);
     for (;;) {
-        if (!snapshot_series_add(&series, session, error))
+        if (!add_snapshot(&series, session, look, error))
             return false;
         if (session_reached(session, args->time) || interrupted())
             return true;
         world_stop_at(session->world, series.next * series.every);
-        if (!session_step(session, error)) {
+        if (!step(session, look, error)) {
             keep_last(session, file);
             return false;
         }
@@ -45,11 +76,15 @@ static int complain(int code, const Error *error)
     return code;
 }
 
-static int finish(const Session *session, const Args *args, const Snapshot *file, Error *error)
+static int finish(const Session *session, const Args *args, const Snapshot *file, const Look *look,
+                  Error *error)
 {
+    const CompressionFigures pressed = compression_figures(&look->compression);
     Summary summary = {.command = "run",
                        .product = "snapshots",
                        .products = snapshot_steps(file),
+                       .step_seconds = look->step_seconds,
+                       .compression = look->compression.states ? &pressed : NULL,
                        .stopped = !session_reached(session, args->time)};
     session_report(session, args, &summary);
     if (session_write_json(session, args, &summary, error))
@@ -98,6 +133,7 @@ static Snapshot *begin(const Session *session, const Args *args, Error *error)
 static int run(Session *session, const Args *args, Error *error)
 {
     Progress progress;
+    Look look = {.step_seconds = 0};
     Snapshot *file;
     bool busy = false;
     if (args->json && !json_file_check(args->json, error))
@@ -110,10 +146,11 @@ static int run(Session *session, const Args *args, Error *error)
         return fail(session, args, NULL, error);
     }
     progress_begin(&progress, stderr, "run", args->quiet);
-    bool done = simulate(session, args, file, &progress, error);
+    bool done = simulate(session, args, file, &look, &progress, error);
     progress_end(&progress);
-    int code = done ? finish(session, args, file, error) : fail(session, args, file, error);
+    int code = done ? finish(session, args, file, &look, error) : fail(session, args, file, error);
     snapshot_close(file);
+    cloud_free(&look.cloud);
     return code;
 }
 

@@ -197,6 +197,14 @@ void session_report(const Session *session, const Args *args, const Summary *sum
         print_limits(info);
     if (!args->quiet && info->solved.steps > 0)
         fprintf(stderr, "%s\n", solved_text(&info->solved, words));
+    if (!args->quiet && summary->compression)
+        fprintf(stderr, "snapshots are pressed by %.3g %% in the mean, %.3g %% at the 99.9th percentile\n",
+                100 * summary->compression->mean, 100 * summary->compression->p999);
+}
+
+static json_t *compression_json(const CompressionFigures *pressed)
+{
+    return json_pack("{s:f, s:f, s:f}", "mean", pressed->mean, "p999", pressed->p999, "max", pressed->most);
 }
 
 static json_t *summary_json(const Session *session, const Args *args, const Summary *summary)
@@ -219,6 +227,10 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
         json_object_set_new(json, "drained", json_integer((json_int_t)info->drained));
         solved_json(json, &info->solved);
     }
+    if (json && summary->step_seconds > 0)
+        json_object_set_new(json, "step_seconds", json_real(summary->step_seconds));
+    if (json && summary->compression)
+        json_object_set_new(json, "compression", compression_json(summary->compression));
     if (json && summary->renderer)
         json_object_set_new(json, "renderer", json_string(summary->renderer));
     return json;

@@ -4,6 +4,7 @@
 
 #include "app/base/exit_code.h"
 #include "app/held/hand_replay.h"
+#include "app/metric/compression.h"
 #include "app/scene/scene.h"
 #include "app/session/args.h"
 #include "app/session/headless.h"
@@ -75,8 +76,10 @@ typedef struct Summary {
     const char *command;
     const char *product; /* "snapshots" or "pictures" */
     size_t products;
-    const char *renderer; /* NULL: nothing was drawn */
-    bool stopped;         /* by a signal */
+    const char *renderer;                  /* NULL: nothing was drawn */
+    double step_seconds;                   /* wall time of the steps alone; 0: not measured */
+    const CompressionFigures *compression; /* of the states that were looked at; NULL: none */
+    bool stopped;                          /* by a signal */
 } Summary;
 
 /* The closing line, unless quiet, and the line about a signal. */

@@ -2,6 +2,7 @@
 #include "tests/sim/fixture.h"
 
 #include "app/case/case.h"
+#include "app/metric/compression.h"
 #include "app/metric/metric.h"
 #include "sim/world/world.h"
 
@@ -234,6 +235,29 @@ static void cases_are_whole(void **state)
                 case_tolerance(&case_list[0]->metrics[0], CASE_DEFAULT, "wcsph"));
 }
 
+/* 4,000 particles, of them five pressed by 10 % and the others by 1 % or thinner than at rest, twice. */
+static void compression_has_its_percentile(void **state)
+{
+    (void)state;
+    static CompressionTally tally;
+    Cloud cloud = cloud_of(0.1);
+    WorldDef def = world_def_default();
+    def.fluids[0].density = 1000;
+    assert_true(compression_figures(&tally).mean == 0 && compression_figures(&tally).p999 == 0);
+    for (int i = 0; i < MOST; i++) {
+        add(&cloud, 0, 0, 0);
+        cloud.density[i] = i < 5 ? 1100 : i % 2 ? 1010 : 900;
+    }
+    compression_add(&tally, &cloud, &def);
+    near(compression_figures(&tally).mean, (5 * 0.1 + 1998 * 0.01) / MOST, 2e-6);
+    near(compression_figures(&tally).p999, 0.1, 1e-3);
+    cloud.density[0] = cloud.density[1] = 1200; /* two above, eight at it: the eighth of 8,000 is at it */
+    compression_add(&tally, &cloud, &def);
+    near(compression_figures(&tally).p999, 0.1, 1.1e-3);
+    near(compression_figures(&tally).most, 0.2, 1e-6);
+    assert_int_equal(tally.states, 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -246,6 +270,7 @@ int main(void)
         cmocka_unit_test(swings_have_period_and_decay),
         cmocka_unit_test(not_measured_is_the_worst),
         cmocka_unit_test(a_cavity_half_empty_is_no_result),
+        cmocka_unit_test(compression_has_its_percentile),
         cmocka_unit_test(cases_are_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -28,6 +28,10 @@ class Whole(CommandTest):
         self.assertRegex(said, r'run:  5\d %.* elapsed, about .* left\n')
         summary = json.loads(self.read('a.json'))
         self.assertEqual((summary['particles'], summary['snapshots'], summary['steps']), (500, 11, 50))
+        self.assertTrue(0 < summary['step_seconds'] < summary['wall_seconds'], summary)
+        pressed = summary['compression']
+        self.assertTrue(0 < pressed['mean'] < pressed['p999'] <= pressed['max'] < 1, pressed)
+        self.assertRegex(said, r'snapshots are pressed by [0-9.]+ % in the mean, [0-9.]+ % at the 99\.9th percentile\n')
 
     def test_emitters_that_wait_are_told_once(self):
         jet = '    emit: [{disk: {centre: [0, 0.9, 0], direction: [0, -1, 0], radius: 0.2}, speed: 2}]\n'

@@ -49,7 +49,7 @@ APP = {
     "device": "base yaml scene recording hand",
     "held": "base scene hand device",
     "output": "base scene",
-    "session": "base scene recording hand held output",
+    "session": "base metric scene recording hand held output",
     "case": "base metric scene",
     "lab": "base metric scene held session case",
     "window": "",
