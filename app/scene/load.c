@@ -44,13 +44,11 @@ static void range_of_scalar(const Tree *tree, const char *scalar_of_file, ViewDe
         view->range_auto = true;
 }
 
-static bool apply_settings(Tree *tree, SceneSettings *settings, Error *error)
+static bool apply_settings(Tree *tree, const SceneSettings *settings, Error *error)
 {
     for (int i = 0; i < settings->count; i++)
         if (!tree_set(tree, settings->set[i], settings->said[i], error))
             return false;
-    const Node *dt = tree_at(tree, "solver.step.dt");
-    settings->dt_set = dt && dt->said;
     return true;
 }
 

@@ -3,6 +3,7 @@
 #include "app/scene/check.h"
 #include "sim/matter/fill_lattice.h"
 #include "sim/matter/seed.h"
+#include "sim/world/method.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -65,18 +66,30 @@ static double greatest_spacing(const Scene *scene)
     return 0.5 * (scene->world.dimensions == 3 ? fmin(width, size[2]) : width);
 }
 
-/* Takes the spacing. A fixed step goes with it, unless it was chosen too; by Courant number it does so by
-   itself. */
-static void step_follow(Scene *scene, const SceneSettings *settings, const Best *best, Notes *notes)
+/* The step that a scene has chosen for its spacing, or NULL: a fixed one, and the longest of a method that
+   has no sound to bound it. Steps by Courant number go with the spacing by themselves. */
+static double *step_chosen(Scene *scene, const char **key)
+{
+    WorldDef *world = &scene->world;
+    const bool fixed = world->step_mode == STEP_FIXED;
+    *key = fixed ? "solver.step.dt" : "solver.step.max_dt";
+    return fixed ? &world->dt : method_find(world->method)->incompressible ? &world->max_dt : NULL;
+}
+
+/* Takes the spacing. The step goes with it, unless it was chosen too. */
+static void step_follow(const Tree *tree, Scene *scene, const SceneSettings *settings, const Best *best,
+                        Notes *notes)
 {
     char with[160] = "";
-    const double scale = best->spacing / scene->world.spacing, dt = scene->world.dt;
+    const char *key;
+    const double scale = best->spacing / scene->world.spacing;
+    double *step = step_chosen(scene, &key);
+    const Node *given = tree_at(tree, key);
     scene->world.spacing = best->spacing;
-    if (!settings->dt_set && scene->world.step_mode == STEP_FIXED) {
-        scene->world.dt = dt * scale;
-        snprintf(with, sizeof with,
-                 "; solver.step.dt goes with it from %.4g to %.4g s (--set solver.step.dt=... chooses it)",
-                 dt, scene->world.dt);
+    if (step && !(given && given->said)) {
+        snprintf(with, sizeof with, "; %s goes with it from %.4g to %.4g s (--set %s=... chooses it)", key,
+                 *step, *step * scale, key);
+        *step *= scale;
     }
     notes_add(notes, "--particles %zu: a spacing of %.4g m gives %zu%s", settings->particles, best->spacing,
               best->count, with);
@@ -99,6 +112,6 @@ bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *se
     if (best.count == 0 || best.spacing > greatest_spacing(scene))
         return error_set(error, "--particles %zu: too few to fill this scene; use more", wanted);
 
-    step_follow(scene, settings, &best, notes);
+    step_follow(tree, scene, settings, &best, notes);
     return true;
 }

@@ -49,7 +49,6 @@ typedef struct SceneSettings {
         *said[SCENE_SETTINGS_MAX]; /* what messages call it: "--backend cuda"; NULL: --set and the setting */
     size_t particles;              /* --particles; 0: the scene's own spacing */
     ScenePurpose purpose;
-    bool dt_set; /* filled: dt was among `set`, so --particles does not scale it */
 } SceneSettings;
 
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what

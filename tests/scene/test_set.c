@@ -74,7 +74,7 @@ static void later_settings_win(void **state)
     SceneSettings settings = {.count = 3,
                               .set = {"solver.step={dt: 0.1}", "solver.step.dt=0.2", "solver.threads=3"}};
     assert_true(parse_text(LEAST, &settings, &scene, &error));
-    assert_true(scene.world.dt == 0.2 && *world_threads(&scene.world) == 3 && settings.dt_set);
+    assert_true(scene.world.dt == 0.2 && *world_threads(&scene.world) == 3);
 }
 
 static void bad_settings_are_named(void **state)
@@ -124,7 +124,7 @@ static bool near_count(size_t wanted, double tolerance)
     return fabs((double)count - (double)wanted) <= tolerance * (double)wanted;
 }
 
-static void particles_choose_the_spacing_and_scale_dt(void **state)
+static void particles_choose_the_spacing_and_scale_the_step(void **state)
 {
     (void)state;
     Notes notes;
@@ -140,6 +140,15 @@ static void particles_choose_the_spacing_and_scale_dt(void **state)
     settings.set[settings.count++] = "solver.step.dt=0.003";
     assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
     assert_true(scene.world.dt == 0.003);
+    settings.set[0] = "solver.step.mode=cfl"; /* sound bounds the step */
+    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
+    assert_true(scene.world.max_dt == world_def_default().max_dt);
+    settings.set[settings.count++] = "solver.method=dfsph";
+    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
+    assert_float_equal(scene.world.max_dt, world_def_default().max_dt * scene.world.spacing / 0.1, 1e-9);
+    settings.set[settings.count++] = "solver.step.max_dt=0.004";
+    assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
+    assert_true(scene.world.max_dt == 0.004);
     assert_string_equal(notes.line[0], "--particles 4000: a spacing of 0.05 m gives 4000");
 
     settings.set[0] = "solver.step={mode: cfl}"; /* whose step follows the spacing by itself */
@@ -168,7 +177,7 @@ int main(void)
         cmocka_unit_test(later_settings_win),
         cmocka_unit_test(bad_settings_are_named),
         cmocka_unit_test(the_file_keeps_its_places),
-        cmocka_unit_test(particles_choose_the_spacing_and_scale_dt),
+        cmocka_unit_test(particles_choose_the_spacing_and_scale_the_step),
         cmocka_unit_test(particles_that_cannot_be_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
