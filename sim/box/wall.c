@@ -16,9 +16,9 @@ typedef struct Behind {
     const Lattice *lattice;
 } Behind;
 
-static void add_lattice_particle(const Behind *behind, const double x[3], Sums sums)
+static void add_lattice_particle(const Behind *behind, const double x[3], double r2, Sums sums)
 {
-    const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    const double r = sqrt(r2);
     if (r >= behind->h || r == 0)
         return;
     const double w =
@@ -37,29 +37,41 @@ static void add_lattice_particle(const Behind *behind, const double x[3], Sums s
         sums[k] += values[k];
 }
 
-/* x_i - x_j along one axis for the lattice index n; NAN where the lattice has no particle. */
-static double separation(const Behind *behind, int axis, int n, double u, double offset)
+/* x_i - x_j along an axis, of the lattice's particles that may be in reach. */
+typedef struct Separations {
+    int count;
+    double x[16]; /* support is 4 spacings at most */
+} Separations;
+
+static Separations separations(const Behind *behind, int axis, double u, double offset)
 {
+    Separations all = {.count = 0};
     if (axis >= behind->lattice->dimensions)
-        return n == 0 ? 0 : NAN;
-    if (axis >= behind->faces)
-        return (n + offset) * behind->spacing;
-    return n < 0 ? NAN : u + (n + 0.5) * behind->spacing;
+        return (Separations){.count = 1};
+    const int reach = (int)ceil(behind->h / behind->spacing) + 1;
+    for (int n = axis < behind->faces ? 0 : -reach; n <= reach; n++) {
+        const double x =
+            axis < behind->faces ? u + (n + 0.5) * behind->spacing : (n + offset) * behind->spacing;
+        if (fabs(x) < behind->h)
+            all.x[all.count++] = x;
+    }
+    return all;
 }
 
 static void lattice_behind(const Behind *behind, const double u[3], const double offset[3], Sums sums)
 {
+    const double most = behind->h * behind->h * (1 + 1e-12); /* what rounding might let in */
+    Separations along[3];
+    for (int a = 0; a < 3; a++)
+        along[a] = separations(behind, a, u[a], offset[a]);
     memset(sums, 0, sizeof(Sums));
-    const int reach = (int)ceil(behind->h / behind->spacing) + 1;
-    int index[3];
-    for (index[0] = -reach; index[0] <= reach; index[0]++)
-        for (index[1] = -reach; index[1] <= reach; index[1]++)
-            for (index[2] = -reach; index[2] <= reach; index[2]++) {
-                double x[3];
-                for (int a = 0; a < 3; a++)
-                    x[a] = separation(behind, a, index[a], u[a], offset[a]);
-                if (!isnan(x[0] + x[1] + x[2]))
-                    add_lattice_particle(behind, x, sums);
+    for (int i = 0; i < along[0].count; i++)
+        for (int j = 0; j < along[1].count; j++)
+            for (int k = 0; k < along[2].count; k++) {
+                const double x[3] = {along[0].x[i], along[1].x[j], along[2].x[k]};
+                const double r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+                if (r2 < most)
+                    add_lattice_particle(behind, x, r2, sums);
             }
 }
 
