@@ -34,22 +34,34 @@ static void direction_of_ids(uint32_t a, uint32_t b, int dimensions, float out[3
         out[k] *= scale;
 }
 
-/* Coincident pairs get a direction by their ids and a length that is nothing beside h (DESIGN 3). By value,
-   so that what has no such pair, nearly always, stays in registers. */
-static __attribute__((noinline, unused)) Separation separate(const PairArgs *args, size_t i,
-                                                             const uint32_t *j, Separation d)
+/* How far coincident pairs are taken to be apart, in h: nothing beside h for a pressure that does not end at
+   r = 0; where solvers hold the number density they have to see a gradient (that of Wendland's C2 is 0 at
+   r = 0, and at 0.1 h two thirds of its greatest). */
+#define TWINS_NEAR 1e-6f
+#define TWINS_PART 0.1f
+
+/* Coincident pairs get a direction by their ids and that length, of h (DESIGN 3). By value, so that what has
+   no such pair, nearly always, stays in registers. */
+static __attribute__((noinline, unused)) Separation separate_to(const PairArgs *args, size_t i,
+                                                                const uint32_t *j, Separation d, float part)
 {
-    const float least = 1e-6f * args->constants->support_radius;
+    const float h = args->constants->support_radius, least = TWINS_NEAR * h, length = part * h;
     for (int k = 0; k < LANES; k++)
         if (d.r2[k] < least * least) {
             float direction[3] = {0};
             direction_of_ids(args->id[i + (size_t)k], args->id[j[k]], args->constants->dimensions, direction);
-            d.x[k] = direction[0] * least;
-            d.y[k] = direction[1] * least;
-            d.z[k] = direction[2] * least;
-            d.r2[k] = least * least;
+            d.x[k] = direction[0] * length;
+            d.y[k] = direction[1] * length;
+            d.z[k] = direction[2] * length;
+            d.r2[k] = length * length;
         }
     return d;
+}
+
+static inline __attribute__((unused)) Separation separate(const PairArgs *args, size_t i, const uint32_t *j,
+                                                          Separation d)
+{
+    return separate_to(args, i, j, d, TWINS_NEAR);
 }
 
 #endif

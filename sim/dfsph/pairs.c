@@ -17,7 +17,7 @@ PAIR_LOOP(dfsph_factor)
         NEIGHBOURS (near, j) {
             Separation d = separation(args, at, j);
             if (__builtin_expect(near.coincident, 0))
-                d = separate(args, i, j, d);
+                d = separate_to(args, i, j, d, TWINS_PART);
             const f8 q = f8_sqrt(d.r2) * inverse_h, f = gradient * shape(q, DFSPH_KERNEL);
             n += height(q, DFSPH_KERNEL);
             sx += f * d.x, sy += f * d.y, sz += f * d.z;
@@ -65,7 +65,7 @@ SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki,
         const f8x4 p = f8_load4(args->place, j);
         Separation d = apart(args, at, p);
         if (__builtin_expect(near.coincident, 0))
-            d = separate(args, i, j, d);
+            d = separate_to(args, i, j, d, TWINS_PART);
         const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL);
         sum->x += push * d.x, sum->y += push * d.y, sum->z += push * d.z;
         for (int m = 0; mirrors && m < mirrors->count; m++)
@@ -114,7 +114,7 @@ SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi,
         const f8x4 p = f8_load4(args->place, j), v = motion(args, j);
         Separation d = apart(args, at, p);
         if (__builtin_expect(near.coincident, 0))
-            d = separate(args, i, j, d);
+            d = separate_to(args, i, j, d, TWINS_PART);
         sum += shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL) *
                ((vi.x - v.x) * d.x + (vi.y - v.y) * d.y + (vi.z - v.z) * d.z);
         for (int m = 0; mirrors && m < mirrors->count; m++)

@@ -16,7 +16,7 @@ PAIR_LOOP(pbf_sums)
         NEIGHBOURS (near, j) {
             Separation d = separation(args, at, j);
             if (__builtin_expect(near.coincident, 0))
-                d = separate(args, i, j, d);
+                d = separate_to(args, i, j, d, TWINS_PART);
             const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, PBF_KERNEL);
             n += height(q, PBF_KERNEL);
             sx += f * d.x, sy += f * d.y, sz += f * d.z;
@@ -44,7 +44,7 @@ PAIR_LOOP(pbf_push)
         NEIGHBOURS (near, j) {
             Separation d = separation(args, at, j);
             if (__builtin_expect(near.coincident, 0))
-                d = separate(args, i, j, d);
+                d = separate_to(args, i, j, d, TWINS_PART);
             const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, PBF_KERNEL);
             fx += push * d.x, fy += push * d.y, fz += push * d.z;
         }
