@@ -251,7 +251,8 @@ static void divergence_push(const CpuRange *range)
     divergence_motion(range);
 }
 
-/* n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it. */
+/* n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it: it is
+   free to come together. Where pressure pulls no velocity may close a gap in one step: places do. */
 static void rate(const CpuRange *range, bool of_density)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -261,7 +262,7 @@ static void rate(const CpuRange *range, bool of_density)
     cpu_pairs(range, &dfsph_rate);
     for (size_t i = range->begin; i < range->end; i++) {
         const float now = 1 / (p->volume[i] * n0) - 1;
-        residual[i] = (of_density || now < 0 ? now : 0) + dt * residual[i] / n0;
+        residual[i] = (of_density || (now < 0 && !pulls) ? now : 0) + dt * residual[i] / n0;
         p->own[MISS][i] = p->pressure_term[i] > 0 || pulls ? fabsf(residual[i]) : fmaxf(residual[i], 0);
     }
 }

@@ -28,7 +28,7 @@ static void cloud_make_in(const double size[3], Cloud *out, int dimensions, cons
     c.def.support = 2.6;
     memset(c.def.gravity, 0, sizeof c.def.gravity);
     snprintf(c.def.method, sizeof c.def.method, "%s", method);
-    c.def.negative_pressure = !fixture_incompressible(&c.def);
+    c.def.negative_pressure = true;
     c.def.fluids[0].viscosity = 1;
     c.x = malloc(3 * n * sizeof *c.x);
     c.v = malloc(3 * n * sizeof *c.v);

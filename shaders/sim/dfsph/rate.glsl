@@ -65,11 +65,13 @@ void walk_images(vec3 x, ivec3 at)
     }
 }
 
-// n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it.
+// n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it where nothing pulls.
 float residual_of(float volume)
 {
     float now = 1.0 / (volume * rest_number_density) - 1.0;
-#ifdef DIVERGENCE
+#if defined DIVERGENCE && defined NEGATIVE_PRESSURE
+    now = 0.0;
+#elif defined DIVERGENCE
     now = min(now, 0.0);
 #endif
     return now - dt * gradient * sum / rest_number_density;
