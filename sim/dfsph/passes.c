@@ -5,6 +5,7 @@
 
 PAIR_LOOPS(dfsph_factor);
 PAIR_LOOPS(dfsph_images_factor);
+PAIR_LOOPS(dfsph_solids);
 PAIR_LOOPS(dfsph_push);
 PAIR_LOOPS(dfsph_rate);
 PAIR_LOOPS(dfsph_friction);
@@ -37,7 +38,9 @@ static void terms_body(const CpuRange *range)
 static void finish_factor(const Cpu *cpu, size_t i)
 {
     const CpuParticles *p = &cpu->now;
-    const float sx = p->ax[i], sy = p->ay[i], sz = p->az[i];
+    const float *const *solid = (const float *const *)p->own + SOLID_SLOPE;
+    const float sx = p->ax[i] + (solid[0] ? solid[0][i] : 0), sy = p->ay[i] + (solid[1] ? solid[1][i] : 0),
+                sz = p->az[i] + (solid[2] ? solid[2][i] : 0);
     const float d = (sx * sx + sy * sy + sz * sz) * p->own[INVERSE_MASS][i] + p->own[SQUARES][i];
     const float least = dfsph_constants(cpu->constants)->least_squares * p->own[INVERSE_MASS][i];
     const float whole = d > least ? d : least;
@@ -51,6 +54,8 @@ static void factor_body(const CpuRange *range)
 {
     cpu_pairs(range, &dfsph_factor);
     cpu_pairs(range, &dfsph_images_factor);
+    if (range->cpu->now.own[SOLID_SLOPE])
+        cpu_pairs(range, &dfsph_solids);
     for (size_t i = range->begin; i < range->end; i++)
         finish_factor(range->cpu, i);
 }
@@ -63,7 +68,8 @@ const Pass dfsph_state = {
     .cpu = &state,
     .shader = "dfsph/factor",
     .reads = "position id fluid kept_term",
-    .writes = "volume pressure pressure_term acceleration viscosity tension kind factor squares inverse_mass",
+    .writes = "volume pressure pressure_term acceleration viscosity tension kind factor squares inverse_mass "
+              "solid_slope solid_flow",
 };
 
 /* --- what is not pressure --- */
@@ -239,16 +245,41 @@ static void density_push(const CpuRange *range)
     density_motion(range);
 }
 
+/* What boundary particles push with for themselves. */
+static void push_solids(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float push = p->pressure_term[i] * p->own[INVERSE_MASS][i];
+        p->ax[i] += push * p->own[SOLID_SLOPE][i];
+        p->ay[i] += push * p->own[SOLID_SLOPE + 1][i];
+        p->az[i] += push * p->own[SOLID_SLOPE + 2][i];
+    }
+}
+
 static void divergence_push(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     push(range);
+    if (p->own[SOLID_SLOPE])
+        push_solids(range);
     for (size_t i = range->begin; i < range->end; i++) {
         p->ax[i] += p->own[OTHER][i];
         p->ay[i] += p->own[OTHER + 1][i];
         p->az[i] += p->own[OTHER + 2][i];
     }
     divergence_motion(range);
+}
+
+/* And how they come nearer, mirrored. */
+static void rate_solids(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float *v = range->cpu->motion[i];
+        p->own[RESIDUAL][i] += p->own[SOLID_FLOW][i] - v[0] * p->own[SOLID_SLOPE][i] -
+                               v[1] * p->own[SOLID_SLOPE + 1][i] - v[2] * p->own[SOLID_SLOPE + 2][i];
+    }
 }
 
 /* n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it: it is
@@ -260,6 +291,8 @@ static void rate(const CpuRange *range, bool of_density)
     const bool pulls = range->cpu->constants->negative_pressure;
     float *residual = p->own[RESIDUAL];
     cpu_pairs(range, &dfsph_rate);
+    if (p->own[SOLID_SLOPE] && !of_density)
+        rate_solids(range);
     for (size_t i = range->begin; i < range->end; i++) {
         const float now = 1 / (p->volume[i] * n0) - 1;
         residual[i] = (of_density || (now < 0 && !pulls) ? now : 0) + dt * residual[i] / n0;
@@ -318,10 +351,11 @@ static const CpuPass rates[] = {
 const Pass dfsph_divergence_begin =
     SOLVE("divergence begin", begins[0], "divergence_begin",
           "position velocity fluid volume acceleration kept_term", "pressure_term residual change");
-const Pass dfsph_divergence_push = SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " other",
-                                         "pressure_term acceleration change");
-const Pass dfsph_divergence_rate =
-    SOLVE("divergence rate", rates[0], "divergence_rate", RATE_READS, "residual miss");
+const Pass dfsph_divergence_push =
+    SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " other solid_slope",
+          "pressure_term acceleration change");
+const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], "divergence_rate",
+                                         RATE_READS " solid_slope solid_flow", "residual miss");
 const Pass dfsph_divergence_end =
     SOLVE("divergence end", ends[0], "divergence_end", "pressure_term", "kept_term pressure");
 const Pass dfsph_density_begin =
@@ -338,6 +372,11 @@ static bool many_viscous(const Constants *constants)
     return constants->viscous && (constants->fluid_count > 1 || constants->solid_count > 0);
 }
 
+static bool with_solids(const Constants *constants)
+{
+    return constants->solid_count > 0;
+}
+
 #define OWN(k) .at = COLUMN_OWN(k)
 
 const ColumnDef dfsph_columns[] = {
@@ -349,6 +388,8 @@ const ColumnDef dfsph_columns[] = {
     {"miss", "", OWN(MISS), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
+    {"solid_slope", "1/m4", OWN(SOLID_SLOPE), 3, COLUMN_FLOAT, .needed = with_solids},
+    {"solid_flow", "1/(m3 s)", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = with_solids},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},

@@ -5,7 +5,9 @@
      force_i = sum (k_i + k_j) F x_ij                 k: a multiplier each, p V0^2
      dn_i / dt = -sum F v_ij . x_ij                   its adjoint: pressure does no work where n stays
      D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what k_i makes of its own rate
-   Masses are in D alone: ratios of density are no matter of the sums. */
+   Masses are in D alone: ratios of density are no matter of the sums.
+   A boundary particle has k_i for whom it pushes, and the velocity of its solid, mirrored: 2 v_b - v_i. So it
+   counts twice in force, rate and D; what moves places goes by n as it is, where it counts once. */
 #ifndef SLOSH_DFSPH_PASSES_H
 #define SLOSH_DFSPH_PASSES_H
 
@@ -25,6 +27,8 @@ enum {
     MISS,         /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
     CHANGE,       /* of k in the iteration before, J m3 */
     OTHER,        /* accelerations but those of the solver at work, m/s2: 3 */
+    SOLID_SLOPE = OTHER + 3,      /* sum F x_ib over boundary particles b, 1/m4: 3 */
+    SOLID_FLOW = SOLID_SLOPE + 3, /* sum F v_b . x_ib over them, 1/(m3 s) */
 };
 
 extern const ColumnDef dfsph_columns[];

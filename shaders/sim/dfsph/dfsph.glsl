@@ -7,6 +7,11 @@
 #include "sim/walk.glsl"
 #include "sim/pair_direction.glsl"
 #define BOUNDARY_ID 0x80000000u
+#ifdef DIVERGENCE
+#define BOUNDARY_TIMES 2.0
+#else
+#define BOUNDARY_TIMES 1.0
+#endif
 
 uint self;
 

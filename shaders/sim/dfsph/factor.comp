@@ -41,18 +41,19 @@ void meet_image(uint j, vec3 d, float volume)
 }
 
 #ifdef SOLIDS
+// They push with the particle's own k, too: sim/dfsph/passes.h.
 void meet_boundary(uint j, vec3 d, float volume)
 {
     if (dot(d, d) >= support * support)
         return;
     SEPARATE(name[self].x, BOUNDARY_ID + boundary_state[j].y, d)
-    slope += weigh(d, q_of(d), 0.0);
+    slope += 2.0 * weigh(d, q_of(d), 0.0);
 }
 
 void meet_boundary_image(uint j, vec3 d, float volume)
 {
     if (dot(d, d) < support * support)
-        image_slope += weigh(d, image_q(d), 0.0);
+        image_slope += 2.0 * weigh(d, image_q(d), 0.0);
 }
 #endif
 

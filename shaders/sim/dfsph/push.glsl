@@ -33,15 +33,16 @@ void meet_image(uint j, vec3 d, float term)
 }
 
 #ifdef SOLIDS
+// Boundary particles have the particle's k where velocities are at stake, and none where places are: sim/dfsph/passes.h.
 void meet_boundary(uint j, vec3 d, float volume)
 {
     if (dot(d, d) >= support * support)
         return;
     SEPARATE(name[self].x, BOUNDARY_ID + boundary_state[j].y, d)
-    sum += own_term * shape(q_of(d)) * d;
+    sum += BOUNDARY_TIMES * own_term * shape(q_of(d)) * d;
 }
 
-void meet_boundary_image(uint j, vec3 d, float volume) { meet_image(j, d, 0.0); }
+void meet_boundary_image(uint j, vec3 d, float volume) { meet_image(j, d, (BOUNDARY_TIMES - 1.0) * own_term); }
 #endif
 
 // Whom an image sees its particle has in its list: sim/cpu/pair_images.h.

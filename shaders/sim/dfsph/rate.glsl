@@ -47,10 +47,14 @@ void meet_boundary(uint j, vec3 d, float volume)
     if (dot(d, d) >= support * support)
         return;
     SEPARATE(name[self].x, BOUNDARY_ID + boundary_state[j].y, d)
-    sum += shape(q_of(d)) * dot(own_velocity - solid_velocity_of(j), d);
+    sum += BOUNDARY_TIMES * shape(q_of(d)) * dot(own_velocity - solid_velocity_of(j), d);
 }
 
-void meet_boundary_image(uint j, vec3 d, float volume) { image_flow(solid_velocity_of(j), d); }
+void meet_boundary_image(uint j, vec3 d, float volume)
+{
+    vec3 v = solid_velocity_of(j);
+    image_flow(image_velocity + BOUNDARY_TIMES * (v - image_velocity), d);
+}
 #endif
 
 void walk_images(vec3 x, ivec3 at)
