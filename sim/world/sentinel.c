@@ -2,6 +2,7 @@
 
 #include "sim/world/iterate.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static const double CALM_STEPS = 200;
@@ -21,12 +22,21 @@ bool sentinel_mark(World *world, Error *error)
 /* The first solver that is in trouble. */
 static void look_at_solves(World *world)
 {
-    for (int k = 0; k < SOLVES_MAX && !world->seen; k++)
+    for (int k = 0; k < SOLVES_MAX && !world->seen && world->def.retries > 0; k++)
         if (world->solves[k].failed) {
             world->seen = STEP_TROUBLE_SOLVE;
             world->trouble.solver = &world->method->solvers[k];
             world->trouble.left = world->solves[k];
         }
+}
+
+void sentinel_note_solves(World *world)
+{
+    bool numbers = true;
+    for (int k = 0; k < SOLVES_MAX; k++)
+        numbers &= isfinite(world->solves[k].mean);
+    if (numbers)
+        look_at_solves(world);
 }
 
 bool world_sound(World *world)
@@ -38,8 +48,7 @@ bool world_sound(World *world)
         s->max_speed = watch.max_speed;
         s->max_acceleration = watch.max_acceleration;
         world->seen = world->seen ? world->seen : trouble;
-        if (!world->seen && world->def.retries > 0)
-            look_at_solves(world);
+        look_at_solves(world);
         world->kicked = false;
     }
     return world->seen == STEP_TROUBLE_NONE;

@@ -11,6 +11,10 @@ bool sentinel_mark(World *world, Error *error);
    stands the longer step. */
 void sentinel_relieve(World *world);
 
+/* Behind a step that is not looked at before its frame ends: a solver of it in trouble is remembered until
+   then. Where numbers are none any more the watch of the frame has it, in better words. */
+void sentinel_note_solves(World *world);
+
 /* After a step that ended at `time` with trouble, world->seen: the last good state again, with half the step.
    The number of steps goes on, and what the hand and the keys have said since stays said, so that a recorded
    session comes out the same. False, with that state and the reason, when the step was halved `retries` times

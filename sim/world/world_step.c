@@ -271,7 +271,9 @@ bool world_substep(World *world, StageClock *clock, Error *error)
         world->backend->leave(world->state);
     world->kicked = true;
     count_step(world);
-    if (!world->backend->gpu && (!world_sound(world) || !energy_sound(world)))
+    if (world->backend->gpu)
+        sentinel_note_solves(world);
+    else if (!world_sound(world) || !energy_sound(world))
         return sentinel_back(world, world_time_at(world, (double)world->step), error);
     if (world->method->solvers[0].name)
         solve_tally_add(&world->tally, world->solves);

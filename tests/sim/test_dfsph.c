@@ -3,6 +3,7 @@
 #include "sim/cpu/cpu.h"
 #include "sim/dfsph/dfsph.h"
 #include "sim/dfsph/passes.h"
+#include "sim/world/iterate.h"
 #include "sim/world/world_state.h"
 #include "sim/world/world_struct.h"
 
@@ -373,6 +374,58 @@ static void says_that_it_does_not_converge(void **state)
     world_destroy(world);
 }
 
+/* A block that is pressed to begin with, of which a step's few iterations leave too much at first. */
+static WorldDef pressed_def(void)
+{
+    WorldDef def = dam_def(1);
+    def.substeps = 12;
+    def.dt = 0.024;
+    dfsph_def(&def)->tolerance = 0.002;
+    dfsph_def(&def)->iterations = 3;
+    return def;
+}
+
+static World *pressed_world(WorldDef *def)
+{
+    enum { SIDE_OF_IT = 8, ALL = SIDE_OF_IT * SIDE_OF_IT * SIDE_OF_IT };
+    static float x[3 * ALL];
+    for (int i = 0; i < ALL; i++) {
+        const int at[3] = {i % SIDE_OF_IT, i / SIDE_OF_IT % SIDE_OF_IT, i / SIDE_OF_IT / SIDE_OF_IT};
+        for (int k = 0; k < 3; k++)
+            x[3 * i + k] = (float)(0.046 * (at[k] + 0.5) - (k == 1 ? 0 : 0.184));
+    }
+    def->initial = &(InitialState){.count = ALL, .position = x};
+    World *world = fixture_world(def);
+    def->initial = NULL;
+    return world;
+}
+
+/* Trouble of a solver early in a frame is found, though at its end all is well. */
+static void trouble_within_a_frame_is_found(void **state)
+{
+    (void)state;
+    WorldDef def = pressed_def();
+    World *world = pressed_world(&def);
+    Error error = {0};
+    WorldInfo info;
+    fixture_step(world, 1);
+    for (int k = 0; k < SOLVES_MAX; k++) {
+        printf("solver %d leaves %g of %g\n", k, world->solves[k].mean, world->solves[k].tolerance);
+        assert_false(step_solve_failed(&world->solves[k]));
+    }
+    world_destroy(world);
+
+    def.retries = 3;
+    world = pressed_world(&def);
+    bool good = true;
+    for (int frame = 0; frame < 2 && good; frame++)
+        good = world_step(world, NULL, &error);
+    world_info(world, &info);
+    assert_true(!good || info.trouble.count > 0);
+    assert_int_equal(info.trouble.what, STEP_TROUBLE_SOLVE);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -386,6 +439,7 @@ int main(void)
         cmocka_unit_test(what_is_pulled_gains_no_energy),
         cmocka_unit_test(goes_on_from_a_saved_state),
         cmocka_unit_test(says_that_it_does_not_converge),
+        cmocka_unit_test(trouble_within_a_frame_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
