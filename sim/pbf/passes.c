@@ -12,10 +12,11 @@ PAIR_LOOPS(pbf_friction);
 /* How much of the iteration before goes on: half of the iterations. */
 static const float MOMENTUM = 0.6F;
 
-/* What of the multipliers is forgotten in 1/60 s. With all of them what a blow left, or a tolerance, pushes
-   again before it is taken back, and a column that rests jumps; with none there are half as many iterations
-   more. */
-static const float FORGOTTEN = 0.5F;
+/* What a step forgets of the multipliers, at most, and in a second. With all of them what a blow left, or a
+   tolerance, pushes again before it is taken back, and a column that rests jumps; with none there are half as
+   many iterations more. A short step has one iteration as a rule, and a column hums at 0.1 m/s where less is
+   forgotten. */
+static const float FORGOTTEN = 0.5F, FORGOTTEN_RATE = 180;
 
 /* The longest way of an iteration, in spacings: fluid that a long step has folded comes apart in several,
    and is not thrown. What is cut short is lost to momentum. */
@@ -80,7 +81,7 @@ static void fill(Cpu *cpu, size_t i)
 static void begin_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
-    const float warm = 1 - FORGOTTEN * pbf_share(range->input->dt);
+    const float warm = 1 - fminf(FORGOTTEN, FORGOTTEN_RATE * range->input->dt);
     for (size_t i = range->begin; i < range->end; i++) {
         fill(range->cpu, i);
         p->own[TERM][i] *= of_fluid(range->cpu, i) ? warm : 0;
@@ -134,18 +135,11 @@ const Pass pbf_again = {
 
 /* --- an iteration: places --- */
 
-/* What of n / n0 - 1 the step is to take away; `later`: the part of what it began with that it is to leave.
- */
-static float asked(const CpuParticles *p, size_t i, float later)
-{
-    return p->own[RESIDUAL][i] - later * fmaxf(p->own[BEFORE][i] - 1, 0);
-}
-
 /* k by Jacobi's step and a part of its step before. */
-static float grown(const CpuParticles *p, size_t i, float scale, float least, float later)
+static float grown(const CpuParticles *p, size_t i, float scale, float least)
 {
-    const float before = p->own[TERM][i], e = asked(p, i, later);
-    const float k = before + scale * e * p->own[FACTOR][i] + MOMENTUM * p->own[CHANGE][i];
+    const float before = p->own[TERM][i];
+    const float k = before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + MOMENTUM * p->own[CHANGE][i];
     return k > least ? k : least;
 }
 
@@ -156,11 +150,11 @@ static void pack_growth(const CpuRange *range)
     const CpuParticles *p = &range->cpu->now;
     const float dt = range->input->dt, square = dt * dt;
     const float scale = pbf_constants(s)->relaxation * s->rest_number_density / square,
-                least = s->negative_pressure ? -INFINITY : 0, later = 1 - pbf_share(dt);
+                least = s->negative_pressure ? -INFINITY : 0;
     for (size_t i = range->begin; i < range->end; i++) {
         float growth = 0;
         if (of_fluid(range->cpu, i)) {
-            const float k = grown(p, i, scale, least, later);
+            const float k = grown(p, i, scale, least);
             p->own[CHANGE][i] = k - p->own[TERM][i];
             growth = square * (k - p->own[APPLIED][i]);
             p->own[TERM][i] = p->own[APPLIED][i] = k;
@@ -259,7 +253,7 @@ const Pass pbf_move = {
     .name = "move",
     .stage = STAGE_SOLVE,
     .cpu = &move,
-    .reads = "position id fluid term before residual factor inverse_mass change applied moved way",
+    .reads = "position id fluid term residual factor inverse_mass change applied moved way",
     .writes = "position term acceleration change applied moved way",
 };
 
@@ -273,6 +267,7 @@ static void pack_place(const CpuRange *range)
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
 }
 
+/* `later`: the part of what the step began with that it is to leave. */
 static void finish_density(const Cpu *cpu, size_t i, float later)
 {
     const CpuParticles *p = &cpu->now;
@@ -281,33 +276,44 @@ static void finish_density(const Cpu *cpu, size_t i, float later)
     const float d = (sx * sx + sy * sy + sz * sz) * w + p->own[SQUARES][i],
                 ratio = p->volume[i] / s->rest_number_density;
     p->own[FACTOR][i] = 1 / (d + pbf_constants(s)->least_squares * w);
-    if (p->own[BEFORE][i] == 0)
-        p->own[BEFORE][i] = ratio;
-    p->own[RESIDUAL][i] = ratio - 1;
-    const float e = asked(p, i, later);
+    const float e = ratio - 1 - later * fmaxf(p->own[BEFORE][i] - 1, 0);
+    p->own[COMPRESSED][i] = ratio - 1;
+    p->own[RESIDUAL][i] = e;
     p->own[MISS][i] = p->own[TERM][i] > 0 || s->negative_pressure ? fabsf(e) : fmaxf(e, 0);
     p->volume[i] = 1 / p->volume[i];
 }
 
-static void density_body(const CpuRange *range)
+static void number_density(const CpuRange *range)
 {
     cpu_pairs(range, &pbf_sums);
     cpu_pairs(range, &pbf_images_sums);
-    for (size_t i = range->begin; i < range->end; i++)
-        finish_density(range->cpu, i, 1 - pbf_share(range->input->dt));
+}
+
+/* A new particle was as dense as a step finds it first. */
+static void density_body(const CpuRange *range)
+{
+    const Cpu *cpu = range->cpu;
+    float *before = cpu->now.own[BEFORE];
+    const float later = 1 - pbf_share(range->input->dt);
+    number_density(range);
+    for (size_t i = range->begin; i < range->end; i++) {
+        if (before[i] == 0)
+            before[i] = cpu->now.volume[i] / cpu->constants->rest_number_density;
+        finish_density(cpu, i, later);
+    }
 }
 
 static const CpuPass density = {.loops = {{density_body, .walks = true, .pack = pack_place}},
                                 .pair = sums_pair};
 
-#define DENSITY_WRITES "volume acceleration squares factor residual miss before"
+#define DENSITY_WRITES "volume acceleration squares factor compressed residual miss"
 
 const Pass pbf_density = {
     .name = "density",
     .stage = STAGE_SOLVE,
     .cpu = &density,
     .reads = "position id fluid term before inverse_mass",
-    .writes = DENSITY_WRITES,
+    .writes = DENSITY_WRITES " before",
 };
 
 /* --- settle --- */
@@ -315,8 +321,9 @@ const Pass pbf_density = {
 static void settle_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
-    density_body(range);
+    number_density(range);
     for (size_t i = range->begin; i < range->end; i++) {
+        finish_density(range->cpu, i, 0);
         p->pressure[i] = pbf_constants(range->cpu->constants)->pressure_scale * p->own[TERM][i];
         p->ax[i] = p->ay[i] = p->az[i] = 0;
     }
@@ -380,7 +387,7 @@ static void force_body(const CpuRange *range)
         p->ay[i] += rate * rate * p->own[MOVED + 1][i];
         p->az[i] += rate * rate * p->own[MOVED + 2][i];
         p->pressure[i] = scale * p->own[TERM][i];
-        p->own[BEFORE][i] = p->own[RESIDUAL][i] + 1;
+        p->own[BEFORE][i] = p->own[COMPRESSED][i] + 1;
     }
 }
 
@@ -390,8 +397,9 @@ const Pass pbf_force = {
     .name = "force",
     .stage = STAGE_FORCE,
     .cpu = &force,
-    .reads = "position velocity id fluid volume viscosity tension kind moved term residual",
+    .reads = "position velocity id fluid volume viscosity tension kind moved term compressed",
     .writes = "velocity acceleration pressure before",
+    .mirrors = true,
 };
 
 static bool many_viscous(const Constants *constants)
@@ -407,6 +415,7 @@ const ColumnDef pbf_columns[] = {
     {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT},
     {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
     {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
+    {"compressed", "", OWN(COMPRESSED), 1, COLUMN_FLOAT},
     {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
     {"miss", "", OWN(MISS), 1, COLUMN_FLOAT},
     {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT},
@@ -418,5 +427,5 @@ const ColumnDef pbf_columns[] = {
     {0},
 };
 
-const ColumnDef *const pbf_miss = &pbf_columns[MISS], *const pbf_residual = &pbf_columns[RESIDUAL],
+const ColumnDef *const pbf_miss = &pbf_columns[MISS], *const pbf_compressed = &pbf_columns[COMPRESSED],
                        *const pbf_way = &pbf_columns[WAY];

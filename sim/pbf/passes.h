@@ -22,9 +22,9 @@ enum {
     FACTOR,       /* 1 / D, kg m8 */
     SQUARES,      /* sum F^2 r^2 / m_j, 1 / (kg m8) */
     INVERSE_MASS, /* 1/kg; 0 of the particles of solids */
-    RESIDUAL,     /* n / n0 - 1 */
-    MISS,         /* how far the step is from where it is to bring that: of what k holds, on either side; else
-                     from above */
+    COMPRESSED,   /* n / n0 - 1 */
+    RESIDUAL,     /* what of that the step is to take away */
+    MISS,         /* the same: of what k holds, on either side; else what is above 0 */
     CHANGE,       /* of TERM in the iteration before, J m3 */
     APPLIED,      /* what of TERM the places have followed, J m3 */
     WAY,          /* length of the way since the lists were made, in spacings */
@@ -32,7 +32,7 @@ enum {
 };
 
 extern const ColumnDef pbf_columns[];
-extern const ColumnDef *const pbf_miss, *const pbf_residual, *const pbf_way;
+extern const ColumnDef *const pbf_miss, *const pbf_compressed, *const pbf_way;
 
 /* What a def means in numbers for pbf alone. */
 typedef struct PbfConstants {

@@ -83,8 +83,9 @@ static void begin(const Substep *step)
     substep_run(step, &pbf_density, step->dt);
 }
 
-/* False where the lists at hand still do; else those of where the particles are now. */
-static bool listed_again(const Substep *step)
+/* With lists of where the particles are now, where those at hand are of no use any more: true where too much
+   is left then, whatever was left by the old ones. */
+static bool more_by_new_lists(const Substep *step, double tolerance)
 {
     const Backend *b = step->backend;
     if (b->excess(step->state, pbf_way).mean <= WAY_MOST)
@@ -92,7 +93,7 @@ static bool listed_again(const Substep *step)
     b->grid(step->state);
     substep_run(step, &pbf_again, step->dt);
     substep_run(step, &pbf_density, step->dt);
-    return true;
+    return !(b->excess(step->state, pbf_miss).mean <= tolerance);
 }
 
 /* How often the iterations ran. */
@@ -105,7 +106,7 @@ static int iterate(const Substep *step, double tolerance)
     for (int lists = 1; more; lists++) {
         substep_iterate(step, &iteration, 0, step->dt);
         iteration.most -= (int)solve->iterations;
-        more = !(solve->mean <= tolerance) && iteration.most > 0 && lists < LISTS_MOST && listed_again(step);
+        more = iteration.most > 0 && lists < LISTS_MOST && more_by_new_lists(step, tolerance);
     }
     return most - iteration.most;
 }
@@ -126,7 +127,7 @@ static void hold_density(const Substep *step)
         solve->failed = false;
     if (solve->failed)
         return;
-    const Excess left = step->backend->excess(step->state, pbf_residual);
+    const Excess left = step->backend->excess(step->state, pbf_compressed);
     solve->mean = left.mean;
     solve->most = left.greatest;
 }

