@@ -4,7 +4,8 @@
    Fills that touch or overlap share one lattice. Where one of them is a block, whole layers fit between the
    outermost faces of its blocks: the first stands half a layer from a wall, and the step differs a little
    from axis to axis and from the spacing. A particle stands for spacing^3, so the lattice keeps that volume a
-   point: where the steps do not have it, the layers are spread towards a side that touches no wall. Balls and
+   point: where the steps do not have it, the layers are spread towards a side that touches no wall. Where a
+   face between blocks lies within a layer, they share that layer's points by their parts of it. Balls and
    cylinders alone stand on the lattice of the box: half a spacing above the floor, centred between the other
    walls, in whole spacings along a periodic axis. So do blocks that fit it. */
 #ifndef SLOSH_FILL_LATTICE_H
@@ -21,6 +22,20 @@ typedef struct FillAxis {
 
 /* The lattice of a fill of the def. */
 void fill_lattice(const WorldDef *def, const Fill *fill, FillAxis axes[3]);
+
+/* Blocks that touch, with a face between them that lies within a layer. */
+typedef struct FillPile {
+    int dimensions, count;
+    const Fill *blocks[FLUIDS_MAX * FILLS_MAX];
+    FillAxis axes[3];
+} FillPile;
+
+/* The pile that a fill with that lattice is part of; false: there is none. */
+bool fill_pile(const WorldDef *def, const Fill *fill, const FillAxis axes[3], FillPile *pile);
+
+/* Whose the point of these layers is: blocks that share its cell have, of such points, as many as their part
+   of it. NULL: the pile does not fill the cell, and who holds the point has it. */
+const Fill *fill_pile_owner(const FillPile *pile, const long index[3]);
 
 /* The spacing next to the def's at which the largest group of blocks that touch has its volume in particles;
    the def's own where it has it already, and where none within a tenth of it does. */

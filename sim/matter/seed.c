@@ -48,6 +48,14 @@ static bool taken_before(const WorldDef *def, int fluid, int index, const double
     return false;
 }
 
+/* `pile`: NULL where the fill is of none. */
+static bool has_point(const WorldDef *def, const FillPile *pile, int fluid, int index, const double x[3],
+                      const long layer[3])
+{
+    const Fill *fill = &def->fluids[fluid].fills[index], *owner = pile ? fill_pile_owner(pile, layer) : NULL;
+    return owner ? owner == fill : fill_covers(def, fill, x) && !taken_before(def, fluid, index, x);
+}
+
 /* Blocks that share no point. */
 static bool blocks_apart(const Fill *a, const Fill *b, int dimensions)
 {
@@ -91,9 +99,11 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
     const WorldDef *def = stand->def;
     const Fill *fill = &def->fluids[fluid].fills[index];
     FillAxis axes[3];
+    FillPile piled;
     size_t count = 0;
     fill_lattice(def, fill, axes);
-    if (!position && is_plain_block(def, fluid, index))
+    const FillPile *pile = fill_pile(def, fill, axes, &piled) ? &piled : NULL;
+    if (!position && !pile && is_plain_block(def, fluid, index))
         return block_count(def, fill, axes);
     const FillAxis *ax = &axes[0], *ay = &axes[1], *az = &axes[2];
     for (long iz = az->begin; iz < az->end; iz++)
@@ -104,7 +114,7 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
                 const double at[3] = {ax->place + (double)ix * ax->advance,
                                       ay->place + (double)iy * ay->advance,
                                       az->place + (double)iz * az->advance};
-                if (!fill_covers(def, fill, x) || taken_before(def, fluid, index, x) || !is_free(stand, at))
+                if (!has_point(def, pile, fluid, index, x, (const long[]){ix, iy, iz}) || !is_free(stand, at))
                     continue;
                 for (size_t k = 0; position && k < 3; k++)
                     position[3 * count + k] = (float)at[k];

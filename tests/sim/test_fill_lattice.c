@@ -137,6 +137,37 @@ static void fluids_that_touch_share_a_lattice(void **state)
     }
 }
 
+/* Three layers of which no spacing is the measure, one of them thin: each has its mass but for a few
+   particles, and the lattice is whole. Whole layers would miss by up to 29 %. */
+static void thin_layers_have_their_mass(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 60; k++) {
+        const int dimensions = 2 + k % 2;
+        const double level[4] = {0, 0.11 + 0.0013 * k, 0.19 + 0.0017 * k, 0.44};
+        WorldDef def = fixture_def(1.03, 1, 0.4);
+        size_t counts[FLUIDS_MAX], all = 0;
+        def.dimensions = dimensions;
+        def.spacing = 0.035;
+        def.fluid_count = 3;
+        for (int f = 0; f < 3; f++) {
+            def.fluids[f] = (FluidDef){.name = "layer", .density = 1000 - 50 * f};
+            fixture_block(&def, f, -0.515, level[f], -0.2, 0.515, level[f + 1], 0.2);
+        }
+        const size_t count = seed(&def);
+        const double point = pow(def.spacing, dimensions);
+        seed_counts(&def, counts);
+        for (int f = 0; f < 3; f++) {
+            const double off = (double)counts[f] - fill_volume(&def.fluids[f].fills[0], dimensions) / point;
+            if (fabs(off) > (dimensions == 3 ? 6 : 3))
+                fail_msg("%dD, case %d, fluid %d: %g of %zu particles off", dimensions, k, f, off, counts[f]);
+            all += counts[f];
+        }
+        assert_int_equal(all, count);
+        assert_float_equal((double)count * point / (1.03 * 0.44 * (dimensions == 3 ? 0.4 : 1)), 1, 1e-3);
+    }
+}
+
 /* Where one spacing cannot suit all, the smaller column has a free level, and a point the volume that makes
    the rest density. */
 static void what_cannot_fit_keeps_its_density(void **state)
@@ -225,6 +256,7 @@ int main(void)
         cmocka_unit_test(rounding_leaves_no_gap_under_the_lid),
         cmocka_unit_test(a_dam_stands_at_its_wall),
         cmocka_unit_test(fluids_that_touch_share_a_lattice),
+        cmocka_unit_test(thin_layers_have_their_mass),
         cmocka_unit_test(what_cannot_fit_keeps_its_density),
         cmocka_unit_test(what_rests_stays_at_rest),
         cmocka_unit_test(what_is_out_of_the_box_does_not_count),
