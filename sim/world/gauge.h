@@ -29,7 +29,7 @@ static inline void gauge_add(WorldGauge *gauge, const Constants *constants, cons
             m * c * c * constants->method->energy(constants->negative_pressure ? compression : pressed);
 }
 
-/* The same for EnergySums, of a method that says its energy of compression. */
+/* The same for EnergySums. */
 static inline void energy_add(EnergySums *sums, const Constants *constants, int fluid, double compression,
                               const float x[3], const float v[3])
 {
@@ -40,7 +40,7 @@ static inline void energy_add(EnergySums *sums, const Constants *constants, int 
         sums->first[k] += m * (double)x[k];
     }
     sums->own += 0.5 * m * speed2;
-    if (compression > 0 || constants->negative_pressure)
+    if (constants->method->energy && (compression > 0 || constants->negative_pressure))
         sums->own += m * c * c * constants->method->energy(compression);
 }
 
