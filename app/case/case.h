@@ -1,8 +1,8 @@
 /* Known flows: a case of `slosh validate` is a scene, what is measured of it, and a reference.
 
    All cases run with the same solver parameters: their scenes have `solver.preset: accurate`, besides
-   geometry, fluids and a sound speed of ten times max(U, sqrt(g H)). Each is one const Case in a
-   file of app/case; app/case/all.h lists them. */
+   geometry, fluids and a sound speed of ten times max(U, sqrt(g H)); what a method needs besides stands in
+   its CaseMethod. Each is one const Case in a file of app/case; app/case/all.h lists them. */
 #ifndef SLOSH_CASE_H
 #define SLOSH_CASE_H
 
@@ -10,7 +10,7 @@
 #include "app/metric/curve.h"
 #include "sim/world/world.h"
 
-enum { CASE_METRICS = 4, CASE_METHODS = 4, CASE_COLUMNS = 8, CASE_CURVES = 3 };
+enum { CASE_METRICS = 4, CASE_METHODS = 8, CASE_SETTINGS = 3, CASE_COLUMNS = 8, CASE_CURVES = 3 };
 
 /* How finely a case runs, and which tolerances hold. */
 typedef enum CaseLevel { CASE_COARSE, CASE_DEFAULT, CASE_FULL, CASE_LEVELS } CaseLevel;
@@ -20,9 +20,16 @@ typedef struct CaseMetric {
     const char *unit;    /* of value and reference; "" for pure numbers */
     double tolerance;    /* of the error, a fraction */
     double coarse;       /* at CASE_COARSE */
-    double mueller;      /* for the method mueller, where it differs; 0: it doesn't */
     const char *without; /* what a run without a value means, in words; NULL: nothing in particular */
 } CaseMetric;
+
+/* How a case runs with a method. */
+typedef struct CaseMethod {
+    const char *name;
+    const char *left_out;           /* why it does not, unless it is asked for; NULL: it runs */
+    const char *set[CASE_SETTINGS]; /* settings of its own, as --set takes them, ended by NULL */
+    double tolerance[CASE_METRICS], coarse[CASE_METRICS]; /* of the metrics; 0: the metric's own */
+} CaseMethod;
 
 /* What a metric gave. */
 typedef struct Figure {
@@ -64,13 +71,13 @@ typedef struct CaseStart {
 
 struct Case {
     const char *name, *help;
-    const char *scene;                 /* as scene_load takes it */
-    bool only_full;                    /* too long for the other levels: left out unless it is named */
-    const char *setting;               /* of the case itself, as --set takes it; or NULL */
-    const char *methods[CASE_METHODS]; /* ended by NULL */
-    double spacing[CASE_LEVELS];       /* m */
-    double time, every;                /* simulated, and from sample to sample, s */
-    CaseMetric metrics[CASE_METRICS];  /* ended by a NULL name */
+    const char *scene;                /* as scene_load takes it */
+    bool only_full;                   /* too long for the other levels: left out unless it is named */
+    const char *setting;              /* of the case itself, as --set takes it; or NULL */
+    CaseMethod methods[CASE_METHODS]; /* its best one first; ended by a NULL name */
+    double spacing[CASE_LEVELS];      /* m */
+    double time, every;               /* simulated, and from sample to sample, s */
+    CaseMetric metrics[CASE_METRICS]; /* ended by a NULL name */
     CasePlot plot;
     void (*start)(const WorldDef *def, CaseStart *start); /* NULL: as the scene has it */
     void (*sample)(CaseRun *run);                         /* adds to the columns; NULL: none */
@@ -96,6 +103,10 @@ Figure figure_scaled(double value, double reference, double scale);
 /* The worse of two misses; NaN, not measured, is the worst. */
 double figure_worse(double a, double b);
 
-double case_tolerance(const CaseMetric *metric, CaseLevel level, const char *method);
+/* Of metric `m`. */
+double case_tolerance(const Case *of, int m, CaseLevel level, const char *method);
+
+/* How it runs with that method; NULL: nothing is known of it. */
+const CaseMethod *case_method(const Case *of, const char *method);
 
 #endif

@@ -77,7 +77,14 @@ static bool judge(CaseRun *run, Error *error)
 }
 
 #define COMMON                                                                                               \
-    .scene = "scenes/cases/cavity.yaml", .methods = {"wcsph"},                                               \
+    .scene = "scenes/cases/cavity.yaml",                                                                     \
+    .methods = {{.name = "wcsph"},                                                                           \
+                {.name = "mueller",                                                                          \
+                 .left_out = "shifting is wcsph's alone, and saddle points line its particles up"},          \
+                {.name = "dfsph",                                                                            \
+                 .left_out = "shifting is wcsph's alone, and saddle points line its particles up"},          \
+                {.name = "pbf",                                                                              \
+                 .left_out = "shifting is wcsph's alone, and saddle points line its particles up"}},         \
     .plot = {.x = "place on the line, of the side",                                                          \
              .y = "velocity across it, of the lid's",                                                        \
              .found = {"u", "v"},                                                                            \

@@ -91,7 +91,12 @@ static bool judge_couette(CaseRun *run, Error *error)
 }
 
 #define COMMON                                                                                               \
-    .methods = {"wcsph"}, .spacing = {0.05, 0.02, 0.01}, .time = 2, .every = 0.05,                           \
+    .methods = {{.name = "wcsph"},                                                                           \
+                {.name = "mueller", .coarse = {0.03}},                                                       \
+                {.name = "dfsph", .set = {"solver.negative_pressure=false"}},                                \
+                {.name = "pbf",                                                                              \
+                 .left_out = "a step of 1/60 s stands a tenth of 100 Pa s, so that another fluid flows"}},   \
+    .spacing = {0.05, 0.02, 0.01}, .time = 2, .every = 0.05,                                                 \
     .metrics = {{"rms velocity, worst", "m/s", .tolerance = 0.01, .coarse = 0.02}},                          \
     .plot = {                                                                                                \
         .x = "height, m", .y = "velocity, m/s", .found = {"particles"}, .expected = {"exact"}, .dots = true}

@@ -48,9 +48,18 @@ double figure_worse(double a, double b)
     return isnan(a) || a > b ? a : b;
 }
 
-double case_tolerance(const CaseMetric *metric, CaseLevel level, const char *method)
+const CaseMethod *case_method(const Case *of, const char *method)
 {
-    if (level == CASE_COARSE)
-        return metric->coarse;
-    return metric->mueller > 0 && strcmp(method, "mueller") == 0 ? metric->mueller : metric->tolerance;
+    for (const CaseMethod *at = of->methods; at->name; at++)
+        if (strcmp(at->name, method) == 0)
+            return at;
+    return NULL;
+}
+
+double case_tolerance(const Case *of, int m, CaseLevel level, const char *method)
+{
+    const CaseMethod *with = case_method(of, method);
+    const bool coarse = level == CASE_COARSE;
+    const double own = with ? (coarse ? with->coarse : with->tolerance)[m] : 0;
+    return own > 0 ? own : coarse ? of->metrics[m].coarse : of->metrics[m].tolerance;
 }

@@ -26,6 +26,9 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
     bool ok = add_setting(&all, spacing, NULL, error) && add_setting(&all, method, NULL, error);
     if (ok && setup->of->setting)
         ok = add_setting(&all, setup->of->setting, NULL, error);
+    const CaseMethod *with = case_method(setup->of, setup->method);
+    for (int i = 0; ok && with && i < CASE_SETTINGS && with->set[i]; i++)
+        ok = add_setting(&all, with->set[i], NULL, error);
     for (int i = 0; ok && i < setup->settings->count; i++)
         ok = add_setting(&all, setup->settings->set[i], setup->settings->said[i], error);
     return ok && scene_load(setup->of->scene, &all, scene, NULL, error);
@@ -142,7 +145,6 @@ void case_result_free(CaseResult *result)
 
 bool case_passed(const CaseResult *result, int metric)
 {
-    const double tolerance =
-        case_tolerance(&result->of->metrics[metric], result->level, result->scene.world.method);
+    const double tolerance = case_tolerance(result->of, metric, result->level, result->scene.world.method);
     return result->run.figures[metric].error <= tolerance;
 }

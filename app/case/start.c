@@ -1,5 +1,7 @@
 #include "app/case/start.h"
 
+#include "sim/world/method.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -16,6 +18,8 @@ static double surface_of(const WorldDef *def, const CaseStart *start)
    r = 1 + b (H - y), b = g / c^2. */
 void start_hydrostatic(const WorldDef *def, CaseStart *start)
 {
+    if (method_find(def->method)->incompressible)
+        return;
     const double surface = surface_of(def, start), c2 = def->sound_speed * def->sound_speed;
     const double b = -def->gravity[1] / c2, a = 7 * b, rest = def->fluids[0].density;
     const bool tait = strcmp(def->method, "wcsph") == 0;

@@ -45,15 +45,35 @@ static bool is_planned(const Plan *plan, const Case *of)
     return false;
 }
 
+static bool add_run(Plan *plan, const Case *of, const char *method, Error *error)
+{
+    if (plan->count == RUNS_MAX)
+        return error_set(error, "slosh validate: more than %d runs; name fewer cases", RUNS_MAX);
+    plan->setups[plan->count++] = (CaseSetup){of, plan->level, method, &plan->args->settings};
+    return true;
+}
+
+static void say_left_out(const Plan *plan, const Case *of, const char *method, const char *why)
+{
+    if (!plan->args->quiet)
+        fprintf(stderr, "%s with %s is left out: %s\n", of->name, method, why);
+}
+
+/* What a case leaves out is said, with the reason; --method runs it all the same. */
 static bool add_case(Plan *plan, const Case *of, Error *error)
 {
-    const char *const one[2] = {plan->method, NULL};
-    for (const char *const *method = plan->method ? one : of->methods; *method; method++) {
-        if (plan->count == RUNS_MAX)
-            return error_set(error, "slosh validate: more than %d runs; name fewer cases", RUNS_MAX);
-        plan->setups[plan->count++] = (CaseSetup){of, plan->level, *method, &plan->args->settings};
-    }
-    return true;
+    if (plan->method)
+        return add_run(plan, of, plan->method, error);
+    bool ok = true;
+    for (const CaseMethod *at = of->methods; ok && at->name; at++)
+        if (!at->left_out)
+            ok = add_run(plan, of, at->name, error);
+        else
+            say_left_out(plan, of, at->name, at->left_out);
+    for (const Named *method = world_methods(); method->name; method++)
+        if (!case_method(of, method->name))
+            say_left_out(plan, of, method->name, "what it should reach is not known");
+    return ok;
 }
 
 /* Particles, times pairs of each, times steps that sound sets. */

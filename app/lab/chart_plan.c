@@ -44,10 +44,11 @@ static int methods_of(const ChartPlan *plan, const char *methods[CHART_NAMES_MAX
     if (count > 0)
         return count;
     if (plan->subject.of)
-        while (count < CASE_METHODS && plan->subject.of->methods[count]) {
-            methods[count] = plan->subject.of->methods[count];
-            count++;
-        }
+        for (const CaseMethod *at = plan->subject.of->methods; at->name && count < CHART_NAMES_MAX; at++)
+            if (!at->left_out)
+                methods[count++] = at->name;
+            else
+                fprintf(stderr, "left out: %s with %s, %s\n", plan->subject.of->name, at->name, at->left_out);
     else
         for (; count < CHART_NAMES_MAX && world_methods()[count].name; count++)
             methods[count] = world_methods()[count].name;
@@ -168,7 +169,7 @@ static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
               error_set(error, "slosh chart: --sweep takes method or backend here, not '%.60s'", sweep->key);
     for (int v = 0; ok && v < sweep->count; v++) {
         SceneSettings settings = *subject->settings;
-        const char *method = of_method || !subject->of ? sweep->values[v] : subject->of->methods[0];
+        const char *method = of_method || !subject->of ? sweep->values[v] : subject->of->methods[0].name;
         snprintf(text, sizeof text, "--sweep %.60s=%.60s", sweep->key, sweep->values[v]);
         const int last = settings.count < SCENE_SETTINGS_MAX ? settings.count++ : settings.count - 1;
         settings.set[last] = text + strlen("--sweep ");
@@ -211,7 +212,7 @@ static bool find_subject(ChartPlan *plan, Error *error)
         return error_set(error, "slosh chart: the case %s has a time of its own; leave --time out",
                          plan->subject.of->name);
     const CaseSetup setup = {plan->subject.of, CASE_DEFAULT,
-                             plan->subject.of ? plan->subject.of->methods[0] : NULL, &settings};
+                             plan->subject.of ? plan->subject.of->methods[0].name : NULL, &settings};
     if (plan->subject.of)
         return case_scene(&setup, &plan->scene, error);
     if (scene_load(args->scenes[0], &settings, &plan->scene, &plan->notes, &no_scene))

@@ -43,7 +43,7 @@ void validate_print(const CaseResult *result, FILE *file)
         fprintf(file, "%-15s %-7s %-8s %-28s %11s %11s %9s %7.3g %% %8.1f", result->of->name, def->method,
                 def->backend, metric->name, cell(value, "%.5g", figure->value),
                 cell(reference, "%.5g", figure->reference), cell(error, "%.3g %%", 100 * figure->error),
-                100 * case_tolerance(metric, result->level, def->method), result->seconds);
+                100 * case_tolerance(result->of, m, result->level, def->method), result->seconds);
         print_miss(result, m, file);
     }
     if (*result->failure)
@@ -60,9 +60,10 @@ static json_t *figure_json(const CaseResult *result, int m)
                      result->of->name, "metric", metric->name, "method", def->method, "backend", def->backend,
                      "value", number_json(figure->value), "reference", number_json(figure->reference),
                      "error", number_json(figure->error), "tolerance",
-                     case_tolerance(metric, result->level, def->method), "passed", case_passed(result, m),
-                     "seconds", result->seconds, "particles", (json_int_t)result->particles, "unit",
-                     metric->unit, "failure", *result->failure ? result->failure : NULL);
+                     case_tolerance(result->of, m, result->level, def->method), "passed",
+                     case_passed(result, m), "seconds", result->seconds, "particles",
+                     (json_int_t)result->particles, "unit", metric->unit, "failure",
+                     *result->failure ? result->failure : NULL);
 }
 
 bool validate_write_json(const CaseResult *results, size_t count, const char *failure, const char *path,

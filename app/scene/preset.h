@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-enum { PRESET_SETTINGS_MAX = 12 };
+enum { PRESET_SETTINGS_MAX = 20 };
 
 typedef struct PresetSetting {
     const char *path, *value;

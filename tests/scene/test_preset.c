@@ -60,6 +60,9 @@ static void a_method_gets_its_own_keys(void **state)
     assert_string_equal(wcsph_def(def)->kernel, wcsph_def(&none)->kernel);
     assert_float_equal(wcsph_def(def)->delta_sph, wcsph_def(&none)->delta_sph, 0);
     assert_int_equal(wcsph_def(def)->viscosity_form, wcsph_def(&none)->viscosity_form);
+    def = world_of(ACCURATE "  method: dfsph\n", NULL);
+    assert_true(def->support == 2.1 && def->cfl_number == 0.15);
+    assert_int_equal(world_of(ACCURATE "  method: pbf\n", NULL)->step_mode, STEP_FIXED);
 }
 
 /* A scene that says `play`, or nothing, is what it was before there were presets. */
@@ -123,7 +126,7 @@ static void a_case_s_file_holds_what_is_measured(void **state)
 {
     (void)state;
     for (const Case *const *at = case_list; *at; at++) {
-        char *file = settings_of(*at, NULL), *measured = settings_of(*at, (*at)->methods[0]);
+        char *file = settings_of(*at, NULL), *measured = settings_of(*at, (*at)->methods[0].name);
         assert_string_equal(scene.preset, "accurate");
         assert_string_equal(file, measured);
         free(file);
