@@ -6,7 +6,9 @@ import re
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
+import unittest
 
 import h5py
 import numpy
@@ -14,29 +16,33 @@ import numpy
 import command
 from command import CommandTest, TinyDiskTest, limit_files
 
-# Runs in ParaView's Python, apart from h5py: each brings an HDF5 of its own.
+# Runs in ParaView's Python, apart from h5py: each brings an HDF5 of its own. For all tests one, whose start takes longer than
+# what it reads: a line of input names a file and what to write.
 READ = """
-import json, sys
+import json, os
 from paraview.simple import OpenDataFile
 from paraview import servermanager
 from vtk.util.numpy_support import vtk_to_numpy
-reader = OpenDataFile(sys.argv[1])
-reader.UpdatePipelineInformation()
-steps = []
-for time in list(reader.TimestepValues) or [None]:
-    reader.UpdatePipeline() if time is None else reader.UpdatePipeline(time)
-    data = servermanager.Fetch(reader)
-    arrays = data.GetPointData()
-    names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
-    own = data.GetFieldData().GetArray('TimeValue')
-    cells = vtk_to_numpy(data.GetPolys().GetData()).tolist() if data.GetNumberOfPolys() else []
-    steps.append({'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
-                  'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
-                  'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
-                  'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
-                  'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}})
-with open(sys.argv[2], 'w') as file:
-    json.dump(steps, file)
+def steps_of(path):
+    reader = OpenDataFile(path)
+    reader.UpdatePipelineInformation()
+    for time in list(reader.TimestepValues) or [None]:
+        reader.UpdatePipeline() if time is None else reader.UpdatePipeline(time)
+        data = servermanager.Fetch(reader)
+        arrays = data.GetPointData()
+        names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
+        own = data.GetFieldData().GetArray('TimeValue')
+        cells = vtk_to_numpy(data.GetPolys().GetData()).tolist() if data.GetNumberOfPolys() else []
+        yield {'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
+               'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
+               'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
+               'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
+               'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}}
+for line in open(0):
+    path, out = json.loads(line)
+    with open(out, 'w') as file:
+        json.dump(list(steps_of(path)), file)
+    os.write(1, b'read\\n')
 """
 
 PLY_TYPES = {'float': '<f4', 'int': '<i4', 'uint': '<u4', 'uchar': 'u1'}
@@ -134,13 +140,24 @@ class ExportTest(CommandTest):
 
 
 class ParaView(ExportTest):
-    def read_with_paraview(self, name):
+    @classmethod
+    def setUpClass(cls):
         if not shutil.which('pvpython'):
-            self.skipTest('pvpython is not there: install python3-paraview')
-        self.write('read.py', READ)
-        done = subprocess.run(['pvpython', '--no-mpi', 'read.py', name, 'read.json'], cwd=self.folder,
-                              capture_output=True, text=True, check=False, timeout=200)
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
+            raise unittest.SkipTest('pvpython is not there: install python3-paraview')
+        with tempfile.NamedTemporaryFile('w', suffix='.py', delete=False) as script:
+            script.write(READ)
+        cls.addClassCleanup(os.remove, script.name)
+        cls.complaints = cls.enterClassContext(tempfile.TemporaryFile('w+'))
+        cls.reader = subprocess.Popen(['pvpython', '--no-mpi', script.name], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                      stderr=cls.complaints, text=True)
+        cls.addClassCleanup(cls.reader.communicate)
+
+    def read_with_paraview(self, name):
+        self.reader.stdin.write(json.dumps([self.path(name), self.path('read.json')]) + '\n')
+        self.reader.stdin.flush()
+        answer = self.reader.stdout.readline()
+        self.complaints.seek(0)
+        self.assertEqual((answer, self.complaints.read()), ('read\n', ''))
         return json.loads(self.read('read.json'))
 
     def same_fields(self, seen, group):
