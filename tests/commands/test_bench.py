@@ -149,8 +149,8 @@ class Tables(Case):
 
     def test_without_gnuplot_there_is_no_chart(self):
         os.mkdir(self.path('bin'))
-        done = subprocess.run([command.PROGRAM, 'bench', '--table', 'paper003-substeps', '--frames', '1', '--size', '64x64',
-                               '-o', 'chart.svg', '--set', 'particles.spacing=0.4'],
+        done = subprocess.run([command.PROGRAM, 'bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--view', 'spheres', '--frames', '1',
+                               '--size', '64x64', '-o', 'chart.svg'],
                               cwd=self.folder, capture_output=True, text=True, timeout=120, check=False,
                               env=os.environ | {'PATH': self.path('bin')})
         self.assertEqual(done.returncode, 1, done.stderr)

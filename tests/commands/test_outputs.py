@@ -159,7 +159,7 @@ class TinyDisk(TinyDiskTest):
 
     def test_video(self):
         for size in ('8k', '20k', '40k'):
-            self.assertEqual(self.full(size, 'render scene.yaml -o disk/a.mp4 --time 1'), [], size)
+            self.assertEqual(self.full(size, 'render scene.yaml -o disk/a.mp4 --time 1 --size 320x240'), [], size)
 
 
 class Unwritable(CommandTest):

@@ -52,8 +52,8 @@ class Resume(CommandTest):
                         self.assertEqual(one[step][name][:][order[0]].tobytes(),
                                          other[step][name][:][order[1]].tobytes(), (step, name))
 
-    def whole(self):
-        self.go(name='whole.h5part')
+    def whole(self, *more):
+        self.go(*more, name='whole.h5part')
         return len(whole_steps(self.path('whole.h5part')))
 
     def test_a_preset_is_what_it_fills_in(self):
@@ -67,9 +67,10 @@ class Resume(CommandTest):
         self.assertIn("this is '", self.go('--resume', '--set', 'solver.preset=accurate', code=2))
 
     def test_killed_at_random_moments(self):
-        steps = self.whole()
+        short = ('--time', '0.2')  # of the same scene, with as many writes a second
+        steps = self.whole(*short)
         began = time.monotonic()
-        self.go(name='again.h5part')
+        self.go(*short, name='again.h5part')
         seconds = time.monotonic() - began
         seed = random.randrange(1 << 30)
         moments = random.Random(seed)
@@ -77,15 +78,15 @@ class Resume(CommandTest):
         for _ in range(60):  # a busy machine lets many a run end before its moment has come
             if kills > 10:
                 break
-            process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', TIME, '--every', EVERY, '--quiet',
-                                 '--resume', '--threads', str(1 + kills % 2))
+            process = self.start('run', 'scene.yaml', '-o', 'a.h5part', *short, '--every', EVERY, '--quiet', '--resume',
+                                 '--threads', str(1 + kills % 2))
             time.sleep(0.02 + moments.random() * seconds * 0.6)
             process.kill()
             kills += process.wait() == -signal.SIGKILL
             if os.path.exists(self.path('a.h5part')):
                 self.assertGreater(len(whole_steps(self.path('a.h5part'))), 0, f'seed {seed}')
                 shutil.copy(self.path('a.h5part'), self.path('b.h5part'))
-                self.go('--resume', name='b.h5part')
+                self.go('--resume', *short, name='b.h5part')
                 self.same('whole.h5part', 'b.h5part')
                 if len(whole_steps(self.path('a.h5part'))) > steps / 2:
                     os.remove(self.path('a.h5part'))

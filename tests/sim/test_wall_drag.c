@@ -429,7 +429,7 @@ static void any_threads_give_the_same_bits(void **state)
     for (int m = 0; m < METHODS; m += 3) {
         uint64_t hash[3];
         for (int threads = 1; threads <= 3; threads++) {
-            WorldDef def = no_slip_box(&methods[m], 4, 1.5);
+            WorldDef def = no_slip_box(&methods[m], 2, 1);
             def.gravity[0] = 5;
             def.gravity[1] = -9;
             *world_threads(&def) = threads;
