@@ -171,7 +171,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->clock = clock;
     step->dt = dt;
     step->constants = &world->constants;
-    step->solves = memset(world->solves, 0, sizeof world->solves);
+    step->solves = world->solves;
     box_step(&begin, &middle, 0.5 * dt, &step->first_half);
     box_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);

@@ -2,17 +2,27 @@
    calls together. docs/performance.md has the figures that this prints. */
 #include "tests/gl/compare.h"
 
+#include "sim/dfsph/dfsph.h"
 #include "sim/wcsph/wcsph.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-typedef enum Call { CALL_OTHER, CALL_DISPATCH, CALL_DRAW, CALL_BARRIER, CALL_QUESTION, CALL_KINDS } Call;
+typedef enum Call {
+    CALL_OTHER,
+    CALL_DISPATCH,
+    CALL_DRAW,
+    CALL_BARRIER,
+    CALL_QUESTION,
+    CALL_WAIT,
+    CALL_KINDS
+} Call;
 
 /* Those that a step makes. X(kind, type, name, parameters, arguments); what the program calls goes through
    these pointers. */
 #define CALLS(X)                                                                                             \
     X(DISPATCH, void, glDispatchCompute, (GLuint a, GLuint b, GLuint c), (a, b, c))                          \
+    X(DISPATCH, void, glDispatchComputeIndirect, (GLintptr a), (a))                                          \
     X(DRAW, void, glDrawArrays, (GLenum a, GLint b, GLsizei c), (a, b, c))                                   \
     X(DRAW, void, glDrawTransformFeedback, (GLenum a, GLuint b), (a, b))                                     \
     X(BARRIER, void, glMemoryBarrier, (GLbitfield a), (a))                                                   \
@@ -34,6 +44,7 @@ typedef enum Call { CALL_OTHER, CALL_DISPATCH, CALL_DRAW, CALL_BARRIER, CALL_QUE
       (a, b, c, d, e))                                                                                       \
     X(OTHER, void, glCopyNamedBufferSubData, (GLuint a, GLuint b, GLintptr c, GLintptr d, GLsizeiptr e),     \
       (a, b, c, d, e))                                                                                       \
+    X(WAIT, GLenum, glClientWaitSync, (GLsync a, GLbitfield b, GLuint64 c), (a, b, c))                       \
     X(OTHER, GLsync, glFenceSync, (GLenum a, GLbitfield b), (a, b))                                          \
     X(OTHER, void, glDeleteSync, (GLsync a), (a))                                                            \
     X(OTHER, void, glEnable, (GLenum a), (a))                                                                \
@@ -79,6 +90,21 @@ static int calls[CALL_KINDS];
 CALLS(X)
 #undef X
 
+/* What goes to buffers, and from one to another: what is read back is among the latter. */
+static long bytes;
+
+static void APIENTRY sized_glNamedBufferSubData(GLuint a, GLintptr b, GLsizeiptr c, const void *d)
+{
+    bytes += c;
+    counted_glNamedBufferSubData(a, b, c, d);
+}
+
+static void APIENTRY sized_glCopyNamedBufferSubData(GLuint a, GLuint b, GLintptr c, GLintptr d, GLsizeiptr e)
+{
+    bytes += e;
+    counted_glCopyNamedBufferSubData(a, b, c, d, e);
+}
+
 static void counting(bool on)
 {
 #define X(kind, type, name, parameters, arguments)                                                           \
@@ -86,10 +112,20 @@ static void counting(bool on)
     epoxy_##name = on ? counted_##name : real_##name;
     CALLS(X)
 #undef X
+    if (on) {
+        epoxy_glNamedBufferSubData = sized_glNamedBufferSubData;
+        epoxy_glCopyNamedBufferSubData = sized_glCopyNamedBufferSubData;
+    }
 }
 
-/* Of one step, in a frame of four: at most so many. */
-static void count_step(const char *label, const WorldDef *def, int passes, int questions, int most)
+/* Of one step at most so many. */
+typedef struct Bounds {
+    int passes, questions, calls;
+    int waits; /* of a frame of four steps */
+} Bounds;
+
+/* In the second frame of a world, of four steps. */
+static void count_step(const char *label, const WorldDef *def, Bounds most)
 {
     enum { SUBSTEPS = 4 };
     Error error = {0};
@@ -100,19 +136,24 @@ static void count_step(const char *label, const WorldDef *def, int passes, int q
     World *world = fixture_world(&four);
     fixture_step(world, 1);
     memset(calls, 0, sizeof calls);
+    bytes = 0;
     counting(true);
     const bool good = world_step(world, NULL, &error);
     counting(false);
     assert_true(good);
     for (int k = 0; k < CALL_KINDS; k++)
         all += calls[k];
-    printf("%s: %.1f calls a step: %.1f dispatches, %.1f draws, %.1f barriers, %.1f questions\n", label,
-           all / (double)SUBSTEPS, calls[CALL_DISPATCH] / (double)SUBSTEPS,
-           calls[CALL_DRAW] / (double)SUBSTEPS, calls[CALL_BARRIER] / (double)SUBSTEPS,
-           calls[CALL_QUESTION] / (double)SUBSTEPS);
-    assert_in_range(calls[CALL_DISPATCH] + calls[CALL_DRAW], 1, SUBSTEPS * passes);
-    assert_in_range(calls[CALL_QUESTION], 0, SUBSTEPS * questions);
-    assert_in_range(all, 1, SUBSTEPS * most);
+    printf(
+        "%s: %.1f calls a step: %.1f dispatches, %.1f draws, %.1f barriers, %.1f questions; %ld bytes; %d waits "
+        "a frame\n",
+        label, all / (double)SUBSTEPS, calls[CALL_DISPATCH] / (double)SUBSTEPS,
+        calls[CALL_DRAW] / (double)SUBSTEPS, calls[CALL_BARRIER] / (double)SUBSTEPS,
+        calls[CALL_QUESTION] / (double)SUBSTEPS, bytes / SUBSTEPS, calls[CALL_WAIT]);
+    assert_in_range(calls[CALL_DISPATCH] + calls[CALL_DRAW], 1, SUBSTEPS * most.passes);
+    assert_in_range(calls[CALL_QUESTION], 0, SUBSTEPS * most.questions);
+    assert_in_range(all, 1, SUBSTEPS * most.calls);
+    assert_in_range(calls[CALL_WAIT], 0, most.waits);
+    assert_in_range(bytes, 1, SUBSTEPS * 4096); /* no particles */
     world_destroy(world);
 }
 
@@ -133,15 +174,24 @@ static void a_step_makes_so_many_calls(void **state)
 {
     (void)state;
     WorldDef def = pool_def("compute", "mueller");
-    count_step("compute, mueller", &def, 9, 0, 100);
+    count_step("compute, mueller", &def, (Bounds){9, 0, 100, 1});
     def.reproducible = true;
-    count_step("compute, mueller, reproducible", &def, 10, 0, 110);
+    count_step("compute, mueller, reproducible", &def, (Bounds){10, 0, 110, 1});
     def = pool_def("compute", "wcsph");
-    count_step("compute, wcsph", &def, 11, 0, 110);
+    count_step("compute, wcsph", &def, (Bounds){11, 0, 110, 1});
     wcsph_def(&def)->delta_sph = wcsph_def(&def)->shifting = 0.1;
-    count_step("compute, wcsph, delta_sph, shifting", &def, 13, 0, 145);
+    count_step("compute, wcsph, delta_sph, shifting", &def, (Bounds){13, 0, 145, 1});
+    /* a wait each solver and step: it asks at once for as many iterations as the step before had, and two
+     * more */
+    def = pool_def("compute", "dfsph");
+    def.dt = 0.002;
+    dfsph_def(&def)->iterations = 1;
+    count_step("compute, dfsph, one iteration each", &def, (Bounds){24, 0, 250, 9});
+    dfsph_def(&def)->iterations = 100;
+    dfsph_def(&def)->tolerance = dfsph_def(&def)->divergence_tolerance = 1e-6;
+    count_step("compute, dfsph", &def, (Bounds){150, 0, 1400, 11});
     def = pool_def("fragment", "mueller");
-    count_step("fragment, mueller", &def, 42, 29, 560);
+    count_step("fragment, mueller", &def, (Bounds){42, 29, 560, 1});
 }
 
 int main(void)
