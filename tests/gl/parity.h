@@ -36,7 +36,7 @@ static inline double pair_terms(const Constants *s, const State *state, size_t i
     const uint32_t fi = state->fluid[i], fj = state->fluid[j];
     const double vi = (double)state->position[4 * i + 3], vj = (double)state->position[4 * j + 3];
     const double mu = (double)(s->viscosity[fi] + s->viscosity[fj]);
-    const bool carries = s->method->carries_density;
+    const bool carries = s->method->carries_density, morris = s->friction.walls != DRAG_LAPLACIAN;
     const WcsphBlock *wcsph = wcsph_constants(s);
     const double radial = carries ? (double)wcsph->radial_friction : 0;
     const double alpha = carries ? (double)(wcsph->wcsph_fluids[fi].artificial_viscosity +
@@ -48,8 +48,8 @@ static inline double pair_terms(const Constants *s, const State *state, size_t i
     double sum =
         gradient * (fabs((double)state->pressure[i]) * vi * vi + fabs((double)state->pressure[j]) * vj * vj);
     sum += vi * vj * u *
-           (carries ? ((radial > 0 ? mu * radial * r * r : mu) + alpha) * gradient / r
-                    : 0.5 * mu * s->lattice.laplacian_scale * kernel_viscosity_laplacian(r, h));
+           (morris ? ((radial > 0 ? mu * radial * r * r : mu) + alpha) * gradient / r
+                   : 0.5 * mu * s->lattice.laplacian_scale * kernel_viscosity_laplacian(r, h));
     if (fi != fj || !s->tension_model)
         return sum;
     const double t = h * h - r * r, dims = s->dimensions;
