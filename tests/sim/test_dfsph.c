@@ -3,7 +3,6 @@
 #include "sim/cpu/cpu.h"
 #include "sim/dfsph/dfsph.h"
 #include "sim/dfsph/passes.h"
-#include "sim/world/iterate.h"
 #include "sim/world/world_state.h"
 #include "sim/world/world_struct.h"
 
