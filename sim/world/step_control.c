@@ -115,10 +115,6 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
     if (trouble == STEP_TROUBLE_SOLVE)
         snprintf(words, 200, "use %s, more %s or a larger %s", shorter, solver->iterations,
                  solver->tolerance);
-    else if (trouble == STEP_TROUBLE_ENERGY && method_find(def->method)->leaps)
-        snprintf(words, 200,
-                 "%s is for long steps; use a longer solver.step.dt, or fewer solver.step.substeps",
-                 def->method);
     else if (dt > STEP_SOUND_STANDS * crossing)
         snprintf(
             words, 200,
