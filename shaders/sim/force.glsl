@@ -6,7 +6,10 @@
 #include "sim/pair_direction.glsl"
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: p V^2
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+#ifndef SEEN_VELOCITY // what pairs see of each other
+#define SEEN_VELOCITY(i) velocity[i].xyz
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; }; // w: what volume_of takes
+#endif
 layout(std430, binding = ACCELERATIONS_BUFFER) writeonly buffer Accelerations { vec4 acceleration[]; };
 
 float volume_of(uint i); // the method's: by the velocity's w
@@ -24,7 +27,7 @@ float extra_of(uint fluid); // the method's: what else of a fluid its pairs want
 Side side_of(uint i, float term)
 {
     uint fluid = FLUID_OF(i);
-    return Side(term, volume_of(i), fluids[fluid].viscosity, extra_of(fluid), velocity[i].xyz);
+    return Side(term, volume_of(i), fluids[fluid].viscosity, extra_of(fluid), SEEN_VELOCITY(i));
 }
 
 vec3 pair_force(Side one, Side other, vec3 d, float r2); // the method's: on `one`, which is d from `other`

@@ -1,5 +1,8 @@
 // Keeps particles out of solids: solid_guard of sim/matter/solid_step.c, in the solid's frame.
 #include "sim/solids.glsl"
+#ifndef SOLID_BEGIN
+#define SOLID_BEGIN(k) solids[k].begin
+#endif
 
 // The first part of the way, 0 .. 1, where it meets the surface; more than 1: it does not. Goes forward by the distance
 // to the surface, which it can't meet sooner.
@@ -46,7 +49,7 @@ bool hold(int k, rvec3 from, inout rvec3 to, out rvec3 normal)
 
 bool out_of_reach(int k, vec3 before, vec3 x)
 {
-    float own = distance(solids[k].begin.x, solids[k].end.x);
+    float own = distance(SOLID_BEGIN(k).x, solids[k].end.x);
     return distance(x, solids[k].end.x) > solid_reach(k) + distance(before, x) + own;
 }
 
@@ -57,7 +60,7 @@ bool solids_guard(vec3 before, inout vec3 x, inout vec3 v)
     for (int k = 0; k < solid_total; k++) {
         if (out_of_reach(k, before, x))
             continue;
-        rvec3 from = rvec3(solid_from_box(solids[k].begin, before)), to = rvec3(solid_from_box(solids[k].end, x)), normal;
+        rvec3 from = rvec3(solid_from_box(SOLID_BEGIN(k), before)), to = rvec3(solid_from_box(solids[k].end, x)), normal;
         for (int i = 0; i < 3 && hold(k, from, to, normal); i++) { // again: an inner edge has two sides
             x = solid_to_box(solids[k].end, vec3(to));
             vec3 n = solid_to_box(Pose(vec3(0), solids[k].end.r), vec3(normal));

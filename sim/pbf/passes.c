@@ -9,23 +9,6 @@ PAIR_LOOPS(pbf_push);
 PAIR_LOOPS(pbf_images_push);
 PAIR_LOOPS(pbf_friction);
 
-/* How much of the iteration before goes on: half of the iterations. */
-static const float MOMENTUM = 0.6F;
-
-/* What a step forgets of the multipliers, at most, and in a second. With all of them what a blow left, or a
-   tolerance, pushes again before it is taken back, and a column that rests jumps; with none there are half as
-   many iterations more. A short step has one iteration as a rule, and a column hums at 0.1 m/s where less is
-   forgotten. */
-static const float FORGOTTEN = 0.5F, FORGOTTEN_RATE = 180;
-
-/* The longest way of an iteration, in spacings: fluid that a long step has folded comes apart in several,
-   and is not thrown. What is cut short is lost to momentum. */
-static const float WAY_MOST = 0.2F;
-
-/* The nearest that an iteration brings a particle to a wall, in spacings: right at a wall its image pushes it
-   nowhere. */
-static const float WALL_LEAST = 0.1F;
-
 static bool of_fluid(const Cpu *cpu, size_t i)
 {
     return cpu->now.fluid[i] < FLUIDS_MAX;
@@ -59,6 +42,7 @@ const Pass pbf_predict = {
     .name = "predict",
     .stage = STAGE_INTEGRATE,
     .cpu = &predict,
+    .shader = "pbf/predict",
     .reads = "position velocity",
     .writes = "position velocity",
 };
@@ -121,6 +105,7 @@ const Pass pbf_begin = {
     .name = "begin",
     .stage = STAGE_SOLVE,
     .cpu = &begins[0],
+    .shader = "pbf/begin",
     .reads = "id fluid term",
     .writes = FILL_WRITES " residual term moved",
 };
@@ -129,6 +114,7 @@ const Pass pbf_again = {
     .name = "again",
     .stage = STAGE_SOLVE,
     .cpu = &begins[1],
+    .shader = "pbf/again",
     .reads = "id fluid term",
     .writes = FILL_WRITES " residual",
 };
@@ -139,7 +125,8 @@ const Pass pbf_again = {
 static float grown(const CpuParticles *p, size_t i, float scale, float least)
 {
     const float before = p->own[TERM][i];
-    const float k = before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + MOMENTUM * p->own[CHANGE][i];
+    const float k =
+        before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + PBF_MOMENTUM * p->own[CHANGE][i];
     return k > least ? k : least;
 }
 
@@ -163,7 +150,7 @@ static void pack_growth(const CpuRange *range)
     }
 }
 
-/* No further than WAY_MOST; nowhere what is no number. */
+/* No further than WAY_LONGEST; nowhere what is no number. */
 static void shorten(float way[3], float most)
 {
     const float length2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
@@ -213,7 +200,7 @@ static void move_one(const Hold *hold, size_t i)
     const float w = p->own[INVERSE_MASS][i], from[3] = {p->x[i], p->y[i], p->z[i]},
                 spacing = hold->cpu->constants->spacing;
     float way[3] = {w * p->ax[i], w * p->ay[i], w * p->az[i]};
-    shorten(way, WAY_MOST * spacing);
+    shorten(way, WAY_LONGEST * spacing);
     float x[3] = {from[0] + way[0], from[1] + way[1], from[2] + way[2]};
     if (held(hold, from, x))
         for (int k = 0; k < 3; k++)
@@ -253,6 +240,7 @@ const Pass pbf_move = {
     .name = "move",
     .stage = STAGE_SOLVE,
     .cpu = &move,
+    .shader = "pbf/move",
     .reads = "position id fluid term residual factor inverse_mass change applied moved way",
     .writes = "position term acceleration change applied moved way",
 };
@@ -294,7 +282,7 @@ static void density_body(const CpuRange *range)
 {
     const Cpu *cpu = range->cpu;
     float *before = cpu->now.own[BEFORE];
-    const float later = 1 - pbf_share(range->input->dt);
+    const float later = 1 - PBF_SHARE(range->input->dt);
     number_density(range);
     for (size_t i = range->begin; i < range->end; i++) {
         if (before[i] == 0)
@@ -312,6 +300,7 @@ const Pass pbf_density = {
     .name = "density",
     .stage = STAGE_SOLVE,
     .cpu = &density,
+    .shader = "pbf/density",
     .reads = "position id fluid term before inverse_mass",
     .writes = DENSITY_WRITES " before",
 };
@@ -324,7 +313,7 @@ static void settle_body(const CpuRange *range)
     number_density(range);
     for (size_t i = range->begin; i < range->end; i++) {
         finish_density(range->cpu, i, 0);
-        p->pressure[i] = pbf_constants(range->cpu->constants)->pressure_scale * p->own[TERM][i];
+        p->pressure[i] = pbf_constants(range->cpu->constants)->pressure_of_term * p->own[TERM][i];
         p->ax[i] = p->ay[i] = p->az[i] = 0;
     }
 }
@@ -336,6 +325,7 @@ const Pass pbf_settle = {
     .name = "settle",
     .stage = STAGE_DENSITY,
     .cpu = &settle,
+    .shader = "pbf/settle",
     .reads = "position id fluid term before",
     .writes = FILL_WRITES " " DENSITY_WRITES " pressure",
 };
@@ -376,7 +366,7 @@ static void force_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     const float dt = range->input->dt, *g = range->input->gravity, rate = 1 / dt;
-    const float scale = pbf_constants(range->cpu->constants)->pressure_scale;
+    const float scale = pbf_constants(range->cpu->constants)->pressure_of_term;
     rub(range);
     cpu_force_end(range);
     for (size_t i = range->begin; i < range->end; i++) {
@@ -397,6 +387,7 @@ const Pass pbf_force = {
     .name = "force",
     .stage = STAGE_FORCE,
     .cpu = &force,
+    .shader = "pbf/force",
     .reads = "position velocity id fluid volume viscosity tension kind moved term compressed",
     .writes = "velocity acceleration pressure before",
     .mirrors = true,
@@ -415,12 +406,12 @@ const ColumnDef pbf_columns[] = {
     {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT},
     {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
     {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
-    {"compressed", "", OWN(COMPRESSED), 1, COLUMN_FLOAT},
+    {"compressed", "", OWN(COMPRESSED), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
-    {"miss", "", OWN(MISS), 1, COLUMN_FLOAT},
-    {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT},
+    {"miss", "", OWN(MISS), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
+    {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"applied", "J m3", OWN(APPLIED), 1, COLUMN_FLOAT},
-    {"way", "", OWN(WAY), 1, COLUMN_FLOAT},
+    {"way", "", OWN(WAY), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"moved", "m", OWN(MOVED), 3, COLUMN_FLOAT, .flags = COLUMN_SORTED},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},

@@ -10,6 +10,7 @@
 #ifndef SLOSH_PBF_PASSES_H
 #define SLOSH_PBF_PASSES_H
 
+#include "shaders/sim/pbf/pbf_block.h"
 #include "sim/cpu/pass.h"
 #include "sim/kernel/kernel.h"
 
@@ -34,30 +35,21 @@ enum {
 extern const ColumnDef pbf_columns[];
 extern const ColumnDef *const pbf_miss, *const pbf_compressed, *const pbf_way;
 
-/* What a def means in numbers for pbf alone. */
+/* What a def means in numbers for pbf alone: of the passes, which shaders have too, and of the solver. */
 typedef struct PbfConstants {
-    float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m5 */
-    float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
-    float relaxation;        /* of Jacobi */
-    float least_squares;     /* a part of sum F^2 r^2 on the lattice, 1/m8: D is no less than that over m */
-    float pressure_scale;    /* p over k / dt^2, 1/m6 */
-    float viscous_dt;        /* the longest step that friction stands, s */
-    int most;                /* iterations */
+    PbfBlock sums;
+    int most; /* iterations */
     double tolerance;
 } PbfConstants;
 
-/* The part that a step takes away of what is compressed when it begins: all of it in 1/60 s, in a shorter
-   step as much less. Places that move become velocity, the way over dt, so that more in a short step would
-   throw the fluid. (J. Baumgarte, "Stabilization of constraints and integrals of motion in dynamical
-   systems", 1972) */
-static inline float pbf_share(float dt)
-{
-    return dt < 1.0F / 60 ? 60 * dt : 1;
-}
-
-static inline const PbfConstants *pbf_constants(const Constants *constants)
+static inline const PbfConstants *pbf_solver(const Constants *constants)
 {
     return (const PbfConstants *)(const void *)constants->of_method;
+}
+
+static inline const PbfBlock *pbf_constants(const Constants *constants)
+{
+    return &pbf_solver(constants)->sums;
 }
 
 /* What gravity does to a free flight. */

@@ -55,12 +55,12 @@ static void pbf_set(Constants *constants, const WorldDef *def)
     const JacobiLattice jacobi = jacobi_lattice(kernel, def->dimensions, def->spacing, h);
     const double n0 = lattice->number_density;
     const PbfConstants own = {
-        .gradient = (float)(slope * scale),
-        .friction_gradient = (float)(slope * lattice->gradient_scale),
-        .relaxation = (float)(RELAXATION / jacobi.greatest),
-        .least_squares = (float)(LEAST * scale * scale * jacobi.squares),
-        .pressure_scale = (float)(n0 * n0 * scale / lattice->gradient_scale),
-        .viscous_dt = (float)(STEP_VISCOUS_STANDS * step_viscous(def, &constants->friction)),
+        .sums = {.gradient = (float)(slope * scale),
+                 .friction_gradient = (float)(slope * lattice->gradient_scale),
+                 .relaxation = (float)(RELAXATION / jacobi.greatest),
+                 .least_squares = (float)(LEAST * scale * scale * jacobi.squares),
+                 .pressure_of_term = (float)(n0 * n0 * scale / lattice->gradient_scale),
+                 .viscous_dt = (float)(STEP_VISCOUS_STANDS * step_viscous(def, &constants->friction))},
         .most = pbf_def(def)->iterations,
         .tolerance = pbf_def(def)->tolerance,
     };
@@ -99,7 +99,7 @@ static bool more_by_new_lists(const Substep *step, double tolerance)
 /* How often the iterations ran. */
 static int iterate(const Substep *step, double tolerance)
 {
-    const int most = pbf_constants(step->constants)->most;
+    const int most = pbf_solver(step->constants)->most;
     const StepSolve *solve = &step->solves[0];
     Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, tolerance, most, .begun = false};
     bool more = true;
@@ -115,8 +115,8 @@ static int iterate(const Substep *step, double tolerance)
    to. */
 static void hold_density(const Substep *step)
 {
-    const double tolerance = pbf_constants(step->constants)->tolerance,
-                 share = (double)pbf_share((float)step->dt);
+    const double tolerance = pbf_solver(step->constants)->tolerance,
+                 share = (double)PBF_SHARE((float)step->dt);
     StepSolve *solve = &step->solves[0];
     begin(step);
     solve->iterations = iterate(step, tolerance * share);
@@ -156,6 +156,15 @@ static void pbf_substep(const Substep *step)
 static const Pass *const passes[] = {&pbf_predict, &pbf_begin, &pbf_move,   &pbf_density,
                                      &pbf_again,   &pbf_force, &pbf_settle, NULL};
 
+static bool always(const Constants *constants)
+{
+    (void)constants;
+    return true;
+}
+
+/* Of vec4: density.comp. */
+static const ShaderBuffer buffers[] = {{"Motions", 16, always}, {0}};
+
 const Method method_pbf = {
     .name = "pbf",
     .help =
@@ -172,6 +181,7 @@ const Method method_pbf = {
     .constants = pbf_set,
     .columns = pbf_columns,
     .passes = passes,
+    .buffers = buffers,
     .settle = &pbf_settle,
     .substep = pbf_substep,
 };

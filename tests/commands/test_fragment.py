@@ -55,7 +55,7 @@ class Fragment(CommandTest):
         self.refused(2, 'backend fragment has no method wcsph', 'scene.yaml', '--method', 'wcsph')
         self.refused(1, 'holds up to 16777216 particles', 'scene.yaml', '--particles', '20000000')
 
-        self.refused(2, 'backend fragment has no method pbf; use backend cpu\n', 'scene.yaml', '--method', 'pbf')
+        self.refused(2, 'backend fragment has no method pbf; use backend compute or cpu\n', 'scene.yaml', '--method', 'pbf')
 
     def test_bench_refuses_before_it_measures(self):
         code, said = self.slosh('bench', 'scene.yaml', 'fountain', *ON, '--view', 'none', '--json', 'b.json')

@@ -6,6 +6,7 @@
 #include "shaders/sim/dfsph/dfsph_block.h"
 #include "shaders/sim/exact_shapes_block.h"
 #include "shaders/sim/flow_block.h"
+#include "shaders/sim/pbf/pbf_block.h"
 #include "shaders/sim/solid_steps_block.h"
 #include "shaders/sim/step_block.h"
 #include "shaders/sim/term_block.h"
@@ -17,6 +18,7 @@
 #define TERM(member)     MEMBER(TermBlock, member)
 #define WCSPH(member)    MEMBER(WcsphBlock, member)
 #define DFSPH(member)    MEMBER(DfsphBlock, member)
+#define PBF(member)      MEMBER(PbfBlock, member)
 #define WATCH(member)    MEMBER(WatchBlock, member)
 #define STEPS(member)    MEMBER(SolidStepsBlock, member)
 #define SHAPE(member)    MEMBER(ExactShapesBlock, member)
@@ -45,6 +47,8 @@
               WCSPH(wcsph_fluids[0].artificial_viscosity), WCSPH(wcsph_fluids[7].artificial_viscosity)),     \
         BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(friction_gradient),              \
               DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares)),                             \
+        BLOCK("sim/pbf/pbf_block.h", PbfBlock, PBF(gradient), PBF(friction_gradient), PBF(relaxation),       \
+              PBF(least_squares), PBF(pressure_of_term), PBF(viscous_dt)),                                   \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \
               WATCH(greatest_density_ratio), WATCH(guarded), WATCH(went_too_far)),                           \
         BLOCK("sim/solid_steps_block.h", SolidStepsBlock, STEPS(solid_total), STEPS(boundary_total),         \

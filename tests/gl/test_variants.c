@@ -441,10 +441,11 @@ static void wcsph_lives(void)
     LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
 }
 
-static void dfsph_lives(void)
+/* dfsph, pbf. */
+static void incompressible_lives(const char *method)
 {
     WorldDef base = pool_def("compute");
-    set_name(base.method, "dfsph");
+    set_name(base.method, method);
     LIVE(base, d.fluids[0].viscosity = 0);
     LIVE(base, d.negative_pressure = true, d.reproducible = true);
     LIVE(base, d.periodic[0] = true, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
@@ -589,7 +590,8 @@ static void every_form_is_made(void **state)
     mueller_lives("fragment");
     mueller_has_more_on_compute();
     wcsph_lives();
-    dfsph_lives();
+    incompressible_lives("dfsph");
+    incompressible_lives("pbf");
     draw_views(&def, false);
     with_a_ball(def.solids, &def.solid_count);
     draw_views(&def, true);
@@ -614,12 +616,14 @@ static void worlds_live(void **state)
     live(&def);
     set_name(def.method, "dfsph");
     live(&def);
+    set_name(def.method, "pbf");
+    live(&def);
     toy_lives();
     worlds_only = false;
     assert_int_equal(unbound, 0);
     printf("worlds have up to %d storage blocks in a compute shader, %d bindings\n", most.compute_blocks,
            most.bindings);
-    assert_true(most.compute_blocks == 13 && most.bindings == 16);
+    assert_true(most.compute_blocks == 14 && most.bindings == 16);
 }
 
 static void views_draw(void **state)

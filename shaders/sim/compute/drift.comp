@@ -9,6 +9,10 @@ layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[];
 
 shared uint held_by_group;
 
+#ifdef LEAPS
+float folded(float way) { return 0.5 * spacing * way / (way + spacing); }
+#endif
+
 // How often a guard held the particle.
 uint fly(uint i)
 {
@@ -39,15 +43,17 @@ uint fly(uint i)
             continue;
 #endif
         float low = a == 1 ? 0.0 : -half_size[a], high = a == 1 ? 2.0 * half_size.y : half_size[a];
-        if (x[a] < low) {
-            x[a] = low;
-            v[a] = max(v[a], 0.0);
-            held = true;
-        } else if (x[a] > high) {
-            x[a] = high;
-            v[a] = min(v[a], 0.0);
-            held = true;
-        }
+        if (!(x[a] < low || x[a] > high))
+            continue;
+        held = true;
+#ifdef LEAPS // walls_fold of sim/box/wall.c
+        float from = x[a];
+        x[a] = from < low ? min(low + folded(low - from), high) : max(high - folded(from - high), low);
+        v[a] += 0.5 / dt * (x[a] - from);
+#else
+        v[a] = x[a] < low ? max(v[a], 0.0) : min(v[a], 0.0);
+        x[a] = x[a] < low ? low : high;
+#endif
     }
     if (held)
         times++;

@@ -316,6 +316,7 @@ const Backend backend_compute = {
     .drift = compute_drift,
     .grid = compute_grid,
     .run = compute_pass,
+    .excess = compute_excess,
     .iterate = compute_iterate,
     .kick = compute_kick,
     .guide = compute_guide,

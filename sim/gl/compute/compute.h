@@ -249,6 +249,7 @@ void compute_grid(void *state);
 void compute_drift(void *state, const BoxStep *step);
 void compute_pass(void *state, const Pass *pass, const PassInput *input);
 void compute_kick(void *state, const float gravity[3], float dt);
+Excess compute_excess(void *state, const ColumnDef *column);
 void compute_iterate(void *state, const struct Iteration *iteration, const PassInput *input,
                      StepSolve *solve);
 StepWatch compute_watch(void *state);

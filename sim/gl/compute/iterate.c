@@ -42,11 +42,32 @@ static void begin(const Compute *c, const Iteration *iteration)
     glNamedBufferSubData(c->solve.buffer, 0, sizeof block, &block);
 }
 
-static void decide(Compute *c, const ColumnDef *residual)
+static void sum_up(Compute *c, const ColumnDef *column)
 {
-    glProgramUniform1ui(c->program[COMPUTE_EXCESS], COLUMN_AT, (GLuint)compute_scratch_place(c, residual));
+    glProgramUniform1ui(c->program[COMPUTE_EXCESS], COLUMN_AT, (GLuint)compute_scratch_place(c, column));
     BIND([SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts);
     compute_run(c, COMPUTE_EXCESS, (size_t)COMPUTE_EXCESS_GROUPS * COMPUTE_GROUP);
+}
+
+Excess compute_excess(void *state, const ColumnDef *column)
+{
+    Compute *c = state;
+    float parts[COMPUTE_EXCESS_GROUPS][2]; /* ExcessPart, as it stands there; in C it is of 16 bytes */
+    Excess excess = {0};
+    sum_up(c, column);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(c->parts, 0, sizeof parts, parts);
+    for (int k = 0; k < COMPUTE_EXCESS_GROUPS; k++) {
+        excess.mean += (double)parts[k][0];
+        excess.greatest = parts[k][1] > excess.greatest ? parts[k][1] : excess.greatest;
+    }
+    excess.mean /= c->count > 0 ? (double)c->count : 1;
+    return excess;
+}
+
+static void decide(Compute *c, const ColumnDef *residual)
+{
+    sum_up(c, residual);
     BIND([PARTS_BUFFER] = c->parts, [SOLVE_BUFFER] = c->solve.buffer);
     compute_run(c, COMPUTE_DECIDE, COMPUTE_GROUP);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);

@@ -53,7 +53,7 @@ void compute_pass(void *state, const Pass *pass, const PassInput *input)
     compute_boundary_grid(c); /* behind a drift solids may have moved since */
     if (c->takes_dt[at])
         glProgramUniform1f(c->program[at], PASS_DT_AT, input->dt);
-    if (pass->stage == STAGE_FORCE && input->apparent)
+    if ((pass->stage == STAGE_FORCE || pass->stage == STAGE_INTEGRATE) && input->apparent)
         compute_set_force(c, input);
     if (pass->mirrors && c->constants->solid_count > 0)
         compute_boundary_fill(c);

@@ -28,6 +28,7 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
         {s->tension_model == TENSION_COHESION, "COHESION"},
         {s->no_slip, "NO_SLIP"},
         {s->lid, "LID"},
+        {s->method->leaps, "LEAPS"},
     };
     size_t used = 0;
     if (s->periodic.any)

@@ -41,7 +41,8 @@ StepWatch compute_watch(void *state)
     const WatchBlock *watched = mailbox_wait(&c->watch);
     if (!watched)
         return (StepWatch){.bounded = false};
-    const float fastest = c->constants->support_radius / c->longest,
+    const bool leaps = c->constants->method->leaps;
+    const float fastest = leaps ? 1e18F : c->constants->support_radius / c->longest,
                 speed2 = float_of_bits(watched->greatest_speed2);
     const StepWatch seen = {.bounded = watched->went_too_far == 0 && speed2 <= fastest * fastest,
                             .max_speed = sqrtf(speed2),

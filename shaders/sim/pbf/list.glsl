@@ -1,0 +1,14 @@
+// Lists of neighbours are made before anything moves. Where there are none each pass walks.
+#define LISTS_FIRST
+#include "sim/constants.glsl"
+#include "shaders/sim/pbf/pbf_block.h"
+#include "sim/walk.glsl"
+#define NO_MEETING(j, d, volume)
+
+void make_list(uint i, vec3 x)
+{
+#ifdef LISTS
+    ivec3 at = cell_of(x);
+    WALK_LISTED(i, x, at, NO_MEETING)
+#endif
+}

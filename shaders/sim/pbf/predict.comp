@@ -1,0 +1,15 @@
+// pbf: what gravity does to a free flight, in its middle: predict_body in sim/pbf/passes.c.
+#include "sim/constants.glsl"
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
+layout(location = PASS_DT_AT) uniform float dt;
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec3 fall = 0.5 * dt * dt * kick_gravity;
+    velocity[i].xyz += dt * kick_gravity - cross(felt_omega, fall);
+    position[i].xyz += fall;
+}
