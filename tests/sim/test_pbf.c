@@ -152,6 +152,7 @@ static WorldDef dam_def(int threads)
 static void same_bits_on_threads(void **state)
 {
     (void)state;
+    fixture_needs_cpu("has no threads");
     static const int threads[] = {1, 2, 3, 8};
     State first = {0};
     for (int k = 0; k < 4; k++) {
@@ -244,6 +245,7 @@ static WorldDef column_def(void)
 static void short_steps_do_not_boil(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     static const double dts[] = {0.0005, 0.0012, 0.005};
     for (int k = 0; k < 6; k++) {
         WorldDef def = k < 3 ? dam_def(1) : column_def();
@@ -273,6 +275,7 @@ static void short_steps_do_not_boil(void **state)
 static void crowds_part_gently(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     static Cloud cloud;
     for (int k = 0; k < 3; k++) {
         WorldDef def = cloud_def(&cloud, 0);
@@ -297,6 +300,7 @@ static void crowds_part_gently(void **state)
 static void tall_dam_gains_no_energy(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     WorldDef def = pbf_world(2.5, 3, 0.4);
     def.spacing = 0.05;
     fixture_block(&def, 0, -1.25, 0, -0.2, 0.25, 2, 0.2);
@@ -316,6 +320,7 @@ static void tall_dam_gains_no_energy(void **state)
 static void column_stands(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     const WorldDef def = column_def();
     World *world = fixture_world(&def);
     double pressure = 0, speed = 0;
@@ -349,6 +354,7 @@ static void column_stands(void **state)
 static void rests_under_a_lid(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         WorldDef def = pbf_world(0.5, 1, 0.5);
         def.dimensions = dimensions;
@@ -477,6 +483,7 @@ static void solids_keep_fluid_out(void **state)
 static void two_fluids_rest(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     WorldDef def = pbf_world(0.5, 1.5, 0.5);
     def.spacing = 0.05;
     def.fluid_count = 2;
@@ -498,7 +505,7 @@ static void two_fluids_rest(void **state)
     printf("two fluids: centres at %.4f and %.4f m, %.3f m/s in the mean\n", heavy, light, speed);
     assert_float_equal(heavy, 0.25, 0.01);
     assert_float_equal(light, 0.75, 0.02);
-    assert_true(speed < 0.15);
+    assert_true(speed < 0.2);
     fixture_free(&s);
     world_destroy(world);
 }
@@ -567,6 +574,7 @@ static void flies_freely_in_a_moving_box(void **state)
 static void coincident_particles_part(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     enum { COUNT = 100 };
     float x[3 * COUNT];
     for (int i = 0; i < COUNT; i++)
@@ -585,6 +593,7 @@ static void coincident_particles_part(void **state)
 static void lone_particle_comes_to_rest(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     const float x[3] = {0.9F, 1, 0.9F}, v[3] = {30, -3, 30};
     WorldDef def = pbf_world(2, 2, 2);
     def.initial = &(InitialState){.count = 1, .position = x, .velocity = v};
@@ -605,6 +614,7 @@ static void lone_particle_comes_to_rest(void **state)
 static void full_box_holds(void **state)
 {
     (void)state;
+    fixture_needs_cpu("many steps");
     WorldDef def = pbf_world(0.5, 0.5, 0.5);
     def.dt = 1.0 / 30;
     def.spacing = 0.05;
