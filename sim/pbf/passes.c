@@ -136,7 +136,7 @@ static void pack_growth(const CpuRange *range)
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
     const float dt = range->input->dt, square = dt * dt;
-    const float scale = pbf_constants(s)->relaxation * s->rest_number_density / square,
+    const float scale = dt > 0 ? pbf_constants(s)->relaxation * s->rest_number_density / square : 0,
                 least = s->negative_pressure ? -INFINITY : 0;
     for (size_t i = range->begin; i < range->end; i++) {
         float growth = 0;
@@ -277,7 +277,8 @@ static void number_density(const CpuRange *range)
     cpu_pairs(range, &pbf_images_sums);
 }
 
-/* A new particle was as dense as a step finds it first. */
+/* A new particle was as dense as a step finds it first. What goes on into the next step changes in steps
+   alone: passes run without one (dt = 0) to be timed. */
 static void density_body(const CpuRange *range)
 {
     const Cpu *cpu = range->cpu;
@@ -285,7 +286,7 @@ static void density_body(const CpuRange *range)
     const float later = 1 - PBF_SHARE(range->input->dt);
     number_density(range);
     for (size_t i = range->begin; i < range->end; i++) {
-        if (before[i] == 0)
+        if (before[i] == 0 && range->input->dt > 0)
             before[i] = cpu->now.volume[i] / cpu->constants->rest_number_density;
         finish_density(cpu, i, later);
     }
@@ -377,7 +378,7 @@ static void force_body(const CpuRange *range)
         p->ay[i] += rate * rate * p->own[MOVED + 1][i];
         p->az[i] += rate * rate * p->own[MOVED + 2][i];
         p->pressure[i] = scale * p->own[TERM][i];
-        p->own[BEFORE][i] = p->own[COMPRESSED][i] + 1;
+        p->own[BEFORE][i] = dt > 0 ? p->own[COMPRESSED][i] + 1 : p->own[BEFORE][i];
     }
 }
 

@@ -233,7 +233,7 @@ static void coinciding_pairs_stay_in_the_plane(void **state)
         in_the_plane(&s);
         for (int i = 0; i < PAIRS && m != 1; i++)
             assert_true(hypotf(s.position[8 * i] - s.position[8 * i + 4],
-                               s.position[8 * i + 1] - s.position[8 * i + 5]) > 1e-4F);
+                               s.position[8 * i + 1] - s.position[8 * i + 5]) > 1e-5F);
         fixture_free(&s);
         world_destroy(world);
     }

@@ -10,8 +10,8 @@
 #define PUSHES_BUFFER 7
 
 /* How much of the iteration before goes on. What a step leaves to the solver of density are long waves, which
-   Jacobi without it hardly sees (0.9 shakes the short ones up where a step finds these too); what it leaves to
-   that of divergence are short ones as well. */
+   Jacobi without it hardly sees (0.9 shakes the short ones up where a step finds these too); what it leaves
+   to that of divergence are short ones as well. */
 #define DENSITY_MOMENTUM    0.8F
 #define DIVERGENCE_MOMENTUM 0.6F
 

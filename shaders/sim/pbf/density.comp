@@ -15,7 +15,8 @@ layout(location = PASS_DT_AT) uniform float dt;
 float growth(uint i, float residual, float factor)
 {
     float k = own[OWN_term + i], before = scratch[SCRATCH_change + i];
-    float next = k + relaxation * rest_number_density / (dt * dt) * residual * factor + PBF_MOMENTUM * before;
+    float relaxed = dt > 0.0 ? relaxation * rest_number_density / (dt * dt) : 0.0;
+    float next = k + relaxed * residual * factor + PBF_MOMENTUM * before;
 #ifndef NEGATIVE_PRESSURE
     next = next > 0.0 ? next : 0.0;
 #endif
@@ -39,7 +40,7 @@ void main()
     vec3 x = position[i].xyz;
     sum_up(i, x);
     float mass = fluids[FLUID_OF(i)].mass, n = kernel_scale * heights, ratio = n / rest_number_density;
-    if (own[OWN_before + i] == 0.0)
+    if (own[OWN_before + i] == 0.0 && dt > 0.0)
         own[OWN_before + i] = ratio;
     float residual = ratio - 1.0 - (1.0 - PBF_SHARE(dt)) * max(own[OWN_before + i] - 1.0, 0.0);
     float factor = 1.0 / (dot(slope, slope) / mass + squares + least_squares / mass);

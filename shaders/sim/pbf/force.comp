@@ -43,5 +43,6 @@ void main()
     acceleration[i] = vec4(force / fluids[FLUID_OF(i)].mass + moved / (dt * dt), 0.0);
     velocity[i] = vec4(velocity[i].xyz - dt * kick_gravity, velocity[i].w);
     pressure[i] = vec2(pressure_of_term * k, k);
-    own[OWN_before + i] = scratch[SCRATCH_compressed + i] + 1.0;
+    if (dt > 0.0)
+        own[OWN_before + i] = scratch[SCRATCH_compressed + i] + 1.0;
 }
