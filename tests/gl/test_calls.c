@@ -181,15 +181,15 @@ static void a_step_makes_so_many_calls(void **state)
     count_step("compute, wcsph", &def, (Bounds){11, 0, 110, 1});
     wcsph_def(&def)->delta_sph = wcsph_def(&def)->shifting = 0.1;
     count_step("compute, wcsph, delta_sph, shifting", &def, (Bounds){13, 0, 145, 1});
-    /* a wait each solver and step: it asks at once for as many iterations as the step before had, and two
-     * more */
+    /* A wait each solver and step: it asks at once for as many iterations as the step before had, and more.
+     */
     def = pool_def("compute", "dfsph");
     def.dt = 0.002;
     dfsph_def(&def)->iterations = 1;
-    count_step("compute, dfsph, one iteration each", &def, (Bounds){24, 0, 250, 9});
+    count_step("compute, dfsph, one iteration each", &def, (Bounds){31, 0, 300, 9});
     dfsph_def(&def)->iterations = 100;
     dfsph_def(&def)->tolerance = dfsph_def(&def)->divergence_tolerance = 1e-6;
-    count_step("compute, dfsph", &def, (Bounds){150, 0, 1400, 11});
+    count_step("compute, dfsph", &def, (Bounds){150, 0, 1400, 9});
     def = pool_def("fragment", "mueller");
     count_step("fragment, mueller", &def, (Bounds){42, 29, 560, 1});
 }
