@@ -296,6 +296,35 @@ static void few_particles_feel_nothing(void **state)
     }
 }
 
+/* Within others two at one place part at once, along a direction of the plane in 2D. */
+static void twins_part(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        const int side = 7, count = dimensions == 3 ? side * side * side : side * side;
+        float x[3 * 7 * 7 * 7 + 3] = {0};
+        WorldDef def = fixture_def(2, 2, 2);
+        strcpy(def.method, "dfsph");
+        def.dimensions = dimensions;
+        memset(def.gravity, 0, sizeof def.gravity);
+        for (int i = 0; i < count; i++) {
+            x[3 * i] = (float)(0.1 * (i % side - side / 2));
+            x[3 * i + 1] = (float)(0.1 * (i / side % side - side / 2) + 1);
+            x[3 * i + 2] = dimensions == 3 ? (float)(0.1 * (i / side / side - side / 2)) : 0;
+        }
+        memcpy(x + 3 * count, x + 3 * (count / 2), 3 * sizeof *x);
+        def.initial = &(InitialState){.count = (size_t)count + 1, .position = x};
+        World *world = fixture_world(&def);
+        fixture_step(world, 1);
+        State s = fixture_read(world);
+        const float *a = s.position + 4 * (count / 2), *b = s.position + 4 * count;
+        assert_true(hypotf(hypotf(a[0] - b[0], a[1] - b[1]), a[2] - b[2]) > 1e-3F);
+        assert_true(dimensions == 3 || (a[2] == 0 && b[2] == 0));
+        fixture_free(&s);
+        world_destroy(world);
+    }
+}
+
 /* Particles strewn over a periodic square, with pressure that pulls: gaps are closed by moves of places, no
    velocity comes of them, and both solvers converge. */
 static void what_is_pulled_gains_no_energy(void **state)
@@ -435,6 +464,7 @@ int main(void)
         cmocka_unit_test(column_stands),
         cmocka_unit_test(a_full_box_rests),
         cmocka_unit_test(few_particles_feel_nothing),
+        cmocka_unit_test(twins_part),
         cmocka_unit_test(what_is_pulled_gains_no_energy),
         cmocka_unit_test(goes_on_from_a_saved_state),
         cmocka_unit_test(says_that_it_does_not_converge),
