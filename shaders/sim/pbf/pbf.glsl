@@ -10,11 +10,11 @@
 
 uint self;
 
-// Two at one place are taken for a little apart, along a direction that their ids decide. A macro, so that nobody else
-// reads ids.
+// Two at one place are taken for apart, along a direction that their ids decide, as far as sim/cpu/pair_loop.h has it. A
+// macro, so that nobody else reads ids.
 #define SEPARATE(a, b, d)                        \
     if (dot(d, d) < 1e-12 * support * support)   \
-        d = 1e-6 * support * direction_of_ids(a, b);
+        d = 0.1 * support * direction_of_ids(a, b);
 
 float q_of(vec3 d) { return length(d) * inverse_support; }
 
