@@ -101,7 +101,8 @@ void compute_iterate(void *state, const Iteration *iteration, const PassInput *i
     } while (found && !found->ended && asked < iteration->most);
     *solve = (StepSolve){.tolerance = iteration->tolerance};
     if (found)
-        *solve = (StepSolve){.iterations = found->iterations,
+        *solve = (StepSolve){.iterations = found->ended ? (double)found->iterations
+                                                        : asked, /* a GPU may have done nothing */
                              .mean = (double)found->left_mean,
                              .most = (double)found->left_most,
                              .tolerance = iteration->tolerance};
