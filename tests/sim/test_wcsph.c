@@ -431,7 +431,7 @@ static void column_at_rest(void **state)
 /* Light over heavy, 1 : 10, and heavy over light for comparison: the first stays, the second does not. */
 static double light_height(bool light_above, double *heavy_height)
 {
-    const double width = fixture_coarse(1, 0.5);
+    const double width = fixture_coarse(0.6, 0.5);
     WorldDef def = fixture_def(width, 2, width);
     strcpy(def.method, "wcsph");
     def.sound_speed = fixture_coarse(40, 20);
