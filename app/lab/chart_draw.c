@@ -112,6 +112,27 @@ static bool put_front(const ChartRows *rows, FILE *gnuplot)
     return any;
 }
 
+/* The first line of the same method and backend. */
+static int first_of(const ChartRows *rows, const int opener[], int line)
+{
+    const ChartRow *own = &rows->row[opener[line]];
+    int l = 0;
+    while (strcmp(rows->row[opener[l]].method, own->method) != 0 ||
+           strcmp(rows->row[opener[l]].backend, own->backend) != 0)
+        l++;
+    return l;
+}
+
+/* One a method and backend: its lines of other steps have the same, and other points. */
+static int colour_of(const ChartRows *rows, const int opener[], int line)
+{
+    const int first = first_of(rows, opener, line);
+    int colour = 1;
+    for (int l = 0; l < first; l++)
+        colour += first_of(rows, opener, l) == l;
+    return colour;
+}
+
 static void plot_cost(const ChartRows *rows, const int opener[], int lines, bool front, FILE *gnuplot)
 {
     fputs("set xlabel 'computing time a simulated second, s'\nplot ", gnuplot);
@@ -120,7 +141,7 @@ static void plot_cost(const ChartRows *rows, const int opener[], int lines, bool
         const ChartRow *row = &rows->row[opener[l]];
         chart_line_name(row, title);
         fprintf(gnuplot, "%s$line%d using 1:2 with points pt %d ps 0.9 lt %d title ", l ? ", " : "", l,
-                row->fineness ? 6 : 7, l + 1);
+                row->fineness ? 6 : 7, colour_of(rows, opener, l));
         chart_quote(gnuplot, title);
     }
     if (front)
@@ -143,8 +164,8 @@ static void plot_order(const ChartRows *rows, const int opener[], int lines, dou
             snprintf(title, sizeof title, "%s: no order: %s", name, why);
         else
             snprintf(title, sizeof title, "%s: order %.2f", name, order);
-        fprintf(gnuplot, "%s$line%d using 3:2 with linespoints lw 1.5 pt %d lt %d title ", l ? ", " : "", l,
-                row->fineness ? 6 : 7, l + 1);
+        fprintf(gnuplot, "%s$line%d using 3:2 with linespoints lw 1.5 pt %d dt %d lt %d title ",
+                l ? ", " : "", l, row->fineness ? 6 : 7, row->fineness ? 2 : 1, colour_of(rows, opener, l));
         chart_quote(gnuplot, title);
     }
 }

@@ -3,6 +3,7 @@
 #include "app/base/interrupt.h"
 #include "app/scene/keys.h"
 #include "sim/base/stage.h"
+#include "sim/world/method.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -80,6 +81,9 @@ static bool job_settings(const ChartSubject *subject, const ChartJob *job, JobSe
         const double number = def->cfl_number / (1 << job->fineness);
         snprintf(row->step, NAME_SIZE, "number %.3g", number);
         ok = ok && add(settings, error, "solver.step.number=%.9g", number);
+        if (method_find(def->method)->incompressible) /* max_dt is what bounds a fluid that is slow */
+            ok = ok && add(settings, error, "solver.step.max_dt=%.9g",
+                           def->max_dt * sqrt(job->coarsening) / (1 << job->fineness));
     } else {
         const int substeps = (int)ceil(def->substeps * (1 << job->fineness) / job->coarsening - 1e-6);
         snprintf(row->step, NAME_SIZE, "%.3g ms", 1000 * def->dt / substeps);

@@ -67,12 +67,14 @@ static double greatest_spacing(const Scene *scene)
 }
 
 /* The step that a scene has chosen for its spacing, or NULL: a fixed one, and the longest of a method that
-   has no sound to bound it. Steps by Courant number go with the spacing by themselves. */
-static double *step_chosen(Scene *scene, const char **key)
+   has no sound to bound it, which goes as the time of a fall through a spacing. Steps by Courant number go
+   with the spacing by themselves. */
+static double *step_chosen(Scene *scene, const char **key, double *scale)
 {
     WorldDef *world = &scene->world;
     const bool fixed = world->step_mode == STEP_FIXED;
     *key = fixed ? "solver.step.dt" : "solver.step.max_dt";
+    *scale = fixed ? *scale : sqrt(*scale);
     return fixed ? &world->dt : method_find(world->method)->incompressible ? &world->max_dt : NULL;
 }
 
@@ -82,8 +84,7 @@ static void step_follow(const Tree *tree, Scene *scene, const SceneSettings *set
 {
     char with[160] = "";
     const char *key;
-    const double scale = best->spacing / scene->world.spacing;
-    double *step = step_chosen(scene, &key);
+    double scale = best->spacing / scene->world.spacing, *step = step_chosen(scene, &key, &scale);
     const Node *given = tree_at(tree, key);
     scene->world.spacing = best->spacing;
     if (step && !(given && given->said)) {

@@ -145,7 +145,8 @@ static void particles_choose_the_spacing_and_scale_the_step(void **state)
     assert_true(scene.world.max_dt == world_def_default().max_dt);
     settings.set[settings.count++] = "solver.method=dfsph";
     assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
-    assert_float_equal(scene.world.max_dt, world_def_default().max_dt * scene.world.spacing / 0.1, 1e-9);
+    assert_float_equal(scene.world.max_dt, world_def_default().max_dt * sqrt(scene.world.spacing / 0.1),
+                       1e-9);
     settings.set[settings.count++] = "solver.step.max_dt=0.004";
     assert_true(scene_parse("s", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
     assert_true(scene.world.max_dt == 0.004);
