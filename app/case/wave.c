@@ -70,7 +70,7 @@ const Case case_wave = {
     .scene = "scenes/cases/standing_wave.yaml",
     .methods = {{.name = "wcsph"},
                 {.name = "mueller", .tolerance = {0.06, 0.07}, .coarse = {0.4, 0.08}},
-                {.name = "dfsph", .tolerance = {0.7, 0.06}, .coarse = {2.5, 0.035}},
+                {.name = "dfsph", .tolerance = {0.7, 0.08}, .coarse = {2.5, 0.06}},
                 {.name = "pbf",
                  .left_out = "steps of 1/60 s damp the wave two to three times as much as friction does"}},
     .spacing = {0.05, 0.025, 0.0125},
