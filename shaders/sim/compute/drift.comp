@@ -43,17 +43,17 @@ uint fly(uint i)
             continue;
 #endif
         float low = a == 1 ? 0.0 : -half_size[a], high = a == 1 ? 2.0 * half_size.y : half_size[a];
-        if (!(x[a] < low || x[a] > high))
-            continue;
-        held = true;
+        if (x[a] < low || x[a] > high) {
+            held = true;
 #ifdef LEAPS // walls_fold of sim/box/wall.c
-        float from = x[a];
-        x[a] = from < low ? min(low + folded(low - from), high) : max(high - folded(from - high), low);
-        v[a] += 0.5 / dt * (x[a] - from);
+            float from = x[a];
+            x[a] = from < low ? min(low + folded(low - from), high) : max(high - folded(from - high), low);
+            v[a] += 0.5 / dt * (x[a] - from);
 #else
-        v[a] = x[a] < low ? max(v[a], 0.0) : min(v[a], 0.0);
-        x[a] = x[a] < low ? low : high;
+            v[a] = x[a] < low ? max(v[a], 0.0) : min(v[a], 0.0);
+            x[a] = x[a] < low ? low : high;
 #endif
+        }
     }
     if (held)
         times++;
