@@ -1,5 +1,6 @@
 /* Whether the step fits what a scene asks for: friction and sound, by sim/world/step_control.h. */
 #include "app/scene/advise_parts.h"
+#include "sim/matter/fall.h"
 #include "sim/world/step_control.h"
 
 #include <math.h>
@@ -53,59 +54,15 @@ void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
             1e3 * step, step_sound(&def),
             step_sound(&def) > def.sound_speed ? " (of light fluid beside heavy)" : "", 1e3 * crossing,
             substeps_for(&def, STEP_SOUND_CALM * crossing));
+    else if (def.step_mode == STEP_FIXED && step > step_pressure(&def) * (1 + 1e-9))
+        advise(
+            tree, "solver.step.dt", notes,
+            "the step of %.3g ms is too long for the pressure of fluid that is %.3g m deep: from %.3g ms on it "
+            "boils; use %g substeps or more",
+            1e3 * step, greatest_fall(&def), 1e3 * step_pressure(&def),
+            substeps_for(&def, step_pressure(&def)));
     else if (def.step_mode == STEP_FIXED)
         advise_viscous(tree, &def, &friction, notes);
-}
-
-/* How high a place is against gravity, m above the box's origin. */
-static double height_of(const double gravity[3], const double x[3])
-{
-    double sum = 0, length = 0;
-    for (int k = 0; k < 3; k++) {
-        sum -= gravity[k] * x[k];
-        length += gravity[k] * gravity[k];
-    }
-    return length > 0 ? sum / sqrt(length) : 0;
-}
-
-/* The greatest or least height of a block's corners: of the sign's side. */
-static double block_height(const double gravity[3], const double min[3], const double max[3], double sign)
-{
-    double corner[3];
-    for (int k = 0; k < 3; k++)
-        corner[k] = (gravity[k] < 0) == (sign > 0) ? max[k] : min[k];
-    return height_of(gravity, corner);
-}
-
-static double fill_top(const WorldDef *def, const Fill *fill, const double low[3], const double high[3])
-{
-    double min[3], max[3];
-    for (int k = 0; k < 3; k++) {
-        const double reach = fill->radius + (fill->kind == FILL_CYLINDER ? 0.5 * fill->height : 0);
-        const bool block = fill->kind == FILL_BLOCK;
-        min[k] = fmax(low[k], block ? fill->min[k] : fill->centre[k] - reach);
-        max[k] = fmin(high[k], block ? fill->max[k] : fill->centre[k] + reach);
-    }
-    return block_height(def->gravity, min, max, 1);
-}
-
-/* How far fluid can fall in the box from where it starts, m; 0 without fluid or gravity. */
-static double greatest_fall(const WorldDef *def)
-{
-    double low[3], high[3], top = -INFINITY;
-    for (int k = 0; k < 3; k++) {
-        low[k] = k == 1 ? 0 : -0.5 * def->box_size[k];
-        high[k] = low[k] + def->box_size[k];
-    }
-    const double bottom = block_height(def->gravity, low, high, -1);
-    for (int f = 0; f < def->fluid_count; f++) {
-        const FluidDef *fluid = &def->fluids[f];
-        for (int i = 0; i < fluid->fill_count; i++)
-            top = fmax(top, fill_top(def, &fluid->fills[i], low, high));
-        for (int i = 0; i < fluid->emit_count; i++)
-            top = fmax(top, height_of(def->gravity, fluid->emits[i].centre));
-    }
-    return fmax(top - bottom, 0);
 }
 
 static double greatest_start(const WorldDef *def)
@@ -125,8 +82,8 @@ void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)
     static const double least = 1.75, good = 3; /* of c over the speed of the flow: pressed by 18 and 6 % */
     const WorldDef *def = &scene->world;
     const double *a = def->gravity, g = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    const double fall = greatest_fall(def), start = greatest_start(def), c = def->sound_speed;
-    const double speed = sqrt(start * start + 2 * g * fall);
+    const double start = greatest_start(def), c = def->sound_speed;
+    const double speed = sqrt(start * start + 2 * g * greatest_fall(def));
     if (!method_find(def->method)->incompressible && c < least * speed)
         advise(
             tree, "solver.sound_speed", notes,

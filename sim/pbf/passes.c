@@ -255,7 +255,7 @@ static void pack_place(const CpuRange *range)
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
 }
 
-/* `later`: the part of what the step began with that it is to leave. */
+/* `later`: the part of what the step began with that it is to leave; of gaps too where pressure pulls. */
 static void finish_density(const Cpu *cpu, size_t i, float later)
 {
     const CpuParticles *p = &cpu->now;
@@ -264,7 +264,8 @@ static void finish_density(const Cpu *cpu, size_t i, float later)
     const float d = (sx * sx + sy * sy + sz * sz) * w + p->own[SQUARES][i],
                 ratio = p->volume[i] / s->rest_number_density;
     p->own[FACTOR][i] = 1 / (d + pbf_constants(s)->least_squares * w);
-    const float e = ratio - 1 - later * fmaxf(p->own[BEFORE][i] - 1, 0);
+    const float before = p->own[BEFORE][i] - 1;
+    const float e = ratio - 1 - later * (s->negative_pressure ? before : fmaxf(before, 0));
     p->own[COMPRESSED][i] = ratio - 1;
     p->own[RESIDUAL][i] = e;
     p->own[MISS][i] = p->own[TERM][i] > 0 || s->negative_pressure ? fabsf(e) : fmaxf(e, 0);

@@ -1,5 +1,7 @@
 #include "sim/world/step_control.h"
 
+#include "sim/matter/fall.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -131,6 +133,16 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
         snprintf(words, 200, "use %s", shorter);
 }
 
+double step_pressure(const WorldDef *def)
+{
+    const Method *method = method_find(def->method);
+    const double *g = def->gravity, fall = greatest_fall(def),
+                 speed = sqrt(sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) * fall);
+    return method->incompressible && !method->leaps
+               ? STEP_PRESSURE_STANDS * def->support * def->spacing / speed
+               : INFINITY;
+}
+
 double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,
                 double before, StepLimit *binding)
 {
@@ -143,6 +155,7 @@ double step_cfl(const WorldDef *def, const StepFriction *friction, double max_sp
         [STEP_LIMIT_VISCOUS] = fmin(2 * number, STEP_VISCOUS_STANDS) * step_viscous(def, friction),
         [STEP_LIMIT_MAX_DT] = def->max_dt,
         [STEP_LIMIT_GROWTH] = before > 0 ? GROWTH * before : FIRST * fmin(courant, def->max_dt),
+        [STEP_LIMIT_PRESSURE] = step_pressure(def),
     };
     *binding = STEP_LIMIT_DT;
     for (int i = 0; i < STEP_LIMIT_COUNT; i++)

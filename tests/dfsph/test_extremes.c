@@ -184,9 +184,35 @@ static void a_tolerance_of_nothing_ends(void **state)
     }
 }
 
+/* Steps by number let themselves be long where nothing moves; without STEP_LIMIT_PRESSURE this column is
+   pressed by 29 % in the mean. */
+static void deep_fluid_at_rest_does_not_boil(void **state)
+{
+    (void)state;
+    WorldDef def = def_in(3, 0.3, 1.5, 0.3);
+    WorldInfo info;
+    def.spacing = 0.05;
+    def.step_mode = STEP_CFL;
+    def.cfl_number = 0.3;
+    def.max_dt = 0.02;
+    fixture_block(&def, 0, -0.15, 0, -0.15, 0.15, 1, 0.15);
+    World *world = fixture_world(&def);
+    fixture_step(world, 250);
+    State s = fixture_read(world);
+    double pressed = 0;
+    for (size_t i = 0; i < s.count; i++)
+        pressed += fmax((double)s.density[i] / 1000 - 1, 0) / (double)s.count;
+    world_info(world, &info);
+    printf("steps of %.3g ms: pressed by %.3g %%\n", 1e3 * info.dt, 100 * pressed);
+    assert_true(pressed < 0.001 && info.limited[STEP_LIMIT_PRESSURE] > 100);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(deep_fluid_at_rest_does_not_boil),
         cmocka_unit_test(a_column_hangs_on_the_lid_as_on_the_floor),
         cmocka_unit_test(a_jet_falls_on_the_floor),
         cmocka_unit_test(a_box_at_the_limits_of_a_hand_holds),

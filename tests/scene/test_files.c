@@ -4,6 +4,7 @@
 #include "app/base/path.h"
 #include "sim/gl/backends.h"
 #include "sim/matter/seed.h"
+#include "sim/world/step_control.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -66,11 +67,11 @@ static void check_scene(const char *name)
         assert_true(count >= (scene.world.dimensions == 2 ? 1000u : 5000u) && count <= 30000);
     assert_true(*scene.title);
     /* A substep must not let sound and the fastest flow (a third of it) cross much more than half of h. Where
-       no sound bounds it, dfsph boils from 0.11 times sqrt(h / g) on. */
+       no sound bounds it, pressure does where fluid is deep. */
     const double h = scene.world.support * scene.world.spacing,
                  substep = scene.world.dt / scene.world.substeps;
     if (method_find(scene.world.method)->incompressible) {
-        if (scene.world.max_dt > 0.1 * sqrt(h / -scene.world.gravity[1]))
+        if (scene.world.step_mode == STEP_FIXED && substep > step_pressure(&scene.world))
             fail_msg("%s: the step is too long", name);
     } else if (substep * scene.world.sound_speed * 4 / 3 > h)
         fail_msg("%s: the substep is too long for its sound_speed", name);

@@ -38,6 +38,12 @@ static void each_limit_binds(void **state)
     assert_true(fabs(step_cfl(&def, &friction, 0, 0, 0, &limit) - 0.1 * 0.3 * 0.21 / 20) <
                 1e-12); /* the first one */
     assert_int_equal(limit, STEP_LIMIT_GROWTH);
+    strcpy(def.method, "dfsph");
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.5, 0.5);
+    assert_true(fabs(step_cfl(&def, &friction, 0, 0, 1, &limit) - 0.25 * 0.21 / sqrt(9.81 * 0.5)) < 1e-12);
+    assert_int_equal(limit, STEP_LIMIT_PRESSURE);
+    strcpy(def.method, "pbf");
+    assert_true(step_cfl(&def, &friction, 0, 0, 1, &limit) == 1);
     for (int i = 0; i < STEP_LIMIT_COUNT; i++)
         assert_non_null(step_limit_name((StepLimit)i));
 }

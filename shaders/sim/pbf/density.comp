@@ -12,6 +12,13 @@ layout(std430, binding = MOTIONS_BUFFER) writeonly buffer Motions { vec4 motion[
 layout(location = PASS_DT_AT) uniform float dt;
 #include "sim/pbf/sums.glsl"
 
+// What a step shares with those to come: where pressure pulls, gaps too.
+#ifdef NEGATIVE_PRESSURE
+float found(float before) { return before; }
+#else
+float found(float before) { return max(before, 0.0); }
+#endif
+
 float growth(uint i, float residual, float factor)
 {
     float k = own[OWN_term + i], before = scratch[SCRATCH_change + i];
@@ -42,7 +49,7 @@ void main()
     float mass = fluids[FLUID_OF(i)].mass, n = kernel_scale * heights, ratio = n / rest_number_density;
     if (own[OWN_before + i] == 0.0 && dt > 0.0)
         own[OWN_before + i] = ratio;
-    float residual = ratio - 1.0 - (1.0 - PBF_SHARE(dt)) * max(own[OWN_before + i] - 1.0, 0.0);
+    float residual = ratio - 1.0 - (1.0 - PBF_SHARE(dt)) * found(own[OWN_before + i] - 1.0);
     float factor = 1.0 / (dot(slope, slope) / mass + squares + least_squares / mass);
     float change = growth(i, residual, factor);
     scratch[SCRATCH_compressed + i] = ratio - 1.0;
