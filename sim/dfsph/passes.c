@@ -129,24 +129,37 @@ static void divergence_end(const CpuRange *range)
     }
 }
 
+/* What the box does to a particle until the middle of the next step, and the kick's gravity, m/s2. */
+static void felt_at(const PassInput *input, float kicked, const float x[3], float g[3])
+{
+    apparent_gravity_at(input->apparent, x, g);
+    for (int k = 0; k < 3; k++)
+        g[k] = 0.5F * (g[k] - input->gravity[k]) + kicked * input->gravity[k];
+}
+
+static bool turning(const ApparentGravity *apparent)
+{
+    const float *a = apparent->alpha, *w = apparent->omega;
+    return a[0] != 0 || a[1] != 0 || a[2] != 0 || w[0] != 0 || w[1] != 0 || w[2] != 0;
+}
+
 /* The velocities with which the particles come to the middle of the next step: by all accelerations, and by
    half of what the box does to them meanwhile, in the halves of the drift. */
 static void pack_motion(const CpuRange *range, float kicked)
 {
-    const CpuParticles *p = &range->cpu->now;
+    const CpuParticles p = range->cpu->now; /* pointers at hand: `motion` may be anything to the compiler */
     const PassInput *input = range->input;
-    const float dt = input->dt;
+    const bool turns = turning(input->apparent);
+    float(*motion)[4] = range->cpu->motion, g[3];
+    felt_at(input, kicked, (float[]){0, 0, 0}, g); /* all places' where the box does not turn */
     for (size_t i = range->begin; i < range->end; i++) {
-        const float t = of_fluid(range->cpu, i) ? dt : 0; /* those of solids have their own */
-        const float x[3] = {p->x[i], p->y[i], p->z[i]};
-        float g[3];
-        apparent_gravity_at(input->apparent, x, g);
-        for (int k = 0; k < 3; k++)
-            g[k] = 0.5F * (g[k] - input->gravity[k]) + kicked * input->gravity[k];
-        memcpy(range->cpu->motion[i],
-               (float[]){p->vx[i] + t * (p->ax[i] + g[0]), p->vy[i] + t * (p->ay[i] + g[1]),
-                         p->vz[i] + t * (p->az[i] + g[2]), p->volume[i]},
-               16);
+        const float t = p.fluid[i] < FLUIDS_MAX ? input->dt : 0; /* those of solids have their own */
+        if (turns)
+            felt_at(input, kicked, (float[]){p.x[i], p.y[i], p.z[i]}, g);
+        motion[i][0] = p.vx[i] + t * (p.ax[i] + g[0]);
+        motion[i][1] = p.vy[i] + t * (p.ay[i] + g[1]);
+        motion[i][2] = p.vz[i] + t * (p.az[i] + g[2]);
+        motion[i][3] = p.volume[i];
     }
 }
 
