@@ -126,6 +126,9 @@ static void divergence_end(const CpuRange *range)
     for (size_t i = range->begin; i < range->end; i++) {
         p->own[KEPT][i] = p->pressure_term[i];
         p->pressure[i] = dfsph_constants(range->cpu->constants)->pressure_of_term * p->pressure_term[i];
+        p->ax[i] += p->own[OTHER][i];
+        p->ay[i] += p->own[OTHER + 1][i];
+        p->az[i] += p->own[OTHER + 2][i];
     }
 }
 
@@ -143,23 +146,25 @@ static bool turning(const ApparentGravity *apparent)
     return a[0] != 0 || a[1] != 0 || a[2] != 0 || w[0] != 0 || w[1] != 0 || w[2] != 0;
 }
 
-/* The velocities with which the particles come to the middle of the next step: by all accelerations, and by
-   half of what the box does to them meanwhile, in the halves of the drift. */
-static void pack_motion(const CpuRange *range, float kicked)
+/* The velocities with which the particles would come to the middle of the next step without the solver at
+   work: by accelerations that are not its own (`by`), and by half of what the box does to them meanwhile, in
+   the halves of the drift. */
+static void begin_motion(const CpuRange *range, float kicked, int by)
 {
-    const CpuParticles p = range->cpu->now; /* pointers at hand: `motion` may be anything to the compiler */
+    const CpuParticles p =
+        range->cpu->now; /* pointers at hand: what is written may be anything to the compiler */
     const PassInput *input = range->input;
     const bool turns = turning(input->apparent);
-    float(*motion)[4] = range->cpu->motion, g[3];
+    float *const *base = p.own + BASE, *const *more = by ? p.own + by : NULL, g[3];
     felt_at(input, kicked, (float[]){0, 0, 0}, g); /* all places' where the box does not turn */
     for (size_t i = range->begin; i < range->end; i++) {
-        const float t = p.fluid[i] < FLUIDS_MAX ? input->dt : 0; /* those of solids have their own */
+        const bool solid = p.fluid[i] >= FLUIDS_MAX; /* has its own */
+        const float v[3] = {p.vx[i], p.vy[i], p.vz[i]}, t = solid ? 0 : input->dt;
         if (turns)
             felt_at(input, kicked, (float[]){p.x[i], p.y[i], p.z[i]}, g);
-        motion[i][0] = p.vx[i] + t * (p.ax[i] + g[0]);
-        motion[i][1] = p.vy[i] + t * (p.ay[i] + g[1]);
-        motion[i][2] = p.vz[i] + t * (p.az[i] + g[2]);
-        motion[i][3] = p.volume[i];
+        for (int k = 0; k < 3; k++)
+            range->cpu->motion[i][k] = base[k][i] = v[k] + t * (g[k] + (more && !solid ? more[k][i] : 0));
+        range->cpu->motion[i][3] = p.volume[i];
     }
 }
 
@@ -180,12 +185,12 @@ static void density_begin(const CpuRange *range)
 
 static void divergence_motion(const CpuRange *range)
 {
-    pack_motion(range, 1);
+    begin_motion(range, 1, OTHER);
 }
 
 static void density_motion(const CpuRange *range)
 {
-    pack_motion(range, 0);
+    begin_motion(range, 0, 0);
 }
 
 /* A step's move is a part of a spacing: no guard of solids looks at it. */
@@ -252,10 +257,22 @@ static void push(const CpuRange *range)
     }
 }
 
+static void go_on(const CpuRange *range)
+{
+    const CpuParticles p = range->cpu->now;
+    float(*motion)[4] = range->cpu->motion;
+    const float dt = range->input->dt;
+    for (size_t i = range->begin; i < range->end; i++) {
+        motion[i][0] = p.own[BASE][i] + dt * p.ax[i];
+        motion[i][1] = p.own[BASE + 1][i] + dt * p.ay[i];
+        motion[i][2] = p.own[BASE + 2][i] + dt * p.az[i];
+    }
+}
+
 static void density_push(const CpuRange *range)
 {
     push(range);
-    density_motion(range);
+    go_on(range);
 }
 
 /* What boundary particles push with for themselves. */
@@ -272,16 +289,10 @@ static void push_solids(const CpuRange *range)
 
 static void divergence_push(const CpuRange *range)
 {
-    const CpuParticles *p = &range->cpu->now;
     push(range);
-    if (p->own[SOLID_SLOPE])
+    if (range->cpu->now.own[SOLID_SLOPE])
         push_solids(range);
-    for (size_t i = range->begin; i < range->end; i++) {
-        p->ax[i] += p->own[OTHER][i];
-        p->ay[i] += p->own[OTHER + 1][i];
-        p->az[i] += p->own[OTHER + 2][i];
-    }
-    divergence_motion(range);
+    go_on(range);
 }
 
 /* And how they come nearer, mirrored. */
@@ -358,22 +369,22 @@ static const CpuPass rates[] = {
         .writes = WRITES                                                                                     \
     }
 
-#define PUSH_READS "position velocity id fluid volume pressure_term residual factor inverse_mass change"
+#define PUSH_READS "position id fluid base pressure_term residual factor inverse_mass change"
 #define RATE_READS "position id fluid volume pressure_term"
 
 const Pass dfsph_divergence_begin =
-    SOLVE("divergence begin", begins[0], "divergence_begin",
-          "position velocity fluid volume acceleration kept_term", "pressure_term residual change");
-const Pass dfsph_divergence_push =
-    SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " other solid_slope",
-          "pressure_term acceleration change");
+    SOLVE("divergence begin", begins[0], "divergence_begin", "position velocity fluid volume other kept_term",
+          "pressure_term residual change base");
+const Pass dfsph_divergence_push = SOLVE("divergence push", pushes[0], "divergence_push",
+                                         PUSH_READS " solid_slope", "pressure_term acceleration change");
 const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], "divergence_rate",
                                          RATE_READS " solid_slope solid_flow", "residual miss");
 const Pass dfsph_divergence_end =
-    SOLVE("divergence end", ends[0], "divergence_end", "pressure_term", "kept_term pressure");
+    SOLVE("divergence end", ends[0], "divergence_end", "pressure_term acceleration other",
+          "kept_term pressure acceleration");
 const Pass dfsph_density_begin =
     SOLVE("density begin", begins[1], "density_begin", "position velocity fluid volume acceleration",
-          "pressure_term residual change other acceleration");
+          "pressure_term residual change other acceleration base");
 const Pass dfsph_density_push =
     SOLVE("density push", pushes[1], "density_push", PUSH_READS, "pressure_term acceleration change");
 const Pass dfsph_density_rate = SOLVE("density rate", rates[1], "density_rate", RATE_READS, "residual miss");
@@ -401,6 +412,7 @@ const ColumnDef dfsph_columns[] = {
     {"miss", "", OWN(MISS), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
+    {"base", "m/s", OWN(BASE), 3, COLUMN_FLOAT},
     {"solid_slope", "1/m4", OWN(SOLID_SLOPE), 3, COLUMN_FLOAT, .needed = with_solids},
     {"solid_flow", "1/(m3 s)", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = with_solids},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,

@@ -29,6 +29,7 @@ enum {
     OTHER,        /* accelerations but those of the solver at work, m/s2: 3 */
     SOLID_SLOPE = OTHER + 3,      /* sum F x_ib over boundary particles b, 1/m4: 3 */
     SOLID_FLOW = SOLID_SLOPE + 3, /* sum F v_b . x_ib over them, 1/(m3 s) */
+    BASE, /* velocities in the middle of the next step by all but the solver at work, m/s: 3 */
 };
 
 extern const ColumnDef dfsph_columns[];
