@@ -133,11 +133,11 @@ static void divergence_end(const CpuRange *range)
 }
 
 /* What the box does to a particle until the middle of the next step, and the kick's gravity, m/s2. */
-static void felt_at(const PassInput *input, float kicked, const float x[3], float g[3])
+static void felt_at(const PassInput *input, bool before_kick, const float x[3], float g[3])
 {
     apparent_gravity_at(input->apparent, x, g);
     for (int k = 0; k < 3; k++)
-        g[k] = 0.5F * (g[k] - input->gravity[k]) + kicked * input->gravity[k];
+        g[k] = 0.5F * (g[k] - input->gravity[k]) + (before_kick ? input->gravity[k] : 0);
 }
 
 static bool turning(const ApparentGravity *apparent)
@@ -147,21 +147,21 @@ static bool turning(const ApparentGravity *apparent)
 }
 
 /* The velocities with which the particles would come to the middle of the next step without the solver at
-   work: by accelerations that are not its own (`by`), and by half of what the box does to them meanwhile, in
-   the halves of the drift. */
-static void begin_motion(const CpuRange *range, float kicked, int by)
+   work: before the kick by accelerations but those of pressure, and by half of what the box does to them
+   meanwhile, in the halves of the drift. */
+static void begin_motion(const CpuRange *range, bool before_kick)
 {
     const CpuParticles p =
         range->cpu->now; /* pointers at hand: what is written may be anything to the compiler */
     const PassInput *input = range->input;
     const bool turns = turning(input->apparent);
-    float *const *base = p.own + BASE, *const *more = by ? p.own + by : NULL, g[3];
-    felt_at(input, kicked, (float[]){0, 0, 0}, g); /* all places' where the box does not turn */
+    float *const *base = p.own + BASE, *const *more = before_kick ? p.own + OTHER : NULL, g[3];
+    felt_at(input, before_kick, (float[]){0, 0, 0}, g); /* all places' where the box does not turn */
     for (size_t i = range->begin; i < range->end; i++) {
         const bool solid = p.fluid[i] >= FLUIDS_MAX; /* has its own */
         const float v[3] = {p.vx[i], p.vy[i], p.vz[i]}, t = solid ? 0 : input->dt;
         if (turns)
-            felt_at(input, kicked, (float[]){p.x[i], p.y[i], p.z[i]}, g);
+            felt_at(input, before_kick, (float[]){p.x[i], p.y[i], p.z[i]}, g);
         for (int k = 0; k < 3; k++)
             range->cpu->motion[i][k] = base[k][i] = v[k] + t * (g[k] + (more && !solid ? more[k][i] : 0));
         range->cpu->motion[i][3] = p.volume[i];
@@ -185,12 +185,12 @@ static void density_begin(const CpuRange *range)
 
 static void divergence_motion(const CpuRange *range)
 {
-    begin_motion(range, 1, OTHER);
+    begin_motion(range, true);
 }
 
 static void density_motion(const CpuRange *range)
 {
-    begin_motion(range, 0, 0);
+    begin_motion(range, false);
 }
 
 /* A step's move is a part of a spacing: no guard of solids looks at it. */

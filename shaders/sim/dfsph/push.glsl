@@ -1,5 +1,5 @@
 // dfsph, of both solvers: accelerations by k, then the velocities with which particles come to the middle of the next step:
-// dfsph_push in sim/dfsph/pairs.c, dfsph_images_push in sim/dfsph/pairs_images.c, pack_motion in sim/dfsph/passes.c.
+// dfsph_push in sim/dfsph/pairs.c, begin_motion and go_on in sim/dfsph/passes.c.
 #define LISTS_LATER
 #define PLACES near
 #include "sim/dfsph/dfsph.glsl"

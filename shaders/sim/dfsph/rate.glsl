@@ -1,5 +1,5 @@
 // dfsph, of both solvers: what is left of the residual, and k of the next iteration by it, Jacobi's step and a part of the
-// step before: dfsph_rate in sim/dfsph/pairs.c, dfsph_images_rate in sim/dfsph/pairs_images.c, rate and pack_place in
+// step before: dfsph_rate in sim/dfsph/pairs.c, rate and pack_place in
 // sim/dfsph/passes.c.
 #define LISTS_LATER
 #define PLACES near
