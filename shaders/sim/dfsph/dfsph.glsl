@@ -1,27 +1,10 @@
-// What the passes of dfsph share: the kernel, the walk, images. Symbols are those of sim/dfsph/passes.h.
-#define KERNEL_WENDLAND_C2 1
-#include "sim/constants.glsl"
+// What the passes of dfsph's solvers share. A boundary particle has the particle's k and its solid's velocity, mirrored, where
+// velocities are at stake, and no k where places are: sim/dfsph/passes.h.
 #include "shaders/sim/dfsph/dfsph_block.h"
-#include "sim/shapes.glsl"
-#include "sim/images.glsl"
-#include "sim/walk.glsl"
-#include "sim/pair_direction.glsl"
-#define BOUNDARY_ID 0x80000000u
 #ifdef DIVERGENCE
 #define BOUNDARY_TIMES 2.0
+#define MOMENTUM DIVERGENCE_MOMENTUM
 #else
-#define BOUNDARY_TIMES 1.0
+#define MOMENTUM DENSITY_MOMENTUM
 #endif
-
-uint self;
-
-// Two at one place are taken for apart, along a direction that their ids decide, as far as sim/cpu/pair_loop.h has it. A
-// macro, so that nobody else reads ids.
-#define SEPARATE(a, b, d)                        \
-    if (dot(d, d) < 1e-12 * support * support)   \
-        d = 0.1 * support * direction_of_ids(a, b);
-
-float q_of(vec3 d) { return length(d) * inverse_support; }
-
-// Of an image next to its particle: not 0.
-float image_q(vec3 d) { return max(q_of(d), 1e-6); }
+layout(location = PASS_DT_AT) uniform float dt;

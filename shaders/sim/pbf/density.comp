@@ -1,16 +1,17 @@
-// pbf: the number density behind an iteration, and what k grows by in the next one, Jacobi's step and a part of the step
-// before: density_body, finish_density, grown and pack_motion in sim/pbf/passes.c.
+// pbf: the number density behind an iteration, and what k grows by in the next one: density_body, finish_density, grown and
+// pack_motion in sim/pbf/passes.c.
 #define LISTS_LATER
-#include "sim/pbf/pbf.glsl"
+#define MOMENTUM PBF_MOMENTUM
+#include "shaders/sim/pbf/pbf_block.h"
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };       // w: volume
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };     // w: volume
+layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };           // w: what k grows by, times dt^2
+layout(std430, binding = MOTIONS_BUFFER) writeonly buffer Motions { vec4 motion[]; };   // velocities at the step's end, volume
+layout(location = PASS_DT_AT) uniform float dt;
+#include "sim/incompressible/sums.glsl"
+#include "sim/incompressible/jacobi.glsl"
 #include "sim/own.glsl"
 #include "sim/scratch.glsl"
-layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };       // w: volume
-layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
-layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };      // w: volume
-layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };            // w: what k grows by, times dt^2
-layout(std430, binding = MOTIONS_BUFFER) writeonly buffer Motions { vec4 motion[]; };    // velocities at the step's end, volume
-layout(location = PASS_DT_AT) uniform float dt;
-#include "sim/pbf/sums.glsl"
 
 // What a step shares with those to come: where pressure pulls, gaps too.
 #ifdef NEGATIVE_PRESSURE
@@ -19,41 +20,21 @@ float found(float before) { return before; }
 float found(float before) { return max(before, 0.0); }
 #endif
 
-float growth(uint i, float residual, float factor)
-{
-    float k = own[OWN_term + i], before = scratch[SCRATCH_change + i];
-    float relaxed = dt > 0.0 ? relaxation * rest_number_density / (dt * dt) : 0.0;
-    float next = k + relaxed * residual * factor + PBF_MOMENTUM * before;
-#ifndef NEGATIVE_PRESSURE
-    next = next > 0.0 ? next : 0.0;
-#endif
-    return next - k;
-}
-
-float miss_of(float residual, float term)
-{
-#ifdef NEGATIVE_PRESSURE
-    return abs(residual);
-#else
-    return term > 0.0 ? abs(residual) : residual < 0.0 ? 0.0 : residual;
-#endif
-}
-
 void main()
 {
     uint i = invocation();
     if (i >= particle_count())
         return;
     vec3 x = position[i].xyz;
-    sum_up(i, x);
+    walk_pairs(i, x);
     float mass = fluids[FLUID_OF(i)].mass, n = kernel_scale * heights, ratio = n / rest_number_density;
     if (own[OWN_before + i] == 0.0 && dt > 0.0)
         own[OWN_before + i] = ratio;
     float residual = ratio - 1.0 - (1.0 - PBF_SHARE(dt)) * found(own[OWN_before + i] - 1.0);
-    float factor = 1.0 / (dot(slope, slope) / mass + squares + least_squares / mass);
-    float change = growth(i, residual, factor);
+    float factor = 1.0 / (dot(whole, whole) / mass + squares + least_squares / mass);
+    float k = own[OWN_term + i], change = next_term(k, residual, factor, scratch[SCRATCH_change + i]) - k;
     scratch[SCRATCH_compressed + i] = ratio - 1.0;
-    scratch[SCRATCH_miss + i] = miss_of(residual, own[OWN_term + i]);
+    scratch[SCRATCH_miss + i] = miss_of(residual, k);
     scratch[SCRATCH_change + i] = change;
     near[i] = vec4(x, dt * dt * change);
     position[i].w = velocity[i].w = 1.0 / n;

@@ -1,46 +1,27 @@
 // pbf: accelerations of the whole step, the way of the iterations among them: force_body in sim/pbf/passes.c.
-#define KERNEL_WENDLAND_C2 1
 #define LISTS_LATER
 #define SEEN_VELOCITY(i) motion[i].xyz
+#define FRICTION (min(viscous_dt / dt, 1.0) * friction_gradient) // no more of it than the step stands
 #include "sim/constants.glsl"
 #include "shaders/sim/pbf/pbf_block.h"
 layout(std430, binding = MOTIONS_BUFFER) readonly buffer Motions { vec4 motion[]; }; // velocities at the step's end, volume
-#include "sim/force.glsl"
-#include "sim/shapes.glsl"
-#include "sim/own.glsl"
-#include "sim/scratch.glsl"
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, k
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 layout(location = PASS_DT_AT) uniform float dt;
+#include "sim/incompressible/friction.glsl"
+#include "sim/own.glsl"
+#include "sim/scratch.glsl"
 
 float volume_of(uint i) { return motion[i].w; }
-
-float extra_of(uint fluid) { return 0.0; }
-
-// No more of it than the step stands.
-vec3 pair_force(Side one, Side other, vec3 d, float r2)
-{
-#ifdef VISCOUS
-    float f = min(viscous_dt / dt, 1.0) * friction_gradient * shape(sqrt(r2) * inverse_support);
-    return f * one.volume * other.volume * (one.viscosity + other.viscosity) * (other.v - one.v);
-#else
-    return vec3(0);
-#endif
-}
 
 void main()
 {
     uint i = invocation();
     if (i >= particle_count())
         return;
-    vec3 force = vec3(0);
-#if defined VISCOUS || defined TENSION
-    vec3 x = near[i].xyz;
-    force = neighbours_force(i, x, cell_of(x));
-#endif
     vec3 moved = vec3(own[OWN_moved + i], own[OWN_STRIDE + OWN_moved + i], own[2u * OWN_STRIDE + OWN_moved + i]);
     float k = own[OWN_term + i];
-    acceleration[i] = vec4(force / fluids[FLUID_OF(i)].mass + moved / (dt * dt), 0.0);
+    acceleration[i] = vec4(other_forces(i) / fluids[FLUID_OF(i)].mass + moved / (dt * dt), 0.0);
     velocity[i] = vec4(velocity[i].xyz - dt * kick_gravity, velocity[i].w);
     pressure[i] = vec2(pressure_of_term * k, k);
     if (dt > 0.0)

@@ -1,20 +1,19 @@
 // pbf: number density and pressure of a state that was read: settle_body in sim/pbf/passes.c.
 #define LISTS_FIRST
 #define OWN_ACCESS readonly
-#include "sim/pbf/pbf.glsl"
-#include "sim/own.glsl"
+#include "shaders/sim/pbf/pbf_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };             // w: volume
-layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };   // p, k
 layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; }; // w: volume
-#include "sim/pbf/sums.glsl"
+#include "sim/incompressible/sums.glsl"
+#include "sim/own.glsl"
 
 void main()
 {
     uint i = invocation();
     if (i >= particle_count())
         return;
-    sum_up(i, position[i].xyz);
+    walk_pairs(i, position[i].xyz);
     position[i].w = velocity[i].w = 1.0 / (kernel_scale * heights);
     pressure[i] = vec2(pressure_of_term * own[OWN_term + i], 0.0);
 }

@@ -1,0 +1,8 @@
+// `whole` is the sum of (k_i + k_j) F x_ij over `gradient`: dfsph_push in sim/dfsph/pairs.c, pbf_push in sim/pbf/pairs.c.
+#include "sim/incompressible/pairs.glsl"
+
+float own_term; // the particle's k; those of others stand with their places
+
+void pair(uint j, vec3 d, float q, float term) { part += (own_term + term) * shape(q) * d; }
+
+void boundary_pair(uint j, vec3 d, float q) { part += BOUNDARY_TIMES * own_term * shape(q) * d; }

@@ -1,0 +1,23 @@
+// The number density, and what a particle's k makes of its own: dfsph_factor in sim/dfsph/pairs.c, pbf_sums in
+// sim/pbf/pairs.c, and those of their images.
+#include "sim/incompressible/pairs.glsl"
+
+// Sums of W, and of F^2 r^2 / m_j; that of F x_ij is `whole`.
+float heights = 1.0, squares = 0.0;
+
+vec3 weigh(vec3 d, float q, float inverse_mass)
+{
+    vec3 force = gradient * shape(q) * d;
+    heights += height(q);
+    squares += dot(force, force) * inverse_mass;
+    return force;
+}
+
+// The particle's own image has its k, too.
+void pair(uint j, vec3 d, float q, float term)
+{
+    float inverse_mass = j == self ? 0.0 : 1.0 / fluids[FLUID_OF(j)].mass, times = j == self ? 2.0 : 1.0;
+    part += times * weigh(d, q, inverse_mass);
+}
+
+void boundary_pair(uint j, vec3 d, float q) { part += BOUNDARY_TIMES * weigh(d, q, 0.0); }
