@@ -62,6 +62,32 @@ static inline void substeps(World *world, int count)
             fail_msg("%s", error.message);
 }
 
+/* The same order of particles and sums each time. */
+static inline void check_same_each_time(WorldDef def, const char *backend, int steps)
+{
+    uint64_t hash[2];
+    for (int run = 0; run < 2; run++) {
+        World *world = world_on(def, backend);
+        fixture_step(world, steps);
+        hash[run] = world_hash(world);
+        world_destroy(world);
+    }
+    assert_true(hash[0] == hash[1]);
+}
+
+/* Save, load, step = step. */
+static inline void check_save_load_step(WorldDef def, const char *backend, int steps)
+{
+    World *world = world_on(def, backend), *other = world_on(def, backend);
+    fixture_step(world, steps);
+    copy_state(world, other);
+    fixture_step(world, steps);
+    fixture_step(other, steps);
+    assert_true(world_hash(world) == world_hash(other));
+    world_destroy(world);
+    world_destroy(other);
+}
+
 typedef struct Who {
     uint32_t id;
     size_t at;

@@ -21,32 +21,16 @@ static void steps_are_those_of_the_cpu(void **state)
     }
 }
 
-/* The same order of particles and sums each time. */
 static void a_run_is_the_same_each_time(void **state)
 {
     (void)state;
-    uint64_t hash[2];
-    for (int run = 0; run < 2; run++) {
-        World *world = world_on(stirred_def(3), "compute");
-        fixture_step(world, 50);
-        hash[run] = world_hash(world);
-        world_destroy(world);
-    }
-    assert_true(hash[0] == hash[1]);
+    check_same_each_time(stirred_def(3), "compute", 50);
 }
 
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    const WorldDef def = stirred_def(2);
-    World *world = world_on(def, "compute"), *other = world_on(def, "compute");
-    fixture_step(world, 30);
-    copy_state(world, other);
-    fixture_step(world, 30);
-    fixture_step(other, 30);
-    assert_true(world_hash(world) == world_hash(other));
-    world_destroy(world);
-    world_destroy(other);
+    check_save_load_step(stirred_def(2), "compute", 30);
 }
 
 static void prefix_sums(void **state)

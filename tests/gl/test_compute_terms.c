@@ -1,196 +1,53 @@
 /* The backend `compute` against `cpu`: wcsph, surface tension, no-slip walls, changes while a world lives. */
-#include "tests/gl/parity.h"
+#include "tests/gl/parity_case.h"
 
 #include "sim/gl/compute/compute.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/program.h"
-#include "sim/wcsph/wcsph.h"
 
 #include <epoxy/gl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-typedef struct Case {
-    const char *label, *method, *kernel;
-    int dimensions;
-    double support, viscosity[2], delta, artificial;
-    TensionModel tension;
-    bool negative, no_slip;
-    bool solids;
-    const char *sides; /* periodic ones */
-    double shifting, lid;
-    ViscosityForm form;
-    bool runs; /* for 200 steps too */
-} Case;
-
-static const Case cases[] = {
-    {.label = "wcsph, both viscosities, diffusion, cohesion",
-     .method = "wcsph",
-     .kernel = "cubic",
-     .dimensions = 3,
-     .support = 2.1,
-     .viscosity = {2, 0},
-     .delta = 0.1,
-     .artificial = 0.2,
-     .tension = TENSION_COHESION,
-     .solids = true,
-     .runs = true},
-    {.label = "wcsph, Wendland, diffusion, tension of pressure",
-     .method = "wcsph",
-     .kernel = "wendland_c2",
-     .dimensions = 2,
-     .support = 3,
-     .delta = 0.1,
-     .artificial = 0.1,
-     .negative = true},
-    {.label = "wcsph, quintic, laminar, no slip",
-     .method = "wcsph",
-     .kernel = "quintic",
-     .dimensions = 2,
-     .support = 3,
-     .viscosity = {1, 3},
-     .no_slip = true,
-     .solids = true},
-    {.label = "wcsph, Wendland, radial and artificial, no slip",
-     .method = "wcsph",
-     .kernel = "wendland_c2",
-     .dimensions = 3,
-     .support = 2.1,
-     .viscosity = {2, 0},
-     .artificial = 0.1,
-     .form = VISCOSITY_RADIAL,
-     .no_slip = true,
-     .solids = true},
-    {.label = "mueller, colour field, no slip",
-     .method = "mueller",
-     .dimensions = 3,
-     .support = 2.1,
-     .viscosity = {1, 0},
-     .tension = TENSION_COLOUR_FIELD,
-     .no_slip = true},
-    {.label = "mueller, colour field, no slip",
-     .method = "mueller",
-     .dimensions = 2,
-     .support = 2.1,
-     .viscosity = {1, 3},
-     .tension = TENSION_COLOUR_FIELD,
-     .no_slip = true,
-     .runs = true},
-    {.label = "mueller, cohesion",
-     .method = "mueller",
-     .dimensions = 2,
-     .support = 2.1,
-     .viscosity = {1, 3},
-     .tension = TENSION_COHESION},
-    {.label = "wcsph, Wendland, laminar, periodic, lid, shifting",
-     .method = "wcsph",
-     .kernel = "wendland_c2",
-     .dimensions = 2,
-     .support = 3,
-     .viscosity = {1, 3},
-     .delta = 0.1,
-     .negative = true,
-     .no_slip = true,
-     .solids = true,
-     .sides = "x",
-     .shifting = 0.2,
-     .lid = 1},
-    {.label = "wcsph, quintic, periodic, shifting",
-     .method = "wcsph",
-     .kernel = "quintic",
-     .dimensions = 2,
-     .support = 3,
-     .viscosity = {1, 3},
-     .negative = true,
-     .sides = "xy",
-     .shifting = 0.2},
-    {.label = "wcsph, cubic, periodic, cohesion, shifting",
-     .method = "wcsph",
-     .kernel = "cubic",
-     .dimensions = 3,
-     .support = 2.1,
-     .delta = 0.1,
-     .artificial = 0.1,
-     .tension = TENSION_COHESION,
-     .sides = "xz",
-     .shifting = 0.1},
-    {.label = "mueller, periodic",
-     .method = "mueller",
-     .dimensions = 3,
-     .support = 2.1,
-     .viscosity = {1, 3},
-     .solids = true,
-     .sides = "x"},
+/* clang-format off */
+static const ParityCase cases[] = {
+    {"both viscosities, diffusion, cohesion", 3, 2.1, {2, 0}, TENSION_COHESION,
+     .kernel = "cubic", .delta = 0.1, .artificial = 0.2, .solids = true, .runs = true},
+    {"Wendland, diffusion, tension of pressure", 2, 3,
+     .kernel = "wendland_c2", .delta = 0.1, .artificial = 0.1, .negative = true},
+    {"quintic, laminar, no slip", 2, 3, {1, 3}, .kernel = "quintic", .no_slip = true, .solids = true},
+    {"Wendland, radial and artificial, no slip", 3, 2.1, {2, 0},
+     .kernel = "wendland_c2", .artificial = 0.1, .form = VISCOSITY_RADIAL, .no_slip = true, .solids = true},
+    {"colour field, no slip", 3, 2.1, {1, 0}, TENSION_COLOUR_FIELD, .method = "mueller", .no_slip = true},
+    {"colour field, no slip", 2, 2.1, {1, 3}, TENSION_COLOUR_FIELD, .method = "mueller", .no_slip = true, .runs = true},
+    {"cohesion", 2, 2.1, {1, 3}, TENSION_COHESION, .method = "mueller"},
+    {"Wendland, laminar, periodic, lid, shifting", 2, 3, {1, 3}, .kernel = "wendland_c2", .delta = 0.1,
+     .negative = true, .no_slip = true, .solids = true, .sides = "x", .shifting = 0.2, .lid = 1},
+    {"quintic, periodic, shifting", 2, 3, {1, 3}, .kernel = "quintic", .negative = true, .sides = "xy", .shifting = 0.2},
+    {"cubic, periodic, cohesion, shifting", 3, 2.1, .tension = TENSION_COHESION,
+     .kernel = "cubic", .delta = 0.1, .artificial = 0.1, .sides = "xz", .shifting = 0.1},
+    {"periodic", 3, 2.1, {1, 3}, .method = "mueller", .solids = true, .sides = "x"},
 };
-enum { CASES = sizeof cases / sizeof *cases, SQUARE_WCSPH = 1, SQUARE_NO_SLIP = 2 };
-
-/* One that holds what passes and moves, one that lets it slip. */
-static void add_solids(WorldDef *def)
-{
-    def->solids[def->solid_count++] = (SolidDef){
-        .kind = SOLID_BOX,
-        .centre = {0.15, 0.25, 0},
-        .size = {0.1, 0.4, 0.5},
-        .slip = SLIP_NONE,
-        .motion_count = 1,
-        .motions = {{.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.03, .frequency = 3}},
-    };
-    def->solids[def->solid_count++] =
-        (SolidDef){.kind = SOLID_SPHERE, .centre = {-0.3, 0.2, 0}, .radius = 0.15};
-}
-
-static WorldDef def_of(const Case *c)
-{
-    WorldDef def = stirred_def(c->dimensions);
-    snprintf(def.method, sizeof def.method, "%s", c->method);
-    if (c->kernel)
-        snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "%s", c->kernel);
-    def.spacing = c->dimensions == 2 ? 0.025 : 0.09;
-    def.support = c->support;
-    wcsph_def(&def)->delta_sph = c->delta;
-    wcsph_def(&def)->artificial_viscosity = c->artificial;
-    def.tension_model = (int)c->tension;
-    def.negative_pressure = c->negative;
-    if (c->solids)
-        add_solids(&def);
-    for (int k = 0; c->sides && k < 3; k++)
-        def.periodic[k] = strchr(c->sides, "xyz"[k]) != NULL;
-    if (c->sides)
-        def.motion_count = 1; /* such a box does not turn */
-    wcsph_def(&def)->shifting = c->shifting;
-    wcsph_def(&def)->viscosity_form = (int)c->form;
-    def.lid[0] = c->lid;
-    def.wall_slip = c->no_slip ? SLIP_NONE : SLIP_FREE;
-    for (int f = 0; f < 2; f++) {
-        def.fluids[f].viscosity = c->viscosity[f];
-        def.fluids[f].surface_tension = c->tension ? (c->dimensions == 2 ? 2 : 20) : 0;
-    }
-    return def;
-}
+/* clang-format on */
+static const ParityTable table = {"wcsph", 0.0005, 200, sizeof cases / sizeof *cases, cases};
+enum { SQUARE_WCSPH = 1, SQUARE_NO_SLIP = 2 };
 
 static void steps_are_those_of_the_cpu(void **state)
 {
     (void)state;
-    for (int k = 0; k < CASES; k++) {
-        const WorldDef def = def_of(&cases[k]);
-        World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
-        fixture_step(cpu, 200);
-        copy_state(cpu, gpu);
-        compare_step(cases[k].label, cpu, gpu);
-        if (cases[k].runs) {
-            copy_state(cpu, gpu);
-            compare_run(&def, "  and", cpu, gpu, 200);
-        }
-        world_destroy(cpu);
-        world_destroy(gpu);
-    }
+    parity_check(&table);
+}
+
+static WorldDef def_of(int at)
+{
+    return parity_def(&table, &cases[at]);
 }
 
 /* Densities that are carried go along; two runs have the same bits. */
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    const WorldDef def = def_of(&cases[SQUARE_WCSPH]);
+    const WorldDef def = def_of(SQUARE_WCSPH);
     World *world = world_on(def, "compute"), *other = world_on(def, "compute");
     fixture_step(world, 40);
     copy_state(world, other);
@@ -211,7 +68,7 @@ static void initial_densities_are_taken(void **state)
     const float position[6] = {-0.3F, 0.5F, 0, 0.3F, 0.5F, 0}, density[2] = {1003, 700};
     const uint8_t fluid[2] = {0, 1};
     const InitialState initial = {.count = 2, .position = position, .fluid = fluid, .density = density};
-    WorldDef def = def_of(&cases[SQUARE_WCSPH]);
+    WorldDef def = def_of(SQUARE_WCSPH);
     def.initial = &initial;
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
     State a = fixture_read(cpu), b = fixture_read(gpu);
@@ -230,7 +87,7 @@ static void initial_densities_are_taken(void **state)
 static void views_see_the_densities(void **state)
 {
     (void)state;
-    World *world = world_on(def_of(&cases[SQUARE_WCSPH]), "compute");
+    World *world = world_on(def_of(SQUARE_WCSPH), "compute");
     fixture_step(world, 20);
     const size_t count = world->count;
     float *read = malloc(count * sizeof *read), *shared = malloc(count * sizeof *shared), greatest = 0;
@@ -290,7 +147,7 @@ static void change(World *world, const WorldDef *def)
 static void changes_reach_the_programs(void **state)
 {
     (void)state;
-    WorldDef def = def_of(&cases[SQUARE_NO_SLIP]);
+    WorldDef def = def_of(SQUARE_NO_SLIP);
     def.fluids[0].viscosity = def.fluids[1].viscosity = 0;
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
     const Compute *compute = gpu->state;
@@ -324,7 +181,7 @@ static const Pass *pass_named(const Method *method, const char *name)
 static void a_table_is_a_number_each_step(void **state)
 {
     (void)state;
-    WorldDef def = def_of(&cases[SQUARE_NO_SLIP]);
+    WorldDef def = def_of(SQUARE_NO_SLIP);
     def.fluids[0].viscosity_table = (TimeTable){3, {0, 40 * def.dt, 100 * def.dt}, {4, 4, 0}};
     World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
     const Compute *compute = gpu->state;
@@ -357,7 +214,7 @@ static void a_broken_shader_changes_nothing(void **state)
     fputs("void main() { broken }\n", file);
     fclose(file);
 
-    WorldDef def = def_of(&cases[SQUARE_NO_SLIP]);
+    WorldDef def = def_of(SQUARE_NO_SLIP);
     def.fluids[0].viscosity = def.fluids[1].viscosity = 0;
     World *world = world_on(def, "compute"), *other = world_on(def, "compute");
     Error error;

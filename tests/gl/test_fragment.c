@@ -300,32 +300,16 @@ static void more_lost_than_the_limit_ends_the_run(void **state)
     }
 }
 
-/* The same places and sums each time. */
 static void a_run_is_the_same_each_time(void **state)
 {
     (void)state;
-    uint64_t hash[2];
-    for (int run = 0; run < 2; run++) {
-        World *world = world_on(coarse_def(3), "fragment");
-        fixture_step(world, 40);
-        hash[run] = world_hash(world);
-        world_destroy(world);
-    }
-    assert_true(hash[0] == hash[1]);
+    check_same_each_time(coarse_def(3), "fragment", 40);
 }
 
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    const WorldDef def = coarse_def(2);
-    World *world = world_on(def, "fragment"), *other = world_on(def, "fragment");
-    fixture_step(world, 30);
-    copy_state(world, other);
-    fixture_step(world, 30);
-    fixture_step(other, 30);
-    assert_true(world_hash(world) == world_hash(other));
-    world_destroy(world);
-    world_destroy(other);
+    check_save_load_step(coarse_def(2), "fragment", 30);
 }
 
 /* The sentinel's way back. */

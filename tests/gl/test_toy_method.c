@@ -120,15 +120,7 @@ static void it_moves_from_backend_to_backend(void **state)
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    const WorldDef def = toy_def(true);
-    World *world = world_on(def, "compute"), *other = world_on(def, "compute");
-    fixture_step(world, 30);
-    copy_state(world, other);
-    fixture_step(world, 30);
-    fixture_step(other, 30);
-    assert_true(world_hash(world) == world_hash(other));
-    world_destroy(world);
-    world_destroy(other);
+    check_save_load_step(toy_def(true), "compute", 30);
 }
 
 /* As the sentinel does it, on the device. */
