@@ -60,7 +60,7 @@
 #define PASS_DT_AT      0 /* s */
 #define SHOWN_SCALAR_AT 0
 #define GRAVITY_C2_AT   0
-#define COLUMN_AT       0 /* the first number of a column of scratch */
+#define COLUMN_AT       0 /* the first number of a column of scratch, and the first of its parts */
 
 /* How many there may be: the scene's limits, which C has as FLUIDS_MAX ... */
 #define FLUIDS_MOST 8

@@ -83,32 +83,33 @@ static void begin(const Substep *step)
     substep_run(step, &pbf_density, step->dt);
 }
 
-/* With lists of where the particles are now, where those at hand are of no use any more: true where too much
-   is left then, whatever was left by the old ones. */
-static bool more_by_new_lists(const Substep *step, double tolerance)
+/* Lists of where the particles are now. */
+static void renew_lists(const Substep *step)
 {
-    const Backend *b = step->backend;
-    if (b->excess(step->state, pbf_way).mean <= WAY_MOST)
-        return false;
-    b->grid(step->state);
+    step->backend->grid(step->state);
     substep_run(step, &pbf_again, step->dt);
     substep_run(step, &pbf_density, step->dt);
-    return !(b->excess(step->state, pbf_miss).mean <= tolerance);
 }
 
-/* How often the iterations ran. */
-static int iterate(const Substep *step, double tolerance)
+/* Goes on where lists were of no use any more, whatever was left by the old ones; says how often the
+   iterations ran, and what is compressed behind them. */
+static int iterate(const Substep *step, double tolerance, Excess *left)
 {
     const int most = pbf_solver(step->constants)->most;
-    const StepSolve *solve = &step->solves[0];
-    Iteration iteration = {{&pbf_move, &pbf_density}, pbf_miss, tolerance, most, .begun = false};
-    bool more = true;
-    for (int lists = 1; more; lists++) {
+    Excess way = {0};
+    Iteration iteration = {{&pbf_move, &pbf_density},
+                           pbf_miss,
+                           tolerance,
+                           most,
+                           .asked = {{pbf_way, &way}, {pbf_compressed, left}}};
+    for (int lists = 1;; lists++) {
         substep_iterate(step, &iteration, 0, step->dt);
-        iteration.most -= (int)solve->iterations;
-        more = iteration.most > 0 && lists < LISTS_MOST && more_by_new_lists(step, tolerance);
+        iteration.most -= (int)step->solves[0].iterations;
+        if (way.mean <= WAY_MOST || iteration.most <= 0 || lists == LISTS_MOST)
+            return most - iteration.most;
+        renew_lists(step);
+        iteration.begun = true;
     }
-    return most - iteration.most;
 }
 
 /* What is told of a step is what is compressed behind it; of a solver in trouble what such steps would come
@@ -118,8 +119,9 @@ static void hold_density(const Substep *step)
     const double tolerance = pbf_solver(step->constants)->tolerance,
                  share = (double)PBF_SHARE((float)step->dt);
     StepSolve *solve = &step->solves[0];
+    Excess left = {0};
     begin(step);
-    solve->iterations = iterate(step, tolerance * share);
+    solve->iterations = iterate(step, tolerance * share, &left);
     solve->tolerance = tolerance;
     solve->mean /= share;
     solve->most /= share;
@@ -127,7 +129,6 @@ static void hold_density(const Substep *step)
         solve->failed = false;
     if (solve->failed)
         return;
-    const Excess left = step->backend->excess(step->state, pbf_compressed);
     solve->mean = left.mean;
     solve->most = left.greatest;
 }

@@ -57,7 +57,7 @@ typedef struct Backend {
     /* A pass of the method. */
     void (*run)(void *state, const Pass *pass, const PassInput *input);
     /* Of a column of one component, over the fluids' particles, in an order that no thread count changes.
-       A backend with `iterate` waits for it. NULL: it runs no method that asks for it. */
+       NULL: it has `iterate`, or runs no method that iterates. */
     Excess (*excess)(void *state, const ColumnDef *column);
     /* The loop of substep_iterate where the particles are; `solve` has what the solver did in the step
        before, then what it did in this one. NULL: that loop asks for the excess after each iteration. */

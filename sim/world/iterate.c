@@ -21,6 +21,8 @@ static void iterate_here(const Substep *step, const Iteration *iteration, StepSo
         solve->iterations++;
         measure(step, iteration, solve);
     }
+    for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
+        *iteration->asked[k].to = step->backend->excess(step->state, iteration->asked[k].column);
 }
 
 void substep_iterate(const Substep *step, const Iteration *iteration, int which, double dt)

@@ -6,12 +6,19 @@
 
 /* Data alone, no calls of the method between the passes: a backend for which a read-back in each iteration
    is dear takes the same decisions where its particles are (Backend.iterate). */
+enum { ITERATION_ASKED = 2 };
 typedef struct Iteration {
     const Pass *passes[4];     /* of an iteration, ended by NULL; the last one measures */
     const ColumnDef *residual; /* what is above 0 of it counts */
     double tolerance;          /* of its mean */
     int most;                  /* iterations */
     bool begun;                /* the residual is there before the first of them: none may be needed */
+    /* What else the caller wants to know behind the last of them: of which columns the excess, ended by NULL,
+       and where it goes. A question by itself would make a GPU's step wait once more. */
+    struct {
+        const ColumnDef *column;
+        Excess *to;
+    } asked[ITERATION_ASKED];
 } Iteration;
 
 /* Runs the passes over `dt` (s), once at least where the residual is not there yet, and says in

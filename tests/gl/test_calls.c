@@ -37,6 +37,7 @@ typedef enum Call {
     X(OTHER, void, glUseProgram, (GLuint a), (a))                                                            \
     X(OTHER, void, glUniform1ui, (GLint a, GLuint b), (a, b))                                                \
     X(OTHER, void, glProgramUniform1i, (GLuint a, GLint b, GLint c), (a, b, c))                              \
+    X(OTHER, void, glProgramUniform2ui, (GLuint a, GLint b, GLuint c, GLuint d), (a, b, c, d))               \
     X(OTHER, void, glProgramUniform1f, (GLuint a, GLint b, GLfloat c), (a, b, c))                            \
     X(OTHER, void, glProgramUniform3fv, (GLuint a, GLint b, GLsizei c, const GLfloat *d), (a, b, c, d))      \
     X(OTHER, void, glNamedBufferSubData, (GLuint a, GLintptr b, GLsizeiptr c, const void *d), (a, b, c, d))  \
@@ -44,6 +45,7 @@ typedef enum Call {
       (a, b, c, d, e))                                                                                       \
     X(OTHER, void, glCopyNamedBufferSubData, (GLuint a, GLuint b, GLintptr c, GLintptr d, GLsizeiptr e),     \
       (a, b, c, d, e))                                                                                       \
+    X(WAIT, void, glGetNamedBufferSubData, (GLuint a, GLintptr b, GLsizeiptr c, void *d), (a, b, c, d))      \
     X(WAIT, GLenum, glClientWaitSync, (GLsync a, GLbitfield b, GLuint64 c), (a, b, c))                       \
     X(OTHER, GLsync, glFenceSync, (GLenum a, GLbitfield b), (a, b))                                          \
     X(OTHER, void, glDeleteSync, (GLsync a), (a))                                                            \
@@ -190,6 +192,9 @@ static void a_step_makes_so_many_calls(void **state)
     dfsph_def(&def)->iterations = 100;
     dfsph_def(&def)->tolerance = dfsph_def(&def)->divergence_tolerance = 1e-6;
     count_step("compute, dfsph", &def, (Bounds){150, 0, 1400, 9});
+    def = pool_def("compute", "pbf");
+    def.dt = 1.0 / 60;
+    count_step("compute, pbf", &def, (Bounds){60, 0, 600, 5});
     def = pool_def("fragment", "mueller");
     count_step("fragment, mueller", &def, (Bounds){42, 29, 560, 1});
 }

@@ -3,7 +3,7 @@
 #include "sim/scratch.glsl"
 #include "shaders/sim/excess_part.h"
 layout(std430, binding = PARTS_BUFFER) writeonly buffer Parts { ExcessPart part[]; };
-layout(location = COLUMN_AT) uniform uint column;
+layout(location = COLUMN_AT) uniform uvec2 column;
 shared vec2 sums[64]; // sum, greatest
 
 void main()
@@ -11,7 +11,7 @@ void main()
     uint own = gl_LocalInvocationID.x;
     vec2 found = vec2(0);
     for (uint i = invocation(); i < particle_count(); i += 64u * gl_NumWorkGroups.x) {
-        float value = scratch[column + i];
+        float value = scratch[column.x + i];
         found.x += value < 0.0 ? 0.0 : value; // NaN stays
         found.y = value > found.y ? value : found.y;
     }
@@ -22,5 +22,5 @@ void main()
             sums[own] = vec2(sums[own].x + sums[own + half_count].x, max(sums[own].y, sums[own + half_count].y));
     }
     if (own == 0u)
-        part[gl_WorkGroupID.x] = ExcessPart(sums[0].x, sums[0].y);
+        part[column.y + gl_WorkGroupID.x] = ExcessPart(sums[0].x, sums[0].y);
 }

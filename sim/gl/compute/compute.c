@@ -30,7 +30,7 @@ static void compute_destroy(void *state)
     const GLuint buffers[] = {c->cell,           c->rank,      c->order,    c->start,        c->totals[0],
                               c->totals[1],      c->totals[2], c->pressure, c->acceleration, c->walls,
                               c->constant_block, c->step,      c->terms,    c->of_method,    c->drag,
-                              c->scratch,        c->lists,     c->near,     c->parts};
+                              c->scratch,        c->lists,     c->near};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
@@ -41,6 +41,7 @@ static void compute_destroy(void *state)
     mailbox_destroy(&c->ranges);
     mailbox_destroy(&c->gauge);
     mailbox_destroy(&c->solve);
+    mailbox_destroy(&c->parts);
     compute_boundary_destroy(c);
     compute_flow_destroy(c);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
@@ -316,7 +317,6 @@ const Backend backend_compute = {
     .drift = compute_drift,
     .grid = compute_grid,
     .run = compute_pass,
-    .excess = compute_excess,
     .iterate = compute_iterate,
     .kick = compute_kick,
     .guide = compute_guide,

@@ -108,8 +108,8 @@ typedef struct Compute {
     Mailbox watch;                        /* WatchBlock */
     bool watch_due;                       /* kicks were noted that were not sent */
     float longest;                        /* dt of the kicks since the watch was read, s */
-    unsigned parts;                       /* ExcessPart a group; 0: the method does not iterate */
-    Mailbox solve;                        /* SolveBlock; none of such a method */
+    Mailbox solve;                        /* SolveBlock; none of a method that does not iterate */
+    Mailbox parts;                        /* ExcessPart a group: iterate.c; none of such a method */
     bool decided;                         /* the method's passes have as many work groups as it says */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     Mailbox gauge;                        /* GaugePart a group; none before the first `gauge` */
@@ -249,7 +249,6 @@ void compute_grid(void *state);
 void compute_drift(void *state, const BoxStep *step);
 void compute_pass(void *state, const Pass *pass, const PassInput *input);
 void compute_kick(void *state, const float gravity[3], float dt);
-Excess compute_excess(void *state, const ColumnDef *column);
 void compute_iterate(void *state, const struct Iteration *iteration, const PassInput *input,
                      StepSolve *solve);
 StepWatch compute_watch(void *state);

@@ -6,13 +6,17 @@
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
-#include "shaders/sim/excess_part.h"
 #include "shaders/sim/solve_block.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 
 enum { MORE = 2 }; /* iterations than the step before had */
+
+enum { PARTS = (1 + ITERATION_ASKED) * COMPUTE_EXCESS_GROUPS };
+typedef struct Summed { /* ExcessPart, as it stands there; in C it is of 16 bytes */
+    float above, greatest;
+} Summed;
 
 bool compute_iterates(const Method *method)
 {
@@ -26,8 +30,8 @@ bool compute_iterate_create(Compute *c)
 {
     if (!compute_iterates(c->constants->method))
         return true;
-    c->parts = compute_buffer(c, "parts of a residual", COMPUTE_EXCESS_GROUPS * sizeof(ExcessPart));
-    return c->parts && mailbox_create(&c->solve, "solver", sizeof(SolveBlock));
+    return mailbox_create(&c->parts, "parts of residuals", PARTS * sizeof(Summed)) &&
+           mailbox_create(&c->solve, "solver", sizeof(SolveBlock));
 }
 
 static void begin(const Compute *c, const Iteration *iteration)
@@ -43,33 +47,46 @@ static void begin(const Compute *c, const Iteration *iteration)
     glNamedBufferSubData(c->solve.buffer, 0, sizeof block, &block);
 }
 
-static void sum_up(Compute *c, const ColumnDef *column)
+/* Into the parts of number `which`: 0 is the residual, the others are what was asked for. */
+static void sum_up(Compute *c, const ColumnDef *column, int which)
 {
-    glProgramUniform1ui(c->program[COMPUTE_EXCESS], COLUMN_AT, (GLuint)compute_scratch_place(c, column));
-    BIND([SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts);
+    glProgramUniform2ui(c->program[COMPUTE_EXCESS], COLUMN_AT, (GLuint)compute_scratch_place(c, column),
+                        (GLuint)(which * COMPUTE_EXCESS_GROUPS));
+    BIND([SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts.buffer);
     compute_run(c, COMPUTE_EXCESS, (size_t)COMPUTE_EXCESS_GROUPS * COMPUTE_GROUP);
 }
 
-Excess compute_excess(void *state, const ColumnDef *column)
+static Excess excess_of(const Compute *c, int which)
 {
-    Compute *c = state;
-    float parts[COMPUTE_EXCESS_GROUPS][2]; /* ExcessPart, as it stands there; in C it is of 16 bytes */
+    const Summed *part = (const Summed *)c->parts.mapped + (ptrdiff_t)which * COMPUTE_EXCESS_GROUPS;
     Excess excess = {0};
-    sum_up(c, column);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(c->parts, 0, sizeof parts, parts);
     for (int k = 0; k < COMPUTE_EXCESS_GROUPS; k++) {
-        excess.mean += (double)parts[k][0];
-        excess.greatest = parts[k][1] > excess.greatest ? parts[k][1] : excess.greatest;
+        excess.mean += (double)part[k].above;
+        excess.greatest = part[k].greatest > excess.greatest ? part[k].greatest : excess.greatest;
     }
     excess.mean /= c->count > 0 ? (double)c->count : 1;
     return excess;
 }
 
+/* On their way ahead of what the solver found, which is waited for. */
+static void ask(Compute *c, const Iteration *iteration)
+{
+    for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
+        sum_up(c, iteration->asked[k].column, 1 + k);
+    if (iteration->asked[0].column)
+        mailbox_send(&c->parts);
+}
+
+static void answer(const Compute *c, const Iteration *iteration)
+{
+    for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
+        *iteration->asked[k].to = excess_of(c, 1 + k);
+}
+
 static void decide(Compute *c, const ColumnDef *residual)
 {
-    sum_up(c, residual);
-    BIND([PARTS_BUFFER] = c->parts, [SOLVE_BUFFER] = c->solve.buffer);
+    sum_up(c, residual, 0);
+    BIND([PARTS_BUFFER] = c->parts.buffer, [SOLVE_BUFFER] = c->solve.buffer);
     compute_run(c, COMPUTE_DECIDE, COMPUTE_GROUP);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
@@ -96,9 +113,11 @@ void compute_iterate(void *state, const Iteration *iteration, const PassInput *i
     do {
         for (int k = 0; k < at_once && asked < iteration->most; k++, asked++)
             iterate_once(c, iteration, input);
+        ask(c, iteration);
         mailbox_send(&c->solve);
         found = mailbox_wait(&c->solve);
     } while (found && !found->ended && asked < iteration->most);
+    answer(c, iteration);
     *solve = (StepSolve){.tolerance = iteration->tolerance};
     if (found)
         *solve = (StepSolve){.iterations = found->ended ? (double)found->iterations
