@@ -11,11 +11,17 @@ extern const Method method_mueller, method_wcsph, method_dfsph, method_pbf;
 
 static const Method *methods[METHODS_MAX + 1] = {&method_mueller, &method_wcsph, &method_dfsph, &method_pbf};
 
-void method_add(const Method *method)
+static int place_of(const Method *method)
 {
     int at = 0;
     while (methods[at] && methods[at] != method)
         at++;
+    return at;
+}
+
+void method_add(const Method *method)
+{
+    const int at = place_of(method);
     assert(at < METHODS_MAX && method->def_size <= METHOD_DEF_SIZE);
     methods[at] = method;
 }
@@ -42,9 +48,7 @@ MethodKernels method_kernels(const WorldDef *def)
 
 void *method_def(const WorldDef *def, const Method *method)
 {
-    int at = 0;
-    while (methods[at] && methods[at] != method)
-        at++;
+    const int at = place_of(method);
     return at < METHODS_MAX ? (void *)(uintptr_t)&def->of_method[at] : NULL;
 }
 
