@@ -4,9 +4,7 @@
 #include <string.h>
 
 PAIR_LOOPS(pbf_sums);
-PAIR_LOOPS(pbf_images_sums);
 PAIR_LOOPS(pbf_push);
-PAIR_LOOPS(pbf_images_push);
 PAIR_LOOPS(pbf_friction);
 
 static bool of_fluid(const Cpu *cpu, size_t i)
@@ -201,10 +199,11 @@ static void move_one(const Hold *hold, size_t i)
                 spacing = hold->cpu->constants->spacing;
     float way[3] = {w * p->ax[i], w * p->ay[i], w * p->az[i]};
     shorten(way, WAY_LONGEST * spacing);
-    float x[3] = {from[0] + way[0], from[1] + way[1], from[2] + way[2]};
+    const float free[3] = {from[0] + way[0], from[1] + way[1], from[2] + way[2]};
+    float x[3] = {free[0], free[1], free[2]};
     if (held(hold, from, x))
-        for (int k = 0; k < 3; k++)
-            way[k] = x[k] - from[k];
+        for (int k = 0; k < 3; k++) /* a difference of places has fewer digits */
+            way[k] = x[k] != free[k] ? x[k] - from[k] : way[k];
     p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
     for (int k = 0; k < 3; k++)
         p->own[MOVED + k][i] += way[k];
@@ -216,7 +215,6 @@ static void move_body(const CpuRange *range)
     Hold hold;
     hold_make(range->cpu, &hold);
     cpu_pairs(range, &pbf_push);
-    cpu_pairs(range, &pbf_images_push);
     for (size_t i = range->begin; i < range->end; i++)
         move_one(&hold, i);
 }
@@ -272,12 +270,6 @@ static void finish_density(const Cpu *cpu, size_t i, float later)
     p->volume[i] = 1 / p->volume[i];
 }
 
-static void number_density(const CpuRange *range)
-{
-    cpu_pairs(range, &pbf_sums);
-    cpu_pairs(range, &pbf_images_sums);
-}
-
 /* A new particle was as dense as a step finds it first. What goes on into the next step changes in steps
    alone: passes run without one (dt = 0) to be timed. */
 static void density_body(const CpuRange *range)
@@ -285,7 +277,7 @@ static void density_body(const CpuRange *range)
     const Cpu *cpu = range->cpu;
     float *before = cpu->now.own[BEFORE];
     const float later = 1 - PBF_SHARE(range->input->dt);
-    number_density(range);
+    cpu_pairs(range, &pbf_sums);
     for (size_t i = range->begin; i < range->end; i++) {
         if (before[i] == 0 && range->input->dt > 0)
             before[i] = cpu->now.volume[i] / cpu->constants->rest_number_density;
@@ -312,7 +304,7 @@ const Pass pbf_density = {
 static void settle_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
-    number_density(range);
+    cpu_pairs(range, &pbf_sums);
     for (size_t i = range->begin; i < range->end; i++) {
         finish_density(range->cpu, i, 0);
         p->pressure[i] = pbf_constants(range->cpu->constants)->pressure_of_term * p->own[TERM][i];

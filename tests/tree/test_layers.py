@@ -29,7 +29,9 @@ SIM = {
     "cpu": "base kernel box matter world",
 }
 METHODS = own_folders("sim", "Method method")
-SIM |= {name: "base kernel box matter world cpu" for name in METHODS}
+SIM["incompressible"] = "base kernel box matter world cpu"
+SIM |= {name: "base kernel box matter world cpu incompressible" for name in METHODS}
+SIM_INSIDE = {f"sim/{name}" for name in ["cpu", "incompressible", *METHODS]}  # for no other floor
 GL = {"": "", "compute": "", "fragment": ""}
 RENDER = {
     "frame": "",
@@ -86,7 +88,7 @@ def may():
         under = [where for name in below for where in rooms[name]]
         under = [where for where in under if not where.startswith("sim/gl/")]  # backends: by name only
         if floor != "sim/gl":
-            under = [where for where in under if where not in ("sim/cpu", *(f"sim/{name}" for name in METHODS))]
+            under = [where for where in under if where not in SIM_INSIDE]
         for room, names in table.items():
             own = [folder(floor, name) for name in names.split()]
             if floor == "sim/gl":

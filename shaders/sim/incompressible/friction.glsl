@@ -1,5 +1,5 @@
-// Friction in the form of Morris: dfsph_friction in sim/dfsph/pairs.c, pbf_friction in sim/pbf/pairs.c; with surface tension
-// all forces but pressure. A pass says volume_of, and FRICTION where that is not all of `friction_gradient`.
+// Friction in the form of Morris (friction_sums in sim/incompressible/pairs.h); with surface tension all forces but
+// pressure. A pass says volume_of, and FRICTION where that is not all of `friction_gradient`.
 #define KERNEL_WENDLAND_C2 1
 #include "sim/force.glsl"
 #include "sim/shapes.glsl"

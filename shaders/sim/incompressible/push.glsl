@@ -1,4 +1,4 @@
-// `whole` is the sum of (k_i + k_j) F x_ij over `gradient`: dfsph_push in sim/dfsph/pairs.c, pbf_push in sim/pbf/pairs.c.
+// `whole` is the sum of (k_i + k_j) F x_ij over `gradient`: push_sums in sim/incompressible/pairs.h.
 #include "sim/incompressible/pairs.glsl"
 
 float own_term; // the particle's k; those of others stand with their places

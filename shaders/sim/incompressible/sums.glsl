@@ -1,5 +1,4 @@
-// The number density, and what a particle's k makes of its own: dfsph_factor in sim/dfsph/pairs.c, pbf_sums in
-// sim/pbf/pairs.c, and those of their images.
+// The number density, and what a particle's k makes of its own: density_sums in sim/incompressible/pairs.h.
 #include "sim/incompressible/pairs.glsl"
 
 // Sums of W, and of F^2 r^2 / m_j; that of F x_ij is `whole`.

@@ -20,11 +20,9 @@ vec3 shortened(vec3 way)
     return length2 < 1e38 ? most / sqrt(length2) * way : vec3(0);
 }
 
-// Puts x up to a solid, and no further into a wall than that asks for, else up to a little before the walls; true where it
-// had to.
-bool hold_back(vec3 from, inout vec3 x)
+// Puts x up to a solid, and no further into a wall than that asks for, else up to a little before the walls.
+void hold_back(vec3 from, inout vec3 x)
 {
-    vec3 asked = x;
     float apart = WALL_LEAST * spacing;
 #ifdef SOLIDS
     vec3 v = vec3(0);
@@ -40,7 +38,6 @@ bool hold_back(vec3 from, inout vec3 x)
         float low = a == 1 ? 0.0 : -half_size[a], high = a == 1 ? 2.0 * half_size.y : half_size[a];
         x[a] = min(max(x[a], low + apart), high - apart);
     }
-    return x != asked;
 }
 
 void main()
@@ -51,9 +48,9 @@ void main()
     vec3 from = near[i].xyz;
     own_term = near[i].w;
     walk_pairs(i, from);
-    vec3 way = shortened(gradient * whole / fluids[FLUID_OF(i)].mass), x = from + way;
-    if (hold_back(from, x))
-        way = x - from;
+    vec3 way = shortened(gradient * whole / fluids[FLUID_OF(i)].mass), free = from + way, x = free;
+    hold_back(from, x);
+    way = mix(way, x - from, notEqual(x, free)); // a difference of places has fewer digits
     position[i].xyz = x;
     for (uint a = 0u; a < 3u; a++)
         own[a * OWN_STRIDE + OWN_moved + i] += way[a];

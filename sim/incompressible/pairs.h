@@ -1,0 +1,185 @@
+/* The pair sums of methods that hold the number density (Method.incompressible), in which images of the fluid
+   in the walls of the box have their particles' multipliers: what walls push with is the gradient of the
+   number density that they make, and walls can do no work. For the files that are compiled once for each
+   instruction set; a method's pair loops call these with its kernel and its factors.
+
+   With grad W_ij = -F x_ij, x_ij = x_i - x_j; F is `gradient` times shape(). */
+#ifndef SLOSH_INCOMPRESSIBLE_PAIRS_H
+#define SLOSH_INCOMPRESSIBLE_PAIRS_H
+
+#include "sim/cpu/pair_images.h"
+#include "sim/cpu/pair_loop.h"
+#include "sim/cpu/pair_shape.h"
+
+/* Of an image next to its particle: not 0. */
+SIMD_INLINE f8 image_q(const Constants *s, f8 r2)
+{
+    const float h = s->support_radius, least = 1e-6f * h;
+    return f8_sqrt(greater(r2, f8_splat(least * least))) * f8_splat(1 / h);
+}
+
+/* The images of a group, each of its particle; none where no wall is near. */
+typedef struct Mirrors {
+    int count;
+    Mirrored of[IMAGES_MAX];
+} Mirrors;
+
+SIMD_INLINE void mirrors_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
+                            Mirrors *mirrors)
+{
+    Images images;
+    mirrors->count = images_of(args, far, i, begin, end, &images) ? images.most - 1 : 0;
+    for (int m = 0; m < mirrors->count; m++)
+        mirrors->of[m] = mirrored(&images, m + 1);
+}
+
+/* --- what a particle's k makes of its own number density --- */
+
+typedef struct DensitySums {
+    f8 n, x, y, z, squares;
+} DensitySums;
+
+/* Of an image; `times`: 2 for the particle's own, whose k is its own: its inverse mass is 0 here. */
+SIMD_INLINE void density_by(const PairArgs *args, const Mirrored *image, f8x4 near, float times,
+                            f8 inverse_mass, const ShapeKernel kernel, DensitySums *sum)
+{
+    const Separation d = apart(args, image->at, near);
+    const f8 q = image_q(args->constants, d.r2), f = f8_splat(times) * shape(q, kernel);
+    sum->n += height(q, kernel);
+    sum->x += image->sign.x * f * d.x;
+    sum->y += image->sign.y * f * d.y;
+    sum->z += image->sign.z * f * d.z;
+    sum->squares += f * f * d.r2 * inverse_mass;
+}
+
+SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, const ShapeKernel kernel,
+                            const Mirrors *mirrors, DensitySums *sum)
+{
+    const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
+    const Place at = place_of(args, i);
+    NEIGHBOURS (near, j) {
+        const f8x4 p = f8_load4(args->place, j);
+        Separation d = apart(args, at, p);
+        if (__builtin_expect(near.coincident, 0))
+            d = separate_to(args, i, j, d, TWINS_PART);
+        const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, kernel);
+        sum->n += height(q, kernel);
+        sum->x += f * d.x, sum->y += f * d.y, sum->z += f * d.z;
+        sum->squares += f * f * d.r2 * d.term;
+        for (int m = 0; mirrors && m < mirrors->count; m++)
+            density_by(args, &mirrors->of[m], p, 1, p.w, kernel, sum);
+    }
+}
+
+/* Sum of W into `number_density`, of F x_ij into the force, of F^2 r^2 / m_j into `squares`, where `place`
+   has 1 / m. */
+SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
+                              float gradient, float *squares)
+{
+    const f8 scale = f8_splat(args->constants->kernel_scale), g = f8_splat(gradient), zero = f8_splat(0);
+    const WallsFar far = out_of_sight(args->constants);
+    Mirrors mirrors;
+    GROUPS (i, begin, end) {
+        const Themselves own = themselves(args, i);
+        DensitySums sum = {f8_splat(1), zero, zero, zero, zero};
+        mirrors_of(args, &far, i, begin, end, &mirrors);
+        if (mirrors.count == 0)
+            density_of(args, i, near_of(args, i), kernel, NULL, &sum);
+        else
+            density_of(args, i, near_of(args, i), kernel, &mirrors, &sum);
+        for (int m = 0; m < mirrors.count; m++)
+            density_by(args, &mirrors.of[m], f8_load4(args->place, own.j), 2, zero, kernel, &sum);
+        lanes_store(args->number_density, i, begin, end, scale * sum.n);
+        lanes_store(args->fx, i, begin, end, g * sum.x);
+        lanes_store(args->fy, i, begin, end, g * sum.y);
+        lanes_store(args->fz, i, begin, end, g * sum.z);
+        lanes_store(squares, i, begin, end, g * g * sum.squares);
+    }
+}
+
+/* --- what k pushes with --- */
+
+/* (k_i + k_j) F x_ij of an image, in its particle's axes. */
+SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 ki, f8x4 near,
+                         const ShapeKernel kernel, Place *sum)
+{
+    const Separation d = apart(args, image->at, near);
+    const f8 push = (ki + d.term) * shape(image_q(args->constants, d.r2), kernel);
+    sum->x += image->sign.x * push * d.x;
+    sum->y += image->sign.y * push * d.y;
+    sum->z += image->sign.z * push * d.z;
+}
+
+SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki, const ShapeKernel kernel,
+                         const Mirrors *mirrors, Place *sum)
+{
+    const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
+    const Place at = place_of(args, i);
+    NEIGHBOURS (near, j) {
+        const f8x4 p = f8_load4(args->place, j);
+        Separation d = apart(args, at, p);
+        if (__builtin_expect(near.coincident, 0))
+            d = separate_to(args, i, j, d, TWINS_PART);
+        const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, kernel);
+        sum->x += push * d.x, sum->y += push * d.y, sum->z += push * d.z;
+        for (int m = 0; mirrors && m < mirrors->count; m++)
+            push_by(args, &mirrors->of[m], ki, p, kernel, sum);
+    }
+}
+
+/* sum (k_i + k_j) F x_ij into the force, where `place` has k. */
+SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
+                           float gradient)
+{
+    const f8 g = f8_splat(gradient), zero = f8_splat(0);
+    const WallsFar far = out_of_sight(args->constants);
+    Mirrors mirrors;
+    GROUPS (i, begin, end) {
+        const Themselves own = themselves(args, i);
+        const f8x4 self = f8_load4(args->place, own.j);
+        Place sum = {zero, zero, zero};
+        mirrors_of(args, &far, i, begin, end, &mirrors);
+        if (mirrors.count == 0)
+            push_of(args, i, near_of(args, i), self.w, kernel, NULL, &sum);
+        else
+            push_of(args, i, near_of(args, i), self.w, kernel, &mirrors, &sum);
+        for (int m = 0; m < mirrors.count; m++)
+            push_by(args, &mirrors.of[m], self.w, self, kernel, &sum);
+        lanes_store(args->fx, i, begin, end, g * sum.x);
+        lanes_store(args->fy, i, begin, end, g * sum.y);
+        lanes_store(args->fz, i, begin, end, g * sum.z);
+    }
+}
+
+/* --- friction --- */
+
+/* In the form of Morris (sim/matter/viscosity.h): V_i V_j (mu_i + mu_j) F v_ji, of what `motion` has. */
+SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
+                               float gradient)
+{
+    const Constants *s = args->constants;
+    const f8 inverse_h = f8_splat(1 / s->support_radius), g = f8_splat(gradient),
+             same = f8_splat(s->viscosity[0]);
+    GROUPS (i, begin, end) {
+        const Place at = place_of(args, i);
+        const Near near = near_of(args, i);
+        const Themselves own = themselves(args, i);
+        const f8x4 vi = motion(args, own.j);
+        const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : same;
+        const f8 scale = g * vi.w, least = f8_splat(1e-6f);
+        f8 fx = f8_splat(0), fy = fx, fz = fx;
+        NEIGHBOURS (near, j) {
+            const Separation d = separation(args, at, j);
+            const f8 q = f8_sqrt(d.r2) * inverse_h, apart = f8_select(q > least, q, least);
+            const f8x4 v = motion(args, j);
+            const f8 mj = args->viscosity ? f8_gather(args->viscosity, j) : same;
+            const f8 drag = scale * v.w * (mi + mj) * shape(apart, kernel);
+            fx += drag * (v.x - vi.x), fy += drag * (v.y - vi.y), fz += drag * (v.z - vi.z);
+        }
+        lanes_store(args->fx, i, begin, end, fx);
+        lanes_store(args->fy, i, begin, end, fy);
+        lanes_store(args->fz, i, begin, end, fz);
+    }
+}
+
+#endif
