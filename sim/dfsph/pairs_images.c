@@ -1,10 +1,8 @@
 /* What the images of the fluid in the walls of the box add to the sums of dfsph: images have their particles'
    multipliers and velocities, mirrored. An image finds of the fluid what its particle finds of images, so the
    pressure of walls is the gradient of the number density that they make, and walls can do no work. */
-#include "sim/cpu/pair_loop.h"
-#include "sim/cpu/pair_shape.h"
-#include "sim/dfsph/image.h"
 #include "sim/dfsph/passes.h"
+#include "sim/incompressible/pairs.h"
 
 typedef struct Factor {
     f8 n, x, y, z, squares;

@@ -127,24 +127,24 @@ SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki,
     }
 }
 
-/* sum (k_i + k_j) F x_ij into the force, where `place` has k. */
+/* sum (k_i + k_j) F x_ij into the force, where `place` has k; `terms`: the same in a column, or NULL. */
 SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
-                           float gradient)
+                           float gradient, const float *terms)
 {
     const f8 g = f8_splat(gradient), zero = f8_splat(0);
     const WallsFar far = out_of_sight(args->constants);
     Mirrors mirrors;
     GROUPS (i, begin, end) {
         const Themselves own = themselves(args, i);
-        const f8x4 self = f8_load4(args->place, own.j);
+        const f8 ki = terms ? f8_load(terms + i) : f8_load4(args->place, own.j).w;
         Place sum = {zero, zero, zero};
         mirrors_of(args, &far, i, begin, end, &mirrors);
         if (mirrors.count == 0)
-            push_of(args, i, near_of(args, i), self.w, kernel, NULL, &sum);
+            push_of(args, i, near_of(args, i), ki, kernel, NULL, &sum);
         else
-            push_of(args, i, near_of(args, i), self.w, kernel, &mirrors, &sum);
+            push_of(args, i, near_of(args, i), ki, kernel, &mirrors, &sum);
         for (int m = 0; m < mirrors.count; m++)
-            push_by(args, &mirrors.of[m], self.w, self, kernel, &sum);
+            push_by(args, &mirrors.of[m], ki, f8_load4(args->place, own.j), kernel, &sum);
         lanes_store(args->fx, i, begin, end, g * sum.x);
         lanes_store(args->fy, i, begin, end, g * sum.y);
         lanes_store(args->fz, i, begin, end, g * sum.z);
