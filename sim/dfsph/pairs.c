@@ -2,30 +2,11 @@
 #include "sim/incompressible/pairs.h"
 #include "sim/dfsph/passes.h"
 
-/* Sum of W into `volume`, of F x_ij into the force, and of F^2 r^2 / m_j. */
+/* Of the number density, where `place` has 1 / m. */
 PAIR_LOOP(dfsph_factor)
 {
-    const Constants *s = args->constants;
-    const f8 inverse_h = f8_splat(1 / s->support_radius), gradient = f8_splat(dfsph_constants(s)->gradient);
-    GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
-        f8 n = f8_splat(1), sx = f8_splat(0), sy = sx, sz = sx, squares = sx;
-        NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, j);
-            if (__builtin_expect(near.coincident, 0))
-                d = separate_to(args, i, j, d, TWINS_PART);
-            const f8 q = f8_sqrt(d.r2) * inverse_h, f = gradient * shape(q, DFSPH_KERNEL);
-            n += height(q, DFSPH_KERNEL);
-            sx += f * d.x, sy += f * d.y, sz += f * d.z;
-            squares += f * f * d.r2 * f8_gather(args->own[INVERSE_MASS], j);
-        }
-        lanes_store(args->number_density, i, begin, end, f8_splat(s->kernel_scale) * n);
-        lanes_store(args->fx, i, begin, end, sx);
-        lanes_store(args->fy, i, begin, end, sy);
-        lanes_store(args->fz, i, begin, end, sz);
-        lanes_store(args->own[SQUARES], i, begin, end, squares);
-    }
+    density_sums(args, begin, end, DFSPH_KERNEL, dfsph_constants(args->constants)->gradient,
+                 args->own[SQUARES]);
 }
 
 PAIR_LOOP(dfsph_push)

@@ -4,7 +4,6 @@
 #include <string.h>
 
 PAIR_LOOPS(dfsph_factor);
-PAIR_LOOPS(dfsph_images_factor);
 PAIR_LOOPS(dfsph_solids);
 PAIR_LOOPS(dfsph_push);
 PAIR_LOOPS(dfsph_rate);
@@ -50,17 +49,27 @@ static void finish_factor(const Cpu *cpu, size_t i)
     p->ax[i] = p->ay[i] = p->az[i] = 0;
 }
 
+/* {x, 1 / m}, and velocities, which only those of solids are asked for. */
+static void pack_masses(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
+        memcpy(range->cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], p->volume[i]}, 16);
+    }
+}
+
 static void factor_body(const CpuRange *range)
 {
     cpu_pairs(range, &dfsph_factor);
-    cpu_pairs(range, &dfsph_images_factor);
     if (range->cpu->now.own[SOLID_SLOPE])
         cpu_pairs(range, &dfsph_solids);
     for (size_t i = range->begin; i < range->end; i++)
         finish_factor(range->cpu, i);
 }
 
-static const CpuPass state = {.loops = {{terms_body, .solids = true}, {factor_body, .walks = true}}};
+static const CpuPass state = {
+    .loops = {{terms_body, .solids = true}, {factor_body, .walks = true, .pack = pack_masses}}};
 
 const Pass dfsph_state = {
     .name = "factor",
