@@ -3,11 +3,9 @@
 
 #include "sim/base/key_rows.h"
 #include "sim/dfsph/passes.h"
-#include "sim/kernel/jacobi.h"
-#include "sim/matter/viscosity.h"
+#include "sim/incompressible/constants.h"
 #include "sim/world/iterate.h"
 
-#include <math.h>
 #include <string.h>
 
 static const DfsphDef usual = {.tolerance = 0.0005, .divergence_tolerance = 0.0001, .iterations = 100};
@@ -21,47 +19,16 @@ static const Key keys[] = {
 };
 /* clang-format on */
 
-static MethodKernels dfsph_kernels(const WorldDef *def)
-{
-    (void)def;
-    return (MethodKernels){&shape_kernels[DFSPH_KERNEL], &shape_kernels[DFSPH_KERNEL]};
-}
-
-static StepFriction dfsph_friction(const WorldDef *def, const Lattice *lattice)
-{
-    return (StepFriction){
-        .laminar = friction_rate(lattice, def->spacing, FRICTION_MORRIS, def->support * def->spacing, NULL),
-        .walls = DRAG_MORRIS};
-}
-
-/* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it. */
-static double shape_half(void)
-{
-    return DFSPH_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
-}
-
-/* With momentum m Jacobi holds below 2 (1 + m) over the greatest eigenvalue (Polyak 1964); fluid out of order
-   has greater ones than its lattice, by up to a half. */
-static const double RELAXATION = 1.8;
-
-/* Of D on the lattice: D is no less, or particles next to few others or on a wall would be thrown. */
-static const double LEAST = 0.1;
-
 static void dfsph_set(Constants *constants, const WorldDef *def)
 {
-    const Lattice *lattice = &constants->lattice;
-    const Kernel *kernel = &shape_kernels[DFSPH_KERNEL];
-    const double h = def->support * def->spacing, r = 0.5 * h;
-    const double slope = -kernel->derivative(r, h) / r / shape_half();
+    const IncompressibleFactors factors = incompressible_factors(def, &constants->lattice);
     const DfsphDef *said = dfsph_def(def);
-    const double n0 = lattice->number_density, scale = lattice->density_scale;
-    const JacobiLattice jacobi = jacobi_lattice(kernel, def->dimensions, def->spacing, h);
     const DfsphConstants own = {
-        .sums = {.gradient = (float)(slope * scale),
-                 .friction_gradient = (float)(slope * lattice->gradient_scale),
-                 .relaxation = (float)(RELAXATION / jacobi.greatest),
-                 .pressure_of_term = (float)(n0 * n0 * scale / lattice->gradient_scale),
-                 .least_squares = (float)(LEAST * scale * scale * jacobi.squares)},
+        .sums = {.gradient = factors.gradient,
+                 .friction_gradient = factors.friction_gradient,
+                 .relaxation = factors.relaxation,
+                 .pressure_of_term = factors.pressure_of_term,
+                 .least_squares = factors.least_squares},
         .most = said->iterations,
         .tolerance = said->tolerance,
         .divergence_tolerance = said->divergence_tolerance,
@@ -158,8 +125,8 @@ const Method method_dfsph = {
     .incompressible = true,
     .solvers = {[SOLVE_DENSITY] = {"density", "solver.tolerance", "solver.iterations"},
                 [SOLVE_DIVERGENCE] = {"divergence", "solver.divergence_tolerance", "solver.iterations"}},
-    .kernels = dfsph_kernels,
-    .friction = dfsph_friction,
+    .kernels = incompressible_kernels,
+    .friction = incompressible_friction,
     .constants = dfsph_set,
     .columns = dfsph_columns,
     .passes = passes,

@@ -5,14 +5,12 @@
 /* Of the number density, where `place` has 1 / m. */
 PAIR_LOOP(dfsph_factor)
 {
-    density_sums(args, begin, end, DFSPH_KERNEL, dfsph_constants(args->constants)->gradient,
-                 args->own[SQUARES]);
+    density_sums(args, begin, end, dfsph_constants(args->constants)->gradient, args->own[SQUARES]);
 }
 
 PAIR_LOOP(dfsph_push)
 {
-    push_sums(args, begin, end, DFSPH_KERNEL, dfsph_constants(args->constants)->gradient,
-              args->pressure_term);
+    push_sums(args, begin, end, dfsph_constants(args->constants)->gradient, args->pressure_term);
 }
 
 /* sum F v_ij . x_ij of an image. */
@@ -62,5 +60,5 @@ PAIR_LOOP(dfsph_rate)
 
 PAIR_LOOP(dfsph_friction)
 {
-    friction_sums(args, begin, end, DFSPH_KERNEL, dfsph_constants(args->constants)->friction_gradient);
+    friction_sums(args, begin, end, dfsph_constants(args->constants)->friction_gradient);
 }

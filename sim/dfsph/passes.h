@@ -13,9 +13,9 @@
 
 #include "shaders/sim/dfsph/dfsph_block.h"
 #include "sim/cpu/pass.h"
-#include "sim/kernel/kernel.h"
+#include "sim/incompressible/constants.h"
 
-#define DFSPH_KERNEL KERNEL_WENDLAND_C2
+#define DFSPH_KERNEL INCOMPRESSIBLE_KERNEL
 
 /* Where its columns stand among a particle's own; k of the solver at work is `pressure_term`. */
 enum {

@@ -1,7 +1,7 @@
 /* The pair sums of methods that hold the number density (Method.incompressible), in which images of the fluid
    in the walls of the box have their particles' multipliers: what walls push with is the gradient of the
    number density that they make, and walls can do no work. For the files that are compiled once for each
-   instruction set; a method's pair loops call these with its kernel and its factors.
+   instruction set; a method's pair loops call these with its factors.
 
    With grad W_ij = -F x_ij, x_ij = x_i - x_j; F is `gradient` times shape(). */
 #ifndef SLOSH_INCOMPRESSIBLE_PAIRS_H
@@ -10,6 +10,7 @@
 #include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/cpu/pair_shape.h"
+#include "sim/incompressible/constants.h"
 
 /* Of an image next to its particle: not 0. */
 SIMD_INLINE f8 image_q(const Constants *s, f8 r2)
@@ -41,19 +42,19 @@ typedef struct DensitySums {
 
 /* Of an image; `times`: 2 for the particle's own, whose k is its own: its inverse mass is 0 here. */
 SIMD_INLINE void density_by(const PairArgs *args, const Mirrored *image, f8x4 near, float times,
-                            f8 inverse_mass, const ShapeKernel kernel, DensitySums *sum)
+                            f8 inverse_mass, DensitySums *sum)
 {
     const Separation d = apart(args, image->at, near);
-    const f8 q = image_q(args->constants, d.r2), f = f8_splat(times) * shape(q, kernel);
-    sum->n += height(q, kernel);
+    const f8 q = image_q(args->constants, d.r2), f = f8_splat(times) * shape(q, INCOMPRESSIBLE_KERNEL);
+    sum->n += height(q, INCOMPRESSIBLE_KERNEL);
     sum->x += image->sign.x * f * d.x;
     sum->y += image->sign.y * f * d.y;
     sum->z += image->sign.z * f * d.z;
     sum->squares += f * f * d.r2 * inverse_mass;
 }
 
-SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, const ShapeKernel kernel,
-                            const Mirrors *mirrors, DensitySums *sum)
+SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, const Mirrors *mirrors,
+                            DensitySums *sum)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
     const Place at = place_of(args, i);
@@ -62,19 +63,18 @@ SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, con
         Separation d = apart(args, at, p);
         if (__builtin_expect(near.coincident, 0))
             d = separate_to(args, i, j, d, TWINS_PART);
-        const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, kernel);
-        sum->n += height(q, kernel);
+        const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, INCOMPRESSIBLE_KERNEL);
+        sum->n += height(q, INCOMPRESSIBLE_KERNEL);
         sum->x += f * d.x, sum->y += f * d.y, sum->z += f * d.z;
         sum->squares += f * f * d.r2 * d.term;
         for (int m = 0; mirrors && m < mirrors->count; m++)
-            density_by(args, &mirrors->of[m], p, 1, p.w, kernel, sum);
+            density_by(args, &mirrors->of[m], p, 1, p.w, sum);
     }
 }
 
 /* Sum of W into `number_density`, of F x_ij into the force, of F^2 r^2 / m_j into `squares`, where `place`
    has 1 / m. */
-SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
-                              float gradient, float *squares)
+SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, float gradient, float *squares)
 {
     const f8 scale = f8_splat(args->constants->kernel_scale), g = f8_splat(gradient), zero = f8_splat(0);
     const WallsFar far = out_of_sight(args->constants);
@@ -84,11 +84,11 @@ SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, co
         DensitySums sum = {f8_splat(1), zero, zero, zero, zero};
         mirrors_of(args, &far, i, begin, end, &mirrors);
         if (mirrors.count == 0)
-            density_of(args, i, near_of(args, i), kernel, NULL, &sum);
+            density_of(args, i, near_of(args, i), NULL, &sum);
         else
-            density_of(args, i, near_of(args, i), kernel, &mirrors, &sum);
+            density_of(args, i, near_of(args, i), &mirrors, &sum);
         for (int m = 0; m < mirrors.count; m++)
-            density_by(args, &mirrors.of[m], f8_load4(args->place, own.j), 2, zero, kernel, &sum);
+            density_by(args, &mirrors.of[m], f8_load4(args->place, own.j), 2, zero, &sum);
         lanes_store(args->number_density, i, begin, end, scale * sum.n);
         lanes_store(args->fx, i, begin, end, g * sum.x);
         lanes_store(args->fy, i, begin, end, g * sum.y);
@@ -100,18 +100,17 @@ SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, co
 /* --- what k pushes with --- */
 
 /* (k_i + k_j) F x_ij of an image, in its particle's axes. */
-SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 ki, f8x4 near,
-                         const ShapeKernel kernel, Place *sum)
+SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 ki, f8x4 near, Place *sum)
 {
     const Separation d = apart(args, image->at, near);
-    const f8 push = (ki + d.term) * shape(image_q(args->constants, d.r2), kernel);
+    const f8 push = (ki + d.term) * shape(image_q(args->constants, d.r2), INCOMPRESSIBLE_KERNEL);
     sum->x += image->sign.x * push * d.x;
     sum->y += image->sign.y * push * d.y;
     sum->z += image->sign.z * push * d.z;
 }
 
-SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki, const ShapeKernel kernel,
-                         const Mirrors *mirrors, Place *sum)
+SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki, const Mirrors *mirrors,
+                         Place *sum)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
     const Place at = place_of(args, i);
@@ -120,16 +119,15 @@ SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki,
         Separation d = apart(args, at, p);
         if (__builtin_expect(near.coincident, 0))
             d = separate_to(args, i, j, d, TWINS_PART);
-        const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, kernel);
+        const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, INCOMPRESSIBLE_KERNEL);
         sum->x += push * d.x, sum->y += push * d.y, sum->z += push * d.z;
         for (int m = 0; mirrors && m < mirrors->count; m++)
-            push_by(args, &mirrors->of[m], ki, p, kernel, sum);
+            push_by(args, &mirrors->of[m], ki, p, sum);
     }
 }
 
 /* sum (k_i + k_j) F x_ij into the force, where `place` has k; `terms`: the same in a column, or NULL. */
-SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
-                           float gradient, const float *terms)
+SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float gradient, const float *terms)
 {
     const f8 g = f8_splat(gradient), zero = f8_splat(0);
     const WallsFar far = out_of_sight(args->constants);
@@ -140,11 +138,11 @@ SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, const
         Place sum = {zero, zero, zero};
         mirrors_of(args, &far, i, begin, end, &mirrors);
         if (mirrors.count == 0)
-            push_of(args, i, near_of(args, i), ki, kernel, NULL, &sum);
+            push_of(args, i, near_of(args, i), ki, NULL, &sum);
         else
-            push_of(args, i, near_of(args, i), ki, kernel, &mirrors, &sum);
+            push_of(args, i, near_of(args, i), ki, &mirrors, &sum);
         for (int m = 0; m < mirrors.count; m++)
-            push_by(args, &mirrors.of[m], ki, f8_load4(args->place, own.j), kernel, &sum);
+            push_by(args, &mirrors.of[m], ki, f8_load4(args->place, own.j), &sum);
         lanes_store(args->fx, i, begin, end, g * sum.x);
         lanes_store(args->fy, i, begin, end, g * sum.y);
         lanes_store(args->fz, i, begin, end, g * sum.z);
@@ -154,8 +152,7 @@ SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, const
 /* --- friction --- */
 
 /* In the form of Morris (sim/matter/viscosity.h): V_i V_j (mu_i + mu_j) F v_ji, of what `motion` has. */
-SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
-                               float gradient)
+SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, float gradient)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), g = f8_splat(gradient),
@@ -173,7 +170,7 @@ SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, c
             const f8 q = f8_sqrt(d.r2) * inverse_h, apart = f8_select(q > least, q, least);
             const f8x4 v = motion(args, j);
             const f8 mj = args->viscosity ? f8_gather(args->viscosity, j) : same;
-            const f8 drag = scale * v.w * (mi + mj) * shape(apart, kernel);
+            const f8 drag = scale * v.w * (mi + mj) * shape(apart, INCOMPRESSIBLE_KERNEL);
             fx += drag * (v.x - vi.x), fy += drag * (v.y - vi.y), fz += drag * (v.z - vi.z);
         }
         lanes_store(args->fx, i, begin, end, fx);

@@ -5,16 +5,16 @@
 /* Of the number density, where `place` has 1 / m. */
 PAIR_LOOP(pbf_sums)
 {
-    density_sums(args, begin, end, PBF_KERNEL, pbf_constants(args->constants)->gradient, args->own[SQUARES]);
+    density_sums(args, begin, end, pbf_constants(args->constants)->gradient, args->own[SQUARES]);
 }
 
 /* sum (dk_i + dk_j) F x_ij, where `place` has dk. */
 PAIR_LOOP(pbf_push)
 {
-    push_sums(args, begin, end, PBF_KERNEL, pbf_constants(args->constants)->gradient, NULL);
+    push_sums(args, begin, end, pbf_constants(args->constants)->gradient, NULL);
 }
 
 PAIR_LOOP(pbf_friction)
 {
-    friction_sums(args, begin, end, PBF_KERNEL, pbf_constants(args->constants)->friction_gradient);
+    friction_sums(args, begin, end, pbf_constants(args->constants)->friction_gradient);
 }

@@ -12,9 +12,7 @@
 
 #include "shaders/sim/pbf/pbf_block.h"
 #include "sim/cpu/pass.h"
-#include "sim/kernel/kernel.h"
-
-#define PBF_KERNEL KERNEL_WENDLAND_C2
+#include "sim/incompressible/constants.h"
 
 /* Where its columns stand among a particle's own. */
 enum {

@@ -2,12 +2,10 @@
 #include "sim/pbf/pbf.h"
 
 #include "sim/base/key_rows.h"
-#include "sim/kernel/jacobi.h"
-#include "sim/matter/viscosity.h"
+#include "sim/incompressible/constants.h"
 #include "sim/pbf/passes.h"
 #include "sim/world/iterate.h"
 
-#include <math.h>
 #include <string.h>
 
 static const PbfDef usual = {.tolerance = 0.01, .iterations = 50};
@@ -20,46 +18,15 @@ static const Key keys[] = {
 };
 /* clang-format on */
 
-static MethodKernels pbf_kernels(const WorldDef *def)
-{
-    (void)def;
-    return (MethodKernels){&shape_kernels[PBF_KERNEL], &shape_kernels[PBF_KERNEL]};
-}
-
-static StepFriction pbf_friction(const WorldDef *def, const Lattice *lattice)
-{
-    return (StepFriction){
-        .laminar = friction_rate(lattice, def->spacing, FRICTION_MORRIS, def->support * def->spacing, NULL),
-        .walls = DRAG_MORRIS};
-}
-
-/* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it. */
-static double shape_half(void)
-{
-    return PBF_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
-}
-
-/* Jacobi with momentum m holds below 2 (1 + m) over the greatest eigenvalue (Polyak 1964); fluid out of order
-   has greater ones than its lattice. */
-static const double RELAXATION = 1.8;
-
-/* Of D on the lattice: D is no less, or few neighbours would be thrown. */
-static const double LEAST = 0.1;
-
 static void pbf_set(Constants *constants, const WorldDef *def)
 {
-    const Lattice *lattice = &constants->lattice;
-    const Kernel *kernel = &shape_kernels[PBF_KERNEL];
-    const double h = def->support * def->spacing, r = 0.5 * h, scale = lattice->density_scale;
-    const double slope = -kernel->derivative(r, h) / r / shape_half();
-    const JacobiLattice jacobi = jacobi_lattice(kernel, def->dimensions, def->spacing, h);
-    const double n0 = lattice->number_density;
+    const IncompressibleFactors factors = incompressible_factors(def, &constants->lattice);
     const PbfConstants own = {
-        .sums = {.gradient = (float)(slope * scale),
-                 .friction_gradient = (float)(slope * lattice->gradient_scale),
-                 .relaxation = (float)(RELAXATION / jacobi.greatest),
-                 .least_squares = (float)(LEAST * scale * scale * jacobi.squares),
-                 .pressure_of_term = (float)(n0 * n0 * scale / lattice->gradient_scale),
+        .sums = {.gradient = factors.gradient,
+                 .friction_gradient = factors.friction_gradient,
+                 .relaxation = factors.relaxation,
+                 .least_squares = factors.least_squares,
+                 .pressure_of_term = factors.pressure_of_term,
                  .viscous_dt = (float)(STEP_VISCOUS_STANDS * step_viscous(def, &constants->friction))},
         .most = pbf_def(def)->iterations,
         .tolerance = pbf_def(def)->tolerance,
@@ -177,8 +144,8 @@ const Method method_pbf = {
     .incompressible = true,
     .solvers = {{"places", "solver.compression", "solver.corrections"}},
     .leaps = true,
-    .kernels = pbf_kernels,
-    .friction = pbf_friction,
+    .kernels = incompressible_kernels,
+    .friction = incompressible_friction,
     .constants = pbf_set,
     .columns = pbf_columns,
     .passes = passes,

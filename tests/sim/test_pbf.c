@@ -55,7 +55,7 @@ static World *cloud_world(WorldDef *def, const Cloud *cloud)
 static double compression(const World *world, const State *s, size_t i)
 {
     const Constants *c = &world->constants;
-    const Kernel *kernel = &shape_kernels[PBF_KERNEL];
+    const Kernel *kernel = &shape_kernels[INCOMPRESSIBLE_KERNEL];
     const double h = (double)c->support_radius;
     double n = 0;
     for (size_t j = 0; j < s->count; j++) {
