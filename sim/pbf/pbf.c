@@ -64,10 +64,10 @@ static int iterate(const Substep *step, double tolerance, Excess *left)
 {
     const int most = pbf_solver(step->constants)->most;
     Excess way = {0};
-    Iteration iteration = {{&pbf_move, &pbf_density},
-                           pbf_miss,
-                           tolerance,
-                           most,
+    Iteration iteration = {.passes = {&pbf_move, &pbf_density},
+                           .residual = pbf_miss,
+                           .tolerance = tolerance,
+                           .most = most,
                            .asked = {{pbf_way, &way}, {pbf_compressed, left}}};
     for (int lists = 1;; lists++) {
         substep_iterate(step, &iteration, 0, step->dt);
