@@ -1,46 +1,17 @@
 /* dfsph: what its solvers leave, by sums over all pairs in double precision; what a step keeps. */
-#include "fixture.h"
+#include "tests/dfsph/cloud.h"
+
 #include "sim/cpu/cpu.h"
 #include "sim/dfsph/dfsph.h"
 #include "sim/dfsph/passes.h"
-#include "sim/world/world_state.h"
 #include "sim/world/world_struct.h"
 
-enum { SIDE = 5, N = SIDE * SIDE * SIDE };
-
-typedef struct Cloud {
-    float x[3 * N], v[3 * N];
-    uint8_t fluid[N];
-} Cloud;
-
-/* A shrinking cube out of order in the middle of a large box, half of it a thousandth as dense. */
 static WorldDef cloud_def(Cloud *cloud)
 {
     WorldDef def = fixture_def(4, 4, 4);
-    uint32_t seed = 3;
     strcpy(def.method, "dfsph");
-    memset(def.gravity, 0, sizeof def.gravity);
-    def.fluid_count = 2;
-    def.fluids[1] = (FluidDef){.name = "air", .density = 1};
-    for (int i = 0; i < N; i++) {
-        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
-        for (int k = 0; k < 3; k++) {
-            const double x = 0.1 * (index[k] - 0.5 * (SIDE - 1)) + 0.005 * (fixture_random(&seed) - 0.5);
-            cloud->x[3 * i + k] = (float)(x + (k == 1 ? 2 : 0));
-            cloud->v[3 * i + k] = (float)(-3 * x);
-        }
-        cloud->fluid[i] = index[0] > 2;
-    }
+    cloud_make(cloud, &def, 0.005, 3);
     return def;
-}
-
-static World *cloud_world(WorldDef *def, const Cloud *cloud)
-{
-    def->initial =
-        &(InitialState){.count = N, .position = cloud->x, .velocity = cloud->v, .fluid = cloud->fluid};
-    World *world = fixture_world(def);
-    def->initial = NULL;
-    return world;
 }
 
 /* n / n0 - 1 of particle i at x, and what velocities v make of it in `dt`. */
@@ -147,28 +118,14 @@ static void keeps_momentum(void **state)
 
 static WorldDef dam_def(int threads)
 {
-    WorldDef def = fixture_def(1.6, 1, 0.4);
-    strcpy(def.method, "dfsph");
-    def.spacing = 0.05;
-    fixture_block(&def, 0, -0.8, 0, -0.2, -0.3, 0.6, 0.2);
-    *world_threads(&def) = threads;
-    return def;
+    return dam_of("dfsph", 0.002, threads);
 }
 
 static void same_bits_on_threads(void **state)
 {
     (void)state;
     fixture_needs_cpu("threads");
-    static const int threads[] = {1, 2, 3, 8};
-    uint64_t hash[4];
-    for (int k = 0; k < 4; k++) {
-        const WorldDef def = dam_def(threads[k]);
-        World *world = fixture_world(&def);
-        fixture_step(world, 100);
-        hash[k] = world_hash(world);
-        world_destroy(world);
-    }
-    assert_true(hash[0] == hash[1] && hash[0] == hash[2] && hash[0] == hash[3]);
+    check_same_bits_on_threads(dam_def(1), 100);
 }
 
 /* A dam that breaks: little compression, no energy out of nothing, nothing through the walls. */
@@ -365,22 +322,7 @@ static void goes_on_from_a_saved_state(void **state)
 {
     (void)state;
     const WorldDef def = dam_def(1);
-    World *world = fixture_world(&def);
-    WorldState saved = {0};
-    Error error = {0};
-    fixture_step(world, 50);
-    assert_true(world_save(world, &saved, &error));
-    fixture_step(world, 5);
-    State s = fixture_read(world);
-    assert_true(world_load(world, &saved, &error));
-    fixture_step(world, 5);
-    State again = fixture_read(world);
-    assert_memory_equal(s.position, again.position, 16 * s.count);
-    assert_memory_equal(s.velocity, again.velocity, 16 * s.count);
-    fixture_free(&s);
-    fixture_free(&again);
-    world_state_free(&saved);
-    world_destroy(world);
+    check_goes_on(&def, 50);
 }
 
 /* A tolerance that nothing reaches is trouble with a name, and ends. */

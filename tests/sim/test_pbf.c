@@ -1,18 +1,11 @@
 /* pbf: what its iterations leave, by sums over all pairs in double precision; what a step keeps; what it
    survives. */
-#include "fixture.h"
+#include "tests/dfsph/cloud.h"
+
 #include "sim/box/box_motion.h"
 #include "sim/pbf/passes.h"
 #include "sim/pbf/pbf.h"
-#include "sim/world/world_state.h"
 #include "sim/world/world_struct.h"
-
-enum { SIDE = 5, N = SIDE * SIDE * SIDE };
-
-typedef struct Cloud {
-    float x[3 * N], v[3 * N];
-    uint8_t fluid[N];
-} Cloud;
 
 static WorldDef pbf_world(double width, double height, double depth)
 {
@@ -22,33 +15,11 @@ static WorldDef pbf_world(double width, double height, double depth)
     return def;
 }
 
-/* A shrinking cube out of order, m, in the middle of a large box, half of it a thousandth as dense. */
 static WorldDef cloud_def(Cloud *cloud, double disorder)
 {
     WorldDef def = pbf_world(8, 8, 8);
-    uint32_t seed = 3;
-    memset(def.gravity, 0, sizeof def.gravity);
-    def.fluid_count = 2;
-    def.fluids[1] = (FluidDef){.name = "air", .density = 1};
-    for (int i = 0; i < N; i++) {
-        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
-        for (int k = 0; k < 3; k++) {
-            const double x = 0.1 * (index[k] - 0.5 * (SIDE - 1)) + disorder * (fixture_random(&seed) - 0.5);
-            cloud->x[3 * i + k] = (float)(x + (k == 1 ? 4 : 0));
-            cloud->v[3 * i + k] = (float)(-150 * disorder * x);
-        }
-        cloud->fluid[i] = index[0] > 2;
-    }
+    cloud_make(cloud, &def, disorder, 150 * disorder);
     return def;
-}
-
-static World *cloud_world(WorldDef *def, const Cloud *cloud)
-{
-    def->initial =
-        &(InitialState){.count = N, .position = cloud->x, .velocity = cloud->v, .fluid = cloud->fluid};
-    World *world = fixture_world(def);
-    def->initial = NULL;
-    return world;
 }
 
 /* n / n0 - 1 of particle i, by all others. */
@@ -142,56 +113,21 @@ static void keeps_momentum(void **state)
 
 static WorldDef dam_def(int threads)
 {
-    WorldDef def = pbf_world(1.6, 1, 0.4);
-    def.spacing = 0.05;
-    fixture_block(&def, 0, -0.8, 0, -0.2, -0.3, 0.6, 0.2);
-    *world_threads(&def) = threads;
-    return def;
+    return dam_of("pbf", 1.0 / 60, threads);
 }
 
 static void same_bits_on_threads(void **state)
 {
     (void)state;
     fixture_needs_cpu("has no threads");
-    static const int threads[] = {1, 2, 3, 8};
-    State first = {0};
-    for (int k = 0; k < 4; k++) {
-        const WorldDef def = dam_def(threads[k]);
-        World *world = fixture_world(&def);
-        fixture_step(world, 40);
-        State s = fixture_read(world);
-        world_destroy(world);
-        if (k == 0) {
-            first = s;
-            continue;
-        }
-        assert_memory_equal(first.position, s.position, 16 * s.count);
-        assert_memory_equal(first.velocity, s.velocity, 16 * s.count);
-        fixture_free(&s);
-    }
-    fixture_free(&first);
+    check_same_bits_on_threads(dam_def(1), 40);
 }
 
 static void goes_on_from_a_saved_state(void **state)
 {
     (void)state;
     const WorldDef def = dam_def(1);
-    World *world = fixture_world(&def);
-    WorldState saved = {0};
-    Error error = {0};
-    fixture_step(world, 30);
-    assert_true(world_save(world, &saved, &error));
-    fixture_step(world, 5);
-    State s = fixture_read(world);
-    assert_true(world_load(world, &saved, &error));
-    fixture_step(world, 5);
-    State again = fixture_read(world);
-    assert_memory_equal(s.position, again.position, 16 * s.count);
-    assert_memory_equal(s.velocity, again.velocity, 16 * s.count);
-    fixture_free(&s);
-    fixture_free(&again);
-    world_state_free(&saved);
-    world_destroy(world);
+    check_goes_on(&def, 30);
 }
 
 /* Mean compression with lists that are new. */
