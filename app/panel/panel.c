@@ -59,12 +59,22 @@ static void count_text(size_t count, char text[32])
     text[used] = 0;
 }
 
+static void draw_rubbed(Ui *ui, const SolveFigures *solved)
+{
+    char text[96];
+    snprintf(text, sizeof text, "mean %.3g, %.2g %% left", solved->viscosity_iterations_mean,
+             100 * solved->viscosity_residual_mean);
+    ui_row(ui, "viscosity iterations", text);
+}
+
 /* Nothing of a method without solvers that iterate. */
 static void draw_solved(Ui *ui, const PanelData *data)
 {
     const SolveFigures *solved = &data->solved;
     char text[96];
-    if (solved->steps == 0)
+    if (solved->steps > 0 && solved->rubs)
+        draw_rubbed(ui, solved);
+    if (solved->steps == 0 || !solved->projects)
         return;
     snprintf(text, sizeof text, "%.0f, mean %.3g, p95 %.0f", data->iterations, solved->iterations_mean,
              solved->iterations_p95);

@@ -6,6 +6,13 @@ void solved_json(json_t *object, const SolveFigures *solved)
 {
     if (!object || solved->steps == 0)
         return;
+    if (solved->rubs) {
+        json_object_set_new(object, "viscosity_iterations_mean",
+                            json_real(solved->viscosity_iterations_mean));
+        json_object_set_new(object, "viscosity_residual_mean", json_real(solved->viscosity_residual_mean));
+    }
+    if (!solved->projects)
+        return;
     json_object_set_new(object, "iterations_mean", json_real(solved->iterations_mean));
     json_object_set_new(object, "iterations_p95", json_real(solved->iterations_p95));
     json_object_set_new(object, "density_error_mean", json_real(solved->density_error_mean));
@@ -14,11 +21,15 @@ void solved_json(json_t *object, const SolveFigures *solved)
 
 const char *solved_text(const SolveFigures *solved, char words[SOLVED_WORDS])
 {
+    int used = 0;
     words[0] = '\0';
-    if (solved->steps > 0)
-        snprintf(words, SOLVED_WORDS,
-                 "%.3g iterations a step (p95 %.0f), density error %.3g %% mean, %.3g %% max",
-                 solved->iterations_mean, solved->iterations_p95, 100 * solved->density_error_mean,
-                 100 * solved->density_error_max);
+    if (solved->steps > 0 && solved->projects)
+        used = snprintf(words, SOLVED_WORDS,
+                        "%.3g iterations a step (p95 %.0f), density error %.3g %% mean, %.3g %% max",
+                        solved->iterations_mean, solved->iterations_p95, 100 * solved->density_error_mean,
+                        100 * solved->density_error_max);
+    if (solved->steps > 0 && solved->rubs)
+        snprintf(words + used, SOLVED_WORDS - (size_t)used, "%sviscosity %.3g iterations a step, %.2g left",
+                 used > 0 ? "; " : "", solved->viscosity_iterations_mean, solved->viscosity_residual_mean);
     return words;
 }

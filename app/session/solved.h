@@ -7,11 +7,12 @@
 
 #include <jansson.h>
 
-/* Adds iterations_mean, iterations_p95, density_error_mean and density_error_max to an object; nothing of a
-   method without such solvers. */
+/* Adds iterations_mean, iterations_p95, density_error_mean and density_error_max to an object, and with
+   implicit viscosity viscosity_iterations_mean and viscosity_residual_mean; nothing of a world without such
+   solvers. */
 void solved_json(json_t *object, const SolveFigures *solved);
 
-enum { SOLVED_WORDS = 128 };
+enum { SOLVED_WORDS = 192 };
 
 /* "8.3 iterations a step (p95 14), density error 0.048 % mean, 1.2 % max"; "" of a method without. */
 const char *solved_text(const SolveFigures *solved, char words[SOLVED_WORDS]);

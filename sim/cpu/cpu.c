@@ -157,6 +157,7 @@ PairArgs cpu_pair_args(Cpu *cpu)
         .fx = p->ax,
         .fy = p->ay,
         .fz = p->az,
+        .term = p->term,
     };
     memcpy(args.own, p->own, sizeof args.own);
     for (int k = 0; k < 3; k++) {
@@ -219,6 +220,7 @@ const Backend backend_cpu = {
     .grid = cpu_grid,
     .run = cpu_run_pass,
     .excess = cpu_excess,
+    .sum = cpu_sum,
     .kick = cpu_kick,
     .watch = cpu_watch,
     .sums = cpu_sums,

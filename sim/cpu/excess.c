@@ -36,3 +36,23 @@ Excess cpu_excess(void *state, const ColumnDef *column)
     all.mean /= cpu->owned > 0 ? (double)cpu->owned : 1;
     return all;
 }
+
+static void sum_range(void *context, size_t begin, size_t end)
+{
+    const ExcessPass *pass = context;
+    double sum = 0;
+    for (size_t k = begin; k < end; k++)
+        sum += (double)pass->column[cpu_owned(pass->cpu, k)];
+    pass->cpu->partial[begin / CPU_GRAIN].mass = sum;
+}
+
+double cpu_sum(void *state, const ColumnDef *column)
+{
+    Cpu *cpu = state;
+    ExcessPass pass = {cpu, *column_array(&cpu->now, column, 0)};
+    double sum = 0;
+    parallel_ranges(cpu->threads, cpu->owned, CPU_GRAIN, sum_range, &pass);
+    for (size_t r = 0; r * CPU_GRAIN < cpu->owned; r++)
+        sum += cpu->partial[r].mass;
+    return sum;
+}

@@ -105,7 +105,7 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
                               : cpu->constants->support_radius / kick->dt; /* its square is finite */
     float speed2 = 0, acceleration2 = 0, volume = INFINITY;
     bool bounded = true; /* false for NaN as well */
-    if (cpu->constants->no_slip)
+    if (cpu->constants->no_slip && !cpu->constants->implicit.on)
         hold_by_walls(kick, begin, end);
     for (size_t i = begin; i < end; i++) {
         const float ax = cpu->now.ax[i] + kick->gravity[0], ay = cpu->now.ay[i] + kick->gravity[1],

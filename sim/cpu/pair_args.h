@@ -32,6 +32,7 @@ typedef struct PairArgs {
     float *fx, *fy, *fz;            /* out of forces, N; `fx` also of rates */
     float *number_density;          /* out of densities, 1/m3: in the place of `volume` */
     float *own[COLUMNS_OWN];        /* of the method */
+    float *const *term;             /* of what methods share */
 } PairArgs;
 
 #endif

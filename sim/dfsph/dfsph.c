@@ -51,6 +51,23 @@ static void solve(const Substep *step, int which, const Pass *const passes[4], d
     substep_run(step, passes[3], step->dt);
 }
 
+/* Thick fluid rests on its pressure, so friction at the end of a step has to know one: that of the step
+   before, which the solver of divergence then corrects. Without it fluid would flow as if nothing held it, a
+   step long, each step anew. */
+static void end_terms(const Substep *step)
+{
+    if (!step->constants->implicit.on)
+        return;
+    STAGE (step->clock, STAGE_SOLVE) {
+        substep_run(step, &dfsph_divergence_begin, step->dt);
+        substep_run(step, &dfsph_divergence_push, step->dt);
+        substep_run(step, &dfsph_pressed, step->dt);
+    }
+    substep_terms(step);
+    STAGE (step->clock, STAGE_SOLVE)
+        substep_run(step, &dfsph_unpressed, step->dt);
+}
+
 /* Pressure: velocities that, after gravity and all other accelerations, press nothing that is at rest
  * density. */
 static void end_divergence(const Substep *step)
@@ -84,6 +101,7 @@ static void dfsph_substep(const Substep *step)
         substep_run(step, &dfsph_state, step->dt);
     STAGE (step->clock, STAGE_FORCE)
         substep_run(step, &dfsph_others, step->dt);
+    end_terms(step);
     STAGE (step->clock, STAGE_SOLVE)
         end_divergence(step);
     STAGE (step->clock, STAGE_INTEGRATE)
@@ -100,6 +118,8 @@ static const Pass *const passes[] = {&dfsph_state,
                                      &dfsph_divergence_rate,
                                      &dfsph_divergence_end,
                                      &dfsph_others,
+                                     &dfsph_pressed,
+                                     &dfsph_unpressed,
                                      &dfsph_density_begin,
                                      &dfsph_density_push,
                                      &dfsph_density_rate,

@@ -87,7 +87,7 @@ static void others_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     const Constants *s = range->cpu->constants;
-    if (s->viscous)
+    if (s->rubs)
         cpu_pairs(range, &dfsph_friction);
     else
         for (size_t i = range->begin; i < range->end; i++)
@@ -110,6 +110,56 @@ const Pass dfsph_others = {
     .reads = "position velocity id fluid volume viscosity tension kind",
     .writes = "acceleration other",
     .mirrors = true,
+};
+
+/* --- terms that need the pressure --- */
+
+static void pressed_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    float *const a[3] = {p->ax, p->ay, p->az}, *const *other = p->own + OTHER;
+    for (int k = 0; k < 3; k++)
+        for (size_t i = range->begin; i < range->end; i++) {
+            const float pressed = a[k][i];
+            a[k][i] += other[k][i];
+            other[k][i] = -pressed;
+        }
+}
+
+static void unpressed_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float *const a[3] = {p->ax, p->ay, p->az};
+    for (int k = 0; k < 3; k++)
+        for (size_t i = range->begin; i < range->end; i++)
+            p->own[OTHER + k][i] += a[k][i];
+}
+
+static bool has_terms(const Constants *constants)
+{
+    return constants->implicit.on;
+}
+
+static const CpuPass pressed = {.loops = {{pressed_body}}}, unpressed = {.loops = {{unpressed_body}}};
+
+const Pass dfsph_pressed = {
+    .name = "pressed",
+    .stage = STAGE_SOLVE,
+    .cpu = &pressed,
+    .shader = "dfsph/pressed",
+    .reads = "acceleration other",
+    .writes = "acceleration other",
+    .needed = has_terms,
+};
+
+const Pass dfsph_unpressed = {
+    .name = "unpressed",
+    .stage = STAGE_SOLVE,
+    .cpu = &unpressed,
+    .shader = "dfsph/unpressed",
+    .reads = "acceleration other",
+    .writes = "other",
+    .needed = has_terms,
 };
 
 /* --- solvers: begin and end --- */

@@ -59,6 +59,11 @@ extern const Pass dfsph_state;
 /* Accelerations but those of pressure. */
 extern const Pass dfsph_others;
 
+/* Around terms that the step ends with (sim/world/method.h): to accelerations by the last step's pressure
+   those but pressure are added; what the terms have made of all, less that pressure, is what is not pressure.
+ */
+extern const Pass dfsph_pressed, dfsph_unpressed;
+
 /* k and residual that a solver begins with; what it keeps of them. */
 extern const Pass dfsph_divergence_begin, dfsph_density_begin, dfsph_divergence_end, dfsph_density_end;
 

@@ -14,6 +14,14 @@ const ViscosityKind viscosity_kinds[] = {
     [VISCOSITY_RADIAL + 1] = {0},
 };
 
+const ViscosityKind viscosity_solvers[] = {
+    [VISCOSITY_EXPLICIT] = {"explicit", "by the velocities at the begin of a step, which it bounds"},
+    [VISCOSITY_IMPLICIT] = {"implicit",
+                            "by those at its end, in the radial form: a solver that iterates, and "
+                            "no bound on the step; for thick fluid"},
+    [VISCOSITY_IMPLICIT + 1] = {0},
+};
+
 enum { REACH = 4, SITES = (2 * REACH + 1) * (2 * REACH + 1) * (2 * REACH + 1), WAVES = 8 };
 
 /* Half of the neighbours, since a site and its mirror image weigh the same. */

@@ -20,11 +20,15 @@
 
 typedef enum ViscosityForm { VISCOSITY_MORRIS, VISCOSITY_RADIAL } ViscosityForm;
 
+/* How a step takes friction (solver.viscosity): by the velocities at its begin, or at its end. */
+typedef enum ViscositySolver { VISCOSITY_EXPLICIT, VISCOSITY_IMPLICIT } ViscositySolver;
+
 typedef struct ViscosityKind {
     const char *name, *help;
 } ViscosityKind;
 
-extern const ViscosityKind viscosity_kinds[]; /* in the order of ViscosityForm, ended by a NULL name */
+extern const ViscosityKind viscosity_kinds[];   /* in the order of ViscosityForm, ended by a NULL name */
+extern const ViscosityKind viscosity_solvers[]; /* in the order of ViscositySolver, the same */
 
 /* What levels differences of velocity: Müller's Laplacian, the two forms above, the artificial viscosity.
  */

@@ -93,6 +93,9 @@ typedef struct WorldDef {
     MethodDef of_method[METHODS_MAX];    /* own settings of each method of the list, in its order */
     BackendDef of_backend[BACKENDS_MAX]; /* the same of each backend */
     int tension_model;                   /* a TensionModel of sim/matter/tension.h */
+    int viscosity_solver;       /* a ViscositySolver of sim/matter/viscosity.h; of the implicit one: */
+    double viscosity_tolerance; /* what a step may leave, a fraction: see sim/viscosity/passes.h */
+    int viscosity_iterations;   /* at most */
     int wall_slip; /* a Slip of sim/matter/solid.h: how viscous fluid passes the walls of the box */
     double lid[3]; /* velocity of the wall at the top, in its plane, m/s: for walls without slip */
     StepMode step_mode;

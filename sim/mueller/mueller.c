@@ -72,6 +72,7 @@ static void mueller_substep(const Substep *step)
         substep_run(step, &mueller_densities, step->dt);
     STAGE (step->clock, STAGE_FORCE)
         substep_run(step, &mueller_forces, step->dt);
+    substep_terms(step);
     STAGE (step->clock, STAGE_INTEGRATE) {
         substep_kick(step);
         b->drift(state, &step->second_half);

@@ -79,7 +79,7 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
 
 PAIR_LOOP(mueller_force)
 {
-    if (!args->constants->viscous)
+    if (!args->constants->rubs)
         force_range(args, begin, end, false, false);
     else if (!args->viscosity)
         force_range(args, begin, end, true, false);

@@ -95,7 +95,7 @@ static PairCost density_pair(const Constants *constants)
 /* With a viscosity {v, V} too, and that of its fluid where there are several. */
 static PairCost force_pair(const Constants *constants)
 {
-    const bool viscous = constants->viscous, many = viscous && constants->fluid_count > 1;
+    const bool viscous = constants->rubs, many = viscous && constants->fluid_count > 1;
     return (PairCost){.gather = 16 + 16 * viscous + 4 * many, .flops = 22 + 11 * viscous + 2 * many};
 }
 

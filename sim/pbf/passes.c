@@ -346,12 +346,12 @@ static void rub(const CpuRange *range)
     const CpuParticles *p = &range->cpu->now;
     const float stands = pbf_constants(s)->viscous_dt, dt = range->input->dt,
                 part = dt > stands ? stands / dt : 1;
-    if (s->viscous)
+    if (s->rubs)
         cpu_pairs(range, &pbf_friction);
     for (size_t i = range->begin; i < range->end; i++) {
-        p->ax[i] = s->viscous ? part * p->ax[i] : 0;
-        p->ay[i] = s->viscous ? part * p->ay[i] : 0;
-        p->az[i] = s->viscous ? part * p->az[i] : 0;
+        p->ax[i] = s->rubs ? part * p->ax[i] : 0;
+        p->ay[i] = s->rubs ? part * p->ay[i] : 0;
+        p->az[i] = s->rubs ? part * p->az[i] : 0;
     }
 }
 

@@ -117,6 +117,7 @@ static void pbf_substep(const Substep *step)
         hold_density(step);
     STAGE (step->clock, STAGE_FORCE)
         substep_run(step, &pbf_force, step->dt);
+    substep_terms(step);
     STAGE (step->clock, STAGE_INTEGRATE)
         substep_kick(step);
 }

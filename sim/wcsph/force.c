@@ -38,7 +38,7 @@ static PairCost force_pair(const Constants *constants)
 {
     static const int heights[] = {[KERNEL_CUBIC] = 8, [KERNEL_WENDLAND_C2] = 6, [KERNEL_QUINTIC] = 18};
     const WcsphBlock *own = wcsph_constants(constants);
-    const bool many = constants->fluid_count > 1, viscous = constants->viscous,
+    const bool many = constants->fluid_count > 1, viscous = constants->rubs,
                artificial = wcsph_is_artificial(constants);
     PairCost cost = {.gather = 16, .flops = 18 + wcsph_shape_flops(constants)};
     if (viscous || artificial) {

@@ -195,7 +195,7 @@ SIMD_INLINE void rate_of(const PairArgs *args, size_t begin, size_t end, const S
 SIMD_INLINE void viscous_with(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                               const bool artificial, const bool shifts)
 {
-    const bool viscous = args->constants->viscous;
+    const bool viscous = args->constants->rubs;
     if (viscous && wcsph_constants(args->constants)->radial_friction > 0)
         wcsph_range(args, begin, end, kernel, true, true, artificial, shifts);
     else if (viscous)

@@ -121,6 +121,7 @@ static void wcsph_substep(const Substep *step)
         substep_run(step, &wcsph_state, 0.5 * step->dt);
     STAGE (step->clock, STAGE_FORCE)
         substep_run(step, &wcsph_forces, step->dt);
+    substep_terms(step);
     STAGE (step->clock, STAGE_INTEGRATE)
         substep_kick(step);
     if (wcsph_shifts(step->constants))

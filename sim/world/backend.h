@@ -59,6 +59,8 @@ typedef struct Backend {
     /* Of a column of one component, over the fluids' particles, in an order that no thread count changes.
        NULL: it has `iterate`, or runs no method that iterates. */
     Excess (*excess)(void *state, const ColumnDef *column);
+    /* The sum of such a column, in the same order. NULL: a backend with `iterate` has its own. */
+    double (*sum)(void *state, const ColumnDef *column);
     /* The loop of substep_iterate where the particles are; `solve` has what the solver did in the step
        before, then what it did in this one. NULL: that loop asks for the excess after each iteration. */
     void (*iterate)(void *state, const struct Iteration *iteration, const PassInput *input, StepSolve *solve);

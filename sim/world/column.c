@@ -5,7 +5,9 @@
 
 int column_own(const ColumnDef *column)
 {
-    return column->at < COLUMN_OWN(0) ? -1 : (int)((column->at - COLUMN_OWN(0)) / sizeof(float *));
+    return column->at < COLUMN_OWN(0) || column->at >= COLUMN_TERM(0)
+               ? -1
+               : (int)((column->at - COLUMN_OWN(0)) / sizeof(float *));
 }
 
 bool columns_save_own(const ColumnDef *own)
@@ -13,22 +15,6 @@ bool columns_save_own(const ColumnDef *own)
     while (own && own->name && !(own->flags & COLUMN_SAVED && column_own(own) >= 0))
         own++;
     return own && own->name;
-}
-
-static void add_rows(ColumnRows *rows, const ColumnDef *from, unsigned flags,
-                     const struct Constants *constants)
-{
-    for (; from && from->name && rows->count < COLUMNS_MAX; from++)
-        if ((from->flags & flags) == flags && (!constants || !from->needed || from->needed(constants)))
-            rows->row[rows->count++] = from;
-}
-
-ColumnRows column_rows(const ColumnDef *own, unsigned flags, const struct Constants *constants)
-{
-    ColumnRows rows = {0};
-    add_rows(&rows, columns_common, flags, constants);
-    add_rows(&rows, own, flags, constants);
-    return rows;
 }
 
 void **column_array(ParticleColumns *columns, const ColumnDef *column, int component)

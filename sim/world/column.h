@@ -10,7 +10,7 @@
 
 struct Constants; /* sim/world/constants.h */
 
-enum { COLUMNS_OWN = 20, COLUMNS_MAX = 48 };
+enum { COLUMNS_OWN = 20, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
 
 /* All that there may be of a particle, a column each; NULL where it is not needed. */
 typedef struct ParticleColumns {
@@ -27,7 +27,8 @@ typedef struct ParticleColumns {
     float *viscosity;     /* of the particle's fluid, Pa s */
     float *tension;       /* the same, N/m; of cohesion scaled */
     float *kind;          /* its fluid as a number: pairs of one fluid have the same */
-    float *own[COLUMNS_OWN]; /* of the method: as its rows say */
+    float *own[COLUMNS_OWN];   /* of the method: as its rows say */
+    float *term[COLUMNS_TERM]; /* of terms that methods share (sim/world/method.h): the same */
 } ParticleColumns;
 
 typedef enum ColumnType { COLUMN_FLOAT, COLUMN_INDEX, COLUMN_BYTE } ColumnType;
@@ -51,6 +52,9 @@ typedef struct ColumnDef {
 
 /* Where the method's own column k stands. */
 #define COLUMN_OWN(k) (offsetof(ParticleColumns, own) + (size_t)(k) * sizeof(float *))
+
+/* Where column k of the shared terms stands. */
+#define COLUMN_TERM(k) (offsetof(ParticleColumns, term) + (size_t)(k) * sizeof(float *))
 
 /* Which of the method's own a column's first component is; -1: none of them. */
 int column_own(const ColumnDef *column);

@@ -1,5 +1,6 @@
 #include "sim/world/column.h"
 #include "sim/world/constants.h"
+#include "sim/world/method.h"
 
 static bool tense(const Constants *constants)
 {
@@ -22,3 +23,21 @@ const ColumnDef columns_common[] = {
     {"kind", "", AT(kind), 1, COLUMN_FLOAT, .needed = tense},
     {0},
 };
+
+static void add_rows(ColumnRows *rows, const ColumnDef *from, unsigned flags,
+                     const struct Constants *constants)
+{
+    for (; from && from->name && rows->count < COLUMNS_MAX; from++)
+        if ((from->flags & flags) == flags && (!constants || !from->needed || from->needed(constants)))
+            rows->row[rows->count++] = from;
+}
+
+ColumnRows column_rows(const ColumnDef *own, unsigned flags, const struct Constants *constants)
+{
+    ColumnRows rows = {0};
+    add_rows(&rows, columns_common, flags, constants);
+    add_rows(&rows, own, flags, constants);
+    for (const Term *const *term = shared_terms; *term; term++)
+        add_rows(&rows, (*term)->columns, flags, constants);
+    return rows;
+}

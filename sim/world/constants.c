@@ -217,6 +217,10 @@ static void fluids_set(Constants *constants, const WorldDef *def)
         constants->viscous |= viscous;
         constants->varies |= fluid->viscosity_table.rows > 0;
     }
+    constants->implicit.on = constants->viscous && def->viscosity_solver == VISCOSITY_IMPLICIT;
+    constants->implicit.tolerance = def->viscosity_tolerance;
+    constants->implicit.most = def->viscosity_iterations;
+    constants->rubs = constants->viscous && !constants->implicit.on;
     constants->no_slip = constants->viscous && def->wall_slip == SLIP_NONE;
     constants->lid = constants->no_slip && length2(def->lid) > 0;
     for (int k = 0; k < 3; k++)
@@ -231,15 +235,43 @@ static void own_set(Constants *constants, const WorldDef *def)
         method->constants(constants, def);
 }
 
+/* The kernel by which implicit friction weighs pairs. */
+static const Kernel *friction_kernel(const WorldDef *def)
+{
+    const Kernel *own = method_kernels(def).slope;
+    for (int k = 0; k < SHAPE_KERNELS; k++)
+        if (own == &shape_kernels[k])
+            return own;
+    return &shape_kernels[KERNEL_WENDLAND_C2];
+}
+
+static void implicit_set(ImplicitViscosity *implicit, const WorldDef *def, Lattice *lattice)
+{
+    /* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it */
+    static const double half[SHAPE_KERNELS] = {
+        [KERNEL_CUBIC] = 3, [KERNEL_WENDLAND_C2] = 2.5, [KERNEL_QUINTIC] = (5.0625 - 6 * 0.0625) / 0.5};
+    const double h = def->support * def->spacing, r = 0.5 * h;
+    const Kernel *kernel = friction_kernel(def);
+    lattice_calibrate(def->dimensions, def->spacing, h, kernel, kernel, lattice);
+    implicit->kernel = (ShapeKernel)(kernel - shape_kernels);
+    implicit->scale = (float)(-kernel->derivative(r, h) / r / half[implicit->kernel] *
+                              lattice->gradient_scale * lattice->radial_scale);
+}
+
 /* The tables of what the walls do, as far as the def needs them and they are not there. */
 static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
 {
     bool needed = false;
     for (int f = 0; f < def->fluid_count; f++)
         needed |= def->wall_slip == SLIP_NONE && fluid_viscosity_most(&def->fluids[f]) > 0;
+    const bool implicit = def->viscosity_solver == VISCOSITY_IMPLICIT;
+    Lattice lattice = constants->lattice;
+    if (implicit)
+        implicit_set(&constants->implicit, def, &lattice);
     if (!needed || constants->drag.table[0] ||
         wall_drag_create(&constants->drag, def->box_size, def->periodic, def->spacing,
-                         def->support * def->spacing, &constants->lattice, constants->friction.walls))
+                         def->support * def->spacing, &lattice,
+                         implicit ? DRAG_RADIAL : constants->friction.walls))
         return true;
     return error_set(error, "no memory for the friction of the walls");
 }

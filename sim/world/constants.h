@@ -25,6 +25,15 @@ typedef struct CellGrid {
     size_t count;
 } CellGrid;
 
+/* Friction at the end of a step, where the def says so: sim/viscosity. */
+typedef struct ImplicitViscosity {
+    bool on;            /* and some fluid is viscous */
+    ShapeKernel kernel; /* the method's where pair loops have it (sim/cpu/pair_shape.h) */
+    float scale;      /* R F over f(r / h): a pair's force is V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij */
+    double tolerance; /* of the mean */
+    int most;         /* iterations */
+} ImplicitViscosity;
+
 typedef struct Constants {
     const Method *method;
     float support_radius;      /* h, m */
@@ -39,7 +48,8 @@ typedef struct Constants {
     float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0 stiffness_scale, Pa */
     float stiffness_scale;       /* relative change of density over that of n / n0, see Lattice */
     float viscosity[FLUIDS_MAX]; /* mu, Pa s; of the step in hand where it varies */
-    bool viscous;                /* some mu is not zero, now or ever */
+    bool viscous;                /* some mu is not zero, now or ever, */
+    bool rubs;                   /* and forces have its friction; else sim/viscosity has */
     bool varies;                 /* some mu is a table over time */
     bool negative_pressure;
     bool reproducible;
@@ -53,6 +63,7 @@ typedef struct Constants {
     Lattice lattice;
     Walls walls;
     StepFriction friction;
+    ImplicitViscosity implicit;
     bool no_slip;          /* walls hold fluid: the def says so and some fluid is viscous */
     bool lid;              /* and the one at the top moves, */
     float lid_velocity[3]; /* so, m/s */

@@ -2,24 +2,59 @@
 
 #include <math.h>
 
-static void measure(const Substep *step, const Iteration *iteration, StepSolve *solve)
+/* Where conjugate gradients stand. */
+typedef struct Conjugate {
+    int iteration;
+    double power, go, turn;
+} Conjugate;
+
+/* The next step along the next direction: Chronopoulos and Gear 1989, eq. 2.2. The first iteration goes along
+   a direction that somebody has chosen, so the second begins anew. */
+static void conjugate(const Substep *step, const Iteration *iteration, Conjugate *now)
+{
+    if (!iteration->power)
+        return;
+    const Backend *b = step->backend;
+    const double power = b->sum(step->state, iteration->power),
+                 curvature = b->sum(step->state, iteration->curvature);
+    now->turn = now->iteration > 1 && now->power != 0 ? power / now->power : 0;
+    const double bent = curvature - (now->turn != 0 && now->go != 0 ? now->turn * power / now->go : 0);
+    now->go = bent > 0 ? power / bent : 0;
+    now->power = power;
+    now->iteration++;
+}
+
+static void measure(const Substep *step, const Iteration *iteration, double scale, StepSolve *solve)
 {
     const Excess left = step->backend->excess(step->state, iteration->residual);
-    solve->mean = left.mean;
-    solve->most = left.greatest;
+    solve->mean = scale * left.mean;
+    solve->most = scale * left.greatest;
+}
+
+/* 1 over what the residual counts in; of all 0, which leaves 0, 1. */
+static double scale_of(const Substep *step, const Iteration *iteration)
+{
+    const double mean = iteration->scale ? step->backend->excess(step->state, iteration->scale).mean : 1;
+    return mean == 0 ? 1 : 1 / mean;
 }
 
 /* As often as it takes, with the excess asked for after each. */
 static void iterate_here(const Substep *step, const Iteration *iteration, StepSolve *solve, double dt)
 {
+    const double scale = scale_of(step, iteration);
+    PassInput input = substep_input(step, dt);
+    Conjugate now = {0};
     *solve = (StepSolve){.tolerance = iteration->tolerance, .mean = INFINITY};
     if (iteration->begun)
-        measure(step, iteration, solve);
+        measure(step, iteration, scale, solve);
     while (!(solve->mean <= iteration->tolerance) && solve->iterations < iteration->most) {
+        conjugate(step, iteration, &now);
+        input.go = (float)now.go;
+        input.turn = (float)now.turn;
         for (int k = 0; iteration->passes[k]; k++)
-            substep_run(step, iteration->passes[k], dt);
+            step->backend->run(step->state, iteration->passes[k], &input);
         solve->iterations++;
-        measure(step, iteration, solve);
+        measure(step, iteration, scale, solve);
     }
     for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
         *iteration->asked[k].to = step->backend->excess(step->state, iteration->asked[k].column);
@@ -57,13 +92,15 @@ static uint64_t class_end(int at)
 void solve_tally_add(SolveTally *tally, const StepSolve solves[SOLVES_MAX])
 {
     uint64_t iterations = 0;
-    for (int k = 0; k < SOLVES_MAX; k++)
+    for (int k = 0; k < SOLVES_OF_METHOD; k++)
         iterations += (uint64_t)solves[k].iterations;
     tally->steps++;
     tally->iterations += iterations;
     tally->most_iterations = iterations > tally->most_iterations ? iterations : tally->most_iterations;
     tally->mean += solves[0].mean;
     tally->most = fmax(tally->most, solves[0].most);
+    tally->rubbed += solves[SOLVE_VISCOSITY].iterations;
+    tally->left += solves[SOLVE_VISCOSITY].mean;
     tally->classes[class_of(iterations)]++;
 }
 
@@ -83,5 +120,7 @@ SolveFigures solve_tally_figures(const SolveTally *tally)
                           .iterations_mean = (double)tally->iterations / steps,
                           .iterations_p95 = (double)percentile_95(tally),
                           .density_error_mean = tally->mean / steps,
-                          .density_error_max = tally->most};
+                          .density_error_max = tally->most,
+                          .viscosity_iterations_mean = tally->rubbed / steps,
+                          .viscosity_residual_mean = tally->left / steps};
 }

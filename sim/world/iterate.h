@@ -19,6 +19,11 @@ typedef struct Iteration {
         const ColumnDef *column;
         Excess *to;
     } asked[ITERATION_ASKED];
+    const ColumnDef *scale;    /* whose mean before the first of them the residual counts in; NULL: 1 */
+    /* Of conjugate gradients, whose passes read PassInput.go and .turn: what each particle adds to the
+       product of residual and direction, and to that of the direction and what it is multiplied to. NULL:
+       none. */
+    const ColumnDef *power, *curvature;
 } Iteration;
 
 /* Runs the passes over `dt` (s), once at least where the residual is not there yet, and says in
@@ -28,9 +33,10 @@ void substep_iterate(const Substep *step, const Iteration *iteration, int which,
 /* What the solvers of many steps did, in bounded memory. Zero-initialise it. */
 enum { SOLVE_EXACT = 64, SOLVE_OCTAVE = 8, SOLVE_CLASSES = SOLVE_EXACT + 9 * SOLVE_OCTAVE };
 typedef struct SolveTally {
-    uint64_t steps, iterations;      /* iterations: of all solvers together */
+    uint64_t steps, iterations;      /* iterations: of the method's solvers together */
     uint64_t most_iterations;        /* of a step */
     double mean, most;               /* residual of density: sum of the means; greatest */
+    double rubbed, left;             /* of the solver of viscosity: its iterations, the sum of residuals */
     uint64_t classes[SOLVE_CLASSES]; /* steps by their iterations: one number each, then eight an octave */
 } SolveTally;
 

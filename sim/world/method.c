@@ -1,4 +1,5 @@
-/* The list of methods, which alone names them outside their folders, and what is asked of them all. */
+/* The lists of methods and of terms that they share, which alone name them outside their folders, and what is
+ * asked of them all. */
 #include "sim/world/method.h"
 
 #include <assert.h>
@@ -6,6 +7,10 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+
+extern const Term term_viscosity;
+
+const Term *const shared_terms[] = {&term_viscosity, NULL};
 
 extern const Method method_mueller, method_wcsph, method_dfsph, method_pbf;
 
@@ -37,6 +42,16 @@ const Method *method_find(const char *name)
         if (strcmp(methods[i]->name, name) == 0)
             return methods[i];
     return NULL;
+}
+
+const MethodSolver *solver_of(const Method *method, int solve)
+{
+    const Term *const *term = shared_terms;
+    if (solve < SOLVES_OF_METHOD)
+        return &method->solvers[solve];
+    while (*term && (*term)->solve != solve)
+        term++;
+    return *term ? &(*term)->solver : NULL;
 }
 
 MethodKernels method_kernels(const WorldDef *def)

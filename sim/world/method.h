@@ -32,6 +32,7 @@ typedef struct PassInput {
     float dt;                               /* s */
     const struct ApparentGravity *apparent; /* NULL outside of a step */
     float gravity[3];                       /* that the kick of the step adds, m/s2; 0 outside of a step */
+    float go, turn; /* of conjugate gradients: how far along a direction, how much of the last one is in it */
 } PassInput;
 
 /* What only some scenes name: there a line "#define NAME 1" stands before the shaders. */
@@ -62,7 +63,7 @@ typedef struct StepFriction {
     DragWeight walls;           /* how walls that hold fluid weigh theirs */
 } StepFriction;
 
-enum { SOLVES_MAX = 2 };
+enum { SOLVES_OF_METHOD = 2, SOLVE_VISCOSITY = SOLVES_OF_METHOD, SOLVES_MAX };
 
 /* One of its solvers that iterate, if it has any (sim/world/iterate.h). */
 typedef struct MethodSolver {
@@ -90,7 +91,8 @@ typedef struct Method {
     bool carries_density; /* its particles do; else density is summed */
     bool mirrors;         /* walls of the box are mirrors (sim/box/wall_images.h); else tables */
     bool incompressible;  /* no sound: steps are bounded by the true greatest speed alone */
-    MethodSolver solvers[SOLVES_MAX]; /* what is left of the first one's residual is the error of density */
+    MethodSolver
+        solvers[SOLVES_OF_METHOD]; /* what is left of the first one's residual is the error of density */
     bool leaps; /* its particles may move further than h in a step: no trouble, and walls fold what crosses
                    them */
     /* False with the reason: a setting is not in order, whichever the method. */
@@ -116,6 +118,25 @@ typedef struct Method {
     const Pass *const *start;
     void (*substep)(const struct Substep *step);
 } Method;
+
+/* A term of the equations that all methods share: columns, passes and a solver that iterates, beside those of
+   the method at work. One folder, and one line in a list. */
+typedef struct Term {
+    const char *name;
+    bool (*needed)(const struct Constants *constants); /* whether the scene names it */
+    const ColumnDef *columns;  /* at COLUMN_TERM, none of them saved or sorted, ended by a NULL name */
+    const Pass *const *passes; /* all of them, ended by NULL */
+    int solve;                 /* its number among the solvers of a step, from SOLVES_OF_METHOD on */
+    MethodSolver solver;
+    /* Before the kick: the accelerations of all else become those of the step. */
+    void (*substep)(const struct Substep *step);
+} Term;
+
+/* All of them, ended by NULL. */
+extern const Term *const shared_terms[];
+
+/* Of all solvers of a step, the method's first, by number. */
+const MethodSolver *solver_of(const Method *method, int solve);
 
 /* All methods, ended by NULL; those of the program, and what was added. */
 const Method *const *method_list(void);

@@ -30,6 +30,8 @@ typedef struct SolveFigures {
                                                eighth above 64 */
     double density_error_mean, density_error_max; /* that the solver of density left, fractions: mean over
                                                      steps and particles; of any particle in any step */
+    bool projects, rubs; /* there are such of the method's: all above; implicit viscosity has one: */
+    double viscosity_iterations_mean, viscosity_residual_mean; /* of a step; that was left, a fraction */
 } SolveFigures;
 
 /* What a world is, apart from its particles. */

@@ -25,7 +25,7 @@ static void look_at_solves(World *world)
     for (int k = 0; k < SOLVES_MAX && !world->seen && world->def.retries > 0; k++)
         if (world->solves[k].failed) {
             world->seen = STEP_TROUBLE_SOLVE;
-            world->trouble.solver = &world->method->solvers[k];
+            world->trouble.solver = solver_of(world->method, k);
             world->trouble.left = world->solves[k];
         }
 }
@@ -105,6 +105,20 @@ void world_trouble_words(const WorldTrouble *trouble, char words[160])
         snprintf(words, 160, "%s", step_trouble_words(trouble->what));
 }
 
+/* What to change, of the solver in trouble or of the step. */
+static void advise(const World *world, StepTrouble trouble, double dt, char words[200])
+{
+    const WorldDef *def = &world->def;
+    const MethodSolver *solver = world->trouble.solver;
+    if (trouble == STEP_TROUBLE_SOLVE)
+        snprintf(words, 200, "use %s, more %s or a larger %s",
+                 def->step_mode == STEP_CFL ? "a smaller solver.step.number"
+                                            : "a smaller solver.step.dt, more solver.step.substeps",
+                 solver->iterations, solver->tolerance);
+    else
+        step_advice(def, &world->constants.friction, trouble, dt, world->stepping.max_speed, words);
+}
+
 static bool give_up(World *world, StepTrouble trouble, double time, Error *error)
 {
     const int retries = world->def.retries;
@@ -115,7 +129,7 @@ static bool give_up(World *world, StepTrouble trouble, double time, Error *error
     char also[96] = "", advice[200], words[160];
     last.what = trouble;
     world_trouble_words(&last, words);
-    step_advice(&world->def, &world->constants.friction, trouble, dt, s->max_speed, advice);
+    advise(world, trouble, dt, advice);
     if (retries > 0)
         snprintf(also, sizeof also, ", with 1/%d of the step too; the state at t = %g s is kept",
                  1 << retries, world_time_at(world, (double)world->step));

@@ -1,6 +1,7 @@
 #include "sim/world/step_control.h"
 
 #include "sim/matter/fall.h"
+#include "sim/matter/viscosity.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -100,8 +101,9 @@ static bool any_inviscid(const WorldDef *def)
 
 double step_viscous(const WorldDef *def, const StepFriction *friction)
 {
+    const double laminar = def->viscosity_solver == VISCOSITY_IMPLICIT ? 0 : friction->laminar;
     const double rate =
-        fmax(friction->laminar * greatest_kinematic_viscosity(def),
+        fmax(laminar * greatest_kinematic_viscosity(def),
              any_inviscid(def) ? friction->artificial * artificial_kinematic(def, friction->alpha) : 0);
     return rate > 0 ? 2 / rate : INFINITY;
 }
@@ -111,13 +113,9 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
 {
     const double crossing = def->support * def->spacing / step_sound(def), c = def->sound_speed;
     const bool sounds = !method_find(def->method)->incompressible;
-    const MethodSolver *solver = &method_find(def->method)->solvers[0];
     const char *shorter = def->step_mode == STEP_CFL ? "a smaller solver.step.number"
                                                      : "a smaller solver.step.dt, more solver.step.substeps";
-    if (trouble == STEP_TROUBLE_SOLVE)
-        snprintf(words, 200, "use %s, more %s or a larger %s", shorter, solver->iterations,
-                 solver->tolerance);
-    else if (dt > STEP_SOUND_STANDS * crossing)
+    if (dt > STEP_SOUND_STANDS * crossing)
         snprintf(
             words, 200,
             "the step is %.2g times what sound takes to cross a support radius, %.1g at most holds; use %s or a lower solver.sound_speed",

@@ -37,6 +37,16 @@ static inline void substep_run(const Substep *step, const Pass *pass, double dt)
     step->backend->run(step->state, pass, &input);
 }
 
+/* What the scene names of terms that methods share, before the kick: by the velocities and accelerations that
+   are there. */
+static inline void substep_terms(const Substep *step)
+{
+    for (const Term *const *term = shared_terms; *term; term++)
+        if ((*term)->needed(step->constants))
+            STAGE (step->clock, STAGE_SOLVE)
+                (*term)->substep(step);
+}
+
 /* The kick of a step, and what emitters make of it. */
 static inline void substep_kick(const Substep *step)
 {

@@ -13,6 +13,8 @@ WorldDef world_def_default(void)
         .backend = "cpu",
         .sound_speed =
             20, /* ten times the speed of a fall of 0.2 m: density within 1 % in a scene of a hand's size */
+        .viscosity_tolerance = 0.001, /* a thousandth of what drives a flow: less than its lattice errs by */
+        .viscosity_iterations = 200,
         .dt = 0.01, /* a frame of 100 Hz */
         .limits = box_limits_default(),
         .substeps = 10,    /* paper 003's stable setting at 8,192 particles */

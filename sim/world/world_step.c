@@ -1,6 +1,7 @@
 #include "sim/world/world.h"
 
 #include "sim/base/parallel.h"
+#include "sim/matter/viscosity.h"
 #include "sim/world/energy_watch.h"
 #include "sim/world/sentinel.h"
 #include "sim/world/substep.h"
@@ -72,6 +73,8 @@ bool world_can(const WorldDef *def, Error *error)
     if (!names_check(def, error))
         return false;
     const Backend *backend = backend_find(def->backend);
+    if (def->viscosity_solver == VISCOSITY_IMPLICIT && !backend->sum)
+        return error_set(error, "backend %s has no implicit viscosity; use backend cpu", def->backend);
     return !backend->can || backend->can(def, error);
 }
 
@@ -275,7 +278,7 @@ bool world_substep(World *world, StageClock *clock, Error *error)
         sentinel_note_solves(world);
     else if (!world_sound(world) || !energy_sound(world))
         return sentinel_back(world, world_time_at(world, (double)world->step), error);
-    if (world->method->solvers[0].name)
+    if (world->method->solvers[0].name || world->constants.implicit.on)
         solve_tally_add(&world->tally, world->solves);
     s->frame_left--;
     s->calm++;
@@ -382,6 +385,8 @@ void world_info(const World *world, WorldInfo *info)
     };
     memcpy(info->solves, world->solves, sizeof info->solves);
     info->solved = solve_tally_figures(&world->tally);
+    info->solved.projects = world->method->solvers[0].name != NULL;
+    info->solved.rubs = world->constants.implicit.on;
     memcpy(info->limited, world->limited, sizeof info->limited);
     memcpy(info->box_size, world->def.box_size, sizeof info->box_size);
     memcpy(info->hand.position, world->filter.position, sizeof info->hand.position);

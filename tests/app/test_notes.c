@@ -75,6 +75,8 @@ static const struct {
     {"solver.iterations=50", "solver.method=dfsph", "solver.method: dfsph", false},
     {"solver.compression=1e-8", "solver.method=pbf", "solver.method: pbf", true},
     {"solver.corrections=1", "solver.method=pbf", "solver.method: pbf", false},
+    {"solver.viscosity_tolerance=0.1", "solver.viscosity=implicit", "solver.viscosity: implicit", false},
+    {"solver.viscosity_iterations=9", "solver.viscosity=implicit", "solver.viscosity: implicit", false},
     {"solver.grid_layers=3", "solver.backend=fragment", "solver.backend: fragment", false},
     {"solver.lost_limit=3", "solver.backend=fragment", "solver.backend: fragment", false},
     {"solver.threads=3", "solver.backend=cpu", "solver.backend: cpu", false},

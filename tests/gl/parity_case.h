@@ -92,7 +92,7 @@ static inline void compare_solves(const World *cpu, const World *gpu)
 {
     const MethodSolver *solvers = cpu->constants.method->solvers;
     double iterations = 0;
-    for (int k = 0; k < SOLVES_MAX && solvers[k].name; k++) {
+    for (int k = 0; k < SOLVES_OF_METHOD && solvers[k].name; k++) {
         const StepSolve *a = &cpu->solves[k], *b = &gpu->solves[k];
         printf("  solver of %s: %g and %g iterations, mean %.3g and %.3g, most %.3g and %.3g\n",
                solvers[k].name, a->iterations, b->iterations, a->mean, b->mean, a->most, b->most);

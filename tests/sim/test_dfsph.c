@@ -379,7 +379,7 @@ static void trouble_within_a_frame_is_found(void **state)
     Error error = {0};
     WorldInfo info;
     fixture_step(world, 1);
-    for (int k = 0; k < SOLVES_MAX; k++) {
+    for (int k = 0; k < SOLVES_OF_METHOD; k++) {
         printf("solver %d leaves %g of %g\n", k, world->solves[k].mean, world->solves[k].tolerance);
         assert_false(world->solves[k].failed);
     }

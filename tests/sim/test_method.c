@@ -143,7 +143,8 @@ static void passes_read_and_write_what_they_name(void **state)
     (void)state;
     fixture_needs_cpu("columns are its own");
     for (const Method *const *method = method_list(); *method; method++) {
-        const WorldDef def = full_def(*method);
+        WorldDef def = full_def(*method);
+        def.viscosity_solver = VISCOSITY_IMPLICIT;
         World *world = fixture_world(&def);
         fixture_step(world, 5);
         world->backend->grid(world->state);

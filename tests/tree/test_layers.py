@@ -27,6 +27,7 @@ SIM = {
     "mesh": "base kernel",
     "world": "base kernel box matter",
     "cpu": "base kernel box matter world",
+    "viscosity": "base kernel box matter world cpu",
 }
 METHODS = own_folders("sim", "Method method")
 SIM["incompressible"] = "base kernel box matter world cpu"

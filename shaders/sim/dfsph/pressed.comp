@@ -1,0 +1,13 @@
+// dfsph: to what is not pressure that by the last step's multipliers, which push.glsl has just found, is added: pressed_body
+// in sim/dfsph/passes.c.
+#include "sim/constants.glsl"
+#include "shaders/sim/dfsph/dfsph_block.h"
+layout(std430, binding = ACCELERATIONS_BUFFER) buffer Accelerations { vec4 acceleration[]; };
+layout(std430, binding = PUSHES_BUFFER) readonly buffer Pushes { vec4 push[]; };
+
+void main()
+{
+    uint i = invocation();
+    if (i < particle_count())
+        acceleration[i].xyz += push[i].xyz;
+}

@@ -1,0 +1,253 @@
+#include "sim/viscosity/passes.h"
+
+#include <math.h>
+#include <string.h>
+
+PAIR_LOOPS(viscosity_sums);
+PAIR_LOOPS(viscosity_products);
+
+/* m in a step of no time: nothing changes. */
+#define ENDLESS 1e18F
+
+static float inertia_of(const CpuRange *range, size_t i)
+{
+    const float m = range->cpu->constants->mass[range->cpu->now.fluid[i]], dt = range->input->dt;
+    return dt > 0 ? m / dt : ENDLESS * m;
+}
+
+/* --- begin --- */
+
+static void pack_begin(const CpuRange *range)
+{
+    Cpu *cpu = range->cpu;
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float mu = p->viscosity ? p->viscosity[i] : cpu->constants->viscosity[0],
+                    volume = p->fluid[i] < FLUIDS_MAX ? p->volume[i] : -p->volume[i];
+        p->term[MISS][i] = mu;
+        memcpy(cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], mu}, 16);
+        memcpy(cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], volume}, 16);
+    }
+}
+
+/* Walls of the box that hold the fluid: K, and their force on it. */
+static float held_by_walls(const CpuRange *range, size_t i, float mu, const float v[3], float force[3])
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    const float x[3] = {p->x[i], p->y[i], p->z[i]}, drag = s->no_slip ? wall_drag_at(&s->drag, x) : 0;
+    if (drag == 0)
+        return 0;
+    const float scale = mu * p->volume[i] / s->rest_number_density,
+                lid = s->lid ? scale * wall_drag_lid(&s->drag, x) : 0;
+    for (int k = 0; k < 3; k++)
+        force[k] += lid * s->lid_velocity[k] - scale * drag * v[k];
+    return scale * drag;
+}
+
+/* m <- the inverse of the symmetric m, whose eigenvalues are above 0; in double precision, since some may be
+   a millionth of others. */
+static void invert(float *const m[6], size_t i)
+{
+    const double xx = m[0][i], yy = m[1][i], zz = m[2][i], xy = m[3][i], yz = m[4][i], zx = m[5][i];
+    const double cxx = yy * zz - yz * yz, cyy = xx * zz - zx * zx, czz = xx * yy - xy * xy;
+    const double cxy = yz * zx - xy * zz, cyz = xy * zx - yz * xx, czx = xy * yz - zx * yy;
+    const double scale = 1 / (xx * cxx + xy * cxy + zx * czx);
+    const double all[6] = {cxx, cyy, czz, cxy, cyz, czx};
+    for (int k = 0; k < 6; k++)
+        m[k][i] = (float)(scale * all[k]);
+}
+
+static float length(const float v[3])
+{
+    return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* Begins along the change that all else makes, w: there `motion` has it for the product. */
+static void begin_one(const CpuRange *range, size_t i, float w[3])
+{
+    const CpuParticles *p = &range->cpu->now;
+    float *const *t = p->term;
+    const float *g = range->input->gravity, dt = range->input->dt,
+                m = range->cpu->constants->mass[p->fluid[i]], mu = t[MISS][i];
+    const float v[3] = {p->vx[i], p->vy[i], p->vz[i]},
+                a[3] = {p->ax[i] + g[0], p->ay[i] + g[1], p->az[i] + g[2]};
+    float force[3] = {t[RESIDUAL][i], t[RESIDUAL + 1][i], t[RESIDUAL + 2][i]};
+    t[INERTIA][i] = inertia_of(range, i) + held_by_walls(range, i, mu, v, force);
+    for (int k = 0; k < 3; k++) {
+        t[RESIDUAL + k][i] = force[k] + m * a[k];
+        t[CHANGE + k][i] = t[DIRECTION + k][i] = t[ALONG + k][i] = 0;
+        t[INVERSE + k][i] += t[INERTIA][i] + (t[HELD] ? 0.5F * t[HELD + k][i] : 0);
+        t[INVERSE + 3 + k][i] += t[HELD] ? 0.5F * t[HELD + 3 + k][i] : 0; /* the sum has them once */
+        w[k] = dt * a[k];
+    }
+    invert(t + INVERSE, i);
+    t[MISS][i] = dt / m * length((float[]){t[RESIDUAL][i], t[RESIDUAL + 1][i], t[RESIDUAL + 2][i]});
+    t[SCALE][i] = length(v) + dt * (length(a) + length(g));
+}
+
+static void begin_body(const CpuRange *range)
+{
+    cpu_pairs(range, &viscosity_sums);
+    for (size_t i = range->begin; i < range->end; i++) {
+        float w[3];
+        begin_one(range, i, w);
+        for (int k = 0; k < 3; k++)
+            range->cpu->now.term[PRODUCT + k][i] = w[k];
+    }
+}
+
+/* For products: boundary particles, whose change is 0, are in B. */
+static void motion_body(const CpuRange *range)
+{
+    Cpu *cpu = range->cpu;
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const bool solid = p->fluid[i] >= FLUIDS_MAX;
+        for (int k = 0; k < 3; k++)
+            cpu->motion[i][k] = solid ? 0 : p->term[PRODUCT + k][i];
+        cpu->motion[i][3] = solid ? 0 : p->volume[i];
+    }
+}
+
+static const CpuPass begin = {
+    .loops = {{begin_body, .walks = true, .pack = pack_begin}, {motion_body, .solids = true}}};
+
+const Pass viscosity_begin = {
+    .name = "viscosity begin",
+    .stage = STAGE_SOLVE,
+    .cpu = &begin,
+    .reads = "position velocity fluid volume viscosity acceleration",
+    .writes = "residual direction along change product inverse held inertia miss scale",
+    .mirrors = true,
+};
+
+/* --- an iteration --- */
+
+/* The product with a symmetric matrix. */
+static void times(float *const m[6], size_t i, const float v[3], float out[3])
+{
+    out[0] = m[0][i] * v[0] + m[3][i] * v[1] + m[5][i] * v[2];
+    out[1] = m[3][i] * v[0] + m[1][i] * v[1] + m[4][i] * v[2];
+    out[2] = m[5][i] * v[0] + m[4][i] * v[1] + m[2][i] * v[2];
+}
+
+static void step_body(const CpuRange *range)
+{
+    float *const *t = range->cpu->now.term;
+    const float go = range->input->go, turn = range->input->turn;
+    for (size_t i = range->begin; i < range->end; i++) {
+        float *z = range->cpu->motion[i], r[3];
+        for (int k = 0; k < 3; k++) {
+            const float p = z[k] + turn * t[DIRECTION + k][i], s = t[PRODUCT + k][i] + turn * t[ALONG + k][i];
+            t[DIRECTION + k][i] = p;
+            t[ALONG + k][i] = s;
+            t[CHANGE + k][i] += go * p;
+            r[k] = t[RESIDUAL + k][i] -= go * s;
+        }
+        times(t + INVERSE, i, r, z);
+        t[MISS][i] = length(r) * range->input->dt / range->cpu->constants->mass[range->cpu->now.fluid[i]];
+    }
+}
+
+static void product_body(const CpuRange *range)
+{
+    float *const *t = range->cpu->now.term;
+    cpu_pairs(range, &viscosity_products);
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float *z = range->cpu->motion[i];
+        float held[3] = {0}, power = 0, curvature = 0;
+        if (t[HELD])
+            times(t + HELD, i, z, held);
+        for (int k = 0; k < 3; k++) {
+            t[PRODUCT + k][i] += t[INERTIA][i] * z[k] + held[k];
+            power += t[RESIDUAL + k][i] * z[k];
+            curvature += t[PRODUCT + k][i] * z[k];
+        }
+        t[POWER][i] = power;
+        t[CURVATURE][i] = curvature;
+    }
+}
+
+/* Of a neighbour {x, mu} and {z, V}. */
+static PairCost product_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.gather = 32, .flops = 33};
+}
+
+static const CpuPass step = {.loops = {{step_body}}};
+static const CpuPass product = {.loops = {{product_body, .walks = true, .packed = true}},
+                                .pair = product_pair};
+
+const Pass viscosity_step = {
+    .name = "viscosity step",
+    .stage = STAGE_SOLVE,
+    .cpu = &step,
+    .reads = "fluid direction along product change residual inverse",
+    .writes = "direction along change residual miss",
+};
+
+const Pass viscosity_product = {
+    .name = "viscosity product",
+    .stage = STAGE_SOLVE,
+    .cpu = &product,
+    .reads = "position fluid volume residual held inertia",
+    .writes = "product power curvature",
+};
+
+/* --- end --- */
+
+static void end_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float *g = range->input->gravity, rate = range->input->dt > 0 ? 1 / range->input->dt : 0;
+    for (size_t i = range->begin; i < range->end && rate > 0; i++) {
+        p->ax[i] = rate * p->term[CHANGE][i] - g[0];
+        p->ay[i] = rate * p->term[CHANGE + 1][i] - g[1];
+        p->az[i] = rate * p->term[CHANGE + 2][i] - g[2];
+    }
+}
+
+static const CpuPass end = {.loops = {{end_body}}};
+
+const Pass viscosity_end = {
+    .name = "viscosity end",
+    .stage = STAGE_SOLVE,
+    .cpu = &end,
+    .reads = "change acceleration",
+    .writes = "acceleration",
+};
+
+static bool is_implicit(const Constants *constants)
+{
+    return constants->implicit.on;
+}
+
+static bool by_solids(const Constants *constants)
+{
+    return constants->implicit.on && constants->solid_count > 0;
+}
+
+#define TERM(name, unit, k, components)                                                                      \
+    {                                                                                                        \
+        name, unit, .at = COLUMN_TERM(k), components, COLUMN_FLOAT, .needed = is_implicit                    \
+    }
+
+const ColumnDef viscosity_columns[] = {
+    TERM("velocity_change", "m/s", CHANGE, 3),
+    TERM("residual", "N", RESIDUAL, 3),
+    TERM("direction", "m/s", DIRECTION, 3),
+    TERM("along", "N", ALONG, 3),
+    TERM("product", "N", PRODUCT, 3),
+    TERM("inverse", "s/kg", INVERSE, 3),
+    TERM("inverse_mixed", "s/kg", INVERSE + 3, 3),
+    {"held", "kg/s", .at = COLUMN_TERM(HELD), 3, COLUMN_FLOAT, .needed = by_solids},
+    {"held_mixed", "kg/s", .at = COLUMN_TERM(HELD + 3), 3, COLUMN_FLOAT, .needed = by_solids},
+    TERM("inertia", "kg/s", INERTIA, 1),
+    TERM("miss", "m/s", MISS, 1),
+    TERM("scale", "m/s", SCALE, 1),
+    TERM("power", "W", POWER, 1),
+    TERM("curvature", "W", CURVATURE, 1),
+    {0},
+};

@@ -1,0 +1,46 @@
+/* The term of friction at the end of a step, for all methods: sim/viscosity/passes.h. */
+#include "sim/viscosity/passes.h"
+#include "sim/world/iterate.h"
+
+static bool needed(const Constants *constants)
+{
+    return constants->implicit.on;
+}
+
+static const ColumnDef *column_at(int k)
+{
+    const ColumnDef *column = viscosity_columns;
+    while (column->at != COLUMN_TERM(k))
+        column++;
+    return column;
+}
+
+static void solve(const Substep *step)
+{
+    const ImplicitViscosity *own = &step->constants->implicit;
+    const Iteration iteration = {.passes = {&viscosity_step, &viscosity_product},
+                                 .residual = column_at(MISS),
+                                 .scale = column_at(SCALE),
+                                 .power = column_at(POWER),
+                                 .curvature = column_at(CURVATURE),
+                                 .tolerance = own->tolerance,
+                                 .most = own->most,
+                                 .begun = true};
+    substep_run(step, &viscosity_begin, step->dt);
+    substep_run(step, &viscosity_product, step->dt);
+    substep_iterate(step, &iteration, SOLVE_VISCOSITY, step->dt);
+    substep_run(step, &viscosity_end, step->dt);
+}
+
+static const Pass *const passes[] = {&viscosity_begin, &viscosity_step, &viscosity_product, &viscosity_end,
+                                     NULL};
+
+const Term term_viscosity = {
+    .name = "viscosity",
+    .needed = needed,
+    .columns = viscosity_columns,
+    .passes = passes,
+    .solve = SOLVE_VISCOSITY,
+    .solver = {"viscosity", "solver.viscosity_tolerance", "solver.viscosity_iterations"},
+    .substep = solve,
+};
