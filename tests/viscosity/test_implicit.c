@@ -34,13 +34,14 @@ typedef struct Ball {
 
 static void ball_make(Ball *ball, int dimensions, double speed, double turn)
 {
-    enum { HALF = 5 };
+    enum { HALF = 5, SIDE = 2 * HALF };
     size_t n = 0;
     uint32_t seed = 7;
-    for (int i = 0; i < (2 * HALF) * (2 * HALF) * (dimensions == 3 ? 2 * HALF : 1); i++) {
-        const double at[3] = {0.1 * (i % (2 * HALF) - HALF + 0.5),
-                              0.1 * (i / (2 * HALF) % (2 * HALF) - HALF + 0.5),
-                              dimensions == 3 ? 0.1 * (i / (2 * HALF) / (2 * HALF) - HALF + 0.5) : 0};
+    for (int i = 0; i < SIDE * SIDE * (dimensions == 3 ? SIDE : 1); i++) {
+        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
+        double at[3] = {0};
+        for (int k = 0; k < dimensions; k++)
+            at[k] = 0.1 * (index[k] - HALF + 0.5);
         if (at[0] * at[0] + at[1] * at[1] + at[2] * at[2] > 0.22)
             continue;
         for (int k = 0; k < 3; k++) {
@@ -172,7 +173,7 @@ static double *change_of(const WorldDef *def, const Ball *ball, size_t *count)
     World *world = fixture_world(def);
     fixture_step(world, 1);
     State s = fixture_read(world);
-    double *change = malloc(3 * s.count * sizeof *change);
+    double *change = calloc(3 * s.count, sizeof *change);
     for (size_t i = 0; i < s.count; i++)
         for (size_t k = 0; k < 3; k++)
             change[3 * i + k] = ((double)s.velocity[4 * i + k] - (double)ball->v[3 * i + k]) / def->dt;
@@ -187,7 +188,7 @@ static void a_short_step_is_an_explicit_one(void **state)
     (void)state;
     static Ball ball;
     WorldDef def = thick_def("wcsph", 3, 20);
-    size_t count;
+    size_t count = 0;
     double differ = 0, all = 0;
     ball_make(&ball, 3, 1, 1);
     def.initial = &ball.initial;
@@ -280,7 +281,7 @@ static void dense_fill(const World *world, const Lattice *lattice, Dense *dense)
             dense->right[3 * a + k] = (double)t[RESIDUAL + k][i];
         }
         for (size_t j = 0; j < cpu->count; j++) {
-            double d[3];
+            double d[3] = {0};
             const double c = i == j ? 0 : coupling(world, lattice, i, j, d);
             const bool solid = cpu->now.fluid[j] >= FLUIDS_MAX;
             int b = 0;
