@@ -19,7 +19,7 @@ typedef struct Iteration {
         const ColumnDef *column;
         Excess *to;
     } asked[ITERATION_ASKED];
-    const ColumnDef *scale;    /* whose mean before the first of them the residual counts in; NULL: 1 */
+    const ColumnDef *scale; /* whose mean before the first of them the residual counts in; NULL: 1 */
     /* Of conjugate gradients, whose passes read PassInput.go and .turn: what each particle adds to the
        product of residual and direction, and to that of the direction and what it is multiplied to. NULL:
        none. */
