@@ -7,56 +7,85 @@
 #include "sim/cpu/walk.h"
 #include "sim/world/constants.h"
 
-/* An image of each particle of a group, of those that have one: where it stands, and its mirror's signs. Whom
-   an image sees its particle sees too, since it is nearer to all on its own side of the wall; and the image
-   sees the particle. */
+/* An image of each particle of a group, of those that have one: where it stands, and its mirror's signs; the
+   others' are far from all. Whom an image sees its particle sees too, since it is nearer to all on its own
+   side of the wall; and the image sees the particle. */
 typedef struct Mirrored {
     Place at, sign;
 } Mirrored;
 
-/* What the images of a group are: of each particle its own first, as wall_images has it. */
+/* The images of a group, in the order that wall_images has. */
 typedef struct Images {
-    int most; /* of a particle */
-    int count[LANES];
-    Image of[LANES][IMAGES_MAX];
+    int count; /* the particles themselves, which stand first, not counted */
+    Mirrored of[IMAGES_MAX];
+    f8 near2[IMAGES_MAX]; /* square of each one's distance to the box, m2 */
+    i8 there[IMAGES_MAX]; /* whether a particle has it */
 } Images;
 
-/* Of the walls' images: wall_images rounds h. */
+/* Of the walls' images: sums of squares round h. */
 SIMD_INLINE WallsFar out_of_sight(const Constants *s)
 {
     return walls_far(&s->walls, 1.001f * s->support_radius);
 }
 
-/* False where no particle of the group has any. */
+SIMD_INLINE i8 beside_walls(const WallsFar *far, const Place *at)
+{
+    return (at->x < f8_splat(far->low[0])) | (at->x > f8_splat(far->high[0])) |
+           (at->y < f8_splat(far->low[1])) | (at->y > f8_splat(far->high[1])) |
+           (at->z < f8_splat(far->low[2])) | (at->z > f8_splat(far->high[2]));
+}
+
+/* All that are there so far, mirrored in the wall across `axis` that stands at `wall`, d away from the
+   particles, on `side`. */
+SIMD_INLINE void mirror_in(Images *images, int from, int axis, float wall, float side, f8 d, float h2)
+{
+    const f8 at = f8_splat(wall) - f8_splat(side) * d, d2 = d * d, away = f8_splat(-PAST), none = f8_splat(0);
+    for (int k = 0; k < from; k++) {
+        const f8 near2 = images->near2[k] + d2;
+        const i8 there = images->there[k] & (near2 < f8_splat(h2));
+        if (i8_bits(there) == 0)
+            continue;
+        const int to = ++images->count;
+        const Mirrored *of = &images->of[k];
+        const f8 x = axis == 0 ? at : of->at.x, y = axis == 1 ? at : of->at.y, z = axis == 2 ? at : of->at.z;
+        const f8 one = f8_splat(-1);
+        images->near2[to] = near2;
+        images->there[to] = there;
+        images->of[to].at =
+            (Place){f8_select(there, x, away), f8_select(there, y, away), f8_select(there, z, away)};
+        images->of[to].sign = (Place){f8_select(there, axis == 0 ? one : of->sign.x, none),
+                                      f8_select(there, axis == 1 ? one : of->sign.y, none),
+                                      f8_select(there, axis == 2 ? one : of->sign.z, none)};
+    }
+}
+
+/* False where no particle of the group has any: wall_images of each. */
 SIMD_INLINE bool images_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
                            Images *images)
 {
     const Constants *s = args->constants;
-    images->most = 0;
-    for (size_t k = 0; k < LANES; k++) {
-        images->count[k] = 0;
-        if (i + k < begin || i + k >= end)
+    const Walls *walls = &s->walls;
+    const float h = s->support_radius, least = 1e-3f * walls->spacing;
+    const Place at = place_of(args, i);
+    const f8 along[3] = {at.x, at.y, at.z}, one = f8_splat(1);
+    const i8 lane = lane_index + i8_splat((int32_t)i);
+    images->count = 0;
+    images->there[0] =
+        beside_walls(far, &at) & (lane >= i8_splat((int32_t)begin)) & (lane < i8_splat((int32_t)end));
+    if (i8_bits(images->there[0]) == 0)
+        return false;
+    images->near2[0] = f8_splat(0);
+    images->of[0] = (Mirrored){at, {one, one, one}};
+    for (int a = 0; a < walls->dimensions; a++) {
+        const float low = a == 1 ? 0 : -walls->half_size[a], high = low + 2 * walls->half_size[a];
+        const int from = images->count + 1;
+        const f8 up = along[a] - f8_splat(low), down = f8_splat(high) - along[a];
+        if (walls->open[a])
             continue;
-        const float x[3] = {args->x[i + k], args->y[i + k], args->z[i + k]};
-        if (walls_near(far, x))
-            images->count[k] = wall_images(&s->walls, x, s->support_radius, images->of[k]);
-        images->most = images->count[k] > images->most ? images->count[k] : images->most;
+        mirror_in(images, from, a, low, 1, greater(up, f8_splat(least)), h * h);
+        mirror_in(images, from, a, high, -1, greater(down, f8_splat(least)), h * h);
     }
-    return images->most > 1;
-}
-
-/* The m-th of each; far from all where there is none. */
-SIMD_INLINE Mirrored mirrored(const Images *images, int m)
-{
-    float at[3][LANES], sign[3][LANES];
-    for (int lane = 0; lane < LANES; lane++)
-        for (int k = 0; k < 3; k++) {
-            const bool there = m < images->count[lane];
-            at[k][lane] = there ? images->of[lane][m].x[k] : -PAST;
-            sign[k][lane] = there ? images->of[lane][m].sign[k] : 0;
-        }
-    return (Mirrored){{f8_load(at[0]), f8_load(at[1]), f8_load(at[2])},
-                      {f8_load(sign[0]), f8_load(sign[1]), f8_load(sign[2])}};
+    return images->count > 0;
 }
 
 typedef struct Themselves {

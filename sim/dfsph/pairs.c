@@ -22,7 +22,7 @@ SIMD_INLINE f8 rate_by(const PairArgs *args, const Mirrored *image, f8x4 vi, f8x
             (image->sign.z * vi.z - v.z) * d.z);
 }
 
-SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi, const Mirrors *mirrors)
+SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi, const Images *images)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
     const Place at = place_of(args, i);
@@ -34,8 +34,8 @@ SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi,
             d = separate_to(args, i, j, d, TWINS_PART);
         sum += shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL) *
                ((vi.x - v.x) * d.x + (vi.y - v.y) * d.y + (vi.z - v.z) * d.z);
-        for (int m = 0; mirrors && m < mirrors->count; m++)
-            sum += rate_by(args, &mirrors->of[m], vi, p, v);
+        for (int m = 1; images && m <= images->count; m++)
+            sum += rate_by(args, &images->of[m], vi, p, v);
     }
     return sum;
 }
@@ -45,15 +45,15 @@ PAIR_LOOP(dfsph_rate)
 {
     const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient);
     const WallsFar far = out_of_sight(args->constants);
-    Mirrors mirrors;
+    Images images;
     GROUPS (i, begin, end) {
         const Themselves own = themselves(args, i);
         const f8x4 vi = motion(args, own.j);
-        mirrors_of(args, &far, i, begin, end, &mirrors);
-        f8 sum = mirrors.count == 0 ? rate_of(args, i, near_of(args, i), vi, NULL)
-                                    : rate_of(args, i, near_of(args, i), vi, &mirrors);
-        for (int m = 0; m < mirrors.count; m++)
-            sum += rate_by(args, &mirrors.of[m], vi, f8_load4(args->place, own.j), vi);
+        const bool mirrored = images_of(args, &far, i, begin, end, &images);
+        f8 sum = !mirrored ? rate_of(args, i, near_of(args, i), vi, NULL)
+                           : rate_of(args, i, near_of(args, i), vi, &images);
+        for (int m = 1; m <= images.count; m++)
+            sum += rate_by(args, &images.of[m], vi, f8_load4(args->place, own.j), vi);
         lanes_store(args->own[RESIDUAL], i, begin, end, -(gradient * sum));
     }
 }

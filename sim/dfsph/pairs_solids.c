@@ -30,8 +30,8 @@ SIMD_INLINE void add_images(const PairArgs *args, const WallsFar *far, size_t i,
     Images images;
     if (!images_of(args, far, i, begin, end, &images))
         return;
-    for (int m = 1; m < images.most; m++) {
-        const Mirrored image = mirrored(&images, m);
+    for (int m = 1; m <= images.count; m++) {
+        const Mirrored image = images.of[m];
         NEIGHBOURS (near, j) {
             const Separation d = separation(args, image.at, j);
             add_boundary(args, j, &d, &image.sign, sum);

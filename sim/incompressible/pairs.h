@@ -19,21 +19,6 @@ SIMD_INLINE f8 image_q(const Constants *s, f8 r2)
     return f8_sqrt(greater(r2, f8_splat(least * least))) * f8_splat(1 / h);
 }
 
-/* The images of a group, each of its particle; none where no wall is near. */
-typedef struct Mirrors {
-    int count;
-    Mirrored of[IMAGES_MAX];
-} Mirrors;
-
-SIMD_INLINE void mirrors_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
-                            Mirrors *mirrors)
-{
-    Images images;
-    mirrors->count = images_of(args, far, i, begin, end, &images) ? images.most - 1 : 0;
-    for (int m = 0; m < mirrors->count; m++)
-        mirrors->of[m] = mirrored(&images, m + 1);
-}
-
 /* --- what a particle's k makes of its own number density --- */
 
 typedef struct DensitySums {
@@ -53,7 +38,7 @@ SIMD_INLINE void density_by(const PairArgs *args, const Mirrored *image, f8x4 ne
     sum->squares += f * f * d.r2 * inverse_mass;
 }
 
-SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, const Mirrors *mirrors,
+SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, const Images *images,
                             DensitySums *sum)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
@@ -67,8 +52,8 @@ SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, con
         sum->n += height(q, INCOMPRESSIBLE_KERNEL);
         sum->x += f * d.x, sum->y += f * d.y, sum->z += f * d.z;
         sum->squares += f * f * d.r2 * d.term;
-        for (int m = 0; mirrors && m < mirrors->count; m++)
-            density_by(args, &mirrors->of[m], p, 1, p.w, sum);
+        for (int m = 1; images && m <= images->count; m++)
+            density_by(args, &images->of[m], p, 1, p.w, sum);
     }
 }
 
@@ -78,17 +63,17 @@ SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, fl
 {
     const f8 scale = f8_splat(args->constants->kernel_scale), g = f8_splat(gradient), zero = f8_splat(0);
     const WallsFar far = out_of_sight(args->constants);
-    Mirrors mirrors;
+    Images images;
     GROUPS (i, begin, end) {
         const Themselves own = themselves(args, i);
         DensitySums sum = {f8_splat(1), zero, zero, zero, zero};
-        mirrors_of(args, &far, i, begin, end, &mirrors);
-        if (mirrors.count == 0)
+        const bool mirrored = images_of(args, &far, i, begin, end, &images);
+        if (!mirrored)
             density_of(args, i, near_of(args, i), NULL, &sum);
         else
-            density_of(args, i, near_of(args, i), &mirrors, &sum);
-        for (int m = 0; m < mirrors.count; m++)
-            density_by(args, &mirrors.of[m], f8_load4(args->place, own.j), 2, zero, &sum);
+            density_of(args, i, near_of(args, i), &images, &sum);
+        for (int m = 1; m <= images.count; m++)
+            density_by(args, &images.of[m], f8_load4(args->place, own.j), 2, zero, &sum);
         lanes_store(args->number_density, i, begin, end, scale * sum.n);
         lanes_store(args->fx, i, begin, end, g * sum.x);
         lanes_store(args->fy, i, begin, end, g * sum.y);
@@ -109,7 +94,7 @@ SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 ki, f8x
     sum->z += image->sign.z * push * d.z;
 }
 
-SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki, const Mirrors *mirrors,
+SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki, const Images *images,
                          Place *sum)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
@@ -121,8 +106,8 @@ SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki,
             d = separate_to(args, i, j, d, TWINS_PART);
         const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, INCOMPRESSIBLE_KERNEL);
         sum->x += push * d.x, sum->y += push * d.y, sum->z += push * d.z;
-        for (int m = 0; mirrors && m < mirrors->count; m++)
-            push_by(args, &mirrors->of[m], ki, p, sum);
+        for (int m = 1; images && m <= images->count; m++)
+            push_by(args, &images->of[m], ki, p, sum);
     }
 }
 
@@ -131,18 +116,18 @@ SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float
 {
     const f8 g = f8_splat(gradient), zero = f8_splat(0);
     const WallsFar far = out_of_sight(args->constants);
-    Mirrors mirrors;
+    Images images;
     GROUPS (i, begin, end) {
         const Themselves own = themselves(args, i);
         const f8 ki = terms ? f8_load(terms + i) : f8_load4(args->place, own.j).w;
         Place sum = {zero, zero, zero};
-        mirrors_of(args, &far, i, begin, end, &mirrors);
-        if (mirrors.count == 0)
+        const bool mirrored = images_of(args, &far, i, begin, end, &images);
+        if (!mirrored)
             push_of(args, i, near_of(args, i), ki, NULL, &sum);
         else
-            push_of(args, i, near_of(args, i), ki, &mirrors, &sum);
-        for (int m = 0; m < mirrors.count; m++)
-            push_by(args, &mirrors.of[m], ki, f8_load4(args->place, own.j), &sum);
+            push_of(args, i, near_of(args, i), ki, &images, &sum);
+        for (int m = 1; m <= images.count; m++)
+            push_by(args, &images.of[m], ki, f8_load4(args->place, own.j), &sum);
         lanes_store(args->fx, i, begin, end, g * sum.x);
         lanes_store(args->fy, i, begin, end, g * sum.y);
         lanes_store(args->fz, i, begin, end, g * sum.z);

@@ -137,8 +137,8 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
         const Themselves own = themselves(args, i);
         const Near near = near_of(args, i), self = near_themselves(&own);
         f8 sum = f8_splat(0);
-        for (int m = 1; m < images.most; m++) {
-            const Mirrored image = mirrored(&images, m);
+        for (int m = 1; m <= images.count; m++) {
+            const Mirrored image = images.of[m];
             sum += image_flow(args, i, near, &image, kernel) + image_flow(args, i, self, &image, kernel);
         }
         lanes_add(args->fx, i, begin, end, -(gradient * sum));
@@ -165,8 +165,8 @@ SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, con
         if (!images_of(args, &far, i, begin, end, &images))
             continue;
         const Layers layers = layers_of(args, i, begin, end);
-        for (int m = 1; m < images.most; m++) {
-            const Mirrored image = mirrored(&images, m);
+        for (int m = 1; m <= images.count; m++) {
+            const Mirrored image = images.of[m];
             if (args->own[FULL])
                 force_by(args, i, begin, end, &image, &layers, kernel, true);
             else
