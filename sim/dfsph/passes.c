@@ -376,10 +376,16 @@ static void rate(const CpuRange *range, bool of_density)
     cpu_pairs(range, &dfsph_rate);
     if (p->own[SOLID_SLOPE] && !of_density)
         rate_solids(range);
+    const float *volume = p->volume, *k = p->pressure_term, change = dt / n0;
+    const float above = of_density, below = of_density || !pulls, free = pulls; /* what counts of them */
+    float *miss = p->own[MISS];
+#pragma omp simd
     for (size_t i = range->begin; i < range->end; i++) {
-        const float now = 1 / (p->volume[i] * n0) - 1;
-        residual[i] = (of_density || (now < 0 && !pulls) ? now : 0) + dt * residual[i] / n0;
-        p->own[MISS][i] = p->pressure_term[i] > 0 || pulls ? fabsf(residual[i]) : fmaxf(residual[i], 0);
+        const float now = 1 / (volume[i] * n0) - 1, counts = now > 0 ? above : below;
+        const float left = now * counts + change * residual[i], held = k[i] > 0 ? 1 : free;
+        const float other = -held * left;
+        residual[i] = left;
+        miss[i] = left > other ? left : other;
     }
 }
 
