@@ -15,6 +15,8 @@ STORAGE_BLOCK(SolveBlock, SOLVE_BUFFER)
     float left_mean; /* of the residual, as the last one has measured it */
     float left_most;
     float tolerance;      /* of the mean */
+    float worst;          /* where a particle has more than that, */
+    uint iterations_few;  /* there are so many at least */
     uint iterations_most; /* that it may do */
     uint ended;           /* 1: it has */
 }

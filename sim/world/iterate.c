@@ -38,6 +38,14 @@ static double scale_of(const Substep *step, const Iteration *iteration)
     return mean == 0 ? 1 : 1 / mean;
 }
 
+/* decide.comp of shaders/sim/compute says the same. */
+static bool goes_on(const Iteration *iteration, const StepSolve *solve)
+{
+    return solve->iterations < iteration->most &&
+           (!(solve->mean <= iteration->tolerance) ||
+            (solve->most > iteration->worst && solve->iterations < iteration->few));
+}
+
 /* As often as it takes, with the excess asked for after each. */
 static void iterate_here(const Substep *step, const Iteration *iteration, StepSolve *solve, double dt)
 {
@@ -47,7 +55,7 @@ static void iterate_here(const Substep *step, const Iteration *iteration, StepSo
     *solve = (StepSolve){.tolerance = iteration->tolerance, .mean = INFINITY};
     if (iteration->begun)
         measure(step, iteration, scale, solve);
-    while (!(solve->mean <= iteration->tolerance) && solve->iterations < iteration->most) {
+    while (goes_on(iteration, solve)) {
         conjugate(step, iteration, &now);
         input.go = (float)now.go;
         input.turn = (float)now.turn;

@@ -11,6 +11,8 @@ typedef struct Iteration {
     const Pass *passes[4];     /* of an iteration, ended by NULL; the last one measures */
     const ColumnDef *residual; /* what is above 0 of it counts */
     double tolerance;          /* of its mean */
+    double worst;              /* where a particle has more than that, */
+    int few;                   /* there are so many iterations at least */
     int most;                  /* iterations */
     bool begun;                /* the residual is there before the first of them: none may be needed */
     /* What else the caller wants to know behind the last of them: of which columns the excess, ended by NULL,

@@ -119,9 +119,40 @@ static void trouble_names_its_solver(void **state)
     world_destroy(world);
 }
 
+/* A solver whose mean is little at once and whose worst particle never is. */
+static Excess few_are_far(void *state, const ColumnDef *column)
+{
+    (void)column;
+    (*(int *)state)++;
+    return (Excess){.mean = 1e-4, .greatest = 0.1};
+}
+
+static double iterations_of(double tolerance, double worst, int few, int most)
+{
+    static const Backend backend = {.excess = few_are_far};
+    StepSolve solves[SOLVES_MAX] = {{0}};
+    int measured = 0;
+    const Substep step = {.backend = &backend, .state = &measured, .solves = solves};
+    const Iteration iteration = {
+        .tolerance = tolerance, .worst = worst, .few = few, .most = most, .begun = true};
+    substep_iterate(&step, &iteration, 0, 1e-3);
+    assert_int_equal(measured, 1 + (int)solves[0].iterations);
+    return solves[0].iterations;
+}
+
+static void the_worst_is_worth_a_few_iterations(void **state)
+{
+    (void)state;
+    assert_true(iterations_of(1e-3, 0.05, 2, 100) == 2);
+    assert_true(iterations_of(1e-3, 0.2, 2, 100) == 0);
+    assert_true(iterations_of(1e-3, 0.05, 2, 1) == 1);
+    assert_true(iterations_of(1e-5, 0.2, 2, 100) == 100);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_worst_is_worth_a_few_iterations),
         cmocka_unit_test(figures_are_those_of_the_steps),
         cmocka_unit_test(percentiles_are_near),
         cmocka_unit_test(nothing_is_counted_of_a_method_without_solvers),

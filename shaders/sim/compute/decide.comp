@@ -12,7 +12,8 @@ void decide(float mean, float greatest)
     iterations++;
     left_mean = mean;
     left_most = greatest;
-    if (iterations < iterations_most && (is_nan(mean) || mean > tolerance))
+    bool far = is_nan(mean) || mean > tolerance || (greatest > worst && iterations < iterations_few);
+    if (iterations < iterations_most && far)
         return;
     ended = 1u;
     groups_along = groups_rows = 0u;

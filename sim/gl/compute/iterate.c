@@ -43,6 +43,8 @@ static void begin(const Compute *c, const Iteration *iteration)
                               .iterations =
                                   iteration->begun ? UINT32_MAX : 0, /* the first measure adds one */
                               .tolerance = (float)iteration->tolerance,
+                              .worst = (float)iteration->worst,
+                              .iterations_few = (uint)iteration->few,
                               .iterations_most = (uint)iteration->most};
     glNamedBufferSubData(c->solve.buffer, 0, sizeof block, &block);
 }
