@@ -146,10 +146,13 @@ double step_cfl(const WorldDef *def, const StepFriction *friction, double max_sp
 {
     const double h = def->support * def->spacing, number = def->cfl_number;
     const double courant = number * h / (step_sound(def) + max_speed);
+    /* Without sound a blow is over within its step: what remains of `a` is a move, not a wave to be followed.
+     */
+    const double follows = step_sound(def) > 0 ? number : sqrt(number);
     const double most[STEP_LIMIT_COUNT] = {
         [STEP_LIMIT_DT] = INFINITY,
         [STEP_LIMIT_COURANT] = courant, /* INFINITY of what rests and has no sound */
-        [STEP_LIMIT_FORCE] = max_acceleration > 0 ? number * sqrt(h / max_acceleration) : INFINITY,
+        [STEP_LIMIT_FORCE] = max_acceleration > 0 ? follows * sqrt(h / max_acceleration) : INFINITY,
         [STEP_LIMIT_VISCOUS] = fmin(2 * number, STEP_VISCOUS_STANDS) * step_viscous(def, friction),
         [STEP_LIMIT_MAX_DT] = def->max_dt,
         [STEP_LIMIT_GROWTH] = before > 0 ? GROWTH * before : FIRST * fmin(courant, def->max_dt),

@@ -11,7 +11,7 @@
 #define STEP_LIMITS(X)                                                                                       \
     X(DT, "dt", "the scene's fixed step")                                                                    \
     X(COURANT, "courant", "number h / (c + greatest speed); c grows with density ratios above 10")           \
-    X(FORCE, "force", "number sqrt(h / greatest acceleration)")                                              \
+    X(FORCE, "force", "number sqrt(h / greatest acceleration); without sound sqrt(number h / it)")           \
     X(VISCOUS, "viscous", "2 number, at most 0.7, of the longest step that friction stands")                 \
     X(MAX_DT, "max_dt", "the scene's greatest step")                                                         \
     X(GROWTH, "growth", "a tenth more than the step before")                                                 \

@@ -63,6 +63,7 @@ static void a_method_gets_its_own_keys(void **state)
     def = world_of(ACCURATE "  method: dfsph\n", NULL);
     assert_true(def->support == 2.1 && def->cfl_number == 0.15);
     assert_int_equal(world_of(ACCURATE "  method: pbf\n", NULL)->step_mode, STEP_FIXED);
+    assert_float_equal(world_of(LEAST, "solver.method=dfsph")->cfl_number, 0.2, 0);
 }
 
 /* A scene that says `play`, or nothing, is what it was before there were presets. */

@@ -42,6 +42,8 @@ static void each_limit_binds(void **state)
     fixture_block(&def, 0, -0.5, 0, -0.5, 0.5, 0.5, 0.5);
     assert_true(fabs(step_cfl(&def, &friction, 0, 0, 1, &limit) - 0.25 * 0.21 / sqrt(9.81 * 0.5)) < 1e-12);
     assert_int_equal(limit, STEP_LIMIT_PRESSURE);
+    assert_true(fabs(step_cfl(&def, &friction, 0, 1e6, 1, &limit) - sqrt(0.3 * 0.21e-6)) < 1e-12);
+    assert_int_equal(limit, STEP_LIMIT_FORCE);
     strcpy(def.method, "pbf");
     assert_true(step_cfl(&def, &friction, 0, 0, 1, &limit) == 1);
     for (int i = 0; i < STEP_LIMIT_COUNT; i++)
