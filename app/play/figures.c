@@ -23,11 +23,13 @@ static void add_model(const Model *model, PlayFigures *figures)
     const SimulatorStatus *status = &model->status;
     figures->threads = threads_of(def);
     figures->substeps = def->substeps;
-    figures->dt = def->dt;
+    figures->dt =
+        def->step_mode == STEP_CFL && status->frames > 0 ? status->time / (double)status->frames : def->dt;
     figures->particles = status->particles;
     figures->scenes_opened = model->scenes_opened;
     figures->step = status->step;
     figures->solved = status->solved;
+    memcpy(figures->limited, status->limited, sizeof figures->limited);
     figures->time = status->time;
     figures->simulated_s = model->simulated_s + status->simulated_s;
     figures->sim_ms = status->frames ? status->solved_ms / (double)status->frames : 0;

@@ -43,6 +43,8 @@ static json_t *session_json(const PlayFigures *f)
         json_object_update(json, times), json_object_update(json, state), json_object_update(json, hands),
             json_object_update(json, devices);
     solved_json(json, &f->solved);
+    if (json)
+        json_object_set_new(json, "limits", limits_json(f->limited));
     const bool whole = json && times && state && hands && devices;
     json_decref(times);
     json_decref(state);
@@ -96,7 +98,7 @@ static const char *what_limits(const PlayFigures *f)
 
 void play_print(const PlayFigures *f, FILE *file)
 {
-    char threads[32] = "", words[SOLVED_WORDS];
+    char threads[32] = "", words[SOLVED_WORDS], bounds[LIMITS_WORDS];
     if (f->threads > 0)
         snprintf(threads, sizeof threads, "%d thread%s, ", f->threads, plural((size_t)f->threads));
     fprintf(file, "%s: %zu particle%s, %s on %s, %slive for %.1f s\n", f->scene, f->particles,
@@ -105,6 +107,8 @@ void play_print(const PlayFigures *f, FILE *file)
     fprintf(file, "  real-time factor      %8.3f\n", f->real_time_factor);
     fprintf(file, "  pictures a second     %8.1f\n", f->pictures_per_second);
     fprintf(file, "  solver, a frame       %8.2f ms of %.4g\n", f->sim_ms, 1e3 * f->dt);
+    if (!f->limited[STEP_LIMIT_DT])
+        fprintf(file, "  steps bounded by      %s\n", limits_text(f->limited, bounds));
     if (f->solved.steps > 0)
         fprintf(file, "  %s\n", solved_text(&f->solved, words));
     fprintf(file, "  rendering, a picture  %8.2f ms, of these the panel %.2f (CPU), events %.2f (CPU)\n",

@@ -16,8 +16,9 @@ typedef struct PlayFigures {
     char scene[1024], renderer[256];
     char view[NAME_SIZE], color_by[NAME_SIZE], colormap[NAME_SIZE], backend[NAME_SIZE], method[NAME_SIZE];
     int width, height, threads, substeps;
-    double dt;           /* s */
-    SolveFigures solved; /* of the last scene, since its start */
+    double dt;                          /* of a frame, s; of mode cfl, where each has its own, their mean */
+    SolveFigures solved;                /* of the last scene, since its start */
+    uint64_t limited[STEP_LIMIT_COUNT]; /* its steps, by what bounded them */
     size_t particles, pictures, scenes_opened;
     uint64_t step;              /* of the last state */
     double time;                /* of the last state, s */

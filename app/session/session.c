@@ -158,31 +158,11 @@ static double wall_seconds(const Session *session)
     return fmax((wall_ms() - session->began_ms) / 1000, 1e-6);
 }
 
-static void print_limits(const WorldInfo *info)
-{
-    fputs("steps bounded by", stderr);
-    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
-        if (info->limited[i])
-            fprintf(stderr, " %s %.3g %%", step_limit_name((StepLimit)i),
-                    100.0 * (double)info->limited[i] / (double)info->step);
-    fputc('\n', stderr);
-}
-
-static json_t *limits_json(const WorldInfo *info)
-{
-    json_t *limits = json_object();
-    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
-        if (info->limited[i])
-            json_object_set_new(limits, step_limit_name((StepLimit)i),
-                                json_integer((json_int_t)info->limited[i]));
-    return limits;
-}
-
 void session_report(const Session *session, const Args *args, const Summary *summary)
 {
     const WorldInfo *info = &session->info;
     const double wall = wall_seconds(session);
-    char words[SOLVED_WORDS];
+    char words[SOLVED_WORDS], bounds[LIMITS_WORDS];
     if (summary->stopped)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", info->time, args->output);
     if (!args->quiet)
@@ -194,7 +174,7 @@ void session_report(const Session *session, const Args *args, const Summary *sum
         fprintf(stderr, "the step was halved %u time%s in all after trouble\n", info->trouble.count,
                 plural(info->trouble.count));
     if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
-        print_limits(info);
+        fprintf(stderr, "steps bounded by %s\n", limits_text(info->limited, bounds));
     if (!args->quiet && info->solved.steps > 0)
         fprintf(stderr, "%s\n", solved_text(&info->solved, words));
     if (!args->quiet && summary->compression)
@@ -220,7 +200,7 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
         summary->product, (json_int_t)summary->products, "simulated_seconds", info->time, "wall_seconds",
         wall, "real_time_factor", info->time / wall, "stopped", summary->stopped);
     if (json) {
-        json_object_set_new(json, "limits", limits_json(info));
+        json_object_set_new(json, "limits", limits_json(info->limited));
         json_object_set_new(json, "troubles", json_integer(info->trouble.count));
         json_object_set_new(json, "lost", json_integer((json_int_t)info->lost));
         json_object_set_new(json, "emitted", json_integer((json_int_t)info->emitted));

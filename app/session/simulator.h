@@ -109,21 +109,22 @@ typedef struct SimulatorStatus {
     char message[1024]; /* of the failure, or of a command that could not be obeyed; "" */
     unsigned messages;  /* counts messages */
     double speed;
-    double time;                  /* s, of the last state */
-    double simulated_s;           /* all resets together */
-    double dt;                    /* of the last step, s */
-    StepSolve solves[SOLVES_MAX]; /* what solvers that iterate did in it, */
-    SolveFigures solved;          /* and since the scene's start */
-    StepLimit limit;              /* what bounded it */
-    uint64_t step, frames;        /* since the scene's start */
-    size_t particles;             /* of the last state */
-    size_t lost;                  /* particles without a place in the grid, in the last step known */
-    double real_time_factor;      /* simulated over wall time in the last second; 0 while paused */
-    double solved_ms;             /* wall time of these frames */
-    double behind_s;              /* wall time that the solver could not keep up with, in all, s */
-    BoxTarget hand;               /* the hand's part of the box's pose, as the filter has it */
-    StageTimes stages;            /* of the last frame */
-    int history_count;            /* of `history`: wall time of the last frames, ms, oldest first */
+    double time;                        /* s, of the last state */
+    double simulated_s;                 /* all resets together */
+    double dt;                          /* of the last step, s */
+    StepSolve solves[SOLVES_MAX];       /* what solvers that iterate did in it, */
+    SolveFigures solved;                /* and since the scene's start */
+    StepLimit limit;                    /* what bounded it, */
+    uint64_t limited[STEP_LIMIT_COUNT]; /* and all steps since the scene's start */
+    uint64_t step, frames;              /* since the scene's start */
+    size_t particles;                   /* of the last state */
+    size_t lost;                        /* particles without a place in the grid, in the last step known */
+    double real_time_factor;            /* simulated over wall time in the last second; 0 while paused */
+    double solved_ms;                   /* wall time of these frames */
+    double behind_s;                    /* wall time that the solver could not keep up with, in all, s */
+    BoxTarget hand;                     /* the hand's part of the box's pose, as the filter has it */
+    StageTimes stages;                  /* of the last frame */
+    int history_count;                  /* of `history`: wall time of the last frames, ms, oldest first */
     float history[SIMULATOR_HISTORY];
     int gauge_count; /* of `gauges`: the last ones since the scene's start, oldest first */
     GaugeSample gauges[SIMULATOR_GAUGES];

@@ -28,6 +28,7 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     status->step = info->step;
     status->dt = info->dt;
     status->limit = info->limit;
+    memcpy(status->limited, info->limited, sizeof status->limited);
     memcpy(status->solves, info->solves, sizeof status->solves);
     status->solved = info->solved;
     status->hand = info->hand;

@@ -33,3 +33,27 @@ const char *solved_text(const SolveFigures *solved, char words[SOLVED_WORDS])
                  used > 0 ? "; " : "", solved->viscosity_iterations_mean, solved->viscosity_residual_mean);
     return words;
 }
+
+json_t *limits_json(const uint64_t limited[STEP_LIMIT_COUNT])
+{
+    json_t *limits = json_object();
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        if (limited[i])
+            json_object_set_new(limits, step_limit_name((StepLimit)i), json_integer((json_int_t)limited[i]));
+    return limits;
+}
+
+const char *limits_text(const uint64_t limited[STEP_LIMIT_COUNT], char words[LIMITS_WORDS])
+{
+    uint64_t steps = 0;
+    size_t used = 0;
+    words[0] = '\0';
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        steps += limited[i];
+    for (int i = 0; i < STEP_LIMIT_COUNT; i++)
+        if (limited[i])
+            used +=
+                (size_t)snprintf(words + used, LIMITS_WORDS - used, "%s%s %.3g %%", used ? " " : "",
+                                 step_limit_name((StepLimit)i), 100.0 * (double)limited[i] / (double)steps);
+    return words;
+}

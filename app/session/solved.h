@@ -1,5 +1,5 @@
-/* What solvers that iterate did over a run (WorldInfo.solved), for JSON and for people: the one place that
-   has these names. */
+/* What steps were bounded by, and what solvers that iterate did in them, over a run (WorldInfo.limited and
+   solved), for JSON and for people: the one place that has these names. */
 #ifndef SLOSH_SOLVED_H
 #define SLOSH_SOLVED_H
 
@@ -16,5 +16,13 @@ enum { SOLVED_WORDS = 192 };
 
 /* "8.3 iterations a step (p95 14), density error 0.048 % mean, 1.2 % max"; "" of a method without. */
 const char *solved_text(const SolveFigures *solved, char words[SOLVED_WORDS]);
+
+/* {"courant": 120, "growth": 10}: steps of each limit that bounded some. */
+json_t *limits_json(const uint64_t limited[STEP_LIMIT_COUNT]);
+
+enum { LIMITS_WORDS = 192 };
+
+/* "courant 92.3 % growth 7.7 %". */
+const char *limits_text(const uint64_t limited[STEP_LIMIT_COUNT], char words[LIMITS_WORDS]);
 
 #endif
