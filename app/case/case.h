@@ -60,8 +60,7 @@ typedef struct CaseRun {
     Figure figures[CASE_METRICS];
 } CaseRun;
 
-/* The state at the start: arrays as in InitialState, that begin as the lattice of the fills at rest, with
-   rest densities. */
+/* The state at the start: arrays as in InitialState, that begin as the scene's own start. */
 typedef struct CaseStart {
     size_t count;
     float *position, *velocity; /* 3 a particle */

@@ -1,6 +1,5 @@
 /* A column of water at rest: p = rho0 g (H - y), and no energy comes or goes. */
 #include "app/case/all.h"
-#include "app/case/start.h"
 #include "app/metric/metric.h"
 
 #include <math.h>
@@ -53,7 +52,7 @@ static bool judge(CaseRun *run, Error *error)
              .found = {"particles"},                                                                         \
              .expected = {"hydrostatic"},                                                                    \
              .dots = true},                                                                                  \
-    .start = start_hydrostatic, .sample = sample, .judge = judge
+    .sample = sample, .judge = judge
 
 const Case case_hydrostatic = {
     .name = "hydrostatic",

@@ -2,7 +2,6 @@
 
 #include "app/base/interrupt.h"
 #include "sim/base/stage.h"
-#include "sim/matter/seed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,33 +33,79 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
     return ok && scene_load(setup->of->scene, &all, scene, NULL, error);
 }
 
-/* The lattice of the fills, moved by the case's start. */
+/* Arrays of the scene's own start, in the order of ids. */
+typedef struct Starting {
+    size_t count;
+    float *position, *velocity, *density, *pressure; /* 3, 3, 1, 1 a particle */
+    uint8_t *fluid;
+} Starting;
+
+static bool starting_create(Starting *to, size_t count)
+{
+    *to = (Starting){count,
+                     malloc(count * 3 * sizeof(float) + 1),
+                     malloc(count * 3 * sizeof(float) + 1),
+                     malloc(count * sizeof(float) + 1),
+                     malloc(count * sizeof(float) + 1),
+                     malloc(count + 1)};
+    return to->position && to->velocity && to->density && to->pressure && to->fluid;
+}
+
+static void starting_free(Starting *starting)
+{
+    free(starting->position);
+    free(starting->velocity);
+    free(starting->density);
+    free(starting->pressure);
+    free(starting->fluid);
+}
+
+static void starting_set(Starting *to, const Cloud *from, const uint32_t *id)
+{
+    for (size_t k = 0; k < from->count; k++) {
+        const size_t i = id[k];
+        for (size_t a = 0; a < 3; a++) {
+            to->position[3 * i + a] = from->position[4 * k + a];
+            to->velocity[3 * i + a] = from->velocity[4 * k + a];
+        }
+        to->density[i] = from->density[k];
+        to->pressure[i] = from->pressure[k];
+        to->fluid[i] = (uint8_t)from->fluid[k];
+    }
+}
+
+static bool starting_read(Starting *to, World *world)
+{
+    Cloud cloud = {0};
+    WorldInfo info;
+    world_info(world, &info);
+    uint32_t *id = malloc(info.count * sizeof *id + 1);
+    const bool ok = id && starting_create(to, info.count) && cloud_read(&cloud, world) &&
+                    world_read(world, &(ParticleArrays){.id = id});
+    if (ok)
+        starting_set(to, &cloud, id);
+    cloud_free(&cloud);
+    free(id);
+    return ok;
+}
+
+/* The scene's own start, changed by the case's. */
 static World *start_world(const Case *of, const WorldDef *def, Error *error)
 {
-    if (!of->start)
-        return world_create(def, error);
-    const size_t count = seed_count(def, def->spacing);
+    World *own = world_create(def, error), *world = NULL;
     WorldDef with = *def;
-    World *world = NULL;
-    float *position = malloc(count * 3 * sizeof *position + 1);
-    float *velocity = calloc(count * 3 + 1, sizeof *velocity);
-    float *density = malloc(count * sizeof *density + 1);
-    uint8_t *fluid = malloc(count + 1);
-    if (position && velocity && density && fluid) {
-        seed_lattice(def, position, fluid);
-        seed_jitter(def, position, count);
-        for (size_t i = 0; i < count; i++)
-            density[i] = (float)def->fluids[fluid[i]].density;
-        of->start(def, &(CaseStart){count, position, velocity, density, fluid});
-        with.initial = &(InitialState){count, position, velocity, fluid, density};
+    Starting s = {0};
+    if (!own || !of->start)
+        return own;
+    if (starting_read(&s, own)) {
+        of->start(def, &(CaseStart){s.count, s.position, s.velocity, s.density, s.fluid});
+        with.initial = &(InitialState){s.count, s.position, s.velocity, s.fluid, s.density, s.pressure};
         world = world_create(&with, error);
     } else {
-        error_set(error, "no memory for %zu particles; use a larger spacing", count);
+        error_set(error, "no memory for the start; use a larger spacing");
     }
-    free(position);
-    free(velocity);
-    free(density);
-    free(fluid);
+    starting_free(&s);
+    world_destroy(own);
     return world;
 }
 

@@ -1,7 +1,6 @@
 /* Linear sloshing: the box shakes for two periods, then the fluid swings by itself at its natural frequency,
    omega^2 = g k tanh(k d), k = pi / L. */
 #include "app/case/all.h"
-#include "app/case/start.h"
 #include "app/metric/metric.h"
 
 #include <math.h>
@@ -63,7 +62,6 @@ const Case case_sloshing = {
              .y = "centre of mass, m",
              .found = {"centre"},
              .expected = {"linear theory, fitted in height and phase"}},
-    .start = start_hydrostatic,
     .sample = sample,
     .judge = judge,
 };

@@ -14,7 +14,6 @@ static void start(const WorldDef *def, CaseStart *state)
 {
     const Fill *fill = &def->fluids[0].fills[0];
     start_wave(def, state, HEIGHT * (fill->max[1] - fill->min[1]));
-    start_hydrostatic(def, state);
 }
 
 static void sample(CaseRun *run)

@@ -137,6 +137,11 @@ static const Pass *const passes[] = {&dfsph_state,
                                      &dfsph_density_end,
                                      NULL};
 
+static double pressure_of_multiplier(const Constants *constants)
+{
+    return (double)dfsph_constants(constants)->pressure_of_term;
+}
+
 static bool always(const Constants *constants)
 {
     (void)constants;
@@ -158,6 +163,8 @@ const Method method_dfsph = {
                 [SOLVE_DIVERGENCE] = {"divergence", "solver.divergence_tolerance", "solver.iterations"}},
     .kernels = incompressible_kernels,
     .friction = incompressible_friction,
+    .multiplier = &dfsph_columns[KEPT],
+    .pressure_of_multiplier = pressure_of_multiplier,
     .constants = dfsph_set,
     .columns = dfsph_columns,
     .passes = passes,

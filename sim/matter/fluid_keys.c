@@ -16,6 +16,12 @@ static const KeyOwner tension = {.name = "with solver.surface_tension",
                                  .key = "solver.surface_tension",
                                  .need = "a model (solver.surface_tension)"};
 
+static const char *const start_names[] = {
+#define X(NAME, name) [START_##NAME] = name,
+    START_LIST(X)
+#undef X
+        NULL};
+
 static void fluid_init(void *element, int index)
 {
     /* Told apart by people with any colour vision: Okabe and Ito, "Color universal design", 2008. */
@@ -25,6 +31,7 @@ static void fluid_init(void *element, int index)
     FluidDef *fluid = element;
     snprintf(fluid->name, sizeof fluid->name, "fluid %d", index + 1);
     fluid->density = 1000; /* water */
+    fluid->start = START_HYDROSTATIC;
     for (int k = 0; k < 3; k++)
         fluid->color[k] = (float)srgb_to_linear(palette[index % 8][k]);
 }
@@ -43,6 +50,8 @@ const Key fluid_keys[] = {
     NUMBER("fluids[].density", 0, "kg/m3", 0.001, 1e5, FLUID(density), "at rest"),
     CURVE("fluids[].viscosity", L, "Pa s", 0, 1e6, FLUID(viscosity), FLUID(viscosity_table), "dynamic; water 0.001, olive oil 0.08, honey 10; or a table over time such as [[0, 50], [2, 50], [6, 0.1]]: seconds (ascending) and Pa s, at most 16 rows, straight lines between them, constant before and after"),
     NUMBER("fluids[].surface_tension", 0, "N/m", 0, 1000, FLUID(surface_tension), "water 0.072", .owner = &tension),
+    CHOICE_OF("fluids[].start", KEY_INDEX, start_names, FLUID(start),
+              "with which pressure its fills start: what gravity asks for where they stand, none in free fall; or none, and gravity sets in suddenly"),
     VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
     NUMBER("fluids[].taylor_green", 0, "m/s", 0, 1000, FLUID(taylor_green), "besides it at the start Taylor and Green's vortices of that speed, two by two in x and y, with their pressure"),
     COLOR("fluids[].color", L | I | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),

@@ -48,12 +48,24 @@ typedef struct Emit {
     double duration;     /* s; 0: for ever */
 } Emit;
 
+/* How a fluid's fills start: X(ENUM, name). */
+#define START_LIST(X)                                                                                        \
+    X(REST, "rest")               /* at rest density: gravity sets in suddenly, and what is deep rings */    \
+    X(HYDROSTATIC, "hydrostatic") /* with the pressure that gravity asks for: sim/matter/balance.h */
+
+typedef enum FluidStart {
+#define X(NAME, name) START_##NAME,
+    START_LIST(X)
+#undef X
+} FluidStart;
+
 typedef struct FluidDef {
     char name[NAME_SIZE];
     double density;            /* rest density rho0, kg/m3 */
     double viscosity;          /* dynamic, mu, Pa s; in a world, of a fluid with a table: the present one */
     TimeTable viscosity_table; /* mu over time; without rows it is `viscosity` at any time */
     double surface_tension;    /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
+    int start;                 /* a FluidStart */
     double velocity[3];        /* at the start, in the box's frame, m/s */
     double taylor_green; /* with it the vortices of sim/matter/vortices.h, of that speed, m/s; 0: none */
     float color[3];      /* linear RGB 0..1: for the views, no solver reads it */
@@ -70,6 +82,7 @@ typedef struct InitialState {
     const float *velocity; /* 3 * count, or NULL for rest in the box's frame */
     const uint8_t *fluid;  /* count, or NULL for the first fluid */
     const float *density;  /* count, kg/m3, for a method whose particles carry it; NULL: at rest */
+    const float *pressure; /* count, Pa, for a method that begins with multipliers; NULL: 0 */
 } InitialState;
 
 typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;

@@ -125,6 +125,11 @@ static void pbf_substep(const Substep *step)
 static const Pass *const passes[] = {&pbf_predict, &pbf_begin, &pbf_move,   &pbf_density,
                                      &pbf_again,   &pbf_force, &pbf_settle, NULL};
 
+static double pressure_of_multiplier(const Constants *constants)
+{
+    return (double)pbf_constants(constants)->pressure_of_term;
+}
+
 static bool always(const Constants *constants)
 {
     (void)constants;
@@ -147,6 +152,8 @@ const Method method_pbf = {
     .leaps = true,
     .kernels = incompressible_kernels,
     .friction = incompressible_friction,
+    .multiplier = &pbf_columns[TERM],
+    .pressure_of_multiplier = pressure_of_multiplier,
     .constants = pbf_set,
     .columns = pbf_columns,
     .passes = passes,

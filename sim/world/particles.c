@@ -4,6 +4,17 @@
 
 #include <math.h>
 
+/* Multipliers by the pressure that the first step begins with. */
+static void set_multipliers(const ParticleColumns *to, const Constants *constants,
+                            const InitialState *initial)
+{
+    const Method *method = constants->method;
+    float *multiplier = to->own[column_own(method->multiplier)];
+    const double per = method->pressure_of_multiplier(constants);
+    for (size_t i = 0; i < initial->count; i++)
+        multiplier[i] = (float)((double)initial->pressure[i] / per);
+}
+
 void particles_set(const ParticleColumns *to, const Constants *constants, const InitialState *initial)
 {
     for (size_t i = 0; i < initial->count; i++) {
@@ -20,6 +31,8 @@ void particles_set(const ParticleColumns *to, const Constants *constants, const 
         to->vy[i] = initial->velocity[3 * i + 1];
         to->vz[i] = initial->velocity[3 * i + 2];
     }
+    if (initial->pressure && constants->method->multiplier)
+        set_multipliers(to, constants, initial);
 }
 
 static float scalar_of(const ParticleColumns *p, const Constants *constants, Scalar scalar, size_t i)

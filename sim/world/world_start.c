@@ -1,4 +1,5 @@
 /* How a world begins: its particles, from the fills or as they are given. */
+#include "sim/matter/balance.h"
 #include "sim/matter/seed.h"
 #include "sim/matter/vortices.h"
 #include "sim/world/world_struct.h"
@@ -10,7 +11,8 @@
 typedef struct Seeds {
     float *position, *velocity;
     uint8_t *fluid;
-    float *density; /* NULL: at rest */
+    float *density;  /* NULL: at rest */
+    float *pressure; /* NULL: none */
 } Seeds;
 
 static void seeds_free(Seeds *seeds)
@@ -19,6 +21,7 @@ static void seeds_free(Seeds *seeds)
     free(seeds->velocity);
     free(seeds->fluid);
     free(seeds->density);
+    free(seeds->pressure);
 }
 
 /* The lattice leaves gaps next to solids that are not of it. A method whose particles carry their density
@@ -46,15 +49,13 @@ static void thin_at_solids(const Constants *constants, const WorldDef *def, cons
                 missing +=
                     wall_face_density(&constants->walls, rest) - wall_face_density(&constants->walls, is);
         }
-        seeds->density[i] =
-            (float)(def->fluids[seeds->fluid[i]].density * (1 - missing / constants->rest_number_density));
+        seeds->density[i] *= (float)(1 - missing / constants->rest_number_density);
     }
 }
 
 /* Moved points stay within the walls, and come in across periodic sides. */
-static void jitter(const Constants *constants, const WorldDef *def, const Seeds *seeds, size_t count)
+static void hold(const Constants *constants, const Seeds *seeds, size_t count)
 {
-    seed_jitter(def, seeds->position, count);
     for (size_t i = 0; i < count; i++) {
         float *x = seeds->position + 3 * i, v[3] = {0};
         walls_guard(&constants->walls, x, v);
@@ -73,33 +74,113 @@ static void add_vortices(const WorldDef *def, const Seeds *seeds, size_t count)
     }
 }
 
+/* rho / rho0 - 1 at which the method has that pressure: Newton's steps over a slope by differences. */
+static double compression_of(const Constants *constants, int fluid, double pressure)
+{
+    const double c = (double)constants->sound_speed, rest = (double)constants->density[fluid];
+    double x = pressure / (rest * c * c);
+    for (int i = 0; i < 4; i++) {
+        const double by = 1e-3 + 0.01 * fabs(x),
+                     at = (double)constants->method->pressure(constants, fluid, (float)x),
+                     more = (double)constants->method->pressure(constants, fluid, (float)(x + by));
+        x -= (at - pressure) * by / (more - at);
+    }
+    return x;
+}
+
+/* Which fluids start in balance; false: none, or there is no gravity. */
+static bool balances(const WorldDef *def, bool take[FLUIDS_MAX])
+{
+    const double *g = def->gravity;
+    bool any = false;
+    for (int f = 0; f < def->fluid_count; f++) {
+        take[f] = def->fluids[f].start == START_HYDROSTATIC;
+        any |= take[f];
+    }
+    return any && (g[0] != 0 || g[1] != 0 || g[2] != 0);
+}
+
+/* Densities by the method's equation of state, and places that go with them. */
+static bool press_seeds(const Constants *constants, Balance *balance, const Seeds *seeds, size_t count)
+{
+    double *compression = malloc((count + 1) * sizeof *compression);
+    if (!compression)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        compression[i] = compression_of(constants, seeds->fluid[i], (double)seeds->pressure[i]);
+        seeds->density[i] *= (float)(1 + compression[i]);
+    }
+    balance_move(balance, compression, seeds->position);
+    hold(constants, seeds, count);
+    free(compression);
+    return true;
+}
+
+/* A start in balance, under the gravity that the box feels in its first pose. */
+static bool balance_seeds(const Constants *constants, const WorldDef *def, const bool take[FLUIDS_MAX],
+                          const Seeds *seeds, size_t count)
+{
+    BoxState box;
+    double gravity[3];
+    Balance balance;
+    bool ok = balance_create(&balance, def, &constants->periodic, count, seeds->position, seeds->fluid, take);
+    box_state_at(def->motions, def->motion_count, def->box_size[1], 0, &box);
+    quat_rotate_inverse(box.orientation, def->gravity, gravity);
+    if (ok) {
+        balance_pressure(&balance, gravity, seeds->position, seeds->pressure);
+        for (size_t i = 0; i < count; i++)
+            if (!take[seeds->fluid[i]] || (seeds->pressure[i] < 0 && !def->negative_pressure))
+                seeds->pressure[i] = 0;
+        ok = !constants->method->pressure || press_seeds(constants, &balance, seeds, count);
+    }
+    balance_destroy(&balance);
+    return ok;
+}
+
+/* Room for `count` particles, with the columns that are wanted. */
+static bool seeds_create(Seeds *seeds, size_t count, bool dense, bool pressed)
+{
+    seeds->position = malloc((count + 1) * 3 * sizeof *seeds->position);
+    seeds->velocity = malloc((count + 1) * 3 * sizeof *seeds->velocity);
+    seeds->fluid = malloc(count + 1);
+    seeds->density = dense ? malloc((count + 1) * sizeof *seeds->density) : NULL;
+    seeds->pressure = pressed ? calloc(count + 1, sizeof *seeds->pressure) : NULL;
+    return seeds->position && seeds->velocity && seeds->fluid && (seeds->density || !dense) &&
+           (seeds->pressure || !pressed);
+}
+
 static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *seeds, InitialState *initial,
                        Error *error)
 {
-    const bool swirls = vortices_any(def);
-    const bool thins = constants->method->carries_density && (def->solid_count > 0 || swirls);
+    bool take[FLUIDS_MAX];
+    const bool swirls = vortices_any(def), balanced = balances(def, take),
+               carries = constants->method->carries_density, thins = carries && def->solid_count > 0;
+    const bool dense = balanced || thins || (carries && swirls);
     const size_t count = seed_count(def, def->spacing);
     if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)
         return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
                                       : "the fluids' fills hold no particle; use a smaller spacing");
-    seeds->position = malloc((count + 1) * 3 * sizeof *seeds->position);
-    seeds->velocity = malloc((count + 1) * 3 * sizeof *seeds->velocity);
-    seeds->fluid = malloc(count + 1);
-    seeds->density = thins ? malloc((count + 1) * sizeof *seeds->density) : NULL;
-    if (!seeds->position || !seeds->velocity || !seeds->fluid || (thins && !seeds->density))
+    if (!seeds_create(seeds, count, dense, balanced))
         return error_set(error, "no memory for %zu particles; use a larger spacing", count);
 
     seed_lattice(def, seeds->position, seeds->fluid);
-    if (def->jitter > 0)
-        jitter(constants, def, seeds, count);
+    if (def->jitter > 0) {
+        seed_jitter(def, seeds->position, count);
+        hold(constants, seeds, count);
+    }
+    for (size_t i = 0; dense && i < count; i++)
+        seeds->density[i] = (float)def->fluids[seeds->fluid[i]].density;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < 3; k++)
             seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
     if (thins)
         thin_at_solids(constants, def, seeds, count);
+    if (balanced && !balance_seeds(constants, def, take, seeds, count))
+        return error_set(error, "no memory for %zu particles; use a larger spacing", count);
     if (swirls)
         add_vortices(def, seeds, count);
-    *initial = (InitialState){count, seeds->position, seeds->velocity, seeds->fluid, seeds->density};
+    *initial = (InitialState){count,        seeds->position, seeds->velocity,
+                              seeds->fluid, seeds->density,  seeds->pressure};
     return true;
 }
 

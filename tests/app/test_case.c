@@ -128,38 +128,6 @@ static void vortices_lose_energy_by_their_dissipation(void **state)
     }
 }
 
-/* Each particle of a column bears what is above it, by the method's equation of state, and has its mass's
- * room. */
-static void columns_bear_their_weight(void **state)
-{
-    (void)state;
-    const char *const methods[] = {"wcsph", "mueller"};
-    for (int m = 0; m < 2; m++) {
-        WorldDef def = *open_case("hydrostatic")->def;
-        float at[3 * LAYERS], v[3 * LAYERS] = {0}, rho[LAYERS];
-        const double rest = def.fluids[0].density, c2 = def.sound_speed * def.sound_speed,
-                     g = -def.gravity[1];
-        def.spacing = 0.01;
-        snprintf(def.method, sizeof def.method, "%s", methods[m]);
-        for (int i = 0; i < LAYERS; i++) {
-            at[3 * i] = at[3 * i + 2] = 0;
-            at[3 * i + 1] = (float)((i + 0.5) * def.spacing);
-            rho[i] = (float)rest;
-        }
-        run.of->start(&def, &(CaseStart){LAYERS, at, v, rho, NULL});
-        for (int i = 0; i < LAYERS; i++) {
-            const double ratio = (double)rho[i] / rest, above = rest * g * def.spacing * (LAYERS - i - 0.5);
-            const double p = rest * c2 * (m ? ratio - 1 : (pow(ratio, 7) - 1) / 7);
-            assert_float_equal(p, above, 1e-3 * rest * g);
-            if (i > 0) {
-                const double room = (double)at[3 * i + 1] - (double)at[3 * i - 2];
-                assert_float_equal(room * 0.5 * (double)(rho[i] + rho[i - 1]), rest * def.spacing,
-                                   2e-5 * rest * def.spacing);
-            }
-        }
-    }
-}
-
 /* Nothing is made or lost, nothing passes the floor or the sides, and what rises at one wall sinks at the
    other: the rate of the surface is omega times its height at its greatest. */
 static void a_wave_starts_without_sources(void **state)
@@ -215,7 +183,6 @@ int main(void)
         cmocka_unit_test(channels_start_as_diffusion_does),
         cmocka_unit_test(an_ellipse_keeps_its_energy),
         cmocka_unit_test(vortices_lose_energy_by_their_dissipation),
-        cmocka_unit_test(columns_bear_their_weight),
         cmocka_unit_test(a_wave_starts_without_sources),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -171,8 +171,10 @@ static void every_name_of_a_choice_is_taken(void **state)
             snprintf(setting, sizeof setting, "%s=%s", path, name);
             if (!parse_set(everything, setting, &scene, &error))
                 fail_msg("%s", error.message);
-            const bool of_solid = strncmp(path, "solids", 6) == 0;
-            key_value_text(&keys[i], of_solid ? (void *)&scene.world.solids[0] : &scene, text, sizeof text);
+            void *const owner = strncmp(path, "solids", 6) == 0   ? (void *)&scene.world.solids[0]
+                                : strncmp(path, "fluids", 6) == 0 ? (void *)&scene.world.fluids[0]
+                                                                  : &scene;
+            key_value_text(&keys[i], owner, text, sizeof text);
             assert_string_equal(text, name);
             choices++;
         }

@@ -1,0 +1,252 @@
+#include "sim/matter/balance.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What is left of gravity over a spacing, of compressions, and iterations at most. */
+static const double LEFT_OF_GRAVITY = 1e-5, LEFT_OF_COMPRESSION = 1e-4;
+enum { ITERATIONS_MAX = 1000, ARRAYS = 6 };
+
+static double along(const double a[3], const float b[3])
+{
+    return a[0] * (double)b[0] + a[1] * (double)b[1] + a[2] * (double)b[2];
+}
+
+static double weight(const float way[3])
+{
+    return 1 / (double)(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+}
+
+/* Of the faces that are open. */
+static int open_count(const Balance *b, size_t i)
+{
+    return __builtin_popcount(b->touches.open[i]);
+}
+
+/* 1 / rho between two particles; 1 without densities. */
+static double lightness(const Balance *b, const double *density, size_t i, size_t j)
+{
+    return density ? 2 / (density[b->fluid[i]] + density[b->fluid[j]]) : 1;
+}
+
+/* out = A x, the sum over faces of what x falls by; `diagonal`: of A, where not NULL. */
+static void apply(const Balance *b, const double *density, const double *x, double *out, double *diagonal)
+{
+    const Touches *t = &b->touches;
+    for (size_t i = 0; i < t->count; i++) {
+        const double open = 2 * open_count(b, i) * lightness(b, density, i, i) / (b->spacing * b->spacing);
+        double sum = open * x[i], self = open;
+        for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++) {
+            const size_t j = t->at[k].other;
+            const double w = weight(t->at[k].way) * lightness(b, density, i, j);
+            sum += w * (x[i] - x[j]);
+            self += w;
+        }
+        out[i] = sum;
+        if (diagonal)
+            diagonal[i] = self > 0 ? self : 1;
+    }
+}
+
+static double product(const double *a, const double *b, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/* A x = rhs, by conjugate gradients with Jacobi's preconditioner from the x that is there, until the
+   residual's square is `enough`. */
+static void solve(const Balance *b, const double *density, const double *rhs, double enough, double *x)
+{
+    const size_t n = b->touches.count;
+    double *r = b->work + 2 * n, *p = r + n, *q = p + n, *diagonal = q + n, rz = 0;
+    apply(b, density, x, r, diagonal);
+    for (size_t i = 0; i < n; i++) {
+        r[i] = rhs[i] - r[i];
+        p[i] = r[i] / diagonal[i];
+        rz += r[i] * p[i];
+    }
+    for (int it = 0; it < ITERATIONS_MAX && product(r, r, n) > enough; it++) {
+        apply(b, density, p, q, NULL);
+        const double step = rz / product(p, q, n), before = rz;
+        rz = 0;
+        for (size_t i = 0; i < n; i++) {
+            x[i] += step * p[i];
+            r[i] -= step * q[i];
+            rz += r[i] * r[i] / diagonal[i];
+        }
+        for (size_t i = 0; i < n; i++)
+            p[i] = r[i] / diagonal[i] + rz / before * p[i];
+    }
+}
+
+/* What hangs together, part by part. */
+static void find_parts(Balance *b)
+{
+    const Touches *t = &b->touches;
+    uint8_t *seen = (uint8_t *)b->work;
+    size_t end = 0;
+    memset(seen, 0, t->count);
+    for (size_t i = 0; i < t->count; i++) {
+        if (seen[i])
+            continue;
+        b->part_begin[b->parts++] = (uint32_t)end;
+        b->order[end++] = (uint32_t)i;
+        seen[i] = 1;
+        for (size_t at = end - 1; at < end; at++)
+            for (size_t k = t->begin[b->order[at]]; k < t->begin[b->order[at] + 1]; k++)
+                if (!seen[t->at[k].other]) {
+                    seen[t->at[k].other] = 1;
+                    b->order[end++] = t->at[k].other;
+                }
+    }
+    b->part_begin[b->parts] = (uint32_t)end;
+}
+
+bool balance_create(Balance *b, const WorldDef *def, const Periodic *periodic, size_t count,
+                    const float *position, const uint8_t *fluid, const bool take[FLUIDS_MAX])
+{
+    *b = (Balance){.fluid = fluid, .spacing = def->spacing};
+    if (!touches_create(&b->touches, def, periodic, count, position, fluid, take))
+        return false;
+    b->order = malloc((count + 1) * sizeof *b->order);
+    b->part_begin = malloc((count + 1) * sizeof *b->part_begin);
+    b->work = malloc((ARRAYS * count + 1) * sizeof *b->work);
+    for (int f = 0; f < def->fluid_count; f++)
+        b->density[f] = def->fluids[f].density;
+    if (!b->order || !b->part_begin || !b->work)
+        return false;
+    find_parts(b);
+    return true;
+}
+
+void balance_destroy(Balance *b)
+{
+    touches_destroy(&b->touches);
+    free(b->order);
+    free(b->part_begin);
+    free(b->work);
+}
+
+/* The product with the outward normals of the open faces. */
+static double through_open(const Balance *b, size_t i, const double vector[3])
+{
+    double sum = 0, normal[3];
+    for (int bit = 0; b->touches.open[i] >> bit; bit++) {
+        touch_normal(bit, normal);
+        if (b->touches.open[i] >> bit & 1)
+            sum += normal[0] * vector[0] + normal[1] * vector[1] + normal[2] * vector[2];
+    }
+    return sum;
+}
+
+/* The particle of a part that lies highest, of those at a free surface if there is one. */
+static uint32_t part_top(const Balance *b, size_t part, const double gravity[3], const float *position)
+{
+    uint32_t top = b->order[b->part_begin[part]];
+    double least = INFINITY;
+    bool open = false;
+    for (size_t at = b->part_begin[part]; at < b->part_begin[part + 1]; at++) {
+        const uint32_t i = b->order[at];
+        const double fall = along(gravity, position + 3 * (size_t)i);
+        const bool surface = b->touches.open[i] != 0;
+        if ((surface && !open) || (surface == open && fall < least)) {
+            least = fall;
+            top = i;
+        }
+        open |= surface;
+    }
+    return top;
+}
+
+/* What the weight above gives on the way from the top of each part: right where it rests. */
+static void guess(Balance *b, const double gravity[3], const float *position, double *pressure)
+{
+    const Touches *t = &b->touches;
+    const double length =
+        sqrt(along(gravity, (float[3]){(float)gravity[0], (float)gravity[1], (float)gravity[2]}));
+    for (size_t i = 0; i < t->count; i++)
+        pressure[i] = (double)NAN;
+    for (size_t part = 0; part < b->parts; part++) {
+        size_t at = b->part_begin[part], end = at;
+        const uint32_t top = part_top(b, part, gravity, position);
+        pressure[top] = 0.5 * b->spacing * length * b->density[b->fluid[top]];
+        b->order[end++] = top;
+        for (; at < end; at++)
+            for (size_t i = b->order[at], k = t->begin[i]; k < t->begin[i + 1]; k++) {
+                const size_t j = t->at[k].other;
+                if (!isnan(pressure[j]))
+                    continue;
+                pressure[j] = pressure[i] + along(gravity, t->at[k].way) / lightness(b, b->density, i, j);
+                b->order[end++] = (uint32_t)j;
+            }
+    }
+}
+
+void balance_pressure(Balance *b, const double gravity[3], const float *position, float *pressure)
+{
+    const Touches *t = &b->touches;
+    double *rhs = b->work, *x = rhs + t->count, most = 0;
+    for (int k = 0; k < 3; k++)
+        most += gravity[k] * gravity[k];
+    guess(b, gravity, position, x);
+    for (size_t i = 0; i < t->count; i++) {
+        rhs[i] = -through_open(b, i, gravity) / b->spacing;
+        for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++)
+            rhs[i] -= weight(t->at[k].way) * along(gravity, t->at[k].way);
+    }
+    const double left = LEFT_OF_GRAVITY / b->spacing;
+    solve(b, b->density, rhs, left * left * most * (double)t->count, x);
+    for (size_t i = 0; i < t->count; i++)
+        pressure[i] = (float)x[i];
+}
+
+/* Less its mean in parts that cannot give way. */
+static void give_way(const Balance *b, double *rhs)
+{
+    for (size_t part = 0; part < b->parts; part++) {
+        const size_t begin = b->part_begin[part], end = b->part_begin[part + 1];
+        int open = 0;
+        double sum = 0;
+        for (size_t at = begin; at < end; at++) {
+            open += open_count(b, b->order[at]);
+            sum += rhs[b->order[at]];
+        }
+        for (size_t at = begin; at < end && open == 0; at++)
+            rhs[b->order[at]] -= sum / (double)(end - begin);
+    }
+}
+
+/* By the mean of how far its faces go: along each axis two of them share the way. */
+static void move(const Balance *b, size_t i, const double *x, float *position)
+{
+    const Touches *t = &b->touches;
+    double way[3] = {0}, normal[3];
+    for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++)
+        for (int a = 0; a < 3; a++)
+            way[a] += 0.5 * weight(t->at[k].way) * (x[i] - x[t->at[k].other]) * (double)t->at[k].way[a];
+    for (int bit = 0; b->touches.open[i] >> bit; bit++) {
+        touch_normal(bit, normal);
+        for (int a = 0; a < 3 && b->touches.open[i] >> bit & 1; a++)
+            way[a] += x[i] / b->spacing * normal[a];
+    }
+    for (int a = 0; a < 3; a++)
+        position[a] += (float)way[a];
+}
+
+void balance_move(Balance *b, const double *compression, float *position)
+{
+    const size_t count = b->touches.count;
+    double *rhs = b->work, *x = rhs + count;
+    for (size_t i = 0; i < count; i++) {
+        rhs[i] = -compression[i];
+        x[i] = 0;
+    }
+    give_way(b, rhs);
+    solve(b, NULL, rhs, LEFT_OF_COMPRESSION * LEFT_OF_COMPRESSION * product(rhs, rhs, count), x);
+    for (size_t i = 0; i < count; i++)
+        move(b, i, x, position + 3 * i);
+}

@@ -1,0 +1,36 @@
+/* A start in balance: the pressure under which fluid at rest would not be compressed by gravity in its first
+   moment, and the places in which it has the densities that go with it.
+
+   div(grad p / rho - g) = 0, p = 0 at free surfaces, and nothing through walls. Fluid that rests has
+   hydrostatic pressure by it, in layers too; what falls freely has none; what stands before it falls over, as
+   a dam, has what it falls over with. */
+#ifndef SLOSH_BALANCE_H
+#define SLOSH_BALANCE_H
+
+#include "sim/matter/touch.h"
+
+typedef struct Balance {
+    Touches touches;
+    const uint8_t *fluid;
+    double density[FLUIDS_MAX]; /* rho0 of each, kg/m3 */
+    double spacing;             /* m */
+    uint32_t *order;            /* particles, what hangs together side by side */
+    uint32_t *part_begin;       /* where the parts begin in it, and where the last one ends */
+    size_t parts;
+    double *work; /* for the solution */
+} Balance;
+
+/* Arguments as those of touches_create. False when memory is short. */
+bool balance_create(Balance *balance, const WorldDef *def, const Periodic *periodic, size_t count,
+                    const float *position, const uint8_t *fluid, const bool take[FLUIDS_MAX]);
+void balance_destroy(Balance *balance);
+
+/* Pa, of each particle, under `gravity` (m/s2, the box's frame); a part with no free surface has 0 at its
+   top. */
+void balance_pressure(Balance *balance, const double gravity[3], const float *position, float *pressure);
+
+/* Moves particles to where each has the compression that is given, rho / rho0 - 1; a part with no free
+   surface keeps its volume. */
+void balance_move(Balance *balance, const double *compression, float *position);
+
+#endif

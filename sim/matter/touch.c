@@ -1,0 +1,227 @@
+#include "sim/matter/touch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Spacings: particles as near touch, a lattice's diagonal does not; a neighbour as near may cover a face. */
+static const double TOUCH = 1.3, COVER = 1.6;
+
+/* It covers the face that it is this straight behind: the cosine. A lattice's diagonal does not. */
+static const double STRAIGHT = 0.75;
+
+/* A face is closed by a wall at most so many spacings from the particle: fills keep half a one from walls;
+   and by a solid so near a spacing behind it, where a lattice has no points. */
+static const double WALL = 1, SOLID = 0.75;
+
+/* Particles by cell, of side COVER spacings at least. */
+typedef struct Bins {
+    const WorldDef *def;
+    const Periodic *periodic;
+    const float *position;
+    double low[3], inverse[3]; /* m, 1/m */
+    long size[3];
+    size_t *begin;
+    uint32_t *who;
+    BoxState pose[SOLIDS_MAX]; /* of the solids */
+} Bins;
+
+static long cell_along(const Bins *bins, int k, double x)
+{
+    const long cell = (long)floor((x - bins->low[k]) * bins->inverse[k]);
+    return cell < 0 ? 0 : cell < bins->size[k] ? cell : bins->size[k] - 1;
+}
+
+static size_t cell_of(const Bins *bins, const float x[3])
+{
+    return (size_t)((cell_along(bins, 2, x[2]) * bins->size[1] + cell_along(bins, 1, x[1])) * bins->size[0] +
+                    cell_along(bins, 0, x[0]));
+}
+
+static void bins_shape(Bins *bins, size_t count)
+{
+    const WorldDef *def = bins->def;
+    for (int k = 0; k < 3; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < count; i++) {
+            low = fmin(low, bins->position[3 * i + (size_t)k]);
+            high = fmax(high, bins->position[3 * i + (size_t)k]);
+        }
+        if (bins->periodic->axis[k]) {
+            low = bins->periodic->low[k];
+            high = low + bins->periodic->size[k];
+        }
+        bins->low[k] = low;
+        bins->size[k] = (long)fmax(1, floor((high - low) / (COVER * def->spacing)));
+        bins->inverse[k] = (double)bins->size[k] / fmax(high - low, def->spacing);
+    }
+}
+
+static bool bins_create(Bins *bins, size_t count, const uint8_t *fluid, const bool take[FLUIDS_MAX])
+{
+    bins_shape(bins, count);
+    const size_t cells = (size_t)(bins->size[0] * bins->size[1] * bins->size[2]);
+    bins->begin = calloc(cells + 2, sizeof *bins->begin);
+    bins->who = malloc((count + 1) * sizeof *bins->who);
+    if (!bins->begin || !bins->who)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (take[fluid[i]])
+            bins->begin[cell_of(bins, bins->position + 3 * i) + 2]++;
+    for (size_t c = 2; c < cells + 2; c++)
+        bins->begin[c] += bins->begin[c - 1];
+    for (size_t i = 0; i < count; i++)
+        if (take[fluid[i]])
+            bins->who[bins->begin[cell_of(bins, bins->position + 3 * i) + 1]++] = (uint32_t)i;
+    return true;
+}
+
+/* The cells next to `cell` along an axis, itself among them; returns how many. */
+static int cells_near(const Bins *bins, int k, long cell, long near[3])
+{
+    const long size = bins->size[k];
+    int count = 0;
+    for (long d = -1; d <= 1 && count < size; d++) {
+        const long other = bins->periodic->axis[k] ? (cell + d + size) % size : cell + d;
+        if (other >= 0 && other < size)
+            near[count++] = other;
+    }
+    return count;
+}
+
+/* The faces that what is at `way`, r m away, covers. */
+static unsigned covered(const float way[3], double r)
+{
+    unsigned faces = 0;
+    for (int k = 0; k < 3; k++)
+        if (fabs((double)way[k]) > STRAIGHT * r)
+            faces |= 1U << (2 * k + (way[k] > 0));
+    return faces;
+}
+
+/* Adds those of particle i that are in a cell; NULL only looks which faces they cover. */
+static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, unsigned *faces)
+{
+    const double spacing = bins->def->spacing;
+    size_t found = 0;
+    for (size_t k = bins->begin[cell]; k < bins->begin[cell + 1]; k++) {
+        const size_t j = bins->who[k];
+        Touch touch = {.other = (uint32_t)j};
+        for (size_t a = 0; a < 3; a++)
+            touch.way[a] = bins->position[3 * j + a] - bins->position[3 * i + a];
+        periodic_nearest(bins->periodic, touch.way);
+        const double r = sqrt((double)(touch.way[0] * touch.way[0] + touch.way[1] * touch.way[1] +
+                                       touch.way[2] * touch.way[2]));
+        if (j == i || r > COVER * spacing)
+            continue;
+        *faces |= covered(touch.way, r);
+        if (r > TOUCH * spacing || r < 0.01 * spacing)
+            continue;
+        if (to)
+            to[found] = touch;
+        found++;
+    }
+    return found;
+}
+
+static size_t touch_all(const Bins *bins, size_t i, Touch *to, unsigned *faces)
+{
+    long near[3][3];
+    int count[3];
+    size_t found = 0;
+    for (int k = 0; k < 3; k++)
+        count[k] = cells_near(bins, k, cell_along(bins, k, bins->position[3 * i + (size_t)k]), near[k]);
+    for (int z = 0; z < count[2]; z++)
+        for (int y = 0; y < count[1]; y++)
+            for (int x = 0; x < count[0]; x++) {
+                const long cell = (near[2][z] * bins->size[1] + near[1][y]) * bins->size[0] + near[0][x];
+                found += touch_cell(bins, i, (size_t)cell, to ? to + found : NULL, faces);
+            }
+    return found;
+}
+
+void touch_normal(int bit, double normal[3])
+{
+    for (int k = 0; k < 3; k++)
+        normal[k] = k != bit / 2 ? 0 : bit % 2 ? 1 : -1;
+}
+
+static bool wall_closes(const WorldDef *def, int bit, const float x[3])
+{
+    const int k = bit / 2;
+    const double low = k == 1 ? 0 : -0.5 * def->box_size[k], reach = WALL * def->spacing;
+    if (def->periodic[k])
+        return false;
+    return bit % 2 ? low + def->box_size[k] - x[k] < reach : x[k] - low < reach;
+}
+
+static bool solid_closes(const Bins *bins, int bit, const float x[3])
+{
+    const WorldDef *def = bins->def;
+    double normal[3];
+    touch_normal(bit, normal);
+    for (int s = 0; s < def->solid_count; s++) {
+        double d[3];
+        for (int a = 0; a < 3; a++)
+            d[a] = x[a] + def->spacing * normal[a] - bins->pose[s].position[a];
+        quat_rotate_inverse(bins->pose[s].orientation, d, d);
+        if (solid_distance(&def->solids[s], def->dimensions, d) < SOLID * def->spacing)
+            return true;
+    }
+    return false;
+}
+
+static uint8_t open_faces(const Bins *bins, size_t i, unsigned covers)
+{
+    const float *x = bins->position + 3 * i;
+    unsigned open = 0;
+    for (int bit = 0; bit < 2 * bins->def->dimensions; bit++)
+        if (!(covers >> bit & 1U) && !wall_closes(bins->def, bit, x) && !solid_closes(bins, bit, x))
+            open |= 1U << bit;
+    return (uint8_t)open;
+}
+
+static bool touches_find(Touches *touches, const Bins *bins, const uint8_t *fluid,
+                         const bool take[FLUIDS_MAX])
+{
+    const size_t count = touches->count;
+    touches->begin = malloc((count + 1) * sizeof *touches->begin);
+    touches->open = calloc(count + 1, 1);
+    if (!touches->begin || !touches->open)
+        return false;
+    touches->begin[0] = 0;
+    for (size_t i = 0; i < count; i++) {
+        unsigned covers = 0;
+        const bool takes = take[fluid[i]];
+        touches->begin[i + 1] = touches->begin[i] + (takes ? touch_all(bins, i, NULL, &covers) : 0);
+        touches->open[i] = takes ? open_faces(bins, i, covers) : 0;
+    }
+    touches->at = malloc((touches->begin[count] + 1) * sizeof *touches->at);
+    for (size_t i = 0; touches->at && i < count; i++) {
+        unsigned covers = 0;
+        if (take[fluid[i]])
+            touch_all(bins, i, touches->at + touches->begin[i], &covers);
+    }
+    return touches->at != NULL;
+}
+
+bool touches_create(Touches *touches, const WorldDef *def, const Periodic *periodic, size_t count,
+                    const float *position, const uint8_t *fluid, const bool take[FLUIDS_MAX])
+{
+    Bins bins = {.def = def, .periodic = periodic, .position = position};
+    *touches = (Touches){.count = count};
+    for (int k = 0; k < def->solid_count; k++)
+        solid_pose(&def->solids[k], 0, &bins.pose[k]);
+    const bool ok = bins_create(&bins, count, fluid, take) && touches_find(touches, &bins, fluid, take);
+    free(bins.begin);
+    free(bins.who);
+    return ok;
+}
+
+void touches_destroy(Touches *touches)
+{
+    free(touches->begin);
+    free(touches->at);
+    free(touches->open);
+    *touches = (Touches){0};
+}
