@@ -82,6 +82,33 @@ static bool check_emit(const Check *check, int f, int index)
     return check_out_of_solids(check, key, emit->centre);
 }
 
+static bool check_formula(const Check *check, const char *path, const char *text, const char *names)
+{
+    Error error;
+    return !formula_given(text) || formula_check(text, names, &error) ||
+           FAIL(check, path, "%s", error.message);
+}
+
+/* Heights and velocities. */
+static bool check_formulas(const Check *check, int f)
+{
+    const FluidDef *fluid = &check->scene->world.fluids[f];
+    char path[64];
+    for (int k = 0; k < 3; k++) {
+        snprintf(path, sizeof path, "fluids[%d].velocity_formula.%c", f, scene_axis_name(k));
+        if (k >= check->scene->world.dimensions && formula_given(fluid->flow[k]))
+            return FAIL(check, path, "a 2D scene has no z; leave it out");
+        if (!check_formula(check, path, fluid->flow[k], "xyz"))
+            return false;
+    }
+    for (int i = 0; i < fluid->fill_count; i++) {
+        snprintf(path, sizeof path, "fluids[%d].fill[%d].below", f, i);
+        if (!check_formula(check, path, fluid->fills[i].below, "xz"))
+            return false;
+    }
+    return true;
+}
+
 static bool check_fill(const Check *check, const Fill *fill, const char *path)
 {
     char axis[96];
@@ -114,6 +141,8 @@ bool scene_check_fluid(const Check *check, int f)
         if (!check_fill(check, &fluid->fills[i], path))
             return false;
     }
+    if (!check_formulas(check, f))
+        return false;
     for (int i = 0; i < fluid->emit_count; i++)
         if (!check_emit(check, f, i))
             return false;

@@ -13,11 +13,6 @@ static double along(const double a[3], const float b[3])
     return a[0] * (double)b[0] + a[1] * (double)b[1] + a[2] * (double)b[2];
 }
 
-static double weight(const float way[3])
-{
-    return 1 / (double)(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
-}
-
 /* Of the faces that are open. */
 static int open_count(const Balance *b, size_t i)
 {
@@ -39,7 +34,7 @@ static void apply(const Balance *b, const double *density, const double *x, doub
         double sum = open * x[i], self = open;
         for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++) {
             const size_t j = t->at[k].other;
-            const double w = weight(t->at[k].way) * lightness(b, density, i, j);
+            const double w = (double)t->at[k].weight * lightness(b, density, i, j);
             sum += w * (x[i] - x[j]);
             self += w;
         }
@@ -89,6 +84,7 @@ static void find_parts(Balance *b)
     const Touches *t = &b->touches;
     uint8_t *seen = (uint8_t *)b->work;
     size_t end = 0;
+    b->parts = 0;
     memset(seen, 0, t->count);
     for (size_t i = 0; i < t->count; i++) {
         if (seen[i])
@@ -98,7 +94,7 @@ static void find_parts(Balance *b)
         seen[i] = 1;
         for (size_t at = end - 1; at < end; at++)
             for (size_t k = t->begin[b->order[at]]; k < t->begin[b->order[at] + 1]; k++)
-                if (!seen[t->at[k].other]) {
+                if (t->at[k].weight > 0 && !seen[t->at[k].other]) {
                     seen[t->at[k].other] = 1;
                     b->order[end++] = t->at[k].other;
                 }
@@ -196,7 +192,7 @@ void balance_pressure(Balance *b, const double gravity[3], const float *position
     for (size_t i = 0; i < t->count; i++) {
         rhs[i] = -through_open(b, i, gravity) / b->spacing;
         for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++)
-            rhs[i] -= weight(t->at[k].way) * along(gravity, t->at[k].way);
+            rhs[i] -= (double)t->at[k].weight * along(gravity, t->at[k].way);
     }
     const double left = LEFT_OF_GRAVITY / b->spacing;
     solve(b, b->density, rhs, left * left * most * (double)t->count, x);
@@ -227,7 +223,7 @@ static void move(const Balance *b, size_t i, const double *x, float *position)
     double way[3] = {0}, normal[3];
     for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++)
         for (int a = 0; a < 3; a++)
-            way[a] += 0.5 * weight(t->at[k].way) * (x[i] - x[t->at[k].other]) * (double)t->at[k].way[a];
+            way[a] += 0.5 * (double)t->at[k].weight * (x[i] - x[t->at[k].other]) * (double)t->at[k].way[a];
     for (int bit = 0; b->touches.open[i] >> bit; bit++) {
         touch_normal(bit, normal);
         for (int a = 0; a < 3 && b->touches.open[i] >> bit & 1; a++)
@@ -249,4 +245,134 @@ void balance_move(Balance *b, const double *compression, float *position)
     solve(b, NULL, rhs, LEFT_OF_COMPRESSION * LEFT_OF_COMPRESSION * product(rhs, rhs, count), x);
     for (size_t i = 0; i < count; i++)
         move(b, i, x, position + 3 * i);
+}
+
+/* --- gaps next to solids --- */
+
+/* How far the face of a bit is to go, m. */
+static double gap_through(const Balance *b, size_t i, int bit, double normal[3])
+{
+    touch_normal(bit, normal);
+    return fmax(0, b->touches.solid[i] >> bit & 1 ? along(normal, b->touches.gap + 3 * i) : 0);
+}
+
+void balance_fit(Balance *b, float *position)
+{
+    const size_t count = b->touches.count;
+    double *rhs = b->work, *x = rhs + count, normal[3];
+    for (size_t i = 0; i < count; i++) {
+        rhs[i] = x[i] = 0;
+        for (int bit = 0; bit < 6; bit++)
+            rhs[i] -= gap_through(b, i, bit, normal) / b->spacing;
+    }
+    give_way(b, rhs);
+    solve(b, NULL, rhs, LEFT_OF_COMPRESSION * LEFT_OF_COMPRESSION * product(rhs, rhs, count), x);
+    for (size_t i = 0; i < count; i++) {
+        move(b, i, x, position + 3 * i);
+        for (int bit = 0; bit < 6; bit++) {
+            const double way = 0.5 * gap_through(b, i, bit, normal);
+            for (size_t a = 0; a < 3; a++)
+                position[3 * i + a] += (float)(way * normal[a]);
+        }
+    }
+}
+
+/* --- a surface by formula --- */
+
+/* From the face at height y between particle i, or NULL its top, and one of another fluid: how far the
+   surface of the lower one is above it, m; false where this is no such face. */
+static bool rise_at(const Balance *b, const BalanceSurface *surface, const float *position, size_t i,
+                    const Touch *touch, double *rise)
+{
+    const float half = touch ? 0.5F * touch->way[1] : (float)(0.5 * b->spacing);
+    const float *x = position + 3 * i;
+    double at;
+    if (touch && (b->fluid[i] == b->fluid[touch->other] || !(fabsf(half) > 0.35F * (float)b->spacing)))
+        return false;
+    const size_t lower = touch && half < 0 ? touch->other : i;
+    const float aside[2] = {touch ? 0.5F * touch->way[0] : 0, touch ? 0.5F * touch->way[2] : 0};
+    if (!surface->height(surface->context, b->fluid[lower], (double)(x[0] + aside[0]),
+                         (double)(x[2] + aside[1]), &at))
+        return false;
+    *rise = at - (double)(x[1] + half);
+    return fabs(*rise) < b->spacing;
+}
+
+/* Its top, where that is open. */
+static bool top_rise(const Balance *b, const BalanceSurface *surface, const float *position, size_t i,
+                     double *rise)
+{
+    return (b->touches.open[i] >> 3 & 1) && rise_at(b, surface, position, i, NULL, rise);
+}
+
+/* Its mean over all faces, which no volume allows, and their sum for each particle: what flows in. */
+static double mean_rise(const Balance *b, const BalanceSurface *surface, const float *position)
+{
+    const Touches *t = &b->touches;
+    double sum = 0, rise;
+    size_t faces = 0;
+    for (size_t i = 0; i < t->count; i++) {
+        if (top_rise(b, surface, position, i, &rise)) {
+            sum += rise;
+            faces++;
+        }
+        for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++)
+            if (t->at[k].way[1] > 0 && rise_at(b, surface, position, i, &t->at[k], &rise)) {
+                sum += rise;
+                faces++;
+            }
+    }
+    return faces > 0 ? sum / (double)faces : 0;
+}
+
+/* Cuts what touches across the surface, closes all else, and puts half of each face's rise into `moved`, its
+   flow into `rhs`. */
+static void cut(Balance *b, const BalanceSurface *surface, const float *position, double *rhs, float *moved)
+{
+    const Touches *t = &b->touches;
+    const double mean = mean_rise(b, surface, position);
+    double rise;
+    for (size_t i = 0; i < t->count; i++) {
+        rhs[i] = 0;
+        for (int a = 0; a < 3; a++)
+            moved[3 * i + (size_t)a] = 0;
+        if (top_rise(b, surface, position, i, &rise)) {
+            rhs[i] -= (rise - mean) / b->spacing;
+            moved[3 * i + 1] += (float)(0.5 * (rise - mean));
+        }
+        for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++) {
+            Touch *touch = &t->at[k];
+            if (!rise_at(b, surface, position, i, touch, &rise))
+                continue;
+            rhs[i] -= (rise - mean) * (double)touch->weight * (double)touch->way[1];
+            moved[3 * i + 1] += (float)(0.5 * (rise - mean));
+            touch->weight = 0;
+        }
+    }
+    memset(t->open, 0, t->count);
+}
+
+bool balance_raise(Balance *b, const BalanceSurface *surface, float *position)
+{
+    const size_t count = b->touches.count;
+    double *rhs = b->work, *x = rhs + count;
+    float *moved = malloc((3 * count + 1) * sizeof *moved);
+    if (!moved)
+        return false;
+    cut(b, surface, position, rhs, moved);
+    for (size_t i = 0; i < count; i++)
+        x[i] = 0;
+    double *kept = x + count; /* find_parts writes over the first one */
+    memcpy(kept, rhs, count * sizeof *rhs);
+    find_parts(b);
+    memcpy(rhs, kept, count * sizeof *rhs);
+    give_way(b, rhs);
+    solve(b, NULL, rhs, LEFT_OF_COMPRESSION * LEFT_OF_COMPRESSION * product(rhs, rhs, count), x);
+    for (size_t i = 0; i < count; i++) {
+        move(b, i, x, moved + 3 * i);
+        for (size_t a = 3 * i; a < 3 * i + 3; a++)
+            position[a] += moved[a];
+    }
+    free(moved);
+    return true;
 }

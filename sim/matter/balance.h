@@ -33,4 +33,20 @@ void balance_pressure(Balance *balance, const double gravity[3], const float *po
    surface keeps its volume. */
 void balance_move(Balance *balance, const double *compression, float *position);
 
+/* Moves particles of a lattice, with a flow that compresses nothing, into the gaps that the lattice leaves next to
+   solids: the free surface sinks by what is missing there. The balance is of no more use then. */
+void balance_fit(Balance *balance, float *position);
+
+/* Where fluid ends upwards. */
+typedef struct BalanceSurface {
+    /* Of that fluid at x and z, m; false: nowhere in particular. */
+    bool (*height)(const void *context, int fluid, double x, double z, double *y);
+    const void *context;
+} BalanceSurface;
+
+/* Moves particles of a lattice so that its steps at a surface follow the surface, by a flow that compresses
+   nothing; the balance is of no more use then. What the surface is above the steps in the mean stays. False
+   when memory is short. */
+bool balance_raise(Balance *balance, const BalanceSurface *surface, float *position);
+
 #endif

@@ -44,9 +44,18 @@ static bool cylinder_holds(const Fill *fill, const double x[3])
     return along2 <= 0.25 * fill->height * fill->height && r2 - along2 <= fill->radius * fill->radius;
 }
 
+bool fill_ends(const Fill *fill, double x, double z, double *y)
+{
+    Error error;
+    return formula_given(fill->below) && formula_value(fill->below, "xz", (double[]){x, z}, y, &error);
+}
+
 bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance)
 {
     const int axes = dimensions == 2 ? 2 : 3;
+    double end;
+    if (fill_ends(fill, x[0], x[2], &end) && !(x[1] < end))
+        return false;
     if (fill->kind == FILL_BLOCK) {
         for (int k = 0; k < axes; k++)
             if (x[k] < fill->min[k] - tolerance || x[k] >= fill->max[k] - tolerance)

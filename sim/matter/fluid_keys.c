@@ -33,13 +33,17 @@ static void fluid_init(void *element, int index)
     fluid->density = 1000; /* water */
     fluid->start = START_HYDROSTATIC;
     for (int k = 0; k < 3; k++)
+        snprintf(fluid->flow[k], sizeof fluid->flow[k], "none");
+    for (int k = 0; k < 3; k++)
         fluid->color[k] = (float)srgb_to_linear(palette[index % 8][k]);
 }
 
 static void fill_init(void *element, int index)
 {
     (void)index;
-    ((Fill *)element)->axis[1] = 1;
+    Fill *fill = element;
+    fill->axis[1] = 1;
+    snprintf(fill->below, sizeof fill->below, "none");
 }
 
 /* clang-format off */
@@ -53,10 +57,15 @@ const Key fluid_keys[] = {
     CHOICE_OF("fluids[].start", KEY_INDEX, start_names, FLUID(start),
               "with which pressure its fills start: what gravity asks for where they stand, none in free fall; or none, and gravity sets in suddenly"),
     VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
+    MAPPING("fluids[].velocity_formula", "velocity at the start by formula, besides `velocity`: of x, y and z, m; numbers, pi, + - * / ^, sin cos tan exp log sqrt abs tanh sinh cosh, min(a, b), max(a, b)"),
+    TEXT("fluids[].velocity_formula.x", 0, FORMULA_SIZE, FLUID(flow[0]), NULL, "its x, m/s"),
+    TEXT("fluids[].velocity_formula.y", 0, FORMULA_SIZE, FLUID(flow[1]), NULL, "its y, m/s"),
+    TEXT("fluids[].velocity_formula.z", 0, FORMULA_SIZE, FLUID(flow[2]), NULL, "its z, m/s"),
     NUMBER("fluids[].taylor_green", 0, "m/s", 0, 1000, FLUID(taylor_green), "besides it at the start Taylor and Green's vortices of that speed, two by two in x and y, with their pressure"),
     COLOR("fluids[].color", L | I | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
     LIST("fluids[].fill", 0, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, fill_init,
          "what the fluid fills at the start: blocks, balls and cylinders; a fluid needs this or emitters"),
+    TEXT("fluids[].fill[].below", 0, FORMULA_SIZE, FILL(below), NULL, "where the fill ends at a height of its own, m: a formula of x and z as in velocity_formula; its particles are moved to end there"),
     VARIANT("fluids[].fill[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
     VEC3("fluids[].fill[].block.min", R, "m", -1000, 1000, FILL(min), "its corner with the least x, y, z"),
     VEC3("fluids[].fill[].block.max", R, "m", -1000, 1000, FILL(max), "its corner with the greatest x, y, z"),

@@ -56,6 +56,16 @@ static bool has_point(const WorldDef *def, const FillPile *pile, int fluid, int 
     return owner ? owner == fill : fill_covers(def, fill, x) && !taken_before(def, fluid, index, x);
 }
 
+/* Where a height by formula cuts fills, no pile tells whose a point is. */
+static bool is_cut(const WorldDef *def)
+{
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].fill_count; i++)
+            if (formula_given(def->fluids[f].fills[i].below))
+                return true;
+    return false;
+}
+
 /* Blocks that share no point. */
 static bool blocks_apart(const Fill *a, const Fill *b, int dimensions)
 {
@@ -73,7 +83,7 @@ static bool is_plain_block(const WorldDef *def, int fluid, int index)
         for (int i = 0; i < (f == fluid ? index : def->fluids[f].fill_count); i++)
             if (!blocks_apart(fill, &def->fluids[f].fills[i], def->dimensions))
                 return false;
-    return fill->kind == FILL_BLOCK && def->solid_count == 0;
+    return fill->kind == FILL_BLOCK && !formula_given(fill->below) && def->solid_count == 0;
 }
 
 /* The points of a plain block: those along each axis, multiplied. */
@@ -102,7 +112,7 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
     FillPile piled;
     size_t count = 0;
     fill_lattice(def, fill, axes);
-    const FillPile *pile = fill_pile(def, fill, axes, &piled) ? &piled : NULL;
+    const FillPile *pile = !is_cut(def) && fill_pile(def, fill, axes, &piled) ? &piled : NULL;
     if (!position && !pile && is_plain_block(def, fluid, index))
         return block_count(def, fill, axes);
     const FillAxis *ax = &axes[0], *ay = &axes[1], *az = &axes[2];

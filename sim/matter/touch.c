@@ -117,6 +117,7 @@ static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, uns
         *faces |= covered(touch.way, r);
         if (r > TOUCH * spacing || r < 0.01 * spacing)
             continue;
+        touch.weight = (float)(1 / (r * r));
         if (to)
             to[found] = touch;
         found++;
@@ -155,7 +156,23 @@ static bool wall_closes(const WorldDef *def, int bit, const float x[3])
     return bit % 2 ? low + def->box_size[k] - x[k] < reach : x[k] - low < reach;
 }
 
-static bool solid_closes(const Bins *bins, int bit, const float x[3])
+/* The way on to a solid's surface from half a spacing towards it. */
+static void gap_at(const Bins *bins, int s, const float x[3], float gap[3])
+{
+    const WorldDef *def = bins->def;
+    double d[3], normal[3];
+    for (int a = 0; a < 3; a++)
+        d[a] = x[a] - bins->pose[s].position[a];
+    quat_rotate_inverse(bins->pose[s].orientation, d, d);
+    const double left = solid_distance(&def->solids[s], def->dimensions, d) - 0.5 * def->spacing;
+    solid_normal(&def->solids[s], def->dimensions, d, normal);
+    quat_rotate(bins->pose[s].orientation, normal, normal);
+    for (int a = 0; a < 3; a++)
+        gap[a] = (float)(-fmax(left, 0) * normal[a]);
+}
+
+/* Which one; -1: none does. */
+static int solid_closes(const Bins *bins, int bit, const float x[3])
 {
     const WorldDef *def = bins->def;
     double normal[3];
@@ -166,19 +183,23 @@ static bool solid_closes(const Bins *bins, int bit, const float x[3])
             d[a] = x[a] + def->spacing * normal[a] - bins->pose[s].position[a];
         quat_rotate_inverse(bins->pose[s].orientation, d, d);
         if (solid_distance(&def->solids[s], def->dimensions, d) < SOLID * def->spacing)
-            return true;
+            return s;
     }
-    return false;
+    return -1;
 }
 
-static uint8_t open_faces(const Bins *bins, size_t i, unsigned covers)
+static void see_faces(const Bins *bins, size_t i, unsigned covers, const Touches *touches)
 {
     const float *x = bins->position + 3 * i;
-    unsigned open = 0;
-    for (int bit = 0; bit < 2 * bins->def->dimensions; bit++)
-        if (!(covers >> bit & 1U) && !wall_closes(bins->def, bit, x) && !solid_closes(bins, bit, x))
-            open |= 1U << bit;
-    return (uint8_t)open;
+    for (int bit = 0; bit < 2 * bins->def->dimensions; bit++) {
+        if (covers >> bit & 1U || wall_closes(bins->def, bit, x))
+            continue;
+        const int solid = solid_closes(bins, bit, x);
+        uint8_t *faces = solid < 0 ? touches->open : touches->solid;
+        faces[i] = (uint8_t)(faces[i] | 1U << bit);
+        if (solid >= 0)
+            gap_at(bins, solid, x, touches->gap + 3 * i);
+    }
 }
 
 static bool touches_find(Touches *touches, const Bins *bins, const uint8_t *fluid,
@@ -187,14 +208,18 @@ static bool touches_find(Touches *touches, const Bins *bins, const uint8_t *flui
     const size_t count = touches->count;
     touches->begin = malloc((count + 1) * sizeof *touches->begin);
     touches->open = calloc(count + 1, 1);
-    if (!touches->begin || !touches->open)
+    const bool solids = bins->def->solid_count > 0;
+    touches->solid = solids ? calloc(count + 1, 1) : NULL;
+    touches->gap = solids ? calloc(3 * count + 1, sizeof *touches->gap) : NULL;
+    if (!touches->begin || !touches->open || (solids && (!touches->solid || !touches->gap)))
         return false;
     touches->begin[0] = 0;
     for (size_t i = 0; i < count; i++) {
         unsigned covers = 0;
         const bool takes = take[fluid[i]];
         touches->begin[i + 1] = touches->begin[i] + (takes ? touch_all(bins, i, NULL, &covers) : 0);
-        touches->open[i] = takes ? open_faces(bins, i, covers) : 0;
+        if (takes)
+            see_faces(bins, i, covers, touches);
     }
     touches->at = malloc((touches->begin[count] + 1) * sizeof *touches->at);
     for (size_t i = 0; touches->at && i < count; i++) {
@@ -223,5 +248,7 @@ void touches_destroy(Touches *touches)
     free(touches->begin);
     free(touches->at);
     free(touches->open);
+    free(touches->solid);
+    free(touches->gap);
     *touches = (Touches){0};
 }

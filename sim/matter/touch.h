@@ -10,6 +10,7 @@
 typedef struct Touch {
     uint32_t other; /* the neighbour */
     float way[3];   /* to it, m */
+    float weight;   /* 1 / way^2 */
 } Touch;
 
 /* Bit 2 k + 1 of `open` is the face towards the greater coordinate along axis k, bit 2 k the one opposite. */
@@ -18,6 +19,8 @@ typedef struct Touches {
     size_t *begin; /* count + 1: those of particle i are at[begin[i]] to before at[begin[i + 1]] */
     Touch *at;     /* each pair twice */
     uint8_t *open;
+    uint8_t *solid; /* such bits of the faces that a solid closes; NULL without solids */
+    float *gap;     /* 3 a particle that has some: the way to the solid's surface less half a spacing, m */
 } Touches;
 
 /* Of particles at `position` (3 each) of a new world with that def. Those of fluids that do not `take` part

@@ -2,6 +2,7 @@
 #ifndef SLOSH_WORLD_DEF_H
 #define SLOSH_WORLD_DEF_H
 
+#include "sim/base/formula.h"
 #include "sim/base/time_table.h"
 #include "sim/box/box_filter.h"
 #include "sim/box/box_motion.h"
@@ -34,6 +35,7 @@ typedef struct Fill {
     double min[3], max[3];    /* block, m */
     double centre[3], radius; /* ball and cylinder, m */
     double axis[3], height;   /* cylinder: its direction, of any length but zero; m. 3D only */
+    char below[FORMULA_SIZE]; /* it ends at this height (m), a formula of x and z, if one is given */
 } Fill;
 
 /* A disk that sends out fluid at rest density, with a velocity along its normal, in the box's frame. A
@@ -61,12 +63,13 @@ typedef enum FluidStart {
 
 typedef struct FluidDef {
     char name[NAME_SIZE];
-    double density;            /* rest density rho0, kg/m3 */
-    double viscosity;          /* dynamic, mu, Pa s; in a world, of a fluid with a table: the present one */
-    TimeTable viscosity_table; /* mu over time; without rows it is `viscosity` at any time */
-    double surface_tension;    /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
-    int start;                 /* a FluidStart */
-    double velocity[3];        /* at the start, in the box's frame, m/s */
+    double density;             /* rest density rho0, kg/m3 */
+    double viscosity;           /* dynamic, mu, Pa s; in a world, of a fluid with a table: the present one */
+    TimeTable viscosity_table;  /* mu over time; without rows it is `viscosity` at any time */
+    double surface_tension;     /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
+    int start;                  /* a FluidStart */
+    double velocity[3];         /* at the start, in the box's frame, m/s */
+    char flow[3][FORMULA_SIZE]; /* besides it, formulas of x, y and z, if given: m/s */
     double taylor_green; /* with it the vortices of sim/matter/vortices.h, of that speed, m/s; 0: none */
     float color[3];      /* linear RGB 0..1: for the views, no solver reads it */
     int fill_count;

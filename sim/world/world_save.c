@@ -161,6 +161,8 @@ bool world_move(World **world, const char *backend, Error *error)
     WorldState state = {.count = 0};
     WorldDef def = from->def;
     snprintf(def.backend, sizeof def.backend, "%s", backend);
+    for (int f = 0; f < def.fluid_count; f++)
+        def.fluids[f].start = START_REST; /* its state is loaded */
     const bool moved =
         (to = world_create(&def, error)) && world_save(from, &state, error) && world_load(to, &state, error);
     world_state_free(&state);
@@ -168,6 +170,8 @@ bool world_move(World **world, const char *backend, Error *error)
         world_destroy(to);
         return false;
     }
+    for (int f = 0; f < def.fluid_count; f++)
+        to->def.fluids[f].start = from->def.fluids[f].start;
     to->trouble = from->trouble;
     to->tally = from->tally;
     memcpy(to->limited, from->limited, sizeof to->limited);

@@ -1,5 +1,6 @@
 /* How a world begins: its particles, from the fills or as they are given. */
 #include "sim/matter/balance.h"
+#include "sim/matter/fill.h"
 #include "sim/matter/seed.h"
 #include "sim/matter/vortices.h"
 #include "sim/world/world_struct.h"
@@ -61,6 +62,72 @@ static void hold(const Constants *constants, const Seeds *seeds, size_t count)
         walls_guard(&constants->walls, x, v);
         periodic_wrap(&constants->periodic, x);
     }
+}
+
+/* The height by formula at which a fluid's fills end. */
+static bool height_of(const void *context, int fluid, double x, double z, double *y)
+{
+    const FluidDef *def = &((const WorldDef *)context)->fluids[fluid];
+    for (int i = 0; i < def->fill_count; i++)
+        if (fill_ends(&def->fills[i], x, z, y))
+            return true;
+    return false;
+}
+
+static bool any_height(const WorldDef *def)
+{
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].fill_count; i++)
+            if (formula_given(def->fluids[f].fills[i].below))
+                return true;
+    return false;
+}
+
+/* Surfaces that formulas give. */
+static bool raise_seeds(const Constants *constants, const WorldDef *def, const Seeds *seeds, size_t count)
+{
+    static const bool all[FLUIDS_MAX] = {true, true, true, true, true, true, true, true};
+    Balance balance;
+    const bool ok =
+        balance_create(&balance, def, &constants->periodic, count, seeds->position, seeds->fluid, all) &&
+        balance_raise(&balance, &(BalanceSurface){height_of, def}, seeds->position);
+    balance_destroy(&balance);
+    hold(constants, seeds, count);
+    return ok;
+}
+
+/* A packing around solids without gaps. */
+static bool fit_seeds(const Constants *constants, const WorldDef *def, const bool take[FLUIDS_MAX],
+                      const Seeds *seeds, size_t count)
+{
+    Balance balance;
+    const bool ok =
+        balance_create(&balance, def, &constants->periodic, count, seeds->position, seeds->fluid, take);
+    if (ok)
+        balance_fit(&balance, seeds->position);
+    balance_destroy(&balance);
+    hold(constants, seeds, count);
+    return ok;
+}
+
+/* Velocities by formula; false where one has no value. */
+static bool add_flow(const WorldDef *def, const Seeds *seeds, size_t count, Error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        const float *x = seeds->position + 3 * i;
+        const double at[3] = {(double)x[0], (double)x[1], (double)x[2]};
+        for (int k = 0; k < def->dimensions; k++) {
+            const char *text = def->fluids[seeds->fluid[i]].flow[k];
+            double value = 0;
+            if (formula_given(text) && !formula_value(text, "xyz", at, &value, error))
+                return false;
+            if (!isfinite(value))
+                return error_set(error, "the velocity \"%s\" has no value at %g %g %g", text, at[0], at[1],
+                                 at[2]);
+            seeds->velocity[3 * i + (size_t)k] += (float)value;
+        }
+    }
+    return true;
 }
 
 /* With the pressure that holds them, where particles carry their density: p = c^2 (rho - rho0). */
@@ -168,11 +235,16 @@ static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *s
         seed_jitter(def, seeds->position, count);
         hold(constants, seeds, count);
     }
+    if ((any_height(def) && !raise_seeds(constants, def, seeds, count)) ||
+        (balanced && def->solid_count > 0 && !fit_seeds(constants, def, take, seeds, count)))
+        return error_set(error, "no memory for %zu particles; use a larger spacing", count);
     for (size_t i = 0; dense && i < count; i++)
         seeds->density[i] = (float)def->fluids[seeds->fluid[i]].density;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < 3; k++)
             seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
+    if (!add_flow(def, seeds, count, error))
+        return false;
     if (thins)
         thin_at_solids(constants, def, seeds, count);
     if (balanced && !balance_seeds(constants, def, take, seeds, count))

@@ -1,0 +1,82 @@
+/* Formulas of a scene: values, and what is said of what can't be read. */
+#include "tests/sim/fixture.h"
+
+#include "sim/base/formula.h"
+
+static const double at[] = {2, 3, 5};
+
+static void values(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double value;
+    } list[] = {
+        {"1", 1},
+        {"x + y * z", 17},
+        {"(x + y) * z", 25},
+        {"-x^2", -4},
+        {"2^-1", 0.5},
+        {"2^3^2", 512},
+        {"8 / 2 / 2", 2},
+        {"1 - 2 - 3", -4},
+        {"1e-3*x", 0.002},
+        {"min(x, y) * 2", 4},
+        {"max(x, y)", 3},
+        {" abs( -z ) ", 5},
+        {"cos(pi)", -1},
+        {"sqrt(x^2 + 0)", 2},
+        {"--x", 2},
+        {"exp(log(z))", 5},
+        {"sinh(0)+cosh(0)", 1},
+        {"tanh(0) - tan(0) + sin(0)", 0},
+        {".5+.5", 1},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        Error error = {{0}};
+        double value = 0;
+        if (!formula_value(list[i].text, "xyz", at, &value, &error))
+            fail_msg("%s", error.message);
+        assert_float_equal(value, list[i].value, 1e-12);
+    }
+}
+
+static void what_is_none(void **state)
+{
+    (void)state;
+    static const char *const list[][2] = {
+        {"", "letter 1"},           {"x +", "letter 4"},
+        {"(x", "\")\" is missing"}, {"sin x", "\"(\" is missing"},
+        {"min(x)", "second"},       {"x y", "the end"},
+        {"w", "no number"},         {"x)", "the end"},
+        {"1..2", "the end"},        {"sinus(x)", "no number"},
+        {"y", "no number"},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        Error error = {{0}};
+        if (formula_check(list[i][0], "xz", &error) || !strstr(error.message, list[i][1]))
+            fail_msg("\"%s\": %s", list[i][0], error.message);
+    }
+}
+
+/* As deep as a text may be. */
+static void no_text_is_too_deep(void **state)
+{
+    (void)state;
+    char text[FORMULA_SIZE] = {0};
+    Error error;
+    memset(text, '(', sizeof text - 1);
+    assert_false(formula_check(text, "x", &error));
+    memset(text, '-', sizeof text - 1);
+    assert_false(formula_check(text, "x", &error));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values),
+        cmocka_unit_test(what_is_none),
+        cmocka_unit_test(no_text_is_too_deep),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
