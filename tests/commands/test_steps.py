@@ -80,7 +80,7 @@ class Steps(CommandTest):
         self.assertGreater(found['particle_steps_per_second'], 1000)
 
     def test_trouble_is_told_and_cured(self):
-        said = self.go('--set', 'solver.step={dt: 0.04, substeps: 1}')
+        said = self.go('--set', 'solver.step={dt: 0.04, substeps: 1}', '--set', 'fluids[0].start=rest')
         self.assertRegex(said, r't = [0-9.]+ s: a particle moves further than the support radius in one step; '
                                r'back to [0-9.]+ s with 1/2 of the step \(1 of 3\)\n')
         self.assertGreater(json.loads(self.read('a.json'))['troubles'], 0)
@@ -123,7 +123,8 @@ class Steps(CommandTest):
         self.assertEqual([name for name in self.FIGURES if name in json.loads(self.read('a.json'))], [])
 
     def test_a_tolerance_that_nothing_reaches(self):
-        said = self.go('--method', 'dfsph', '--set', 'solver.tolerance=0', '--set', 'solver.iterations=1', code=1)
+        said = self.go('--method', 'dfsph', '--set', 'solver.tolerance=0', '--set', 'solver.iterations=1',
+                       '--set', 'fluids[0].start=rest', '--set', 'fluids[1].start=rest', code=1)
         words = r'the solver of density does not converge: solver.iterations 1 leaves [0-9.]+ % in the mean, ' \
                 r'solver.tolerance is 0 %'
         self.assertEqual(len(re.findall(words + r'; back to [0-9.]+ s with 1/[248] of the step', said)), 3, said)
