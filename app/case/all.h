@@ -8,6 +8,8 @@
 #define CASES(X)                                                                                             \
     X(hydrostatic)                                                                                           \
     X(hydrostatic_3d)                                                                                        \
+    X(tilted)                                                                                                \
+    X(layers)                                                                                                \
     X(dam_break)                                                                                             \
     X(dam_break_2d)                                                                                          \
     X(free_fall)                                                                                             \

@@ -33,8 +33,8 @@ void balance_pressure(Balance *balance, const double gravity[3], const float *po
    surface keeps its volume. */
 void balance_move(Balance *balance, const double *compression, float *position);
 
-/* Moves particles of a lattice, with a flow that compresses nothing, into the gaps that the lattice leaves next to
-   solids: the free surface sinks by what is missing there. The balance is of no more use then. */
+/* Moves particles of a lattice, with a flow that compresses nothing, into the gaps that the lattice leaves
+   next to solids: the free surface sinks by what is missing there. The balance is of no more use then. */
 void balance_fit(Balance *balance, float *position);
 
 /* Where fluid ends upwards. */

@@ -192,6 +192,40 @@ static void a_full_box_holds(void **state)
     }
 }
 
+/* Around a disc the lattice leaves gaps: the packing has none, and fluid stays calm. */
+static void a_packing_around_solids(void **state)
+{
+    (void)state;
+    WorldDef def = tank_def("wcsph", 1, 1.4);
+    def.fluids[0].viscosity = 1;
+    fixture_block(&def, 0, -0.5, 0, 0, 0.5, 1, 0);
+    def.solid_count = 1;
+    def.solids[0] = (SolidDef){.kind = SOLID_SPHERE, .centre = {0.02, 0.45, 0}, .radius = 0.2};
+    World *world = fixture_world(&def);
+    State s = fixture_read(world);
+    double top = 0, near = INFINITY;
+    for (size_t i = 0; i < s.count; i++) {
+        const double x = (double)s.position[4 * i] - 0.02, y = (double)s.position[4 * i + 1];
+        near = fmin(near, (hypot(x, y - 0.45) - 0.2) / 0.05);
+        top = fmax(top, y);
+    }
+    if (!(near > 0.35))
+        fail_msg("%g spacings from the disc", near);
+    assert_true(top < 0.97); /* the surface sank by what the gaps hold */
+    fixture_free(&s);
+    double fastest = 0;
+    for (int k = 0; k < 20; k++) {
+        fixture_step(world, 20);
+        s = fixture_read(world);
+        for (size_t i = 0; i < s.count; i++)
+            fastest = fmax(fastest, hypot((double)s.velocity[4 * i], (double)s.velocity[4 * i + 1]));
+        fixture_free(&s);
+    }
+    if (!(fastest < 0.2))
+        fail_msg("%g m/s", fastest);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -199,6 +233,7 @@ int main(void)
         cmocka_unit_test(gravity_may_act_sideways),        cmocka_unit_test(nothing_presses_in_free_fall),
         cmocka_unit_test(nothing_presses_without_gravity), cmocka_unit_test(nothing_presses_around_a_period),
         cmocka_unit_test(a_dam_leans_on_nothing),          cmocka_unit_test(a_full_box_holds),
+        cmocka_unit_test(a_packing_around_solids),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
