@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The arrays behind an InitialState made from fills. */
 typedef struct Seeds {
@@ -86,8 +87,9 @@ static bool any_height(const WorldDef *def)
 /* Surfaces that formulas give. */
 static bool raise_seeds(const Constants *constants, const WorldDef *def, const Seeds *seeds, size_t count)
 {
-    static const bool all[FLUIDS_MAX] = {true, true, true, true, true, true, true, true};
     Balance balance;
+    bool all[FLUIDS_MAX];
+    memset(all, true, sizeof all);
     const bool ok =
         balance_create(&balance, def, &constants->periodic, count, seeds->position, seeds->fluid, all) &&
         balance_raise(&balance, &(BalanceSurface){height_of, def}, seeds->position);
@@ -208,7 +210,7 @@ static bool balance_seeds(const Constants *constants, const WorldDef *def, const
 static bool seeds_create(Seeds *seeds, size_t count, bool dense, bool pressed)
 {
     seeds->position = malloc((count + 1) * 3 * sizeof *seeds->position);
-    seeds->velocity = malloc((count + 1) * 3 * sizeof *seeds->velocity);
+    seeds->velocity = calloc(3 * count + 1, sizeof *seeds->velocity);
     seeds->fluid = malloc(count + 1);
     seeds->density = dense ? malloc((count + 1) * sizeof *seeds->density) : NULL;
     seeds->pressure = pressed ? calloc(count + 1, sizeof *seeds->pressure) : NULL;
@@ -216,27 +218,34 @@ static bool seeds_create(Seeds *seeds, size_t count, bool dense, bool pressed)
            (seeds->pressure || !pressed);
 }
 
+/* The lattice, as jitter, surfaces and, for what takes part in a balance (NULL: nothing), solids leave it. */
+static bool place_seeds(const Constants *constants, const WorldDef *def, const bool *take, const Seeds *seeds,
+                        size_t count)
+{
+    seed_lattice(def, seeds->position, seeds->fluid);
+    if (def->jitter > 0) {
+        seed_jitter(def, seeds->position, count);
+        hold(constants, seeds, count);
+    }
+    return (!any_height(def) || raise_seeds(constants, def, seeds, count)) &&
+           (!take || def->solid_count == 0 || fit_seeds(constants, def, take, seeds, count));
+}
+
 static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *seeds, InitialState *initial,
                        Error *error)
 {
     bool take[FLUIDS_MAX];
-    const bool swirls = vortices_any(def), balanced = balances(def, take),
+    const size_t count = seed_count(def, def->spacing);
+    const bool swirls = vortices_any(def), balanced = count > 0 && balances(def, take),
                carries = constants->method->carries_density, thins = carries && def->solid_count > 0;
     const bool dense = balanced || thins || (carries && swirls);
-    const size_t count = seed_count(def, def->spacing);
     if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)
         return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
                                       : "the fluids' fills hold no particle; use a smaller spacing");
     if (!seeds_create(seeds, count, dense, balanced))
         return error_set(error, "no memory for %zu particles; use a larger spacing", count);
 
-    seed_lattice(def, seeds->position, seeds->fluid);
-    if (def->jitter > 0) {
-        seed_jitter(def, seeds->position, count);
-        hold(constants, seeds, count);
-    }
-    if ((any_height(def) && !raise_seeds(constants, def, seeds, count)) ||
-        (balanced && def->solid_count > 0 && !fit_seeds(constants, def, take, seeds, count)))
+    if (!place_seeds(constants, def, balanced ? take : NULL, seeds, count))
         return error_set(error, "no memory for %zu particles; use a larger spacing", count);
     for (size_t i = 0; dense && i < count; i++)
         seeds->density[i] = (float)def->fluids[seeds->fluid[i]].density;
