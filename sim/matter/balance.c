@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* What is left of gravity over a spacing, of compressions, and iterations at most. */
-static const double LEFT_OF_GRAVITY = 1e-5, LEFT_OF_COMPRESSION = 1e-4;
+static const double LEFT_OF_GRAVITY = 1e-5, LEFT_OF_COMPRESSION = 1e-3;
 enum { ITERATIONS_MAX = 1000, ARRAYS = 6 };
 
 static double along(const double a[3], const float b[3])
