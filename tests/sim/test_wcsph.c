@@ -244,7 +244,7 @@ static void step_equals_brute_force(const char *kernel, ViscosityForm form, doub
     WorldDef def = two_fluids(kernel);
     wcsph_def(&def)->viscosity_form = (int)form;
     make_cloud(&cloud, width, middle);
-    def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, cloud.density};
+    def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, cloud.density, NULL};
     World *world = fixture_world(&def);
     fixture_step(world, 1);
     State s = fixture_read(world);
@@ -332,7 +332,7 @@ static void momentum_and_energy(void **state)
         v[3 * i + 1] += 0.5f * x[3 * i];
         fluid[i] = (uint8_t)(index[0] < 5);
     }
-    def.initial = &(InitialState){N, x, v, fluid, NULL};
+    def.initial = &(InitialState){N, x, v, fluid, NULL, NULL};
     World *world = fixture_world(&def);
     WorldSums before, after;
     const double e0 = energy(world, &def, 1000);
