@@ -1,5 +1,7 @@
 /* What fills became: particles of a lattice. */
 #include "app/scene/advise.h"
+#include "sim/base/formula.h"
+#include "sim/matter/balance.h"
 #include "sim/matter/fill.h"
 #include "sim/matter/seed.h"
 #include "sim/matter/solid.h"
@@ -37,8 +39,8 @@ static bool meets_solid(const WorldDef *world, const double low[3], const double
     return false;
 }
 
-/* What the fills of a fluid hold, m3 or m2; 0: they share their place with other fills or solids, and nobody
-   has said. */
+/* What the fills of a fluid hold, m3 or m2; 0: they share their place with other fills or solids, or end at a
+   formula, and nobody has said. */
 static double volume_of(const WorldDef *world, int f)
 {
     double volume = 0;
@@ -50,7 +52,7 @@ static double volume_of(const WorldDef *world, int f)
             for (int j = 0; j < world->fluids[g].fill_count; j++)
                 if ((g != f || j != i) && bounds_meet(world, low, high, &world->fluids[g].fills[j]))
                     return 0;
-        if (meets_solid(world, low, high))
+        if (meets_solid(world, low, high) || formula_given(fill->below))
             return 0;
         volume += fill_volume(fill, world->dimensions);
     }
@@ -110,6 +112,20 @@ static void advise_thin(const Tree *tree, const WorldDef *world, int f, Notes *n
     }
 }
 
+static void advise_start(const Tree *tree, const WorldDef *world, const size_t counts[FLUIDS_MAX],
+                         Notes *notes)
+{
+    size_t count = 0;
+    bool hydrostatic = false;
+    for (int f = 0; f < world->fluid_count; f++) {
+        count += counts[f];
+        hydrostatic |= world->fluids[f].start == START_HYDROSTATIC;
+    }
+    if (hydrostatic && count > BALANCE_MOST)
+        advise(tree, "particles.spacing", notes,
+               "%zu particles start at rest, not in balance: that is for %d at most", count, BALANCE_MOST);
+}
+
 void advise_fills(const Tree *tree, const Scene *scene, Notes *notes)
 {
     const WorldDef *world = &scene->world;
@@ -117,6 +133,7 @@ void advise_fills(const Tree *tree, const Scene *scene, Notes *notes)
     if (!tree || !notes) /* of the start alone */
         return;
     seed_counts(world, counts);
+    advise_start(tree, world, counts, notes);
     for (int f = 0; f < world->fluid_count; f++) {
         advise_mass(tree, world, f, counts[f], notes);
         advise_thin(tree, world, f, notes);

@@ -9,6 +9,9 @@
 
 #include "sim/matter/touch.h"
 
+/* Particles; more start at rest: some 20 s. */
+enum { BALANCE_MOST = 2000000 };
+
 typedef struct Balance {
     Touches touches;
     const uint8_t *fluid;

@@ -50,12 +50,9 @@ bool fill_ends(const Fill *fill, double x, double z, double *y)
     return formula_given(fill->below) && formula_value(fill->below, "xz", (double[]){x, z}, y, &error);
 }
 
-bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance)
+static bool shape_holds(const Fill *fill, int dimensions, const double x[3], double tolerance)
 {
     const int axes = dimensions == 2 ? 2 : 3;
-    double end;
-    if (fill_ends(fill, x[0], x[2], &end) && !(x[1] < end))
-        return false;
     if (fill->kind == FILL_BLOCK) {
         for (int k = 0; k < axes; k++)
             if (x[k] < fill->min[k] - tolerance || x[k] >= fill->max[k] - tolerance)
@@ -68,4 +65,10 @@ bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tole
     for (int k = 0; k < axes; k++)
         r2 += (x[k] - fill->centre[k]) * (x[k] - fill->centre[k]);
     return r2 <= fill->radius * fill->radius;
+}
+
+bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance)
+{
+    double end; /* a formula is dear: last */
+    return shape_holds(fill, dimensions, x, tolerance) && (!fill_ends(fill, x[0], x[2], &end) || x[1] < end);
 }

@@ -157,11 +157,13 @@ static double compression_of(const Constants *constants, int fluid, double press
     return x;
 }
 
-/* Which fluids start in balance; false: none, or there is no gravity. */
-static bool balances(const WorldDef *def, bool take[FLUIDS_MAX])
+/* Which fluids start in balance; false: none, too many particles, or there is no gravity. */
+static bool balances(const WorldDef *def, size_t count, bool take[FLUIDS_MAX])
 {
     const double *g = def->gravity;
     bool any = false;
+    if (count > BALANCE_MOST)
+        return false;
     for (int f = 0; f < def->fluid_count; f++) {
         take[f] = def->fluids[f].start == START_HYDROSTATIC;
         any |= take[f];
@@ -236,7 +238,7 @@ static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *s
 {
     bool take[FLUIDS_MAX];
     const size_t count = seed_count(def, def->spacing);
-    const bool swirls = vortices_any(def), balanced = count > 0 && balances(def, take),
+    const bool swirls = vortices_any(def), balanced = count > 0 && balances(def, count, take),
                carries = constants->method->carries_density, thins = carries && def->solid_count > 0;
     const bool dense = balanced || thins || (carries && swirls);
     if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)

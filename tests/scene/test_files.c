@@ -64,7 +64,7 @@ static void check_scene(const char *name)
     if (strcmp(name, "two_spheres") == 0) /* a picture of splatting, no flow */
         assert_int_equal(count, 2);
     else
-        assert_true(count >= (scene.world.dimensions == 2 ? 1000u : 5000u) && count <= 30000);
+        assert_true(count >= (scene.world.dimensions == 2 ? 1000u : 3000u) && count <= 30000);
     assert_true(*scene.title);
     /* A substep must not let sound and the fastest flow (a third of it) cross much more than half of h. Where
        no sound bounds it, pressure does where fluid is deep. */

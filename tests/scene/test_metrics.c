@@ -11,7 +11,7 @@ static Error error;
 static const char tank[] = "box: {size: [1, 1, 1]}\n"
                            "particles: {spacing: 0.1}\n"
                            "fluids:\n"
-                           "  - {density: 800, velocity: [1, 0, 0],\n"
+                           "  - {density: 800, velocity: [1, 0, 0], start: rest,\n"
                            "     fill: [{block: {min: [-0.5, 0, -0.5], max: [0.1, 0.4, 0.5]}}]}\n"
                            "metrics: [front, kinetic_energy]\n";
 

@@ -105,7 +105,8 @@ static void compare(const char *density_kernel, bool negative_pressure, double w
     WorldDef def = two_fluids(density_kernel, negative_pressure);
     make_cloud(&cloud, width, 21);
     fixture_layers(&def, 30); /* backend fragment: the densest cells hold hundreds */
-    def.initial = &(InitialState){.count = COUNT, .position = cloud.x, .velocity = cloud.v, .fluid = cloud.fluid};
+    def.initial =
+        &(InitialState){.count = COUNT, .position = cloud.x, .velocity = cloud.v, .fluid = cloud.fluid};
     World *world = fixture_world(&def);
     brute_accelerations(&def, &cloud, &reference);
     fixture_step(world, 1);
@@ -148,7 +149,8 @@ static void viscosity_keeps_momentum(void **state)
     make_cloud(&cloud, 0.95, 5);
     for (int i = 0; i < COUNT; i++)
         cloud.v[3 * i] += cloud.fluid[i] ? 1.0f : 0.0f;
-    def.initial = &(InitialState){.count = COUNT, .position = cloud.x, .velocity = cloud.v, .fluid = cloud.fluid};
+    def.initial =
+        &(InitialState){.count = COUNT, .position = cloud.x, .velocity = cloud.v, .fluid = cloud.fluid};
     World *world = fixture_world(&def);
     WorldSums before, after;
     world_sums(world, &before);

@@ -146,7 +146,7 @@ static void fill_constants(Cloud *cloud)
     Constants *c = &cloud->constants;
     c->support_radius = support;
     c->kernel_scale = c->pressure_scale = c->viscosity_scale = c->viscosity[0] = 1;
-    c->viscous = true;
+    c->viscous = c->rubs = true;
     c->last_row = 9;
     c->dimensions = 3;
     cloud->wide = *c;
