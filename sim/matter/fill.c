@@ -1,6 +1,8 @@
 #include "sim/matter/fill.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 double fill_volume(const Fill *fill, int dimensions)
 {
@@ -44,10 +46,39 @@ static bool cylinder_holds(const Fill *fill, const double x[3])
     return along2 <= 0.25 * fill->height * fill->height && r2 - along2 <= fill->radius * fill->radius;
 }
 
+/* A formula's values: rows of a lattice, one above the other, ask for the same ones. */
+enum { HEIGHTS = 8192 };
+typedef struct Heights {
+    char below[FORMULA_SIZE];
+    double at[HEIGHTS][3]; /* x, z, height */
+    bool known[HEIGHTS];
+} Heights;
+
+static size_t height_slot(double x, double z)
+{
+    uint64_t bits[2];
+    memcpy(bits, (double[]){x, z}, sizeof bits);
+    return (size_t)((bits[0] * 0x9e3779b97f4a7c15U ^ bits[1] * 0xc2b2ae3d27d4eb4fU) >> 40) % HEIGHTS;
+}
+
 bool fill_ends(const Fill *fill, double x, double z, double *y)
 {
+    static _Thread_local Heights heights;
+    const size_t slot = height_slot(x, z);
+    double *at = heights.at[slot];
     Error error;
-    return formula_given(fill->below) && formula_value(fill->below, "xz", (double[]){x, z}, y, &error);
+    if (!formula_given(fill->below))
+        return false;
+    if (strcmp(heights.below, fill->below) != 0) {
+        memset(heights.known, 0, sizeof heights.known);
+        memcpy(heights.below, fill->below, sizeof heights.below);
+    }
+    if (!heights.known[slot] || at[0] != x || at[1] != z) {
+        heights.known[slot] = formula_value(fill->below, "xz", (double[]){x, z}, &at[2], &error);
+        at[0] = x, at[1] = z;
+    }
+    *y = at[2];
+    return heights.known[slot];
 }
 
 static bool shape_holds(const Fill *fill, int dimensions, const double x[3], double tolerance)
