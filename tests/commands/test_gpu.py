@@ -53,6 +53,7 @@ class Gpu(CommandTest):
 
     def test_what_it_cannot_do_is_said(self):
         self.refused(2, "solver.backend.*'gpu'", '--backend', 'gpu')
+        self.refused(2, 'backend compute has no implicit viscosity; use backend cpu', *ON, '--set', 'solver.viscosity=implicit')
         self.refused(1, 'there is no GPU 15', *ON, '--gpu', '15')
         self.refused(1, r'needs a buffer of \d+ bytes for this scene, and this driver allows shaders \d+', *ON, '--particles', '20000000')
 
