@@ -6,9 +6,10 @@
    With v the velocities at a step's begin and a the accelerations of all else, gravity among them, the change
    d of velocity obeys
      (m_i / dt + K_i) d_i + B_i d_i - L(d)_i = m_i a_i + friction_i(v)
-     L(d)_i = sum c_ij (d_ji . x_ij) x_ij        c_ij = V_i V_j (mu_i + mu_j) R F: sim/matter/viscosity.h,
-   radial K_i: what walls that hold the fluid have for its velocity (sim/box/wall_drag.h) B_i = 2 sum c_ib
-   x_ib x_ib^T                of boundary particles of solids, as if they had -d_i whose left side is
+     L(d)_i = sum c_ij (d_ji . x_ij) x_ij
+     c_ij = V_i V_j (mu_i + mu_j) R F, radial: sim/matter/viscosity.h
+     B_i = 2 sum c_ib x_ib x_ib^T, of boundary particles of solids, as if they had -d_i
+   K_i is what walls that hold the fluid have for its velocity (sim/box/wall_drag.h). The left side is
    symmetric and positive. friction_i is the explicit one, with boundary particles as sim/cpu/boundary.c fills
    them: so a short step does what an explicit one does, and flow that is steady is the explicit one's,
    whatever B is. The radial form and no other: it leaves a body that turns as a whole alone, and Morris's,
