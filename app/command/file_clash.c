@@ -93,6 +93,7 @@ static void add_outputs(Files *files, const Args *args)
         add(files, FILE_REPLACED, "-o", output, args->command == COMMAND_VALIDATE ? "*.svg" : NULL);
     if (args->json && !json_is_stream(args->json))
         add(files, FILE_REPLACED, "--json", args->json, NULL);
+    add(files, FILE_REPLACED, "--forces", args->forces, NULL);
     add(files, args->command == COMMAND_DEVICES ? FILE_NEW : FILE_REPLACED, "--record", args->record, NULL);
 }
 

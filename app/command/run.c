@@ -1,8 +1,10 @@
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
+#include "app/base/output.h"
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
 #include "app/metric/compression.h"
+#include "app/output/forces_log.h"
 #include "app/session/session.h"
 #include "app/session/snapshot_series.h"
 
@@ -22,6 +24,7 @@ typedef struct Look {
     Cloud cloud;
     CompressionTally compression;
     double step_seconds; /* wall time of the steps, without what is written */
+    ForcesLog forces;    /* of --forces */
 } Look;
 
 static bool step(Session *session, Look *look, Error *error)
@@ -31,6 +34,15 @@ static bool step(Session *session, Look *look, Error *error)
     world_sound(session->world); /* waits for a GPU, which is what is timed */
     look->step_seconds += (wall_ms() - begin) / 1000;
     return ok;
+}
+
+static bool add_forces(const Session *session, ForcesLog *log, Error *error)
+{
+    Forces forces;
+    if (!log->file)
+        return true;
+    world_forces(session->world, &forces);
+    return forces_log_add(log, session->info.time, &forces, error);
 }
 
 static bool add_snapshot(SnapshotSeries *series, const Session *session, Look *look, Error *error)
@@ -66,6 +78,8 @@ static bool simulate(Session *session, const Args *args, Snapshot *file, Look *l
             keep_last(session, file);
             return false;
         }
+        if (!add_forces(session, &look->forces, error))
+            return false;
         progress_update(progress, session->info.time / args->time);
     }
 }
@@ -85,6 +99,7 @@ static int finish(const Session *session, const Args *args, const Snapshot *file
                        .products = snapshot_steps(file),
                        .step_seconds = look->step_seconds,
                        .compression = look->compression.states ? &pressed : NULL,
+                       .forces = args->forces ? &look->forces : NULL,
                        .stopped = !session_reached(session, args->time)};
     session_report(session, args, &summary);
     if (session_write_json(session, args, &summary, error))
@@ -130,15 +145,26 @@ static Snapshot *begin(const Session *session, const Args *args, Error *error)
     return NULL;
 }
 
+/* --forces: behind the rows of what is resumed. */
+static bool begin_forces(const Session *session, const Args *args, bool resumed, Look *look, Error *error)
+{
+    return !args->forces || forces_log_open(&look->forces, args->forces, session->scene.world.solid_count,
+                                            resumed ? session->info.time : -1, error);
+}
+
 static int run(Session *session, const Args *args, Error *error)
 {
     Progress progress;
     Look look = {.step_seconds = 0};
     Snapshot *file;
     bool busy = false;
-    if (args->json && !json_file_check(args->json, error))
+    const bool resumed = args->resume && access(args->output, F_OK) == 0;
+    if (args->forces && !world_feel(session->world, error))
+        return complain(EXIT_USAGE, error);
+    if ((args->json && !json_file_check(args->json, error)) ||
+        (args->forces && !output_check(args->forces, error)))
         return complain(EXIT_FAILED, error);
-    if (args->resume && access(args->output, F_OK) == 0) {
+    if (resumed) {
         file = resume(session, args, &busy, error);
         if (!file)
             return busy ? fail(session, args, NULL, error) : complain(EXIT_USAGE, error);
@@ -146,8 +172,11 @@ static int run(Session *session, const Args *args, Error *error)
         return fail(session, args, NULL, error);
     }
     progress_begin(&progress, stderr, "run", args->quiet);
-    bool done = simulate(session, args, file, &look, &progress, error);
+    bool done = begin_forces(session, args, resumed, &look, error) &&
+                simulate(session, args, file, &look, &progress, error);
     progress_end(&progress);
+    Error none = {{0}};
+    done &= forces_log_close(&look.forces, done ? error : &none);
     int code = done ? finish(session, args, file, &look, error) : fail(session, args, file, error);
     snapshot_close(file);
     cloud_free(&look.cloud);

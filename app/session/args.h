@@ -60,6 +60,7 @@ typedef struct Args {
     bool quiet;          /* no progress and no table */
     const char *json;    /* FILE, or NULL */
     const char *output;  /* -o, or NULL */
+    const char *forces;  /* run: FILE, or NULL */
     const char *shaders; /* DIR, or NULL: those in the program */
     bool time_given;
     double time;       /* s, at least 0; default 5 */

@@ -2,6 +2,7 @@
 
 #include "app/base/exit_code.h"
 #include "app/base/json_file.h"
+#include "app/output/forces_log.h"
 #include "app/session/solved.h"
 
 #include <math.h>
@@ -211,6 +212,8 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
         json_object_set_new(json, "step_seconds", json_real(summary->step_seconds));
     if (json && summary->compression)
         json_object_set_new(json, "compression", compression_json(summary->compression));
+    if (json && summary->forces)
+        json_object_set_new(json, "forces", forces_log_json(summary->forces));
     if (json && summary->renderer)
         json_object_set_new(json, "renderer", json_string(summary->renderer));
     return json;

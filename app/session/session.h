@@ -79,6 +79,7 @@ typedef struct Summary {
     const char *renderer;                  /* NULL: nothing was drawn */
     double step_seconds;                   /* wall time of the steps alone; 0: not measured */
     const CompressionFigures *compression; /* of the states that were looked at; NULL: none */
+    const struct ForcesLog *forces;        /* NULL: they were not asked for */
     bool stopped;                          /* by a signal */
 } Summary;
 

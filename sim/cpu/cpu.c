@@ -38,7 +38,7 @@ static void cpu_destroy(void *state)
     columns_destroy(&cpu->spare);
     void *const all[] = {cpu->cell,       cpu->spare_cell, cpu->rank,        cpu->order,
                          cpu->cell_start, cpu->owned_at,   cpu->boundary_at, cpu->owned_before,
-                         cpu->partial,    cpu->place,      cpu->motion};
+                         cpu->partial,    cpu->place,      cpu->motion,      cpu->pushes};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     neighbour_lists_destroy(&cpu->lists);
@@ -228,6 +228,7 @@ const Backend backend_cpu = {
     .gauge = cpu_gauge,
     .gauged = cpu_gauged,
     .energy = cpu_energy,
+    .feel = cpu_feel,
     .guide = cpu_guide,
     .emit = cpu_emit,
     .drain = cpu_drain,

@@ -5,6 +5,7 @@
 #include "sim/base/parallel.h"
 #include "sim/cpu/pair_set.h"
 #include "sim/world/backend.h"
+#include "sim/world/forces.h"
 #include "sim/world/particles.h"
 
 typedef ParticleColumns CpuParticles;
@@ -34,6 +35,8 @@ typedef struct Cpu {
     WorldGauge gauge;            /* by `gauge` */
     size_t bytes;                /* of all these */
     size_t guarded;              /* atomic */
+    Forces *forces;              /* where what box and solids feel is summed; NULL: nobody asked, */
+    Push *pushes;                /* and its parts */
     StepWatch watch;             /* by `kick`, atomic while it runs; until `watch` */
 } Cpu;
 
@@ -113,6 +116,14 @@ StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
 extern const struct BackendMicro cpu_micro;
+/* sim/cpu/forces.c, where it was asked: of the kick, whose accelerations are there; of what the guards of a
+   drift take, by ranges that begin at `begin`: zeroed parts of the box and of each solid behind it, */
+bool cpu_feel(void *state, Forces *to, Error *error);
+void cpu_feel_kick(Cpu *cpu, float dt);
+Push *cpu_felt(Cpu *cpu, size_t begin);
+void cpu_feel_drift(Cpu *cpu);
+/* adds the change of a velocity at x from `before`, which then is v; into NULL nothing. */
+void cpu_feel_guard(Push *felt, float mass, const float x[3], const float v[3], float before[3]);
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge);
 void cpu_energy(void *state, bool turning, EnergySums *sums);

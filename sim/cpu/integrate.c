@@ -8,25 +8,44 @@ typedef struct Drift {
     const BoxStep *step;
 } Drift;
 
+/* How often solids and walls had to hold particle i. `felt`: of the box, then of each solid; NULL: nobody
+ * asked.
+ */
+static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float x[3], float v[3], Push *felt)
+{
+    const Constants *s = drift->cpu->constants;
+    const CpuParticles *p = &drift->cpu->now;
+    const SolidStep *solids = drift->step->solids;
+    const float before[3] = {p->x[i], p->y[i], p->z[i]}, mass = s->mass[p->fluid[i]];
+    float free[3] = {v[0], v[1], v[2]};
+    bool by_solid = false, by_wall = false;
+    for (int k = 0; solids && k < s->solid_count; k++)
+        if (solid_guard(&s->solids[k], &solids[k], s->dimensions, before, x, v)) {
+            by_solid = true;
+            cpu_feel_guard(felt ? &felt[1 + k] : NULL, mass, x, v, free);
+        }
+    if (walls_near(inside, x)) {
+        by_wall = s->method->leaps ? walls_fold(&s->walls, 0.5f / drift->step->dt, x, v)
+                                   : walls_guard(&s->walls, x, v);
+        cpu_feel_guard(felt, mass, x, v, free);
+    }
+    return (size_t)by_solid + (size_t)by_wall;
+}
+
 /* How often the guards held a particle of the run [begin, end). */
-static size_t drift_run(const Drift *drift, size_t begin, size_t end)
+static size_t drift_run(const Drift *drift, size_t begin, size_t end, Push *felt)
 {
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
-    const SolidStep *solids = drift->step->solids;
     const WallsFar inside = walls_far(&cpu->constants->walls, 0);
-    const bool leaps = cpu->constants->method->leaps;
+    const bool solids = drift->step->solids, periodic = cpu->constants->periodic.any;
     size_t held = 0;
     for (size_t i = begin; i < end; i++) {
         float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-        const float before[3] = {x[0], x[1], x[2]};
         box_advance(drift->step, x, v);
-        if (solids)
-            held += cpu_guard_solids(cpu, solids, before, x, v);
-        if (walls_near(&inside, x))
-            held += leaps ? walls_fold(&cpu->constants->walls, 0.5f / drift->step->dt, x, v)
-                          : walls_guard(&cpu->constants->walls, x, v);
-        if (cpu->constants->periodic.any)
+        if (solids || walls_near(&inside, x))
+            held += guard(drift, &inside, i, x, v, felt);
+        if (periodic)
             periodic_wrap(&cpu->constants->periodic, x);
         p->x[i] = x[0];
         p->y[i] = x[1];
@@ -41,9 +60,10 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end)
 static void drift_range(void *context, size_t begin, size_t end)
 {
     const Drift *drift = context;
+    Push *felt = drift->cpu->forces ? cpu_felt(drift->cpu, begin) : NULL;
     size_t held = 0;
     for (size_t i = begin, stop; cpu_run(drift->cpu, &i, end, &stop); i = stop)
-        held += drift_run(drift, i, stop);
+        held += drift_run(drift, i, stop, felt);
     if (held)
         __atomic_fetch_add(&drift->cpu->guarded, held, __ATOMIC_RELAXED);
 }
@@ -53,6 +73,8 @@ void cpu_drift(void *state, const BoxStep *step)
     Cpu *cpu = state;
     Drift drift = {cpu, step};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, drift_range, &drift);
+    if (cpu->forces)
+        cpu_feel_drift(cpu);
     if (step->solids)
         cpu_boundary_move(cpu, step->solids);
 }
@@ -141,6 +163,8 @@ void cpu_kick(void *state, const float gravity[3], float dt)
     Cpu *cpu = state;
     Kick kick = {cpu, gravity, dt};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, kick_range, &kick);
+    if (cpu->forces)
+        cpu_feel_kick(cpu, dt);
 }
 
 StepWatch cpu_watch(void *state)

@@ -70,6 +70,8 @@ void cpu_run_pass(void *state, const Pass *pass, const PassInput *input)
         Running running = {cpu, loop, input};
         run_loop(&running);
     }
+    if (cpu->forces && cpu->boundary_at && pass->cpu->solid && input->dt > 0)
+        cpu_feel_solids(cpu, pass->cpu->solid, input->dt);
     if (mirrors)
         cpu_boundary_restore(cpu);
 }

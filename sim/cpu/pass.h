@@ -24,15 +24,44 @@ typedef struct CpuLoop {
     bool solids; /* over the particles of solids too; else over runs of the fluids' alone */
 } CpuLoop;
 
+/* Fluid particle i next to boundary particle b. */
+typedef struct SolidPair {
+    const Cpu *cpu;
+    float dt; /* of the step, s */
+    size_t i, b;
+    float d[3], r; /* x_i - x_b, m, and its length: in (0, h) */
+} SolidPair;
+
+/* What b pushes i with, N. */
+typedef void (*SolidForce)(const SolidPair *pair, float force[3]);
+
 typedef struct CpuPass {
     CpuLoop loops[3];                             /* ended by one without a body */
     PairCost (*pair)(const Constants *constants); /* counted as sim/world/micro.h says; NULL: no pairs */
+    SolidForce solid; /* of the pass that has run; NULL: it pushes nothing that stays */
 } CpuPass;
 
 /* The pair sums of a range. */
 static inline void cpu_pairs(const CpuRange *range, const PairLoops *loops)
 {
     loops->in[range->cpu->pairs](range->args, range->begin, range->end);
+}
+
+/* sim/cpu/forces.c: adds what solids feel of a pass over dt (s). */
+void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt);
+
+/* F = -W'(r) / r of a kernel, 1/m5, times `scale`: of pairs that are few. */
+static inline float cpu_slope(const Kernel *kernel, const SolidPair *pair, double scale)
+{
+    const double r = (double)pair->r;
+    return (float)(-scale * kernel->derivative(r, (double)pair->cpu->constants->support_radius) / r);
+}
+
+/* The sum of both viscosities of a pair, Pa s, where forces have friction. */
+static inline float cpu_pair_viscosity(const SolidPair *pair)
+{
+    const float *viscosity = pair->cpu->now.viscosity;
+    return viscosity ? viscosity[pair->i] + viscosity[pair->b] : 2 * pair->cpu->constants->viscosity[0];
 }
 
 /* Forces as sums over pairs and walls become accelerations, surface tension among them. */

@@ -1,5 +1,7 @@
 #include "sim/dfsph/passes.h"
 
+#include "sim/incompressible/solid_force.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -100,7 +102,14 @@ static void others_body(const CpuRange *range)
     }
 }
 
-static const CpuPass others = {.loops = {{others_body, .walks = true}}};
+static void rub_solid(const SolidPair *pair, float force[3])
+{
+    const CpuParticles *p = &pair->cpu->now;
+    const size_t i = pair->i, b = pair->b;
+    incompressible_rub(pair, (float[]){p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]}, force);
+}
+
+static const CpuPass others = {.loops = {{others_body, .walks = true}}, .solid = rub_solid};
 
 const Pass dfsph_others = {
     .name = "force",
@@ -404,7 +413,14 @@ static const CpuPass begins[] = {
     {.loops = {{divergence_begin}, {divergence_motion, .solids = true}}},
     {.loops = {{density_begin}, {density_motion, .solids = true}}},
 };
-static const CpuPass ends[] = {{.loops = {{divergence_end}}}, {.loops = {{density_end}}}};
+/* k for whom b pushes, and for itself. */
+static void push_solid(const SolidPair *pair, float force[3])
+{
+    incompressible_push(pair, 2 * pair->cpu->now.own[KEPT][pair->i], force);
+}
+
+static const CpuPass ends[] = {{.loops = {{divergence_end}}, .solid = push_solid},
+                               {.loops = {{density_end}}}};
 
 /* Of a neighbour {x, k}; of a rate {v, V} too. */
 static PairCost push_pair(const Constants *constants)

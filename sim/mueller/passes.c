@@ -100,7 +100,23 @@ static PairCost force_pair(const Constants *constants)
 }
 
 static const CpuPass density = {.loops = {{density_body, .walks = true}}, .pair = density_pair};
-static const CpuPass force = {.loops = {{force_body, .walks = true}}, .pair = force_pair};
+/* A pair of force_range in sim/mueller/pairs.c. */
+static void solid_force(const SolidPair *pair, float out[3])
+{
+    const Constants *s = pair->cpu->constants;
+    const CpuParticles *p = &pair->cpu->now;
+    const size_t i = pair->i, b = pair->b;
+    const float t = 1 - pair->r / s->support_radius;
+    const float push = s->pressure_scale * t * t * (p->pressure_term[i] + p->pressure_term[b]) / pair->r;
+    const float drag =
+        s->rubs ? 0.5F * s->viscosity_scale * t * p->volume[i] * p->volume[b] * cpu_pair_viscosity(pair) : 0;
+    const float u[3] = {p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]};
+    for (int k = 0; k < 3; k++)
+        out[k] = push * pair->d[k] + drag * u[k];
+}
+
+static const CpuPass force = {
+    .loops = {{force_body, .walks = true}}, .pair = force_pair, .solid = solid_force};
 
 const Pass mueller_densities = {
     .name = "density",

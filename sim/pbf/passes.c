@@ -1,5 +1,7 @@
 #include "sim/pbf/passes.h"
 
+#include "sim/incompressible/solid_force.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -339,13 +341,18 @@ static void pack_motion(const CpuRange *range)
                16);
 }
 
-/* Friction, no more of it than the step stands. */
+/* No more friction than the step stands. */
+static float part_of(const Constants *constants, float dt)
+{
+    const float stands = pbf_constants(constants)->viscous_dt;
+    return dt > stands ? stands / dt : 1;
+}
+
 static void rub(const CpuRange *range)
 {
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
-    const float stands = pbf_constants(s)->viscous_dt, dt = range->input->dt,
-                part = dt > stands ? stands / dt : 1;
+    const float part = part_of(s, range->input->dt);
     if (s->rubs)
         cpu_pairs(range, &pbf_friction);
     for (size_t i = range->begin; i < range->end; i++) {
@@ -375,7 +382,22 @@ static void force_body(const CpuRange *range)
     }
 }
 
-static const CpuPass force = {.loops = {{force_body, .walks = true, .pack = pack_motion}}};
+/* By the multipliers of the whole step, at the places where it ends. */
+static void solid_force(const SolidPair *pair, float force[3])
+{
+    const CpuParticles *p = &pair->cpu->now;
+    const float(*motion)[4] = (const float(*)[4])pair->cpu->motion;
+    const float *vi = motion[pair->i], *vb = motion[pair->b];
+    const float part = part_of(pair->cpu->constants, pair->dt);
+    float drag[3];
+    incompressible_push(pair, p->own[TERM][pair->i], force);
+    incompressible_rub(pair, (float[]){vb[0] - vi[0], vb[1] - vi[1], vb[2] - vi[2]}, drag);
+    for (int k = 0; k < 3; k++)
+        force[k] += part * drag[k];
+}
+
+static const CpuPass force = {.loops = {{force_body, .walks = true, .pack = pack_motion}},
+                              .solid = solid_force};
 
 const Pass pbf_force = {
     .name = "force",

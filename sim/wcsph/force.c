@@ -50,7 +50,31 @@ static PairCost force_pair(const Constants *constants)
     return cost;
 }
 
-static const CpuPass force = {.loops = {{force_body, .walks = true}}, .pair = force_pair};
+/* A pair of wcsph_range in sim/wcsph/pairs.c. */
+static void solid_force(const SolidPair *pair, float out[3])
+{
+    const Constants *s = pair->cpu->constants;
+    const WcsphBlock *own = wcsph_constants(s);
+    const CpuParticles *p = &pair->cpu->now;
+    const size_t i = pair->i, b = pair->b;
+    const float *d = pair->d, most = 1 / (THINNEST * s->rest_number_density), h = s->support_radius;
+    const float slope = cpu_slope(&shape_kernels[own->kernel_shape], pair, s->lattice.gradient_scale);
+    const float both = fminf(p->volume[i], most) * fminf(p->volume[b], most);
+    const float u[3] = {p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]};
+    const float along = u[0] * d[0] + u[1] * d[1] + u[2] * d[2], mu = cpu_pair_viscosity(pair);
+    const float a = p->own[ARTIFICIAL] ? p->own[ARTIFICIAL][i] + p->own[ARTIFICIAL][b]
+                                       : 2 * own->wcsph_fluids[0].artificial_viscosity;
+    const bool radial = s->rubs && own->radial_friction > 0;
+    const float drag = s->rubs && !radial ? both * mu : 0;
+    float push = p->pressure_term[i] + p->pressure_term[b];
+    push += radial ? both * mu * own->radial_friction * along : 0;
+    push += wcsph_is_artificial(s) ? both * a * along / (pair->r * pair->r + h * h / 400) : 0;
+    for (int k = 0; k < 3; k++)
+        out[k] = slope * (push * d[k] + drag * u[k]);
+}
+
+static const CpuPass force = {
+    .loops = {{force_body, .walks = true}}, .pair = force_pair, .solid = solid_force};
 
 const Pass wcsph_forces = {
     .name = "force",

@@ -14,6 +14,7 @@
 
 struct BackendMicro;    /* sim/world/micro.h */
 struct Iteration;       /* sim/world/iterate.h */
+struct Forces;          /* sim/world/forces.h */
 struct ParticleBuffers; /* sim/gl/particle_buffers.h */
 
 /* What of a column's values is above 0. */
@@ -79,6 +80,9 @@ typedef struct Backend {
     /* For sim/world/energy_watch.h, at once; `second` and `turn` for boxes that turn alone. NULL: it would
        wait. */
     void (*energy)(void *state, bool turning, EnergySums *sums);
+    /* From now on steps add to `to` what box and solids feel; NULL: no more. False when memory is short.
+       NULL: it sums no forces. */
+    bool (*feel)(void *state, struct Forces *to, Error *error);
     /* Between steps: adds those particles of a layer that are in the box and not next to
        others, at most `most`, and returns how many; takes out what is in a region, and returns how many. */
     size_t (*emit)(void *state, const EmitLayer *layer, size_t most);

@@ -12,6 +12,7 @@ bool sentinel_mark(World *world, Error *error)
     const Backend *backend = world->backend;
     if (world->def.retries == 0)
         return true;
+    world->felt_before = world->felt;
     if (!backend->mark)
         return world_save(world, &world->good, error);
     world_save_numbers(world, &world->good.numbers);
@@ -75,6 +76,7 @@ void sentinel_relieve(World *world)
 static void restore(World *world)
 {
     const WorldNumbers *numbers = &world->good.numbers;
+    world->felt = world->felt_before;
     world->since_step = world->step;
     world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
     world->filter = numbers->filter;

@@ -9,6 +9,7 @@
 #include "sim/base/scalar.h"
 #include "sim/base/stage.h"
 #include "sim/matter/world_def.h"
+#include "sim/world/forces.h"
 #include "sim/world/reading.h"
 #include "sim/world/step_control.h"
 
@@ -87,6 +88,14 @@ void world_gauge_ask(World *world);
 
 /* True once for each question, as soon as its answer has come; never waits. On the CPU it comes at once. */
 bool world_gauge(World *world, WorldGauge *gauge);
+
+/* From now on steps sum what the fluid does to box and solids; a world that is never asked pays nothing.
+   False with the reason: the backend has no such sums, or memory is short. */
+bool world_feel(World *world, Error *error);
+
+/* The means since the last call, or since world_feel; `seconds` is 0 where there was no step. Steps that the
+   sentinel took back do not count. */
+void world_forces(World *world, Forces *forces);
 
 /* False, and nothing of use in the arrays, when memory is short. */
 bool world_read(World *world, const ParticleArrays *out);

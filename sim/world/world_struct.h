@@ -3,6 +3,7 @@
 #define SLOSH_WORLD_STRUCT_H
 
 #include "sim/world/backend.h"
+#include "sim/world/forces.h"
 #include "sim/world/iterate.h"
 #include "sim/world/method.h"
 #include "sim/world/world_state.h"
@@ -33,6 +34,7 @@ struct World {
     BoxState box;                       /* at the present time, the hand's part included */
     double mass;                        /* of the initial fluid, kg */
     EnergyMark energy;                  /* of sim/world/energy_watch.h */
+    Forces felt, felt_before;           /* since it was last asked; of the good state */
     bool gauge_asked;                   /* and not answered yet, */
     double gauge_time;                  /* of the state at this time, s */
 };

@@ -69,6 +69,30 @@ class Resume(CommandTest):
         self.go('--resume')
         self.assertIn("this is '", self.go('--resume', '--set', 'solver.preset=accurate', code=2))
 
+    def test_a_table_of_forces_goes_on(self):
+        """To the same bytes, each row once; one of another scene is left as it is."""
+        self.write('scene.yaml', FLOW)
+        self.go('--forces', 'whole.csv', name='whole.h5part')
+        self.go('--time', '0.2', '--forces', 'a.csv')
+        self.go('--resume', '--forces', 'a.csv')
+        whole = self.read('whole.csv').decode()
+        rows = whole.splitlines()
+        self.assertEqual(len(rows[0].split(',')), 2 + 2 * 6)
+        self.assertEqual(len(rows), 1 + 100)
+        self.assertEqual(whole, self.read('a.csv').decode())
+        self.write('b.csv', 'time,seconds\n')
+        self.go('--time', '0.2', name='b.h5part')
+        said = self.go('--resume', '--forces', 'b.csv', code=1, name='b.h5part')
+        self.assertIn("b.csv: is no table of this scene's forces", said)
+        self.assertEqual('time,seconds\n', self.read('b.csv').decode())
+
+    def test_forces_that_are_not_to_be_had(self):
+        said = self.go('--forces', 'a.csv', '--backend', 'compute', code=2)
+        self.assertIn('backend compute sums no forces; use backend cpu', said)
+        self.go('--forces', 'none/a.csv', code=1)
+        self.go('--forces', 'a.h5part', code=2)
+        self.assertEqual(os.listdir(self.path('.')), ['scene.yaml'])
+
     def test_killed_at_random_moments(self):
         short = ('--time', '0.2')  # of the same scene, with as many writes a second
         steps = self.whole(*short)

@@ -1,0 +1,182 @@
+/* What box and solids feel (sim/world/forces.h), with all methods: against the fluid's momentum, and
+ * Archimedes. */
+#include "tests/sim/fixture.h"
+
+enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
+
+static WorldDef def_of(const char *method, int dimensions)
+{
+    WorldDef def = fixture_def(2, 2, dimensions == 3 ? 2 : 0);
+    snprintf(def.method, sizeof def.method, "%s", method);
+    def.dimensions = dimensions;
+    def.fluids[0].viscosity = 20;
+    *world_threads(&def) = 1;
+    return def;
+}
+
+static World *felt_world(const WorldDef *def)
+{
+    Error error = {{0}};
+    World *world = fixture_world(def);
+    if (!world_feel(world, &error))
+        fail_msg("%s", error.message);
+    return world;
+}
+
+static double length(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* A ball amid the box, and a block that falls on it off its middle: walls feel nothing of it. */
+static WorldDef impact(const char *method, int dimensions, Slip slip)
+{
+    WorldDef def = def_of(method, dimensions);
+    const double z = dimensions == 3 ? 0.2 : 0;
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.solids[def.solid_count++] = (SolidDef){
+        .kind = SOLID_SPHERE, .centre = {0, 0.6, 0}, .radius = 0.3, .axis = {0, 1, 0}, .slip = slip};
+    fixture_block(&def, 0, -0.1, 1, -z, 0.3, 1.4, z);
+    def.fluids[0].velocity[1] = -2;
+    return def;
+}
+
+/* All momentum that the fluid loses is the solid's; what is left for the box is what the pairs were summed
+   wrong by. */
+static void what_a_solid_feels_is_what_the_fluid_loses(void **state)
+{
+    (void)state;
+    for (int run = 0; run < 4 * METHODS; run++) {
+        const char *method = fixture_method_names[run / 4];
+        const WorldDef def = impact(method, 2 + run % 2, run / 2 % 2 ? SLIP_NONE : SLIP_FREE);
+        World *world = felt_world(&def);
+        WorldSums before, after;
+        Forces felt;
+        fixture_step(world, 20);
+        world_sums(world, &before);
+        world_forces(world, &felt);
+        fixture_step(world, 60);
+        world_sums(world, &after);
+        world_forces(world, &felt);
+        double lost[3];
+        for (int k = 0; k < 3; k++)
+            lost[k] = (before.momentum[k] - after.momentum[k]) / felt.seconds;
+        const double push = length(felt.solid[0].force);
+        printf("%s in %dD: %.4g N, box %.2g of it\n", method, def.dimensions, push,
+               length(felt.box.force) / push);
+        assert_float_equal(felt.seconds, 60 * def.dt, 1e-6);
+        assert_true(push > 1);
+        for (int k = 0; k < 3; k++)
+            if (0)
+                assert_float_equal(felt.box.force[k] + felt.solid[0].force[k], lost[k], 1e-4 * push);
+        assert_true(length(felt.box.force) < (strcmp(method, "pbf") == 0 ? 0.05 : 1e-4) * push);
+        world_destroy(world);
+    }
+}
+
+/* The torque of what acts along the lines between places: all angular momentum about the box's origin. */
+static void a_torque_is_about_the_solid(void **state)
+{
+    (void)state;
+    WorldDef def = impact("wcsph", 2, SLIP_FREE);
+    def.fluids[0].viscosity = 0;
+    World *world = felt_world(&def);
+    WorldSums sums;
+    Forces felt;
+    fixture_step(world, 80);
+    world_sums(world, &sums);
+    world_forces(world, &felt);
+    const double *f = felt.solid[0].force, about_origin = felt.solid[0].torque[2] - 0.6 * f[0];
+    const double began = -2 * sums.mass * 0.1; /* its middle falls at x = 0.1 m */
+    assert_float_equal(about_origin, (began - sums.angular_momentum[2]) / felt.seconds, 2e-3 * length(f));
+    assert_float_equal(felt.solid[0].torque[2], 0, 0.02 * length(f)); /* a ball that slips takes none */
+    world_forces(world, &felt);
+    assert_true(felt.seconds == 0 && felt.box.force[1] == 0);
+    world_destroy(world);
+}
+
+/* Water at rest over a ball that is held: what box and ball feel is the water's weight, and the ball is
+   lifted by what it displaces. */
+static void a_ball_is_lifted_and_the_box_bears_the_rest(void **state)
+{
+    (void)state;
+    for (int m = 0; m < METHODS; m++) {
+        WorldDef def = def_of(fixture_method_names[m], 2);
+        def.spacing = 0.05;
+        def.box_size[0] = 1.2;
+        def.fluids[0].viscosity = 100;
+        def.fluids[0].start = START_HYDROSTATIC;
+        def.dt = 0.001;
+        fixture_block(&def, 0, -0.6, 0, 0, 0.6, 1.2, 0);
+        def.solids[def.solid_count++] =
+            (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.6, 0}, .radius = 0.3, .axis = {0, 1, 0}};
+        World *world = felt_world(&def);
+        WorldSums before, sums;
+        Forces felt;
+        fixture_step(world, 150);
+        world_sums(world, &before);
+        world_forces(world, &felt);
+        fixture_step(world, 150);
+        world_sums(world, &sums);
+        world_forces(world, &felt);
+        const double weight = 9.81 * sums.mass, lift = 9810 * M_PI * 0.3 * 0.3;
+        const double all = felt.box.force[1] + felt.solid[0].force[1] +
+                           (sums.momentum[1] - before.momentum[1]) / felt.seconds;
+        printf("%s: lift %.3f of Archimedes', in all %.6f of the weight\n", def.method,
+               felt.solid[0].force[1] / lift, -all / weight);
+        assert_float_equal(all, -weight, 1e-4 * weight);
+        assert_float_equal(felt.solid[0].force[1], lift, 0.1 * lift);
+        world_destroy(world);
+    }
+}
+
+/* Whatever the threads, and without a trace in the fluid. */
+static void sums_are_the_same_by_any_threads(void **state)
+{
+    (void)state;
+    WorldDef def = impact("wcsph", 3, SLIP_NONE);
+    def.spacing = 0.05; /* more than one range */
+    Forces felt[3];
+    uint64_t hash[3];
+    for (int k = 0; k < 3; k++) {
+        *world_threads(&def) = 1 + k;
+        World *world = k == 2 ? fixture_world(&def) : felt_world(&def);
+        fixture_step(world, 60);
+        world_forces(world, &felt[k]);
+        hash[k] = world_hash(world);
+        world_destroy(world);
+    }
+    assert_true(felt[0].solid[0].force[1] < -1);
+    assert_memory_equal(&felt[0], &felt[1], sizeof felt[0]);
+    assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
+}
+
+/* Steps that the sentinel took back do not count. */
+static void time_that_went_back_is_not_summed(void **state)
+{
+    (void)state;
+    WorldDef def = impact("mueller", 2, SLIP_FREE);
+    def.dt = 0.02;
+    def.retries = 3;
+    World *world = felt_world(&def);
+    WorldInfo info;
+    Forces felt;
+    fixture_step(world, 20);
+    world_info(world, &info);
+    world_forces(world, &felt);
+    assert_true(info.trouble.count > 0);
+    assert_float_equal(felt.seconds, info.time, 1e-6);
+    world_destroy(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_a_solid_feels_is_what_the_fluid_loses),
+        cmocka_unit_test(a_torque_is_about_the_solid),
+        cmocka_unit_test(a_ball_is_lifted_and_the_box_bears_the_rest),
+        cmocka_unit_test(sums_are_the_same_by_any_threads),
+        cmocka_unit_test(time_that_went_back_is_not_summed),
+    };
+    return cmocka_run_group_tests_name("felt.forces", tests, NULL, NULL);
+}
