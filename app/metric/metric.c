@@ -35,17 +35,30 @@ double metric_front(const Cloud *cloud)
     return front > -INFINITY ? front + 0.5 * cloud->spacing : (double)NAN;
 }
 
-double metric_surface(const Cloud *cloud)
+/* Of the particles with x < below. */
+static double surface_before(const Cloud *cloud, double below)
 {
     double top = -INFINITY, sum = 0, count = 0;
     for (size_t i = 0; i < cloud->count; i++)
-        top = fmax(top, cloud->position[4 * i + 1]);
+        if ((double)cloud->position[4 * i] < below)
+            top = fmax(top, cloud->position[4 * i + 1]);
     for (size_t i = 0; i < cloud->count; i++)
-        if (cloud->position[4 * i + 1] > top - 0.5 * cloud->spacing) {
+        if ((double)cloud->position[4 * i] < below &&
+            cloud->position[4 * i + 1] > top - 0.5 * cloud->spacing) {
             sum += cloud->position[4 * i + 1];
             count++;
         }
     return sum / count + 0.5 * cloud->spacing;
+}
+
+double metric_surface(const Cloud *cloud)
+{
+    return surface_before(cloud, INFINITY);
+}
+
+double metric_wall_height(const Cloud *cloud, double wall)
+{
+    return surface_before(cloud, wall + 3 * cloud->spacing);
 }
 
 double metric_hydrostatic(const Cloud *cloud, double density, double gravity, Curve *points)

@@ -10,6 +10,11 @@
    at least five neighbours (others nearer than the support radius), plus half a spacing. NaN without one. */
 double metric_front(const Cloud *cloud);
 
+/* How high the fluid stands at the wall x = `wall`, from the floor y = 0: the mean height of the particles
+   less than three spacings away from it that are less than half a spacing below the highest of them, plus
+   half a spacing. */
+double metric_wall_height(const Cloud *cloud, double wall);
+
 /* The mean height of the particles that are less than half a spacing below the highest one, plus half a
    spacing: the flat surface of a fluid at rest. */
 double metric_surface(const Cloud *cloud);

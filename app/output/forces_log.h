@@ -1,4 +1,4 @@
-/* What box and solids felt over a run (sim/world/forces.h), as a table: CSV, a row a frame. Columns: time
+/* What box and solids felt over a run (sim/matter/forces.h), as a table: CSV, a row a frame. Columns: time
    (s), at the end of what the row is the mean of; its length (s); of the box, then of each solid by its
    number, force_x, _y, _z (N) and torque_x, _y, _z (N m) in the box's axes: the box's torque about the box's
    origin, a solid's about its own centre. */
@@ -6,7 +6,7 @@
 #define SLOSH_FORCES_LOG_H
 
 #include "app/base/output.h"
-#include "sim/world/forces.h"
+#include "sim/matter/forces.h"
 
 #include <jansson.h>
 #include <stdio.h>

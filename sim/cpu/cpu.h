@@ -4,8 +4,8 @@
 
 #include "sim/base/parallel.h"
 #include "sim/cpu/pair_set.h"
+#include "sim/matter/forces.h"
 #include "sim/world/backend.h"
-#include "sim/world/forces.h"
 #include "sim/world/particles.h"
 
 typedef ParticleColumns CpuParticles;

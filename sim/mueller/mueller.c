@@ -83,7 +83,9 @@ static const Pass *const passes[] = {&mueller_densities, &mueller_forces, NULL};
 
 const Method method_mueller = {
     .name = "mueller",
-    .help = "Müller 2003: density by summation, p = c^2 (rho - rho0); symplectic Euler",
+    .help =
+        "Müller 2003: density by summation, p = c^2 (rho - rho0); symplectic Euler; for looks: its pressure is "
+        "noise, and side walls slow what falls",
     .keys = keys,
     .def = &usual,
     .def_size = sizeof usual,

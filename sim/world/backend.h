@@ -14,7 +14,7 @@
 
 struct BackendMicro;    /* sim/world/micro.h */
 struct Iteration;       /* sim/world/iterate.h */
-struct Forces;          /* sim/world/forces.h */
+struct Forces;          /* sim/matter/forces.h */
 struct ParticleBuffers; /* sim/gl/particle_buffers.h */
 
 /* What of a column's values is above 0. */

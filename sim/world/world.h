@@ -8,8 +8,8 @@
 #include "sim/base/error.h"
 #include "sim/base/scalar.h"
 #include "sim/base/stage.h"
+#include "sim/matter/forces.h"
 #include "sim/matter/world_def.h"
-#include "sim/world/forces.h"
 #include "sim/world/reading.h"
 #include "sim/world/step_control.h"
 

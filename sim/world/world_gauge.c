@@ -1,4 +1,5 @@
-/* What is plotted of a world while it runs: asked for now, answered when it is there. */
+/* What is plotted of a world while it runs: asked for now, answered when it is there; and what box and solids
+   feel, asked for once. */
 #include "sim/world/world_struct.h"
 
 void world_gauge_ask(World *world)
@@ -22,4 +23,19 @@ bool world_gauge(World *world, WorldGauge *gauge)
         if (world->def.tension_model != TENSION_NONE && world->def.fluids[f].surface_tension > 0)
             gauge->total_known = false;
     return true;
+}
+
+bool world_feel(World *world, Error *error)
+{
+    world->felt = world->felt_before = (Forces){0};
+    if (!world->backend->feel)
+        return error_set(error, "backend %s sums no forces; use backend cpu", world->backend->name);
+    return world->backend->feel(world->state, &world->felt, error);
+}
+
+void world_forces(World *world, Forces *forces)
+{
+    *forces = world->felt;
+    forces_mean(forces);
+    world->felt = world->felt_before = (Forces){0};
 }

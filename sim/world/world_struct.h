@@ -2,8 +2,8 @@
 #ifndef SLOSH_WORLD_STRUCT_H
 #define SLOSH_WORLD_STRUCT_H
 
+#include "sim/matter/forces.h"
 #include "sim/world/backend.h"
-#include "sim/world/forces.h"
 #include "sim/world/iterate.h"
 #include "sim/world/method.h"
 #include "sim/world/world_state.h"

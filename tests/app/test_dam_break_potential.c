@@ -206,19 +206,24 @@ static double energy(const Surface *s)
 
 enum { ROWS = 17 };
 
-/* Z at T = 0.2, 0.4, ... 3.4, and at the last of them the surface. */
-static Surface fronts(int elements, double dt, double z[ROWS])
+/* The front's Z and the height H at the wall at T = 0.2, 0.4, ... 3.4, and at the last of them the surface.
+ */
+static Surface fall(int elements, double dt, double z[ROWS], double h[ROWS])
 {
     Surface s = column(elements);
-    double last = 0, before = 1;
+    double last = 0, before = 1, above = 2;
     int row = 0;
     for (int i = 1; row < ROWS; i++) {
         s = stepped(&s, dt, i % 2 == 0);
-        const double time = sqrt(2) * dt * i, front = s.x[elements];
-        for (; row < ROWS && 0.2 * (row + 1) <= time + 1e-9; row++)
-            z[row] = before + (front - before) * (0.2 * (row + 1) - last) / (time - last);
+        const double time = sqrt(2) * dt * i, front = s.x[elements], top = s.y[0];
+        for (; row < ROWS && 0.2 * (row + 1) <= time + 1e-9; row++) {
+            const double part = (0.2 * (row + 1) - last) / (time - last);
+            z[row] = before + (front - before) * part;
+            h[row] = above + (top - above) * part;
+        }
         last = time;
         before = front;
+        above = top;
     }
     return s;
 }
@@ -249,8 +254,8 @@ static void the_file_is_this_flow(void **state)
     (void)state;
     static Reference file;
     Error error = {{0}};
-    double z[ROWS];
-    const Surface begin = column(60), end = fronts(60, 0.02, z);
+    double z[ROWS], h[ROWS];
+    const Surface begin = column(60), end = fall(60, 0.02, z, h);
     assert_true(fabs(area(&end) / area(&begin) - 1) < 0.003);
     assert_true(fabs(energy(&end) / energy(&begin) - 1) < 0.01);
     assert_true(reference_load("scenes/reference/dam-break-potential.csv", &file, &error));
@@ -259,22 +264,24 @@ static void the_file_is_this_flow(void **state)
         assert_true(fabs(reference_number(&file, row, "T") - 0.2 * (row + 1)) < 1e-9);
         if (fabs(reference_number(&file, row, "Z") / z[row] - 1) > 0.025)
             fail_msg("at T = %g: %g, not %g", 0.2 * (row + 1), reference_number(&file, row, "Z"), z[row]);
+        if (fabs(reference_number(&file, row, "H") / h[row] - 1) > 0.01)
+            fail_msg("at T = %g: H %g, not %g", 0.2 * (row + 1), reference_number(&file, row, "H"), h[row]);
     }
 }
 
 static void write_file(const char *path)
 {
-    double z[ROWS];
+    double z[ROWS], h[ROWS];
     FILE *file = fopen(path, "w");
-    const Surface end = fronts(120, 0.01, z);
+    const Surface end = fall(120, 0.01, z, h);
     fprintf(stderr, "area %g, energy %g at the end\n", area(&end), energy(&end));
     fputs(
         "# slosh, tests/app/test_dam_break_potential.c: SLOSH_POTENTIAL=FILE build/ci/tests/test_app_dam_break_potential\n"
         "# The column of Martin and Moyce 1952 (n^2 = 2) without viscosity and walls' friction, let go at once: potential "
-        "flow by 120 boundary elements, within 1 %. T = t sqrt(2 g / a), Z = x / a of the front.\nT,Z\n",
+        "flow by 120 boundary elements, within 1 %. T = t sqrt(2 g / a), Z = x / a of the front, H = y / a at the wall.\nT,Z,H\n",
         file);
     for (int row = 0; row < ROWS; row++)
-        fprintf(file, "%.1f,%.3f\n", 0.2 * (row + 1), z[row]);
+        fprintf(file, "%.1f,%.3f,%.3f\n", 0.2 * (row + 1), z[row], h[row]);
     fclose(file);
 }
 

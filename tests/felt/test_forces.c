@@ -1,4 +1,4 @@
-/* What box and solids feel (sim/world/forces.h), with all methods: against the fluid's momentum, and
+/* What box and solids feel (sim/matter/forces.h), with all methods: against the fluid's momentum, and
  * Archimedes. */
 #include "tests/sim/fixture.h"
 

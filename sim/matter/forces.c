@@ -1,4 +1,4 @@
-#include "sim/world/forces.h"
+#include "sim/matter/forces.h"
 
 void push_add(Push *to, double times, const Push *push)
 {
