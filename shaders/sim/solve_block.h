@@ -19,6 +19,10 @@ STORAGE_BLOCK(SolveBlock, SOLVE_BUFFER)
     uint iterations_few;  /* there are so many at least */
     uint iterations_most; /* that it may do */
     uint ended;           /* 1: it has */
+    uint scaled;          /* 1: the residual counts in the mean of a column */
+    float go;             /* of conjugate gradients: how far along a direction, */
+    float turn;           /* how much of the last one is in it, */
+    float power;          /* the product of residual and direction */
 }
 BLOCK_END(SolveBlock);
 

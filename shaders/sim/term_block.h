@@ -13,8 +13,9 @@ BLOCK_END(FluidTerms);
 
 UNIFORM_BLOCK(TermBlock, TERM_BLOCK)
 {
-    float colour_scale; /* of the colour field */
-    float drag_range;   /* m */
+    float colour_scale;   /* of the colour field */
+    float drag_range;     /* m */
+    float friction_scale; /* R F over f(r / h) of sim/viscosity, 1/m7 */
     FluidTerms fluid_terms[FLUIDS_MOST];
     ivec3 drag_nodes;  /* of the tables of friction of one, two, three faces */
     vec3 drag_steps;   /* their inverse steps, 1/m */

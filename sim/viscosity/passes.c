@@ -117,6 +117,7 @@ const Pass viscosity_begin = {
     .name = "viscosity begin",
     .stage = STAGE_SOLVE,
     .cpu = &begin,
+    .shader = "viscosity/begin",
     .reads = "position velocity fluid volume viscosity acceleration",
     .writes = "residual direction along change product inverse held inertia miss scale",
     .mirrors = true,
@@ -184,6 +185,7 @@ const Pass viscosity_step = {
     .name = "viscosity step",
     .stage = STAGE_SOLVE,
     .cpu = &step,
+    .shader = "viscosity/step",
     .reads = "fluid direction along product change residual inverse",
     .writes = "direction along change residual miss",
 };
@@ -192,6 +194,7 @@ const Pass viscosity_product = {
     .name = "viscosity product",
     .stage = STAGE_SOLVE,
     .cpu = &product,
+    .shader = "viscosity/product",
     .reads = "position fluid volume residual held inertia",
     .writes = "product power curvature",
 };
@@ -215,6 +218,7 @@ const Pass viscosity_end = {
     .name = "viscosity end",
     .stage = STAGE_SOLVE,
     .cpu = &end,
+    .shader = "viscosity/end",
     .reads = "change acceleration",
     .writes = "acceleration",
 };
@@ -231,7 +235,8 @@ static bool by_solids(const Constants *constants)
 
 #define TERM(name, unit, k, components)                                                                      \
     {                                                                                                        \
-        name, unit, .at = COLUMN_TERM(k), components, COLUMN_FLOAT, .needed = is_implicit                    \
+        name, unit, .at = COLUMN_TERM(k), components, COLUMN_FLOAT, .flags = COLUMN_SHADERS,                 \
+                    .needed = is_implicit                                                                    \
     }
 
 const ColumnDef viscosity_columns[] = {
@@ -242,8 +247,9 @@ const ColumnDef viscosity_columns[] = {
     TERM("product", "N", PRODUCT, 3),
     TERM("inverse", "s/kg", INVERSE, 3),
     TERM("inverse_mixed", "s/kg", INVERSE + 3, 3),
-    {"held", "kg/s", .at = COLUMN_TERM(HELD), 3, COLUMN_FLOAT, .needed = by_solids},
-    {"held_mixed", "kg/s", .at = COLUMN_TERM(HELD + 3), 3, COLUMN_FLOAT, .needed = by_solids},
+    {"held", "kg/s", .at = COLUMN_TERM(HELD), 3, COLUMN_FLOAT, .flags = COLUMN_SHADERS, .needed = by_solids},
+    {"held_mixed", "kg/s", .at = COLUMN_TERM(HELD + 3), 3, COLUMN_FLOAT, .flags = COLUMN_SHADERS,
+     .needed = by_solids},
     TERM("inertia", "kg/s", INERTIA, 1),
     TERM("miss", "m/s", MISS, 1),
     TERM("scale", "m/s", SCALE, 1),

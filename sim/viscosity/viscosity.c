@@ -1,4 +1,5 @@
 /* The term of friction at the end of a step, for all methods: sim/viscosity/passes.h. */
+#include "sim/matter/viscosity.h"
 #include "sim/viscosity/passes.h"
 #include "sim/world/iterate.h"
 
@@ -6,6 +7,27 @@ static bool needed(const Constants *constants)
 {
     return constants->implicit.on;
 }
+
+static bool named(const WorldDef *def)
+{
+    return def->viscosity_solver == VISCOSITY_IMPLICIT;
+}
+
+static bool by_wendland(const Constants *constants)
+{
+    return needed(constants) && constants->implicit.kernel == KERNEL_WENDLAND_C2;
+}
+
+static bool by_quintic(const Constants *constants)
+{
+    return needed(constants) && constants->implicit.kernel == KERNEL_QUINTIC;
+}
+
+static const ShaderTerm shader_terms[] = {
+    {"FRICTION_WENDLAND_C2", by_wendland}, {"FRICTION_QUINTIC", by_quintic}, {0}};
+
+/* Of vec4: z, mu. */
+static const ShaderBuffer trials = {"Trials", 16, needed};
 
 static const ColumnDef *column_at(int k)
 {
@@ -37,9 +59,13 @@ static const Pass *const passes[] = {&viscosity_begin, &viscosity_step, &viscosi
 
 const Term term_viscosity = {
     .name = "viscosity",
+    .words = "implicit viscosity",
+    .named = named,
     .needed = needed,
     .columns = viscosity_columns,
     .passes = passes,
+    .terms = shader_terms,
+    .buffer = &trials,
     .solve = SOLVE_VISCOSITY,
     .solver = {"viscosity", "solver.viscosity_tolerance", "solver.viscosity_iterations"},
     .substep = solve,

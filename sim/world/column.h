@@ -38,7 +38,7 @@ enum {
     COLUMN_SAVED = 1,   /* a part of the saved state */
     COLUMN_SORTED = 2,  /* goes with its particle when the grid sorts them */
     COLUMN_FLUIDS = 4,  /* 0 for the particles of solids */
-    COLUMN_SHADERS = 8, /* scratch of the method's own that its shaders have too */
+    COLUMN_SHADERS = 8, /* scratch of a method's own or of a term that their shaders have too */
 };
 
 typedef struct ColumnDef {

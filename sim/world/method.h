@@ -41,8 +41,8 @@ typedef struct ShaderTerm {
     bool (*needed)(const struct Constants *constants);
 } ShaderTerm;
 
-/* A storage buffer of the method's shaders that has several columns of scratch side by side in a vec4, since
-   pair loops read them together. Other scratch is a row with COLUMN_SHADERS. */
+/* A storage buffer of the shaders of a method or term that has several columns of scratch side by side in a
+   vec4, since pair loops read them together. Other scratch is a row with COLUMN_SHADERS. */
 typedef struct ShaderBuffer {
     const char *block; /* by that name they find it */
     size_t size;       /* bytes a particle */
@@ -125,11 +125,15 @@ typedef struct Method {
 /* A term of the equations that all methods share: columns, passes and a solver that iterates, beside those of
    the method at work. One folder, and one line in a list. */
 typedef struct Term {
-    const char *name;
-    bool (*needed)(const struct Constants *constants); /* whether the scene names it */
-    const ColumnDef *columns;  /* at COLUMN_TERM, none of them saved or sorted, ended by a NULL name */
-    const Pass *const *passes; /* all of them, ended by NULL */
-    int solve;                 /* its number among the solvers of a step, from SOLVES_OF_METHOD on */
+    const char *name;                                  /* shaders have SCRATCH_name_column */
+    const char *words;                                 /* what a backend that lacks it has none of */
+    bool (*named)(const WorldDef *def);                /* whether the scene names it, */
+    bool (*needed)(const struct Constants *constants); /* and some fluid has it */
+    const ColumnDef *columns;   /* at COLUMN_TERM, none of them saved or sorted, ended by a NULL name */
+    const Pass *const *passes;  /* all of them, ended by NULL */
+    const ShaderTerm *terms;    /* ended by a NULL name; NULL: none */
+    const ShaderBuffer *buffer; /* one; NULL: none */
+    int solve;                  /* its number among the solvers of a step, from SOLVES_OF_METHOD on */
     MethodSolver solver;
     /* Before the kick: the accelerations of all else become those of the step. */
     void (*substep)(const struct Substep *step);

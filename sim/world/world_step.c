@@ -73,8 +73,6 @@ bool world_can(const WorldDef *def, Error *error)
     if (!names_check(def, error))
         return false;
     const Backend *backend = backend_find(def->backend);
-    if (def->viscosity_solver == VISCOSITY_IMPLICIT && !backend->sum)
-        return error_set(error, "backend %s has no implicit viscosity; use backend cpu", def->backend);
     return !backend->can || backend->can(def, error);
 }
 

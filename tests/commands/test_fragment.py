@@ -54,6 +54,8 @@ class Fragment(CommandTest):
 
     def test_what_it_cannot_do_is_said(self):
         self.refused(2, 'backend fragment has no solids; use backend compute or cpu', 'pillar')
+        self.refused(2, 'backend fragment has no implicit viscosity; use backend compute or cpu', 'scene.yaml', '--set',
+                     'solver.viscosity=implicit')
         self.refused(2, 'backend fragment has no method wcsph', 'scene.yaml', '--method', 'wcsph')
         self.refused(1, 'holds up to 16777216 particles', 'scene.yaml', '--particles', '20000000')
 

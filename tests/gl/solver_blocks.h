@@ -38,7 +38,7 @@
         BLOCK("sim/step_block.h", StepBlock, STEP(rotation[0]), STEP(omega0), STEP(drift_dt), STEP(omega1),  \
               STEP(still), STEP(shift), STEP(velocity_change), STEP(gravity), STEP(kick_dt),                 \
               STEP(felt_origin), STEP(felt_alpha), STEP(felt_omega), STEP(kick_gravity)),                    \
-        BLOCK("sim/term_block.h", TermBlock, TERM(colour_scale), TERM(drag_range),                           \
+        BLOCK("sim/term_block.h", TermBlock, TERM(colour_scale), TERM(drag_range), TERM(friction_scale),     \
               TERM(fluid_terms[0].tension), TERM(fluid_terms[7].tension), TERM(drag_nodes),                  \
               TERM(drag_steps), TERM(drag_offset), TERM(lid_velocity)),                                      \
         BLOCK("sim/wcsph/wcsph_block.h", WcsphBlock, WCSPH(gradient_scale), WCSPH(diffusion),                \

@@ -441,6 +441,16 @@ static void wcsph_lives(void)
     LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
 }
 
+static void implicit_viscosity_lives(void)
+{
+    WorldDef base = pool_def("compute");
+    base.viscosity_solver = VISCOSITY_IMPLICIT;
+    LIVE(base, d.wall_slip = SLIP_NONE, d.lid[0] = 0.1);
+    LIVE(base, with_a_ball(d.solids, &d.solid_count), d.reproducible = true);
+    LIVE(base, d.periodic[0] = true, d.dt = 0.0005, set_name(d.method, "wcsph"),
+         set_name(wcsph_def(&d)->kernel, "quintic"));
+}
+
 /* dfsph, pbf. */
 static void incompressible_lives(const char *method)
 {
@@ -590,6 +600,7 @@ static void every_form_is_made(void **state)
     mueller_lives("fragment");
     mueller_has_more_on_compute();
     wcsph_lives();
+    implicit_viscosity_lives();
     incompressible_lives("dfsph");
     incompressible_lives("pbf");
     draw_views(&def, false);

@@ -1,6 +1,6 @@
 /* Implicit viscosity, with all methods: against theory, against a dense solution in double precision, against
    what an explicit step does, and that no step is too long for it. */
-#include "tests/sim/fixture.h"
+#include "tests/viscosity/ball.h"
 
 #include "sim/cpu/cpu.h"
 #include "sim/matter/viscosity.h"
@@ -9,52 +9,9 @@
 #include "sim/world/iterate.h"
 #include "sim/world/world_struct.h"
 
-enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names, BALL_MOST = 1200 };
+enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 
 static const char *const *const method_names = fixture_method_names;
-
-static WorldDef thick_def(const char *method, int dimensions, double viscosity)
-{
-    WorldDef def = fixture_def(1.2, 1.2, dimensions == 3 ? 1.2 : 0);
-    snprintf(def.method, sizeof def.method, "%s", method);
-    def.dimensions = dimensions;
-    def.support = dimensions == 3 ? 2.1 : 3;
-    memset(def.gravity, 0, sizeof def.gravity);
-    def.fluids[0].viscosity = viscosity;
-    def.viscosity_solver = VISCOSITY_IMPLICIT;
-    def.viscosity_tolerance = 1e-5;
-    return def;
-}
-
-/* A ball in mid-air whose particles move at random, and turn about its centre. */
-typedef struct Ball {
-    float x[3 * BALL_MOST], v[3 * BALL_MOST];
-    InitialState initial;
-} Ball;
-
-static void ball_make(Ball *ball, int dimensions, double speed, double turn)
-{
-    enum { HALF = 5, SIDE = 2 * HALF };
-    size_t n = 0;
-    uint32_t seed = 7;
-    for (int i = 0; i < SIDE * SIDE * (dimensions == 3 ? SIDE : 1); i++) {
-        const int index[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
-        double at[3] = {0};
-        for (int k = 0; k < dimensions; k++)
-            at[k] = 0.1 * (index[k] - HALF + 0.5);
-        if (at[0] * at[0] + at[1] * at[1] + at[2] * at[2] > 0.22)
-            continue;
-        for (int k = 0; k < 3; k++) {
-            ball->x[3 * n + (size_t)k] = (float)(at[k] + (k == 1 ? 0.6 : 0));
-            ball->v[3 * n + (size_t)k] =
-                k == 2 && dimensions == 2 ? 0 : (float)(speed * (fixture_random(&seed) - 0.5));
-        }
-        ball->v[3 * n] -= (float)(turn * at[1]);
-        ball->v[3 * n + 1] += (float)(turn * at[0]);
-        n++;
-    }
-    ball->initial = (InitialState){.count = n, .position = ball->x, .velocity = ball->v};
-}
 
 /* --- a shear wave --- */
 
@@ -111,31 +68,8 @@ static void a_shear_wave_decays_as_it_should(void **state)
 static void a_second_at_1e5_pascal_seconds_stands(void **state)
 {
     (void)state;
-    for (int m = 0; m < METHODS; m++) {
-        static Ball ball;
-        WorldDef def = thick_def(method_names[m], 3, 1e5);
-        Error error = {{0}};
-        ball_make(&ball, 3, 0.02, 0.02);
-        def.initial = &ball.initial;
-        def.sound_speed = 0.001; /* sound, which such a step does not stand, has no part in it */
-        def.viscosity_tolerance = 1e-3;
-        def.retries = 3;
-        def.dt = 1;
-        World *world = fixture_world(&def);
-        WorldSums before, after;
-        WorldInfo info;
-        world_sums(world, &before);
-        for (int step = 0; step < 3; step++)
-            if (!world_step(world, NULL, &error))
-                fail_msg("%s: %s", method_names[m], error.message);
-        world_sums(world, &after);
-        world_info(world, &info);
-        printf("%s: energy %.3g J, then %.3g; %.0f iterations\n", method_names[m], before.kinetic_energy,
-               after.kinetic_energy, info.solves[SOLVE_VISCOSITY].iterations);
-        assert_int_equal(info.trouble.count, 0);
-        assert_true(after.kinetic_energy < 0.7 * before.kinetic_energy);
-        world_destroy(world);
-    }
+    for (int m = 0; m < METHODS; m++)
+        ball_check_long_step(method_names[m], "cpu");
 }
 
 /* What the random part of it is loses all its energy, what turns none. */

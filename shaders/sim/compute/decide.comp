@@ -1,33 +1,54 @@
-// Whether a solver goes on, by what excess.comp has summed up behind its last iteration: substep_iterate of
-// sim/world/iterate.c. One group.
+// Whether a solver goes on, by what excess.comp has summed up behind its last iteration, and how far along which direction:
+// substep_iterate and `conjugate` of sim/world/iterate.c. One group.
 #include "sim/constants.glsl"
 #include "common/nan.glsl"
 #include "shaders/sim/excess_part.h"
 #include "shaders/sim/solve_block.h"
 layout(std430, binding = PARTS_BUFFER) readonly buffer Parts { ExcessPart part[]; };
-shared vec2 sums[64]; // sum, greatest
+shared vec4 sums[64]; // sum, greatest, power, curvature
+shared float scales[64];
 
-void decide(float mean, float greatest)
+// True while it goes on.
+bool decide(float mean, float greatest)
 {
     iterations++;
     left_mean = mean;
     left_most = greatest;
     bool far = is_nan(mean) || mean > tolerance || (greatest > worst && iterations < iterations_few);
     if (iterations < iterations_most && far)
-        return;
+        return true;
     ended = 1u;
     groups_along = groups_rows = 0u;
+    return false;
 }
+
+void conjugate(float next_power, float curvature)
+{
+    turn = iterations > 1u && power != 0.0 ? next_power / power : 0.0;
+    float bent = curvature - (turn != 0.0 && go != 0.0 ? turn * next_power / go : 0.0);
+    go = bent > 0.0 ? next_power / bent : 0.0;
+    power = next_power;
+}
+
+// 1 over what the residual counts in.
+float scale_of(float sum) { return scaled == 0u || sum == 0.0 ? 1.0 : float(particles_there()) / sum; }
 
 void main()
 {
     uint own = gl_LocalInvocationID.x;
-    sums[own] = vec2(part[own].above, part[own].greatest);
+    sums[own] = vec4(part[own].above, part[own].greatest, part[own].power, part[own].curvature);
+    scales[own] = part[64 * EXCESS_OF_SCALE + own].above;
     for (uint half_count = 32u; half_count > 0u; half_count >>= 1u) {
         barrier();
-        if (own < half_count)
-            sums[own] = vec2(sums[own].x + sums[own + half_count].x, max(sums[own].y, sums[own + half_count].y));
+        if (own < half_count) {
+            vec4 one = sums[own], other = sums[own + half_count];
+            sums[own] = vec4(one.x + other.x, max(one.y, other.y), one.zw + other.zw);
+            scales[own] += scales[own + half_count];
+        }
     }
-    if (own == 0u && ended == 0u)
-        decide(sums[0].x / max(float(particles_there()), 1.0), sums[0].y);
+    if (own > 0u || ended != 0u)
+        return;
+    float scale = scale_of(scales[0]);
+    if (decide(scale * (sums[0].x / max(float(particles_there()), 1.0)), scale * sums[0].y))
+        conjugate(sums[0].z, sums[0].w);
 }

@@ -1,26 +1,31 @@
-// What of a column of scratch is above 0: each invocation adds up every 4096th particle, each group its invocations.
+// What of a column of scratch is above 0, and with a residual of conjugate gradients the sums of two more: each invocation
+// adds up every 4096th particle, each group its invocations.
 #include "sim/constants.glsl"
 #include "sim/scratch.glsl"
 #include "shaders/sim/excess_part.h"
 layout(std430, binding = PARTS_BUFFER) writeonly buffer Parts { ExcessPart part[]; };
-layout(location = COLUMN_AT) uniform uvec2 column;
-shared vec2 sums[64]; // sum, greatest
+layout(location = COLUMN_AT) uniform uvec4 column; // where parts begin stands second
+shared vec4 sums[64];                              // sum, greatest, power, curvature
 
 void main()
 {
     uint own = gl_LocalInvocationID.x;
-    vec2 found = vec2(0);
+    vec4 found = vec4(0);
     for (uint i = invocation(); i < particle_count(); i += 64u * gl_NumWorkGroups.x) {
         float value = scratch[column.x + i];
         found.x += value < 0.0 ? 0.0 : value; // NaN stays
         found.y = value > found.y ? value : found.y;
+        if (column.z != EXCESS_NO_COLUMN)
+            found.zw += vec2(scratch[column.z + i], scratch[column.w + i]);
     }
     sums[own] = found;
     for (uint half_count = 32u; half_count > 0u; half_count >>= 1u) {
         barrier();
-        if (own < half_count)
-            sums[own] = vec2(sums[own].x + sums[own + half_count].x, max(sums[own].y, sums[own + half_count].y));
+        if (own < half_count) {
+            vec4 one = sums[own], other = sums[own + half_count];
+            sums[own] = vec4(one.x + other.x, max(one.y, other.y), one.zw + other.zw);
+        }
     }
     if (own == 0u)
-        part[column.y + gl_WorkGroupID.x] = ExcessPart(sums[0].x, sums[0].y);
+        part[column.y + gl_WorkGroupID.x] = ExcessPart(sums[0].x, sums[0].y, sums[0].z, sums[0].w);
 }

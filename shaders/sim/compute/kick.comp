@@ -4,7 +4,7 @@
 #include "sim/constants.glsl"
 #include "shaders/sim/term_block.h"
 #include "common/nan.glsl"
-#ifdef NO_SLIP
+#if defined NO_SLIP && defined RUBS // else sim/viscosity has it
 #include "sim/wall_drag.glsl"
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #endif
@@ -19,7 +19,7 @@ void main()
     uvec3 found = uvec3(0u);
     if (i < particles_there()) { // whatever others of this pass find
         vec3 a = acceleration[i].xyz + gravity;
-#ifdef NO_SLIP
+#if defined NO_SLIP && defined RUBS
         // Drag with the velocity at the end of the step: hold_by_walls in sim/cpu/integrate.c.
         uint fluid = name[i].y;
         float scale = fluids[fluid].viscosity / fluids[fluid].mass * position[i].w / rest_number_density;

@@ -11,7 +11,7 @@ float extra_of(uint fluid) { return 0.0; }
 
 vec3 pair_force(Side one, Side other, vec3 d, float r2)
 {
-#ifdef VISCOUS
+#ifdef RUBS
     float f = FRICTION * shape(sqrt(r2) * inverse_support);
     return f * one.volume * other.volume * (one.viscosity + other.viscosity) * (other.v - one.v);
 #else
@@ -21,7 +21,7 @@ vec3 pair_force(Side one, Side other, vec3 d, float r2)
 
 vec3 other_forces(uint i)
 {
-#if defined VISCOUS || defined TENSION
+#if defined RUBS || defined TENSION
     vec3 x = near[i].xyz;
     return neighbours_force(i, x, cell_of(x));
 #else

@@ -14,7 +14,7 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
     float r = sqrt(r2), t = 1.0 - r * inverse_support;
     vec3 force = pressure_scale * (t * t) * (own.pressure + other.pressure) / r * d;
-#ifdef VISCOUS
+#ifdef RUBS
     force += 0.5 * viscosity_scale * own.volume * t * other.volume * (own.viscosity + other.viscosity) * (other.v - own.v);
 #endif
     return force;

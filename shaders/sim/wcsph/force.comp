@@ -17,9 +17,9 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     even_meet(f, d, r2);
     vec3 force = vec3(0), u = other.v - own.v;
     float most = 1.0 / (THINNEST * rest_number_density), both = min(own.volume, most) * min(other.volume, most);
-#if defined VISCOUS && defined RADIAL
+#if defined RUBS && defined RADIAL
     push += both * (own.viscosity + other.viscosity) * radial_friction * dot(u, d);
-#elif defined VISCOUS
+#elif defined RUBS
     force += f * both * (own.viscosity + other.viscosity) * u;
 #endif
 #ifdef ARTIFICIAL

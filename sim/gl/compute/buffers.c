@@ -21,6 +21,7 @@ static const struct {
     {"WallTables", offsetof(Compute, walls)},
     {"DragTables", offsetof(Compute, drag)},
     {"WatchBlock", offsetof(Compute, watch.buffer)},
+    {"SolveBlock", offsetof(Compute, solve.buffer)},
     {"Rests", offsetof(Compute, boundary.rest)},
     {"BoundaryPositions", offsetof(Compute, boundary.position)},
     {"BoundaryVelocities", offsetof(Compute, boundary.velocity)},
@@ -44,9 +45,11 @@ void compute_find_buffers(Compute *c, ComputePass pass)
     c->takes_dt[pass] = program && glGetUniformLocation(program, "dt") >= 0;
     for (int k = 0; k < COMPUTE_NAMED; k++)
         c->bindings[pass][k] = (int8_t)(program ? binding_of(program, named[k].block) : -1);
-    const ShaderBuffer *own = c->constants->method->buffers;
-    for (int k = 0; own && own[k].block; k++)
-        c->bindings[pass][COMPUTE_NAMED + k] = (int8_t)(program ? binding_of(program, own[k].block) : -1);
+    for (int k = 0; k < COMPUTE_BUFFERS; k++) {
+        const ShaderBuffer *own = compute_buffer_at(c->constants, k);
+        c->bindings[pass][COMPUTE_NAMED + k] =
+            (int8_t)(program && own ? binding_of(program, own->block) : -1);
+    }
 }
 
 static void bind(int binding, unsigned buffer)
@@ -60,7 +63,7 @@ void compute_sweep(const Compute *c, ComputePass pass, size_t count)
     compute_boundary_bind(c);
     for (int k = 0; k < COMPUTE_NAMED; k++)
         bind(c->bindings[pass][k], *(const unsigned *)(const void *)((const char *)c + named[k].at));
-    for (int k = 0; k < METHOD_BUFFERS_MAX; k++)
-        bind(c->bindings[pass][COMPUTE_NAMED + k], c->method_buffers[k]);
+    for (int k = 0; k < COMPUTE_BUFFERS; k++)
+        bind(c->bindings[pass][COMPUTE_NAMED + k], c->of_shaders[k]);
     compute_run(c, pass, count);
 }

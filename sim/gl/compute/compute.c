@@ -35,7 +35,7 @@ static void compute_destroy(void *state)
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
     glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
-    glDeleteBuffers(METHOD_BUFFERS_MAX, c->method_buffers);
+    glDeleteBuffers(COMPUTE_BUFFERS, c->of_shaders);
     glDeleteBuffers(COMPUTE_SHOWN, c->shown);
     mailbox_destroy(&c->watch);
     mailbox_destroy(&c->ranges);
@@ -88,7 +88,7 @@ static bool buffers_create(Compute *c, Error *error)
     }
     compute_flow_create(c);
     const bool bounded = compute_boundary_create(c);
-    return (bounded && !c->full && compute_iterate_create(c) &&
+    return (bounded && !c->full && compute_iterate_fit(c) &&
             mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
             mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
            compute_no_memory(c, error);
@@ -107,27 +107,13 @@ static void walls_upload(Compute *c)
     }
 }
 
-ComputePass compute_method_pass(const Compute *c, const Pass *pass)
-{
-    int k = 0;
-    while (c->constants->method->passes[k] != pass)
-        k++;
-    return (ComputePass)(COMPUTE_METHOD + k);
-}
-
-/* Of a method's passes, NULL behind the last. */
-static const Pass *method_pass(const Compute *c, ComputePass pass)
-{
-    const Pass *const *passes = c->constants->method->passes;
-    for (int k = (int)pass - COMPUTE_METHOD; k > 0 && *passes; k--)
-        passes++;
-    return *passes;
-}
-
 /* The label, and the file. */
 static const char *source_of(const Compute *c, ComputePass pass, char path[64])
 {
-    const char *name = pass < COMPUTE_METHOD ? pass_names[pass] : method_pass(c, pass)->shader;
+    const Term *of;
+    const char *name = pass < COMPUTE_METHOD
+                           ? pass_names[pass]
+                           : compute_pass_at(c->constants->method, (int)pass - COMPUTE_METHOD, &of)->shader;
     snprintf(path, 64, "sim/%s.comp", name);
     return name;
 }
@@ -156,10 +142,8 @@ static unsigned begun(const Compute *c, ComputePass pass, const char *defines, E
 /* Whether the pass needs a program: the scene's terms need the pass, or somebody has asked for it. */
 static bool pass_wanted(const Compute *c, ComputePass pass)
 {
-    if (pass >= COMPUTE_METHOD) {
-        const Pass *of = method_pass(c, pass);
-        return of && (!of->needed || of->needed(c->constants));
-    }
+    if (pass >= COMPUTE_METHOD)
+        return compute_pass_needed(c->constants, (int)pass - COMPUTE_METHOD);
     if (pass == COMPUTE_OWN_MOVE || pass == COMPUTE_OWN_GATHER)
         return c->own.count > 0;
     return pass == COMPUTE_GAUGE ? c->program[pass] != 0 : compute_pass_named(c->constants, pass);
@@ -205,9 +189,11 @@ static size_t larger(size_t a, size_t b)
 static size_t most_bytes(const Constants *s, size_t capacity)
 {
     size_t particle =
-        larger(16, 4 * larger((size_t)compute_own_of(s->method).count, (size_t)compute_scratch_of(s)));
-    for (const ShaderBuffer *own = s->method->buffers; own && own->block; own++)
-        particle = larger(particle, own->needed(s) ? own->size : 0);
+        larger(16, 4 * larger((size_t)compute_own_of(s->method).count, (size_t)compute_scratch_of(s).total));
+    for (int k = 0; k < COMPUTE_BUFFERS; k++) {
+        const ShaderBuffer *own = compute_buffer_at(s, k);
+        particle = larger(particle, own && own->needed(s) ? own->size : 0);
+    }
     const size_t particles = particle * capacity, cells = 4 * (s->cells.count + 2);
     const size_t walls =
         s->method->mirrors ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
@@ -219,7 +205,7 @@ static size_t most_bytes(const Constants *s, size_t capacity)
 static bool supported(const Constants *s, size_t capacity, Error *error)
 {
     const bool solids = s->solid_count > 0;
-    const int columns = (compute_own_of(s->method).count > 0) + (compute_scratch_of(s) > 0);
+    const int columns = (compute_own_of(s->method).count > 0) + (compute_scratch_of(s).total > 0);
     const int plain = columns > 0 ? 11 : 8;
     const GlLimits have = gl_limits();
     const GlNeeds needs = {.who = solids ? "backend compute with solids" : "backend compute",
@@ -276,7 +262,7 @@ static bool compute_adapt(void *state, Error *error)
     Compute *c = state;
     char defines[COMPUTE_DEFINES_MAX];
     all_defines(c, defines);
-    if (!compute_term_buffers(c) || !compute_scratch_fit(c))
+    if (!compute_term_buffers(c) || !compute_scratch_fit(c) || !compute_iterate_fit(c))
         return error_set(error, "the GPU has no memory for another term; use a larger spacing");
     if (strcmp(defines, c->defines) != 0 && !programs_create(c, error))
         return false;
@@ -289,18 +275,26 @@ static bool compute_reload(void *state, Error *error)
     return programs_create(state, error);
 }
 
-/* A method with passes that have no shader is the CPU's. */
+static bool has_shader(const Pass *pass)
+{
+    char path[64];
+    snprintf(path, sizeof path, "sim/%s.comp", pass->shader ? pass->shader : "");
+    return shader_source_has(path);
+}
+
+/* A method with passes that have no shader is the CPU's, and so is a scene that names a term with such. */
 static bool compute_can(const WorldDef *def, Error *error)
 {
     const Method *method = method_find(def->method);
-    int count = 0;
-    bool can = true;
-    for (const Pass *const *pass = method->passes; can && *pass; pass++) {
-        char path[64];
-        snprintf(path, sizeof path, "sim/%s.comp", (*pass)->shader ? (*pass)->shader : "");
-        can = ++count <= COMPUTE_PASS_COUNT - COMPUTE_METHOD && shader_source_has(path);
+    const Term *of;
+    const Pass *pass;
+    for (int k = 0; (pass = compute_pass_at(method, k, &of)); k++) {
+        if (!(k < COMPUTE_PASS_COUNT - COMPUTE_METHOD && (of || has_shader(pass))))
+            return error_set(error, "backend compute has no method %s; use backend cpu", def->method);
+        if (of && of->named(def) && !has_shader(pass))
+            return error_set(error, "backend compute has no %s; use backend cpu", of->words);
     }
-    return can || error_set(error, "backend compute has no method %s; use backend cpu", def->method);
+    return true;
 }
 
 const Backend backend_compute = {

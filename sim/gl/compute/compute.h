@@ -16,8 +16,9 @@ enum {
     COMPUTE_GAUGE_GROUPS = 64,
     COMPUTE_EXCESS_GROUPS = 64, /* as many as decide.comp adds up */
     COMPUTE_ALONG = 65535,      /* work groups in a row */
-    COMPUTE_NAMED = 18,
-    COMPUTE_DEFINES_MAX = 2048
+    COMPUTE_NAMED = 19,
+    COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and one of each term */
+    COMPUTE_DEFINES_MAX = 4096
 };
 
 /* What show.comp writes: a scalar by its number, the fluid, the id. */
@@ -36,6 +37,13 @@ typedef struct ComputeParticles {
 typedef struct ComputeOwn {
     int count, place[COLUMNS_OWN];
 } ComputeOwn;
+
+/* The columns of scratch that a scene's shaders have, and whose they are: NULL is the method. */
+typedef struct ComputeScratch {
+    int count, total; /* total: components */
+    const ColumnDef *row[COLUMNS_MAX];
+    const Term *of[COLUMNS_MAX];
+} ComputeScratch;
 
 /* The passes: shaders/sim/NAME.comp. Behind them stand those of the method, in its order. */
 #define COMPUTE_PASSES(X)                                                                                    \
@@ -67,8 +75,8 @@ typedef enum ComputePass {
 #define X(NAME, name) COMPUTE_##NAME,
     COMPUTE_PASSES(X)
 #undef X
-        COMPUTE_METHOD,
-    COMPUTE_PASS_COUNT = COMPUTE_METHOD + 12
+        COMPUTE_METHOD, /* the method's, and behind them those of terms */
+    COMPUTE_PASS_COUNT = COMPUTE_METHOD + 24
 } ComputePass;
 
 /* Boundary particles of solids; all 0 without solids. */
@@ -108,8 +116,8 @@ typedef struct Compute {
     Mailbox watch;                        /* WatchBlock */
     bool watch_due;                       /* kicks were noted that were not sent */
     float longest;                        /* dt of the kicks since the watch was read, s */
-    Mailbox solve;                        /* SolveBlock; none of a method that does not iterate */
-    Mailbox parts;                        /* ExcessPart a group: iterate.c; none of such a method */
+    Mailbox solve;                        /* SolveBlock; none where nothing iterates */
+    Mailbox parts;                        /* ExcessPart a group: iterate.c; none there */
     bool decided;                         /* the method's passes have as many work groups as it says */
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     Mailbox gauge;                        /* GaugePart a group; none before the first `gauge` */
@@ -119,13 +127,13 @@ typedef struct Compute {
     unsigned program[COMPUTE_PASS_COUNT];
     bool takes_dt[COMPUTE_PASS_COUNT];
     /* Of the buffers that a pass finds by name, the method's last; -1: none. */
-    int8_t bindings[COMPUTE_PASS_COUNT][COMPUTE_NAMED + METHOD_BUFFERS_MAX];
+    int8_t bindings[COMPUTE_PASS_COUNT][COMPUTE_NAMED + COMPUTE_BUFFERS];
     bool full;                             /* the GPU's memory */
     size_t bytes, guarded_before, guarded; /* of all these buffers; before the last load, and since */
 
-    unsigned method_buffers[METHOD_BUFFERS_MAX]; /* 0 is one that the scene does not need */
-    unsigned drag;                               /* tables; 0: walls let fluid slip */
-    unsigned terms, of_method;                   /* uniform blocks */
+    unsigned of_shaders[COMPUTE_BUFFERS]; /* compute_buffer_at; 0 is one that the scene does not need */
+    unsigned drag;                        /* tables; 0: walls let fluid slip */
+    unsigned terms, of_method;            /* uniform blocks */
     char defines[COMPUTE_DEFINES_MAX]; /* that the programs were made with; 0 is one that the scene does not
                                           need */
 } Compute;
@@ -133,8 +141,16 @@ typedef struct Compute {
 /* Compiles one pass with the lines `defines` in front of its source; 0 with the reason. */
 unsigned compute_program(const Compute *compute, ComputePass pass, const char *defines, Error *error);
 
-/* Where a pass of the method stands. */
+/* with_terms.c. The k-th of the method's passes, and behind them of those of terms (`of`: whose, else NULL);
+   NULL behind the last. Whether the scene needs it. Where a pass stands. */
+const Pass *compute_pass_at(const Method *method, int k, const Term **of);
+bool compute_pass_needed(const Constants *constants, int k);
 ComputePass compute_method_pass(const Compute *compute, const Pass *pass);
+
+/* Number k of COMPUTE_BUFFERS that shaders find by name; NULL: there is none. */
+const ShaderBuffer *compute_buffer_at(const Constants *constants, int k);
+
+ComputeScratch compute_scratch_of(const Constants *constants);
 
 /* A storage buffer of `bytes`, zeroed; 0, and the GPU is `full`, where there is no memory for it. */
 unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
@@ -148,17 +164,16 @@ void compute_particles_copy(const Compute *compute, ComputeParticles from, Compu
    short. */
 bool compute_download(const Compute *compute, ParticleColumns *columns);
 
-/* own.c: how many columns of scratch a scene has, components counted; a buffer for them. False when memory is
-   short. */
-int compute_scratch_of(const Constants *constants);
+/* own.c: a buffer for scratch. False when memory is short. */
 bool compute_scratch_fit(Compute *compute);
 
 /* Which of the numbers of scratch a column's first is. */
 size_t compute_scratch_place(const Compute *compute, const ColumnDef *column);
 
-/* iterate.c: whether passes of the method iterate; buffers for it. False when memory is short. */
-bool compute_iterates(const Method *method);
-bool compute_iterate_create(Compute *compute);
+/* iterate.c: whether passes of the scene iterate; buffers for it, unless they are there. False when memory is
+   short. */
+bool compute_iterates(const Constants *constants);
+bool compute_iterate_fit(Compute *compute);
 
 /* lists.c: lists of neighbours, where the driver can have them; lines for the shaders. */
 void compute_lists_create(Compute *compute);

@@ -6,6 +6,7 @@
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
+#include "shaders/sim/excess_part.h"
 #include "shaders/sim/solve_block.h"
 
 #include <epoxy/gl.h>
@@ -13,24 +14,25 @@
 
 enum { MORE = 2 }; /* iterations than the step before had */
 
-enum { PARTS = (1 + ITERATION_ASKED) * COMPUTE_EXCESS_GROUPS };
-typedef struct Summed { /* ExcessPart, as it stands there; in C it is of 16 bytes */
-    float above, greatest;
-} Summed;
+/* What is summed up: the residual, what it counts in, and what else is asked for. */
+enum { RESIDUAL_PARTS, SCALE_PARTS = EXCESS_OF_SCALE, ASKED_PARTS, PARTS = ASKED_PARTS + ITERATION_ASKED };
 
-bool compute_iterates(const Method *method)
+bool compute_iterates(const Constants *s)
 {
-    const Pass *const *pass = method->passes;
-    while (*pass && (*pass)->stage != STAGE_SOLVE)
-        pass++;
-    return *pass != NULL;
+    const Term *of;
+    const Pass *pass;
+    bool solves = false;
+    for (int k = 0; (pass = compute_pass_at(s->method, k, &of)); k++)
+        solves |= pass->stage == STAGE_SOLVE && (!of || of->needed(s));
+    return solves;
 }
 
-bool compute_iterate_create(Compute *c)
+bool compute_iterate_fit(Compute *c)
 {
-    if (!compute_iterates(c->constants->method))
+    if (c->parts.buffer || !compute_iterates(c->constants))
         return true;
-    return mailbox_create(&c->parts, "parts of residuals", PARTS * sizeof(Summed)) &&
+    return mailbox_create(&c->parts, "parts of residuals",
+                          (size_t)PARTS * COMPUTE_EXCESS_GROUPS * sizeof(ExcessPart)) &&
            mailbox_create(&c->solve, "solver", sizeof(SolveBlock));
 }
 
@@ -45,22 +47,29 @@ static void begin(const Compute *c, const Iteration *iteration)
                               .tolerance = (float)iteration->tolerance,
                               .worst = (float)iteration->worst,
                               .iterations_few = (uint)iteration->few,
-                              .iterations_most = (uint)iteration->most};
+                              .iterations_most = (uint)iteration->most,
+                              .scaled = iteration->scale != NULL};
     glNamedBufferSubData(c->solve.buffer, 0, sizeof block, &block);
 }
 
-/* Into the parts of number `which`: 0 is the residual, the others are what was asked for. */
-static void sum_up(Compute *c, const ColumnDef *column, int which)
+static GLuint place_of(const Compute *c, const ColumnDef *column)
 {
-    glProgramUniform2ui(c->program[COMPUTE_EXCESS], COLUMN_AT, (GLuint)compute_scratch_place(c, column),
-                        (GLuint)(which * COMPUTE_EXCESS_GROUPS));
+    return column ? (GLuint)compute_scratch_place(c, column) : EXCESS_NO_COLUMN;
+}
+
+/* Into the parts of number `which`; with a residual what conjugate gradients want. */
+static void sum_up(Compute *c, const ColumnDef *column, int which, const ColumnDef *power,
+                   const ColumnDef *curvature)
+{
+    glProgramUniform4ui(c->program[COMPUTE_EXCESS], COLUMN_AT, place_of(c, column),
+                        (GLuint)(which * COMPUTE_EXCESS_GROUPS), place_of(c, power), place_of(c, curvature));
     BIND([SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts.buffer);
     compute_run(c, COMPUTE_EXCESS, (size_t)COMPUTE_EXCESS_GROUPS * COMPUTE_GROUP);
 }
 
 static Excess excess_of(const Compute *c, int which)
 {
-    const Summed *part = (const Summed *)c->parts.mapped + (ptrdiff_t)which * COMPUTE_EXCESS_GROUPS;
+    const ExcessPart *part = (const ExcessPart *)c->parts.mapped + (ptrdiff_t)which * COMPUTE_EXCESS_GROUPS;
     Excess excess = {0};
     for (int k = 0; k < COMPUTE_EXCESS_GROUPS; k++) {
         excess.mean += (double)part[k].above;
@@ -74,7 +83,7 @@ static Excess excess_of(const Compute *c, int which)
 static void ask(Compute *c, const Iteration *iteration)
 {
     for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
-        sum_up(c, iteration->asked[k].column, 1 + k);
+        sum_up(c, iteration->asked[k].column, ASKED_PARTS + k, NULL, NULL);
     if (iteration->asked[0].column)
         mailbox_send(&c->parts);
 }
@@ -82,12 +91,12 @@ static void ask(Compute *c, const Iteration *iteration)
 static void answer(const Compute *c, const Iteration *iteration)
 {
     for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
-        *iteration->asked[k].to = excess_of(c, 1 + k);
+        *iteration->asked[k].to = excess_of(c, ASKED_PARTS + k);
 }
 
-static void decide(Compute *c, const ColumnDef *residual)
+static void decide(Compute *c, const Iteration *iteration)
 {
-    sum_up(c, residual, 0);
+    sum_up(c, iteration->residual, RESIDUAL_PARTS, iteration->power, iteration->curvature);
     BIND([PARTS_BUFFER] = c->parts.buffer, [SOLVE_BUFFER] = c->solve.buffer);
     compute_run(c, COMPUTE_DECIDE, COMPUTE_GROUP);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
@@ -99,7 +108,7 @@ static void iterate_once(Compute *c, const Iteration *iteration, const PassInput
     for (int k = 0; iteration->passes[k]; k++)
         compute_pass(c, iteration->passes[k], input);
     c->decided = false;
-    decide(c, iteration->residual);
+    decide(c, iteration);
 }
 
 void compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve)
@@ -110,8 +119,10 @@ void compute_iterate(void *state, const Iteration *iteration, const PassInput *i
     const SolveBlock *found;
     int asked = 0;
     begin(c, iteration);
+    if (iteration->scale)
+        sum_up(c, iteration->scale, SCALE_PARTS, NULL, NULL);
     if (iteration->begun)
-        decide(c, iteration->residual);
+        decide(c, iteration);
     do {
         for (int k = 0; k < at_once && asked < iteration->most; k++, asked++)
             iterate_once(c, iteration, input);

@@ -30,7 +30,7 @@ static size_t stride_of(const Compute *c)
 /* Solids and a method's own columns have bindings and blocks of their own, beside the eight of others. */
 static bool bound(const Compute *c, const GlLimits *have)
 {
-    const int columns = (c->own.count > 0) + (compute_scratch_of(c->constants) > 0);
+    const int columns = (c->own.count > 0) + (compute_scratch_of(c->constants).total > 0);
     return !c->constants->periodic.any && have->bindings > LISTS_BUFFER &&
            have->compute_blocks >= 8 + columns + (c->constants->solid_count > 0 ? 5 : 0);
 }

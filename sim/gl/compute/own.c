@@ -14,33 +14,19 @@ static bool kept(const ColumnDef *column)
     return column_own(column) >= 0 && column->flags & (COLUMN_SAVED | COLUMN_SORTED);
 }
 
-static bool is_scratch(const Constants *constants, const ColumnDef *column)
-{
-    return column_own(column) >= 0 && !kept(column) && column->flags & COLUMN_SHADERS &&
-           (!column->needed || column->needed(constants));
-}
-
-int compute_scratch_of(const Constants *constants)
-{
-    int total = 0;
-    for (const ColumnDef *column = constants->method->columns; column && column->name; column++)
-        if (is_scratch(constants, column))
-            total += column->components;
-    return total;
-}
-
 size_t compute_scratch_place(const Compute *c, const ColumnDef *column)
 {
+    const ComputeScratch scratch = compute_scratch_of(c->constants);
     size_t place = 0;
-    for (const ColumnDef *row = c->constants->method->columns; row != column; row++)
-        place += is_scratch(c->constants, row) ? (size_t)row->components * c->capacity : 0;
+    for (int k = 0; scratch.row[k] != column; k++)
+        place += (size_t)scratch.row[k]->components * c->capacity;
     return place;
 }
 
 /* It only grows: programs of before, with more columns, may have to go on with it. */
 bool compute_scratch_fit(Compute *c)
 {
-    const int total = compute_scratch_of(c->constants);
+    const int total = compute_scratch_of(c->constants).total;
     if (total <= c->scratch_total)
         return true;
     const unsigned buffer = compute_buffer(c, "scratch of the method's own", 4 * (size_t)total * c->capacity);
@@ -68,26 +54,27 @@ void compute_own_rows(const Method *method, ColumnRows *rows)
             rows->row[rows->count++] = column;
 }
 
-/* Where a column's first component stands in its buffer. */
-static void define(const Compute *c, const char *buffer, const ColumnDef *column, size_t *at,
+/* Where a column's first component stands in its buffer; of a term the term's name stands before it. */
+static void define(const Compute *c, const char *buffer, const Term *of, const ColumnDef *column, size_t *at,
                    char out[COMPUTE_DEFINES_MAX])
 {
     const size_t used = strlen(out);
-    snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s_%s %zuu\n", buffer, column->name,
-             *at * c->capacity);
+    snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s_%s%s%s %zuu\n", buffer, of ? of->name : "",
+             of ? "_" : "", column->name, *at * c->capacity);
     *at += (size_t)column->components;
 }
 
 void compute_own_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
 {
-    size_t own = 0, scratch = 0;
+    const ComputeScratch scratch = compute_scratch_of(c->constants);
+    size_t own = 0, at = 0;
     for (const ColumnDef *column = c->constants->method->columns; column && column->name; column++)
         if (kept(column))
-            define(c, "OWN", column, &own, out);
-        else if (is_scratch(c->constants, column))
-            define(c, "SCRATCH", column, &scratch, out);
+            define(c, "OWN", NULL, column, &own, out);
+    for (int k = 0; k < scratch.count; k++)
+        define(c, "SCRATCH", scratch.of[k], scratch.row[k], &at, out);
     const size_t used = strlen(out);
-    if (own + scratch > 0)
+    if (own + at > 0)
         snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define OWN_TOTAL %zuu\n#define OWN_STRIDE %zuu\n",
                  own, c->capacity);
 }

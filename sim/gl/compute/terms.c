@@ -12,6 +12,15 @@ static size_t put_define(char out[COMPUTE_DEFINES_MAX], size_t used, const char 
     return used + (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s 1\n", name);
 }
 
+static size_t put_defines(const Constants *s, const ShaderTerm *terms, char out[COMPUTE_DEFINES_MAX],
+                          size_t used)
+{
+    for (; terms && terms->name; terms++)
+        if (terms->needed(s))
+            used = put_define(out, used, terms->name);
+    return used;
+}
+
 void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
 {
     const struct {
@@ -22,6 +31,7 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
         {s->reproducible, "REPRODUCIBLE"},
         {s->fluid_count == 1, "ONE_FLUID"},
         {s->viscous, "VISCOUS"},
+        {s->rubs, "RUBS"},
         {s->negative_pressure, "NEGATIVE_PRESSURE"},
         {s->method->carries_density, "CARRIES_DENSITY"},
         {s->tension_model != TENSION_NONE, "TENSION"},
@@ -43,9 +53,9 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
     for (size_t k = 0; k < sizeof terms / sizeof *terms; k++)
         if (terms[k].named)
             used = put_define(out, used, terms[k].name);
-    for (const ShaderTerm *own = s->method->terms; own && own->name; own++)
-        if (own->needed(s))
-            used = put_define(out, used, own->name);
+    used = put_defines(s, s->method->terms, out, used);
+    for (const Term *const *term = shared_terms; *term; term++)
+        used = put_defines(s, (*term)->terms, out, used);
     if (s->method->energy_shader)
         snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define ENERGY_OF_METHOD sim/%s.glsl\n",
                  s->method->energy_shader);
@@ -63,7 +73,7 @@ bool compute_pass_named(const Constants *s, ComputePass pass)
         return s->solid_count > 0;
     case COMPUTE_EXCESS:
     case COMPUTE_DECIDE:
-        return compute_iterates(s->method);
+        return compute_iterates(s);
     case COMPUTE_GUIDE:
     case COMPUTE_EMIT_MARK:
     case COMPUTE_EMIT_ADD:
@@ -102,10 +112,11 @@ static void drag_upload(Compute *c)
 bool compute_term_buffers(Compute *c)
 {
     const Constants *s = c->constants;
-    const ShaderBuffer *own = s->method->buffers;
-    for (int k = 0; own && own[k].block; k++)
-        if (own[k].needed(s) && !c->method_buffers[k])
-            c->method_buffers[k] = compute_buffer(c, own[k].block, own[k].size * c->capacity);
+    for (int k = 0; k < COMPUTE_BUFFERS; k++) {
+        const ShaderBuffer *own = compute_buffer_at(s, k);
+        if (own && own->needed(s) && !c->of_shaders[k])
+            c->of_shaders[k] = compute_buffer(c, own->block, own->size * c->capacity);
+    }
     if (s->no_slip && !c->drag)
         drag_upload(c);
     const bool all = !c->full;
@@ -137,7 +148,7 @@ static void uniforms(unsigned *buffer, const void *values, size_t size)
 void compute_term_constants(Compute *c)
 {
     const Constants *s = c->constants;
-    TermBlock terms = {.colour_scale = s->colour};
+    TermBlock terms = {.colour_scale = s->colour, .friction_scale = s->implicit.scale};
     for (int f = 0; f < s->fluid_count; f++)
         terms.fluid_terms[f] = (FluidTerms){s->tension[f]};
     if (s->no_slip)

@@ -67,6 +67,14 @@ static bool lacks(const WorldDef *def, const char *what, bool asked, Error *erro
     return !error_set(error, "backend fragment has no %s; use backend %s", what, others);
 }
 
+static bool lacks_a_term(const WorldDef *def, Error *error)
+{
+    for (const Term *const *term = shared_terms; *term; term++)
+        if (lacks(def, (*term)->words, (*term)->named(def), error))
+            return true;
+    return false;
+}
+
 /* The lattice puts ceil(support)^dimensions particles into a cell at most. */
 int fragment_layers(const WorldDef *def)
 {
@@ -103,7 +111,8 @@ static bool fragment_can(const WorldDef *def, Error *error)
            !lacks(def, "emitters", flow_emits(def), error) &&
            !lacks(def, "drains", def->drain_count > 0, error) &&
            !lacks(def, "no-slip walls", viscous && def->wall_slip == SLIP_NONE, error) &&
-           !lacks(def, "surface tension", tense && def->tension_model != TENSION_NONE, error);
+           !lacks(def, "surface tension", tense && def->tension_model != TENSION_NONE, error) &&
+           !lacks_a_term(def, error);
 }
 
 static bool fits(const Fragment *f, Error *error)

@@ -1,0 +1,99 @@
+// Implicit viscosity: the right side, the blocks, and where the iterations begin: begin_range in sim/viscosity/pairs.c,
+// begin_one in sim/viscosity/passes.c.
+#include "sim/viscosity/viscosity.glsl"
+#include "sim/viscosity/columns.glsl"
+#ifdef NO_SLIP
+#include "sim/wall_drag.glsl"
+#endif
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
+layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { vec4 acceleration[]; };
+layout(std430, binding = TRIALS_BUFFER) writeonly buffer Trials { vec4 trial[]; };
+layout(location = PASS_DT_AT) uniform float dt;
+
+#define ENDLESS 1e18 // m in a step of no time: nothing changes
+
+// Explicit friction; the sums of all blocks, and of those of solids twice: xx yy zz, xy yz zx.
+vec3 own_velocity, friction = vec3(0);
+vec3 diagonal = vec3(0), mixed = vec3(0), held_diagonal = vec3(0), held_mixed = vec3(0);
+
+void rub(float c, vec3 d, vec3 v)
+{
+    friction += c * dot(v - own_velocity, d) * d;
+    diagonal += c * d * d;
+    mixed += c * d * d.yzx;
+}
+
+void meet(uint j, vec3 d, float volume)
+{
+    rub(weight(d, fluids[FLUID_OF(j)].viscosity, volume), d, velocity[j].xyz);
+}
+
+#ifdef SOLIDS
+void meet_boundary(uint j, vec3 d, float volume)
+{
+    vec4 wall = boundary_velocity[j];
+    float c = weight(d, wall.w, volume);
+    rub(c, d, wall.xyz);
+    held_diagonal += 2.0 * c * d * d;
+    held_mixed += 2.0 * c * d * d.yzx;
+}
+#endif
+
+// Walls of the box that hold the fluid: K; their force goes to the others. held_by_walls in sim/viscosity/passes.c.
+float held_by_walls(vec3 x, float volume)
+{
+#ifdef NO_SLIP
+    float scale = own_viscosity * volume / rest_number_density, k = scale * wall_drag_at(x);
+    friction -= k * own_velocity;
+#ifdef LID
+    friction += scale * wall_drag_sum(x, true) * lid_velocity;
+#endif
+    return k;
+#else
+    return 0.0;
+#endif
+}
+
+// The inverse of a symmetric matrix, as `invert` has it: some of its eigenvalues may be a millionth of others.
+void invert(inout vec3 diagonal, inout vec3 mixed)
+{
+    dvec3 d = dvec3(diagonal), m = dvec3(mixed);
+    dvec3 minors = d.yzx * d.zxy - m.yzx * m.yzx, others = m.yzx * m.zxy - m * d.zxy;
+    double scale = 1.0lf / (d.x * minors.x + m.x * others.x + m.z * others.z);
+    diagonal = vec3(scale * minors);
+    mixed = vec3(scale * others);
+}
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec4 place = position[i];
+    Fluid fluid = fluids[FLUID_OF(i)];
+    own_viscosity = fluid.viscosity;
+    own_velocity = velocity[i].xyz;
+    WALK_NEIGHBOURS(i, place.xyz, cell_of(place.xyz), meet, meet_boundary, 0)
+    float scale = friction_scale * place.w, m = fluid.mass;
+    friction *= scale;
+    float inertia = (dt > 0.0 ? m / dt : ENDLESS * m) + held_by_walls(place.xyz, place.w);
+    vec3 a = acceleration[i].xyz + kick_gravity, residual = friction + m * a;
+    diagonal = scale * (diagonal + 0.5 * held_diagonal) + inertia; // the sum has those of solids once
+    mixed = scale * (mixed + 0.5 * held_mixed);
+    invert(diagonal, mixed);
+    column_set(SCRATCH_viscosity_residual, i, residual);
+    column_set(SCRATCH_viscosity_velocity_change, i, vec3(0));
+    column_set(SCRATCH_viscosity_direction, i, vec3(0));
+    column_set(SCRATCH_viscosity_along, i, vec3(0));
+    column_set(SCRATCH_viscosity_inverse, i, diagonal);
+    column_set(SCRATCH_viscosity_inverse_mixed, i, mixed);
+#ifdef SOLIDS
+    column_set(SCRATCH_viscosity_held, i, scale * held_diagonal);
+    column_set(SCRATCH_viscosity_held_mixed, i, scale * held_mixed);
+#endif
+    scratch[SCRATCH_viscosity_inertia + i] = inertia;
+    scratch[SCRATCH_viscosity_miss + i] = dt / m * length(residual);
+    scratch[SCRATCH_viscosity_scale + i] = length(own_velocity) + dt * (length(a) + length(kick_gravity));
+    trial[i] = vec4(dt * a, own_viscosity);
+}

@@ -1,0 +1,13 @@
+// Implicit viscosity: the accelerations that make the change of velocity: end_body in sim/viscosity/passes.c.
+#include "sim/constants.glsl"
+#include "sim/scratch.glsl"
+#include "sim/viscosity/columns.glsl"
+layout(std430, binding = ACCELERATIONS_BUFFER) buffer Accelerations { vec4 acceleration[]; };
+layout(location = PASS_DT_AT) uniform float dt;
+
+void main()
+{
+    uint i = invocation();
+    if (i < particle_count() && dt > 0.0)
+        acceleration[i].xyz = column_of(SCRATCH_viscosity_velocity_change, i) / dt - kick_gravity;
+}

@@ -1,0 +1,42 @@
+// Implicit viscosity: what the matrix makes of the direction to try, and what that says of the next step along one:
+// product_range in sim/viscosity/pairs.c, product_body in sim/viscosity/passes.c.
+#include "sim/viscosity/viscosity.glsl"
+#include "sim/viscosity/columns.glsl"
+layout(std430, binding = TRIALS_BUFFER) readonly buffer Trials { vec4 trial[]; };
+
+vec3 own, sum = vec3(0);
+
+void meet(uint j, vec3 d, float volume)
+{
+    vec4 other = trial[j];
+    sum += weight(d, other.w, volume) * dot(own - other.xyz, d) * d;
+}
+
+// Boundary particles, whose change is 0, are in the blocks `held`.
+void walk(uint i, vec3 x)
+{
+    ivec3 at = cell_of(x);
+#ifdef LISTS
+    WALK_LISTED(i, x, at, meet)
+#else
+    WALK_FLUID(x, at, meet)
+#endif
+}
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    vec4 place = position[i], own_trial = trial[i];
+    own = own_trial.xyz;
+    own_viscosity = own_trial.w;
+    walk(i, place.xyz);
+    vec3 product = friction_scale * place.w * sum + scratch[SCRATCH_viscosity_inertia + i] * own;
+#ifdef SOLIDS
+    product += times(column_of(SCRATCH_viscosity_held, i), column_of(SCRATCH_viscosity_held_mixed, i), own);
+#endif
+    column_set(SCRATCH_viscosity_product, i, product);
+    scratch[SCRATCH_viscosity_power + i] = dot(column_of(SCRATCH_viscosity_residual, i), own);
+    scratch[SCRATCH_viscosity_curvature + i] = dot(product, own);
+}

@@ -1,0 +1,27 @@
+// What the walks of implicit viscosity share: sim/viscosity/pairs.c. A method that has one of these kernels has its define;
+// for all others it is Wendland's.
+#define LISTS_LATER
+#include "shaders/sim/viscosity/buffers.h"
+#include "shaders/sim/term_block.h"
+#undef KERNEL_WENDLAND_C2
+#undef KERNEL_QUINTIC
+#ifdef FRICTION_WENDLAND_C2
+#define KERNEL_WENDLAND_C2 1
+#endif
+#ifdef FRICTION_QUINTIC
+#define KERNEL_QUINTIC 1
+#endif
+#include "sim/constants.glsl"
+#include "sim/shapes.glsl"
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+#include "sim/walk.glsl"
+#include "sim/scratch.glsl"
+
+float own_viscosity;
+
+// F R (mu_i + mu_j) V_j of a pair, over friction_scale; 0 where they are too far.
+float weight(vec3 d, float viscosity, float volume)
+{
+    float q2 = dot(d, d) * (inverse_support * inverse_support);
+    return q2 < 1.0 ? (own_viscosity + viscosity) * volume * shape(max(sqrt(q2), 1e-6)) : 0.0;
+}
