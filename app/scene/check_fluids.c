@@ -85,7 +85,8 @@ static bool check_emit(const Check *check, int f, int index)
 static bool check_formula(const Check *check, const char *path, const char *text, const char *names)
 {
     Error error;
-    return !formula_given(text) || formula_check(text, names, &error) ||
+    Formula formula;
+    return !formula_given(text) || formula_read(text, names, &formula, &error) ||
            FAIL(check, path, "%s", error.message);
 }
 

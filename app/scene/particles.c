@@ -16,6 +16,7 @@ typedef struct Best {
     double spacing;
     size_t count;
     double cost; /* part of the wanted number by which the count misses it, and how uneven the lattice is */
+    double last; /* spacing that was counted last */
 } Best;
 
 /* The width of a cube, or a square, of that volume. */
@@ -32,11 +33,14 @@ static void offer(const Scene *scene, size_t wanted, double spacing, Best *best)
     const double fits = fill_lattice_fit(&world, &uneven);
     if (fits <= 0 && best->spacing > 0)
         return;
-    const size_t count = seed_count(&world, fits > 0 ? fits : spacing);
-    const double cost =
-        fabs((double)count - (double)wanted) / (double)wanted + 0.1 * uneven + (fits > 0 ? 0 : 1);
+    const double own = fits > 0 ? fits : spacing, least = 0.1 * uneven + (fits > 0 ? 0 : 1);
+    if (best->spacing > 0 && (own == best->last || least >= best->cost)) /* a count is dear */
+        return;
+    const size_t count = seed_count(&world, own);
+    const double cost = fabs((double)count - (double)wanted) / (double)wanted + least;
+    best->last = own;
     if (best->spacing <= 0 || cost < best->cost)
-        *best = (Best){fits > 0 ? fits : spacing, count, cost};
+        *best = (Best){own, count, cost, own};
 }
 
 /* The more particles, the smaller the jumps, and the dearer each count. */

@@ -8,10 +8,14 @@
 /* Of parentheses within each other: deep enough for a text of FORMULA_SIZE, and the stack is bounded. */
 enum { DEPTH_MAX = 40, NAME_MAX_LETTERS = 8 };
 
-/* By recursive descent: a value is found while the text is read. */
+/* What a step of the program does: puts a number on the stack, or takes one or two and puts what they make.
+ */
+enum { NUMBER, VARIABLE, NEGATIVE, PLUS, MINUS, TIMES, OVER, POWER, FUNCTION_OF_ONE, FUNCTION_OF_TWO };
+
+/* By recursive descent. */
 typedef struct Reader {
     const char *text, *at, *names;
-    const double *values;
+    Formula *formula;
     int depth;
     Error *error;
     bool ok;
@@ -29,14 +33,23 @@ static const Function functions[] = {
     {"sinh", sinh, NULL}, {"cosh", cosh, NULL}, {"min", NULL, fmin}, {"max", NULL, fmax},
 };
 
-static double sum_of(Reader *r);
+static void sum_of(Reader *r);
 
-static double wrong(Reader *r, const char *what)
+static void wrong(Reader *r, const char *what)
 {
     if (r->ok)
         error_set(r->error, "formula \"%s\": %s at letter %d", r->text, what, (int)(r->at - r->text) + 1);
     r->ok = false;
-    return 0;
+}
+
+static void put(Reader *r, int what, size_t which, double number)
+{
+    Formula *f = r->formula;
+    if (!r->ok)
+        return;
+    f->step[f->count].what = (uint8_t)what;
+    f->step[f->count].which = (uint8_t)which;
+    f->step[f->count++].number = number;
 }
 
 /* Whether the next letter is that one, and then behind it. */
@@ -50,122 +63,177 @@ static bool take(Reader *r, char letter)
     return true;
 }
 
-static double call(Reader *r, const Function *function)
+static void call(Reader *r, size_t function)
 {
-    if (!take(r, '('))
-        return wrong(r, "\"(\" is missing");
-    const double a = sum_of(r);
-    if (r->ok && function->two && !take(r, ','))
-        return wrong(r, "a second number is missing");
-    const double b = function->two && r->ok ? sum_of(r) : 0;
+    const bool two = functions[function].two != NULL;
+    if (!take(r, '(')) {
+        wrong(r, "\"(\" is missing");
+        return;
+    }
+    sum_of(r);
+    if (r->ok && two) {
+        if (!take(r, ','))
+            wrong(r, "a second number is missing");
+        else
+            sum_of(r);
+    }
     if (r->ok && !take(r, ')'))
-        return wrong(r, "\")\" is missing");
-    return function->two ? function->two(a, b) : function->one(a);
+        wrong(r, "\")\" is missing");
+    put(r, two ? FUNCTION_OF_TWO : FUNCTION_OF_ONE, function, 0);
 }
 
-static double named(Reader *r)
+static void named(Reader *r)
 {
     char name[NAME_MAX_LETTERS + 1] = {0};
     const char *begin = r->at;
     for (int i = 0; i < NAME_MAX_LETTERS && isalpha((unsigned char)*r->at); i++)
         name[i] = *r->at++;
     const char *variable = strlen(name) == 1 ? strchr(r->names, name[0]) : NULL;
-    if (variable)
-        return r->values[variable - r->names];
-    if (strcmp(name, "pi") == 0)
-        return M_PI;
+    if (variable) {
+        put(r, VARIABLE, (size_t)(variable - r->names), 0);
+        return;
+    }
+    if (strcmp(name, "pi") == 0) {
+        put(r, NUMBER, 0, M_PI);
+        return;
+    }
     for (size_t k = 0; k < sizeof functions / sizeof *functions; k++)
-        if (strcmp(name, functions[k].name) == 0)
-            return call(r, &functions[k]);
+        if (strcmp(name, functions[k].name) == 0) {
+            call(r, k);
+            return;
+        }
     r->at = begin;
-    return wrong(r, "no number, variable or function");
+    wrong(r, "no number, variable or function");
 }
 
-static double single(Reader *r)
+static void number(Reader *r)
 {
-    double value = 0;
-    if (++r->depth > DEPTH_MAX)
-        return wrong(r, "too many parentheses");
-    if (take(r, '(')) {
-        value = sum_of(r);
-        if (r->ok && !take(r, ')'))
-            return wrong(r, "\")\" is missing");
-    } else if (isdigit((unsigned char)*r->at) || *r->at == '.') {
-        char *end;
-        value = strtod(r->at, &end);
-        if (end == r->at)
-            return wrong(r, "no number");
-        r->at = end;
-    } else {
-        value = named(r);
+    char *end;
+    const double value = strtod(r->at, &end);
+    if (end == r->at) {
+        wrong(r, "no number");
+        return;
     }
+    r->at = end;
+    put(r, NUMBER, 0, value);
+}
+
+static void single(Reader *r)
+{
+    if (++r->depth > DEPTH_MAX) {
+        wrong(r, "too many parentheses");
+        return;
+    }
+    if (take(r, '(')) {
+        sum_of(r);
+        if (r->ok && !take(r, ')'))
+            wrong(r, "\")\" is missing");
+    } else if (isdigit((unsigned char)*r->at) || *r->at == '.')
+        number(r);
+    else
+        named(r);
     r->depth--;
-    return value;
 }
 
 /* -x^2 is -(x^2), 2^-1 is a half, and a^b^c is a^(b^c). */
-static double power_of(Reader *r)
+static void power_of(Reader *r)
 {
-    if (r->depth > DEPTH_MAX)
-        return wrong(r, "too many signs");
+    if (r->depth > DEPTH_MAX) {
+        wrong(r, "too many signs");
+        return;
+    }
     r->depth++;
-    double value;
-    if (take(r, '-'))
-        value = -power_of(r);
-    else if (take(r, '+'))
-        value = power_of(r);
+    if (take(r, '-')) {
+        power_of(r);
+        put(r, NEGATIVE, 0, 0);
+    } else if (take(r, '+'))
+        power_of(r);
     else {
-        value = single(r);
-        if (r->ok && take(r, '^'))
-            value = pow(value, power_of(r));
+        single(r);
+        if (r->ok && take(r, '^')) {
+            power_of(r);
+            put(r, POWER, 0, 0);
+        }
     }
     r->depth--;
-    return value;
 }
 
-static double term_of(Reader *r)
+/* What stands between operators of one rank, from left to right. */
+static void chain(Reader *r, void (*part)(Reader *), const char letters[2], const int what[2])
 {
-    double value = power_of(r);
-    while (r->ok)
-        if (take(r, '*'))
-            value *= power_of(r);
-        else if (take(r, '/'))
-            value /= power_of(r);
-        else
-            break;
-    return value;
+    part(r);
+    while (r->ok) {
+        const int k = take(r, letters[0]) ? 0 : take(r, letters[1]) ? 1 : 2;
+        if (k == 2)
+            return;
+        part(r);
+        put(r, what[k], 0, 0);
+    }
 }
 
-static double sum_of(Reader *r)
+static void term_of(Reader *r)
 {
-    double value = term_of(r);
-    while (r->ok)
-        if (take(r, '+'))
-            value += term_of(r);
-        else if (take(r, '-'))
-            value -= term_of(r);
-        else
-            break;
-    return value;
+    chain(r, power_of, (const char[2]){'*', '/'}, (const int[2]){TIMES, OVER});
+}
+
+static void sum_of(Reader *r)
+{
+    chain(r, term_of, (const char[2]){'+', '-'}, (const int[2]){PLUS, MINUS});
 }
 
 bool formula_given(const char *text)
 {
-    return text[0] && strcmp(text, "none") != 0;
+    return text[0] && (text[0] != 'n' || strcmp(text, "none") != 0);
 }
 
-bool formula_value(const char *text, const char *names, const double *values, double *value, Error *error)
+bool formula_read(const char *text, const char *names, Formula *formula, Error *error)
 {
-    Reader r = {.text = text, .at = text, .names = names, .values = values, .error = error, .ok = true};
-    *value = sum_of(&r);
+    Reader r = {.text = text, .at = text, .names = names, .formula = formula, .error = error, .ok = true};
+    formula->count = 0;
+    if (strlen(text) >= FORMULA_SIZE)
+        return error_set(error, "formula \"%.20s...\": more than %d letters", text, FORMULA_SIZE - 1);
+    sum_of(&r);
     if (r.ok && !take(&r, '\0'))
         wrong(&r, "an operator or the end is missing");
     return r.ok;
 }
 
-bool formula_check(const char *text, const char *names, Error *error)
+static double of_two(int what, size_t function, double a, double b)
 {
-    const double values[8] = {0};
-    double value;
-    return formula_value(text, names, values, &value, error);
+    switch (what) {
+    case PLUS:
+        return a + b;
+    case MINUS:
+        return a - b;
+    case TIMES:
+        return a * b;
+    case OVER:
+        return a / b;
+    case POWER:
+        return pow(a, b);
+    default:
+        return functions[function].two(a, b);
+    }
+}
+
+double formula_value(const Formula *formula, const double *values)
+{
+    double stack[FORMULA_SIZE / 2] = {0}, *top = stack; /* a letter stands between any two numbers */
+    for (int k = 0; k < formula->count; k++) {
+        const int what = formula->step[k].what;
+        const size_t which = formula->step[k].which;
+        if (what == NUMBER)
+            *top++ = formula->step[k].number;
+        else if (what == VARIABLE)
+            *top++ = values[which];
+        else if (what == NEGATIVE)
+            top[-1] = -top[-1];
+        else if (what == FUNCTION_OF_ONE)
+            top[-1] = functions[which].one(top[-1]);
+        else {
+            top--;
+            top[-1] = of_two(what, which, top[-1], *top);
+        }
+    }
+    return stack[0];
 }

@@ -1,7 +1,6 @@
 #include "sim/matter/fill.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
 
 double fill_volume(const Fill *fill, int dimensions)
@@ -46,39 +45,52 @@ static bool cylinder_holds(const Fill *fill, const double x[3])
     return along2 <= 0.25 * fill->height * fill->height && r2 - along2 <= fill->radius * fill->radius;
 }
 
-/* A formula's values: rows of a lattice, one above the other, ask for the same ones. */
-enum { HEIGHTS = 8192 };
-typedef struct Heights {
-    char below[FORMULA_SIZE];
-    double at[HEIGHTS][3]; /* x, z, height */
-    bool known[HEIGHTS];
-} Heights;
+/* Points of a lattice ask for the same few formulas, one after the other, and a column of them for the same
+   height: each thread keeps what it has read, and the last value of each. */
+enum { FORMULAS_KEPT = 4 };
+typedef struct Height {
+    char text[FORMULA_SIZE];
+    Formula formula; /* without a step: it cannot be read */
+    double x, z, y;
+} Height;
 
-static size_t height_slot(double x, double z)
+static void height_read(Height *height, const char *text)
 {
-    uint64_t bits[2];
-    memcpy(bits, (double[]){x, z}, sizeof bits);
-    return (size_t)((bits[0] * 0x9e3779b97f4a7c15U ^ bits[1] * 0xc2b2ae3d27d4eb4fU) >> 40) % HEIGHTS;
+    Error error;
+    *height = (Height){.x = NAN};
+    memcpy(height->text, text, strlen(text) + 1);
+    if (!formula_read(text, "xz", &height->formula, &error))
+        height->formula.count = 0;
+}
+
+static Height *height_of(const char text[FORMULA_SIZE])
+{
+    static _Thread_local Height kept[FORMULAS_KEPT];
+    static _Thread_local int last, next;
+    if (strcmp(kept[last].text, text) == 0)
+        return &kept[last];
+    for (last = 0; last < FORMULAS_KEPT; last++)
+        if (strcmp(kept[last].text, text) == 0)
+            return &kept[last];
+    last = next;
+    next = (next + 1) % FORMULAS_KEPT;
+    height_read(&kept[last], text);
+    return &kept[last];
 }
 
 bool fill_ends(const Fill *fill, double x, double z, double *y)
 {
-    static _Thread_local Heights heights;
-    const size_t slot = height_slot(x, z);
-    double *at = heights.at[slot];
-    Error error;
     if (!formula_given(fill->below))
         return false;
-    if (strcmp(heights.below, fill->below) != 0) {
-        memset(heights.known, 0, sizeof heights.known);
-        memcpy(heights.below, fill->below, sizeof heights.below);
+    Height *height = height_of(fill->below);
+    if (height->formula.count == 0)
+        return false;
+    if (height->x != x || height->z != z) {
+        height->y = formula_value(&height->formula, (double[]){x, z});
+        height->x = x, height->z = z;
     }
-    if (!heights.known[slot] || at[0] != x || at[1] != z) {
-        heights.known[slot] = formula_value(fill->below, "xz", (double[]){x, z}, &at[2], &error);
-        at[0] = x, at[1] = z;
-    }
-    *y = at[2];
-    return heights.known[slot];
+    *y = height->y;
+    return true;
 }
 
 static bool shape_holds(const Fill *fill, int dimensions, const double x[3], double tolerance)

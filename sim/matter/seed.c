@@ -115,16 +115,17 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
     const FillPile *pile = !is_cut(def) && fill_pile(def, fill, axes, &piled) ? &piled : NULL;
     if (!position && !pile && is_plain_block(def, fluid, index))
         return block_count(def, fill, axes);
-    const FillAxis *ax = &axes[0], *ay = &axes[1], *az = &axes[2];
-    for (long iz = az->begin; iz < az->end; iz++)
-        for (long iy = ay->begin; iy < ay->end; iy++)
-            for (long ix = ax->begin; ix < ax->end; ix++) {
-                const double x[3] = {ax->first + (double)ix * ax->step, ay->first + (double)iy * ay->step,
-                                     az->first + (double)iz * az->step};
-                const double at[3] = {ax->place + (double)ix * ax->advance,
-                                      ay->place + (double)iy * ay->advance,
-                                      az->place + (double)iz * az->advance};
-                if (!has_point(def, pile, fluid, index, x, (const long[]){ix, iy, iz}) || !is_free(stand, at))
+    const int row = position ? 0 : 1, rows = 1 - row; /* who only counts goes up columns: sim/matter/fill.c */
+    long i[3];
+    for (i[2] = axes[2].begin; i[2] < axes[2].end; i[2]++)
+        for (i[rows] = axes[rows].begin; i[rows] < axes[rows].end; i[rows]++)
+            for (i[row] = axes[row].begin; i[row] < axes[row].end; i[row]++) {
+                double x[3], at[3];
+                for (int k = 0; k < 3; k++) {
+                    x[k] = axes[k].first + (double)i[k] * axes[k].step;
+                    at[k] = axes[k].place + (double)i[k] * axes[k].advance;
+                }
+                if (!has_point(def, pile, fluid, index, x, i) || !is_free(stand, at))
                     continue;
                 for (size_t k = 0; position && k < 3; k++)
                     position[3 * count + k] = (float)at[k];

@@ -112,24 +112,36 @@ static bool fit_seeds(const Constants *constants, const WorldDef *def, const boo
     return ok;
 }
 
-/* Velocities by formula; false where one has no value. */
-static bool add_flow(const WorldDef *def, const Seeds *seeds, size_t count, Error *error)
+/* One component of a fluid's velocity; false where it has no value. */
+static bool add_component(const Seeds *seeds, size_t count, int fluid, int axis, const char *text,
+                          Error *error)
 {
+    Formula formula;
+    if (!formula_read(text, "xyz", &formula, error))
+        return false;
     for (size_t i = 0; i < count; i++) {
         const float *x = seeds->position + 3 * i;
         const double at[3] = {(double)x[0], (double)x[1], (double)x[2]};
-        for (int k = 0; k < def->dimensions; k++) {
-            const char *text = def->fluids[seeds->fluid[i]].flow[k];
-            double value = 0;
-            if (formula_given(text) && !formula_value(text, "xyz", at, &value, error))
-                return false;
-            if (!isfinite(value))
-                return error_set(error, "the velocity \"%s\" has no value at %g %g %g", text, at[0], at[1],
-                                 at[2]);
-            seeds->velocity[3 * i + (size_t)k] += (float)value;
-        }
+        if (seeds->fluid[i] != fluid)
+            continue;
+        const double value = formula_value(&formula, at);
+        if (!isfinite(value))
+            return error_set(error, "the velocity \"%s\" has no value at %g %g %g", text, at[0], at[1],
+                             at[2]);
+        seeds->velocity[3 * i + (size_t)axis] += (float)value;
     }
     return true;
+}
+
+/* Velocities by formula. */
+static bool add_flow(const WorldDef *def, const Seeds *seeds, size_t count, Error *error)
+{
+    bool ok = true;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int k = 0; ok && k < def->dimensions; k++)
+            if (formula_given(def->fluids[f].flow[k]))
+                ok = add_component(seeds, count, f, k, def->fluids[f].flow[k], error);
+    return ok;
 }
 
 /* With the pressure that holds them, where particles carry their density: p = c^2 (rho - rho0). */

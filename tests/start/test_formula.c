@@ -34,10 +34,10 @@ static void values(void **state)
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         Error error = {{0}};
-        double value = 0;
-        if (!formula_value(list[i].text, "xyz", at, &value, &error))
+        Formula formula;
+        if (!formula_read(list[i].text, "xyz", &formula, &error))
             fail_msg("%s", error.message);
-        assert_float_equal(value, list[i].value, 1e-12);
+        assert_float_equal(formula_value(&formula, at), list[i].value, 1e-12);
     }
 }
 
@@ -54,21 +54,31 @@ static void what_is_none(void **state)
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         Error error = {{0}};
-        if (formula_check(list[i][0], "xz", &error) || !strstr(error.message, list[i][1]))
+        Formula formula;
+        if (formula_read(list[i][0], "xz", &formula, &error) || !strstr(error.message, list[i][1]))
             fail_msg("\"%s\": %s", list[i][0], error.message);
     }
 }
 
-/* As deep as a text may be. */
+/* As deep as a text may be; as many steps; a letter too long. */
 static void no_text_is_too_deep(void **state)
 {
     (void)state;
-    char text[FORMULA_SIZE] = {0};
+    char text[FORMULA_SIZE + 1] = {0};
     Error error;
-    memset(text, '(', sizeof text - 1);
-    assert_false(formula_check(text, "x", &error));
-    memset(text, '-', sizeof text - 1);
-    assert_false(formula_check(text, "x", &error));
+    Formula formula;
+    memset(text, '(', FORMULA_SIZE - 1);
+    assert_false(formula_read(text, "x", &formula, &error));
+    memset(text, '-', FORMULA_SIZE - 1);
+    assert_false(formula_read(text, "x", &formula, &error));
+    for (int k = 0; k < FORMULA_SIZE - 1; k++)
+        text[k] = k % 2 ? '+' : 'x';
+    assert_true(formula_read(text, "x", &formula, &error));
+    assert_int_equal(formula.count, FORMULA_SIZE - 1);
+    assert_float_equal(formula_value(&formula, at), 2 * (FORMULA_SIZE / 2), 0);
+    text[FORMULA_SIZE - 1] = '+';
+    assert_false(formula_read(text, "x", &formula, &error));
+    assert_non_null(strstr(error.message, "more than 95 letters"));
 }
 
 int main(void)
