@@ -68,7 +68,7 @@ typedef struct StepWatch {
     X(SPEED, "a particle moves further than the support radius in one step")                                 \
     X(DENSITY, "fluid is pressed to more than five times its density")                                       \
     X(ENERGY, "energy grows by a tenth without work done")                                                   \
-    X(SOLVE, "the solver of pressure does not converge")                                                     \
+    X(SOLVE, "a solver does not converge")                                                                   \
     X(MEMORY, "there is no memory for the lists of neighbours")                                              \
     X(LOST, "particles found no place in the grid of backend fragment")
 

@@ -54,12 +54,21 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
     live_save(&def, numbers->live);
 }
 
+static bool not_sound(const World *world, Error *error)
+{
+    WorldTrouble seen = world->trouble; /* has the solver, where one is it */
+    char words[160];
+    seen.what = world->seen;
+    world_trouble_words(&seen, words);
+    return error_set(error,
+                     "the state at t = %g s is not sound: %s; go on until the simulation has gone back",
+                     world_time_at(world, (double)world->step), words);
+}
+
 bool world_save(World *world, WorldState *state, Error *error)
 {
     if (!world_sound(world))
-        return error_set(error,
-                         "the state at t = %g s is not sound: %s; go on until the simulation has gone back",
-                         world_time_at(world, (double)world->step), step_trouble_words(world->seen));
+        return not_sound(world, error);
     if (!world_state_reserve(state, world->method, world->count) ||
         !world->backend->save(world->state, &state->particles))
         return error_set(error, "no memory for the state of %zu particles", world->count);

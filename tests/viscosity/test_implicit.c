@@ -361,6 +361,25 @@ static void who_does_not_converge_says_so(void **state)
     world_destroy(world);
 }
 
+/* Of a state that is not sound, too. */
+static void what_is_not_saved_says_so(void **state)
+{
+    (void)state;
+    WorldDef def = drop_def("dfsph");
+    Error error = {{0}};
+    WorldState saved = {.count = 0};
+    def.retries = 2;
+    World *world = fixture_world(&def);
+    fixture_step(world, 1);
+    world->solves[SOLVE_VISCOSITY].failed = world->kicked = true;
+    assert_false(world_save(world, &saved, &error));
+    printf("%s\n", error.message);
+    assert_non_null(strstr(error.message, "is not sound: the solver of viscosity does not converge: "
+                                          "solver.viscosity_iterations"));
+    world_state_free(&saved);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -372,6 +391,7 @@ int main(void)
         cmocka_unit_test(same_bits_on_threads),
         cmocka_unit_test(save_load_step_is_step),
         cmocka_unit_test(who_does_not_converge_says_so),
+        cmocka_unit_test(what_is_not_saved_says_so),
     };
     return cmocka_run_group_tests_name("viscosity.implicit", tests, NULL, NULL);
 }
