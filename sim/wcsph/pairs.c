@@ -113,6 +113,17 @@ SIMD_INLINE f8 of_each(const float *column, f8 same, const uint32_t *j)
     return column ? f8_gather(column, j) : same;
 }
 
+/* a_i + a_j of a pair; none between two fluids of other density that both have it: they slide along each
+   other, since what damps numbers would hold waves between them back. Solids, and fluids with a viscosity,
+   have 0. */
+SIMD_INLINE f8 artificial_of(const float *column, f8 ai, const uint32_t *j)
+{
+    if (!column)
+        return ai + ai;
+    const f8 aj = f8_gather(column, j);
+    return f8_masked((aj == ai) | (ai * aj == f8_splat(0)), ai + aj);
+}
+
 /* Pressure; laminar viscosity (sim/matter/viscosity.h) or artificial one (Monaghan 1992, for pairs that part
    too): V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i V_j (a_i +
    a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij, of no V above that of THINNEST. With `shifts` what
@@ -163,7 +174,7 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
                     fz += drag * uz;
                 }
                 if (artificial)
-                    push += both * (ai + of_each(args->own[ARTIFICIAL], ai, j)) *
+                    push += both * artificial_of(args->own[ARTIFICIAL], ai, j) *
                             (ux * d.x + uy * d.y + uz * d.z) / (d.r2 + soft);
             }
             push *= f;

@@ -23,7 +23,8 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     force += f * both * (own.viscosity + other.viscosity) * u;
 #endif
 #ifdef ARTIFICIAL
-    push += both * (own.extra + other.extra) * dot(u, d) / (r2 + support * support / 400.0);
+    if (own.extra == other.extra || own.extra * other.extra == 0.0) // artificial_of of sim/wcsph/pairs.c
+        push += both * (own.extra + other.extra) * dot(u, d) / (r2 + support * support / 400.0);
 #endif
     return force + f * push * d;
 }
