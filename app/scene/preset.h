@@ -8,12 +8,12 @@
 
 #include <stdio.h>
 
-enum { PRESET_SETTINGS_MAX = 20 };
+enum { PRESET_SETTINGS_MAX = 20, PRESET_SEVERAL = 1 };
 
 typedef struct PresetSetting {
     const char *path, *value;
     const char *method; /* the only one that it is for; NULL: all */
-    int dimensions;     /* the same; 0: both */
+    int scenes;         /* 2, 3: of such dimensions alone; PRESET_SEVERAL: of two fluids or more; 0: all */
 } PresetSetting;
 
 typedef struct Preset {

@@ -13,6 +13,10 @@
 #define PLANE                                                                                                \
     "box: {size: [1, 1]}\nparticles: {spacing: 0.1}\n"                                                       \
     "fluids: [{fill: [{block: {min: [-0.5, 0], max: [0.5, 0.5]}}]}]\nsolver: {preset: accurate}\n"
+#define TWO_FLUIDS                                                                                           \
+    "box: {size: [1, 1]}\nparticles: {spacing: 0.1}\nfluids:\n"                                              \
+    "  - {name: a, fill: [{block: {min: [-0.5, 0], max: [0.5, 0.5]}}]}\n"                                    \
+    "  - {name: b, fill: [{block: {min: [-0.5, 0.5], max: [0.5, 1]}}]}\nsolver: {preset: accurate}\n"
 
 static Scene scene;
 
@@ -37,6 +41,9 @@ static void it_fills_in_what_is_not_named(void **state)
     assert_true(def->reproducible);
     assert_float_equal(world_of(PLANE, NULL)->support, 3.5, 0);
     assert_float_equal(world_of(PLANE, "solver.method=mueller")->support, 2.6, 0);
+    assert_string_equal(wcsph_def(world_of(PLANE, NULL))->kernel, "wendland_c2");
+    assert_string_equal(wcsph_def(world_of(TWO_FLUIDS, NULL))->kernel, "quintic");
+    assert_string_equal(wcsph_def(world_of(TWO_FLUIDS, "solver.kernel=cubic"))->kernel, "cubic");
 }
 
 static void it_gives_way_to_scene_and_command_line(void **state)
