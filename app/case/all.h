@@ -10,6 +10,8 @@
     X(hydrostatic_3d)                                                                                        \
     X(tilted)                                                                                                \
     X(layers)                                                                                                \
+    X(growth)                                                                                                \
+    X(growth_10)                                                                                             \
     X(dam_break)                                                                                             \
     X(dam_break_2d)                                                                                          \
     X(free_fall)                                                                                             \

@@ -44,7 +44,7 @@ class Validate(command.CommandTest):
 
     def test_the_same_on_compute(self):
         # on a software renderer too, and the same figures each time
-        words = ['poiseuille', 'taylor_green', '--coarse', '--quiet', '--json', 'out.json', '--method', 'wcsph']
+        words = ['poiseuille', 'taylor_green', 'growth', '--coarse', '--quiet', '--json', 'out.json', '--method', 'wcsph']
         figures = []
         for backend in ('cpu', 'compute', 'compute'):
             done = self.run_it(*words, '--backend', backend)
