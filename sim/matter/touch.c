@@ -10,6 +10,10 @@ static const double TOUCH = 1.3, COVER = 1.6;
 /* It covers the face that it is this straight behind: the cosine. A lattice's diagonal does not. */
 static const double STRAIGHT = 0.75;
 
+/* Several that stand less straight behind a face cover it together where they stand around its middle: what
+   they are aside, in the mean, is less than this. At a step of a surface all are on one side. */
+static const double AROUND = 0.5, ASIDE = 0.4;
+
 /* A face is closed by a wall at most so many spacings from the particle: fills keep half a one from walls;
    and by a solid so near a spacing behind it, where a lattice has no points. */
 static const double WALL = 1, SOLID = 0.75;
@@ -89,18 +93,37 @@ static int cells_near(const Bins *bins, int k, long cell, long near[3])
     return count;
 }
 
-/* The faces that what is at `way`, r m away, covers. */
-static unsigned covered(const float way[3], double r)
+/* What stands behind the faces of a particle. */
+typedef struct Cover {
+    unsigned straight;  /* faces with a neighbour straight behind them */
+    int around[6];      /* how many are less straight behind each */
+    double aside[6][3]; /* the sums of their directions across its normal */
+} Cover;
+
+/* Adds what is at `way`, r m away. */
+static void cover(Cover *to, const float way[3], double r)
 {
-    unsigned faces = 0;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
+        const int bit = 2 * k + (way[k] > 0);
         if (fabs((double)way[k]) > STRAIGHT * r)
-            faces |= 1U << (2 * k + (way[k] > 0));
-    return faces;
+            to->straight |= 1U << bit;
+        if (fabs((double)way[k]) <= AROUND * r)
+            continue;
+        to->around[bit]++;
+        for (int a = 0; a < 3; a++)
+            to->aside[bit][a] += a == k ? 0 : (double)way[a] / r;
+    }
+}
+
+static bool covers_together(const Cover *from, int bit)
+{
+    const double *aside = from->aside[bit], most = ASIDE * from->around[bit];
+    return from->around[bit] > 1 &&
+           aside[0] * aside[0] + aside[1] * aside[1] + aside[2] * aside[2] < most * most;
 }
 
 /* Adds those of particle i that are in a cell; NULL only looks which faces they cover. */
-static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, unsigned *faces)
+static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, Cover *faces)
 {
     const double spacing = bins->def->spacing;
     size_t found = 0;
@@ -114,7 +137,7 @@ static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, uns
                                        touch.way[2] * touch.way[2]));
         if (j == i || r > COVER * spacing)
             continue;
-        *faces |= covered(touch.way, r);
+        cover(faces, touch.way, r);
         if (r > TOUCH * spacing || r < 0.01 * spacing)
             continue;
         touch.weight = (float)(1 / (r * r));
@@ -125,7 +148,7 @@ static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, uns
     return found;
 }
 
-static size_t touch_all(const Bins *bins, size_t i, Touch *to, unsigned *faces)
+static size_t touch_all(const Bins *bins, size_t i, Touch *to, Cover *faces)
 {
     long near[3][3];
     int count[3];
@@ -188,13 +211,15 @@ static int solid_closes(const Bins *bins, int bit, const float x[3])
     return -1;
 }
 
-static void see_faces(const Bins *bins, size_t i, unsigned covers, const Touches *touches)
+static void see_faces(const Bins *bins, size_t i, const Cover *covers, const Touches *touches)
 {
     const float *x = bins->position + 3 * i;
     for (int bit = 0; bit < 2 * bins->def->dimensions; bit++) {
-        if (covers >> bit & 1U || wall_closes(bins->def, bit, x))
+        if (covers->straight >> bit & 1U || wall_closes(bins->def, bit, x))
             continue;
         const int solid = solid_closes(bins, bit, x);
+        if (solid < 0 && covers_together(covers, bit))
+            continue;
         uint8_t *faces = solid < 0 ? touches->open : touches->solid;
         faces[i] = (uint8_t)(faces[i] | 1U << bit);
         if (solid >= 0)
@@ -215,15 +240,15 @@ static bool touches_find(Touches *touches, const Bins *bins, const uint8_t *flui
         return false;
     touches->begin[0] = 0;
     for (size_t i = 0; i < count; i++) {
-        unsigned covers = 0;
+        Cover covers = {0};
         const bool takes = take[fluid[i]];
         touches->begin[i + 1] = touches->begin[i] + (takes ? touch_all(bins, i, NULL, &covers) : 0);
         if (takes)
-            see_faces(bins, i, covers, touches);
+            see_faces(bins, i, &covers, touches);
     }
     touches->at = malloc((touches->begin[count] + 1) * sizeof *touches->at);
     for (size_t i = 0; touches->at && i < count; i++) {
-        unsigned covers = 0;
+        Cover covers = {0};
         if (take[fluid[i]])
             touch_all(bins, i, touches->at + touches->begin[i], &covers);
     }

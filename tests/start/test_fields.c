@@ -89,12 +89,40 @@ static void a_slope_by_formula(void **state)
     world_destroy(world);
 }
 
+/* Between fluids that fill the box: where places out of line leave no neighbour straight behind a face, that
+   is no surface, and the light fluid bears the heavy one, of 4905 Pa, from the start. */
+static void an_interface_by_formula_is_none_to_the_weight(void **state)
+{
+    (void)state;
+    WorldDef def = tank_def(0.5, 1);
+    snprintf(def.method, sizeof def.method, "wcsph");
+    def.spacing = 0.0125;
+    def.sound_speed = 31.3;
+    def.fluid_count = 2;
+    def.fluids[0].start = START_HYDROSTATIC;
+    def.fluids[1] = def.fluids[0];
+    def.fluids[0].density = 500;
+    fixture_block(&def, 0, -0.25, 0, 0, 0.25, 1, 0);
+    fixture_block(&def, 1, -0.25, 0, 0, 0.25, 1, 0);
+    strcpy(def.fluids[0].fills[0].below, "0.5 - 0.01 * cos(4 * pi * x)");
+    World *world = fixture_world(&def);
+    State s = fixture_read(world);
+    for (size_t i = 0; i < s.count; i++) {
+        const double y = (double)s.position[4 * i + 1];
+        if (fabs(y - 0.5) > 0.1)
+            assert_float_equal(s.pressure[i], y > 0.5 ? 9810 * (1 - y) : 4905 + 4905 * (0.5 - y), 150);
+    }
+    fixture_free(&s);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(velocities_by_formula),
         cmocka_unit_test(a_surface_by_formula),
         cmocka_unit_test(a_slope_by_formula),
+        cmocka_unit_test(an_interface_by_formula_is_none_to_the_weight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
