@@ -1,6 +1,7 @@
 /* Whether the step fits what a scene asks for: friction and sound, by sim/world/step_control.h. */
 #include "app/scene/advise_parts.h"
 #include "sim/matter/fall.h"
+#include "sim/matter/fill.h"
 #include "sim/world/step_control.h"
 
 #include <math.h>
@@ -75,6 +76,59 @@ static double greatest_start(const WorldDef *def)
             speed = fmax(speed, def->fluids[f].emits[i].speed);
     }
     return speed;
+}
+
+/* Where the fills of a fluid end against gravity, and with it, as the product with `up`, m. */
+static void ends_along(const FluidDef *fluid, const double up[3], double *bottom, double *top)
+{
+    *bottom = INFINITY;
+    *top = -INFINITY;
+    for (int i = 0; i < fluid->fill_count; i++) {
+        double low[3], high[3], least = 0, most = 0;
+        fill_bounds(&fluid->fills[i], low, high);
+        for (int k = 0; k < 3; k++) {
+            least += fmin(up[k] * low[k], up[k] * high[k]);
+            most += fmax(up[k] * low[k], up[k] * high[k]);
+        }
+        *bottom = fmin(*bottom, least);
+        *top = fmax(*top, most);
+    }
+}
+
+/* Pa, that heavier fluids may put on a fluid: where it reaches lower than they do. */
+static double borne(const WorldDef *def, int f, const double gravity[3])
+{
+    const double g = sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
+    double most = 0, bottom, other_bottom, top;
+    if (g == 0)
+        return 0;
+    const double up[3] = {-gravity[0] / g, -gravity[1] / g, -gravity[2] / g};
+    ends_along(&def->fluids[f], up, &bottom, &top);
+    for (int k = 0; k < def->fluid_count; k++) {
+        ends_along(&def->fluids[k], up, &other_bottom, &top);
+        if (def->fluids[k].density > def->fluids[f].density && top > bottom)
+            most = fmax(most, def->fluids[k].density * g * (top - bottom));
+    }
+    return most;
+}
+
+void advise_borne(const Tree *tree, const Scene *scene, Notes *notes)
+{
+    static const double much = 0.1, good = 0.03; /* compressions */
+    const WorldDef *def = &scene->world;
+    if (method_find(def->method)->incompressible)
+        return;
+    for (int f = 0; f < def->fluid_count; f++) {
+        const double density = def->fluids[f].density, c = def->sound_speed,
+                     pressure = borne(def, f, def->gravity),
+                     pressed = pow(1 + 7 * pressure / (density * c * c), 1.0 / 7) - 1;
+        if (pressed > much)
+            advise(
+                tree, "solver.sound_speed", notes,
+                "fluids[%d], of %g kg/m3, bears up to %.0f Pa of heavier fluid, which press it by %.0f %% at a "
+                "sound speed of %g m/s; use %.2g m/s or more",
+                f, density, pressure, 100 * pressed, c, sqrt(pressure / (good * density)));
+    }
 }
 
 void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)

@@ -74,6 +74,15 @@ static const struct Case {
       "fluids=[{density: 31, fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}, {density: "
       "1, fill: [{block: {min: [-0.5, 0.4, -0.5], max: [0.5, 0.8, 0.5]}}]}]"},
      "mueller throws single light particles up where densities differ by more than 1 : 30, here 1 : 31"},
+    /* 7848 Pa on 10 c^2 = 4000 Pa; the light one above is pressed by its own weight alone */
+    {{"solver.method=wcsph", "solver.sound_speed=20", "solver.step={dt: 0.0005, substeps: 1}",
+      "fluids=[{density: 10, fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}, {density: "
+      "1000, fill: [{block: {min: [-0.5, 0.4, -0.5], max: [0.5, 0.8, 0.5]}}]}]"},
+     "fluids[0], of 10 kg/m3, bears up to"},
+    {{"solver.method=wcsph", "solver.sound_speed=20", "solver.step={dt: 0.0005, substeps: 1}",
+      "fluids=[{density: 1000, fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.4, 0.5]}}]}, {density: "
+      "10, fill: [{block: {min: [-0.5, 0.4, -0.5], max: [0.5, 0.8, 0.5]}}]}]"},
+     NULL},
     {{"box.slip=none"}, "--set box.slip=none: slip none has no effect: only fluid with a viscosity is held"},
     {{"box.slip=none", "fluids[0].viscosity=1"}, NULL},
     {{"solids=[{sphere: {centre: [0, 0.8, 0], radius: 0.1}, slip: none}]"}, "none has no effect"},
