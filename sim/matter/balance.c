@@ -200,19 +200,32 @@ void balance_pressure(Balance *b, const double gravity[3], const float *position
         pressure[i] = (float)x[i];
 }
 
+/* Whether a part has no free surface. */
+static bool is_closed(const Balance *b, size_t part)
+{
+    int open = 0;
+    for (size_t at = b->part_begin[part]; at < b->part_begin[part + 1]; at++)
+        open += open_count(b, b->order[at]);
+    return open == 0;
+}
+
+/* The mean over a part. */
+static double mean_of(const Balance *b, size_t part, const double *values)
+{
+    const size_t begin = b->part_begin[part], end = b->part_begin[part + 1];
+    double sum = 0;
+    for (size_t at = begin; at < end; at++)
+        sum += values[b->order[at]];
+    return sum / (double)(end - begin);
+}
+
 /* Less its mean in parts that cannot give way. */
 static void give_way(const Balance *b, double *rhs)
 {
     for (size_t part = 0; part < b->parts; part++) {
-        const size_t begin = b->part_begin[part], end = b->part_begin[part + 1];
-        int open = 0;
-        double sum = 0;
-        for (size_t at = begin; at < end; at++) {
-            open += open_count(b, b->order[at]);
-            sum += rhs[b->order[at]];
-        }
-        for (size_t at = begin; at < end && open == 0; at++)
-            rhs[b->order[at]] -= sum / (double)(end - begin);
+        const double mean = is_closed(b, part) ? mean_of(b, part, rhs) : 0;
+        for (size_t at = b->part_begin[part]; mean != 0 && at < b->part_begin[part + 1]; at++)
+            rhs[b->order[at]] -= mean;
     }
 }
 
@@ -233,8 +246,38 @@ static void move(const Balance *b, size_t i, const double *x, float *position)
         position[a] += (float)way[a];
 }
 
-void balance_move(Balance *b, const double *compression, float *position)
+/* Presses a part by what give_way took from its compressions: all alike, towards its lowest end. */
+static void sink(const Balance *b, size_t part, const double down[3], const double *compression,
+                 float *position)
 {
+    const size_t begin = b->part_begin[part], end = b->part_begin[part + 1];
+    const double mean = mean_of(b, part, compression);
+    double lowest = -INFINITY;
+    for (size_t at = begin; at < end; at++)
+        lowest = fmax(lowest, along(down, position + 3 * (size_t)b->order[at]));
+    for (size_t at = begin; at < end; at++) {
+        float *x = position + 3 * (size_t)b->order[at];
+        const double way = mean * (lowest + 0.5 * b->spacing - along(down, x));
+        for (int k = 0; k < 3; k++)
+            x[k] += (float)(way * down[k]);
+    }
+}
+
+/* The direction of a gravity along an axis. */
+static bool axis_of(const double gravity[3], double down[3])
+{
+    const double g = sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
+    bool found = false;
+    for (int k = 0; k < 3; k++) {
+        down[k] = g > 0 ? gravity[k] / g : 0;
+        found |= fabs(down[k]) > 1 - 1e-6;
+    }
+    return found;
+}
+
+void balance_move(Balance *b, const double gravity[3], const double *compression, float *position)
+{
+    double down[3];
     const size_t count = b->touches.count;
     double *rhs = b->work, *x = rhs + count;
     for (size_t i = 0; i < count; i++) {
@@ -245,6 +288,9 @@ void balance_move(Balance *b, const double *compression, float *position)
     solve(b, NULL, rhs, LEFT_OF_COMPRESSION * LEFT_OF_COMPRESSION * product(rhs, rhs, count), x);
     for (size_t i = 0; i < count; i++)
         move(b, i, x, position + 3 * i);
+    for (size_t part = 0; part < b->parts && !b->touches.solid && axis_of(gravity, down); part++)
+        if (is_closed(b, part))
+            sink(b, part, down, compression, position);
 }
 
 /* --- gaps next to solids --- */

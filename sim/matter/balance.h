@@ -32,9 +32,10 @@ void balance_destroy(Balance *balance);
    top. */
 void balance_pressure(Balance *balance, const double gravity[3], const float *position, float *pressure);
 
-/* Moves particles to where each has the compression that is given, rho / rho0 - 1; a part with no free
-   surface keeps its volume. */
-void balance_move(Balance *balance, const double *compression, float *position);
+/* Moves particles to where each has the compression that is given, rho / rho0 - 1. A part with no free
+   surface sinks from its lid where gravity is along an axis and nothing stands in it; else it keeps its
+   volume. */
+void balance_move(Balance *balance, const double gravity[3], const double *compression, float *position);
 
 /* Moves particles of a lattice, with a flow that compresses nothing, into the gaps that the lattice leaves
    next to solids: the free surface sinks by what is missing there. The balance is of no more use then. */

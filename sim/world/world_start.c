@@ -184,7 +184,8 @@ static bool balances(const WorldDef *def, size_t count, bool take[FLUIDS_MAX])
 }
 
 /* Densities by the method's equation of state, and places that go with them. */
-static bool press_seeds(const Constants *constants, Balance *balance, const Seeds *seeds, size_t count)
+static bool press_seeds(const Constants *constants, Balance *balance, const double gravity[3],
+                        const Seeds *seeds, size_t count)
 {
     double *compression = malloc((count + 1) * sizeof *compression);
     if (!compression)
@@ -193,7 +194,7 @@ static bool press_seeds(const Constants *constants, Balance *balance, const Seed
         compression[i] = compression_of(constants, seeds->fluid[i], (double)seeds->pressure[i]);
         seeds->density[i] *= (float)(1 + compression[i]);
     }
-    balance_move(balance, compression, seeds->position);
+    balance_move(balance, gravity, compression, seeds->position);
     hold(constants, seeds, count);
     free(compression);
     return true;
@@ -214,7 +215,7 @@ static bool balance_seeds(const Constants *constants, const WorldDef *def, const
         for (size_t i = 0; i < count; i++)
             if (!take[seeds->fluid[i]] || (seeds->pressure[i] < 0 && !def->negative_pressure))
                 seeds->pressure[i] = 0;
-        ok = !constants->method->pressure || press_seeds(constants, &balance, seeds, count);
+        ok = !constants->method->pressure || press_seeds(constants, &balance, gravity, seeds, count);
     }
     balance_destroy(&balance);
     return ok;

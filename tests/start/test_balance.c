@@ -3,6 +3,7 @@
 #include "tests/sim/fixture.h"
 
 #include "sim/matter/balance.h"
+#include "sim/wcsph/wcsph.h"
 
 static WorldDef tank_def(const char *method, double width, double height)
 {
@@ -193,6 +194,48 @@ static void a_full_box_holds(void **state)
 }
 
 /* Around a disc the lattice leaves gaps: the packing has none, and fluid stays calm. */
+static double mean_compression(World *world, int fluid, double density)
+{
+    State s = fixture_read(world);
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < s.count; i++)
+        if (s.fluid[i] == (uint32_t)fluid) {
+            sum += (double)s.density[i] / density - 1;
+            count++;
+        }
+    fixture_free(&s);
+    return sum / (double)count;
+}
+
+/* Two fluids that fill their box sink from its lid by what their weight presses them: so densities by place,
+   to which shifting leads, are those that particles carry, and the box does not ring. */
+static void a_full_box_sinks_from_its_lid(void **state)
+{
+    (void)state;
+    WorldDef def = tank_def("wcsph", 0.5, 1);
+    def.fluid_count = 2;
+    def.fluids[0].density = 500;
+    def.fluids[1] = def.fluids[0];
+    def.fluids[1].density = 1000;
+    fixture_block(&def, 0, -0.25, 0, 0, 0.25, 0.5, 0);
+    fixture_block(&def, 1, -0.25, 0.5, 0, 0.25, 1, 0);
+    wcsph_def(&def)->shifting = 0.2;
+    World *world = fixture_world(&def);
+    State s = fixture_read(world);
+    double top = 0;
+    for (size_t i = 0; i < s.count; i++)
+        top = fmax(top, (double)s.position[4 * i + 1]);
+    const double below = mean_compression(world, 0, 500);
+    assert_float_equal(1 - 0.025 - top, 0.5 * (0.0122 + 0.0025), 0.001);
+    for (int k = 0; k < 10; k++) {
+        fixture_step(world, 40);
+        assert_float_equal(mean_compression(world, 0, 500), below, 0.0015);
+    }
+    fixture_free(&s);
+    world_destroy(world);
+}
+
 static void a_packing_around_solids(void **state)
 {
     (void)state;
@@ -233,7 +276,7 @@ int main(void)
         cmocka_unit_test(gravity_may_act_sideways),        cmocka_unit_test(nothing_presses_in_free_fall),
         cmocka_unit_test(nothing_presses_without_gravity), cmocka_unit_test(nothing_presses_around_a_period),
         cmocka_unit_test(a_dam_leans_on_nothing),          cmocka_unit_test(a_full_box_holds),
-        cmocka_unit_test(a_packing_around_solids),
+        cmocka_unit_test(a_full_box_sinks_from_its_lid),   cmocka_unit_test(a_packing_around_solids),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
