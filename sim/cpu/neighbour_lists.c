@@ -29,9 +29,12 @@ bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neig
     const size_t groups = particles / LANES + 1;
     lists->of_range = calloc(lists->ranges, sizeof *lists->of_range);
     lists->found = calloc(lists->ranges, sizeof *lists->found);
+    lists->of_images = calloc(lists->ranges, sizeof *lists->of_images);
     lists->first = calloc(groups, sizeof *lists->first);
     lists->rows = calloc(groups, sizeof *lists->rows);
-    bool ok = lists->of_range && lists->found && lists->first && lists->rows;
+    lists->images = calloc(groups, sizeof *lists->images);
+    bool ok =
+        lists->of_range && lists->found && lists->of_images && lists->first && lists->rows && lists->images;
     for (size_t r = 0; ok && r < lists->ranges; r++) {
         const size_t left = particles - r * LISTS_GRAIN, in_range = left < LISTS_GRAIN ? left : LISTS_GRAIN;
         ok = fit(&lists->of_range[r], (size_t)((double)in_range * rows_expected(neighbours)) + LANES * LANES);
@@ -39,23 +42,28 @@ bool neighbour_lists_create(NeighbourLists *lists, size_t particles, double neig
     return ok;
 }
 
+static void free_ranges(ListMemory *of_range, size_t ranges)
+{
+    for (size_t r = 0; of_range && r < ranges; r++)
+        free(of_range[r].index);
+    free(of_range);
+}
+
 void neighbour_lists_destroy(NeighbourLists *lists)
 {
-    for (size_t r = 0; lists->of_range && r < lists->ranges; r++)
-        free(lists->of_range[r].index);
-    for (size_t r = 0; lists->found && r < lists->ranges; r++)
-        free(lists->found[r].index);
-    free(lists->of_range);
-    free(lists->found);
+    free_ranges(lists->of_range, lists->ranges);
+    free_ranges(lists->found, lists->ranges);
+    free_ranges(lists->of_images, lists->ranges);
     free(lists->first);
     free(lists->rows);
+    free(lists->images);
 }
 
 size_t neighbour_lists_bytes(const NeighbourLists *lists)
 {
-    size_t indices = 2 * lists->ranges * (LISTS_GRAIN / LANES);
+    size_t indices = 3 * lists->ranges * (LISTS_GRAIN / LANES);
     for (size_t r = 0; r < lists->ranges; r++)
-        indices += (size_t)lists->of_range[r].room + lists->found[r].room;
+        indices += (size_t)lists->of_range[r].room + lists->found[r].room + lists->of_images[r].room;
     return indices * sizeof(uint32_t);
 }
 

@@ -29,8 +29,11 @@ typedef struct NeighbourLists {
     size_t ranges;
     uint32_t *first; /* of each group: where in its range's memory its lists begin */
     uint32_t *rows;  /* as many as the longest of its lists has entries; LISTS_COINCIDENT besides */
-    bool ready;      /* they are those of the last grid */
-    bool full;       /* memory was short: some lists lack neighbours; atomic while they are made */
+    ListMemory
+        *of_images;   /* by each range: images in the walls and whom they see, see sim/cpu/image_lists.h */
+    uint32_t *images; /* of each group: 1 more than where its images begin there; 0: it has none */
+    bool ready;       /* they are those of the last grid */
+    bool full;        /* memory was short: some lists lack neighbours; atomic while they are made */
 } NeighbourLists;
 
 /* Room for the lists of `particles` with some `neighbours` each; false when memory is short. */

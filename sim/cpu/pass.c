@@ -3,6 +3,7 @@
 #include <string.h>
 
 PAIR_LOOPS(lists);
+PAIR_LOOPS(image_lists);
 PAIR_LOOPS(tension);
 
 typedef struct Running {
@@ -18,8 +19,11 @@ static void run_range(void *context, size_t begin, size_t end)
     PairArgs args = cpu_pair_args(cpu);
     args.gravity = running->input->apparent;
     CpuRange range = {cpu, &args, running->input, begin, end};
-    if (running->loop->walks && !cpu->lists.ready)
+    if (running->loop->walks && !cpu->lists.ready) {
         cpu_pairs(&range, &lists);
+        if (cpu->constants->method->keeps_images)
+            cpu_pairs(&range, &image_lists);
+    }
     if (running->loop->solids)
         running->loop->body(&range);
     else

@@ -158,6 +158,7 @@ const Method method_dfsph = {
     .def = &usual,
     .def_size = sizeof usual,
     .mirrors = true,
+    .keeps_images = true,
     .incompressible = true,
     .solvers = {[SOLVE_DENSITY] = {"density", "solver.tolerance", "solver.iterations"},
                 [SOLVE_DIVERGENCE] = {"divergence", "solver.divergence_tolerance", "solver.iterations"}},

@@ -1,5 +1,6 @@
 /* The pair loops of dfsph: see sim/dfsph/passes.h. */
 #include "sim/incompressible/pairs.h"
+#include "sim/cpu/image_lists.h"
 #include "sim/dfsph/passes.h"
 
 /* Of the number density, where `place` has 1 / m. */
@@ -8,9 +9,25 @@ PAIR_LOOP(dfsph_factor)
     density_sums(args, begin, end, dfsph_constants(args->constants)->gradient, args->own[SQUARES]);
 }
 
+/* sum (k_i + k_j) F x_ij, where `place` has k. */
 PAIR_LOOP(dfsph_push)
 {
-    push_sums(args, begin, end, dfsph_constants(args->constants)->gradient, args->pressure_term);
+    const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient), zero = f8_splat(0);
+    GROUPS (i, begin, end) {
+        const f8 ki = f8_load(args->pressure_term + i);
+        Place sum = {zero, zero, zero};
+        push_of(args, i, near_of(args, i), ki, NULL, &sum);
+        for (const uint32_t *at = first_image(args, i); at;) {
+            Mirrored image;
+            Near near;
+            at = next_image(at, &image, &near);
+            NEIGHBOURS (near, j)
+                push_by(args, &image, ki, f8_load4(args->place, j), &sum);
+        }
+        lanes_store(args->fx, i, begin, end, gradient * sum.x);
+        lanes_store(args->fy, i, begin, end, gradient * sum.y);
+        lanes_store(args->fz, i, begin, end, gradient * sum.z);
+    }
 }
 
 /* sum F v_ij . x_ij of an image. */
@@ -22,7 +39,7 @@ SIMD_INLINE f8 rate_by(const PairArgs *args, const Mirrored *image, f8x4 vi, f8x
             (image->sign.z * vi.z - v.z) * d.z);
 }
 
-SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi, const Images *images)
+SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
     const Place at = place_of(args, i);
@@ -34,8 +51,6 @@ SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi,
             d = separate_to(args, i, j, d, TWINS_PART);
         sum += shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL) *
                ((vi.x - v.x) * d.x + (vi.y - v.y) * d.y + (vi.z - v.z) * d.z);
-        for (int m = 1; images && m <= images->count; m++)
-            sum += rate_by(args, &images->of[m], vi, p, v);
     }
     return sum;
 }
@@ -44,16 +59,17 @@ SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi,
 PAIR_LOOP(dfsph_rate)
 {
     const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient);
-    const WallsFar far = out_of_sight(args->constants);
-    Images images;
     GROUPS (i, begin, end) {
         const Themselves own = themselves(args, i);
         const f8x4 vi = motion(args, own.j);
-        const bool mirrored = images_of(args, &far, i, begin, end, &images);
-        f8 sum = !mirrored ? rate_of(args, i, near_of(args, i), vi, NULL)
-                           : rate_of(args, i, near_of(args, i), vi, &images);
-        for (int m = 1; m <= images.count; m++)
-            sum += rate_by(args, &images.of[m], vi, f8_load4(args->place, own.j), vi);
+        f8 sum = rate_of(args, i, near_of(args, i), vi);
+        for (const uint32_t *at = first_image(args, i); at;) {
+            Mirrored image;
+            Near near;
+            at = next_image(at, &image, &near);
+            NEIGHBOURS (near, j)
+                sum += rate_by(args, &image, vi, f8_load4(args->place, j), motion(args, j));
+        }
         lanes_store(args->own[RESIDUAL], i, begin, end, -(gradient * sum));
     }
 }

@@ -111,15 +111,15 @@ SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki,
     }
 }
 
-/* sum (k_i + k_j) F x_ij into the force, where `place` has k; `terms`: the same in a column, or NULL. */
-SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float gradient, const float *terms)
+/* sum (k_i + k_j) F x_ij into the force, where `place` has k. */
+SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float gradient)
 {
     const f8 g = f8_splat(gradient), zero = f8_splat(0);
     const WallsFar far = out_of_sight(args->constants);
     Images images;
     GROUPS (i, begin, end) {
         const Themselves own = themselves(args, i);
-        const f8 ki = terms ? f8_load(terms + i) : f8_load4(args->place, own.j).w;
+        const f8 ki = f8_load4(args->place, own.j).w;
         Place sum = {zero, zero, zero};
         const bool mirrored = images_of(args, &far, i, begin, end, &images);
         if (!mirrored)

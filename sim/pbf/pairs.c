@@ -11,7 +11,7 @@ PAIR_LOOP(pbf_sums)
 /* sum (dk_i + dk_j) F x_ij, where `place` has dk. */
 PAIR_LOOP(pbf_push)
 {
-    push_sums(args, begin, end, pbf_constants(args->constants)->gradient, NULL);
+    push_sums(args, begin, end, pbf_constants(args->constants)->gradient);
 }
 
 PAIR_LOOP(pbf_friction)
