@@ -10,6 +10,7 @@
     X(hydrostatic_3d)                                                                                        \
     X(tilted)                                                                                                \
     X(layers)                                                                                                \
+    X(layers_10)                                                                                             \
     X(growth)                                                                                                \
     X(growth_10)                                                                                             \
     X(dam_break)                                                                                             \
