@@ -84,7 +84,7 @@ void cpu_force_end(const CpuRange *range)
 {
     const Cpu *cpu = range->cpu;
     const CpuParticles *p = &cpu->now;
-    if (p->tension)
+    if (p->tension && cpu->constants->tension_model != TENSION_CURVATURE) /* the method's own */
         cpu_pairs(range, &tension);
     for (size_t i = range->begin; i < range->end; i++) {
         const float inverse_mass = 1 / cpu->constants->mass[p->fluid[i]];

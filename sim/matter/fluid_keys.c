@@ -21,6 +21,8 @@ static const char *const start_names[] = {
     START_LIST(X)
 #undef X
         NULL};
+static const KeyOwner curvature = {
+    .name = "with curvature", .key = "solver.surface_tension", .value = "curvature"};
 
 static void fluid_init(void *element, int index)
 {
@@ -34,6 +36,7 @@ static void fluid_init(void *element, int index)
     fluid->start = START_HYDROSTATIC;
     for (int k = 0; k < 3; k++)
         snprintf(fluid->flow[k], sizeof fluid->flow[k], "none");
+    fluid->contact_angle = 90;
     for (int k = 0; k < 3; k++)
         fluid->color[k] = (float)srgb_to_linear(palette[index % 8][k]);
 }
@@ -56,6 +59,7 @@ const Key fluid_keys[] = {
     NUMBER("fluids[].surface_tension", 0, "N/m", 0, 1000, FLUID(surface_tension), "water 0.072", .owner = &tension),
     CHOICE_OF("fluids[].start", KEY_INDEX, start_names, FLUID(start),
               "with which pressure its fills start: what gravity asks for where they stand, none in free fall; or none, and gravity sets in suddenly"),
+    NUMBER("fluids[].contact_angle", 0, "degrees", 0, 180, FLUID(contact_angle), "at the walls of the box, in the fluid: 0 wets, 180 rolls off; water on glass 20, on wax 110", .owner = &curvature),
     VEC3("fluids[].velocity", 0, "m/s", -1000, 1000, FLUID(velocity), "at the start, in the box's frame"),
     MAPPING("fluids[].velocity_formula", "velocity at the start by formula, besides `velocity`: of x, y and z, m; numbers, pi, + - * / ^, sin cos tan exp log sqrt abs tanh sinh cosh, min(a, b), max(a, b)"),
     TEXT("fluids[].velocity_formula.x", 0, FORMULA_SIZE, FLUID(flow[0]), NULL, "its x, m/s"),

@@ -1,13 +1,17 @@
 #include "sim/matter/tension.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 const TensionKind tension_kinds[] = {
     [TENSION_NONE] = {"none", "no surface tension"},
     [TENSION_COLOUR_FIELD] = {"colour_field",
                               "Müller 2003: curvature of the colour field; keeps no momentum"},
     [TENSION_COHESION] = {"cohesion", "Akinci 2013: particles of a fluid attract each other; keeps momentum"},
-    [TENSION_COHESION + 1] = {0},
+    [TENSION_CURVATURE] = {"curvature",
+                           "Morris 2000 at a free surface: curvature from normals, contact angles "
+                           "at walls; momentum nearly kept"},
+    [TENSION_CURVATURE + 1] = {0},
 };
 
 double cohesion_kernel(double r, double h)
@@ -43,4 +47,61 @@ double cohesion_scale(int dimensions, double spacing, double h)
 double colour_scale(int dimensions, double h)
 {
     return dimensions == 3 ? 945 / (32 * M_PI * pow(h, 9)) : 24 / (M_PI * pow(h, 8));
+}
+
+double curvature_weight(double x)
+{
+    const double least = CURVATURE_LEAST / 100.0, whole = CURVATURE_WHOLE / 100.0;
+    const double t = fmin(fmax((x - least) / (whole - least), 0), 1);
+    return x * t * t * (3 - 2 * t);
+}
+
+/* Sums over the lattice below layer k, or all of it, with w of (1 - r/h). */
+typedef struct LayerSums {
+    double normal, along, height, heights; /* sum w z, w t^2, W |z|, W */
+} LayerSums;
+
+static LayerSums layer_sums(int dimensions, double spacing, double h, int above)
+{
+    const int reach = (int)ceil(h / spacing), deep = dimensions == 3 ? reach : 0;
+    LayerSums sums = {0};
+    for (int z = -above; z <= reach; z++)
+        for (int a = -reach; a <= reach; a++)
+            for (int b = -deep; b <= deep; b++) {
+                const double q = spacing * sqrt((double)(z * z + a * a + b * b)) / h, t = fmax(1 - q, 0);
+                const double w = t * t * t, wendland = w * t * (1 + 4 * q);
+                sums.normal += w * z * spacing;
+                sums.along += z >= 0 && z <= 1 ? w * (a * a + b * b) * spacing * spacing : 0;
+                sums.height += wendland * abs(z) * spacing;
+                sums.heights += wendland;
+            }
+    return sums;
+}
+
+double wetting_curvature(double angle, double spacing, double h)
+{
+    double layers = 0;
+    for (int k = 0; (k + 0.5) * spacing < h; k++)
+        layers += pow(1 - (k + 0.5) * spacing / h, 2);
+    return cos(angle * (M_PI / 180)) / (layers * spacing);
+}
+
+CurvatureScale curvature_calibrate(int dimensions, double spacing, double h)
+{
+    const int reach = (int)ceil(h / spacing);
+    const LayerSums top = layer_sums(dimensions, spacing, h, 0),
+                    all = layer_sums(dimensions, spacing, h, reach);
+    double layers = 0, depth = 0;
+    for (int k = 0; k < reach; k++) {
+        const double weight = curvature_weight(layer_sums(dimensions, spacing, h, k).normal / top.normal);
+        layers += weight;
+        depth += weight * (k + 0.5) * spacing;
+    }
+    return (CurvatureScale){
+        .full = (float)(1 / top.normal),
+        .layers = (float)layers,
+        .few = (float)(0.05 * top.along),
+        .offset = (float)(depth / layers / (dimensions - 1) + 0.5 * all.height / all.heights),
+        .most = (float)(0.5 * (dimensions - 1) / spacing),
+    };
 }

@@ -67,6 +67,7 @@ typedef struct FluidDef {
     double viscosity;           /* dynamic, mu, Pa s; in a world, of a fluid with a table: the present one */
     TimeTable viscosity_table;  /* mu over time; without rows it is `viscosity` at any time */
     double surface_tension;     /* sigma, N/m: against what is not this fluid; see WorldDef.tension_model */
+    double contact_angle;       /* at the walls of the box, degrees, measured in the fluid */
     int start;                  /* a FluidStart */
     double velocity[3];         /* at the start, in the box's frame, m/s */
     char flow[3][FORMULA_SIZE]; /* besides it, formulas of x, y and z, if given: m/s */

@@ -37,7 +37,7 @@ const Key solver_keys[] = {
     BOOLEAN("solver.negative_pressure", L, AT(negative_pressure), "whether fluid may pull as well as push"),
     BOOLEAN("solver.reproducible", 0, AT(reproducible),
             "compute: the same bits each time, for a sort by id in each step and solids in double precision; the others give them anyway"),
-    CHOICE_OF("solver.surface_tension", KEY_INDEX, tension_kinds, AT(tension_model), "its model, for fluids that have one; walls do not attract"),
+    CHOICE_OF("solver.surface_tension", KEY_INDEX, tension_kinds, AT(tension_model), "its model, for fluids that have one; walls attract by fluids[].contact_angle alone"),
     CHOICE_OF("solver.viscosity", KEY_INDEX, viscosity_solvers, AT(viscosity_solver), "when friction by a fluid's viscosity is taken: with a step's first velocities, or with its last, so that no viscosity is too much for it"),
     NUMBER("solver.viscosity_tolerance", 0, "", 0, 1, AT(viscosity_tolerance), "what its iterations may leave of a step's change of velocity, over speed and gravity times step, in the mean", .owner = &implicit),
     INTEGER("solver.viscosity_iterations", 0, 1, 10000, AT(viscosity_iterations), "of a step, at most", .owner = &implicit),

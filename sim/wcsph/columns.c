@@ -29,6 +29,11 @@ bool wcsph_shifts(const Constants *constants)
     return wcsph_constants(constants)->shift_speed > 0;
 }
 
+bool wcsph_curves(const Constants *constants)
+{
+    return constants->tension_model == TENSION_CURVATURE;
+}
+
 #define OWN(k)     .at = COLUMN_OWN(k)
 #define AT(member) .at = offsetof(ParticleColumns, member)
 
@@ -45,5 +50,6 @@ const ColumnDef wcsph_columns[] = {
     {"uneven", "1/m4", OWN(UNEVEN), 3, COLUMN_FLOAT, .needed = wcsph_shifts},
     {"full", "1/m3", OWN(FULL), 1, COLUMN_FLOAT, .needed = wcsph_shifts},
     {"dense", "1/m3", OWN(DENSE), 1, COLUMN_FLOAT, .needed = wcsph_shifts},
+    {"outward", "", OWN(OUTWARD), 3, COLUMN_FLOAT, .needed = wcsph_curves},
     {0},
 };

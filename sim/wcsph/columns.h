@@ -12,7 +12,8 @@ enum {
     UNEVEN = SLOPE + 3, /* what shifting goes by: sum of F x_ij, 1/m4 */
     FULL = UNEVEN + 3,  /* of F r^2, 1/m3; then 0 to 1, how far from a surface */
     DENSE,              /* of W, 1/m3; then n / n0 - 1 */
-    RATE,               /* of the compression, 1/s, at the end of the last step */
+    OUTWARD,            /* the normal of a surface, times the weight of a particle in it */
+    RATE = OUTWARD + 3, /* of the compression, 1/s, at the end of the last step */
 };
 
 extern const ColumnDef wcsph_columns[];

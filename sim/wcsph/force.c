@@ -5,6 +5,7 @@
 
 PAIR_LOOPS(wcsph_force);
 PAIR_LOOPS(wcsph_images_force);
+PAIR_LOOPS(wcsph_curvature);
 
 /* 0 where less than 0.8 of the space around is full, at a surface; 1 from 0.95 on. */
 static float share_of(float full)
@@ -23,13 +24,39 @@ static void complete_shift(const Cpu *cpu, size_t i)
     own[FULL][i] = share;
 }
 
+/* Next to a wall nothing is shifted out through a surface that has tension: the shift would fill the notch
+   between the wall and a surface that overhangs it (Lind 2012 shifts along surfaces alone). */
+static void keep_notches(const Cpu *cpu, const WallsFar *far, size_t i)
+{
+    const CpuParticles *p = &cpu->now;
+    const float *const n[3] = {p->own[OUTWARD], p->own[OUTWARD + 1], p->own[OUTWARD + 2]};
+    if (!walls_near(far, (float[3]){p->x[i], p->y[i], p->z[i]}))
+        return;
+    float squared = 0, out = 0;
+    for (int k = 0; k < 3; k++) {
+        squared += n[k][i] * n[k][i];
+        out += n[k][i] * p->own[UNEVEN + k][i];
+    }
+    if (squared > 0 && out > 0)
+        for (int k = 0; k < 3; k++)
+            p->own[UNEVEN + k][i] -= n[k][i] * out / squared;
+}
+
 static void force_body(const CpuRange *range)
 {
     cpu_pairs(range, &wcsph_force);
     cpu_pairs(range, &wcsph_images_force);
+    if (wcsph_curves(range->cpu->constants))
+        cpu_pairs(range, &wcsph_curvature);
     if (range->cpu->now.own[FULL])
         for (size_t i = range->begin; i < range->end; i++)
             complete_shift(range->cpu, i);
+    if (range->cpu->now.own[FULL] && range->cpu->now.own[OUTWARD]) {
+        const Constants *s = range->cpu->constants;
+        const WallsFar far = walls_far(&s->walls, s->support_radius);
+        for (size_t i = range->begin; i < range->end; i++)
+            keep_notches(range->cpu, &far, i);
+    }
     cpu_force_end(range);
 }
 

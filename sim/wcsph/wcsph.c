@@ -119,6 +119,9 @@ static void wcsph_substep(const Substep *step)
         b->grid(state);
     STAGE (step->clock, STAGE_DENSITY)
         substep_run(step, &wcsph_state, 0.5 * step->dt);
+    if (wcsph_curves(step->constants))
+        STAGE (step->clock, STAGE_FORCE)
+            substep_run(step, &wcsph_surface, step->dt);
     STAGE (step->clock, STAGE_FORCE)
         substep_run(step, &wcsph_forces, step->dt);
     substep_terms(step);
@@ -170,6 +173,7 @@ const Method method_wcsph = {
     .def = &usual,
     .def_size = sizeof usual,
     .carries_density = true,
+    .curvature = true,
     .mirrors = true,
     .check = wcsph_check,
     .kernels = wcsph_kernels_of,

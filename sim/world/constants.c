@@ -91,6 +91,8 @@ static bool fluids_check(const WorldDef *def, Error *error)
         if (!positive(fluid->density) || !(fluid->viscosity >= 0) || !(fluid->surface_tension >= 0))
             return error_set(
                 error, "fluid %d: density must be positive, viscosity and surface tension not negative", f);
+        if (!(fluid->contact_angle >= 0 && fluid->contact_angle <= 180))
+            return error_set(error, "fluid %d: a contact angle is 0 to 180 degrees", f);
         if (!time_table_sound(&fluid->viscosity_table))
             return error_set(
                 error,
@@ -133,6 +135,23 @@ static bool periodic_check(const WorldDef *def, Error *error)
     return true;
 }
 
+/* Curvature wants particles that stay evenly spread at the surface, as not all methods keep them. */
+static bool tension_check(const WorldDef *def, Error *error)
+{
+    const Method *method = method_find(def->method);
+    bool any = false;
+    for (int f = 0; f < def->fluid_count; f++)
+        any |= def->fluids[f].surface_tension > 0;
+    if (!any || def->tension_model != TENSION_CURVATURE || method->curvature)
+        return true;
+    for (const Method *const *has = method_list(); *has; has++)
+        if ((*has)->curvature)
+            return error_set(error,
+                             "method %s has no surface tension by curvature; use method %s, or cohesion",
+                             def->method, (*has)->name);
+    return false;
+}
+
 static bool def_check(const WorldDef *def, Error *error)
 {
     if (def->dimensions != 2 && def->dimensions != 3)
@@ -159,7 +178,7 @@ static bool def_check(const WorldDef *def, Error *error)
                          "a lid moves in its plane, the top of a box whose walls hold fluid: slip none");
     if (!isfinite(def->gravity[0] + def->gravity[1] + def->gravity[2]))
         return error_set(error, "gravity must be finite");
-    return fluids_check(def, error) &&
+    return fluids_check(def, error) && tension_check(def, error) &&
            motions_check(def->motions, def->motion_count, def->dimensions, error) &&
            solids_check(def, error) && flow_check(def, error) && periodic_check(def, error);
 }
@@ -279,10 +298,15 @@ static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
 static void tension_set(Constants *constants, const WorldDef *def)
 {
     const double h = def->support * def->spacing;
-    const double scale =
+    double scale =
         def->tension_model == TENSION_COHESION ? cohesion_scale(def->dimensions, def->spacing, h) : 1;
+    if (def->tension_model == TENSION_CURVATURE) {
+        constants->curvature = curvature_calibrate(def->dimensions, def->spacing, h);
+        scale = pow(def->spacing, def->dimensions - 1) / constants->curvature.layers;
+    }
     bool any = false;
     for (int f = 0; f < def->fluid_count; f++) {
+        constants->wet[f] = (float)wetting_curvature(def->fluids[f].contact_angle, def->spacing, h);
         constants->tension[f] = (float)(scale * def->fluids[f].surface_tension);
         any |= def->fluids[f].surface_tension > 0;
     }

@@ -55,7 +55,9 @@ typedef struct Constants {
     bool reproducible;
     float sound_speed;          /* m/s */
     TensionModel tension_model; /* none where no fluid has a tension */
-    float tension[FLUIDS_MAX];  /* sigma, N/m; of cohesion times its scale */
+    float tension[FLUIDS_MAX];  /* sigma, N/m; of cohesion times its scale, of curvature N m */
+    CurvatureScale curvature;   /* of the model of that name */
+    float wet[FLUIDS_MAX];      /* wetting_curvature, 1/m */
     float colour;               /* colour_scale */
     CellGrid cells;
     Periodic periodic;

@@ -89,6 +89,7 @@ typedef struct Method {
     const void *def;      /* the struct of these settings with its defaults */
     size_t def_size;      /* bytes; at most METHOD_DEF_SIZE */
     bool carries_density; /* its particles do; else density is summed */
+    bool curvature;       /* it has surface tension by curvature */
     bool mirrors;         /* walls of the box are mirrors (sim/box/wall_images.h); else tables */
     bool keeps_images;    /* with `mirrors`: no place changes while the lists of a grid are walked */
     bool incompressible;  /* no sound: steps are bounded by the true greatest speed alone */

@@ -87,6 +87,8 @@ static const struct {
     {"solver.step.max_dt=0.0001", "solver.step.mode=cfl", "solver.step.mode: cfl", true},
     {"fluids[0].surface_tension=1", "solver.surface_tension=cohesion", "a model (solver.surface_tension)",
      true},
+    {"fluids[0].contact_angle=60", "solver.surface_tension=curvature", "solver.surface_tension: curvature",
+     false},
     {"particles.most=100",
      "fluids[0].emit=[{disk: {centre: [0.4, 0.9], direction: [0, -1], radius: 0.1}, speed: 1}]",
      "an emitter (fluids[].emit)", false},

@@ -1,0 +1,19 @@
+/* The normals of free surfaces and interfaces. */
+#include "sim/wcsph/passes.h"
+
+PAIR_LOOPS(wcsph_normals);
+
+static void normals_body(const CpuRange *range)
+{
+    cpu_pairs(range, &wcsph_normals);
+}
+
+static const CpuPass normals = {.loops = {{normals_body, .walks = true}}};
+
+const Pass wcsph_surface = {
+    .name = "surface",
+    .stage = STAGE_FORCE,
+    .cpu = &normals,
+    .reads = "position kind",
+    .writes = "outward",
+};
