@@ -23,6 +23,7 @@
     X(collision)                                                                                             \
     X(drop)                                                                                                  \
     X(laplace)                                                                                               \
+    X(contact_angle)                                                                                         \
     X(vortices)                                                                                              \
     X(poiseuille)                                                                                            \
     X(couette)                                                                                               \
