@@ -25,6 +25,7 @@
     X(laplace)                                                                                               \
     X(contact_angle)                                                                                         \
     X(vortices)                                                                                              \
+    X(vortices_1000)                                                                                         \
     X(poiseuille)                                                                                            \
     X(couette)                                                                                               \
     X(cavity)                                                                                                \

@@ -32,6 +32,10 @@ Side side_of(uint i, float term)
 
 vec3 pair_force(Side one, Side other, vec3 d, float r2); // the method's: on `one`, which is d from `other`
 
+#ifndef MEET_MORE // what else a method has of two particles that are so far apart
+#define MEET_MORE(j, d, r2, term)
+#endif
+
 uint self;
 Side self_side;
 vec3 pair_sum = vec3(0), boundary_sum; // boundary_sum: of a row
@@ -53,6 +57,7 @@ void meet(uint j, vec3 d, float term)
     tension_meet(j, d, r2);
     SEPARATE(name[self].x, name[j].x, d, r2)
     pair_sum += pair_force(self_side, side_of(j, term), d, r2);
+    MEET_MORE(j, d, r2, term)
 }
 
 #ifdef SOLIDS

@@ -34,6 +34,11 @@ bool wcsph_curves(const Constants *constants)
     return constants->tension_model == TENSION_CURVATURE;
 }
 
+bool wcsph_corrects(const Constants *constants)
+{
+    return wcsph_constants(constants)->corrected_gradient != 0;
+}
+
 #define OWN(k)     .at = COLUMN_OWN(k)
 #define AT(member) .at = offsetof(ParticleColumns, member)
 
@@ -51,5 +56,8 @@ const ColumnDef wcsph_columns[] = {
     {"full", "1/m3", OWN(FULL), 1, COLUMN_FLOAT, .needed = wcsph_shifts},
     {"dense", "1/m3", OWN(DENSE), 1, COLUMN_FLOAT, .needed = wcsph_shifts},
     {"outward", "", OWN(OUTWARD), 3, COLUMN_FLOAT, .needed = wcsph_curves},
+    {"correction", "", OWN(CORRECTION), 3, COLUMN_FLOAT, .flags = COLUMN_FLUIDS, .needed = wcsph_corrects},
+    {"correction_mixed", "", OWN(CORRECTION + 3), 3, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
+     .needed = wcsph_corrects},
     {0},
 };

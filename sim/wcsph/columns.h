@@ -14,6 +14,7 @@ enum {
     DENSE,              /* of W, 1/m3; then n / n0 - 1 */
     OUTWARD,            /* the normal of a surface, times the weight of a particle in it */
     RATE = OUTWARD + 3, /* of the compression, 1/s, at the end of the last step */
+    CORRECTION,         /* C of sim/wcsph/corrected.c: xx, yy, zz, and xy, yz, zx */
 };
 
 extern const ColumnDef wcsph_columns[];

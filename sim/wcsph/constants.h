@@ -9,12 +9,16 @@
    which does not know of shifts and would drift by a percent a second, comes back to that of their places. */
 #define SHIFT_RETURN 20.0F
 
+/* The same with corrected gradients, which keep to the flow's own divergence: the sum's noise brakes. */
+#define SHIFT_RETURN_CORRECTED 80.0F
+
 static inline const WcsphBlock *wcsph_constants(const Constants *constants)
 {
     return (const WcsphBlock *)(const void *)constants->of_method;
 }
 
 bool wcsph_diffuses(const Constants *constants);
+bool wcsph_corrects(const Constants *constants);
 bool wcsph_shifts(const Constants *constants);
 bool wcsph_curves(const Constants *constants);
 bool wcsph_is_artificial(const Constants *constants);

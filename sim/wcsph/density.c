@@ -4,6 +4,7 @@
 PAIR_LOOPS(wcsph_slope);
 PAIR_LOOPS(wcsph_rate);
 PAIR_LOOPS(wcsph_images_rate);
+PAIR_LOOPS(wcsph_corrected_rate);
 
 /* Density += its rate times dt; pressure, and V = V0 rho0 / rho. Diffusion goes by the mean of before and
    after: so it is stable for steps up to 4 over its own rate, by the latter alone up to 2. */
@@ -45,6 +46,8 @@ static void rate_body(const CpuRange *range)
     const float *flow = p->ax;
     cpu_pairs(range, &wcsph_rate);
     cpu_pairs(range, &wcsph_images_rate);
+    if (p->own[CORRECTION])
+        cpu_pairs(range, &wcsph_corrected_rate);
     for (size_t i = range->begin; i < range->end; i++)
         p->own[RATE][i] = flow[i] / s->rest_number_density;
 }
@@ -96,7 +99,7 @@ const Pass wcsph_continuity = {
     .stage = STAGE_DENSITY,
     .cpu = &continuity,
     .shader = "wcsph/continuity",
-    .reads = "position velocity fluid relative kind slope compression",
+    .reads = "position velocity fluid relative kind slope compression correction correction_mixed",
     .writes = "rate compression volume pressure pressure_term relative kind viscosity artificial tension "
               "acceleration",
 };

@@ -6,6 +6,7 @@
 PAIR_LOOPS(wcsph_force);
 PAIR_LOOPS(wcsph_images_force);
 PAIR_LOOPS(wcsph_curvature);
+PAIR_LOOPS(wcsph_corrected_force);
 
 /* 0 where less than 0.8 of the space around is full, at a surface; 1 from 0.95 on. */
 static float share_of(float full)
@@ -48,6 +49,8 @@ static void force_body(const CpuRange *range)
     cpu_pairs(range, &wcsph_images_force);
     if (wcsph_curves(range->cpu->constants))
         cpu_pairs(range, &wcsph_curvature);
+    if (range->cpu->now.own[CORRECTION])
+        cpu_pairs(range, &wcsph_corrected_force);
     if (range->cpu->now.own[FULL])
         for (size_t i = range->begin; i < range->end; i++)
             complete_shift(range->cpu, i);
@@ -108,7 +111,8 @@ const Pass wcsph_forces = {
     .stage = STAGE_FORCE,
     .cpu = &force,
     .shader = "wcsph/force",
-    .reads = "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind",
+    .reads =
+        "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind correction correction_mixed",
     .writes = "acceleration uneven full dense",
     .mirrors = true,
 };

@@ -27,6 +27,9 @@ extern const Pass wcsph_state;
 /* The same, and the gradient of density, of which diffusion has need. */
 extern const Pass wcsph_gradient;
 
+/* Corrections of the gradients, as particles stand now. */
+extern const Pass wcsph_correct;
+
 /* Density += dt times its rate by the equation of continuity; volume and pressure after it. */
 extern const Pass wcsph_continuity;
 

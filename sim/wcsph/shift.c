@@ -16,7 +16,7 @@ static void shift_body(const CpuRange *range)
     const float dt = range->input->dt;
     const float most = 0.1f * s->spacing,
                 scale = wcsph_constants(s)->shift_speed * dt / s->rest_number_density;
-    const float part = fminf(dt * s->sound_speed / (SHIFT_RETURN * s->support_radius), 1);
+    const float part = fminf(dt * wcsph_constants(s)->density_return, 1);
     for (size_t i = range->begin; i < range->end; i++) {
         for (int k = 0; k < 3; k++)
             x[k][i] += fminf(fmaxf(scale * p->own[UNEVEN + k][i], -most), most);

@@ -25,6 +25,8 @@ static const Key keys[] = {
     NUMBER("solver.delta_sph", 0, "", 0, 0.5, AT(delta_sph), "diffusion of density, 0.1 as a rule; 0: none"),
     NUMBER("solver.shifting", 0, "", 0, 1, AT(shifting),
            "keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none"),
+    BOOLEAN("solver.corrected_gradient", 0, AT(corrected_gradient),
+            "gradients exact for linear fields, away from surfaces: for flows that its noise would brake"),
     KEYS_END,
 };
 /* clang-format on */
@@ -73,10 +75,12 @@ static void kernel_set(WcsphBlock *own, const Lattice *lattice, const WorldDef *
 static void wcsph_set(Constants *constants, const WorldDef *def)
 {
     const WcsphDef *said = wcsph_def(def);
-    WcsphBlock own = {.density_return = constants->sound_speed / (SHIFT_RETURN * constants->support_radius)};
+    const float times = said->corrected_gradient ? SHIFT_RETURN_CORRECTED : SHIFT_RETURN;
+    WcsphBlock own = {.density_return = constants->sound_speed / (times * constants->support_radius)};
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     kernel_set(&own, &constants->lattice, def);
     own.diffusion = (float)(2 * said->delta_sph * c * reach);
+    own.corrected_gradient = said->corrected_gradient;
     own.shift_speed = (float)(said->shifting * c * reach);
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
@@ -122,6 +126,9 @@ static void wcsph_substep(const Substep *step)
     if (wcsph_curves(step->constants))
         STAGE (step->clock, STAGE_FORCE)
             substep_run(step, &wcsph_surface, step->dt);
+    if (wcsph_corrects(step->constants))
+        STAGE (step->clock, STAGE_DENSITY)
+            substep_run(step, &wcsph_correct, 0);
     STAGE (step->clock, STAGE_FORCE)
         substep_run(step, &wcsph_forces, step->dt);
     substep_terms(step);
@@ -136,9 +143,9 @@ static void wcsph_substep(const Substep *step)
         continuity(step);
 }
 
-static const Pass *const passes[] = {&wcsph_state,    &wcsph_forces,     &wcsph_shift,
+static const Pass *const passes[] = {&wcsph_state,    &wcsph_correct,    &wcsph_forces, &wcsph_shift,
                                      &wcsph_gradient, &wcsph_continuity, NULL};
-static const Pass *const start[] = {&wcsph_gradient, &wcsph_continuity, NULL};
+static const Pass *const start[] = {&wcsph_correct, &wcsph_gradient, &wcsph_continuity, NULL};
 
 static bool is_radial(const Constants *constants)
 {
@@ -161,10 +168,12 @@ static const ShaderTerm terms[] = {{"KERNEL_WENDLAND_C2", has_wendland_c2},
                                    {"ARTIFICIAL", wcsph_is_artificial},
                                    {"DIFFUSION", wcsph_diffuses},
                                    {"SHIFTING", wcsph_shifts},
+                                   {"CORRECTED", wcsph_corrects},
                                    {0}};
 
 /* Of vec4, see slope.comp and evenness.glsl. */
-static const ShaderBuffer buffers[] = {{"Slopes", 16, wcsph_diffuses}, {"Unevens", 32, wcsph_shifts}, {0}};
+static const ShaderBuffer buffers[] = {
+    {"Slopes", 16, wcsph_diffuses}, {"Unevens", 32, wcsph_shifts}, {"Corrections", 32, wcsph_corrects}, {0}};
 
 const Method method_wcsph = {
     .name = "wcsph",

@@ -10,6 +10,7 @@ typedef struct WcsphDef {
     int viscosity_form;          /* a ViscosityForm of sim/matter/viscosity.h */
     double delta_sph;            /* delta of the diffusion of density; 0: none */
     double shifting;             /* chi of the shifting of particles (Backend.shift); 0: none */
+    bool corrected_gradient;     /* sim/wcsph/corrected.c */
 } WcsphDef;
 
 extern const Method method_wcsph;

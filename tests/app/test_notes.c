@@ -70,6 +70,7 @@ static const struct {
     {"solver.viscosity_form=radial", "solver.method=wcsph", "solver.method: wcsph", false},
     {"solver.delta_sph=0.1", "solver.method=wcsph", "solver.method: wcsph", true},
     {"solver.shifting=0.2", "solver.method=wcsph", "solver.method: wcsph", true},
+    {"solver.corrected_gradient=true", "solver.method=wcsph", "solver.method: wcsph", true},
     {"solver.tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
     {"solver.divergence_tolerance=1e-8", "solver.method=dfsph", "solver.method: dfsph", true},
     {"solver.iterations=50", "solver.method=dfsph", "solver.method: dfsph", false},

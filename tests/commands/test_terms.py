@@ -49,11 +49,12 @@ SCENES = {
   - {viscosity: 2, fill: [block: {min: [-0.5, 0], max: [0, 0.5]}]}
   - {viscosity: 1, fill: [block: {min: [0, 0], max: [0.5, 0.5]}]}"""),
     "wcsph": scene(solver=WCSPH),
-    "wcsph off": scene(solver=WCSPH + ", surface_tension: colour_field, delta_sph: 0, shifting: 0, viscosity_form: radial",
+    "wcsph off": scene(solver=WCSPH + ", surface_tension: colour_field, delta_sph: 0, shifting: 0, corrected_gradient: false, viscosity_form: radial",
                        fluid=", viscosity: 0", box=", slip: none, periodic: []"),
     "wcsph, artificial": scene(solver=", method: wcsph"),
     "wcsph, diffusion": scene(solver=WCSPH + ", delta_sph: 0.1"),
     "wcsph, viscous": scene(solver=WCSPH, fluid=VISCOUS),
+    "wcsph, corrected": scene(solver=WCSPH + ", corrected_gradient: true"),
     "wcsph, shifting": scene(solver=WCSPH + ", shifting: 0.2"),
 }
 # Terms are named, and off: whose cost that is.
@@ -61,7 +62,8 @@ SAME = {"mueller off": "mueller", "empty lists": "mueller", "viscous off": "visc
 # Terms are on: what costs less. The sentinel is not among them: its 0.3 to 0.6 % do not stand out from the heap's.
 MORE = {"solid": "mueller", "drain": "mueller", "emitter": "mueller", "cohesion": "mueller", "colour field": "mueller", "viscous": "mueller",
         "viscous, no slip": "viscous", "viscous, two fluids": "viscous",
-        "wcsph, artificial": "wcsph", "wcsph, diffusion": "wcsph", "wcsph, viscous": "wcsph", "wcsph, shifting": "wcsph"}
+        "wcsph, artificial": "wcsph", "wcsph, diffusion": "wcsph", "wcsph, viscous": "wcsph", "wcsph, corrected": "wcsph",
+        "wcsph, shifting": "wcsph"}
 # Of these, those that need an array.
 LARGER = set(MORE) - {"drain", "emitter", "viscous", "viscous, no slip", "wcsph, artificial", "wcsph, viscous"}
 

@@ -21,6 +21,7 @@ typedef struct ParityCase {
     const char *kernel;
     double delta, artificial, shifting; /* of wcsph, as `kernel` */
     ViscosityForm form;
+    bool corrected;
     double tolerance;   /* of pbf; 0: the usual one */
     const char *method; /* NULL: the table's */
     bool runs;          /* for as many steps again, too */
@@ -57,6 +58,7 @@ static inline void parity_settings(const ParityCase *c, WorldDef *def)
     wcsph->delta_sph = c->delta;
     wcsph->artificial_viscosity = c->artificial;
     wcsph->shifting = c->shifting;
+    wcsph->corrected_gradient = c->corrected;
     wcsph->viscosity_form = (int)c->form;
     if (c->tolerance > 0)
         pbf_def(def)->tolerance = c->tolerance;

@@ -43,7 +43,7 @@
               TERM(drag_steps), TERM(drag_offset), TERM(lid_velocity)),                                      \
         BLOCK("sim/wcsph/wcsph_block.h", WcsphBlock, WCSPH(gradient_scale), WCSPH(diffusion),                \
               WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(kernel_shape),        \
-              WCSPH(any_artificial), WCSPH(wcsph_fluids[0].tait),                                            \
+              WCSPH(corrected_gradient), WCSPH(any_artificial), WCSPH(wcsph_fluids[0].tait),                 \
               WCSPH(wcsph_fluids[0].artificial_viscosity), WCSPH(wcsph_fluids[7].artificial_viscosity)),     \
         BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(friction_gradient),              \
               DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares)),                             \

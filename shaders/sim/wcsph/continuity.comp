@@ -17,12 +17,27 @@ layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[];
 #ifdef DIFFUSION
 layout(std430, binding = SLOPES_BUFFER) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1, by state.comp
 #endif
+#ifdef CORRECTED
+#define CORRECTION_ACCESS readonly
+#include "sim/wcsph/correction.glsl"
+#endif
 layout(location = PASS_DT_AT) uniform float dt;
 
 // The particle, and the one of its images that looks for neighbours: velocities, and sums of F v_ij . x_ij.
 uint self, own_fluid;
-vec3 own_velocity, image_velocity;
+vec3 own_velocity, image_velocity, image_sign;
 float sum = 0.0, image_sum = 0.0;
+
+// x_ij as the particle's corrected gradient has it; the same of its image.
+vec3 along(vec3 d)
+{
+#ifdef CORRECTED
+    d += corrected(self, d);
+#endif
+    return d;
+}
+
+vec3 along_image(vec3 d) { return image_sign * along(image_sign * d); }
 
 // Takes from the flow between two particles of one fluid what diffusion does.
 void diffuse(uint j, vec3 d, inout float flow)
@@ -40,7 +55,7 @@ void meet(uint j, vec3 d, float volume)
     float h = support, least = 1e-6 * h, r2 = dot(d, d);
     if (r2 >= h * h || r2 < least * least)
         return;
-    float flow = dot(own_velocity - velocity[j].xyz, d);
+    float flow = dot(own_velocity - velocity[j].xyz, along(d));
     diffuse(j, d, flow);
     sum += shape(sqrt(r2) * inverse_support) * flow;
 }
@@ -49,7 +64,7 @@ void meet_image(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
     if (r2 < support * support)
-        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - velocity[j].xyz, d);
+        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - velocity[j].xyz, along_image(d));
 }
 
 #ifdef SOLIDS
@@ -60,14 +75,14 @@ void meet_boundary(uint j, vec3 d, float volume)
 {
     float h = support, least = 1e-6 * h, r2 = dot(d, d);
     if (r2 < h * h && r2 >= least * least)
-        sum += shape(sqrt(r2) * inverse_support) * dot(own_velocity - solid_velocity_of(j), d);
+        sum += shape(sqrt(r2) * inverse_support) * dot(own_velocity - solid_velocity_of(j), along(d));
 }
 
 void meet_boundary_image(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
     if (r2 < support * support)
-        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - solid_velocity_of(j), d);
+        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - solid_velocity_of(j), along_image(d));
 }
 #endif
 
@@ -79,6 +94,7 @@ void walk_images(vec3 x, ivec3 at)
     for (int walls = 1; walls < end; walls++) {
         if (!image_of(x, walls, image))
             continue;
+        image_sign = image.sign;
         image_velocity = image.sign * own_velocity;
         WALK(image.x, at, meet_image, meet_boundary_image)
     }

@@ -1,10 +1,30 @@
 // wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/wcsph/pairs.c, and
 // sim/wcsph/pairs_images.c.
+#ifdef CORRECTED
+#define MEET_MORE(j, d, r2, term) correct_meet(j, d, r2, term);
+#else
 #define LISTS_FIRST
+#endif
 #include "sim/constants.glsl"
+#ifdef CORRECTED
+void correct_meet(uint j, vec3 d, float r2, float term);
+#endif
 #include "sim/force.glsl"
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/wcsph/evenness.glsl"
+
+#ifdef CORRECTED
+#define CORRECTION_ACCESS readonly
+#include "sim/wcsph/correction.glsl"
+
+// push_of of sim/wcsph/pairs_corrected.c: sums of F x_ij, those of an image, and of p_j V_j^2 C_j F x_ij.
+vec3 even_push = vec3(0), even_image_push, correction_push = vec3(0);
+
+void correct_meet(uint j, vec3 d, float r2, float term)
+{
+    correction_push += gradient_scale * shape(sqrt(r2) * inverse_support) * term * corrected(j, d);
+}
+#endif
 
 float volume_of(uint i) { return volume_at(velocity[i].w); }
 
@@ -15,6 +35,9 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
     float f = gradient_scale * shape(sqrt(r2) * inverse_support), push = own.pressure + other.pressure;
     even_meet(f, d, r2);
+#ifdef CORRECTED
+    even_push += f * d;
+#endif
     vec3 force = vec3(0), u = other.v - own.v;
     float most = 1.0 / (THINNEST * rest_number_density), both = min(own.volume, most) * min(other.volume, most);
 #if defined RUBS && defined RADIAL
@@ -49,9 +72,20 @@ void push_image(float term, vec3 d)
     float f = image_shape(sqrt(r2));
     image_push += f * (self_side.pressure + image_term(term, d)) * d;
     even_meet_image(f, d, r2);
+#ifdef CORRECTED
+    even_image_push += f * d;
+#endif
 }
 
-void meet_image(uint j, vec3 d, float term) { push_image(term, d); }
+void meet_image(uint j, vec3 d, float term)
+{
+    push_image(term, d);
+#ifdef CORRECTED
+    float r2 = dot(d, d);
+    if (r2 < support * support)
+        image_push += image_shape(sqrt(r2)) * image_term(term, d) * corrected(j, d);
+#endif
+}
 
 #ifdef SOLIDS
 void meet_boundary_image(uint j, vec3 d, float volume) { push_image(uintBitsToFloat(boundary_state[j].x), d); }
@@ -72,8 +106,14 @@ vec3 images_force(vec3 x, ivec3 at, float density)
         rise = weight * mix(vec3(0), g, lessThan(image.sign, vec3(0)));
         rise0 = dot(rise, x - image.x);
         image_push = vec3(0);
+#ifdef CORRECTED
+        even_image_push = vec3(0);
+#endif
         WALK(image.x, at, meet_image, meet_boundary_image)
         force += image.sign * image_push;
+#ifdef CORRECTED
+        even_push += gradient_scale * image.sign * even_image_push;
+#endif
         even_end_image(image.sign);
     }
     return gradient_scale * force;
@@ -88,6 +128,9 @@ void main()
     ivec3 at = cell_of(x);
     Fluid fluid = fluids[FLUID_OF(i)];
     vec3 force = neighbours_force(i, x, at) + images_force(x, at, fluid.density);
+#ifdef CORRECTED
+    force += self_side.pressure * corrected(i, even_push) + correction_push;
+#endif
     acceleration[i] = vec4(force / fluid.mass, 0.0);
     even_write(i);
 }

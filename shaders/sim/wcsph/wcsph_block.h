@@ -6,8 +6,9 @@
 #include "shaders/sim/bindings.h"
 
 /* Storage buffers, beside those of shaders/sim/bindings.h */
-#define SLOPES_BUFFER  5
-#define UNEVENS_BUFFER 7
+#define SLOPES_BUFFER      5
+#define UNEVENS_BUFFER     7
+#define CORRECTIONS_BUFFER 9
 
 /* Of rho0: friction takes fluid for no thinner, since what carries less has lost count in a splash, and would
    not stand the step that others do: docs/failures.md. */
@@ -25,13 +26,14 @@ BLOCK_END(WcsphFluid);
 
 UNIFORM_BLOCK(WcsphBlock, METHOD_BLOCK)
 {
-    float gradient_scale;  /* -W'(r) / r over f(r / h), calibrated, 1/m5; f by kernel */
-    float diffusion;       /* 2 delta c (h / 2), m2/s; 0: none */
-    float radial_friction; /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
-    float shift_speed;     /* chi c h / 2, m2/s; 0: none: Lind 2012 */
-    float density_return;  /* of shifting, 1/s */
-    int kernel_shape;      /* a ShapeKernel of sim/kernel/kernel.h */
-    int any_artificial;    /* some fluid has an artificial viscosity */
+    float gradient_scale;   /* -W'(r) / r over f(r / h), calibrated, 1/m5; f by kernel */
+    float diffusion;        /* 2 delta c (h / 2), m2/s; 0: none */
+    float radial_friction;  /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
+    float shift_speed;      /* chi c h / 2, m2/s; 0: none: Lind 2012 */
+    float density_return;   /* of shifting, 1/s */
+    int kernel_shape;       /* a ShapeKernel of sim/kernel/kernel.h */
+    int corrected_gradient; /* sim/wcsph/corrected.c */
+    int any_artificial;     /* some fluid has an artificial viscosity */
     WcsphFluid wcsph_fluids[FLUIDS_MOST];
 }
 BLOCK_END(WcsphBlock);

@@ -1,0 +1,70 @@
+/* What an image in the walls of the box weighs in the sums of wcsph, and how pressure goes on behind the
+   walls. For the files that are compiled once for each instruction set. */
+#ifndef SLOSH_PAIR_MIRROR_H
+#define SLOSH_PAIR_MIRROR_H
+
+#include "sim/cpu/pair_images.h"
+#include "sim/wcsph/pair_kernel.h"
+
+/* The kernel's gradient over q, not less than at a spacing `apart` for what is nearer: kernels let go of
+   pairs that are close, and fluid would stick to its images. */
+SIMD_INLINE f8 image_shape(f8 q, f8 apart, const ShapeKernel kernel)
+{
+    const f8 wide = greater(q, apart);
+    return shape(wide, kernel) * (wide / q);
+}
+
+/* How pressure goes on behind the walls: p V0^2 of the image of j is that of j and g0 + g.x_ij more, x_ij =
+   x_i' - x_j, since x_j' - x_j = 2 x_ij + x_i - x_i' along the axes in a mirror. It fades in over the
+   pressure of one layer, so that a drop on a wall falls freely. */
+typedef struct Rise {
+    f8 g0, gx, gy, gz, inverse_layer;
+} Rise;
+
+/* What gravity makes of a layer: of each particle of a group rho0 V0^2 g, and one over its length times the
+   spacing. */
+typedef struct Layers {
+    Place pull;
+    f8 inverse;
+} Layers;
+
+SIMD_INLINE Layers layers_of(const PairArgs *args, size_t i, size_t begin, size_t end)
+{
+    const Constants *s = args->constants;
+    float pull[3][LANES] = {{0}}, inverse[LANES] = {0};
+    for (size_t k = 0; k < LANES; k++) {
+        if (i + k < begin || i + k >= end)
+            continue;
+        const float x[3] = {args->x[i + k], args->y[i + k], args->z[i + k]};
+        float g[3];
+        apparent_gravity_at(args->gravity, x, g);
+        const float weight = s->density[args->fluid[i + k]] /
+                             (s->rest_number_density * s->rest_number_density); /* rho0 V0^2 */
+        const float layer = weight * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+        for (int a = 0; a < 3; a++)
+            pull[a][k] = weight * g[a];
+        inverse[k] = layer > 0 ? 1 / layer : 0;
+    }
+    return (Layers){{f8_load(pull[0]), f8_load(pull[1]), f8_load(pull[2])}, f8_load(inverse)};
+}
+
+SIMD_INLINE Rise rise_of(const PairArgs *args, size_t i, const Mirrored *image, const Layers *layers)
+{
+    const f8 zero = f8_splat(0), two = f8_splat(2);
+    const Place x = place_of(args, i);
+    const f8 gx = f8_masked(image->sign.x < zero, layers->pull.x),
+             gy = f8_masked(image->sign.y < zero, layers->pull.y),
+             gz = f8_masked(image->sign.z < zero, layers->pull.z);
+    return (Rise){gx * (x.x - image->at.x) + gy * (x.y - image->at.y) + gz * (x.z - image->at.z), two * gx,
+                  two * gy, two * gz, layers->inverse};
+}
+
+/* Of the image of j; it turns no push into a pull. */
+SIMD_INLINE f8 image_term(const Rise rise, f8 term, Separation d)
+{
+    const f8 zero = f8_splat(0), share = lesser(greater(term * rise.inverse_layer, zero), f8_splat(1));
+    const f8 more = rise.g0 + rise.gx * d.x + rise.gy * d.y + rise.gz * d.z;
+    return greater(term + share * more, lesser(term, zero));
+}
+
+#endif

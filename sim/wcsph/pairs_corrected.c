@@ -1,0 +1,223 @@
+/* What corrected gradients add to the sums of wcsph: sim/wcsph/corrected.c. With C = 0 all is as without.
+     M_i = sum F x_ij x_ij^T / n0                           1 on the lattice; images and solids have a part
+     d rho_i / dt += (rho0_i / n0) (-sum F v_ij . C_i x_ij)
+     force_i += sum (p_i V_i^2 C_i + p_j V_j^2 C_j) F x_ij   that rate's adjoint
+   The image of a particle has its C in the mirror. */
+#include "sim/wcsph/pair_mirror.h"
+
+/* A group's own C, or M. */
+typedef struct Symmetric {
+    f8 xx, yy, zz, xy, yz, zx;
+} Symmetric;
+
+/* In a mirror's axes. */
+SIMD_INLINE Symmetric mirrored(const Symmetric m, const Place sign)
+{
+    return (Symmetric){
+        m.xx, m.yy, m.zz, m.xy * sign.x * sign.y, m.yz * sign.y * sign.z, m.zx * sign.z * sign.x};
+}
+
+SIMD_INLINE Place times(const Symmetric m, f8 x, f8 y, f8 z)
+{
+    return (Place){m.xx * x + m.xy * y + m.zx * z, m.xy * x + m.yy * y + m.yz * z,
+                   m.zx * x + m.yz * y + m.zz * z};
+}
+
+SIMD_INLINE Symmetric correction_of(const PairArgs *args, size_t i)
+{
+    float *const *c = args->own + CORRECTION;
+    return (Symmetric){f8_load(c[0] + i), f8_load(c[1] + i), f8_load(c[2] + i),
+                       f8_load(c[3] + i), f8_load(c[4] + i), f8_load(c[5] + i)};
+}
+
+SIMD_INLINE Symmetric correction_there(const PairArgs *args, const uint32_t *j)
+{
+    float *const *c = args->own + CORRECTION;
+    return (Symmetric){f8_gather(c[0], j), f8_gather(c[1], j), f8_gather(c[2], j),
+                       f8_gather(c[3], j), f8_gather(c[4], j), f8_gather(c[5], j)};
+}
+
+/* Who looks for neighbours: the particles of a group, or an image of each. */
+typedef struct Seeker {
+    Place at, sign;
+    bool image;
+} Seeker;
+
+/* All of a group, themselves first: how many. */
+SIMD_INLINE int seekers_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
+                           Images *images)
+{
+    const f8 one = f8_splat(1);
+    const bool has = images_of(args, far, i, begin, end, images);
+    images->of[0] = (Mirrored){place_of(args, i), {one, one, one}};
+    return has ? images->count + 1 : 1;
+}
+
+SIMD_INLINE Seeker seeker_of(const Images *images, int m)
+{
+    return (Seeker){images->of[m].at, images->of[m].sign, m > 0};
+}
+
+/* F of a pair, up to the scale. */
+SIMD_INLINE f8 weight_of(const PairArgs *args, f8 r2, bool image, const ShapeKernel kernel)
+{
+    const float h = args->constants->support_radius, least = 1e-6f * h;
+    const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
+    if (image)
+        return image_shape(f8_sqrt(greater(r2, least2)) * inverse_h, f8_splat(args->constants->spacing / h),
+                           kernel);
+    return f8_masked(r2 >= least2, shape(f8_sqrt(r2) * inverse_h, kernel));
+}
+
+SIMD_INLINE void spread(const PairArgs *args, const Near near, const Seeker *from, const ShapeKernel kernel,
+                        Symmetric *m)
+{
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, from->at, j);
+        const f8 f = weight_of(args, d.r2, from->image, kernel);
+        const f8 fx = f * d.x, fy = f * d.y, fz = f * d.z;
+        m->xx += fx * d.x, m->yy += fy * d.y, m->zz += fz * d.z;
+        m->xy += fx * d.y, m->yz += fy * d.z, m->zx += fz * d.x;
+    }
+}
+
+SIMD_INLINE void add_mirrored(Symmetric *sum, const Symmetric m, const Place sign)
+{
+    const Symmetric own = mirrored(m, sign);
+    sum->xx += own.xx, sum->yy += own.yy, sum->zz += own.zz;
+    sum->xy += own.xy, sum->yz += own.yz, sum->zx += own.zx;
+}
+
+/* M, which sim/wcsph/corrected.c makes C of. */
+SIMD_INLINE void matrix_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+{
+    const Constants *s = args->constants;
+    const f8 scale = f8_splat(wcsph_constants(s)->gradient_scale / s->rest_number_density),
+             zero = f8_splat(0);
+    const WallsFar far = out_of_sight(s);
+    Images images;
+    GROUPS (i, begin, end) {
+        const int count = seekers_of(args, &far, i, begin, end, &images);
+        const Themselves own = themselves(args, i);
+        Symmetric sum = {zero, zero, zero, zero, zero, zero};
+        for (int m = 0; m < count; m++) {
+            const Seeker from = seeker_of(&images, m);
+            Symmetric found = {zero, zero, zero, zero, zero, zero};
+            spread(args, near_of(args, i), &from, kernel, &found);
+            if (m > 0)
+                spread(args, near_themselves(&own), &from, kernel, &found);
+            add_mirrored(&sum, found, from.sign);
+        }
+        const f8 entries[6] = {sum.xx, sum.yy, sum.zz, sum.xy, sum.yz, sum.zx};
+        for (int k = 0; k < 6; k++)
+            lanes_store(args->own[CORRECTION + k], i, begin, end, scale * entries[k]);
+    }
+}
+
+/* Sum of F v_ij . C_i x_ij, in the mirror's axes. */
+SIMD_INLINE f8 corrected_flow(const PairArgs *args, const Near near, const Seeker *from, const Place v,
+                              const Symmetric c, const ShapeKernel kernel)
+{
+    f8 sum = f8_splat(0);
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, from->at, j);
+        const f8 f = weight_of(args, d.r2, from->image, kernel);
+        const f8x4 u = motion(args, j);
+        const Place cd = times(c, d.x, d.y, d.z);
+        sum += f * ((v.x - u.x) * cd.x + (v.y - u.y) * cd.y + (v.z - u.z) * cd.z);
+    }
+    return sum;
+}
+
+SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+{
+    const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
+    const WallsFar far = out_of_sight(args->constants);
+    Images images;
+    GROUPS (i, begin, end) {
+        const int count = seekers_of(args, &far, i, begin, end, &images);
+        const Themselves own = themselves(args, i);
+        const Symmetric c = correction_of(args, i);
+        f8 sum = f8_splat(0);
+        for (int m = 0; m < count; m++) {
+            const Seeker from = seeker_of(&images, m);
+            const Symmetric cm = mirrored(c, from.sign);
+            const Place v = {from.sign.x * f8_load(args->vx + i), from.sign.y * f8_load(args->vy + i),
+                             from.sign.z * f8_load(args->vz + i)};
+            sum += corrected_flow(args, near_of(args, i), &from, v, cm, kernel);
+            if (m > 0)
+                sum += corrected_flow(args, near_themselves(&own), &from, v, cm, kernel);
+        }
+        lanes_add(args->fx, i, begin, end, -(gradient * sum));
+    }
+}
+
+/* Sums of F x_ij and of p_j V_j^2 C_j F x_ij. */
+typedef struct Pushed {
+    Place even, there;
+} Pushed;
+
+SIMD_INLINE void corrected_push(const PairArgs *args, const Near near, const Seeker *from, const Rise *rise,
+                                const ShapeKernel kernel, Pushed *sum)
+{
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, from->at, j);
+        const f8 f = weight_of(args, d.r2, from->image, kernel);
+        const f8 push = f * (from->image ? image_term(*rise, d.term, d) : d.term);
+        const Place c = times(correction_there(args, j), d.x, d.y, d.z);
+        sum->even.x += f * d.x, sum->even.y += f * d.y, sum->even.z += f * d.z;
+        sum->there.x += push * c.x, sum->there.y += push * c.y, sum->there.z += push * c.z;
+    }
+}
+
+SIMD_INLINE void push_of(const PairArgs *args, size_t i, size_t begin, size_t end, const Seeker *from,
+                         const Layers *layers, const ShapeKernel kernel)
+{
+    const f8 zero = f8_splat(0), pi = f8_load(args->pressure_term + i);
+    const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
+    const Mirrored image = {from->at, from->sign};
+    const Themselves own = themselves(args, i);
+    Rise rise = {zero, zero, zero, zero, zero};
+    Pushed sum = {{zero, zero, zero}, {zero, zero, zero}};
+    if (from->image)
+        rise = rise_of(args, i, &image, layers);
+    corrected_push(args, near_of(args, i), from, &rise, kernel, &sum);
+    if (from->image)
+        corrected_push(args, near_themselves(&own), from, &rise, kernel, &sum);
+    const Place here =
+        times(mirrored(correction_of(args, i), from->sign), sum.even.x, sum.even.y, sum.even.z);
+    lanes_add(args->fx, i, begin, end, from->sign.x * gradient * (pi * here.x + sum.there.x));
+    lanes_add(args->fy, i, begin, end, from->sign.y * gradient * (pi * here.y + sum.there.y));
+    lanes_add(args->fz, i, begin, end, from->sign.z * gradient * (pi * here.z + sum.there.z));
+}
+
+SIMD_INLINE void push_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+{
+    const WallsFar far = out_of_sight(args->constants);
+    const f8 zero = f8_splat(0);
+    const Layers none = {{zero, zero, zero}, zero};
+    Images images;
+    GROUPS (i, begin, end) {
+        const int count = seekers_of(args, &far, i, begin, end, &images);
+        const Layers layers = count > 1 ? layers_of(args, i, begin, end) : none;
+        for (int m = 0; m < count; m++) {
+            const Seeker from = seeker_of(&images, m);
+            push_of(args, i, begin, end, &from, &layers, kernel);
+        }
+    }
+}
+
+PAIR_LOOP(wcsph_matrix)
+{
+    FOR_KERNEL(args, begin, end, matrix_range);
+}
+
+PAIR_LOOP(wcsph_corrected_rate)
+{
+    FOR_KERNEL(args, begin, end, rate_range);
+}
+
+PAIR_LOOP(wcsph_corrected_force)
+{
+    FOR_KERNEL(args, begin, end, push_range);
+}
