@@ -28,7 +28,8 @@ static WorldDef def_of(bool corrected, double pressed)
     memset(def.gravity, 0, sizeof def.gravity);
     for (int i = 0; i < ALL; i++) {
         for (int k = 0; k < 2; k++) {
-            const double place = (k ? i / SIDE + 0.5 : i % SIDE + 0.5 - 0.5 * SIDE) * SPACING;
+            const int cell = k ? i / SIDE : i % SIDE;
+            const double place = (cell + (k ? 0.5 : 0.5 - 0.5 * SIDE)) * SPACING;
             x0[3 * i + k] = (float)(place + 0.1 * SPACING * (2 * fixture_random(&seed) - 1));
         }
         density0[i] = (float)(1000 + pressed * (2 * fixture_random(&seed) - 1));
