@@ -28,7 +28,7 @@ typedef struct Layers {
     f8 inverse;
 } Layers;
 
-SIMD_INLINE Layers layers_of(const PairArgs *args, size_t i, size_t begin, size_t end)
+static __attribute__((unused)) Layers layers_of(const PairArgs *args, size_t i, size_t begin, size_t end)
 {
     const Constants *s = args->constants;
     float pull[3][LANES] = {{0}}, inverse[LANES] = {0};
@@ -48,7 +48,8 @@ SIMD_INLINE Layers layers_of(const PairArgs *args, size_t i, size_t begin, size_
     return (Layers){{f8_load(pull[0]), f8_load(pull[1]), f8_load(pull[2])}, f8_load(inverse)};
 }
 
-SIMD_INLINE Rise rise_of(const PairArgs *args, size_t i, const Mirrored *image, const Layers *layers)
+static __attribute__((unused)) Rise rise_of(const PairArgs *args, size_t i, const Mirrored *image,
+                                            const Layers *layers)
 {
     const f8 zero = f8_splat(0), two = f8_splat(2);
     const Place x = place_of(args, i);
