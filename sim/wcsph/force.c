@@ -80,6 +80,15 @@ static PairCost force_pair(const Constants *constants)
     return cost;
 }
 
+/* C_i d of corrected gradients: sim/wcsph/pairs_corrected.c, where a boundary particle has none. */
+static void corrected(const CpuParticles *p, size_t i, const float d[3], float out[3])
+{
+    float *const *c = p->own + CORRECTION;
+    out[0] = c[0][i] * d[0] + c[3][i] * d[1] + c[5][i] * d[2];
+    out[1] = c[3][i] * d[0] + c[1][i] * d[1] + c[4][i] * d[2];
+    out[2] = c[5][i] * d[0] + c[4][i] * d[1] + c[2][i] * d[2];
+}
+
 /* A pair of wcsph_range in sim/wcsph/pairs.c. */
 static void solid_force(const SolidPair *pair, float out[3])
 {
@@ -99,8 +108,11 @@ static void solid_force(const SolidPair *pair, float out[3])
     float push = p->pressure_term[i] + p->pressure_term[b];
     push += radial ? both * mu * own->radial_friction * along : 0;
     push += wcsph_is_artificial(s) ? both * a * along / (pair->r * pair->r + h * h / 400) : 0;
+    float more[3] = {0};
+    if (p->own[CORRECTION])
+        corrected(p, i, d, more);
     for (int k = 0; k < 3; k++)
-        out[k] = slope * (push * d[k] + drag * u[k]);
+        out[k] = slope * (push * d[k] + drag * u[k] + p->pressure_term[i] * more[k]);
 }
 
 static const CpuPass force = {
@@ -112,7 +124,8 @@ const Pass wcsph_forces = {
     .cpu = &force,
     .shader = "wcsph/force",
     .reads =
-        "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind correction correction_mixed",
+        "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind outward correction "
+        "correction_mixed",
     .writes = "acceleration uneven full dense",
     .mirrors = true,
 };

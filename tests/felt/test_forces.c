@@ -2,6 +2,8 @@
  * Archimedes. */
 #include "tests/sim/fixture.h"
 
+#include "sim/wcsph/wcsph.h"
+
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 
 static WorldDef def_of(const char *method, int dimensions)
@@ -72,6 +74,24 @@ static void what_a_solid_feels_is_what_the_fluid_loses(void **state)
         assert_true(length(felt.box.force) < (strcmp(method, "pbf") == 0 ? 0.05 : 1e-4) * push);
         world_destroy(world);
     }
+}
+
+/* And by the terms that wcsph alone has. */
+static void corrected_gradients_count(void **state)
+{
+    (void)state;
+    WorldDef def = impact("wcsph", 2, SLIP_NONE);
+    Forces felt[2];
+    for (int k = 0; k < 2; k++) {
+        wcsph_def(&def)->corrected_gradient = k == 1;
+        wcsph_def(&def)->delta_sph = 0.1;
+        World *world = felt_world(&def);
+        fixture_step(world, 80);
+        world_forces(world, &felt[k]);
+        assert_true(length(felt[k].box.force) < 1e-4 * length(felt[k].solid[0].force));
+        world_destroy(world);
+    }
+    assert_true(felt[0].solid[0].force[1] != felt[1].solid[0].force[1]);
 }
 
 /* The torque of what acts along the lines between places: all angular momentum about the box's origin. */
@@ -173,6 +193,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_a_solid_feels_is_what_the_fluid_loses),
+        cmocka_unit_test(corrected_gradients_count),
         cmocka_unit_test(a_torque_is_about_the_solid),
         cmocka_unit_test(a_ball_is_lifted_and_the_box_bears_the_rest),
         cmocka_unit_test(sums_are_the_same_by_any_threads),

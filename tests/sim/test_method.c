@@ -26,6 +26,9 @@ static WorldDef full_def(const Method *method)
     wcsph_def(&def)->delta_sph = 0.1;
     wcsph_def(&def)->shifting = 0.2;
     wcsph_def(&def)->viscosity_form = VISCOSITY_RADIAL;
+    wcsph_def(&def)->corrected_gradient = true;
+    if (method == &method_wcsph)
+        def.tension_model = TENSION_CURVATURE;
     fixture_block(&def, 0, -0.5, 0, 0, 0, 0.6, 0);
     fixture_block(&def, 1, 0, 0, 0, 0.5, 0.5, 0);
     return def;

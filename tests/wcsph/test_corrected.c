@@ -1,5 +1,5 @@
-/* Corrected gradients of wcsph (sim/wcsph/corrected.c): exact where velocity is linear, however particles
-   lie; momentum and energy kept; the same bits with any number of threads. */
+/* Corrected gradients of wcsph (sim/wcsph/corrected.c): exact where velocity is linear and particles
+   are somewhat out of order; momentum and energy kept; the same bits with any number of threads. */
 #include "tests/sim/fixture.h"
 
 #include "sim/wcsph/wcsph.h"
