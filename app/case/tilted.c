@@ -59,11 +59,10 @@ const Case case_tilted = {
     .name = "tilted",
     .help = "a tank at rest that leans by 20 degrees: pressures of its first second",
     .scene = "scenes/tilted.yaml",
-    .methods =
-        {{.name = "wcsph"},
-         {.name = "mueller", .tolerance = {0.25}, .coarse = {0.4}},
-         {.name = "dfsph", .set = {"solver.divergence_tolerance=1e-5"}, .tolerance = {0.08}, .coarse = {0.1}},
-         {.name = "pbf", .tolerance = {0.3}, .coarse = {0.3}}},
+    .methods = {{.name = "wcsph"},
+                {.name = "mueller", .tolerance = {0.25}, .coarse = {0.4}},
+                {.name = "dfsph", .tolerance = {0.08}, .coarse = {0.1}},
+                {.name = "pbf", .tolerance = {0.3}, .coarse = {0.3}}},
     .spacing = {0.05, 0.02, 0.01},
     .metrics = {{"rms pressure in the first second", "", .tolerance = 0.015, .coarse = 0.03}},
     COMMON,
@@ -73,10 +72,7 @@ const Case case_tilted = {
     .scene = "scenes/cases/layers.yaml",                                                                     \
     .methods = {{.name = "wcsph"},                                                                           \
                 {.name = "mueller", .tolerance = {0.1, 0.1}, .coarse = {0.2, 0.2}},                          \
-                {.name = "dfsph",                                                                            \
-                 .set = {"solver.divergence_tolerance=1e-5"},                                                \
-                 .tolerance = {0.06, 0.06},                                                                  \
-                 .coarse = {0.1, 0.1}},                                                                      \
+                {.name = "dfsph", .tolerance = {0.06, 0.06}, .coarse = {0.1, 0.1}},                          \
                 __VA_ARGS__},                                                                                \
     .spacing = {0.05, 0.025, 0.0125},                                                                        \
     .metrics = {{"rms pressure in the first second", "", .tolerance = 0.01, .coarse = 0.02},                 \

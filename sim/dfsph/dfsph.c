@@ -6,6 +6,7 @@
 #include "sim/incompressible/constants.h"
 #include "sim/world/iterate.h"
 
+#include <math.h>
 #include <string.h>
 
 static const DfsphDef usual = {.tolerance = 0.0005, .divergence_tolerance = 0.0001, .iterations = 100};
@@ -45,7 +46,24 @@ enum { FEW = 2 };
 static const double WORST = 10;                                                     /* tolerances, */
 static const double WORTH[] = {[SOLVE_DENSITY] = 0.01, [SOLVE_DIVERGENCE] = 0.005}; /* and no less */
 
-static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance)
+/* What a solver leaves of its residual turns up as noise of pressure, rho (h / dt)^2 times it; pressure
+   itself goes from particle to particle by rho h times what accelerates fluid, g or v^2 / h. So short steps
+   of calm fluid take less than what is allowed: a part of the one, no less than what single precision has.
+   What takes less boils less: fluid at rest needs fewer iterations by it. */
+static double calm(const Substep *step, double allowed)
+{
+    static const double PART = 0.2, LEAST = 1e-6;
+    const double h = (double)step->constants->support_radius, dt = step->dt, courant = step->speed * dt / h;
+    const float *g = step->gravity;
+    const double falls = dt * dt / h * sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+    if (falls == 0)
+        return allowed;
+    return fmin(allowed, fmax(PART * fmax(falls, courant * courant), LEAST));
+}
+
+/* To `tolerance`; more than what is `allowed` is trouble. */
+static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance,
+                  double allowed)
 {
     const Iteration iteration = {.passes = {passes[1], passes[2]},
                                  .residual = dfsph_miss,
@@ -59,6 +77,8 @@ static void solve(const Substep *step, int which, const Pass *const passes[4], d
         substep_run(step, passes[1], step->dt);
     substep_run(step, passes[2], step->dt);
     substep_iterate(step, &iteration, which, step->dt);
+    step->solves[which].tolerance = allowed;
+    step->solves[which].failed = !(step->solves[which].mean <= STEP_SOLVE_STANDS * allowed);
     substep_run(step, passes[3], step->dt);
 }
 
@@ -85,7 +105,8 @@ static void end_divergence(const Substep *step)
 {
     static const Pass *const passes[] = {&dfsph_divergence_begin, &dfsph_divergence_push,
                                          &dfsph_divergence_rate, &dfsph_divergence_end};
-    solve(step, SOLVE_DIVERGENCE, passes, dfsph_solvers(step->constants)->divergence_tolerance);
+    const double allowed = dfsph_solvers(step->constants)->divergence_tolerance;
+    solve(step, SOLVE_DIVERGENCE, passes, calm(step, allowed), allowed);
 }
 
 /* Moves places to rest density. Velocities have no part in it: given to them, as the papers do, each step's
@@ -94,7 +115,8 @@ static void hold_density(const Substep *step)
 {
     static const Pass *const passes[] = {&dfsph_density_begin, &dfsph_density_push, &dfsph_density_rate,
                                          &dfsph_density_end};
-    solve(step, SOLVE_DENSITY, passes, dfsph_solvers(step->constants)->tolerance);
+    const double allowed = dfsph_solvers(step->constants)->tolerance;
+    solve(step, SOLVE_DENSITY, passes, allowed, allowed);
 }
 
 /* Both solvers work between the halves of the drift, with one grid and one set of lists; from there to the

@@ -12,6 +12,7 @@ typedef struct Substep {
     const Constants *constants;
     StageClock *clock; /* may be NULL */
     double dt;         /* s */
+    double speed;      /* greatest of the step before, m/s; on a GPU of the frame before */
     StepSolve *solves; /* by number, SOLVES_MAX of them: what the solvers of the step did */
     BoxStep first_half, second_half;
     int guide_count; /* of the emitters at work */

@@ -171,6 +171,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->state = world->state;
     step->clock = clock;
     step->dt = dt;
+    step->speed = world->stepping.max_speed;
     step->constants = &world->constants;
     step->solves = world->solves;
     box_step(&begin, &middle, 0.5 * dt, &step->first_half);
