@@ -73,10 +73,10 @@ void cpu_drift(void *state, const BoxStep *step)
     Cpu *cpu = state;
     Drift drift = {cpu, step};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, drift_range, &drift);
-    if (cpu->forces)
-        cpu_feel_drift(cpu);
     if (step->solids)
         cpu_boundary_move(cpu, step->solids);
+    if (cpu->forces)
+        cpu_feel_drift(cpu);
 }
 
 typedef struct Kick {
