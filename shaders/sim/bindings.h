@@ -48,6 +48,10 @@
 #define OLD_VELOCITIES_BUFFER 5
 #define OLD_NAMES_BUFFER      7
 
+/* What box and solids feel */
+#define FELT_BUFFER       3
+#define FELT_RESTS_BUFFER 5 /* a pass of the method may have something at 7 */
+
 /* Emitters, drains; what is shown, what is plotted */
 #define LAYER_BUFFER  5
 #define MARKS_BUFFER  6
@@ -58,6 +62,7 @@
 
 /* Locations of uniforms: what a pass has of its own */
 #define PASS_DT_AT      0 /* s */
+#define FELT_DT_AT      1
 #define SHOWN_SCALAR_AT 0
 #define GRAVITY_C2_AT   0
 #define COLUMN_AT       0 /* the first number of a column of scratch, and the first of its parts */

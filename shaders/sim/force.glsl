@@ -10,7 +10,9 @@ layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #define SEEN_VELOCITY(i) velocity[i].xyz
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; }; // w: what volume_of takes
 #endif
+#ifndef FELT_SOLIDS
 layout(std430, binding = ACCELERATIONS_BUFFER) writeonly buffer Accelerations { vec4 acceleration[]; };
+#endif
 
 float volume_of(uint i); // the method's: by the velocity's w
 
@@ -73,6 +75,22 @@ void meet_boundary(uint j, vec3 d, float volume)
     SEPARATE(name[self].x, BOUNDARY_ID + state.y, d, r2)
     boundary_sum += pair_force(self_side, Side(uintBitsToFloat(state.x), volume, wall.w, 0.0, wall.xyz), d, r2);
 }
+#endif
+
+#ifdef FELT_SOLIDS
+uint felt_by;
+Side felt_side;
+
+Side wall_side(uint b)
+{
+    vec4 wall = boundary_velocity[b];
+    return Side(uintBitsToFloat(boundary_state[b].x), boundary_position[b].w, wall.w, 0.0, wall.xyz);
+}
+
+#define FELT_BEGIN felt_side = wall_side(felt_by);
+#ifndef FELT_FORCE
+#define FELT_FORCE(i, term, d, r2) pair_force(side_of(i, term), felt_side, d, r2)
+#endif
 #endif
 
 void add_boundary_row()

@@ -53,6 +53,10 @@ bool out_of_reach(int k, vec3 before, vec3 x)
     return distance(x, solids[k].end.x) > solid_reach(k) + distance(before, x) + own;
 }
 
+#ifndef HELD_BY // what a pass does with a velocity that solid k takes from a particle
+#define HELD_BY(k, at, taken)
+#endif
+
 // Whether it had to hold a particle that went from `before` to x.
 bool solids_guard(vec3 before, inout vec3 x, inout vec3 v)
 {
@@ -60,6 +64,7 @@ bool solids_guard(vec3 before, inout vec3 x, inout vec3 v)
     for (int k = 0; k < solid_total; k++) {
         if (out_of_reach(k, before, x))
             continue;
+        vec3 free = v;
         rvec3 from = rvec3(solid_from_box(SOLID_BEGIN(k), before)), to = rvec3(solid_from_box(solids[k].end, x)), normal;
         for (int i = 0; i < 3 && hold(k, from, to, normal); i++) { // again: an inner edge has two sides
             x = solid_to_box(solids[k].end, vec3(to));
@@ -67,6 +72,7 @@ bool solids_guard(vec3 before, inout vec3 x, inout vec3 v)
             v -= min(dot(v - solid_velocity_at(k, x), n), 0.0) * n;
             held = true;
         }
+        HELD_BY(k, x, free - v)
     }
     return held;
 }

@@ -118,6 +118,7 @@ const Pass dfsph_others = {
     .shader = "dfsph/force",
     .reads = "position velocity id fluid volume viscosity tension kind",
     .writes = "acceleration other",
+    .felt = true,
     .mirrors = true,
 };
 
@@ -460,9 +461,15 @@ const Pass dfsph_divergence_push = SOLVE("divergence push", pushes[0], "divergen
                                          PUSH_READS " solid_slope", "pressure_term acceleration change");
 const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], "divergence_rate",
                                          RATE_READS " solid_slope solid_flow", "residual miss");
-const Pass dfsph_divergence_end =
-    SOLVE("divergence end", ends[0], "divergence_end", "pressure_term acceleration other",
-          "kept_term pressure acceleration");
+const Pass dfsph_divergence_end = {
+    .name = "divergence end",
+    .stage = STAGE_SOLVE,
+    .cpu = &ends[0],
+    .shader = "dfsph/divergence_end",
+    .reads = "pressure_term acceleration other",
+    .writes = "kept_term pressure acceleration",
+    .felt = true,
+};
 const Pass dfsph_density_begin =
     SOLVE("density begin", begins[1], "density_begin", "position velocity fluid volume acceleration",
           "pressure_term residual change other acceleration base");

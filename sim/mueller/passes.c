@@ -134,6 +134,7 @@ const Pass mueller_forces = {
     .shader = "mueller/force",
     .reads = "position velocity id fluid volume pressure pressure_term viscosity tension kind",
     .writes = "acceleration",
+    .felt = true,
     .mirrors = true,
 };
 

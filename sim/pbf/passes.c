@@ -406,6 +406,7 @@ const Pass pbf_force = {
     .shader = "pbf/force",
     .reads = "position velocity id fluid volume viscosity tension kind moved term compressed",
     .writes = "velocity acceleration pressure before",
+    .felt = true,
     .mirrors = true,
 };
 

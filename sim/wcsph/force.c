@@ -127,5 +127,6 @@ const Pass wcsph_forces = {
         "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind outward correction "
         "correction_mixed",
     .writes = "acceleration uneven full dense",
+    .felt = true,
     .mirrors = true,
 };

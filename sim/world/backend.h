@@ -83,6 +83,9 @@ typedef struct Backend {
     /* From now on steps add to `to` what box and solids feel; NULL: no more. False when memory is short.
        NULL: it sums no forces. */
     bool (*feel)(void *state, struct Forces *to, Error *error);
+    /* What steps since then have left elsewhere is there; waits for it. False when memory is short. NULL: it
+       is. `mark` and `back` have it with the particles. */
+    bool (*felt)(void *state);
     /* Between steps: adds those particles of a layer that are in the box and not next to
        others, at most `most`, and returns how many; takes out what is in a region, and returns how many. */
     size_t (*emit)(void *state, const EmitLayer *layer, size_t most);

@@ -22,8 +22,9 @@ typedef struct Pass {
     Stage stage;
     const struct CpuPass *cpu;
     const char *shader; /* shaders/sim/SHADER.comp; NULL: backends that need one have no such method */
-    const char *reads, *writes;                        /* names of columns, blanks between them */
-    bool mirrors;                                      /* meanwhile the particles of solids stand for fluid */
+    const char *reads, *writes; /* names of columns, blanks between them */
+    bool felt;    /* solids feel what it does: CpuPass.solid, and what its shader is with FELT_SOLIDS */
+    bool mirrors; /* meanwhile the particles of solids stand for fluid */
     bool (*needed)(const struct Constants *constants); /* whether the pass is run; NULL: always */
 } Pass;
 

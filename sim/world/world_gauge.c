@@ -29,12 +29,18 @@ bool world_feel(World *world, Error *error)
 {
     world->felt = world->felt_before = (Forces){0};
     if (!world->backend->feel)
-        return error_set(error, "backend %s sums no forces; use backend cpu", world->backend->name);
+        return error_set(error, "backend %s sums no forces; use backend cpu or compute",
+                         world->backend->name);
     return world->backend->feel(world->state, &world->felt, error);
 }
 
 void world_forces(World *world, Forces *forces)
 {
+    const Backend *backend = world->backend;
+    *forces = (Forces){0};
+    /* Where steps run behind the caller's back: the next one takes these back. */
+    if (backend->felt && (!world_sound(world) || !backend->felt(world->state)))
+        return;
     *forces = world->felt;
     forces_mean(forces);
     world->felt = world->felt_before = (Forces){0};

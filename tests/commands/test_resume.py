@@ -87,8 +87,8 @@ class Resume(CommandTest):
         self.assertEqual('time,seconds\n', self.read('b.csv').decode())
 
     def test_forces_that_are_not_to_be_had(self):
-        said = self.go('--forces', 'a.csv', '--backend', 'compute', code=2)
-        self.assertIn('backend compute sums no forces; use backend cpu', said)
+        said = self.go('--forces', 'a.csv', '--backend', 'fragment', code=2)
+        self.assertIn('backend fragment sums no forces; use backend cpu or compute', said)
         self.go('--forces', 'none/a.csv', code=1)
         self.go('--forces', 'a.h5part', code=2)
         self.assertEqual(os.listdir(self.path('.')), ['scene.yaml'])

@@ -375,16 +375,21 @@ static void add_flow(WorldDef *def)
         (Fill){.kind = FILL_BLOCK, .min = {0.1, 0, -0.25}, .max = {0.4, 0.1, 0.25}};
 }
 
-/* Two steps, what views may ask of them, what is saved. */
+/* Two steps, what views and who measures may ask of them, what is saved. */
 static void live(const WorldDef *def)
 {
     World *world = fixture_world(def);
     ParticleBuffers shared;
     const double still[3] = {0};
+    Error error = {0};
+    Forces felt;
+    if (world->backend->feel)
+        assert_true(world_feel(world, &error));
     fixture_step(world, 2);
     world_share(world, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID | PARTICLE_RANGES, &shared);
     world->backend->gauge(world->state, still);
     fixture_step(world, 1);
+    world_forces(world, &felt);
     Snapshot read = snapshot_read(world);
     snapshot_free(&read);
     world_destroy(world);

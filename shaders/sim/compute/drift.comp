@@ -1,6 +1,21 @@
 // Free flight from one pose of the box into the next (sim/box/box_step.h), then the last guard of solids and walls.
 #define WRITES_WATCH
 #include "sim/constants.glsl"
+#ifdef FELT
+#include "sim/felt.glsl"
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+
+// What guards take from the particle. What several solids take in half a step counts as the last one's.
+vec3 taken_by_walls = vec3(0), taken_by_solid = vec3(0), solid_turned = vec3(0), held_at;
+int last_solid = -1;
+
+#define HELD_BY(k, at, taken)                                   \
+    if (taken != vec3(0)) {                                     \
+        last_solid = k;                                         \
+        taken_by_solid += taken;                                \
+        solid_turned += cross(at - solids[k].end.x, taken);     \
+    }
+#endif
 #ifdef SOLIDS
 #include "sim/solid_guard.glsl"
 #endif
@@ -35,6 +50,9 @@ uint fly(uint i)
     if (solids_guard(before, x, v))
         times++;
 #endif
+#ifdef FELT
+    vec3 free = v;
+#endif
     bool held = false;
     int axes = dimensions == 2 ? 2 : 3;
     for (int a = 0; a < axes; a++) {
@@ -57,6 +75,10 @@ uint fly(uint i)
     }
     if (held)
         times++;
+#ifdef FELT
+    taken_by_walls = free - v;
+    held_at = x;
+#endif
 #ifdef PERIODIC
     vec3 from = x - box_low;
     x -= mix(vec3(0), box_whole * floor(from / box_whole), periodic);
@@ -65,6 +87,21 @@ uint fly(uint i)
     velocity[i].xyz = v;
     return times;
 }
+
+#ifdef FELT
+void feel(uint i)
+{
+    float mass = i < particle_count() ? fluids[FLUID_OF(i)].mass : 0.0;
+    vec3 force = mass * taken_by_walls;
+    felt_add(0u, force, cross(held_at, force));
+#ifdef SOLIDS
+    for (int k = 0; k < solid_total; k++) {
+        float share = k == last_solid ? mass : 0.0;
+        felt_add(uint(k) + 1u, share * taken_by_solid, share * solid_turned);
+    }
+#endif
+}
+#endif
 
 void main()
 {
@@ -78,4 +115,8 @@ void main()
     barrier();
     if (gl_LocalInvocationID.x == 0u && held_by_group > 0u)
         atomicAdd(guarded, held_by_group);
+#ifdef FELT
+    if (held_by_group > 0u)
+        feel(i);
+#endif
 }

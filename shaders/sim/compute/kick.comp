@@ -6,6 +6,13 @@
 #include "common/nan.glsl"
 #if defined NO_SLIP && defined RUBS // else sim/viscosity has it
 #include "sim/wall_drag.glsl"
+#define NAMED
+#endif
+#ifdef FELT
+#include "sim/felt.glsl"
+#define NAMED
+#endif
+#ifdef NAMED
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #endif
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
@@ -17,6 +24,9 @@ void main()
 {
     uint i = invocation(), lane = gl_LocalInvocationID.x;
     uvec3 found = uvec3(0u);
+#ifdef FELT
+    vec3 pushed = vec3(0), turned = vec3(0);
+#endif
     if (i < particles_there()) { // whatever others of this pass find
         vec3 a = acceleration[i].xyz + gravity;
 #if defined NO_SLIP && defined RUBS
@@ -31,6 +41,10 @@ void main()
 #endif
         vec3 v = velocity[i].xyz + a * kick_dt;
         velocity[i].xyz = v;
+#ifdef FELT
+        pushed = -kick_dt * fluids[FLUID_OF(i)].mass * (a - gravity);
+        turned = cross(position[i].xyz, pushed);
+#endif
 #ifdef LEAPS
         float fastest = 1e18; // its square is finite
 #else
@@ -41,6 +55,9 @@ void main()
             went_too_far = 1u;
         found = floatBitsToUint(abs(vec3(speed2, dot(a, a), 1.0 / (position[i].w * rest_number_density))));
     }
+#ifdef FELT
+    felt_add(0u, pushed, turned);
+#endif
     greatest[lane] = found;
     for (uint reach = 32u; reach > 0u; reach >>= 1u) {
         barrier();

@@ -6,6 +6,9 @@
 
 float volume_of(uint i) { return velocity[i].w; }
 
+#ifdef FELT_SOLIDS
+#include "sim/felt_solids.glsl"
+#else
 void main()
 {
     uint i = invocation();
@@ -13,3 +16,4 @@ void main()
         return;
     acceleration[i] = vec4(other_forces(i) / fluids[FLUID_OF(i)].mass, 0.0);
 }
+#endif

@@ -2,9 +2,6 @@
 #define LISTS_LATER
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
-#include "sim/walls.glsl"
-
-layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
 
 float volume_of(uint i) { return velocity[i].w; }
 
@@ -20,6 +17,12 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     return force;
 }
 
+#ifdef FELT_SOLIDS
+#include "sim/felt_solids.glsl"
+#else
+#include "sim/walls.glsl"
+layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
+
 void main()
 {
     uint i = invocation();
@@ -31,3 +34,4 @@ void main()
     force += wall_force(walls_at(x, false), felt_at(x), fluid.density, volume_of(i), pressure[i].x, near[i].w);
     acceleration[i] = vec4(force / fluid.mass, 0.0);
 }
+#endif

@@ -5,14 +5,20 @@
 #include "sim/constants.glsl"
 #include "shaders/sim/pbf/pbf_block.h"
 layout(std430, binding = MOTIONS_BUFFER) readonly buffer Motions { vec4 motion[]; }; // velocities at the step's end, volume
-layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, k
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 layout(location = PASS_DT_AT) uniform float dt;
+#define FELT_FORCE(i, term, d, r2) \
+    pair_force(side_of(i, term), felt_side, d, r2) + own[OWN_term + i] * gradient * shape(sqrt(r2) * inverse_support) * d
 #include "sim/incompressible/friction.glsl"
 #include "sim/own.glsl"
-#include "sim/scratch.glsl"
 
 float volume_of(uint i) { return motion[i].w; }
+
+#ifdef FELT_SOLIDS
+#include "sim/felt_solids.glsl"
+#else
+#include "sim/scratch.glsl"
+layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, k
 
 void main()
 {
@@ -27,3 +33,4 @@ void main()
     if (dt > 0.0)
         own[OWN_before + i] = scratch[SCRATCH_compressed + i] + 1.0;
 }
+#endif

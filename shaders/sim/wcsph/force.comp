@@ -119,6 +119,9 @@ vec3 images_force(vec3 x, ivec3 at, float density)
     return gradient_scale * force;
 }
 
+#ifdef FELT_SOLIDS
+#include "sim/felt_solids.glsl"
+#else
 void main()
 {
     uint i = invocation();
@@ -134,3 +137,4 @@ void main()
     acceleration[i] = vec4(force / fluid.mass, 0.0);
     even_write(i);
 }
+#endif

@@ -21,6 +21,7 @@ static const struct {
     {"WallTables", offsetof(Compute, walls)},
     {"DragTables", offsetof(Compute, drag)},
     {"WatchBlock", offsetof(Compute, watch.buffer)},
+    {"Felt", offsetof(Compute, felt.buffer)},
     {"SolveBlock", offsetof(Compute, solve.buffer)},
     {"Rests", offsetof(Compute, boundary.rest)},
     {"BoundaryPositions", offsetof(Compute, boundary.position)},

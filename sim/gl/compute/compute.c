@@ -30,7 +30,7 @@ static void compute_destroy(void *state)
     const GLuint buffers[] = {c->cell,           c->rank,      c->order,    c->start,        c->totals[0],
                               c->totals[1],      c->totals[2], c->pressure, c->acceleration, c->walls,
                               c->constant_block, c->step,      c->terms,    c->of_method,    c->drag,
-                              c->scratch,        c->lists,     c->near};
+                              c->scratch,        c->lists,     c->near,     c->felt.buffer,  c->felt.marked};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
@@ -107,43 +107,60 @@ static void walls_upload(Compute *c)
     }
 }
 
-/* The label, and the file. */
-static const char *source_of(const Compute *c, ComputePass pass, char path[64])
+typedef struct Source {
+    const char *label;
+    char path[64], defines[COMPUTE_DEFINES_MAX];
+} Source;
+
+/* Which of the method's passes, and behind them those of terms, a pass has the shader of. */
+static int of_method(ComputePass pass)
+{
+    return (int)pass - (pass < COMPUTE_FELT ? COMPUTE_METHOD : COMPUTE_FELT);
+}
+
+static Source source_of(const Compute *c, ComputePass pass, const char *defines)
 {
     const Term *of;
-    const char *name = pass < COMPUTE_METHOD
-                           ? pass_names[pass]
-                           : compute_pass_at(c->constants->method, (int)pass - COMPUTE_METHOD, &of)->shader;
-    snprintf(path, 64, "sim/%s.comp", name);
-    return name;
+    Source source = {.label = pass < COMPUTE_METHOD
+                                  ? pass_names[pass]
+                                  : compute_pass_at(c->constants->method, of_method(pass), &of)->shader};
+    snprintf(source.path, sizeof source.path, "sim/%s.comp", source.label);
+    snprintf(source.defines, sizeof source.defines, "%s", defines);
+    if (compute_feels(pass))
+        compute_felt_defines(c, pass, source.defines);
+    return source;
 }
 
 unsigned compute_program(const Compute *c, ComputePass pass, const char *defines, Error *error)
 {
-    char path[64];
-    const char *name = source_of(c, pass, path);
-    return program_create(name, (const char *const[]){path, NULL}, defines, error);
+    const Source source = source_of(c, pass, defines);
+    return program_create(source.label, (const char *const[]){source.path, NULL}, source.defines, error);
 }
 
 static bool finished(const Compute *c, ComputePass pass, unsigned program, const char *defines, Error *error)
 {
-    char path[64];
-    const char *name = source_of(c, pass, path);
-    return program_finish(program, name, (const char *const[]){path, NULL}, defines, error);
+    const Source source = source_of(c, pass, defines);
+    return program_finish(program, source.label, (const char *const[]){source.path, NULL}, source.defines,
+                          error);
 }
 
 static unsigned begun(const Compute *c, ComputePass pass, const char *defines, Error *error)
 {
-    char path[64];
-    const char *name = source_of(c, pass, path);
-    return program_begin(name, (const char *const[]){path, NULL}, defines, error);
+    const Source source = source_of(c, pass, defines);
+    return program_begin(source.label, (const char *const[]){source.path, NULL}, source.defines, error);
 }
 
 /* Whether the pass needs a program: the scene's terms need the pass, or somebody has asked for it. */
 static bool pass_wanted(const Compute *c, ComputePass pass)
 {
+    const Term *of;
+    if (pass >= COMPUTE_METHOD && !compute_pass_needed(c->constants, of_method(pass)))
+        return false;
+    if (pass >= COMPUTE_FELT)
+        return c->felt.to && c->constants->solid_count > 0 &&
+               compute_pass_at(c->constants->method, of_method(pass), &of)->felt;
     if (pass >= COMPUTE_METHOD)
-        return compute_pass_needed(c->constants, (int)pass - COMPUTE_METHOD);
+        return true;
     if (pass == COMPUTE_OWN_MOVE || pass == COMPUTE_OWN_GATHER)
         return c->own.count > 0;
     return pass == COMPUTE_GAUGE ? c->program[pass] != 0 : compute_pass_named(c->constants, pass);
@@ -156,28 +173,38 @@ static void all_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
     compute_list_defines(c, out);
 }
 
-/* Terms that the scene does not name are not compiled in. What was compiled stays where the new does not
- * compile. */
-static bool programs_create(Compute *c, Error *error)
+bool compute_programs(Compute *c, bool (*which)(ComputePass pass), Error *error)
 {
     char defines[COMPUTE_DEFINES_MAX];
     unsigned program[COMPUTE_PASS_COUNT] = {0};
     bool ok = true;
     all_defines(c, defines);
     for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++)
-        if (pass_wanted(c, (ComputePass)p))
+        if (which((ComputePass)p) && pass_wanted(c, (ComputePass)p))
             ok = (program[p] = begun(c, (ComputePass)p, defines, error)) != 0;
     for (int p = 0; ok && p < COMPUTE_PASS_COUNT; p++)
         ok = !program[p] || finished(c, (ComputePass)p, program[p], defines, error);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
-        glDeleteProgram(ok ? c->program[p] : program[p]);
-    if (ok) {
-        memcpy(c->program, program, sizeof program);
-        for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
+        if (ok && which((ComputePass)p)) {
+            glDeleteProgram(c->program[p]);
+            c->program[p] = program[p];
             compute_find_buffers(c, (ComputePass)p);
+        } else
+            glDeleteProgram(program[p]);
+    if (ok)
         memcpy(c->defines, defines, sizeof defines);
-    }
     return ok;
+}
+
+static bool any_pass(ComputePass pass)
+{
+    (void)pass;
+    return true;
+}
+
+static bool programs_create(Compute *c, Error *error)
+{
+    return compute_programs(c, any_pass, error);
 }
 
 static size_t larger(size_t a, size_t b)
@@ -289,7 +316,7 @@ static bool compute_can(const WorldDef *def, Error *error)
     const Term *of;
     const Pass *pass;
     for (int k = 0; (pass = compute_pass_at(method, k, &of)); k++) {
-        if (!(k < COMPUTE_PASS_COUNT - COMPUTE_METHOD && (of || has_shader(pass))))
+        if (!(k < COMPUTE_FELT - COMPUTE_METHOD && (of || has_shader(pass))))
             return error_set(error, "backend compute has no method %s; use backend cpu", def->method);
         if (of && of->named(def) && !has_shader(pass))
             return error_set(error, "backend compute has no %s; use backend cpu", of->words);
@@ -327,6 +354,8 @@ const Backend backend_compute = {
     .share = compute_share,
     .sums = compute_sums,
     .read = compute_read,
+    .feel = compute_feel,
+    .felt = compute_felt,
     .gauge = compute_gauge,
     .gauged = compute_gauged,
     .save = compute_save,

@@ -16,7 +16,7 @@ enum {
     COMPUTE_GAUGE_GROUPS = 64,
     COMPUTE_EXCESS_GROUPS = 64, /* as many as decide.comp adds up */
     COMPUTE_ALONG = 65535,      /* work groups in a row */
-    COMPUTE_NAMED = 19,
+    COMPUTE_NAMED = 20,
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and one of each term */
     COMPUTE_DEFINES_MAX = 4096
 };
@@ -75,8 +75,9 @@ typedef enum ComputePass {
 #define X(NAME, name) COMPUTE_##NAME,
     COMPUTE_PASSES(X)
 #undef X
-        COMPUTE_METHOD, /* the method's, and behind them those of terms */
-    COMPUTE_PASS_COUNT = COMPUTE_METHOD + 24
+        COMPUTE_METHOD,                 /* the method's, and behind them those of terms */
+    COMPUTE_FELT = COMPUTE_METHOD + 24, /* what solids feel of these, in the same order */
+    COMPUTE_PASS_COUNT = COMPUTE_FELT + 24
 } ComputePass;
 
 /* Boundary particles of solids; all 0 without solids. */
@@ -93,6 +94,14 @@ typedef struct ComputeFlow {
     unsigned block;        /* uniforms */
     unsigned layer, marks; /* x y z of up to COMPUTE_LAYER candidates at once; uint each, and one more */
 } ComputeFlow;
+
+/* What box and solids feel; without buffers until somebody asks. */
+typedef struct ComputeFelt {
+    unsigned buffer,
+        marked; /* FeltPart: shaders/sim/felt.glsl; of the state that the sentinel goes back to */
+    double seconds, seconds_marked;
+    struct Forces *to; /* NULL: nobody asks */
+} ComputeFelt;
 
 typedef struct Compute {
     const Constants *constants;
@@ -122,8 +131,9 @@ typedef struct Compute {
     Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     Mailbox gauge;                        /* GaugePart a group; none before the first `gauge` */
     size_t gauged;                        /* particles then */
-    unsigned shown[COMPUTE_SHOWN];        /* for the views: uint or float; 0 until it is asked for */
-    unsigned constant_block, step;        /* uniform blocks */
+    ComputeFelt felt;
+    unsigned shown[COMPUTE_SHOWN]; /* for the views: uint or float; 0 until it is asked for */
+    unsigned constant_block, step; /* uniform blocks */
     unsigned program[COMPUTE_PASS_COUNT];
     bool takes_dt[COMPUTE_PASS_COUNT];
     /* Of the buffers that a pass finds by name, the method's last; -1: none. */
@@ -169,6 +179,18 @@ bool compute_scratch_fit(Compute *compute);
 
 /* Which of the numbers of scratch a column's first is. */
 size_t compute_scratch_place(const Compute *compute, const ColumnDef *column);
+
+/* Makes the programs of those passes anew. Terms that the scene does not name are not compiled in. What was
+   compiled stays where the new does not compile. */
+bool compute_programs(Compute *compute, bool (*which)(ComputePass pass), Error *error);
+
+/* forces.c. Whether a pass is another where somebody asks what box and solids feel, and its lines then; what
+   solids feel of a pass that has run over dt (s); with the particles, when these are kept and put back. */
+bool compute_feels(ComputePass pass);
+void compute_felt_defines(const Compute *compute, ComputePass pass, char out[COMPUTE_DEFINES_MAX]);
+void compute_feel_solids(Compute *compute, const Pass *pass, float dt);
+void compute_felt_mark(Compute *compute);
+void compute_felt_back(Compute *compute);
 
 /* iterate.c: whether passes of the scene iterate; buffers for it, unless they are there. False when memory is
    short. */
@@ -269,6 +291,8 @@ void compute_iterate(void *state, const struct Iteration *iteration, const PassI
 StepWatch compute_watch(void *state);
 bool compute_mark(void *state, Error *error);
 void compute_back(void *state, size_t count, size_t guarded);
+bool compute_feel(void *state, struct Forces *to, Error *error);
+bool compute_felt(void *state);
 void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
 void compute_sums(void *state, WorldSums *sums);
 bool compute_read(void *state, const ParticleArrays *out);

@@ -58,6 +58,8 @@ void compute_pass(void *state, const Pass *pass, const PassInput *input)
     if (pass->mirrors && c->constants->solid_count > 0)
         compute_boundary_fill(c);
     compute_sweep(c, at, c->count);
+    if (pass->felt)
+        compute_feel_solids(c, pass, input->dt);
 }
 
 void compute_kick(void *state, const float gravity[3], float dt)
@@ -66,4 +68,5 @@ void compute_kick(void *state, const float gravity[3], float dt)
     compute_set_kick(c, gravity, dt);
     compute_sweep(c, COMPUTE_KICK, c->count);
     compute_watch_note(c, dt);
+    c->felt.seconds += (double)dt;
 }

@@ -64,6 +64,7 @@ bool compute_mark(void *state, Error *error)
         return c->full = false;
     }
     compute_particles_copy(c, c->now, c->marked);
+    compute_felt_mark(c);
     return true;
 }
 
@@ -72,5 +73,6 @@ void compute_back(void *state, size_t count, size_t guarded)
     Compute *c = state;
     compute_set_count(c, count);
     compute_particles_copy(c, c->marked, c->now);
+    compute_felt_back(c);
     compute_watch_reset(c, guarded);
 }

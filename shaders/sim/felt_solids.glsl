@@ -1,0 +1,34 @@
+// What the pass that has run pushed the fluid with at boundary particles of solids, the other way round: add_boundary of
+// sim/cpu/forces.c. The pass's shader has this for its main where FELT_SOLIDS stands before it; before this it declares
+// PLACES[] and walks, and says with FELT_FORCE(i, term, d, r2) what the boundary particle `felt_by` pushes particle i
+// with, N, which is d away; `term` is the fourth number of i's place.
+#include "sim/solids.glsl"
+#include "sim/felt.glsl"
+layout(std430, binding = FELT_RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; };
+layout(location = FELT_DT_AT) uniform float felt_dt;
+
+vec3 felt_sum = vec3(0);
+
+void felt_meet(uint i, vec3 from_fluid, float term)
+{
+    vec3 d = -from_fluid;
+    float r2 = dot(d, d);
+    if (r2 < support * support && r2 >= 1e-12 * support * support)
+        felt_sum += FELT_FORCE(i, term, d, r2);
+}
+
+void main()
+{
+    felt_by = invocation();
+    if (felt_by >= boundary_start[cell_count()])
+        return;
+    vec3 x = boundary_position[felt_by].xyz;
+    ivec3 at = cell_of(x);
+    FELT_BEGIN
+    WALK_FLUID(x, at, felt_meet)
+    uint number = boundary_state[felt_by].y, part = FELT_BOUNDARY + number;
+    vec3 force = -felt_dt * felt_sum;
+    felt[part].force += force;
+    felt[part].torque += cross(x - solids[int(rest[number].w)].end.x, force);
+    felt[part].about += cross(x, force);
+}
