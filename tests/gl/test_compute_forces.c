@@ -2,6 +2,7 @@
 #include "tests/gl/compare.h"
 
 #include "sim/gl/compute/compute.h"
+#include "sim/wcsph/wcsph.h"
 
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 
@@ -16,6 +17,7 @@ static WorldDef fall_def(const char *method, int dimensions)
     def.fluids[0].velocity[1] = -2;
     def.sound_speed = 20;
     def.dt = 0.001;
+    wcsph_def(&def)->corrected_gradient = true;
     *world_threads(&def) = 1;
     fixture_block(&def, 0, -0.5, 0, -0.25, 0.1, 0.8, 0.25);
     def.solids[def.solid_count++] =

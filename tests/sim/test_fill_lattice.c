@@ -225,7 +225,8 @@ static void what_rests_stays_at_rest(void **state)
                      other = stirred(method, 0.0263);
         printf("%s: stirs up %.2g of its height where the spacing fits, else %.2g, %.2g\n", method, fits, odd,
                other);
-        assert_true(fits < 0.01 && odd < 1.5 * fits && other < 1.5 * fits);
+        const double most = fmax(1.5 * fits, 1e-4); /* below that it rests: rounding alone is left */
+        assert_true(fits < 0.01 && odd < most && other < most);
     }
 }
 

@@ -2,6 +2,9 @@
 // sim/wcsph/pairs_images.c.
 #ifdef CORRECTED
 #define MEET_MORE(j, d, r2, term) correct_meet(j, d, r2, term);
+#define FELT_FORCE(i, term, d, r2) \
+    (pair_force(side_of(i, term), felt_side, d, r2) + \
+     gradient_scale * shape(sqrt(r2) * inverse_support) * term * corrected(i, d))
 #else
 #define LISTS_FIRST
 #endif
