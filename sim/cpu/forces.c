@@ -17,8 +17,9 @@ bool cpu_feel(void *state, Forces *to, Error *error)
 {
     Cpu *cpu = state;
     const Constants *s = cpu->constants;
-    const size_t rows =
-        ranges(s->boundary.count, CPU_GRAIN) * (size_t)s->solid_count + ranges(cpu->capacity, KICK_GRAIN) + 1;
+    const size_t of_solids = ranges(s->boundary.count, CPU_GRAIN) * (size_t)s->solid_count,
+                 of_guards = ranges(cpu->capacity, KICK_GRAIN) * (size_t)(s->solid_count + 1),
+                 rows = of_solids > of_guards ? of_solids : of_guards;
     cpu->forces = NULL;
     if (to && !cpu->pushes && !(cpu->pushes = malloc(rows * sizeof *cpu->pushes)))
         return error_set(error, "no memory to sum forces");

@@ -150,12 +150,34 @@ static void a_ball_is_lifted_and_the_box_bears_the_rest(void **state)
     }
 }
 
+/* Many ranges of fluid and one of boundary particles: parts of all have room. */
+static void a_small_ball_in_much_water_counts(void **state)
+{
+    (void)state;
+    WorldDef def = def_of("mueller", 3);
+    def.spacing = 0.025;
+    def.dt = 0.0005;
+    fixture_block(&def, 0, -0.5, 0, -0.25, 0.5, 0.5, 0.25);
+    def.solids[def.solid_count++] =
+        (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.25, 0}, .radius = 0.05, .axis = {0, 1, 0}};
+    World *world = felt_world(&def);
+    WorldSums sums;
+    Forces felt;
+    fixture_step(world, 4);
+    world_sums(world, &sums);
+    world_forces(world, &felt);
+    assert_true(sums.mass > 200 && length(felt.solid[0].force) > 0);
+    assert_float_equal(felt.box.force[1] + felt.solid[0].force[1],
+                       -9.81 * sums.mass - sums.momentum[1] / felt.seconds, 1e-3 * 9.81 * sums.mass);
+    world_destroy(world);
+}
+
 /* Whatever the threads, and without a trace in the fluid. */
 static void sums_are_the_same_by_any_threads(void **state)
 {
     (void)state;
     WorldDef def = impact("wcsph", 3, SLIP_NONE);
-    def.spacing = 0.05; /* more than one range */
+    def.spacing = 0.05;
     Forces felt[3];
     uint64_t hash[3];
     for (int k = 0; k < 3; k++) {
@@ -196,6 +218,7 @@ int main(void)
         cmocka_unit_test(corrected_gradients_count),
         cmocka_unit_test(a_torque_is_about_the_solid),
         cmocka_unit_test(a_ball_is_lifted_and_the_box_bears_the_rest),
+        cmocka_unit_test(a_small_ball_in_much_water_counts),
         cmocka_unit_test(sums_are_the_same_by_any_threads),
         cmocka_unit_test(time_that_went_back_is_not_summed),
     };
