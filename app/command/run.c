@@ -148,8 +148,13 @@ static Snapshot *begin(const Session *session, const Args *args, Error *error)
 /* --forces: behind the rows of what is resumed. */
 static bool begin_forces(const Session *session, const Args *args, bool resumed, Look *look, Error *error)
 {
-    return !args->forces || forces_log_open(&look->forces, args->forces, session->scene.world.solid_count,
-                                            resumed ? session->info.time : -1, error);
+    if (!args->forces)
+        return true;
+    if (resumed && access(args->forces, F_OK) != 0)
+        fprintf(stderr, "%s: there is no such table to go on with; it begins at t = %.4g s\n", args->forces,
+                session->info.time);
+    return forces_log_open(&look->forces, args->forces, session->scene.world.solid_count,
+                           resumed ? session->info.time : -1, error);
 }
 
 static int run(Session *session, const Args *args, Error *error)

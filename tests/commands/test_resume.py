@@ -86,6 +86,14 @@ class Resume(CommandTest):
         self.assertIn("b.csv: is no table of this scene's forces", said)
         self.assertEqual('time,seconds\n', self.read('b.csv').decode())
 
+    def test_a_table_that_is_gone_is_told(self):
+        """As after kill -9: rows from there on, and a line that says so."""
+        self.go('--time', '0.2')
+        said = self.go('--resume', '--forces', 'a.csv')
+        self.assertIn('a.csv: there is no such table to go on with; it begins at t = 0.2 s', said)
+        rows = self.read('a.csv').decode().splitlines()
+        self.assertGreater(float(rows[1].split(',')[0]), 0.2)
+
     def test_forces_that_are_not_to_be_had(self):
         said = self.go('--forces', 'a.csv', '--backend', 'fragment', code=2)
         self.assertIn('backend fragment sums no forces; use backend cpu or compute', said)
