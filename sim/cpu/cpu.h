@@ -116,13 +116,13 @@ StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
 extern const struct BackendMicro cpu_micro;
-/* sim/cpu/forces.c, where it was asked: of the kick, whose accelerations are there; of what the guards of a
-   drift take, by ranges that begin at `begin`: zeroed parts of the box and of each solid behind it, */
+/* sim/cpu/forces.c, where a world was asked: adds what the kick does, behind it; gives the parts of the range
+   of a drift that begins at `begin`, the box's and then each solid's, zeroed; adds these parts up. */
 bool cpu_feel(void *state, Forces *to, Error *error);
 void cpu_feel_kick(Cpu *cpu, float dt);
 Push *cpu_felt(Cpu *cpu, size_t begin);
 void cpu_feel_drift(Cpu *cpu);
-/* adds the change of a velocity at x from `before`, which then is v; into NULL nothing. */
+/* Adds to a part what a guard at x did to a velocity, `before`, which then becomes v; NULL: adds nothing. */
 void cpu_feel_guard(Push *felt, float mass, const float x[3], const float v[3], float before[3]);
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge);
