@@ -21,6 +21,7 @@ typedef struct CaseMetric {
     double tolerance;    /* of the error, a fraction */
     double coarse;       /* at CASE_COARSE */
     const char *without; /* what a run without a value means, in words; NULL: nothing in particular */
+    bool no_verdict;     /* shown beside its reference, which no run is to reach: it has no tolerance */
 } CaseMetric;
 
 /* How a case runs with a method. */
@@ -102,7 +103,7 @@ Figure figure_scaled(double value, double reference, double scale);
 /* The worse of two misses; NaN, not measured, is the worst. */
 double figure_worse(double a, double b);
 
-/* Of metric `m`. */
+/* Of metric `m`; NaN: it has none. */
 double case_tolerance(const Case *of, int m, CaseLevel level, const char *method);
 
 /* How it runs with that method; NULL: nothing is known of it. */

@@ -58,6 +58,8 @@ const CaseMethod *case_method(const Case *of, const char *method)
 
 double case_tolerance(const Case *of, int m, CaseLevel level, const char *method)
 {
+    if (of->metrics[m].no_verdict)
+        return (double)NAN;
     const CaseMethod *with = case_method(of, method);
     const bool coarse = level == CASE_COARSE;
     const double own = with ? (coarse ? with->coarse : with->tolerance)[m] : 0;

@@ -39,11 +39,12 @@ void validate_print(const CaseResult *result, FILE *file)
     for (int m = 0; m < CASE_METRICS && result->of->metrics[m].name; m++) {
         const CaseMetric *metric = &result->of->metrics[m];
         const Figure *figure = &result->run.figures[m];
-        char value[32], reference[32], error[32];
-        fprintf(file, "%-15s %-7s %-8s %-28s %11s %11s %9s %7.3g %% %8.1f", result->of->name, def->method,
+        char value[32], reference[32], error[32], tolerance[32];
+        fprintf(file, "%-15s %-7s %-8s %-28s %11s %11s %9s %9s %8.1f", result->of->name, def->method,
                 def->backend, metric->name, cell(value, "%.5g", figure->value),
                 cell(reference, "%.5g", figure->reference), cell(error, "%.3g %%", 100 * figure->error),
-                100 * case_tolerance(result->of, m, result->level, def->method), result->seconds);
+                cell(tolerance, "%.3g %%", 100 * case_tolerance(result->of, m, result->level, def->method)),
+                result->seconds);
         print_miss(result, m, file);
     }
     if (*result->failure)
@@ -56,14 +57,14 @@ static json_t *figure_json(const CaseResult *result, int m)
     const CaseMetric *metric = &result->of->metrics[m];
     const Figure *figure = &result->run.figures[m];
     const WorldDef *def = &result->scene.world;
-    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:f, s:b, s:f, s:I, s:s, s:s*}", "case",
+    const double tolerance = case_tolerance(result->of, m, result->level, def->method);
+    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:f, s:I, s:s, s:s*}", "case",
                      result->of->name, "metric", metric->name, "method", def->method, "backend", def->backend,
                      "value", number_json(figure->value), "reference", number_json(figure->reference),
-                     "error", number_json(figure->error), "tolerance",
-                     case_tolerance(result->of, m, result->level, def->method), "passed",
-                     case_passed(result, m), "seconds", result->seconds, "particles",
-                     (json_int_t)result->particles, "unit", metric->unit, "failure",
-                     *result->failure ? result->failure : NULL);
+                     "error", number_json(figure->error), "tolerance", number_json(tolerance), "passed",
+                     isnan(tolerance) ? json_null() : json_boolean(case_passed(result, m)), "seconds",
+                     result->seconds, "particles", (json_int_t)result->particles, "unit", metric->unit,
+                     "failure", *result->failure ? result->failure : NULL);
 }
 
 bool validate_write_json(const CaseResult *results, size_t count, const char *failure, const char *path,
