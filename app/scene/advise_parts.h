@@ -7,6 +7,7 @@
 void advise_step(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_method(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_sound(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_places(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_borne(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_slip(const Tree *tree, const Scene *scene, Notes *notes);
 

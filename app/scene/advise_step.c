@@ -131,13 +131,44 @@ void advise_borne(const Tree *tree, const Scene *scene, Notes *notes)
     }
 }
 
+/* That fluid may come to, by what it starts with and its fall, m/s. */
+static double greatest_speed(const WorldDef *def)
+{
+    const double *a = def->gravity, g = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double start = greatest_start(def);
+    return sqrt(start * start + 2 * g * greatest_fall(def));
+}
+
+/* The step, or what mode cfl will make of it, s. */
+static double step_expected(const WorldDef *def, double speed)
+{
+    return def->step_mode == STEP_FIXED
+               ? def->dt / def->substeps
+               : fmin(def->cfl_number * def->support * def->spacing / (step_sound(def) + speed), def->max_dt);
+}
+
+/* A place is in single precision from the box's origin, and moves by v dt / 2 at a time: less than half of
+   what its last bit is worth rounds to nothing. */
+void advise_places(const Tree *tree, const Scene *scene, Notes *notes)
+{
+    static const double much = 0.01; /* of the flow's speed */
+    const WorldDef *def = &scene->world;
+    const double *size = def->box_size, speed = greatest_speed(def), step = step_expected(def, speed);
+    const double far = fmax(size[1], 0.5 * fmax(size[0], def->dimensions == 2 ? 0 : size[2]));
+    const double bit = far - (double)nextafterf((float)far, 0);
+    if (speed > 0 && bit / step > much * speed)
+        advise(
+            tree, "box.size", notes,
+            "%.3g m from the box's origin places are kept to %.2g mm: there, what is slower than %.2g m/s does "
+            "not move in steps of %.2g ms; use a smaller box or longer steps",
+            far, 1e3 * bit, bit / step, 1e3 * step);
+}
+
 void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)
 {
     static const double least = 1.75, good = 3; /* of c over the speed of the flow: pressed by 18 and 6 % */
     const WorldDef *def = &scene->world;
-    const double *a = def->gravity, g = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    const double start = greatest_start(def), c = def->sound_speed;
-    const double speed = sqrt(start * start + 2 * g * greatest_fall(def));
+    const double c = def->sound_speed, speed = greatest_speed(def);
     if (!method_find(def->method)->incompressible && c < least * speed)
         advise(
             tree, "solver.sound_speed", notes,

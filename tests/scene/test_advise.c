@@ -42,6 +42,13 @@ static const struct Case {
     {{"solver.step={dt: 0.0055, substeps: 1}", "fluids[0].viscosity=2"}, NULL},
     {{"solver.step={dt: 0.0055, substeps: 1}", "solver.method=wcsph"}, NULL},
     {{"solver.step={mode: cfl, number: 0.6}"}, "use at most 0.5, or a viscosity"},
+    /* a place of 500 m is kept to 31 um, in 1 ms; 1 % of 3.13 m/s is 0.03 */
+    {{"box.size=[1000, 1, 1]", "solver.step={dt: 0.00097, substeps: 1}"},
+     "500 m from the box's origin places are kept to 0.031 mm: there, what is slower than 0.031 m/s does not "
+     "move in steps of 0.97 ms"},
+    {{"box.size=[1000, 1, 1]", "solver.step={dt: 0.00485, substeps: 5}"}, "not move in steps of 0.97 ms"},
+    {{"box.size=[1000, 1, 1]", "solver.step={dt: 0.001, substeps: 1}"}, NULL},
+    {{"box.size=[10, 1, 1]", "solver.step={dt: 0.0001, substeps: 1}"}, NULL},
     /* sqrt(2 g H) = 3.13 m/s */
     {{"solver.sound_speed=5"},
      "5 m/s is little for fluid that may come to 3.13 m/s: it is pressed by some 22 %"},
