@@ -1,0 +1,47 @@
+"""Each scene of scenes/failures provokes what its comment says, slosh says so in those words, and what the comment names mends it."""
+import pathlib
+import shlex
+import subprocess
+import tempfile
+import unittest
+
+import command
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENES = sorted((ROOT / 'scenes/failures').glob('*.yaml'))
+
+
+def told(path):
+    """The two commands of a scene's comment, and the lines that it says."""
+    lines = [line[1:].strip() for line in path.read_text().splitlines() if line.startswith('#')]
+    commands = [shlex.split(line)[1:] for line in lines if line.startswith('slosh ')]
+    return commands, [line.removeprefix('Says: ') for line in lines if line.startswith('Says: ')]
+
+
+class Failures(unittest.TestCase):
+    def said_by(self, words):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([command.PROGRAM, *words, '--threads', '1', '--quiet'], cwd=folder, capture_output=True, text=True,
+                                  check=False)
+        self.assertIn(done.returncode, (0, 1), (words, done.stderr))
+        return done.stderr, done.returncode
+
+    def test_each_is_said_and_mended(self):
+        self.assertGreater(len(SCENES), 7)
+        for path in SCENES:
+            with self.subTest(path.stem):
+                commands, lines = told(path)
+                self.assertEqual(len(commands), 2, 'a command that fails, and one that does not')
+                self.assertTrue(lines, 'no line of what slosh says')
+                for words in commands:
+                    self.assertEqual(words[1], f'failures/{path.stem}')
+                said, code = self.said_by(commands[0])
+                for line in lines:
+                    self.assertIn(line, said)
+                self.assertEqual(code, 'blew up' in said)
+                said, code = self.said_by(commands[1])
+                self.assertEqual((code, said), (0, ''))
+
+
+if __name__ == '__main__':
+    command.main()
