@@ -45,40 +45,69 @@ static bool cases_check(const Plan *plan, bool *context, Error *error)
     return true;
 }
 
-static bool measure_all(const Plan *plan, Headless *context, BenchResult *results, size_t *done, Error *error)
+/* What of the cases there are figures of, and what failed. */
+typedef struct Tally {
+    size_t done, measured;
+    size_t fluids; /* blew up, leaked or did not converge: a row as good as another in a sweep */
+    size_t others; /* failed by something else */
+} Tally;
+
+/* At once, and whatever is quiet; the other cases go on. */
+static void tell_failure(const BenchResult *result, Tally *tally)
+{
+    fprintf(stderr, "%s%s%s\n", result->swept, result->swept[0] ? ": " : "", result->failure.message);
+    tally->fluids += result->outcome.kind != OUTCOME_NONE;
+    tally->others += result->outcome.kind == OUTCOME_NONE;
+}
+
+static bool measure_one(const Plan *plan, size_t at, Headless *context, BenchResult *result, Error *error)
 {
     const Args *args = plan->args;
-    const size_t count = plan_cases(plan);
-    for (; *done < count && !interrupted(); ++*done) {
-        Scene scene;
-        Progress progress;
-        char swept[256];
-        if (!plan_case_load(plan, *done, true, &scene, error))
+    const double part = 1 / (double)plan_cases(plan);
+    Scene scene;
+    Progress progress;
+    char swept[256];
+    if (!plan_case_load(plan, at, true, &scene, error))
+        return false;
+    plan_case_name(plan, at, swept, sizeof swept);
+    const BenchSetup setup = {
+        .scene = &scene,
+        .swept = swept,
+        .context = context,
+        .draws = strcmp(scene.view.kind, "none") != 0,
+        .width = args->width,
+        .height = args->height,
+        .frames = args->frames  ? args->frames
+                  : plan->table ? TABLE_FRAMES
+                                : DEFAULT_FRAMES,
+        .from = args->time_given ? args->time : 0,
+        .clock = clock_of(args->clock),
+        .device = args->device,
+        .mapping = args->mapping,
+    };
+    progress_begin(&progress, stderr, "bench", args->quiet);
+    bench_measure(&setup, &progress, (double)at * part, part, result);
+    progress_end(&progress);
+    return true;
+}
+
+static bool measure_all(const Plan *plan, Headless *context, BenchResult *results, Tally *tally, Error *error)
+{
+    while (tally->done < plan_cases(plan) && !interrupted()) {
+        BenchResult *result = &results[tally->done];
+        if (!measure_one(plan, tally->done, context, result, error))
             return false;
-        plan_case_name(plan, *done, swept, sizeof swept);
-        const BenchSetup setup = {
-            .scene = &scene,
-            .swept = swept,
-            .context = context,
-            .draws = strcmp(scene.view.kind, "none") != 0,
-            .width = args->width,
-            .height = args->height,
-            .frames = args->frames  ? args->frames
-                      : plan->table ? TABLE_FRAMES
-                                    : DEFAULT_FRAMES,
-            .from = args->time_given ? args->time : 0,
-            .clock = clock_of(args->clock),
-            .device = args->device,
-            .mapping = args->mapping,
-        };
-        progress_begin(&progress, stderr, "bench", args->quiet);
-        const bool ok = bench_measure(&setup, &progress, (double)*done / (double)count, 1 / (double)count,
-                                      &results[*done], error);
-        progress_end(&progress);
-        if (!ok)
+        if (interrupted() && *result->failure.message) {
+            *error = result->failure;
             return false;
-        if (!args->quiet && !plan->table)
-            bench_print(&results[*done], stdout);
+        }
+        tally->done++;
+        if (*result->failure.message)
+            tell_failure(result, tally);
+        else
+            tally->measured++;
+        if (!plan->args->quiet && !plan->table)
+            bench_print(result, stdout);
     }
     return true;
 }
@@ -96,12 +125,13 @@ static bool show_table(const Plan *plan, const BenchResult *results, size_t coun
            (!args->output || table_draw(plan->table, results, count, args->output, error));
 }
 
-/* The case that failed, without figures. */
+/* The case that could not begin. */
 static void note_failure(const Plan *plan, size_t index, const Error *error, BenchResult *result)
 {
     Scene scene;
     Error none;
-    *result = (BenchResult){.failure = error->message};
+    *result = (BenchResult){.failure = *error};
+    outcome_not_run(error->message, &result->outcome);
     snprintf(result->scene, sizeof result->scene, "%s", plan->scenes[index / plan->combinations]);
     plan_case_name(plan, index, result->swept, sizeof result->swept);
     if (!plan_case_load(plan, index, false, &scene, &none))
@@ -112,37 +142,52 @@ static void note_failure(const Plan *plan, size_t index, const Error *error, Ben
     memcpy(result->view, scene.view.kind, sizeof result->view);
 }
 
+/* A sweep looks for where fluids fail: rows of those are its work, as long as there is another. */
+static bool has_worked(const Plan *plan, const Tally *tally)
+{
+    const size_t failed = tally->fluids + tally->others;
+    if (failed > 0 && tally->done > 1)
+        fprintf(stderr, "%zu of %zu cases failed\n", failed, tally->done);
+    return failed == 0 || (plan->sweep_count > 0 && tally->measured > 0 && tally->others == 0);
+}
+
+/* What there is is shown and written, whatever failed; `ok`: nothing did that ends the work, else *error. */
+static bool report(const Plan *plan, BenchResult *results, Tally *tally, bool ok, Error *error)
+{
+    const Args *args = plan->args;
+    Error reason = {{0}};
+    if (!ok && !interrupted()) {
+        note_failure(plan, tally->done, error, &results[tally->done]);
+        tally->done++;
+    }
+    bool reported = !ok || interrupted() || !plan->table || tally->measured == 0 ||
+                    show_table(plan, results, tally->done, &reason);
+    if (args->json && tally->done > 0)
+        reported &= bench_write_json(results, tally->done, args->json, &reason);
+    if (ok)
+        *error = reason;
+    return reported;
+}
+
 static int bench(const Plan *plan, bool wants_context, Error *error)
 {
     const Args *args = plan->args;
-    size_t done = 0;
+    Tally tally = {0};
     Headless *context = NULL;
     BenchResult *results = calloc(plan_cases(plan) + 1, sizeof *results);
-    const bool can_write = results && (!args->json || json_file_check(args->json, error));
-    bool ok = can_write || (!results && error_set(error, "no memory for the results"));
-    if (ok && wants_context)
-        ok = (context = headless_create(args->gpu, error)) != NULL;
+    const bool can_write = results ? !args->json || json_file_check(args->json, error)
+                                   : error_set(error, "no memory for the results");
+    bool ok = can_write && (!wants_context || (context = headless_create(args->gpu, error)));
     if (context)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
-    ok = ok && measure_all(plan, context, results, &done, error);
-    if (ok && plan->table)
-        ok = show_table(plan, results, done, error);
-    if (can_write && !ok && !interrupted() && done < plan_cases(plan)) {
-        note_failure(plan, done, error, &results[done]);
-        done++;
-    }
-    if (can_write && args->json && done > 0) {
-        Error json_error = {{0}};
-        const bool written = bench_write_json(results, done, args->json, &json_error);
-        if (!written && ok)
-            *error = json_error;
-        ok = ok && written;
-    }
+    ok = ok && measure_all(plan, context, results, &tally, error);
+    if (can_write)
+        ok = report(plan, results, &tally, ok, error) && ok;
     headless_destroy(context);
     free(results);
     if (!ok)
         return fail(error, interrupted() ? EXIT_INTERRUPTED : EXIT_FAILED);
-    return interrupted() ? EXIT_INTERRUPTED : 0;
+    return interrupted() ? EXIT_INTERRUPTED : has_worked(plan, &tally) ? 0 : EXIT_FAILED;
 }
 
 /* One window after the other, each with its scene and its settings. */

@@ -2,6 +2,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/held/hand_replay.h"
+#include "app/lab/outcome_watch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -130,6 +131,8 @@ static bool figures(const Samples *samples, const char *gl_clock, BenchResult *r
 typedef struct Stand {
     World *world;
     HandReplay *hand; /* or NULL */
+    const WorldDef *def;
+    OutcomeHistory history;
     Studio studio;
     GlTimer *timer;
     bool draws, sim_on_gpu;
@@ -138,6 +141,7 @@ typedef struct Stand {
 static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
 {
     *stand = (Stand){.world = world_create(&setup->scene->world, error),
+                     .def = &setup->scene->world,
                      .draws = setup->draws,
                      .sim_on_gpu = world_on_gpu(&setup->scene->world)};
     if (!stand->world)
@@ -198,10 +202,18 @@ static bool warm_up(Stand *stand, Error *error)
     return true;
 }
 
+static bool look(Stand *stand, Error *error)
+{
+    return outcome_look(&stand->history, stand->def, stand->hand != NULL, stand->world) ||
+           error_set(error, "no memory to look at the particles; use a larger spacing");
+}
+
 static bool measure(Stand *stand, int frames, Progress *progress, double done, double part, Samples *samples,
                     Error *error)
 {
     WorldInfo first, last;
+    if (!look(stand, error))
+        return false;
     world_info(stand->world, &first);
     world_tally_anew(stand->world);
     for (double began = wall_ms(); samples->frames < frames && !interrupted();) {
@@ -227,30 +239,14 @@ static bool measure(Stand *stand, int frames, Progress *progress, double done, d
     while (samples->gl_frames < samples->frames &&
            gl_timer_drain(stand->timer, &samples->gl[samples->gl_frames]))
         samples->gl_frames++;
-    return samples->frames > 0 || error_set(error, "stopped before a frame was measured");
+    return samples->frames > 0 ? look(stand, error) : error_set(error, "stopped before a frame was measured");
 }
 
-static void describe(const BenchSetup *setup, World *world, BenchResult *result)
+/* What the scene says. */
+static void name(const BenchSetup *setup, BenchResult *result)
 {
     const WorldDef *def = &setup->scene->world;
-    WorldInfo info;
-    WorldSums sums;
-    world_info(world, &info);
-    world_sums(world, &sums);
-    *result = (BenchResult){
-        .threads = info.threads,
-        .simd = info.simd,
-        .width = setup->width,
-        .height = setup->height,
-        .particles = info.count,
-        .troubles = info.trouble.count,
-        .unlisted = info.unlisted,
-        .neighbours_mean = sums.neighbours_mean,
-        .dt = def->step_mode == STEP_CFL ? info.dt : def->dt,
-        .dt_substep = info.dt,
-        .bytes_per_particle = (double)info.state_bytes / (double)info.capacity,
-        .solved = info.solved,
-    };
+    *result = (BenchResult){.width = setup->width, .height = setup->height};
     snprintf(result->swept, sizeof result->swept, "%s", setup->swept ? setup->swept : "");
     snprintf(result->scene, sizeof result->scene, "%s", setup->scene->path);
     snprintf(result->backend, sizeof result->backend, "%s", def->backend);
@@ -260,11 +256,29 @@ static void describe(const BenchSetup *setup, World *world, BenchResult *result)
         snprintf(result->renderer, sizeof result->renderer, "%s", headless_renderer(setup->context));
 }
 
-/* All that a result says of frames that are measured. */
-static bool conclude(Stand *stand, const BenchSetup *setup, const Samples *samples, BenchResult *result,
-                     Error *error)
+/* What the world is, as it begins or ends. */
+static void describe(const Stand *stand, BenchResult *result)
 {
-    describe(setup, stand->world, result);
+    WorldInfo info;
+    WorldSums sums;
+    world_info(stand->world, &info);
+    world_sums(stand->world, &sums);
+    result->threads = info.threads;
+    result->simd = info.simd;
+    result->particles = info.count;
+    result->troubles = info.trouble.count;
+    result->unlisted = info.unlisted;
+    result->neighbours_mean = sums.neighbours_mean;
+    result->dt = stand->def->step_mode == STEP_CFL ? info.dt : stand->def->dt;
+    result->dt_substep = info.dt;
+    result->bytes_per_particle = (double)info.state_bytes / (double)info.capacity;
+    result->solved = info.solved;
+}
+
+/* All that a result says of frames that are measured. */
+static bool conclude(Stand *stand, const Samples *samples, BenchResult *result, Error *error)
+{
+    describe(stand, result);
     result->substeps = (int)lround((double)samples->steps / samples->frames);
     result->lost = samples->lost;
     result->time = samples->began;
@@ -272,16 +286,33 @@ static bool conclude(Stand *stand, const BenchSetup *setup, const Samples *sampl
            (!stand->draws || studio_count(&stand->studio, stand->world, &result->counts, error));
 }
 
-bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part, BenchResult *result,
-                   Error *error)
+/* How it went, and why it failed where it did. */
+static void judge(Stand *stand, bool ok, const Error *error, BenchResult *result)
+{
+    if (stand->world)
+        outcome_end(&stand->history, stand->world);
+    if (ok || stand->history.trouble.ended)
+        outcome_judge(&stand->history, &result->outcome);
+    else
+        outcome_not_run(error->message, &result->outcome);
+    if (!ok)
+        result->failure = *error;
+}
+
+bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part, BenchResult *result)
 {
     Stand stand;
     Samples samples = {0};
-    const bool ok = stand_open(&stand, setup, error) &&
-                    samples_create(&samples, setup->frames, stand.sim_on_gpu, error) &&
-                    advance(&stand, setup->from, error) && warm_up(&stand, error) &&
-                    measure(&stand, setup->frames, progress, done, part, &samples, error) &&
-                    conclude(&stand, setup, &samples, result, error);
+    Error error = {{0}};
+    name(setup, result);
+    bool ok = stand_open(&stand, setup, &error) &&
+              samples_create(&samples, setup->frames, stand.sim_on_gpu, &error);
+    if (stand.world)
+        describe(&stand, result);
+    ok = ok && advance(&stand, setup->from, &error) && warm_up(&stand, &error) &&
+         measure(&stand, setup->frames, progress, done, part, &samples, &error) &&
+         conclude(&stand, &samples, result, &error);
+    judge(&stand, ok, &error, result);
     samples_destroy(&samples);
     stand_close(&stand);
     return ok;

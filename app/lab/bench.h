@@ -3,6 +3,7 @@
 #define SLOSH_BENCH_H
 
 #include "app/base/progress.h"
+#include "app/lab/outcome.h"
 #include "app/scene/scene.h"
 #include "app/session/studio.h"
 #include "sim/gl/timer.h"
@@ -19,7 +20,8 @@ typedef struct StageFigure {
 
 /* Times are per frame: `substeps` substeps and one picture. */
 typedef struct BenchResult {
-    const char *failure; /* why there are no figures; NULL: there are */
+    Outcome outcome; /* how the frames went; what failed and is OUTCOME_NONE is no matter of the fluid */
+    Error failure;   /* why there are no figures but what the scene has; "": there are */
     char scene[1024];
     char backend[NAME_SIZE], method[NAME_SIZE], view[NAME_SIZE];
     char swept[256];    /* "key=value" of each sweep, joined by ", "; "" without sweeps */
@@ -55,11 +57,12 @@ typedef struct BenchSetup {
     GlClock clock;
 } BenchSetup;
 
-/* Simulates up to `from`, runs a few frames to warm up, then measures. `progress` goes from `done` to `done +
-   part`. Ends early, with the frames that it has, when a signal came; false when the simulation or the
-   drawing failed, or not even one frame was measured. */
-bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part, BenchResult *result,
-                   Error *error);
+/* Simulates up to `from`, runs a few frames to warm up, then measures; before and behind it looks for the
+   outcome. `progress` goes from `done` to `done + part`. Ends early, with the frames that it has, when a
+   signal came. False when the simulation or the drawing failed, or not even one frame was measured: the
+   result then says why. */
+bool bench_measure(const BenchSetup *setup, Progress *progress, double done, double part,
+                   BenchResult *result);
 
 /* What measured times are of: the processor's name as the system has it, "" where it has none; the compiler
    with its version, and the options that the program was built with. */
@@ -70,7 +73,7 @@ extern const char bench_compiler[], bench_options[];
 void bench_print(const BenchResult *result, FILE *file);
 
 /* An array of all results, one that failed with its "error" in place of figures; false with the reason when
- * the file can't be written. */
+   the file can't be written. */
 bool bench_write_json(const BenchResult *results, size_t count, const char *path, Error *error);
 
 #endif

@@ -41,7 +41,7 @@ static int share_data(const Table *table, const BenchResult *results, size_t cou
             continue;
         fprintf(gnuplot, "$line%d << EOD\n", lines++);
         for (size_t k = i; k < count; k++)
-            if (strcmp(results[k].view, results[i].view) == 0 &&
+            if (!*results[k].failure.message && strcmp(results[k].view, results[i].view) == 0 &&
                 strcmp(results[k].backend, results[i].backend) == 0)
                 fprintf(gnuplot, "%zu %.4f\n", results[k].particles, share(table, &results[k]));
         fputs("EOD\n", gnuplot);
@@ -93,6 +93,8 @@ static void draw_times(const Table *table, const BenchResult *results, size_t co
 {
     fputs("$bars << EOD\n", gnuplot);
     for (size_t i = 0; i < count; i++) {
+        if (*results[i].failure.message)
+            continue;
         if (table->sweep)
             fprintf(gnuplot, "\"%s\\n%zu\"", table_row_name(table, &results[i]), results[i].particles);
         else

@@ -23,7 +23,9 @@ const char *bench_processor(void)
 
 static void print_parts(const BenchResult *r, FILE *file)
 {
-    char words[SOLVED_WORDS];
+    char words[SOLVED_WORDS], text[OUTCOME_TEXT];
+    if (r->outcome.kind != OUTCOME_HOLDS)
+        fprintf(file, "  %s\n", outcome_text(&r->outcome, text));
     if (r->troubles > 0)
         fprintf(
             file,
@@ -42,8 +44,19 @@ static void print_parts(const BenchResult *r, FILE *file)
             r->particle_steps_per_second * 1e-6, r->real_time_factor, r->bytes_per_particle);
 }
 
+static void print_failed(const BenchResult *r, FILE *file)
+{
+    char text[OUTCOME_TEXT];
+    fprintf(file, "%s: %s on %s%s%s: %s\n\n", r->scene, r->method, r->backend, r->swept[0] ? ", " : "",
+            r->swept, outcome_text(&r->outcome, text));
+}
+
 void bench_print(const BenchResult *r, FILE *file)
 {
+    if (*r->failure.message) {
+        print_failed(r, file);
+        return;
+    }
     char threads[48] = "";
     if (r->threads > 0)
         snprintf(threads, sizeof threads, "%d thread%s, %s, ", r->threads, plural((size_t)r->threads),
@@ -93,7 +106,8 @@ static json_t *stages_json(const BenchResult *r)
 static json_t *failed_case_json(const BenchResult *r)
 {
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:s}", "scene", r->scene, "backend", r->backend, "method",
-                             r->method, "view", r->view, "error", r->failure);
+                             r->method, "view", r->view, "error", r->failure.message);
+    outcome_json(json, &r->outcome);
     if (json && r->swept[0])
         json_object_set_new(json, "swept", json_string(r->swept));
     return json;
@@ -101,7 +115,7 @@ static json_t *failed_case_json(const BenchResult *r)
 
 static json_t *result_json(const BenchResult *r)
 {
-    if (r->failure)
+    if (*r->failure.message)
         return failed_case_json(r);
     json_t *json =
         json_pack("{s:s, s:s, s:s, s:s, s:i, s:s?, s:s?, s:[i, i], s:s, s:s, s:s}", "scene", r->scene,
@@ -121,6 +135,7 @@ static json_t *result_json(const BenchResult *r)
         json && more && sums && json_object_update(json, more) == 0 && json_object_update(json, sums) == 0;
     json_decref(more);
     json_decref(sums);
+    outcome_json(ok ? json : NULL, &r->outcome);
     if (ok)
         solved_json(json, &r->solved);
     if (ok && r->counts.counted)

@@ -181,7 +181,13 @@ static void print_counts(const Table *table, const BenchResult *r, FILE *file)
 static void print_result(const Table *table, const BenchResult *r, FILE *file)
 {
     double values[TABLE_COLUMNS];
+    char text[OUTCOME_TEXT];
     const int columns = column_count(table);
+    if (*r->failure.message) {
+        fprintf(file, "%9zu %8s  %-9s %-22s %s\n", r->particles, "-", r->view, table_row_name(table, r),
+                outcome_text(&r->outcome, text));
+        return;
+    }
     for (int c = 0; c < columns; c++)
         values[c] = table_value(table, r, c);
     fprintf(file, "%9zu %8d  %-9s %-22s", r->particles, r->substeps, r->view, table_row_name(table, r));
@@ -220,25 +226,34 @@ static size_t asked_for(const Table *table, int group)
     return strtoul(table->particles[group], NULL, 10);
 }
 
+/* The first that has figures; else the first. */
+static const BenchResult *any_measured(const BenchResult *results, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!*results[i].failure.message)
+            return &results[i];
+    return results;
+}
+
 bool table_print(const Table *table, const BenchResult *results, size_t count, FILE *file, Error *error)
 {
     static Reference reference;
+    const BenchResult *any = any_measured(results, count);
     if (table->reference && !reference_load(table->reference, &reference, error))
         return false;
     fprintf(file, "%s: %s\n", table->name, table->help);
     if (table->reference)
         fprintf(file, "published: %s\n", reference.notes);
     if (count > 0)
-        fprintf(file, "here: %s; %s with %d thread%s; %d x %d; medians of %d frame%s, ms\n\n",
-                results[0].renderer, bench_processor(), results[0].threads,
-                plural((size_t)results[0].threads), results[0].width, results[0].height, results[0].frames,
-                plural((size_t)results[0].frames));
+        fprintf(file, "here: %s; %s with %d thread%s; %d x %d; medians of %d frame%s, ms\n\n", any->renderer,
+                bench_processor(), any->threads, plural((size_t)any->threads), any->width, any->height,
+                any->frames, plural((size_t)any->frames));
     fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view",
             table->sweep ? strrchr(table->sweep, '.') + 1 : "backend");
     for (int c = 0; table->columns[c].title; c++)
         fprintf(file, " %17s", table->columns[c].title);
     fprintf(file, " %9s%s%s\n", "total", table->percent ? "  frames/s" : "",
-            count > 0 && results[0].counts.counted ? "   coverage  fragments a covered pixel" : "");
+            count > 0 && any->counts.counted ? "   coverage  fragments a covered pixel" : "");
     size_t last = 0;
     int group = 0;
     for (size_t i = 0; i < count; i++) {

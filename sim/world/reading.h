@@ -10,10 +10,11 @@
 
 #include <stdint.h>
 
-/* The last trouble that the sentinel found. The world then went back to the begin of the frame, with half the
-   step. */
+/* The last trouble that was found. The world then went back to the begin of the frame, with half the step. */
 typedef struct WorldTrouble {
-    unsigned count; /* in all */
+    unsigned count; /* of times that the sentinel went back, in all */
+    bool ended; /* it did not help, or there is no sentinel: the step failed. Then what, time, solver, left
+                   are of the trouble that ended it */
     StepTrouble what;
     double time;                /* when it was found, s */
     double back_to;             /* time of the state that the world went back to, s */

@@ -127,10 +127,8 @@ static bool give_up(World *world, StepTrouble trouble, double time, Error *error
     const StepState *s = &world->stepping;
     const double dt =
         world->def.step_mode == STEP_CFL ? s->dt * s->refine : world->def.dt / world->def.substeps;
-    WorldTrouble last = world->trouble;
     char also[96] = "", advice[200], words[160];
-    last.what = trouble;
-    world_trouble_words(&last, words);
+    world_trouble_words(&world->trouble, words);
     advise(world, trouble, dt, advice);
     if (retries > 0)
         snprintf(also, sizeof also, ", with 1/%d of the step too; the state at t = %g s is kept",
@@ -165,6 +163,10 @@ bool sentinel_back(World *world, double time, Error *error)
     const StepTrouble trouble = world->seen;
     StepState *s = &world->stepping;
     WorldTrouble *told = &world->trouble;
+    const bool helps = trouble != STEP_TROUBLE_LOST && trouble != STEP_TROUBLE_MEMORY;
+    told->what = trouble;
+    told->time = time;
+    told->ended = !helps || s->tries >= world->def.retries;
     if (trouble == STEP_TROUBLE_LOST)
         return give_up_lost(world, error);
     if (trouble == STEP_TROUBLE_MEMORY)
@@ -172,13 +174,11 @@ bool sentinel_back(World *world, double time, Error *error)
     if (world->def.retries == 0)
         return give_up(world, trouble, time, error);
     restore(world);
-    if (s->tries >= world->def.retries)
+    if (told->ended)
         return give_up(world, trouble, time, error);
     s->refine *= 2;
     s->tries++;
     told->count++;
-    told->what = trouble;
-    told->time = time;
     told->back_to = world->since_time;
     told->tries = (int)s->tries;
     return true;

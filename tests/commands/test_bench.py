@@ -11,7 +11,7 @@ STAGES_SIM = ["grid", "density", "force", "integrate"]
 FIELDS = ["scene", "backend", "method", "view", "threads", "simd", "renderer", "size", "processor", "compiler", "options",
           "particles", "troubles", "lost", "time", "neighbours_mean", "dt",
           "dt_substep", "substeps", "frames", "stages", "sim_ms", "upload_ms", "render_ms", "frame_ms",
-          "particle_steps_per_second", "real_time_factor", "bytes_per_particle"]
+          "particle_steps_per_second", "real_time_factor", "bytes_per_particle", "outcome"]
 
 
 class Case(command.CommandTest):
@@ -90,6 +90,25 @@ class Bench(Case):
         done = self.slosh_out("bench", SCENE, "--json", path, "--sweep", "threads=1,-3", "--view", "none", code=2)
         self.assertEqual(done.stdout, "")
         self.assertFalse(os.path.exists(path))
+
+    def test_a_sweep_goes_on_behind_what_blows_up(self):
+        """A row with its kind, its time and its words, in terminal, table and JSON; the others are measured."""
+        words = ["bench", SCENE, "--view", "none", "--frames", "8", "--json", "b.json", "--sweep", "solver.step.dt=0.004,0.9,0.002"]
+        done = self.slosh_out(*words)
+        first, broken, last = json.loads(self.read("b.json"))
+        self.assertEqual([r["outcome"] for r in (first, last)], ["holds", "holds"])
+        self.assertIn(broken["outcome"], ["blown up", "noisy"])
+        self.assertGreater(broken["outcome_time"], 0)
+        self.assertIn(broken["outcome_words"], broken["error"])
+        self.assertEqual((broken["swept"], "frame_ms" in broken), ("solver.step.dt=0.9", False))
+        said = f"{broken['outcome']} at t = {broken['outcome_time']:.4g} s: {broken['outcome_words']}"
+        self.assertIn(f"mueller on cpu, solver.step.dt=0.9: {said}", done.stdout)
+        self.assertIn(f"solver.step.dt=0.9: {broken['error']}", done.stderr)
+        self.assertIn("1 of 3 cases failed", done.stderr)
+        # all of a sweep, or a scene alone: nothing was measured
+        for wrong in (["--sweep", "solver.step.dt=0.9,0.8"], ["--set", "solver.step.dt=0.9"]):
+            self.slosh_out(*words[:-2], *wrong, code=1)
+            self.assertEqual({"blown up", "noisy"} | {r["outcome"] for r in json.loads(self.read("b.json"))}, {"blown up", "noisy"})
 
     def test_table(self):
         done = self.slosh_out("bench", SCENE, "--frames", "4", "--view", "none", code=0)

@@ -1,0 +1,155 @@
+#include "app/lab/outcome.h"
+
+#include "app/base/json_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* X(ENUM, word, help) */
+static const char *const words[OUTCOME_COUNT] = {
+#define X(NAME, word, help) word,
+    OUTCOMES(X)
+#undef X
+};
+
+const char *outcome_word(OutcomeKind kind)
+{
+    return words[kind];
+}
+
+const char *outcome_help(OutcomeKind kind)
+{
+    static const char *const helps[OUTCOME_COUNT] = {
+#define X(NAME, word, help) help,
+        OUTCOMES(X)
+#undef X
+    };
+    return helps[kind];
+}
+
+OutcomeKind outcome_of_word(const char *word)
+{
+    int kind = 0;
+    while (kind < OUTCOME_COUNT && strcmp(words[kind], word) != 0)
+        kind++;
+    return (OutcomeKind)kind;
+}
+
+/* Rows are kept in files whose cells are parted by commas. */
+static void without_commas(char text[OUTCOME_WORDS])
+{
+    for (char *at = text; *at; at++)
+        *at = *at == ',' ? ';' : *at == '\n' ? ' ' : *at;
+}
+
+static const OutcomeKind of_trouble[STEP_TROUBLE_COUNT] = {
+    [STEP_TROUBLE_NONE] = OUTCOME_NONE,        [STEP_TROUBLE_SPEED] = OUTCOME_BLOWN_UP,
+    [STEP_TROUBLE_DENSITY] = OUTCOME_BLOWN_UP, [STEP_TROUBLE_ENERGY] = OUTCOME_NOISY,
+    [STEP_TROUBLE_SOLVE] = OUTCOME_DIVERGES,   [STEP_TROUBLE_MEMORY] = OUTCOME_NONE,
+    [STEP_TROUBLE_LOST] = OUTCOME_LEAKS};
+
+/* Takes the place of what is less bad, or as bad and later. */
+static void find(Outcome *outcome, OutcomeKind kind, double time)
+{
+    if (kind > outcome->kind) {
+        outcome->kind = kind;
+        outcome->time = time;
+        outcome->words[0] = '\0';
+    }
+}
+
+static void judge_energy(const OutcomeHistory *history, Outcome *outcome)
+{
+    double least = INFINITY;
+    for (int i = 0; i < history->count && outcome->kind < OUTCOME_NOISY; i++) {
+        const OutcomeLook *look = &history->look[i];
+        const double gain = (look->energy - least) / look->scale; /* NaN is not more than anything */
+        if (gain > OUTCOME_GAIN) {
+            find(outcome, OUTCOME_NOISY, look->time);
+            snprintf(outcome->words, OUTCOME_WORDS, "%s: %.3g %%", outcome_help(OUTCOME_NOISY), 100 * gain);
+        }
+        least = fmin(least, look->energy);
+    }
+}
+
+static double part(size_t some, const OutcomeLook *look)
+{
+    return look->count > 0 ? (double)some / (double)look->count : 0;
+}
+
+/* What starts close, as emitters' fluid or a jittered lattice, is no clump. */
+static void judge_places(const OutcomeHistory *history, int i, Outcome *outcome)
+{
+    const OutcomeLook *look = &history->look[i], *first = &history->look[0];
+    const double close = part(look->close, look), out = part(look->beyond + look->lost, look);
+    if (close - part(first->close, first) > OUTCOME_CLOSE && outcome->kind < OUTCOME_CLUMPS) {
+        find(outcome, OUTCOME_CLUMPS, look->time);
+        snprintf(outcome->words, OUTCOME_WORDS,
+                 "%.3g %% of the particles are nearer than %g spacings to another", 100 * close,
+                 OUTCOME_NEAR);
+    }
+    if (out > OUTCOME_OUT && outcome->kind < OUTCOME_LEAKS) {
+        find(outcome, OUTCOME_LEAKS, look->time);
+        if (look->beyond >= look->lost)
+            snprintf(outcome->words, OUTCOME_WORDS, "%zu of %zu particles are beyond a wall", look->beyond,
+                     look->count);
+        else
+            snprintf(outcome->words, OUTCOME_WORDS, "%zu of %zu particles have no place in the grid",
+                     look->lost, look->count);
+    }
+    if (look->stuck && outcome->kind < OUTCOME_DIVERGES) {
+        find(outcome, OUTCOME_DIVERGES, look->time);
+        snprintf(outcome->words, OUTCOME_WORDS, "%s", step_trouble_words(STEP_TROUBLE_SOLVE));
+    }
+}
+
+/* What ended a run is its kind, whatever was seen before. */
+static void judge_end(const WorldTrouble *trouble, Outcome *outcome)
+{
+    char found[160];
+    *outcome = (Outcome){.kind = of_trouble[trouble->what], .time = trouble->time};
+    world_trouble_words(trouble, found);
+    snprintf(outcome->words, OUTCOME_WORDS, "%s", found);
+}
+
+void outcome_judge(const OutcomeHistory *history, Outcome *outcome)
+{
+    *outcome = (Outcome){.kind = OUTCOME_HOLDS, .time = (double)NAN};
+    if (history->trouble.ended) {
+        judge_end(&history->trouble, outcome);
+    } else {
+        judge_energy(history, outcome);
+        for (int i = 0; i < history->count; i++)
+            judge_places(history, i, outcome);
+    }
+    without_commas(outcome->words);
+}
+
+void outcome_not_run(const char *why, Outcome *outcome)
+{
+    *outcome = (Outcome){.kind = OUTCOME_NONE, .time = (double)NAN};
+    snprintf(outcome->words, OUTCOME_WORDS, "%.*s", OUTCOME_WORDS - 1, why);
+    without_commas(outcome->words);
+}
+
+const char *outcome_text(const Outcome *outcome, char text[OUTCOME_TEXT])
+{
+    char time[32] = "";
+    if (isfinite(outcome->time))
+        snprintf(time, sizeof time, " at t = %.4g s", outcome->time);
+    snprintf(text, OUTCOME_TEXT, "%s%s%s%s", outcome_word(outcome->kind), time, *outcome->words ? ": " : "",
+             outcome->words);
+    return text;
+}
+
+void outcome_json(json_t *object, const Outcome *outcome)
+{
+    if (!object)
+        return;
+    json_object_set_new(object, "outcome", json_string(outcome_word(outcome->kind)));
+    if (outcome->kind == OUTCOME_HOLDS)
+        return;
+    json_object_set_new(object, "outcome_time", number_json(outcome->time));
+    json_object_set_new(object, "outcome_words", json_string(outcome->words));
+}

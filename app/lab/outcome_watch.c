@@ -1,0 +1,102 @@
+#include "app/lab/outcome_watch.h"
+
+#include "app/metric/closeness.h"
+#include "sim/matter/solid_step.h"
+#include "sim/world/method.h"
+
+#include <math.h>
+
+/* Whether nothing does work on the fluid but gravity, so that its energy is known and never grows: as
+   sim/world/energy_watch.h, of a box that does not move. */
+static bool is_left_alone(const WorldDef *def)
+{
+    bool alone = def->motion_count == 0 && def->drain_count == 0 &&
+                 (method_find(def->method)->energy || method_find(def->method)->incompressible);
+    for (int k = 0; k < 3; k++)
+        alone &= def->lid[k] == 0 && !(def->periodic[k] && def->gravity[k] != 0);
+    for (int i = 0; i < def->solid_count; i++)
+        alone &= def->solids[i].motion_count == 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        alone &= def->fluids[f].emit_count == 0;
+    return alone;
+}
+
+/* All that moves, is pressed, and would be freed at most on the way to the lowest corner; fluid at rest has
+   the energy of a hundredth of its density more or less. */
+static double scale_of(const WorldDef *def, double mass, const WorldGauge *gauge)
+{
+    static const double COMPRESSED = 0.01;
+    const double *size = def->box_size, *g = def->gravity, c = COMPRESSED * def->sound_speed;
+    const double lowest = fmin(0, -g[1] * size[1]) - 0.5 * (fabs(g[0]) * size[0] + fabs(g[2]) * size[2]);
+    return gauge->kinetic_energy + gauge->compression_energy + gauge->potential_energy - mass * lowest +
+           0.5 * mass * c * c;
+}
+
+static void look_at_energy(OutcomeLook *look, const WorldDef *def, World *world)
+{
+    WorldGauge gauge;
+    WorldSums sums;
+    bool known = false;
+    world_gauge_ask(world);
+    for (int tries = 0; !known && tries < 1000; tries++) /* a GPU's answer comes when it comes */
+        known = world_gauge(world, &gauge);
+    if (!known || !gauge.total_known)
+        return;
+    world_sums(world, &sums);
+    look->energy = gauge.kinetic_energy + gauge.potential_energy + gauge.compression_energy;
+    look->scale = scale_of(def, sums.mass, &gauge);
+}
+
+static bool is_beyond(const WorldDef *def, const WorldInfo *info, const SolidPose pose[], const float x[3])
+{
+    const double most = OUTCOME_BEYOND * def->spacing, *size = info->box_size;
+    bool beyond = !(isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]));
+    for (int k = 0; k < def->dimensions; k++) {
+        const double low = k == 1 ? 0 : -0.5 * size[k];
+        beyond |= !def->periodic[k] && ((double)x[k] < low - most || (double)x[k] > low + size[k] + most);
+    }
+    for (int i = 0; i < def->solid_count && !beyond; i++)
+        beyond = (double)solid_clearance(&def->solids[i], &pose[i], def->dimensions, x, 0) < -most;
+    return beyond;
+}
+
+static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldInfo *info, World *world)
+{
+    Cloud cloud = {0};
+    SolidPose pose[SOLIDS_MAX];
+    for (int i = 0; i < def->solid_count; i++)
+        solid_pose_at(&def->solids[i], info->time, &pose[i]);
+    const bool ok =
+        cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, &look->close);
+    for (size_t i = 0; ok && i < cloud.count; i++)
+        look->beyond += is_beyond(def, info, pose, cloud.position + 4 * i);
+    cloud_free(&cloud);
+    return ok;
+}
+
+bool outcome_look(OutcomeHistory *history, const WorldDef *def, bool moved, World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    OutcomeLook look = {.time = info.time,
+                        .count = info.count,
+                        .lost = info.lost,
+                        .energy = (double)NAN,
+                        .scale = (double)NAN};
+    for (int k = 0; k < SOLVES_MAX; k++)
+        look.stuck |= info.solves[k].failed;
+    if (!moved && is_left_alone(def))
+        look_at_energy(&look, def, world);
+    if (!look_at_places(&look, def, &info, world))
+        return false;
+    history->count += history->count < OUTCOME_LOOKS_MAX;
+    history->look[history->count - 1] = look;
+    return true;
+}
+
+void outcome_end(OutcomeHistory *history, const World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    history->trouble = info.trouble;
+}

@@ -1,0 +1,220 @@
+/* What counts as which outcome, on made-up histories; what a look sees of places, and of worlds that fail. */
+#include "tests/sim/fixture.h"
+
+#include "app/lab/outcome_watch.h"
+#include "app/metric/closeness.h"
+
+#include <jansson.h>
+
+static OutcomeHistory history;
+static Outcome outcome;
+
+/* Ten looks at a thousand particles that keep their energy, as far as a good solver does. */
+static int calm(void **state)
+{
+    (void)state;
+    history = (OutcomeHistory){.count = 10};
+    for (int i = 0; i < history.count; i++)
+        history.look[i] =
+            (OutcomeLook){.time = 0.1 * i, .count = 1000, .energy = 100 + 0.02 * i, .scale = 100 + 0.02 * i};
+    return 0;
+}
+
+static void expect(OutcomeKind kind, double time, const char *text)
+{
+    char words[OUTCOME_TEXT];
+    outcome_judge(&history, &outcome);
+    assert_string_equal(outcome_text(&outcome, words), text);
+    assert_int_equal(outcome.kind, kind);
+    assert_null(strchr(outcome.words, ','));
+    if (isfinite(time))
+        assert_true(fabs(outcome.time - time) < 1e-9);
+    else
+        assert_true(isnan(outcome.time));
+}
+
+static void what_keeps_its_energy_holds(void **state)
+{
+    (void)state;
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+    for (int i = 0; i < history.count; i++)
+        history.look[i].energy = (double)NAN; /* a box that is shaken: nothing is known */
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+    history.count = 0;
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+    history.trouble = (WorldTrouble){.count = 2, .what = STEP_TROUBLE_SPEED}; /* halving helped */
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+}
+
+/* Energy that falls before it grows is compared with the least, and what is not known is passed over. */
+static void energy_that_grows_is_noise(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 5; i++)
+        history.look[i].energy = 100 - 2 * i;
+    history.look[5].energy = (double)NAN;
+    history.look[6].energy = 92 + 0.9 * OUTCOME_GAIN * 100;
+    for (int i = 7; i < 10; i++)
+        history.look[i].energy = 92;
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+    history.look[8].energy = 92 + 1.2 * OUTCOME_GAIN * history.look[8].scale;
+    history.look[9].energy = 150;
+    expect(OUTCOME_NOISY, 0.8, "noisy at t = 0.8 s: energy grows without work done: 6 %");
+}
+
+static void particles_on_each_other_clump(void **state)
+{
+    (void)state;
+    for (int i = 0; i < history.count; i++)
+        history.look[i].close = 300; /* as it began */
+    history.look[4].close = 300 + 95;
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+    history.look[5].close = history.look[6].close = 300 + 105;
+    expect(OUTCOME_CLUMPS, 0.5,
+           "clumps at t = 0.5 s: 40.5 % of the particles are nearer than 0.2 spacings to another");
+    history.look[9].energy = 200; /* noise is less */
+    assert_true(outcome.kind == OUTCOME_CLUMPS);
+}
+
+static void particles_beyond_walls_are_a_leak(void **state)
+{
+    (void)state;
+    history.look[2].close = 900;
+    history.look[3].beyond = 1;
+    expect(OUTCOME_CLUMPS, 0.2,
+           "clumps at t = 0.2 s: 90 % of the particles are nearer than 0.2 spacings to another");
+    history.look[4].beyond = 2;
+    expect(OUTCOME_LEAKS, 0.4, "leaks at t = 0.4 s: 2 of 1000 particles are beyond a wall");
+    history.look[3].lost = 5;
+    expect(OUTCOME_LEAKS, 0.3, "leaks at t = 0.3 s: 5 of 1000 particles have no place in the grid");
+}
+
+static void solvers_that_are_stuck_do_not_converge(void **state)
+{
+    (void)state;
+    history.look[1].beyond = 100;
+    history.look[7].stuck = true;
+    expect(OUTCOME_DIVERGES, 0.7, "does not converge at t = 0.7 s: a solver does not converge");
+}
+
+/* Whatever was seen before. */
+static void trouble_that_ends_a_run_is_its_kind(void **state)
+{
+    (void)state;
+    static const struct {
+        StepTrouble what;
+        OutcomeKind kind;
+    } ends[] = {{STEP_TROUBLE_SPEED, OUTCOME_BLOWN_UP},
+                {STEP_TROUBLE_DENSITY, OUTCOME_BLOWN_UP},
+                {STEP_TROUBLE_ENERGY, OUTCOME_NOISY},
+                {STEP_TROUBLE_LOST, OUTCOME_LEAKS},
+                {STEP_TROUBLE_MEMORY, OUTCOME_NONE}};
+    history.look[1].stuck = true;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        char text[OUTCOME_TEXT];
+        history.trouble = (WorldTrouble){.ended = true, .what = ends[i].what, .time = 0.25};
+        snprintf(text, sizeof text, "%s at t = 0.25 s: %s", outcome_word(ends[i].kind),
+                 step_trouble_words(ends[i].what));
+        expect(ends[i].kind, 0.25, text);
+    }
+    static const MethodSolver solver = {"density", "solver.tolerance", "solver.iterations"};
+    history.trouble = (WorldTrouble){.ended = true, .what = STEP_TROUBLE_SOLVE, .time = 1, .solver = &solver};
+    expect(
+        OUTCOME_DIVERGES, 1,
+        "does not converge at t = 1 s: the solver of density does not converge: solver.iterations 0 leaves 0 % "
+        "in the mean; solver.tolerance is 0 %");
+}
+
+static void words_are_the_same_everywhere(void **state)
+{
+    (void)state;
+    for (int k = 0; k < OUTCOME_COUNT; k++)
+        assert_int_equal(outcome_of_word(outcome_word((OutcomeKind)k)), k);
+    assert_int_equal(outcome_of_word("fine"), OUTCOME_COUNT);
+    outcome_not_run("no memory, or no GPU\nat all", &outcome);
+    json_t *json = json_object();
+    outcome_json(json, &outcome);
+    assert_string_equal(json_string_value(json_object_get(json, "outcome")), "not run");
+    assert_true(json_is_null(json_object_get(json, "outcome_time")));
+    assert_string_equal(json_string_value(json_object_get(json, "outcome_words")),
+                        "no memory; or no GPU at all");
+    json_decref(json);
+}
+
+/* A block of a lattice with pairs in it, against all pairs. */
+static void close_particles_are_those_of_all_pairs(void **state)
+{
+    (void)state;
+    enum { N = 600 };
+    static float position[4 * N], other[4 * N];
+    const double limit = 0.03;
+    Cloud cloud = {.count = N, .spacing = 0.1, .position = position};
+    uint32_t seed = 1;
+    size_t close, by_hand = 0;
+    for (size_t i = 0; i < 4 * N; i++) {
+        seed = seed * 1664525U + 1013904223U;
+        position[i] = (float)((double)(seed >> 8) / 0x1p24 - 0.5) * 0.6f;
+    }
+    position[4] = NAN;
+    for (size_t i = 0; i < N; i++) {
+        bool is = false;
+        for (size_t j = 0; j < N; j++) {
+            double r2 = 0;
+            for (size_t k = 0; k < 3; k++)
+                r2 += pow((double)position[4 * i + k] - (double)position[4 * j + k], 2);
+            is |= i != j && r2 < limit * limit;
+        }
+        by_hand += is;
+    }
+    assert_true(metric_close(&cloud, limit, &close));
+    assert_int_equal(close, by_hand);
+    assert_true(close > 20 && close < N - 20);
+    cloud.position = other; /* all at one place */
+    assert_true(metric_close(&cloud, limit, &close));
+    assert_int_equal(close, N);
+    cloud.count = 1;
+    assert_true(metric_close(&cloud, limit, &close));
+    assert_int_equal(close, 0);
+}
+
+/* A tank whose step is far too long ends, and its trouble is there to be read. */
+static void a_world_that_ends_says_of_what(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    WorldDef def = fixture_def(1, 1, 1);
+    fixture_block(&def, 0, -0.5, 0, -0.5, 0, 0.5, 0.5);
+    def.dt = 0.2;
+    def.substeps = 1;
+    World *world = world_create(&def, &error);
+    assert_non_null(world);
+    history = (OutcomeHistory){.count = 0};
+    assert_true(outcome_look(&history, &def, false, world));
+    assert_int_equal(history.look[0].close, 0);
+    assert_int_equal(history.look[0].beyond, 0);
+    assert_true(isfinite(history.look[0].energy) && history.look[0].scale >= history.look[0].energy);
+    for (int i = 0; i < 200 && world_step(world, NULL, &error); i++)
+        continue;
+    outcome_end(&history, world);
+    world_destroy(world);
+    assert_true(history.trouble.ended);
+    outcome_judge(&history, &outcome);
+    assert_true(outcome.kind == OUTCOME_BLOWN_UP || outcome.kind == OUTCOME_NOISY);
+    assert_true(outcome.time > 0 && strstr(error.message, outcome.words));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(what_keeps_its_energy_holds, calm),
+        cmocka_unit_test_setup(energy_that_grows_is_noise, calm),
+        cmocka_unit_test_setup(particles_on_each_other_clump, calm),
+        cmocka_unit_test_setup(particles_beyond_walls_are_a_leak, calm),
+        cmocka_unit_test_setup(solvers_that_are_stuck_do_not_converge, calm),
+        cmocka_unit_test_setup(trouble_that_ends_a_run_is_its_kind, calm),
+        cmocka_unit_test(words_are_the_same_everywhere),
+        cmocka_unit_test(close_particles_are_those_of_all_pairs),
+        cmocka_unit_test(a_world_that_ends_says_of_what),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
