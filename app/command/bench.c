@@ -175,8 +175,11 @@ static int bench(const Plan *plan, bool wants_context, Error *error)
     Tally tally = {0};
     Headless *context = NULL;
     BenchResult *results = calloc(plan_cases(plan) + 1, sizeof *results);
-    const bool can_write = results ? !args->json || json_file_check(args->json, error)
-                                   : error_set(error, "no memory for the results");
+    if (!results) {
+        error_set(error, "no memory for the results");
+        return fail(error, EXIT_FAILED);
+    }
+    const bool can_write = !args->json || json_file_check(args->json, error);
     bool ok = can_write && (!wants_context || (context = headless_create(args->gpu, error)));
     if (context)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
