@@ -133,8 +133,8 @@ static bool advance(CaseResult *result, World *world, bool *sound)
     return ok;
 }
 
-static bool simulate(CaseResult *result, World *world, Progress *progress, double done, double part,
-                     Error *error)
+static bool simulate(const CaseSetup *setup, CaseResult *result, World *world, Progress *progress,
+                     double done, double part, Error *error)
 {
     CaseRun *run = &result->run;
     const Case *of = run->of;
@@ -145,6 +145,8 @@ static bool simulate(CaseResult *result, World *world, Progress *progress, doubl
         const bool last = sound && run->info.time >= of->time;
         if (sound && (last || run->info.time >= next) && !sample(run, world, error))
             return false;
+        if (sound && setup->watch && (last || run->info.time >= next))
+            setup->watch(setup->watcher, run->def, world);
         while (sound && next <= run->info.time)
             next += of->every;
         if (last)
@@ -170,7 +172,7 @@ bool case_run(const CaseSetup *setup, Progress *progress, double done, double pa
     World *world = start_world(setup->of, &result->scene.world, error);
     if (!world)
         return false;
-    const bool ok = simulate(result, world, progress, done, part, error);
+    const bool ok = simulate(setup, result, world, progress, done, part, error);
     result->particles = result->run.info.count;
     world_destroy(world);
     cloud_free(&result->run.cloud);

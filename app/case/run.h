@@ -11,6 +11,9 @@ typedef struct CaseSetup {
     CaseLevel level;
     const char *method;
     const SceneSettings *settings; /* of the command line: they have the last word */
+    /* Told of each state that is sampled, which is sound; NULL: nobody. */
+    void (*watch)(void *watcher, const WorldDef *def, World *world);
+    void *watcher;
 } CaseSetup;
 
 typedef struct CaseResult {

@@ -28,9 +28,9 @@ static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
         if (!chart_prepare(&plan->subject, &plan->jobs[i], &scene, &rows->row[i], error))
             return false;
         const ChartRow *old = chart_rows_find(&runs->kept, rows->row[i].key);
-        runs->made[i] = old != NULL;
-        runs->there += old != NULL;
-        if (old)
+        runs->made[i] = old && old->outcome.kind != OUTCOME_NONE; /* what failed by no fault of a fluid */
+        runs->there += runs->made[i];
+        if (runs->made[i])
             rows->row[i] = *old;
     }
     if (!plan->args->quiet && runs->there > 0)

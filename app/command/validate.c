@@ -49,7 +49,8 @@ static bool add_run(Plan *plan, const Case *of, const char *method, Error *error
 {
     if (plan->count == RUNS_MAX)
         return error_set(error, "slosh validate: more than %d runs; name fewer cases", RUNS_MAX);
-    plan->setups[plan->count++] = (CaseSetup){of, plan->level, method, &plan->args->settings};
+    plan->setups[plan->count++] =
+        (CaseSetup){.of = of, .level = plan->level, .method = method, .settings = &plan->args->settings};
     return true;
 }
 

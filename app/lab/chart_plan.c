@@ -174,7 +174,8 @@ static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
         const int last = settings.count < SCENE_SETTINGS_MAX ? settings.count++ : settings.count - 1;
         settings.set[last] = text + strlen("--sweep ");
         settings.said[last] = text;
-        const CaseSetup setup = {subject->of, CASE_DEFAULT, method, &settings};
+        const CaseSetup setup = {
+            .of = subject->of, .level = CASE_DEFAULT, .method = method, .settings = &settings};
         ok = subject->of ? case_scene(&setup, &scene, error)
                          : scene_load(subject->scene, &settings, &scene, NULL, error);
     }
@@ -211,8 +212,10 @@ static bool find_subject(ChartPlan *plan, Error *error)
     if (plan->subject.of && args->time_given)
         return error_set(error, "slosh chart: the case %s has a time of its own; leave --time out",
                          plan->subject.of->name);
-    const CaseSetup setup = {plan->subject.of, CASE_DEFAULT,
-                             plan->subject.of ? plan->subject.of->methods[0].name : NULL, &settings};
+    const CaseSetup setup = {.of = plan->subject.of,
+                             .level = CASE_DEFAULT,
+                             .method = plan->subject.of ? plan->subject.of->methods[0].name : NULL,
+                             .settings = &settings};
     if (plan->subject.of)
         return case_scene(&setup, &plan->scene, error);
     if (scene_load(args->scenes[0], &settings, &plan->scene, &plan->notes, &no_scene))

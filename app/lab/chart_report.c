@@ -7,8 +7,6 @@
 static const char *remark(const ChartRows *rows, int i)
 {
     const ChartRow *row = &rows->row[i];
-    if (!isfinite(row->seconds))
-        return row->role == CHART_REFERENCE ? "  the reference: broke" : "  broke";
     if (row->role == CHART_REFERENCE)
         return "  the reference";
     return chart_on_front(rows, i) ? "  best for its time" : "";
@@ -36,12 +34,13 @@ void chart_print(const ChartRows *rows, double floor, FILE *file)
             "particles", "s a simulated s", "error");
     for (int i = 0; i < rows->count; i++) {
         const ChartRow *row = &rows->row[i];
+        char text[OUTCOME_TEXT];
         if (row->role == CHART_FLOOR)
             continue;
         fprintf(file, "%-8s %-8s %-12s %10.4g %9zu %14.4g %7.3g %%%s\n", row->method, row->backend, row->step,
                 row->spacing, row->particles, row->seconds, 100 * row->error, remark(rows, i));
-        if (*row->failure)
-            fprintf(file, "  %s\n", row->failure);
+        if (row->outcome.kind != OUTCOME_HOLDS)
+            fprintf(file, "  %s\n", outcome_text(&row->outcome, text));
     }
     print_orders(rows, floor, file);
     if (isfinite(floor))
@@ -53,10 +52,13 @@ static json_t *row_json(const ChartRows *rows, int i)
     static const char *const roles[] = {
         [CHART_POINT] = "point", [CHART_REFERENCE] = "reference", [CHART_FLOOR] = "floor"};
     const ChartRow *row = &rows->row[i];
-    return json_pack("{s:s, s:s, s:s, s:s, s:f, s:I, s:o, s:o, s:b}", "role", roles[row->role], "method",
-                     row->method, "backend", row->backend, "step", row->step, "spacing", row->spacing,
-                     "particles", (json_int_t)row->particles, "seconds_per_second", number_json(row->seconds),
-                     "error", number_json(row->error), "front", chart_on_front(rows, i));
+    json_t *json =
+        json_pack("{s:s, s:s, s:s, s:s, s:f, s:I, s:o, s:o, s:b}", "role", roles[row->role], "method",
+                  row->method, "backend", row->backend, "step", row->step, "spacing", row->spacing,
+                  "particles", (json_int_t)row->particles, "seconds_per_second", number_json(row->seconds),
+                  "error", number_json(row->error), "front", chart_on_front(rows, i));
+    outcome_json(json, &row->outcome);
+    return json;
 }
 
 /* One a line of the convergence. */

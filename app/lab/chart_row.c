@@ -11,7 +11,8 @@
 #include <string.h>
 
 static const char HEAD[] =
-    "key,role,method,backend,step,fineness,spacing_m,particles,seconds_a_simulated_second,error,series\n";
+    "key,role,method,backend,step,fineness,spacing_m,particles,seconds_a_simulated_second,error,"
+    "outcome,outcome_s,outcome_words,series\n";
 static const char *const roles[] = {"point", "reference", "floor"};
 
 /* What every chart's file begins with, whatever else its rows hold. */
@@ -64,6 +65,15 @@ static bool copy_name(char name[NAME_SIZE], const char *cell)
     return snprintf(name, NAME_SIZE, "%s", cell) < NAME_SIZE && *cell;
 }
 
+/* Of three cells: kind, time, words. */
+static bool parse_outcome(char *const cells[3], Outcome *outcome)
+{
+    outcome->kind = outcome_of_word(cells[0]);
+    snprintf(outcome->words, sizeof outcome->words, "%s", cells[2]);
+    return outcome->kind < OUTCOME_COUNT && read_number(cells[1], &outcome->time) &&
+           strlen(cells[2]) < sizeof outcome->words;
+}
+
 /* What no run has, or NULL. Of one that broke the seconds are NaN, of one without a reference the error. */
 static const char *impossible(const ChartRow *row, double fineness, double particles)
 {
@@ -81,7 +91,7 @@ static const char *impossible(const ChartRow *row, double fineness, double parti
 /* NULL, or what is wrong: the run is made again. */
 static const char *parse_row(char *line, ChartRow *row)
 {
-    enum { CELLS = 10 };
+    enum { CELLS = 13 };
     static const char unreadable[] = "row";
     char *cells[CELLS], *at = line, *end;
     double fineness, particles;
@@ -99,7 +109,7 @@ static const char *parse_row(char *line, ChartRow *row)
                     copy_name(row->step, cells[4]) && read_number(cells[5], &fineness) &&
                     read_number(cells[6], &row->spacing) && read_number(cells[7], &particles) &&
                     read_number(cells[8], &row->seconds) && read_number(cells[9], &row->error) &&
-                    parse_series(at, row);
+                    parse_outcome(&cells[10], &row->outcome) && parse_series(at, row);
     const char *wrong = ok ? impossible(row, fineness, particles) : unreadable;
     if (wrong)
         return wrong;
@@ -147,6 +157,11 @@ bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *e
 void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan)
 {
     int oldest = 0;
+    for (int i = 0; i < rows->count; i++)
+        if (rows->row[i].key == row->key) {
+            rows->row[i] = *row;
+            return;
+        }
     if (rows->count == CHART_ROWS_MAX) {
         while (oldest < rows->count && chart_rows_find(plan, rows->row[oldest].key))
             oldest++;
@@ -173,9 +188,10 @@ void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan)
 /* The series to the last bit: the errors of a chart that goes on are the same. */
 static void print_row(const ChartRow *row, FILE *file)
 {
-    fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,", row->key, roles[row->role],
+    const Outcome *outcome = &row->outcome;
+    fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,%s,%.9g,%s,", row->key, roles[row->role],
             row->method, row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds,
-            row->error);
+            row->error, outcome_word(outcome->kind), outcome->time, outcome->words);
     for (int t = 0; t < CHART_TIMES && row->quantities > 0; t++)
         for (int q = 0; q < row->quantities; q++)
             fprintf(file, "%s%.17g", q ? " " : t ? ";" : "", row->series[t][q]);

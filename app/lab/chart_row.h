@@ -4,6 +4,7 @@
 #ifndef SLOSH_CHART_ROW_H
 #define SLOSH_CHART_ROW_H
 
+#include "app/lab/outcome.h"
 #include "app/metric/metric_list.h"
 #include "app/scene/scene.h"
 
@@ -26,10 +27,10 @@ typedef struct ChartRow {
     int fineness;         /* of the step: rows of the same one are one line of the convergence */
     double spacing;       /* m */
     size_t particles;
-    double seconds;    /* of computing, a simulated second; NaN: it broke */
-    double error;      /* NaN: not known */
-    char failure[128]; /* why it broke; "" where it did not, and in rows that were read */
-    int quantities; /* of a scene: the numbers of its metrics, one after the other, at even times; else 0 */
+    double seconds;  /* of computing, a simulated second; NaN: it broke */
+    double error;    /* NaN: not known */
+    Outcome outcome; /* how it went; of OUTCOME_NONE that it has not been run */
+    int quantities;  /* of a scene: the numbers of its metrics, one after the other, at even times; else 0 */
     double series[CHART_TIMES][CHART_QUANTITIES];
 } ChartRow;
 
@@ -44,7 +45,8 @@ typedef struct ChartRows {
  */
 bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error);
 
-/* Adds a row, in place of the oldest that is none of `plan` where there is no room. */
+/* Adds a row, in place of the one with its key; where there is no room, of the oldest that is none of `plan`.
+ */
 void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan);
 
 /* Adds the rows that the file has got since it was read, from another chart under the same name. */

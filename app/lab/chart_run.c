@@ -1,6 +1,7 @@
 #include "app/lab/chart_run.h"
 
 #include "app/base/interrupt.h"
+#include "app/lab/outcome_watch.h"
 #include "app/scene/keys.h"
 #include "sim/base/stage.h"
 #include "sim/world/method.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXTS = 6, TEXT_SIZE = 96 };
+enum { TEXTS = 6, TEXT_SIZE = 96, LOOK_EVERY = 4, LOOKS = 10 }; /* looks take some steps' time */
 
 static uint64_t hash(uint64_t h, const char *text, size_t size)
 {
@@ -58,7 +59,8 @@ static bool load(const ChartSubject *subject, const ChartJob *job, JobSettings *
 {
     if (!subject->of)
         return scene_load(subject->scene, &settings->all, scene, NULL, error);
-    const CaseSetup setup = {subject->of, CASE_DEFAULT, job->method, &settings->all};
+    const CaseSetup setup = {
+        .of = subject->of, .level = CASE_DEFAULT, .method = job->method, .settings = &settings->all};
     return case_scene(&setup, scene, error);
 }
 
@@ -123,6 +125,7 @@ typedef struct SceneRun {
     double before_time;
     double spent;  /* s of computing */
     Error failure; /* why it broke */
+    OutcomeHistory history;
 } SceneRun;
 
 /* The metrics of the present state, one after the other; how many numbers, or -1 without memory. */
@@ -175,6 +178,9 @@ static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *pro
         if (!advance_to(run, due, until, progress, done, part))
             return !interrupted() || error_set(error, "stopped");
         row->quantities = note_state(run, run->now);
+        if ((k % LOOK_EVERY == 0 || k == CHART_TIMES - 1) &&
+            !outcome_look(&run->history, &run->scene->world, false, run->world))
+            row->quantities = -1;
         if (row->quantities < 0)
             return error_set(error, "no memory to read the particles; use a larger spacing");
         const double length = run->info.time - run->before_time;
@@ -187,6 +193,19 @@ static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *pro
     return true;
 }
 
+/* How it went; a run that broke says at once why, and what to do. */
+static void judge(OutcomeHistory *history, const WorldTrouble *trouble, const char *failure, ChartRow *row)
+{
+    history->trouble = *trouble;
+    if (!*failure || trouble->ended)
+        outcome_judge(history, &row->outcome);
+    else
+        outcome_not_run(failure, &row->outcome);
+    if (*failure)
+        fprintf(stderr, "%s, %s, %s, spacing %.4g m: %s\n", row->method, row->backend, row->step,
+                row->spacing, failure);
+}
+
 static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress *progress, double done,
                       double part, Error *error)
 {
@@ -196,10 +215,28 @@ static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress 
     world_info(run.world, &run.info);
     row->particles = run.info.count;
     const bool ok = sample_all(&run, until, row, progress, done, part, error);
-    snprintf(row->failure, sizeof row->failure, "%.127s", run.failure.message);
+    judge(&run.history, &run.info.trouble, run.failure.message, row);
     metric_state_free(&run.state);
     world_destroy(run.world);
     return ok;
+}
+
+typedef struct CaseWatch {
+    OutcomeHistory history;
+    bool looked;
+    double every, next; /* s */
+} CaseWatch;
+
+/* Of a case's states some. */
+static void watch_case(void *watcher, const WorldDef *def, World *world)
+{
+    CaseWatch *watch = watcher;
+    WorldInfo info;
+    world_info(world, &info);
+    if (watch->looked && info.time < watch->next)
+        return;
+    watch->next = info.time + watch->every;
+    watch->looked |= outcome_look(&watch->history, def, false, world);
 }
 
 static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
@@ -210,10 +247,16 @@ static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow 
     JobSettings settings;
     if (!job_settings(subject, job, &settings, &scene, row, error))
         return false;
-    const CaseSetup setup = {subject->of, CASE_DEFAULT, job->method, &settings.all};
+    CaseWatch watch = {.every = 0.99 * subject->of->time / LOOKS};
+    const CaseSetup setup = {.of = subject->of,
+                             .level = CASE_DEFAULT,
+                             .method = job->method,
+                             .settings = &settings.all,
+                             .watch = watch_case,
+                             .watcher = &watch};
     const bool ok = case_run(&setup, progress, done, part, &result, error);
     row->particles = result.particles;
-    snprintf(row->failure, sizeof row->failure, "%.127s", result.failure);
+    judge(&watch.history, &result.run.info.trouble, result.failure, row);
     if (ok && !*result.failure) {
         row->seconds = result.step_seconds / subject->of->time;
         row->error = result.run.figures[0].error;

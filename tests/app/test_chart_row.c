@@ -17,6 +17,7 @@ static ChartRow *add(ChartRole role, double spacing, double seconds, double off)
     snprintf(row->backend, NAME_SIZE, "cpu");
     snprintf(row->step, NAME_SIZE, "number 0.3");
     row->quantities = 4;
+    row->outcome = (Outcome){.kind = OUTCOME_HOLDS, .time = (double)NAN};
     rows.metric_count = metric_defaults(rows.metrics);
     row->error = off;
     rows.count++;
@@ -168,7 +169,8 @@ static void a_file_keeps_them(void **state)
     assert_int_equal(again.count, 0);
     rows.count = 0;
     set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5);
-    add(CHART_FLOOR, 0.25, (double)NAN, (double)NAN);
+    add(CHART_FLOOR, 0.25, (double)NAN, (double)NAN)->outcome =
+        (Outcome){OUTCOME_BLOWN_UP, 0.375, "a particle moves further than the support radius in one step"};
     assert_true(chart_rows_write(&rows, path, &error));
     assert_true(chart_rows_read(&again, path, NULL, &error));
     assert_int_equal(again.count, 2);
@@ -178,6 +180,9 @@ static void a_file_keeps_them(void **state)
     assert_string_equal(row->step, "number 0.3");
     assert_true(fabs(row->series[CHART_TIMES - 1][3] - 12) < 1e-9);
     assert_true(isnan(again.row[1].seconds) && again.row[1].role == CHART_FLOOR);
+    assert_true(row->outcome.kind == OUTCOME_HOLDS && isnan(row->outcome.time) && !*row->outcome.words);
+    assert_true(again.row[1].outcome.kind == OUTCOME_BLOWN_UP && again.row[1].outcome.time == 0.375);
+    assert_string_equal(again.row[1].outcome.words, rows.row[1].outcome.words);
     assert_null(chart_rows_find(&again, 7));
     assert_false(chart_rows_write(&rows, "/no/such/folder/x.csv", &error));
 }
@@ -227,8 +232,9 @@ static void an_impossible_row_is_left_out(void **state)
 {
     (void)state;
     static const char *const cells[][2] = {
-        {",1.5,", ",-1,"}, {",1.5,", ",0,"}, {",1.5,", ",inf,"},   {",0.25,", ",-0.25,"}, {",0.25,", ",inf,"},
-        {"0.125", "-2"},   {"0.125", "nan"}, {",1.5,", ",seven,"}, {",1000,", ",-3,"},
+        {",1.5,", ",-1,"},   {",1.5,", ",0,"},      {",1.5,", ",inf,"}, {",0.25,", ",-0.25,"},
+        {",0.25,", ",inf,"}, {"0.125", "-2"},       {"0.125", "nan"},   {",1.5,", ",seven,"},
+        {",1000,", ",-3,"},  {",holds,", ",fine,"},
     };
     static const char *const wrong[] = {"seconds_a_simulated_second",
                                         "seconds_a_simulated_second",
@@ -238,7 +244,8 @@ static void an_impossible_row_is_left_out(void **state)
                                         "spacing_m",
                                         "spacing_m",
                                         "row",
-                                        "particles"};
+                                        "particles",
+                                        "row"};
     static char whole[16384], spoilt[16384];
     rows.count = 0;
     for (int i = 0; i < 2; i++) {

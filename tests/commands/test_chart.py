@@ -72,8 +72,15 @@ class Chart(command.CommandTest):
         done = self.run_it('scene.yaml', '-o', 'out.svg', '--json', 'out.json', '--set', 'solver.sound_speed=3000', *SMALL)
         self.assertEqual(done.returncode, 1)
         self.assertIn('broke', done.stderr)
-        self.assertIn('broke', done.stdout)
+        self.assertRegex(done.stdout, r'  (blown up|noisy) at t = [0-9.e-]+ s: \w')
+        self.assertRegex(done.stderr, r'mueller, cpu, \S+ \S+, spacing \S+ m: the simulation blew up at t = ')
         figures = json.loads(self.read('out.json'))
+        broken = [run for run in figures['runs'] if run['seconds_per_second'] is None]
+        self.assertGreater(len(broken), 3)
+        for run in [run for run in broken if run['role'] != 'floor']:
+            self.assertIn(f"  {run['outcome']} at t = {run['outcome_time']:.4g} s: {run['outcome_words']}\n", done.stdout)
+        again = self.run_it('scene.yaml', '-o', 'out.svg', '--set', 'solver.sound_speed=3000', *SMALL)
+        self.assertEqual((again.returncode, again.stdout), (1, done.stdout))  # kept, as all others are
         self.assertTrue(all(run['error'] is None for run in figures['runs'] if run['role'] == 'point'))
         self.assertIsNone(figures['floor'])
 
@@ -85,7 +92,7 @@ class Chart(command.CommandTest):
         self.assertIn('the same command goes on', process.stderr.read())
         self.assertEqual(self.entries(), ['out.csv'])
         for row in self.text('out.csv').splitlines()[1:]:
-            self.assertEqual(len(row.replace(';', ' ').split(',')[10].split(' ')), 160)
+            self.assertEqual(len(row.replace(';', ' ').split(',')[-1].split(' ')), 160)
 
     def test_another_s_file_is_kept(self):
         self.write('out.csv', 'day,rain\n')

@@ -35,7 +35,7 @@ static void samples_are_of_sound_states(void **state)
     SceneSettings settings = {.count = 2, .set = {"solver.backend=compute", "solver.step.number=1.8"}};
     Case often = *case_find("elliptical_drop", &error);
     often.every = 1e-6; /* after each step */
-    const CaseSetup setup = {&often, CASE_COARSE, "wcsph", &settings};
+    const CaseSetup setup = {.of = &often, .level = CASE_COARSE, .method = "wcsph", .settings = &settings};
     progress_begin(&progress, stderr, "", true);
     if (!case_run(&setup, &progress, 0, 1, &result, &error))
         fail_msg("%s", error.message);

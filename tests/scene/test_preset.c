@@ -123,7 +123,7 @@ static char *settings_of(const Case *of, const char *method)
 {
     SceneSettings none = {0}, own = {.count = of->setting != NULL, .set = {of->setting}};
     Error error;
-    const CaseSetup setup = {of, CASE_DEFAULT, method, &none};
+    const CaseSetup setup = {.of = of, .level = CASE_DEFAULT, .method = method, .settings = &none};
     if (!(method ? case_scene(&setup, &scene, &error) : scene_load(of->scene, &own, &scene, NULL, &error)))
         fail_msg("%s", error.message);
     return scene_print_text(&scene);
