@@ -83,6 +83,13 @@ static void write_push(FILE *file, const Push *push)
         fprintf(file, ",%.9g", k < 3 ? push->force[k] : push->torque[k - 3]);
 }
 
+/* The table may be read, and gone on with, from now on; what follows is added to it. */
+static bool name_table(ForcesLog *log, Error *error)
+{
+    log->named = true;
+    return output_commit(&log->output, error);
+}
+
 bool forces_log_add(ForcesLog *log, double time, const Forces *mean, Error *error)
 {
     if (mean->seconds == 0)
@@ -92,7 +99,9 @@ bool forces_log_add(ForcesLog *log, double time, const Forces *mean, Error *erro
     for (int k = 0; k < log->solids; k++)
         write_push(log->file, &mean->solid[k]);
     forces_add_mean(&log->all, mean);
-    return fputc('\n', log->file) != EOF || error_set(error, "%.300s: %s", log->output.path, strerror(errno));
+    if (fputc('\n', log->file) == EOF || fflush(log->file) != 0)
+        return error_set(error, "%.300s: %s", log->output.path, strerror(errno));
+    return log->named || name_table(log, error);
 }
 
 bool forces_log_close(ForcesLog *log, Error *error)
@@ -103,7 +112,7 @@ bool forces_log_close(ForcesLog *log, Error *error)
         return true;
     const bool sound = !ferror(file);
     if (fclose(file) == 0 && sound)
-        return output_commit(&log->output, error);
+        return log->named || name_table(log, error);
     error_set(error, "%.300s: %s", log->output.path, strerror(errno));
     output_discard(&log->output);
     return false;

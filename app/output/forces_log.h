@@ -15,19 +15,21 @@
 typedef struct ForcesLog {
     FILE *file; /* NULL: there is none */
     Output output;
+    bool named; /* the table has its name; else it is still a temporary file */
     int solids;
     Forces all; /* of all rows that were added, summed over time */
 } ForcesLog;
 
-/* Begins a table of so many solids that gets its name in forces_log_close. The rows that a table of that name
-   has up to `keep` (s) stay: less than 0 for a new run. False with the reason: it can't be written, or what
-   is there is another table. */
+/* Begins a table of so many solids that gets its name with its first row, or in forces_log_close: until then
+   an older one stays. The rows that a table of that name has up to `keep` (s) stay: less than 0 for a new
+   run. False with the reason: it can't be written, or what is there is another table. */
 bool forces_log_open(ForcesLog *log, const char *path, int solids, double keep, Error *error);
 
-/* Adds a row, of means; none where no time went by. False with the reason. */
+/* Adds a row, of means; none where no time went by. It is the system's from then on: a program that is killed
+   leaves it. False with the reason. */
 bool forces_log_add(ForcesLog *log, double time, const Forces *mean, Error *error);
 
-/* Gives the table its name; nothing where there is none. */
+/* The table is whole; nothing where there is none. */
 bool forces_log_close(ForcesLog *log, Error *error);
 
 /* {"seconds", "box": {"force": [3], "torque": [3]}, "solids": [the same]}: the means of all. */

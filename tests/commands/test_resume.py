@@ -86,8 +86,33 @@ class Resume(CommandTest):
         self.assertIn("b.csv: is no table of this scene's forces", said)
         self.assertEqual('time,seconds\n', self.read('b.csv').decode())
 
+    def test_a_table_of_forces_of_a_killed_run(self):
+        """It has its rows, the last one may be half one; with the rest it comes to the same bytes."""
+        self.write('scene.yaml', FLOW)
+        self.go('--forces', 'whole.csv', name='whole.h5part')
+        whole = self.read('whole.csv').decode()
+        for rows in (1, 40, 90):
+            for name in ('a.h5part', 'a.csv'):
+                if os.path.exists(self.path(name)):
+                    os.remove(self.path(name))
+            process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', TIME, '--every', EVERY, '--quiet',
+                                 '--forces', 'a.csv')
+            while not os.path.exists(self.path('a.csv')) or self.read('a.csv').count(b'\n') < 1 + rows:
+                time.sleep(0.002)
+            process.kill()
+            self.assertEqual(process.wait(), -signal.SIGKILL)
+            left = self.read('a.csv').decode()
+            self.assertTrue(whole.startswith(left))
+            with h5py.File(self.path('a.h5part')) as file:
+                last = file[f"Step#{len(whole_steps(self.path('a.h5part'))) - 1}"].attrs['TimeValue']
+            self.assertGreaterEqual(float(left.splitlines()[-1].split(',')[0]), last * (1 - 1e-9))
+            with open(self.path('a.csv'), 'a') as file:
+                file.write('0.39,0.0')  # a row that did not come to its end
+            self.go('--resume', '--forces', 'a.csv')
+            self.assertEqual(whole, self.read('a.csv').decode())
+
     def test_a_table_that_is_gone_is_told(self):
-        """As after kill -9: rows from there on, and a line that says so."""
+        """Rows from there on, and a line that says so."""
         self.go('--time', '0.2')
         said = self.go('--resume', '--forces', 'a.csv')
         self.assertIn('a.csv: there is no such table to go on with; it begins at t = 0.2 s', said)
