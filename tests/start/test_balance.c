@@ -87,11 +87,13 @@ static double sideways(const float x[3])
 static void gravity_may_act_sideways(void **state)
 {
     (void)state;
-    WorldDef def = tank_def("wcsph", 1.5, 0.5);
-    def.gravity[0] = 9.81;
-    def.gravity[1] = 0;
-    fixture_block(&def, 0, -0.5, 0, 0, 0.75, 0.5, 0);
-    expect_balance(&def, sideways, 12260, 0.02);
+    for (int m = 0; m < fixture_methods(); m++) {
+        WorldDef def = tank_def(fixture_method_names[m], 1.5, 0.5);
+        def.gravity[0] = 9.81;
+        def.gravity[1] = 0;
+        fixture_block(&def, 0, -0.5, 0, 0, 0.75, 0.5, 0);
+        expect_balance(&def, sideways, 12260, m == 0 ? 0.12 : 0.02);
+    }
 }
 
 /* Of what starts so: whether its first state is that of a start at rest, to the bit. */
