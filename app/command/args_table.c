@@ -90,6 +90,7 @@ const OptionRow option_rows[] = {
     {"--interpolate", NULL, RENDER, OPTION_FLAG, AT(interpolate),
      .help = "with a fixed step: pictures of the states between steps, at their own times"},
     {"--forces", "FILE", RUN, OPTION_TEXT, AT(forces), .help = "what the fluid does to the box and to each solid, N and N m, a row a frame, as CSV; not with backend fragment"},
+    {"--probes", "FILE", RUN, OPTION_TEXT, AT(probes), .help = "what the scene's probes read, a row a step: FILE.csv; FILE.svg or FILE.png: a plot of that too"},
     {"--resume", NULL, RUN, OPTION_FLAG, AT(resume), .help = "go on behind the last snapshot of OUT, to the same bits"},
     {"--frames", "N", RENDER | BENCH, OPTION_COUNT, AT(frames), .min = 1, .max = 1e7, .help = "how many frames"},
     {"--fps", "N", RENDER, OPTION_NUMBER, AT(fps), .min = 0.001, .max = 1000,

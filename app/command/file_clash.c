@@ -12,6 +12,7 @@
 #include <fnmatch.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 enum { FILES_MAX = ARGS_SCENES_MAX + 16 };
@@ -80,6 +81,14 @@ static void add_chart(Files *files, const char *output)
         add_beside(files, "the figures of -o", output, strlen(dot), ".csv", NULL);
 }
 
+static void add_probes(Files *files, const char *output)
+{
+    const char *dot = strrchr(output, '.');
+    add(files, FILE_REPLACED, "--probes", output, NULL);
+    if (dot && strcasecmp(dot, ".csv") != 0)
+        add_beside(files, "the table of --probes", output, strlen(dot), ".csv", NULL);
+}
+
 static void add_outputs(Files *files, const Args *args)
 {
     const char *output = args->output;
@@ -94,6 +103,8 @@ static void add_outputs(Files *files, const Args *args)
     if (args->json && !json_is_stream(args->json))
         add(files, FILE_REPLACED, "--json", args->json, NULL);
     add(files, FILE_REPLACED, "--forces", args->forces, NULL);
+    if (args->probes)
+        add_probes(files, args->probes);
     add(files, args->command == COMMAND_DEVICES ? FILE_NEW : FILE_REPLACED, "--record", args->record, NULL);
 }
 

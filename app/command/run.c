@@ -3,8 +3,10 @@
 #include "app/base/output.h"
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
+#include "app/lab/probe_chart.h"
 #include "app/metric/compression.h"
 #include "app/output/forces_log.h"
+#include "app/session/probe_series.h"
 #include "app/session/session.h"
 #include "app/session/snapshot_series.h"
 
@@ -25,12 +27,16 @@ typedef struct Look {
     CompressionTally compression;
     double step_seconds; /* wall time of the steps, without what is written */
     ForcesLog forces;    /* of --forces */
+    ProbeSeries probes;  /* of --probes */
 } Look;
 
 static bool step(Session *session, Look *look, Error *error)
 {
     const double begin = wall_ms();
-    const bool ok = session_step(session, error);
+    bool ok = true;
+    do
+        ok = session_substep(session, error) && probe_series_step(&look->probes, session, error);
+    while (ok && session->info.within_frame);
     world_sound(session->world); /* waits for a GPU, which is what is timed */
     look->step_seconds += (wall_ms() - begin) / 1000;
     return ok;
@@ -78,7 +84,7 @@ static bool simulate(Session *session, const Args *args, Snapshot *file, Look *l
             keep_last(session, file);
             return false;
         }
-        if (!add_forces(session, &look->forces, error))
+        if (!add_forces(session, &look->forces, error) || !probe_series_frame(&look->probes, session, error))
             return false;
         progress_update(progress, session->info.time / args->time);
     }
@@ -100,9 +106,11 @@ static int finish(const Session *session, const Args *args, const Snapshot *file
                        .step_seconds = look->step_seconds,
                        .compression = look->compression.states ? &pressed : NULL,
                        .forces = args->forces ? &look->forces : NULL,
+                       .probes = args->probes ? &look->probes.table : NULL,
                        .stopped = !session_reached(session, args->time)};
     session_report(session, args, &summary);
-    if (session_write_json(session, args, &summary, error))
+    if ((!args->probes || probe_chart(args->probes, session->scene.title, error)) &&
+        session_write_json(session, args, &summary, error))
         return summary.stopped ? EXIT_INTERRUPTED : 0;
     return complain(EXIT_FAILED, error);
 }
@@ -157,6 +165,28 @@ static bool begin_forces(const Session *session, const Args *args, bool resumed,
                            resumed ? session->info.time : -1, error);
 }
 
+/* --probes: whether there are any, and the file could be; what to say where they are not asked for. */
+static bool check_probes(const Session *session, const Args *args, Error *error)
+{
+    const bool any = session->scene.probes.count > 0;
+    if (any && !args->probes && !args->quiet)
+        fprintf(stderr, "%s: its probes are not read; --probes FILE.csv writes them\n", session->scene.path);
+    if (!args->probes)
+        return true;
+    return any ? probe_chart_name(args->probes, error)
+               : error_set(error, "%.300s has no probes for --probes; slosh help keys says how to name some",
+                           session->scene.path);
+}
+
+static bool begin_probes(Session *session, const Args *args, bool resumed, Look *look, Error *error)
+{
+    char table[1024];
+    if (!args->probes)
+        return true;
+    probe_chart_table(args->probes, table);
+    return probe_series_begin(&look->probes, session, table, resumed, error);
+}
+
 static int run(Session *session, const Args *args, Error *error)
 {
     Progress progress;
@@ -164,10 +194,11 @@ static int run(Session *session, const Args *args, Error *error)
     Snapshot *file;
     bool busy = false;
     const bool resumed = args->resume && access(args->output, F_OK) == 0;
-    if (args->forces && !world_feel(session->world, error))
+    if (!check_probes(session, args, error) || (args->forces && !world_feel(session->world, error)))
         return complain(EXIT_USAGE, error);
     if ((args->json && !json_file_check(args->json, error)) ||
-        (args->forces && !output_check(args->forces, error)))
+        (args->forces && !output_check(args->forces, error)) ||
+        (args->probes && !output_check(args->probes, error)))
         return complain(EXIT_FAILED, error);
     if (resumed) {
         file = resume(session, args, &busy, error);
@@ -178,13 +209,16 @@ static int run(Session *session, const Args *args, Error *error)
     }
     progress_begin(&progress, stderr, "run", args->quiet);
     bool done = begin_forces(session, args, resumed, &look, error) &&
+                begin_probes(session, args, resumed, &look, error) &&
                 simulate(session, args, file, &look, &progress, error);
     progress_end(&progress);
     Error none = {{0}};
     done &= forces_log_close(&look.forces, done ? error : &none);
+    done &= probe_series_close(&look.probes, done ? error : &none);
     int code = done ? finish(session, args, file, &look, error) : fail(session, args, file, error);
     snapshot_close(file);
     cloud_free(&look.cloud);
+    probe_series_free(&look.probes);
     return code;
 }
 

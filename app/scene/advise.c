@@ -10,8 +10,8 @@
 
 enum { PATH_SIZE = 256 };
 
-static Advice *const advices[] = {advise_fills, advise_step,  advise_places, advise_method,
-                                  advise_sound, advise_borne, advise_slip,   NULL};
+static Advice *const advices[] = {advise_fills, advise_step, advise_places, advise_method, advise_sound,
+                                  advise_borne, advise_slip, advise_probes, NULL};
 
 void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
 {

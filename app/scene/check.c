@@ -42,6 +42,9 @@ bool scene_check(const Tree *tree, const Scene *scene, Error *error)
     for (int k = 0; k < scene->world.solid_count; k++)
         if (!scene_check_solid(&check, k))
             return false;
+    for (int k = 0; k < scene->probes.count; k++)
+        if (!scene_check_probe(&check, k))
+            return false;
     return scene_check_plane(&check, "gravity", scene->world.gravity) && check_spacing(&check) &&
            scene_check_lid(&check) && check_view(&check);
 }

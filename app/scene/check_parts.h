@@ -38,4 +38,7 @@ bool scene_check_solid(const Check *check, int index);
 /* Fluid on both sides of what is thinner than a spacing would be one fluid. */
 bool scene_check_widths(const Check *check);
 
+/* check_probes.c */
+bool scene_check_probe(const Check *check, int index);
+
 #endif

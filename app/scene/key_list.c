@@ -41,6 +41,7 @@ static const Key metric_keys[] = {
 extern const Key box_keys[], fluid_keys[], solid_keys[], solver_keys[], step_keys[],
     box_motion_keys[];                                            /* sim/matter */
 extern const Key preset_keys[];                                   /* app/scene */
+extern const Key probe_keys[];                                    /* app/probe */
 extern const Key motion_keys[], solid_motion_keys[], hand_keys[]; /* sim/box */
 extern const Key method_keys[], backend_keys[];                   /* sim/world */
 extern const Key view_keys[], view_frame_keys[];                  /* render/frame */
@@ -146,6 +147,7 @@ static void table_make(void)
     add_rows(box_motion_keys, world, NULL);
     add_rows(motion_keys, 0, NULL);
     add_rows(metric_keys, 0, NULL);
+    add_rows(probe_keys, offsetof(Scene, probes), NULL);
     add_rows(view_keys, view, NULL);
     add_views();
     add_rows(view_frame_keys, view, NULL);

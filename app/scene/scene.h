@@ -6,6 +6,7 @@
 #define SLOSH_SCENE_H
 
 #include "app/base/notes.h"
+#include "app/probe/probe_def.h"
 #include "render/frame/view_def.h"
 #include "sim/base/error.h"
 #include "sim/matter/world_def.h"
@@ -35,6 +36,7 @@ typedef struct Scene {
     int metric_count;
     /* what `slosh chart` compares: places in metric_kinds (app/metric/metric_list.h) */
     int metrics[SCENE_METRICS_MAX];
+    ProbeList probes; /* no world knows them */
 } Scene;
 
 enum { SCENE_SETTINGS_MAX = 64 };

@@ -61,6 +61,7 @@ typedef struct Args {
     const char *json;    /* FILE, or NULL */
     const char *output;  /* -o, or NULL */
     const char *forces;  /* run: FILE, or NULL */
+    const char *probes;  /* run: FILE, or NULL */
     const char *shaders; /* DIR, or NULL: those in the program */
     bool time_given;
     double time;       /* s, at least 0; default 5 */

@@ -3,6 +3,7 @@
 #include "app/base/exit_code.h"
 #include "app/base/json_file.h"
 #include "app/output/forces_log.h"
+#include "app/probe/probe_table.h"
 #include "app/session/solved.h"
 
 #include <math.h>
@@ -214,6 +215,8 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
         json_object_set_new(json, "compression", compression_json(summary->compression));
     if (json && summary->forces)
         json_object_set_new(json, "forces", forces_log_json(summary->forces));
+    if (json && summary->probes)
+        json_object_set_new(json, "probes", probe_table_json(summary->probes));
     if (json && summary->renderer)
         json_object_set_new(json, "renderer", json_string(summary->renderer));
     return json;

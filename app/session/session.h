@@ -80,6 +80,7 @@ typedef struct Summary {
     double step_seconds;                   /* wall time of the steps alone; 0: not measured */
     const CompressionFigures *compression; /* of the states that were looked at; NULL: none */
     const struct ForcesLog *forces;        /* NULL: they were not asked for */
+    const struct ProbeTable *probes;       /* the same */
     bool stopped;                          /* by a signal */
 } Summary;
 

@@ -15,7 +15,7 @@ DEVICE = 'slosh device recording 1\n0.000000 1 plugged dualsense 054c:0ce6 usb t
 
 # A value for each option; None: it takes none.
 VALUES = {
-    '--time': '0.004', '--frames': '1', '--fps': '250', '--every': '0.004', '--size': '32x32', '--resume': None, '--forces': 'forces.csv',
+    '--time': '0.004', '--frames': '1', '--fps': '250', '--every': '0.004', '--size': '32x32', '--resume': None, '--forces': 'forces.csv', '--probes': 'probes.csv',
     '--set': 'gravity=[0, -5, 0]', '--particles': '100', '--backend': 'cpu', '--method': 'mueller', '--view': 'spheres',
     '--simd': 'baseline', '--threads': '1', '--gpu': '0', '--shaders': SHADERS, '--device': 'file:device.rec', '--mapping': 'mapping.yaml',
     '--json': 'out.json', '--quiet': None, '--clock': 'finish', '--sweep': 'threads=1', '--frame': 'world',
@@ -45,6 +45,7 @@ class Help(CommandTest):
     def test_every_option_that_help_lists_works(self):
         self.write('device.rec', DEVICE)
         self.assertEqual(self.slosh('devices', '--write-mapping', 'mapping.yaml')[0], 0)
+        self.write('scene.yaml', command.SCENE + 'probes: [{name: a, point: {at: [0, 0, 0]}}]\n')
         self.check('run', 'scene.yaml', output=['-o', 'out.h5part'])
         self.check('render', 'scene.yaml', output=['-o', 'out'])
         self.check('bench', 'scene.yaml')

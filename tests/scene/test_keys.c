@@ -10,37 +10,43 @@
 #include <stdlib.h>
 
 /* Every mapping, variant and list of the table, so that --set can reach every key. */
-static const char everything[] = "box: {size: [1, 1, 1]}\n"
-                                 "particles: {spacing: 0.1}\n"
-                                 "fluids:\n"
-                                 "  - fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.5, 0.5]}}]\n"
-                                 "  - fill: [{ball: {centre: [0, 0.8, 0], radius: 0.2}}]\n"
-                                 "  - viscosity: [[0, 50], [2.5, 40], [6, 0.1]]\n"
-                                 "    fill: [{cylinder: {centre: [0.3, 0.7, 0], radius: 0.1, height: 0.3}}]\n"
-                                 "  - emit:\n"
-                                 "      - disk: {centre: [0, 0.5, 0], direction: [0, 1, 0], radius: 0.1}\n"
-                                 "        speed: 1\n"
-                                 "motion:\n"
-                                 "  - shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 1}\n"
-                                 "  - rock: {axis: [1, 0, 0], angle: 1, frequency: 1}\n"
-                                 "  - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
-                                 "  - spin: {axis: [1, 0, 0], rate: 1}\n"
-                                 "  - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
-                                 "drains:\n"
-                                 "  - block: {min: [0, 0, 0], max: [0.1, 0.1, 0.1]}\n"
-                                 "  - ball: {centre: [0, 0, 0], radius: 0.1}\n"
-                                 "solids:\n"
-                                 "  - sphere: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
-                                 "    motion:\n"
-                                 "      - shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 1}\n"
-                                 "      - rock: {axis: [1, 0, 0], angle: 1, frequency: 1}\n"
-                                 "      - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
-                                 "      - spin: {axis: [1, 0, 0], rate: 1}\n"
-                                 "      - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
-                                 "  - box: {centre: [0.4, 0.9, 0.4], size: [0.2, 0.2, 0.2]}\n"
-                                 "  - cylinder: {centre: [0.4, 0.9, 0.4], radius: 0.1, height: 0.2}\n"
-                                 "  - bowl: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
-                                 "view: {camera: {from: [3, 3, 3], to: [0, 0, 0]}}\n";
+static const char everything[] =
+    "box: {size: [1, 1, 1]}\n"
+    "particles: {spacing: 0.1}\n"
+    "fluids:\n"
+    "  - fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.5, 0.5]}}]\n"
+    "  - fill: [{ball: {centre: [0, 0.8, 0], radius: 0.2}}]\n"
+    "  - viscosity: [[0, 50], [2.5, 40], [6, 0.1]]\n"
+    "    fill: [{cylinder: {centre: [0.3, 0.7, 0], radius: 0.1, height: 0.3}}]\n"
+    "  - emit:\n"
+    "      - disk: {centre: [0, 0.5, 0], direction: [0, 1, 0], radius: 0.1}\n"
+    "        speed: 1\n"
+    "motion:\n"
+    "  - shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 1}\n"
+    "  - rock: {axis: [1, 0, 0], angle: 1, frequency: 1}\n"
+    "  - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
+    "  - spin: {axis: [1, 0, 0], rate: 1}\n"
+    "  - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
+    "drains:\n"
+    "  - block: {min: [0, 0, 0], max: [0.1, 0.1, 0.1]}\n"
+    "  - ball: {centre: [0, 0, 0], radius: 0.1}\n"
+    "solids:\n"
+    "  - sphere: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
+    "    motion:\n"
+    "      - shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 1}\n"
+    "      - rock: {axis: [1, 0, 0], angle: 1, frequency: 1}\n"
+    "      - turn: {axis: [1, 0, 0], angle: 1, duration: 1}\n"
+    "      - spin: {axis: [1, 0, 0], rate: 1}\n"
+    "      - accelerate: {axis: [1, 0, 0], acceleration: 1}\n"
+    "  - box: {centre: [0.4, 0.9, 0.4], size: [0.2, 0.2, 0.2]}\n"
+    "  - cylinder: {centre: [0.4, 0.9, 0.4], radius: 0.1, height: 0.2}\n"
+    "  - bowl: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
+    "probes:\n"
+    "  - {name: a, point: {at: [0, 0, 0]}}\n"
+    "  - {name: b, height: {at: [0, 0, 0]}}\n"
+    "  - {name: c, line: {from: [0, 0, 0], to: [0, 1, 0]}}\n"
+    "  - {name: d, plane: {at: [0, 1, 0], along: [1, 0, 0], across: [0, 0, 1]}}\n"
+    "view: {camera: {from: [3, 3, 3], to: [0, 0, 0]}}\n";
 
 static void replace(char *path, const char *pattern, const char *with)
 {
@@ -70,6 +76,10 @@ static void path_in_scene(const char *row, char path[128])
         replace(path, pattern, with);
     }
     replace(path, "solids[].", "solids[0].");
+    replace(path, "probes[].height", "probes[1].height");
+    replace(path, "probes[].line", "probes[2].line");
+    replace(path, "probes[].plane", "probes[3].plane");
+    replace(path, "probes[].", "probes[0].");
     for (int kind = 0; kind < MOTION_KIND_COUNT; kind++) {
         char pattern[32], with[32];
         snprintf(pattern, sizeof pattern, "motion[].%s.", motion_name((MotionKind)kind));
@@ -173,6 +183,7 @@ static void every_name_of_a_choice_is_taken(void **state)
                 fail_msg("%s", error.message);
             void *const owner = strncmp(path, "solids", 6) == 0   ? (void *)&scene.world.solids[0]
                                 : strncmp(path, "fluids", 6) == 0 ? (void *)&scene.world.fluids[0]
+                                : strncmp(path, "probes", 6) == 0 ? (void *)&scene.probes.probe[0]
                                                                   : &scene;
             key_value_text(&keys[i], owner, text, sizeof text);
             assert_string_equal(text, name);

@@ -45,24 +45,25 @@ RENDER[""] = " ".join(["frame particles ui", *VIEWS])
 APP = {
     "base": "",
     "metric": "base",
+    "probe": "base metric",
     "yaml": "base",
-    "scene": "base metric yaml",
+    "scene": "base metric probe yaml",
     "recording": "base yaml scene",
     "hand": "base scene",
     "device": "base yaml scene recording hand",
     "held": "base scene hand device",
     "output": "base scene",
-    "session": "base metric scene recording hand held output",
-    "case": "base metric scene",
-    "lab": "base metric scene held session case",
+    "session": "base metric probe scene recording hand held output",
+    "case": "base metric probe scene",
+    "lab": "base metric probe scene held session case",
     "window": "",
-    "panel": "scene hand held session",
+    "panel": "probe scene hand held session",
     "play": "base scene recording hand device held output session lab window panel",
-    "command": "base metric yaml scene recording hand device held output session case lab play",
+    "command": "base metric probe yaml scene recording hand device held output session case lab play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]
-DRAWS_NOTHING = {"base", "metric", "yaml", "recording", "device", "window"}  # rooms of app without render and sim/gl
+DRAWS_NOTHING = {"base", "metric", "probe", "yaml", "recording", "device", "window"}  # rooms of app without render and sim/gl
 
 
 # What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`.

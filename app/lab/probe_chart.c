@@ -1,0 +1,250 @@
+#include "app/lab/probe_chart.h"
+
+#include "app/lab/chart.h"
+#include "app/metric/curve.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* Pixels; a curve's points; names in a panel's key, and panels. */
+enum { WIDTH = 900, PANEL_HEIGHT = 280, TITLE_HEIGHT = 40, POINTS = 900, NAMES_MAX = 12, PANELS_MAX = 6 };
+
+typedef struct Line {
+    char name[96], unit[16];
+    Curve curve;
+    /* of the rows since the last point: */
+    double least[2], most[2]; /* time, value */
+    size_t rows;
+} Line;
+
+typedef struct Table {
+    int count;
+    Line *line; /* without the time */
+} Table;
+
+static bool is_table(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && strcasecmp(dot, ".csv") == 0;
+}
+
+bool probe_chart_name(const char *path, Error *error)
+{
+    if (is_table(path) || chart_name(path, NULL))
+        return true;
+    return error_set(error, "'%.300s' is no name for what probes read; name a FILE.csv, FILE.svg or FILE.png",
+                     path);
+}
+
+void probe_chart_table(const char *path, char table[1024])
+{
+    const char *dot = strrchr(path, '.');
+    const int stem = is_table(path) || !dot ? (int)strlen(path) : (int)(dot - path);
+    snprintf(table, 1024, "%.*s%s", stem, path, path[stem] ? ".csv" : "");
+}
+
+static void table_free(Table *table)
+{
+    for (int k = 0; k < table->count; k++)
+        curve_free(&table->line[k].curve);
+    free(table->line);
+}
+
+/* "time [s],wall.pressure [Pa],..." */
+static bool read_head(Table *table, char *text)
+{
+    int count = 0;
+    for (const char *at = text; *at; at++)
+        count += *at == ',';
+    table->line = calloc((size_t)count + 1, sizeof *table->line);
+    char *rest = NULL, *field = strtok_r(text, ",\n", &rest);
+    while (table->line && (field = strtok_r(NULL, ",\n", &rest))) {
+        Line *line = &table->line[table->count++];
+        sscanf(field, "%95s [%15[^]]", line->name, line->unit);
+    }
+    return table->line != NULL;
+}
+
+/* The least and the greatest of the rows since, in the order of their times. */
+static void end_point(Line *line)
+{
+    const double *first = line->least, *then = line->most;
+    if (line->rows == 0) { /* a gap */
+        if (line->curve.count > 0 && isfinite(line->curve.at[line->curve.count - 1][1]))
+            curve_add(&line->curve, 0, (double)NAN);
+        return;
+    }
+    if (first[0] > then[0]) {
+        first = line->most;
+        then = line->least;
+    }
+    curve_add(&line->curve, first[0], first[1]);
+    if (then[0] > first[0])
+        curve_add(&line->curve, then[0], then[1]);
+    line->rows = 0;
+}
+
+static void add_value(Line *line, double time, double value)
+{
+    if (line->rows++ == 0 || value < line->least[1])
+        memcpy(line->least, (double[]){time, value}, sizeof line->least);
+    if (line->rows == 1 || value > line->most[1])
+        memcpy(line->most, (double[]){time, value}, sizeof line->most);
+}
+
+static void add_row(Table *table, const char *text, size_t number, size_t rows_a_point)
+{
+    char *end;
+    const double time = strtod(text, &end);
+    for (int k = 0; k < table->count && *end == ','; k++) {
+        const char *field = end + 1;
+        const double value = strtod(field, &end);
+        if (end != field)
+            add_value(&table->line[k], time, value);
+        if ((number + 1) % rows_a_point == 0)
+            end_point(&table->line[k]);
+    }
+}
+
+static size_t rows_of(FILE *file)
+{
+    size_t rows = 0;
+    for (int c; (c = fgetc(file)) != EOF;)
+        rows += c == '\n';
+    rewind(file);
+    return rows;
+}
+
+static bool read_table(Table *table, const char *path, Error *error)
+{
+    char *text = NULL;
+    size_t room = 0, number = 0;
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return error_set(error, "%.300s: %s", path, strerror(errno));
+    const size_t rows_a_point = rows_of(file) / POINTS + 1;
+    const bool ok = getline(&text, &room, file) > 0 && read_head(table, text);
+    while (ok && getline(&text, &room, file) > 0)
+        add_row(table, text, number++, rows_a_point);
+    for (int k = 0; ok && k < table->count; k++)
+        end_point(&table->line[k]);
+    free(text);
+    fclose(file);
+    return ok || error_set(error, "%.300s: cannot be read again", path);
+}
+
+/* The first line of each unit. */
+static int panels_of(const Table *table, int first[PANELS_MAX])
+{
+    int panels = 0;
+    for (int k = 0; k < table->count; k++) {
+        bool seen = table->line[k].curve.count == 0;
+        for (int p = 0; p < panels; p++)
+            seen |= strcmp(table->line[first[p]].unit, table->line[k].unit) == 0;
+        if (!seen && panels < PANELS_MAX)
+            first[panels++] = k;
+    }
+    return panels;
+}
+
+static void put_curves(const Table *table, FILE *gnuplot)
+{
+    for (int k = 0; k < table->count; k++) {
+        const Curve *curve = &table->line[k].curve;
+        fprintf(gnuplot, "$line%d << EOD\n", k);
+        for (size_t i = 0; i < curve->count; i++)
+            if (isfinite(curve->at[i][1]))
+                fprintf(gnuplot, "%.9g %.9g\n", curve->at[i][0], curve->at[i][1]);
+            else
+                fputc('\n', gnuplot);
+        fputs("EOD\n", gnuplot);
+    }
+}
+
+/* The first time and the last, for all panels. */
+static void put_times(const Table *table, FILE *gnuplot)
+{
+    double from = INFINITY, to = -INFINITY;
+    for (const Line *line = table->line; line < table->line + table->count; line++)
+        for (size_t i = 0; i < line->curve.count; i++)
+            if (isfinite(line->curve.at[i][1])) {
+                from = fmin(from, line->curve.at[i][0]);
+                to = fmax(to, line->curve.at[i][0]);
+            }
+    fprintf(gnuplot, "set xrange [%.9g:%.9g]\n", from, to > from ? to : from + 1e-3);
+}
+
+/* gnuplot warns of a range of nothing. */
+static void put_range(const Table *table, const char *unit, FILE *gnuplot)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (const Line *line = table->line; line < table->line + table->count; line++)
+        for (size_t i = 0; strcmp(line->unit, unit) == 0 && i < line->curve.count; i++) {
+            low = fmin(low, line->curve.at[i][1]);
+            high = fmax(high, line->curve.at[i][1]);
+        }
+    const double wide = high - low > 0 ? 0.04 * (high - low) : fmax(0.1 * fabs(low), 1e-3);
+    fprintf(gnuplot, "set yrange [%.9g:%.9g]\n", low - wide, high + wide);
+}
+
+static void plot_panel(const Table *table, const char *unit, FILE *gnuplot)
+{
+    int lines = 0;
+    put_range(table, unit, gnuplot);
+    fputs("set ylabel ", gnuplot);
+    chart_quote(gnuplot, unit);
+    fputs("\nplot ", gnuplot);
+    for (int k = 0; k < table->count; k++) {
+        const Line *line = &table->line[k];
+        if (strcmp(line->unit, unit) != 0 || line->curve.count == 0)
+            continue;
+        fprintf(gnuplot, "%s$line%d with lines lw 1.2 lt %d ", lines ? ", " : "", k, lines + 1);
+        lines++;
+        if (lines <= NAMES_MAX) {
+            fputs("title ", gnuplot);
+            chart_quote(gnuplot, line->name);
+        } else {
+            fputs("notitle", gnuplot);
+        }
+    }
+    if (lines > NAMES_MAX)
+        fprintf(gnuplot, ", NaN with lines lc '#ffffff' title 'and %d more'", lines - NAMES_MAX);
+    fputc('\n', gnuplot);
+}
+
+static bool draw(const Table *table, const char *path, const char *title, Error *error)
+{
+    Chart chart = {.gnuplot = NULL};
+    int first[PANELS_MAX];
+    const int panels = panels_of(table, first);
+    if (panels == 0)
+        return error_set(error, "%.300s: no probe has met fluid; there is nothing to draw", path);
+    if (!chart_begin(&chart, path, WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * panels, error))
+        return false;
+    put_curves(table, chart.gnuplot);
+    fprintf(chart.gnuplot,
+            "set key outside right top noenhanced samplen 2 font ',9'\nset multiplot layout %d,1 title ",
+            panels);
+    chart_quote(chart.gnuplot, title);
+    fputs(" noenhanced\nset xlabel 'time, s'\nset rmargin 30\nset lmargin 12\n", chart.gnuplot);
+    put_times(table, chart.gnuplot);
+    for (int p = 0; p < panels; p++)
+        plot_panel(table, table->line[first[p]].unit, chart.gnuplot);
+    fputs("unset multiplot\n", chart.gnuplot);
+    return chart_end(&chart, error);
+}
+
+bool probe_chart(const char *path, const char *title, Error *error)
+{
+    char name[1024];
+    Table table = {.count = 0};
+    if (is_table(path))
+        return true;
+    probe_chart_table(path, name);
+    const bool ok = read_table(&table, name, error) && draw(&table, path, title, error);
+    table_free(&table);
+    return ok;
+}

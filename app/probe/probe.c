@@ -1,0 +1,272 @@
+#include "app/probe/probe.h"
+
+#include "app/probe/sensors.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HEIGHT_PLACES = 4000 }; /* of a gauge, at most: in a box that is very high */
+
+/* A probe's sensors and columns, one behind the other. */
+typedef struct Probe {
+    ProbeDef def;
+    int first, count; /* of its sensors */
+    int columns;
+    double step; /* height: from sensor to sensor, m */
+} Probe;
+
+struct Probes {
+    int count, sensor_count, column_count;
+    Probe probe[PROBES_MAX];
+    Sensors *sensors;
+    SensorReading *reading; /* one a sensor */
+    ProbeColumn *column;
+};
+
+void probes_destroy(Probes *probes)
+{
+    if (!probes)
+        return;
+    sensors_destroy(probes->sensors);
+    free(probes->reading);
+    free(probes->column);
+    free(probes);
+}
+
+/* ---- where the sensors are ---- */
+
+static int components_of(const ProbeDef *def)
+{
+    int sum = 0;
+    for (int f = 0; f < def->field_count; f++)
+        sum += probe_fields[def->fields[f]].components;
+    return sum;
+}
+
+/* Half a spacing apart, from the foot to the ceiling. */
+static void measure_height(Probe *probe, const WorldDef *def)
+{
+    const double length = fmax(def->box_size[1] - probe->def.at[1], 0);
+    const int steps = (int)fmin(fmax(ceil(length / (0.5 * def->spacing)), 1), HEIGHT_PLACES);
+    probe->step = length / steps;
+    probe->count = steps + 1;
+    probe->columns = 1;
+}
+
+static void measure(Probe *probe, const WorldDef *def)
+{
+    const ProbeDef *of = &probe->def;
+    const int numbers = components_of(of);
+    switch ((ProbeKind)of->kind) {
+    case PROBE_HEIGHT:
+        measure_height(probe, def);
+        return;
+    case PROBE_LINE:
+        probe->count = of->count;
+        probe->columns = of->count * numbers;
+        return;
+    case PROBE_PLANE: {
+        const double *across = of->across;
+        const bool strip = across[0] == 0 && across[1] == 0 && across[2] == 0;
+        probe->count = strip ? of->count : of->count * of->count;
+        probe->columns = numbers;
+        return;
+    }
+    default:
+        probe->count = 1;
+        probe->columns = numbers;
+    }
+}
+
+/* The place of sensor i: of a plane in the middle of its part. */
+static void place_of(const Probe *probe, int i, double at[3])
+{
+    const ProbeDef *of = &probe->def;
+    const double share = i / (double)(of->count > 1 ? of->count - 1 : 1);
+    for (int k = 0; k < 3; k++)
+        switch ((ProbeKind)of->kind) {
+        case PROBE_LINE:
+            at[k] = (1 - share) * of->from[k] + share * of->to[k];
+            break;
+        case PROBE_PLANE:
+            at[k] = of->at[k] + ((i % of->count + 0.5) / of->count - 0.5) * of->along[k] +
+                    ((i / of->count + 0.5) / of->count - 0.5) * of->across[k];
+            break;
+        default:
+            at[k] = of->at[k] + (k == 1 ? i * probe->step : 0);
+        }
+}
+
+static unsigned wants_of(const ProbeDef *def)
+{
+    static const unsigned of[PROBE_FIELD_COUNT] = {[PROBE_PRESSURE] = SENSOR_PRESSURE,
+                                                   [PROBE_DENSITY] = SENSOR_DENSITY,
+                                                   [PROBE_SPEED] = SENSOR_VELOCITY,
+                                                   [PROBE_VELOCITY] = SENSOR_VELOCITY};
+    unsigned wants = 0;
+    for (int f = 0; def->kind != PROBE_HEIGHT && f < def->field_count; f++)
+        wants |= of[def->fields[f]];
+    return wants;
+}
+
+static void place_all(const Probes *probes, const WorldDef *def, Sensor *out)
+{
+    for (const Probe *p = probes->probe; p < probes->probe + probes->count; p++)
+        for (int i = 0; i < p->count; i++) {
+            Sensor *sensor = &out[p->first + i];
+            place_of(p, i, sensor->at);
+            sensor->radius = 0.5 * probe_size(&p->def, def->spacing, def->support);
+            sensor->wants = wants_of(&p->def);
+        }
+}
+
+/* ---- what the columns are called ---- */
+
+static void add_column(ProbeColumn **at, const ProbeDef *def, const char *place, const char *field, int axis,
+                       const char *unit)
+{
+    ProbeColumn *column = (*at)++;
+    const char end[3] = {axis < 0 ? '\0' : '_', axis < 0 ? '\0' : "xyz"[axis], '\0'};
+    snprintf(column->name, sizeof column->name, "%.31s%.8s.%.16s%s", def->name, place, field, end);
+    column->unit = unit;
+    column->average = def->average;
+}
+
+static void add_columns(ProbeColumn **at, const ProbeDef *def, const char *place)
+{
+    for (int f = 0; f < def->field_count; f++) {
+        const ProbeFieldRow *field = &probe_fields[def->fields[f]];
+        for (int k = 0; k < field->components; k++)
+            add_column(at, def, place, field->name, field->components == 1 ? -1 : k, field->unit);
+    }
+}
+
+static void name_columns(const Probes *probes)
+{
+    ProbeColumn *at = probes->column;
+    for (const Probe *p = probes->probe; p < probes->probe + probes->count; p++)
+        if (p->def.kind == PROBE_HEIGHT) {
+            add_column(&at, &p->def, "", "height", -1, "m");
+        } else if (p->def.kind == PROBE_LINE) {
+            for (int i = 0; i < p->count; i++) {
+                char place[16];
+                snprintf(place, sizeof place, "_%d", i);
+                add_columns(&at, &p->def, place);
+            }
+        } else {
+            add_columns(&at, &p->def, "");
+        }
+}
+
+static bool make_sensors(Probes *probes, const WorldDef *def)
+{
+    Sensor *sensors = malloc(((size_t)probes->sensor_count + 1) * sizeof *sensors);
+    if (!sensors)
+        return false;
+    place_all(probes, def, sensors);
+    probes->sensors = sensors_create(sensors, probes->sensor_count, def);
+    free(sensors);
+    return probes->sensors != NULL;
+}
+
+Probes *probes_create(const ProbeList *list, const WorldDef *def)
+{
+    Probes *probes = calloc(1, sizeof *probes);
+    if (!probes)
+        return NULL;
+    probes->count = list->count;
+    for (int k = 0; k < list->count; k++) {
+        Probe *probe = &probes->probe[k];
+        probe->def = list->probe[k];
+        probe->first = probes->sensor_count;
+        measure(probe, def);
+        probes->sensor_count += probe->count;
+        probes->column_count += probe->columns;
+    }
+    probes->reading = malloc(((size_t)probes->sensor_count + 1) * sizeof *probes->reading);
+    probes->column = malloc(((size_t)probes->column_count + 1) * sizeof *probes->column);
+    if (!probes->reading || !probes->column || !make_sensors(probes, def)) {
+        probes_destroy(probes);
+        return NULL;
+    }
+    name_columns(probes);
+    return probes;
+}
+
+int probes_columns(const Probes *probes)
+{
+    return probes->column_count;
+}
+
+const ProbeColumn *probes_column(const Probes *probes, int column)
+{
+    return &probes->column[column];
+}
+
+/* ---- reading ---- */
+
+/* The highest place that is half full, by straight lines between the sensors; m over the foot. */
+static double height_of(const Probe *probe, const SensorReading *reading)
+{
+    int i = probe->count - 1;
+    while (i >= 0 && reading[i].filling < 0.5)
+        i--;
+    if (i < 0 || i == probe->count - 1)
+        return fmax(i, 0) * probe->step;
+    const double below = reading[i].filling - 0.5, above = 0.5 - reading[i + 1].filling;
+    return (i + below / (below + above)) * probe->step;
+}
+
+static double value_of(const SensorReading *reading, ProbeField field, int k)
+{
+    const double *v = reading->velocity;
+    switch (field) {
+    case PROBE_PRESSURE:
+        return reading->pressure;
+    case PROBE_DENSITY:
+        return reading->density;
+    case PROBE_SPEED:
+        return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    default:
+        return v[k];
+    }
+}
+
+/* The mean over `count` sensors, those left out that have no such number. */
+static double mean_of(const SensorReading *reading, int count, ProbeField field, int k)
+{
+    double sum = 0, all = 0;
+    for (int i = 0; i < count; i++) {
+        const double value = value_of(&reading[i], field, k);
+        if (!isnan(value)) {
+            sum += value;
+            all++;
+        }
+    }
+    return all > 0 ? sum / all : (double)NAN;
+}
+
+static float *put(float *out, const ProbeDef *def, const SensorReading *reading, int count)
+{
+    for (int f = 0; f < def->field_count; f++)
+        for (int k = 0; k < probe_fields[def->fields[f]].components; k++)
+            *out++ = (float)mean_of(reading, count, (ProbeField)def->fields[f], k);
+    return out;
+}
+
+void probes_read(Probes *probes, const Cloud *cloud, float out[])
+{
+    sensors_read(probes->sensors, cloud, probes->reading);
+    for (const Probe *p = probes->probe; p < probes->probe + probes->count; p++) {
+        const SensorReading *reading = probes->reading + p->first;
+        if (p->def.kind == PROBE_HEIGHT)
+            *out++ = (float)height_of(p, reading);
+        else if (p->def.kind == PROBE_PLANE)
+            out = put(out, &p->def, reading, p->count);
+        else
+            for (int i = 0; i < p->count; i++)
+                out = put(out, &p->def, &reading[i], 1);
+    }
+}

@@ -1,0 +1,26 @@
+/* The probes of a scene at work: from particles to a row of numbers, a column each. */
+#ifndef SLOSH_PROBE_H
+#define SLOSH_PROBE_H
+
+#include "app/metric/cloud.h"
+#include "app/probe/probe_def.h"
+
+typedef struct Probes Probes;
+
+typedef struct ProbeColumn {
+    char name[PROBE_NAME_SIZE + 32]; /* "wall.pressure", "column_3.velocity_x", "tank.height" */
+    const char *unit;
+    double average; /* s, of its probe: ProbeDef.average */
+} ProbeColumn;
+
+/* The probes of the list in a world of `def`; NULL without memory. Both are read here only. */
+Probes *probes_create(const ProbeList *list, const WorldDef *def);
+void probes_destroy(Probes *probes); /* NULL is allowed */
+
+int probes_columns(const Probes *probes);
+const ProbeColumn *probes_column(const Probes *probes, int column);
+
+/* A number a column; NaN where there is no fluid to have one. A pressure there is 0, and so is a height. */
+void probes_read(Probes *probes, const Cloud *cloud, float out[]);
+
+#endif

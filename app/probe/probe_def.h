@@ -1,0 +1,66 @@
+/* A scene's probes: places where `slosh run --probes` and the panel read pressure, density and velocity of
+   the fluid, or the height of its surface. Plain data; lengths in m, in the box's frame, in which a probe
+   rests. */
+#ifndef SLOSH_PROBE_DEF_H
+#define SLOSH_PROBE_DEF_H
+
+enum { PROBES_MAX = 16, PROBE_NAME_SIZE = 32, PROBE_LINE_MAX = 200, PROBE_PLANE_MAX = 40 };
+
+/* X(ENUM, name, help) */
+#define PROBE_KIND_LIST(X)                                                                                   \
+    X(POINT, "point", "the fluid at a place")                                                                \
+    X(HEIGHT, "height", "how high the surface of the fluid is over a place; 0: there is none")               \
+    X(LINE, "line", "the fluid at places along a line, both ends among them, a column each")                 \
+    X(PLANE, "plane", "the mean over a parallelogram")
+
+typedef enum ProbeKind {
+#define X(NAME, name, help) PROBE_##NAME,
+    PROBE_KIND_LIST(X)
+#undef X
+        PROBE_KIND_COUNT
+} ProbeKind;
+
+/* What one may read of the fluid: X(ENUM, name, unit, components) */
+#define PROBE_FIELD_LIST(X)                                                                                  \
+    X(PRESSURE, "pressure", "Pa", 1)                                                                         \
+    X(DENSITY, "density", "kg/m3", 1)                                                                        \
+    X(SPEED, "speed", "m/s", 1)                                                                              \
+    X(VELOCITY, "velocity", "m/s", 3)
+
+typedef enum ProbeField {
+#define X(NAME, name, unit, components) PROBE_##NAME,
+    PROBE_FIELD_LIST(X)
+#undef X
+        PROBE_FIELD_COUNT
+} ProbeField;
+
+typedef struct ProbeFieldRow {
+    const char *name, *unit;
+    int components; /* 1, or 3: x y z */
+} ProbeFieldRow;
+
+extern const ProbeFieldRow probe_fields[]; /* in the order of ProbeField, ended by a NULL name */
+
+/* Members that a kind does not name are unused. */
+typedef struct ProbeDef {
+    char name[PROBE_NAME_SIZE]; /* letters, digits and _ */
+    int kind;                   /* a ProbeKind */
+    double at[3];               /* point, height; of the plane: its middle */
+    double from[3], to[3];      /* line */
+    double along[3], across[3]; /* plane: its sides */
+    int count;                  /* line: places; plane: places along each side */
+    double size;                /* diameter of the ball around each place that counts, m; 0: see probe_size */
+    double average;             /* s: a mean over so long stands beside each value; 0: none does */
+    int field_count, fields[PROBE_FIELD_COUNT]; /* each a ProbeField; of a height none count */
+} ProbeDef;
+
+typedef struct ProbeList {
+    int count;
+    ProbeDef probe[PROBES_MAX];
+} ProbeList;
+
+/* The size that is taken, m: the asked one, four spacings at least; where none is asked for, six spacings, or
+   twice the support radius. */
+double probe_size(const ProbeDef *probe, double spacing, double support);
+
+#endif

@@ -1,0 +1,100 @@
+/* Probes: names that columns can be called by, places where fluid can be. */
+#include "app/scene/check_parts.h"
+#include "sim/matter/solid_step.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *kind_of(const ProbeDef *probe)
+{
+    static const char *const names[] = {
+#define X(NAME, name, help) name,
+        PROBE_KIND_LIST(X)
+#undef X
+    };
+    return names[probe->kind];
+}
+
+static bool check_name(const Check *check, int index)
+{
+    const ProbeDef *probe = check->scene->probes.probe;
+    const char *name = probe[index].name;
+    char path[64];
+    snprintf(path, sizeof path, "probes[%d].name", index);
+    if (name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")])
+        return FAIL(check, path, "'%s' cannot be the name of columns; use letters, digits and _", name);
+    for (int k = 0; k < index; k++)
+        if (strcmp(probe[k].name, name) == 0)
+            return FAIL(check, path, "probes[%d] is called '%s' too; give each a name of its own", k, name);
+    return true;
+}
+
+/* How deep in a solid that does not move, m; less than 0: in none. */
+static double depth_in_solids(const WorldDef *world, const double x[3])
+{
+    const float at[3] = {(float)x[0], (float)x[1], (float)x[2]};
+    double depth = -1;
+    for (int k = 0; k < world->solid_count; k++) {
+        SolidPose pose;
+        if (world->solids[k].motion_count > 0)
+            continue;
+        solid_pose_at(&world->solids[k], 0, &pose);
+        depth = fmax(depth, -(double)solid_clearance(&world->solids[k], &pose, world->dimensions, at, 1));
+    }
+    return depth;
+}
+
+static bool check_place(const Check *check, const char *path, const double x[3])
+{
+    const WorldDef *world = &check->scene->world;
+    const double slack = 1e-6 * world->box_size[1];
+    if (!scene_check_plane(check, path, x))
+        return false;
+    if (scene_outside_box(check, x) > slack)
+        return FAIL(check, path,
+                    "[%g, %g, %g] is outside the box, which reaches from [%g, 0, %g] to [%g, %g, %g]; no "
+                    "fluid comes there",
+                    x[0], x[1], x[2], -0.5 * world->box_size[0], -0.5 * world->box_size[2],
+                    0.5 * world->box_size[0], world->box_size[1], 0.5 * world->box_size[2]);
+    if (depth_in_solids(world, x) > fmax(slack, 0.5 * world->spacing))
+        return FAIL(check, path, "[%g, %g, %g] is inside a solid; move it to the solid's surface", x[0], x[1],
+                    x[2]);
+    return true;
+}
+
+/* The corners of a plane; its middle, by whose key it is told. */
+static bool check_plane(const Check *check, const char *path, const ProbeDef *probe)
+{
+    char side[80];
+    for (int corner = 0; corner < 4; corner++) {
+        double x[3];
+        for (int k = 0; k < 3; k++)
+            x[k] = probe->at[k] + (corner & 1 ? 0.5 : -0.5) * probe->along[k] +
+                   (corner & 2 ? 0.5 : -0.5) * probe->across[k];
+        if (!check_place(check, path, x))
+            return false;
+    }
+    snprintf(side, sizeof side, "%s.along", path);
+    return hypot(hypot(probe->along[0], probe->along[1]), probe->along[2]) > 0 ||
+           FAIL(check, side, "the side has no length; write one such as [0.1, 0, 0]");
+}
+
+bool scene_check_probe(const Check *check, int index)
+{
+    const ProbeDef *probe = &check->scene->probes.probe[index];
+    char path[64], from[80], to[80];
+    snprintf(path, sizeof path, "probes[%d].%s", index, kind_of(probe));
+    snprintf(from, sizeof from, "%s.%s", path, probe->kind == PROBE_LINE ? "from" : "at");
+    snprintf(to, sizeof to, "%s.to", path);
+    if (!check_name(check, index))
+        return false;
+    switch ((ProbeKind)probe->kind) {
+    case PROBE_LINE:
+        return check_place(check, from, probe->from) && check_place(check, to, probe->to);
+    case PROBE_PLANE:
+        return check_plane(check, path, probe);
+    default:
+        return check_place(check, from, probe->at);
+    }
+}

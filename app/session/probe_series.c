@@ -1,0 +1,85 @@
+#include "app/session/probe_series.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static bool no_memory(Error *error)
+{
+    return error_set(error, "no memory for the probes; use fewer of them, or a larger spacing");
+}
+
+static bool read_now(ProbeSeries *series, const Session *session, Error *error)
+{
+    if (!cloud_read(&series->cloud, session->world))
+        return no_memory(error);
+    probes_read(series->probes, &series->cloud, series->value);
+    series->troubles = session->info.trouble.count;
+    return probe_table_add(&series->table, session->info.time, series->value) || no_memory(error);
+}
+
+/* What a user should know of a table that is opened. */
+static void tell(const ProbeSeries *series, const Session *session, const char *path, bool resumed,
+                 bool there)
+{
+    const double from = series->table.last, now = session->info.time;
+    if (world_on_gpu(&session->scene.world))
+        fprintf(stderr, "%s: probes read all particles back after each step, for which backend %s waits\n",
+                path, session->scene.world.backend);
+    if (resumed && !there)
+        fprintf(stderr, "%s: there is no such table to go on with; it begins at t = %.4g s\n", path, now);
+    else if (resumed && from < now * (1 - 1e-9))
+        fprintf(stderr, "%s: the table ends at t = %.4g s; rows from there to %.4g s are missing\n", path,
+                from < 0 ? 0 : from, now);
+}
+
+bool probe_series_begin(ProbeSeries *series, Session *session, const char *path, bool resumed, Error *error)
+{
+    if (!path)
+        return true;
+    const bool there = access(path, F_OK) == 0;
+    series->probes = probes_create(&session->scene.probes, &session->scene.world);
+    series->value =
+        series->probes ? malloc(((size_t)probes_columns(series->probes) + 1) * sizeof(float)) : NULL;
+    if (!series->value)
+        return no_memory(error);
+    if (!probe_table_open(&series->table, path, series->probes, resumed ? session->info.time : -1, error))
+        return false;
+    tell(series, session, path, resumed, there);
+    series->troubles = session->info.trouble.count;
+    return resumed || (read_now(series, session, error) && probe_table_write(&series->table, error));
+}
+
+bool probe_series_step(ProbeSeries *series, const Session *session, Error *error)
+{
+    if (!series->probes)
+        return true;
+    if (session->info.trouble.count == series->troubles)
+        return read_now(series, session, error);
+    series->troubles = session->info.trouble.count;
+    probe_table_drop(&series->table);
+    return true;
+}
+
+bool probe_series_frame(ProbeSeries *series, const Session *session, Error *error)
+{
+    if (!series->probes)
+        return true;
+    if (!world_sound(session->world)) /* the next step goes back to the begin of this frame */
+        probe_table_drop(&series->table);
+    return probe_table_write(&series->table, error);
+}
+
+bool probe_series_close(ProbeSeries *series, Error *error)
+{
+    return probe_table_close(&series->table, error);
+}
+
+void probe_series_free(ProbeSeries *series)
+{
+    probe_table_free(&series->table);
+    cloud_free(&series->cloud);
+    free(series->value);
+    probes_destroy(series->probes);
+    *series = (ProbeSeries){.probes = NULL};
+}

@@ -1,0 +1,31 @@
+/* The probes of a session, read after each step: what `slosh run --probes` writes. */
+#ifndef SLOSH_PROBE_SERIES_H
+#define SLOSH_PROBE_SERIES_H
+
+#include "app/probe/probe_table.h"
+#include "app/session/session.h"
+
+/* Zero-initialise it. */
+typedef struct ProbeSeries {
+    Probes *probes; /* NULL: none, and nothing below is in use */
+    Cloud cloud;
+    float *value; /* a row */
+    ProbeTable table;
+    unsigned troubles; /* of the world, when the last row was read */
+} ProbeSeries;
+
+/* Opens the table at `path` (NULL: there is none to be), anew with the present state as its first row, or,
+   `resumed`, behind the rows that it has up to now. False with the reason. */
+bool probe_series_begin(ProbeSeries *series, Session *session, const char *path, bool resumed, Error *error);
+
+/* After a step of a frame: reads, or forgets the rows of a frame that the world has taken back. */
+bool probe_series_step(ProbeSeries *series, const Session *session, Error *error);
+
+/* At the end of a frame: its rows come into the file. On a GPU waits for the frame. */
+bool probe_series_frame(ProbeSeries *series, const Session *session, Error *error);
+
+/* Closes the table, whose figures stay; then frees all. */
+bool probe_series_close(ProbeSeries *series, Error *error);
+void probe_series_free(ProbeSeries *series);
+
+#endif

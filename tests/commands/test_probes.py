@@ -1,0 +1,150 @@
+"""slosh run --probes: a table a step, that goes on to the same bytes whatever ended a run."""
+import csv
+import json
+import os
+import random
+import signal
+import time
+
+import h5py
+
+import command
+from command import SCENE, CommandTest, limit_files
+
+PROBES = """\
+probes:
+  - {name: floor, point: {at: [0, 0, 0]}, fields: [pressure, velocity], average: 0.02}
+  - {name: level, height: {at: [0.5, 0, 0]}}
+  - {name: rake, line: {from: [-0.5, 0, 0], to: [-0.5, 1, 0], count: 3}, fields: [density]}
+"""
+TIME, EVERY = '0.2', '0.004'
+
+
+class Probes(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write('scene.yaml', SCENE + PROBES)
+
+    def go(self, *more, code=0, name='a.h5part', quiet=('--quiet',)):
+        done, said = self.slosh('run', 'scene.yaml', '-o', name, '--time', TIME, '--every', EVERY, *quiet, *more)
+        self.assertEqual(done, code, said)
+        return said
+
+    def rows(self, name):
+        return list(csv.DictReader(self.read(name).decode().splitlines()))
+
+    def test_a_row_a_step(self):
+        self.go('--probes', 'a.csv', '--json', 'a.json')
+        rows = self.rows('a.csv')
+        self.assertEqual(len(rows), 1 + 100)
+        for k, row in enumerate(rows):
+            self.assertAlmostEqual(float(row['time [s]']), 0.002 * k, 9)
+        last = [float(row['floor.pressure [Pa]']) for row in rows[-10:]]
+        self.assertAlmostEqual(sum(last) / 10 / float(rows[-1]['floor.pressure_mean [Pa]']), 1, 6)
+        self.assertAlmostEqual(float(rows[0]['level.height [m]']), 0.5, delta=0.01)
+        self.assertEqual(rows[-1]['rake_2.density [kg/m3]'], '')  # in the air
+        with open(self.path('a.json')) as file:
+            figures = json.load(file)['probes']
+        self.assertEqual(list(figures)[0], 'floor.pressure')
+        pressure = [float(row['floor.pressure [Pa]']) for row in rows]
+        self.assertAlmostEqual(figures['floor.pressure']['mean'] / (sum(pressure) / 101), 1, 6)
+        self.assertAlmostEqual(figures['floor.pressure']['max'] / max(pressure), 1, 6)
+        self.assertEqual(figures['rake_2.density'], {'unit': 'kg/m3', 'rows': 0, 'mean': None, 'min': None, 'max': None})
+
+    def test_they_change_nothing(self):
+        """Equal bits with and without, and on any number of threads."""
+        self.go('--probes', 'a.csv')
+        self.go('--probes', 'b.csv', '--threads', '1', name='b.h5part')
+        self.go(name='c.h5part')
+        self.assertEqual(self.read('a.csv'), self.read('b.csv'))
+        with h5py.File(self.path('a.h5part')) as one, h5py.File(self.path('c.h5part')) as other:
+            self.assertEqual(len(one), len(other))
+            for step, group in one.items():
+                for name in group:
+                    self.assertEqual(group[name][:].tobytes(), other[step][name][:].tobytes(), (step, name))
+
+    def test_goes_on_to_the_same_bytes(self):
+        self.go('--probes', 'whole.csv', name='whole.h5part')
+        self.go('--time', '0.1', '--probes', 'a.csv')
+        self.go('--resume', '--probes', 'a.csv')
+        self.assertEqual(self.read('whole.csv'), self.read('a.csv'))
+        os.remove(self.path('a.h5part'))
+        self.go('--time', '0.1')
+        said = self.go('--resume', '--probes', 'b.csv')
+        self.assertIn('b.csv: there is no such table to go on with; it begins at t = 0.1 s', said)
+        self.write('c.csv', b''.join(self.read('whole.csv').splitlines(True)[:20]))
+        os.remove(self.path('a.h5part'))
+        self.go('--time', '0.1')
+        said = self.go('--resume', '--probes', 'c.csv')
+        self.assertIn('c.csv: the table ends at t = 0.036 s; rows from there to 0.1 s are missing', said)
+
+    def test_killed_at_random_moments(self):
+        began = time.monotonic()
+        self.go('--probes', 'whole.csv', name='whole.h5part')
+        seconds = time.monotonic() - began
+        seed = random.randrange(1 << 30)
+        moments, kills = random.Random(seed), 0
+        for _ in range(40):
+            if kills > 5:
+                break
+            process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', TIME, '--every', EVERY, '--quiet',
+                                 '--resume', '--probes', 'a.csv')
+            time.sleep(0.02 + moments.random() * seconds * 0.7)
+            process.kill()
+            kills += process.wait() == -signal.SIGKILL
+            self.go('--resume', '--probes', 'a.csv')
+            self.assertEqual(self.read('whole.csv'), self.read('a.csv'), f'seed {seed}')
+            os.remove(self.path('a.h5part'))
+            os.remove(self.path('a.csv'))
+        self.assertGreater(kills, 5)
+
+    def test_trouble_leaves_each_time_once(self):
+        """Rows of a frame that the sentinel took back are not there."""
+        self.write('scene.yaml', (SCENE + PROBES).replace('dt: 0.004, substeps: 2', 'dt: 0.06, substeps: 4'))
+        said = self.go('--probes', 'a.csv', '--set', 'solver.negative_pressure=true', '--time', '0.6')
+        self.assertIn('back to', said)
+        times = [float(row['time [s]']) for row in self.rows('a.csv')]
+        self.assertEqual(times, sorted(set(times)))
+
+    def test_a_plot(self):
+        said = self.go('--probes', 'a.svg')
+        self.assertEqual(said, '')
+        picture = self.read('a.svg').decode()
+        for word in ('floor.pressure_mean', 'level.height', 'rake_0.density', 'kg/m3', 'A small tank'):
+            self.assertIn(word, picture)
+        self.assertEqual(len(self.rows('a.csv')), 101)
+
+    def test_what_is_wrong_is_said(self):
+        said = self.go('--probes', 'a.txt', code=2)
+        self.assertIn("'a.txt' is no name for what probes read; name a FILE.csv, FILE.svg or FILE.png", said)
+        self.assertIn('would replace', self.go('--probes', 'a.svg', '--json', 'a.csv', code=2))
+        self.go('--probes', 'none/a.csv', code=1)
+        self.write('b.csv', 'time\n')
+        self.go('--time', '0.1', name='b.h5part')
+        said = self.go('--resume', '--probes', 'b.csv', code=1, name='b.h5part')
+        self.assertIn("b.csv: is no table of this scene's probes", said)
+        self.assertEqual(self.read('b.csv'), b'time\n')
+        said = self.go(quiet=())
+        self.assertIn('scene.yaml: its probes are not read; --probes FILE.csv writes them', said)
+        self.write('scene.yaml', SCENE)
+        self.assertIn('scene.yaml has no probes for --probes', self.go('--probes', 'a.csv', code=2, name='c.h5part'))
+        self.assertEqual(sorted(self.entries()), ['a.h5part', 'b.csv', 'b.h5part'])
+
+    def test_a_full_disk(self):
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', '9', '--every', '9', '--quiet',
+                                '--probes', 'a.csv', before=limit_files(100000))
+        self.assertEqual(code, 1, said)
+        self.assertIn('a.csv: File too large', said)
+        self.go('--time', '1', '--resume', '--probes', 'a.csv')
+        self.assertEqual(len(self.rows('a.csv')), 501)
+
+    def test_a_gpu_reads_back(self):
+        self.go('--probes', 'cpu.csv')
+        said = self.go('--probes', 'a.csv', '--backend', 'compute', name='b.h5part')
+        self.assertIn('a.csv: probes read all particles back after each step, for which backend compute waits', said)
+        for ours, right in zip(self.rows('a.csv'), self.rows('cpu.csv')):
+            self.assertAlmostEqual(float(ours['level.height [m]']), float(right['level.height [m]']), 4)
+
+
+if __name__ == '__main__':
+    command.main()
