@@ -60,7 +60,8 @@ static bool read_head(Table *table, char *text)
     for (const char *at = text; *at; at++)
         count += *at == ',';
     table->line = calloc((size_t)count + 1, sizeof *table->line);
-    char *rest = NULL, *field = strtok_r(text, ",\n", &rest);
+    char *rest = NULL, *field;
+    strtok_r(text, ",\n", &rest); /* the time */
     while (table->line && (field = strtok_r(NULL, ",\n", &rest))) {
         Line *line = &table->line[table->count++];
         sscanf(field, "%95s [%15[^]]", line->name, line->unit);

@@ -85,14 +85,15 @@ static void place_of(const Probe *probe, int i, double at[3])
 {
     const ProbeDef *of = &probe->def;
     const double share = i / (double)(of->count > 1 ? of->count - 1 : 1);
+    const int column = i % of->count, row = i / of->count; /* of a plane */
     for (int k = 0; k < 3; k++)
         switch ((ProbeKind)of->kind) {
         case PROBE_LINE:
             at[k] = (1 - share) * of->from[k] + share * of->to[k];
             break;
         case PROBE_PLANE:
-            at[k] = of->at[k] + ((i % of->count + 0.5) / of->count - 0.5) * of->along[k] +
-                    ((i / of->count + 0.5) / of->count - 0.5) * of->across[k];
+            at[k] = of->at[k] + ((column + 0.5) / of->count - 0.5) * of->along[k] +
+                    ((row + 0.5) / of->count - 0.5) * of->across[k];
             break;
         default:
             at[k] = of->at[k] + (k == 1 ? i * probe->step : 0);

@@ -175,8 +175,12 @@ bool probe_table_open(ProbeTable *table, const char *path, const Probes *probes,
         table->window.longest = fmax(table->window.longest, probes_column(probes, k)->average);
     table->figures = calloc((size_t)table->columns + 1, sizeof *table->figures);
     char *header = header_of(table);
-    bool open = table->figures && header ? open_file(table, path, error) : error_set(error, "no memory");
-    open = open && (old ? go_on(table, header, keep, error) : begin(table, header, error));
+    bool open = false;
+    if (!table->figures || !header)
+        error_set(error, "no memory for the table of probes");
+    else
+        open = open_file(table, path, error) &&
+               (old ? go_on(table, header, keep, error) : begin(table, header, error));
     free(header);
     if (!open) {
         Error none;

@@ -66,7 +66,7 @@ void sensors_destroy(Sensors *s)
 
 static bool in_box(const WorldDef *def, const double x[3])
 {
-    for (int k = 0; k < def->dimensions; k++) {
+    for (int k = 0; k < 3 && k < def->dimensions; k++) {
         const double size = def->box_size[k], low = k == 1 ? 0 : -0.5 * size;
         if (!def->periodic[k] && (x[k] < low || x[k] > low + size))
             return false;
