@@ -161,6 +161,7 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
         panel_devices(ui, data, events);
         panel_stages(ui, data);
         events->watches = panel_gauges(ui, data);
+        events->watches_probes = panel_probes(ui, data);
         panel_history(ui, data);
         panel_colors(ui, data, &panel->start, events);
         panel_scene(ui, data->scene, &panel->start, events);

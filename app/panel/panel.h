@@ -29,6 +29,8 @@ typedef struct PanelData {
     int frame_count, step_count; /* of them */
     const GaugeSample *gauges;   /* oldest first */
     int gauge_count;
+    const ProbeSample *probes; /* the same of the scene's probes */
+    int probe_count;
     size_t particles;
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
@@ -55,7 +57,8 @@ typedef struct PanelEvents {
     int setting_count;
     char settings[PANEL_SETTINGS_MAX][PANEL_SETTING_SIZE]; /* "path=value", as scene_set_live takes it */
     int command;                                           /* a PlayCommand, or PLAY_NONE */
-    bool watches;                                          /* the gauges are shown */
+    bool watches;                                          /* the gauges are shown, */
+    bool watches_probes;                                   /* and what probes read */
     int tuned; /* number of a motion device, or 0: it shall have these two */
     double gain, dead_zone;
 } PanelEvents;

@@ -13,6 +13,26 @@ void panel_stages(Ui *ui, const PanelData *data);
 /* history.c: the last times from picture to picture, and of the solver's frames. */
 void panel_history(Ui *ui, const PanelData *data);
 
+/* plot.c: some numbers of each of `count` samples, over the last seconds. */
+enum { PANEL_LINES_MAX = 3 };
+typedef struct PanelPlot {
+    const char *name;
+    int count, lines;
+    const char *line[PANEL_LINES_MAX]; /* what stands before its value */
+    double least;                      /* that the range reaches from, at most */
+    const void *of;                    /* for these, with the sample's place; -1 of a bound of the range */
+    double (*time)(const struct PanelPlot *plot, int at);
+    double (*value)(const struct PanelPlot *plot, int at, int line); /* NaN: none */
+    void (*text)(const struct PanelPlot *plot, int at, int line, double value, char out[48]);
+} PanelPlot;
+void panel_plot(Ui *ui, const PanelPlot *plot);
+
+/* 0.00123 kg as "1.23 g" would have it: at most four digits and a prefix. */
+void panel_si_text(double value, const char *unit, char out[48]);
+
+/* probes.c: what the scene's probes read, a plot each; whether they are shown. */
+bool panel_probes(Ui *ui, const PanelData *data);
+
 /* gauges.c: error of density, energy and Courant number over time; whether they are shown. */
 bool panel_gauges(Ui *ui, const PanelData *data);
 

@@ -117,6 +117,8 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
                         .step_count = status->history_count,
                         .gauges = status->gauges,
                         .gauge_count = status->gauge_count,
+                        .probes = status->probes,
+                        .probe_count = status->probe_count,
                         .particles = particles->count,
                         .time = particles->time,
                         .dt = status->dt,
@@ -187,6 +189,7 @@ static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *fac
     if (overlay->panel)
         panel_draw(overlay->widgets, overlay->ui, facts->width, facts->height, &data, &events);
     overlay->watches = events.watches;
+    overlay->watches_probes = events.watches_probes;
     if (overlay->help)
         panel_help_draw(overlay->ui, facts->width, facts->height);
     queue_events(&events, asks);
@@ -197,7 +200,8 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
 {
     const double now = wall_ms();
     const int shown = overlay->panel + 2 * overlay->help;
-    simulator_watch(model->open.simulator, overlay->panel && overlay->watches);
+    simulator_watch(model->open.simulator, overlay->panel && overlay->watches,
+                    overlay->panel && overlay->watches_probes);
     if (!shown) {
         widget_input_skip(&overlay->input);
         return false;

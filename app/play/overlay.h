@@ -17,7 +17,8 @@ typedef struct Overlay {
     float mouse[2];  /* where the last event had it */
     double drawn_ms; /* wall time of the last drawing */
     int shown;       /* what was drawn then */
-    bool watches;    /* with the gauges */
+    bool watches;    /* with the gauges, */
+    bool watches_probes;
     const char *warnings[8 + NOTES_MAX];
     int warning_count;
     char lost[64]; /* one of them */

@@ -13,8 +13,7 @@ enum { HEIGHT_PLACES = 4000 }; /* of a gauge, at most: in a box that is very hig
 typedef struct Probe {
     ProbeDef def;
     int first, count; /* of its sensors */
-    int columns;
-    double step; /* height: from sensor to sensor, m */
+    double step;      /* height: from sensor to sensor, m */
 } Probe;
 
 struct Probes {
@@ -45,6 +44,13 @@ static int components_of(const ProbeDef *def)
     return sum;
 }
 
+int probe_columns(const ProbeDef *def)
+{
+    if (def->kind == PROBE_HEIGHT)
+        return 1;
+    return components_of(def) * (def->kind == PROBE_LINE ? def->count : 1);
+}
+
 /* Half a spacing apart, from the foot to the ceiling. */
 static void measure_height(Probe *probe, const WorldDef *def)
 {
@@ -52,32 +58,19 @@ static void measure_height(Probe *probe, const WorldDef *def)
     const int steps = (int)fmin(fmax(ceil(length / (0.5 * def->spacing)), 1), HEIGHT_PLACES);
     probe->step = length / steps;
     probe->count = steps + 1;
-    probe->columns = 1;
 }
 
 static void measure(Probe *probe, const WorldDef *def)
 {
     const ProbeDef *of = &probe->def;
-    const int numbers = components_of(of);
-    switch ((ProbeKind)of->kind) {
-    case PROBE_HEIGHT:
+    const double *across = of->across;
+    const bool strip = across[0] == 0 && across[1] == 0 && across[2] == 0;
+    probe->count = of->kind == PROBE_LINE    ? of->count
+                   : of->kind != PROBE_PLANE ? 1
+                   : strip                   ? of->count
+                                             : of->count * of->count;
+    if (of->kind == PROBE_HEIGHT)
         measure_height(probe, def);
-        return;
-    case PROBE_LINE:
-        probe->count = of->count;
-        probe->columns = of->count * numbers;
-        return;
-    case PROBE_PLANE: {
-        const double *across = of->across;
-        const bool strip = across[0] == 0 && across[1] == 0 && across[2] == 0;
-        probe->count = strip ? of->count : of->count * of->count;
-        probe->columns = numbers;
-        return;
-    }
-    default:
-        probe->count = 1;
-        probe->columns = numbers;
-    }
 }
 
 /* The place of sensor i: of a plane in the middle of its part. */
@@ -125,40 +118,41 @@ static void place_all(const Probes *probes, const WorldDef *def, Sensor *out)
 
 /* ---- what the columns are called ---- */
 
-static void add_column(ProbeColumn **at, const ProbeDef *def, const char *place, const char *field, int axis,
-                       const char *unit)
+void probe_column(const ProbeDef *def, int index, ProbeColumn *out)
 {
-    ProbeColumn *column = (*at)++;
-    const char end[3] = {axis < 0 ? '\0' : '_', axis < 0 ? '\0' : "xyz"[axis], '\0'};
-    snprintf(column->name, sizeof column->name, "%.31s%.8s.%.16s%s", def->name, place, field, end);
-    column->unit = unit;
-    column->average = def->average;
+    const int numbers = components_of(def);
+    char place[16] = "", axis[3] = "";
+    const char *field = "height", *unit = "m";
+    if (def->kind == PROBE_LINE)
+        snprintf(place, sizeof place, "_%d", index / numbers);
+    if (def->kind != PROBE_HEIGHT) {
+        int rest = index % numbers, f = 0;
+        for (; rest >= probe_fields[def->fields[f]].components; f++)
+            rest -= probe_fields[def->fields[f]].components;
+        field = probe_fields[def->fields[f]].name;
+        unit = probe_fields[def->fields[f]].unit;
+        if (probe_fields[def->fields[f]].components > 1)
+            snprintf(axis, sizeof axis, "_%c", "xyz"[rest]);
+    }
+    snprintf(out->name, sizeof out->name, "%.31s%.8s.%.16s%s", def->name, place, field, axis);
+    out->unit = unit;
+    out->average = def->average;
 }
 
-static void add_columns(ProbeColumn **at, const ProbeDef *def, const char *place)
+int probe_shown(const ProbeDef *def, int index[PROBE_SHOWN])
 {
-    for (int f = 0; f < def->field_count; f++) {
-        const ProbeFieldRow *field = &probe_fields[def->fields[f]];
-        for (int k = 0; k < field->components; k++)
-            add_column(at, def, place, field->name, field->components == 1 ? -1 : k, field->unit);
-    }
+    const int columns = probe_columns(def), shown = columns < PROBE_SHOWN ? columns : PROBE_SHOWN;
+    for (int k = 0; k < shown; k++)
+        index[k] = shown > 1 ? k * (columns - 1) / (shown - 1) : 0;
+    return shown;
 }
 
 static void name_columns(const Probes *probes)
 {
     ProbeColumn *at = probes->column;
     for (const Probe *p = probes->probe; p < probes->probe + probes->count; p++)
-        if (p->def.kind == PROBE_HEIGHT) {
-            add_column(&at, &p->def, "", "height", -1, "m");
-        } else if (p->def.kind == PROBE_LINE) {
-            for (int i = 0; i < p->count; i++) {
-                char place[16];
-                snprintf(place, sizeof place, "_%d", i);
-                add_columns(&at, &p->def, place);
-            }
-        } else {
-            add_columns(&at, &p->def, "");
-        }
+        for (int k = 0; k < probe_columns(&p->def); k++)
+            probe_column(&p->def, k, at++);
 }
 
 static bool make_sensors(Probes *probes, const WorldDef *def)
@@ -184,7 +178,7 @@ Probes *probes_create(const ProbeList *list, const WorldDef *def)
         probe->first = probes->sensor_count;
         measure(probe, def);
         probes->sensor_count += probe->count;
-        probes->column_count += probe->columns;
+        probes->column_count += probe_columns(&probe->def);
     }
     probes->reading = malloc(((size_t)probes->sensor_count + 1) * sizeof *probes->reading);
     probes->column = malloc(((size_t)probes->column_count + 1) * sizeof *probes->column);

@@ -7,11 +7,22 @@
 
 typedef struct Probes Probes;
 
+enum { PROBE_SHOWN = 3, PROBES_SHOWN = PROBES_MAX * PROBE_SHOWN }; /* in a small plot; of all probes */
+
 typedef struct ProbeColumn {
     char name[PROBE_NAME_SIZE + 32]; /* "wall.pressure", "column_3.velocity_x", "tank.height" */
     const char *unit;
     double average; /* s, of its probe: ProbeDef.average */
 } ProbeColumn;
+
+/* How many columns a probe has, and what column `index` of them is. */
+int probe_columns(const ProbeDef *def);
+void probe_column(const ProbeDef *def, int index, ProbeColumn *out);
+
+/* Which of its columns a small plot shows: three at most, the first, the last, the one in the middle; how
+ * many.
+ */
+int probe_shown(const ProbeDef *def, int index[PROBE_SHOWN]);
 
 /* The probes of the list in a world of `def`; NULL without memory. Both are read here only. */
 Probes *probes_create(const ProbeList *list, const WorldDef *def);

@@ -127,5 +127,6 @@ void simulator_status(Simulator *simulator, SimulatorStatus *status)
         status->history[i] =
             simulator->status.history[(next - count + i + SIMULATOR_HISTORY) % SIMULATOR_HISTORY];
     simulator_gauge_status(simulator, status);
+    simulator_probes_status(simulator, status);
     pthread_mutex_unlock(&simulator->lock);
 }

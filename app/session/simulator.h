@@ -12,6 +12,7 @@
 #ifndef SLOSH_SIMULATOR_H
 #define SLOSH_SIMULATOR_H
 
+#include "app/probe/probe.h"
 #include "app/recording/recording.h"
 #include "app/recording/sim_command.h"
 #include "app/scene/scene.h"
@@ -89,8 +90,9 @@ uint64_t simulator_obeyed(Simulator *simulator, uint64_t step);
    what is done. False while an earlier one is not. */
 bool simulator_save(Simulator *simulator, const char *path);
 
-/* Whether somebody looks at the gauges: then one is taken every 50 ms at most, else none. */
-void simulator_watch(Simulator *simulator, bool watched);
+/* Whether somebody looks at the gauges, and at what probes read: then one is taken every 50 ms at most, else
+   none. On a GPU probes wait for all particles. */
+void simulator_watch(Simulator *simulator, bool gauges, bool probes);
 
 enum { SIMULATOR_HISTORY = 120, SIMULATOR_GAUGES = 120 };
 
@@ -100,6 +102,12 @@ typedef struct GaugeSample {
     double courant;  /* WorldInfo.courant */
     StepLimit limit; /* what bounded that step */
 } GaugeSample;
+
+/* What a state's probes read, of each what probe_shown says, one behind the other; NaN: dry. */
+typedef struct ProbeSample {
+    double time; /* s */
+    float value[PROBES_SHOWN];
+} ProbeSample;
 
 typedef struct SimulatorStatus {
     bool ready;  /* the world is there */
@@ -128,6 +136,8 @@ typedef struct SimulatorStatus {
     float history[SIMULATOR_HISTORY];
     int gauge_count; /* of `gauges`: the last ones since the scene's start, oldest first */
     GaugeSample gauges[SIMULATOR_GAUGES];
+    int probe_count; /* the same of `probes` */
+    ProbeSample probes[SIMULATOR_GAUGES];
     bool saving;             /* a simulator_save is not done yet */
     unsigned saves;          /* counts simulator_save that ended */
     bool saved;              /* whether the last one succeeded */

@@ -3,10 +3,11 @@
 
 static const double EVERY_MS = 50; /* finer than a column of the plots, at the pace of a picture or two */
 
-void simulator_watch(Simulator *simulator, bool watched)
+void simulator_watch(Simulator *simulator, bool gauges, bool probes)
 {
     pthread_mutex_lock(&simulator->lock);
-    simulator->watched = watched;
+    simulator->watched = gauges;
+    simulator->watched_probes = probes;
     pthread_mutex_unlock(&simulator->lock);
 }
 

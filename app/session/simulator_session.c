@@ -68,6 +68,7 @@ void simulator_make_world(Simulator *simulator)
     simulator->told_full = simulator->told_lost = simulator->told_unlisted = false;
     simulator->world = world_create(&simulator->start.world, &error);
     simulator_gauge_begin(simulator);
+    simulator_probes_begin(simulator);
     if (!simulator->world || !simulator_publish(simulator, &error))
         tell(simulator, true, error.message);
     awaken(simulator);
@@ -220,6 +221,7 @@ void simulator_frame_end(Simulator *simulator)
     count_frame(simulator, frame->spent_ms, info.time - frame->from_s, &frame->clock);
     simulator->frame.begun = false;
     simulator_gauge(simulator);
+    simulator_probes(simulator);
     awaken(simulator);
 }
 

@@ -57,8 +57,8 @@ struct Simulator {
     double last_due;   /* wall time at which the last frame was to begin, ms */
     double frame_time; /* simulated by the last frame, s */
     SimulatorStatus status;
-    int history_next, gauge_next, obeyed_next;
-    bool watched; /* the gauges are */
+    int history_next, gauge_next, probe_next, obeyed_next;
+    bool watched, watched_probes; /* the gauges are, the probes */
     Obeyed obeyed[OBEYED_MAX];
 
     /* of the thread that steps alone */
@@ -71,6 +71,10 @@ struct Simulator {
     uint64_t published, shown; /* states; with `here` */
     GaugeSample gauge;         /* on its way; its gauge is not there yet */
     double gauge_ms;           /* wall time at which it was asked for */
+    Probes *probes;            /* of the scene; NULL: it has none */
+    Cloud cloud;               /* for them, */
+    float *read;               /* and a number a column */
+    double probes_ms;          /* wall time at which they were read */
     Recording recording;
     TroubleTold told_trouble;
     bool told_full; /* that its emitters wait */
@@ -104,5 +108,11 @@ void simulator_frame_end(Simulator *simulator);
 void simulator_gauge(Simulator *simulator);
 void simulator_gauge_begin(Simulator *simulator);
 void simulator_gauge_status(const Simulator *simulator, SimulatorStatus *status); /* with the lock held */
+
+/* simulator_probes.c: after a frame; where a new world begins, with the scene's probes; at the end. */
+void simulator_probes(Simulator *simulator);
+void simulator_probes_begin(Simulator *simulator);
+void simulator_probes_end(Simulator *simulator);
+void simulator_probes_status(const Simulator *simulator, SimulatorStatus *status); /* with the lock held */
 
 #endif

@@ -146,6 +146,7 @@ static bool start(Simulator *simulator, Error *error)
 
 static void release(Simulator *simulator)
 {
+    simulator_probes_end(simulator);
     world_destroy(simulator->world);
     free(simulator->work);
     recording_destroy(&simulator->recording);

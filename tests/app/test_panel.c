@@ -25,7 +25,8 @@ typedef struct Session {
     PanelData data;
     float history[HISTORY];
     GaugeSample gauges[HISTORY];
-    bool help, watches;
+    ProbeSample probes[HISTORY];
+    bool help, watches, watches_probes;
     int settings, refused; /* in all */
     char last[PANEL_SETTING_SIZE];
     PlayCommand command; /* the last one */
@@ -61,6 +62,7 @@ static void draw_panel(void *user, Desk *desk)
     PanelEvents events;
     panel_draw(session->panel, desk->ui, desk->target.width, desk->target.height, &session->data, &events);
     session->watches = events.watches;
+    session->watches_probes = events.watches_probes;
     take(session, &events);
     if (session->help)
         panel_help_draw(desk->ui, desk->target.width, desk->target.height);
@@ -88,6 +90,9 @@ static void fill(Session *session)
                                                      .total_known = true},
                                            .courant = 0.789,
                                            .limit = STEP_LIMIT_VISCOUS};
+        session->probes[i].time = 1234 + 0.05 * i;
+        for (int k = 0; k < PROBES_SHOWN; k++)
+            session->probes[i].value[k] = k % 4 == 1 ? NAN : 0.1F * (float)(k + 1) + 0.001F * (float)i;
     }
     session->data = (PanelData){.scene = &session->scene,
                                 .render_stages_known = true,
@@ -99,6 +104,8 @@ static void fill(Session *session)
                                 .step_count = HISTORY,
                                 .gauges = session->gauges,
                                 .gauge_count = HISTORY,
+                                .probes = session->probes,
+                                .probe_count = HISTORY,
                                 .particles = 1234567,
                                 .time = 1234.56,
                                 .iterations = 10000,
@@ -451,6 +458,36 @@ static void test_gauges_are_plotted(void **state)
     session_close(&session, desk);
 }
 
+/* A plot a probe, with its name, its values in their units, or that it is dry; a scene without has none. */
+static void test_probes_are_plotted(void **state)
+{
+    (void)state;
+    static const char *const shown[] = {"low",
+                                        "100 mPa to 219 mPa, last 5.95 s",
+                                        "pressure 219 mPa",
+                                        "pressure dry",
+                                        "column",
+                                        "400 mm to 519 mm, last 5.95 s",
+                                        "height 519 mm",
+                                        "runup",
+                                        "flow",
+                                        "1.speed 819 mm/s"};
+    Session session;
+    Desk *desk = session_open(&session, "impact", 1280, 2000, 13);
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        if (!desk_find(desk, shown[i]))
+            fail_msg("%s is not shown", shown[i]);
+    assert_true(session.watches_probes);
+    desk_click_at(desk, "Probes", 0.3F);
+    assert_false(session.watches_probes);
+    assert_null(desk_find(desk, "runup"));
+    session_close(&session, desk);
+    desk = session_open(&session, "box_slosh", 1280, 1000, 13);
+    assert_null(desk_find(desk, "Probes"));
+    assert_false(session.watches_probes);
+    session_close(&session, desk);
+}
+
 static void assert_nothing_is_cut(const Desk *desk)
 {
     assert_true(desk->seen_count > 40);
@@ -530,6 +567,7 @@ int main(void)
         cmocka_unit_test_teardown(test_motion_devices, no_gl_errors),
         cmocka_unit_test_teardown(test_stages_as_they_are_known, no_gl_errors),
         cmocka_unit_test_teardown(test_gauges_are_plotted, no_gl_errors),
+        cmocka_unit_test_teardown(test_probes_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),
         cmocka_unit_test_teardown(test_small_windows_scroll, no_gl_errors),
         cmocka_unit_test_teardown(test_help_lists_every_row, no_gl_errors),

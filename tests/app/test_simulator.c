@@ -401,7 +401,7 @@ static void gauges_are_for_who_looks(void **state)
         wait_for(&rig, has_shown_all);
     while (rig.status.step < 5);
     assert_int_equal(rig.status.gauge_count, 0);
-    simulator_watch(rig.simulator, true);
+    simulator_watch(rig.simulator, true, true);
     for (int i = 2; i <= 4; i++) {
         usleep(60000); /* more than there is between two */
         simulator_single_step(rig.simulator, false);
@@ -420,6 +420,32 @@ static void gauges_are_for_who_looks(void **state)
     rig_close(&rig);
 }
 
+/* So are the numbers of probes; a scene without any has none. */
+static void probes_are_for_who_looks(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, "probes=[{name: a, point: {at: [0, 0, 0]}}, {name: b, height: {at: [0, 0, 0]}}]", true);
+    simulator_single_step(rig.simulator, false);
+    do
+        wait_for(&rig, has_shown_all);
+    while (rig.status.step < 5);
+    assert_int_equal(rig.status.probe_count, 0);
+    simulator_watch(rig.simulator, true, true);
+    usleep(60000);
+    simulator_single_step(rig.simulator, false);
+    do
+        wait_for(&rig, has_a_gauge_of_now);
+    while (rig.status.step < 10);
+    while (rig.status.probe_count == 0)
+        wait_for(&rig, has_shown_all);
+    const ProbeSample *sample = rig.status.probes;
+    assert_int_equal(rig.status.probe_count, 1);
+    assert_true(sample->time == rig.status.time);
+    assert_true(sample->value[0] > 0 && sample->value[1] > 0.05F && sample->value[1] < 1);
+    rig_close(&rig);
+}
+
 static int setup(void **state)
 {
     context = headless_create(HEADLESS_GPU_AUTO, &error);
@@ -435,12 +461,19 @@ static int teardown(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(paused_it_steps_by_frames), cmocka_unit_test(no_press_of_the_step_key_is_lost),
-        cmocka_unit_test(time_follows_the_clock),    cmocka_unit_test(states_tell_what_they_obey),
-        cmocka_unit_test(what_waits_is_replaced),    cmocka_unit_test(a_reset_forgets_poses),
-        cmocka_unit_test(a_save_keeps_its_place),    cmocka_unit_test(a_saved_session_gives_the_same_bits),
-        cmocka_unit_test(saving_may_fail),           cmocka_unit_test(trouble_is_told),
-        cmocka_unit_test(gauges_are_for_who_looks),  cmocka_unit_test(an_end_does_not_wait_for_ever),
+        cmocka_unit_test(paused_it_steps_by_frames),
+        cmocka_unit_test(no_press_of_the_step_key_is_lost),
+        cmocka_unit_test(time_follows_the_clock),
+        cmocka_unit_test(states_tell_what_they_obey),
+        cmocka_unit_test(what_waits_is_replaced),
+        cmocka_unit_test(a_reset_forgets_poses),
+        cmocka_unit_test(a_save_keeps_its_place),
+        cmocka_unit_test(a_saved_session_gives_the_same_bits),
+        cmocka_unit_test(saving_may_fail),
+        cmocka_unit_test(trouble_is_told),
+        cmocka_unit_test(gauges_are_for_who_looks),
+        cmocka_unit_test(probes_are_for_who_looks),
+        cmocka_unit_test(an_end_does_not_wait_for_ever),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -247,7 +247,7 @@ static void gauges_come_late(void **state)
     rig_open(&rig, false);
     until_step(&rig, 10);
     assert_int_equal(rig.status.gauge_count, 0);
-    simulator_watch(rig.simulator, true);
+    simulator_watch(rig.simulator, true, true);
     for (uint64_t step = 20; rig.status.gauge_count < 2 && step < 2000; step += 10)
         until_step(&rig, step);
     assert_true(rig.status.gauge_count >= 2);

@@ -1,0 +1,83 @@
+/* What the panel shows of the scene's probes, as long as somebody looks. */
+#include "app/session/simulator_state.h"
+
+#include <stdlib.h>
+
+static const double EVERY_MS = 50; /* as of the gauges */
+
+void simulator_probes_end(Simulator *simulator)
+{
+    probes_destroy(simulator->probes);
+    cloud_free(&simulator->cloud);
+    free(simulator->read);
+    simulator->probes = NULL;
+    simulator->read = NULL;
+}
+
+/* Without memory there are none. */
+void simulator_probes_begin(Simulator *simulator)
+{
+    const Scene *scene = &simulator->scene;
+    simulator_probes_end(simulator);
+    pthread_mutex_lock(&simulator->lock);
+    simulator->status.probe_count = simulator->probe_next = 0;
+    pthread_mutex_unlock(&simulator->lock);
+    simulator->probes_ms = 0;
+    if (scene->probes.count == 0 || !simulator->world)
+        return;
+    simulator->probes = probes_create(&scene->probes, &scene->world);
+    if (simulator->probes)
+        simulator->read = malloc(((size_t)probes_columns(simulator->probes) + 1) * sizeof *simulator->read);
+    if (simulator->read)
+        simulator_probes(simulator);
+    else
+        simulator_probes_end(simulator);
+}
+
+static void choose(const ProbeList *list, const float read[], float shown[PROBES_SHOWN])
+{
+    for (int k = 0; k < list->count; k++) {
+        int index[PROBE_SHOWN];
+        const int count = probe_shown(&list->probe[k], index);
+        for (int i = 0; i < count; i++)
+            *shown++ = read[index[i]];
+        read += probe_columns(&list->probe[k]);
+    }
+}
+
+/* With the lock held. */
+static void keep(Simulator *simulator, const ProbeSample *sample)
+{
+    SimulatorStatus *status = &simulator->status;
+    status->probes[simulator->probe_next] = *sample;
+    simulator->probe_next = (simulator->probe_next + 1) % SIMULATOR_GAUGES;
+    if (status->probe_count < SIMULATOR_GAUGES)
+        status->probe_count++;
+}
+
+void simulator_probes(Simulator *simulator)
+{
+    ProbeSample sample;
+    WorldInfo info;
+    pthread_mutex_lock(&simulator->lock);
+    const bool watched = simulator->watched_probes;
+    pthread_mutex_unlock(&simulator->lock);
+    if (!watched || !simulator->probes || wall_ms() - simulator->probes_ms < EVERY_MS ||
+        !cloud_read(&simulator->cloud, simulator->world))
+        return;
+    simulator->probes_ms = wall_ms();
+    world_info(simulator->world, &info);
+    probes_read(simulator->probes, &simulator->cloud, simulator->read);
+    sample.time = info.time;
+    choose(&simulator->scene.probes, simulator->read, sample.value);
+    pthread_mutex_lock(&simulator->lock);
+    keep(simulator, &sample);
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+void simulator_probes_status(const Simulator *simulator, SimulatorStatus *status)
+{
+    const int count = status->probe_count, first = simulator->probe_next - count + SIMULATOR_GAUGES;
+    for (int i = 0; i < count; i++)
+        status->probes[i] = simulator->status.probes[(first + i) % SIMULATOR_GAUGES];
+}
