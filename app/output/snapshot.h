@@ -92,6 +92,18 @@ void snapshot_close(Snapshot *snapshot);
 Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
                           bool *busy, Error *error);
 
+/* The particles that a run began with, to make a world of before it is loaded with a later state: where what
+   they were made from may be gone. */
+typedef struct SnapshotFirst {
+    float *position;
+    uint8_t *fluid;
+    InitialState initial; /* of these */
+} SnapshotFirst;
+
+/* False with the reason, and nothing to free. */
+bool snapshot_first(const char *path, SnapshotFirst *first, Error *error);
+void snapshot_first_free(SnapshotFirst *first); /* a zeroed one is allowed */
+
 /* ---- reading ---- */
 
 typedef struct SnapshotReader SnapshotReader;

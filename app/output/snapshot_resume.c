@@ -188,3 +188,43 @@ Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand
     output_unlock(&lock);
     return snapshot;
 }
+
+static bool first_of(const SnapshotStep *step, SnapshotFirst *first)
+{
+    first->position = malloc((step->count + 1) * 3 * sizeof *first->position);
+    first->fluid = malloc(step->count + 1);
+    for (size_t i = 0; first->position && first->fluid && i < step->count; i++) {
+        for (size_t k = 0; k < 3; k++)
+            first->position[3 * i + k] = step->position[k][i];
+        first->fluid[i] = (uint8_t)step->fluid[i];
+    }
+    first->initial = (InitialState){.count = step->count, .position = first->position, .fluid = first->fluid};
+    return first->position && first->fluid;
+}
+
+bool snapshot_first(const char *path, SnapshotFirst *first, Error *error)
+{
+    SnapshotStep step;
+    SnapshotReader *reader = snapshot_open(path, error);
+    *first = (SnapshotFirst){.position = NULL};
+    if (!reader)
+        return false;
+    bool ok = snapshot_count_steps(reader) > 0 ||
+              error_set(error, "%s: has no whole step to resume from; remove it to start anew", path);
+    ok = ok && snapshot_read_step(reader, 0, &step, error);
+    snapshot_reader_close(reader);
+    if (!ok)
+        return false;
+    ok = first_of(&step, first) || error_set(error, "%s: out of memory", path);
+    snapshot_step_free(&step);
+    if (!ok)
+        snapshot_first_free(first);
+    return ok;
+}
+
+void snapshot_first_free(SnapshotFirst *first)
+{
+    free(first->position);
+    free(first->fluid);
+    *first = (SnapshotFirst){.position = NULL};
+}

@@ -112,6 +112,43 @@ static void advise_thin(const Tree *tree, const WorldDef *world, int f, Notes *n
     }
 }
 
+/* Where the table's edges have to stand for what is beyond them. */
+static void advise_beyond(const Tree *tree, const char *path, const WorldDef *world, const FieldTable *table,
+                          const double low[3], const double high[3], Notes *notes)
+{
+    for (int k = 0; k < world->dimensions; k++) {
+        const double first = table->place[k][0], last = table->place[k][table->count[k] - 1];
+        /* the outermost particles are half a spacing from the faces */
+        if (table->count[k] > 1 && (low[k] + 0.5 * world->spacing < first - 1e-6 * world->spacing ||
+                                    high[k] - 0.5 * world->spacing > last + 1e-6 * world->spacing))
+            advise(tree, path, notes,
+                   "the table reaches from %g to %g m in %c, and the fluid from %g to %g m: beyond the table "
+                   "it has what stands at its edge",
+                   first, last, "xyz"[k], low[k], high[k]);
+    }
+}
+
+static void advise_tables(const Tree *tree, const WorldDef *world, int f, Notes *notes)
+{
+    const FluidDef *fluid = &world->fluids[f];
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    char path[64];
+    for (int i = 0; i < fluid->fill_count; i++) {
+        double a[3], b[3];
+        fill_bounds(&fluid->fills[i], a, b);
+        snprintf(path, sizeof path, "fluids[%d].fill[%d].below", f, i);
+        if (fluid->fills[i].heights)
+            advise_beyond(tree, path, world, fluid->fills[i].heights, a, b, notes);
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], a[k]);
+            high[k] = fmax(high[k], b[k]);
+        }
+    }
+    snprintf(path, sizeof path, "fluids[%d].velocity_table", f);
+    if (fluid->flow_table)
+        advise_beyond(tree, path, world, fluid->flow_table, low, high, notes);
+}
+
 static void advise_start(const Tree *tree, const WorldDef *world, const size_t counts[FLUIDS_MAX],
                          Notes *notes)
 {
@@ -137,5 +174,6 @@ void advise_fills(const Tree *tree, const Scene *scene, Notes *notes)
     for (int f = 0; f < world->fluid_count; f++) {
         advise_mass(tree, world, f, counts[f], notes);
         advise_thin(tree, world, f, notes);
+        advise_tables(tree, world, f, notes);
     }
 }

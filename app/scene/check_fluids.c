@@ -1,4 +1,5 @@
 #include "app/scene/check_parts.h"
+#include "app/scene/tables.h"
 #include "sim/matter/fill.h"
 #include "sim/matter/solid_step.h"
 
@@ -104,7 +105,8 @@ static bool check_formulas(const Check *check, int f)
     }
     for (int i = 0; i < fluid->fill_count; i++) {
         snprintf(path, sizeof path, "fluids[%d].fill[%d].below", f, i);
-        if (!check_formula(check, path, fluid->fills[i].below, "xz"))
+        if (!scene_names_table(fluid->fills[i].below) &&
+            !check_formula(check, path, fluid->fills[i].below, "xz"))
             return false;
     }
     return true;

@@ -6,6 +6,7 @@
 #include "app/scene/check.h"
 #include "app/scene/particles.h"
 #include "app/scene/read.h"
+#include "app/scene/tables.h"
 #include "app/yaml/yaml.h"
 #include "render/renderer.h"
 #include "sim/matter/fill_lattice.h"
@@ -59,13 +60,13 @@ static int dimensions_of(const Tree *tree)
     return size && size->kind == NODE_SEQUENCE && node_count(size) == 2 ? 2 : 3;
 }
 
-static bool read_scene(Tree *tree, Scene *out, Error *error)
+static bool read_scene(Tree *tree, bool goes_on, Scene *out, Error *error)
 {
     tree->dimensions = dimensions_of(tree);
     if (!scene_read(tree, out, error))
         return false;
     out->world.dimensions = tree->dimensions;
-    return scene_check(tree, out, error);
+    return scene_check(tree, out, error) && (goes_on || scene_read_tables(tree, out, error));
 }
 
 /* A bowl's wall is thick enough to keep fluids apart, whatever the spacing became. */
@@ -94,7 +95,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
 {
     char scalar[NAME_SIZE];
     file_scalar(tree, scalar);
-    if (!apply_settings(tree, settings, error) || !read_scene(tree, out, error))
+    if (!apply_settings(tree, settings, error) || !read_scene(tree, settings->goes_on, out, error))
         return false;
     out->purpose = settings->purpose;
     scene_advise_unused(tree, out, notes);

@@ -51,6 +51,7 @@ typedef struct SceneSettings {
         *said[SCENE_SETTINGS_MAX]; /* what messages call it: "--backend cuda"; NULL: --set and the setting */
     size_t particles;              /* --particles; 0: the scene's own spacing */
     ScenePurpose purpose;
+    bool goes_on; /* of a run that has begun: the tables of its start are not read, and may be gone */
 } SceneSettings;
 
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what
@@ -61,7 +62,8 @@ typedef struct SceneSettings {
    scene_advise has to say. */
 bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *notes, Error *error);
 
-/* The same from `size` bytes in memory; pure, for tests and the fuzz target. */
+/* The same from `size` bytes in memory; pure but for the tables that the scene names (app/scene/tables.h),
+   for tests and the fuzz target. */
 bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings *settings, Scene *out,
                  Notes *notes, Error *error);
 

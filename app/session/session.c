@@ -3,28 +3,47 @@
 #include "app/base/exit_code.h"
 #include "app/base/json_file.h"
 #include "app/output/forces_log.h"
+#include "app/output/snapshot.h"
 #include "app/probe/probe_table.h"
+#include "app/scene/tables.h"
 #include "app/session/solved.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Times are sums and products of decimal fractions: a state this small part of a frame early is on time. */
 static const double ROUNDING = 1e-6;
+
+/* A run that goes on from its file: its tables may be gone, and its world begins as the file does. */
+static int start_again(Session *session, const Args *args, bool draws, Error *error)
+{
+    SnapshotFirst first = {.position = NULL};
+    if (!snapshot_first(args->output, &first, error))
+        return EXIT_USAGE;
+    session->scene.world.initial = &first.initial;
+    const int code = session_start(session, args->gpu, draws, error);
+    session->scene.world.initial = NULL;
+    snapshot_first_free(&first);
+    return code;
+}
 
 int session_open(Session *session, const Args *args, bool draws, Error *error)
 {
     Notes notes;
     SceneSettings settings = args->settings;
     *session = (Session){.began_ms = wall_ms()};
+    settings.goes_on = args->resume && access(args->output, F_OK) == 0;
     if (!scene_load(args->scenes[0], &settings, &session->scene, &notes, error))
         return EXIT_USAGE;
     notes_print(&notes, stderr);
     if (args->device &&
         !(session->hand = hand_replay_open(args->device, args->mapping, &session->scene, error)))
         return EXIT_USAGE;
-    return session_start(session, args->gpu, draws, error);
+    return settings.goes_on && scene_has_tables(&session->scene)
+               ? start_again(session, args, draws, error)
+               : session_start(session, args->gpu, draws, error);
 }
 
 int session_start(Session *session, int gpu, bool draws, Error *error)

@@ -35,8 +35,9 @@ typedef struct Session {
 
 /* Loads the only scene of the command line and the recording of --device, says on standard error what
    --particles did to dt, makes the world, and a context where its backend needs one or the command `draws`.
-   Creates no file. 0 or the exit code: EXIT_USAGE where the command line or the scene is wrong, EXIT_FAILED
-   where the GPU can't. */
+   Creates no file. With --resume the world begins as its file does, where tables would say how (app/scene/
+   tables.h): they may be gone. 0 or the exit code: EXIT_USAGE where the command line or the scene is wrong,
+   EXIT_FAILED where the GPU can't. */
 int session_open(Session *session, const Args *args, bool draws, Error *error);
 
 /* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create;

@@ -80,6 +80,10 @@ static Height *height_of(const char text[FORMULA_SIZE])
 
 bool fill_ends(const Fill *fill, double x, double z, double *y)
 {
+    if (fill->heights) {
+        *y = field_table_at(fill->heights, 0, (double[]){x, 0, z});
+        return true;
+    }
     if (!formula_given(fill->below))
         return false;
     Height *height = height_of(fill->below);

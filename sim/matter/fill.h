@@ -8,7 +8,7 @@
    near inside its high side is not. */
 bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance);
 
-/* Whether the fill ends at a height by formula, which is then put into *y (m). */
+/* Whether the fill ends at a height by formula or table, which is then put into *y (m). */
 bool fill_ends(const Fill *fill, double x, double z, double *y);
 
 /* The corners of the least block around the fill whose faces are along the axes, m; a ball in two dimensions

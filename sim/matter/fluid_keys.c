@@ -36,6 +36,7 @@ static void fluid_init(void *element, int index)
     fluid->start = START_HYDROSTATIC;
     for (int k = 0; k < 3; k++)
         snprintf(fluid->flow[k], sizeof fluid->flow[k], "none");
+    snprintf(fluid->flow_file, sizeof fluid->flow_file, "none");
     fluid->contact_angle = 90;
     for (int k = 0; k < 3; k++)
         fluid->color[k] = (float)srgb_to_linear(palette[index % 8][k]);
@@ -65,11 +66,12 @@ const Key fluid_keys[] = {
     TEXT("fluids[].velocity_formula.x", 0, FORMULA_SIZE, FLUID(flow[0]), NULL, "its x, m/s"),
     TEXT("fluids[].velocity_formula.y", 0, FORMULA_SIZE, FLUID(flow[1]), NULL, "its y, m/s"),
     TEXT("fluids[].velocity_formula.z", 0, FORMULA_SIZE, FLUID(flow[2]), NULL, "its z, m/s"),
+    TEXT("fluids[].velocity_table", 0, FORMULA_SIZE, FLUID(flow_file), NULL, "velocity at the start, besides these: a file .csv, found from the scene's folder, with the columns x, y, z (m; as many of them as it depends on) and vx, vy, vz (m/s), a row for each place of a grid"),
     NUMBER("fluids[].taylor_green", 0, "m/s", 0, 1000, FLUID(taylor_green), "besides it at the start Taylor and Green's vortices of that speed, two by two in x and y, with their pressure"),
     COLOR("fluids[].color", L | I | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
     LIST("fluids[].fill", 0, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, fill_init,
          "what the fluid fills at the start: blocks, balls and cylinders; a fluid needs this or emitters"),
-    TEXT("fluids[].fill[].below", 0, FORMULA_SIZE, FILL(below), NULL, "where the fill ends at a height of its own, m: a formula of x and z as in velocity_formula; its particles are moved to end there"),
+    TEXT("fluids[].fill[].below", 0, FORMULA_SIZE, FILL(below), NULL, "where the fill ends at a height of its own, m: a formula of x and z as in velocity_formula; or a file .csv as in velocity_table, with the columns x, z and height; its particles are moved to end there"),
     VARIANT("fluids[].fill[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
     VEC3("fluids[].fill[].block.min", R, "m", -1000, 1000, FILL(min), "its corner with the least x, y, z"),
     VEC3("fluids[].fill[].block.max", R, "m", -1000, 1000, FILL(max), "its corner with the greatest x, y, z"),

@@ -2,6 +2,7 @@
 #ifndef SLOSH_WORLD_DEF_H
 #define SLOSH_WORLD_DEF_H
 
+#include "sim/base/field_table.h"
 #include "sim/base/formula.h"
 #include "sim/base/time_table.h"
 #include "sim/box/box_filter.h"
@@ -32,10 +33,12 @@ typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER } FillKind;
    with the scene's spacing, half a spacing from the floor and centred between the walls. */
 typedef struct Fill {
     FillKind kind;
-    double min[3], max[3];    /* block, m */
-    double centre[3], radius; /* ball and cylinder, m */
-    double axis[3], height;   /* cylinder: its direction, of any length but zero; m. 3D only */
-    char below[FORMULA_SIZE]; /* it ends at this height (m), a formula of x and z, if one is given */
+    double min[3], max[3];     /* block, m */
+    double centre[3], radius;  /* ball and cylinder, m */
+    double axis[3], height;    /* cylinder: its direction, of any length but zero; m. 3D only */
+    char below[FORMULA_SIZE];  /* it ends at this height (m), a formula of x and z, if one is given; or the
+                                  name of the file that `heights` was read from */
+    const FieldTable *heights; /* NULL: `below` is a formula or not given; column 0: m. For world_create */
 } Fill;
 
 /* A disk that sends out fluid at rest density, with a velocity along its normal, in the box's frame. A
@@ -71,6 +74,8 @@ typedef struct FluidDef {
     int start;                  /* a FluidStart */
     double velocity[3];         /* at the start, in the box's frame, m/s */
     char flow[3][FORMULA_SIZE]; /* besides it, formulas of x, y and z, if given: m/s */
+    char flow_file[FORMULA_SIZE]; /* the name of the file that `flow_table` was read from */
+    const FieldTable *flow_table; /* besides them, its columns: m/s; NULL: none. Read by world_create only */
     double taylor_green; /* with it the vortices of sim/matter/vortices.h, of that speed, m/s; 0: none */
     float color[3];      /* linear RGB 0..1: for the views, no solver reads it */
     int fill_count;

@@ -133,14 +133,30 @@ static bool add_component(const Seeds *seeds, size_t count, int fluid, int axis,
     return true;
 }
 
-/* Velocities by formula. */
+/* Of a table that has such a column. */
+static void add_table(const Seeds *seeds, size_t count, int fluid, int axis, const FieldTable *table)
+{
+    for (size_t i = 0; i < count; i++) {
+        const float *x = seeds->position + 3 * i;
+        if (seeds->fluid[i] == fluid)
+            seeds->velocity[3 * i + (size_t)axis] +=
+                (float)field_table_at(table, axis, (double[]){(double)x[0], (double)x[1], (double)x[2]});
+    }
+}
+
+/* Velocities by formula and by table. */
 static bool add_flow(const WorldDef *def, const Seeds *seeds, size_t count, Error *error)
 {
     bool ok = true;
-    for (int f = 0; f < def->fluid_count; f++)
-        for (int k = 0; ok && k < def->dimensions; k++)
-            if (formula_given(def->fluids[f].flow[k]))
-                ok = add_component(seeds, count, f, k, def->fluids[f].flow[k], error);
+    for (int f = 0; f < def->fluid_count; f++) {
+        const FluidDef *fluid = &def->fluids[f];
+        for (int k = 0; ok && k < def->dimensions; k++) {
+            if (formula_given(fluid->flow[k]))
+                ok = add_component(seeds, count, f, k, fluid->flow[k], error);
+            if (fluid->flow_table && fluid->flow_table->value[k])
+                add_table(seeds, count, f, k, fluid->flow_table);
+        }
+    }
     return ok;
 }
 

@@ -111,6 +111,22 @@ class Resume(CommandTest):
             self.go('--resume', '--forces', 'a.csv')
             self.assertEqual(whole, self.read('a.csv').decode())
 
+    def test_tables_of_the_start_may_be_gone(self):
+        """They, or what stands in them, are of no use any more: a run goes on from its own first state."""
+        text = SCENE.replace('0.5, 0.5]}\nsolver', '0.5, 0.5]}\n        below: heights.csv\nsolver')
+        self.assertIn('heights.csv', text)
+        self.write('scene.yaml', text)
+        self.write('heights.csv', 'x (m),height (m)\n-0.5,0.4\n0.5,0.5\n')
+        self.whole()
+        self.go('--time', '0.2')
+        self.write('heights.csv', 'x (m),height (m)\n-0.5,0.1\n0.5,0.1\n')
+        self.go('--resume', '--time', '0.3')
+        os.remove(self.path('heights.csv'))
+        self.go('--resume')
+        self.same('whole.h5part', 'a.h5part')
+        said = self.go(code=2, name='b.h5part')
+        self.assertIn('heights.csv: cannot be opened', said)
+
     def test_a_table_that_is_gone_is_told(self):
         """Rows from there on, and a line that says so."""
         self.go('--time', '0.2')

@@ -32,6 +32,32 @@ static void velocities_by_formula(void **state)
     assert_non_null(strstr(error.message, "has no value"));
 }
 
+/* The same slope and shear by table as by formula: the same bits. */
+static void by_table_as_by_formula(void **state)
+{
+    (void)state;
+    double x[2] = {-2, 2}, y[2] = {-1, 3}, height[2] = {0, 1}, speed[2] = {-2, 6};
+    const FieldTable heights = {.count = {2, 1, 1}, .place = {x}, .value = {height}},
+                     speeds = {.count = {1, 2, 1}, .place = {NULL, y}, .value = {speed}};
+    uint64_t hash[2];
+    for (int k = 0; k < 2; k++) {
+        WorldDef def = tank_def(1, 1);
+        fixture_block(&def, 0, -0.5, 0, 0, 0.5, 1, 0);
+        if (k) {
+            def.fluids[0].fills[0].heights = &heights;
+            strcpy(def.fluids[0].fills[0].below, "heights.csv");
+            def.fluids[0].flow_table = &speeds;
+        } else {
+            strcpy(def.fluids[0].fills[0].below, "0.5 + 0.25 * x");
+            strcpy(def.fluids[0].flow[0], "2 * y");
+        }
+        World *world = fixture_world(&def);
+        hash[k] = world_hash(world);
+        world_destroy(world);
+    }
+    assert_int_equal(hash[0], hash[1]);
+}
+
 /* A wave a tenth of a spacing high, above a fluid or below nothing: the layers next to it follow it, those at
    the floor do not, and what is compressed is next to nothing. */
 static void a_surface_by_formula(void **state)
@@ -120,6 +146,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(velocities_by_formula),
+        cmocka_unit_test(by_table_as_by_formula),
         cmocka_unit_test(a_surface_by_formula),
         cmocka_unit_test(a_slope_by_formula),
         cmocka_unit_test(an_interface_by_formula_is_none_to_the_weight),

@@ -1,0 +1,34 @@
+/* A table of a quantity over places as a file: CSV. Lines that begin with '#' and empty lines do not count;
+   the first one that does names the columns, in any order, each with its unit in parentheses if at all; each
+   other one is a place of a grid and what is there, in any order:
+
+     x (m), z (m), height (m)
+     -0.5, 0, 0.21
+     ...
+*/
+#ifndef SLOSH_FIELD_FILE_H
+#define SLOSH_FIELD_FILE_H
+
+#include "sim/base/error.h"
+#include "sim/base/field_table.h"
+
+#include <stddef.h>
+
+enum { FIELD_FILE_BYTES_MAX = 64 << 20 };
+
+/* What a kind of table may have: coordinates of "xyz", and quantities, of which it needs one each at least.
+ */
+typedef struct FieldFileKind {
+    const char *axes;
+    const char *quantity[FIELD_TABLE_COLUMNS], *unit;
+    const char *words; /* "x, z and height", for messages */
+} FieldFileKind;
+
+extern const FieldFileKind field_file_heights, field_file_velocities;
+
+/* Reads the bytes of a file; pure. NULL with "path:line: what is wrong; what would be right". */
+FieldTable *field_file_parse(const char *path, const char *bytes, size_t size, const FieldFileKind *kind,
+                             Error *error);
+void field_file_free(FieldTable *table); /* NULL is allowed */
+
+#endif

@@ -1,0 +1,135 @@
+#include "app/scene/tables.h"
+
+#include "app/base/read_file.h"
+#include "app/scene/check_parts.h"
+#include "app/scene/field_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A table with the bytes that it was read from. */
+typedef struct Kept {
+    struct Kept *next;
+    const FieldFileKind *kind;
+    char *bytes;
+    size_t size;
+    FieldTable *table;
+} Kept;
+
+/* Scenes are read on the main thread. */
+static Kept *all_kept;
+
+static const Kept *find_kept(const FieldFileKind *kind, const char *bytes, size_t size)
+{
+    const Kept *kept = all_kept;
+    while (kept && (kept->kind != kind || kept->size != size || memcmp(kept->bytes, bytes, size) != 0))
+        kept = kept->next;
+    return kept;
+}
+
+/* Takes over the bytes. */
+static const FieldTable *keep(const char *path, char *bytes, size_t size, const FieldFileKind *kind,
+                              Error *error)
+{
+    Kept *kept = malloc(sizeof *kept);
+    FieldTable *table = kept ? field_file_parse(path, bytes, size, kind, error) : NULL;
+    if (!kept)
+        error_set(error, "%.300s: no memory", path);
+    if (!table) {
+        free(bytes);
+        free(kept);
+        return NULL;
+    }
+    *kept = (Kept){all_kept, kind, bytes, size, table};
+    all_kept = kept;
+    return table;
+}
+
+bool scene_names_table(const char *text)
+{
+    const size_t length = strlen(text);
+    return length > 4 && strcmp(text + length - 4, ".csv") == 0;
+}
+
+/* From the folder of the scene. */
+static bool path_of(const char *scene, const char *name, char path[1200], Error *error)
+{
+    const char *slash = *name == '/' ? NULL : strrchr(scene, '/');
+    const int folder = slash ? (int)(slash - scene) + 1 : 0;
+    return snprintf(path, 1200, "%.*s%s", folder, scene, name) < 1200 ||
+           error_set(error, "%.300s: its path is too long", name);
+}
+
+static const FieldTable *table_of(const Check *check, const char *key, const char *name,
+                                  const FieldFileKind *kind)
+{
+    char path[1200];
+    size_t size;
+    Error why;
+    if (!path_of(check->tree->path, name, path, check->error))
+        return NULL;
+    char *bytes = read_file(path, FIELD_FILE_BYTES_MAX, "table", &size, &why);
+    const Kept *kept = bytes ? find_kept(kind, bytes, size) : NULL;
+    if (!bytes)
+        (void)FAIL(check, key, "%s", why.message);
+    if (!kept)
+        return bytes ? keep(path, bytes, size, kind, check->error) : NULL;
+    free(bytes);
+    return kept->table;
+}
+
+static bool check_plane(const Check *check, const char *key, const FieldTable *table)
+{
+    return check->scene->world.dimensions == 3 || (table->count[2] == 1 && !table->value[2]) ||
+           FAIL(check, key, "a 2D scene has no z; leave its columns out of the table");
+}
+
+static bool read_heights(const Check *check, const char *key, Fill *fill)
+{
+    if (!scene_names_table(fill->below))
+        return true;
+    fill->heights = table_of(check, key, fill->below, &field_file_heights);
+    return fill->heights && check_plane(check, key, fill->heights);
+}
+
+static bool read_velocities(const Check *check, const char *key, FluidDef *fluid)
+{
+    if (!formula_given(fluid->flow_file))
+        return true;
+    if (!scene_names_table(fluid->flow_file))
+        return FAIL(check, key, "'%s' is no table; name a file that ends in .csv", fluid->flow_file);
+    fluid->flow_table = table_of(check, key, fluid->flow_file, &field_file_velocities);
+    return fluid->flow_table && check_plane(check, key, fluid->flow_table);
+}
+
+bool scene_read_tables(const Tree *tree, Scene *scene, Error *error)
+{
+    const Check check = {tree, scene, error};
+    char key[64];
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        FluidDef *fluid = &scene->world.fluids[f];
+        snprintf(key, sizeof key, "fluids[%d].velocity_table", f);
+        if (!read_velocities(&check, key, fluid))
+            return false;
+        for (int i = 0; i < fluid->fill_count; i++) {
+            snprintf(key, sizeof key, "fluids[%d].fill[%d].below", f, i);
+            if (!read_heights(&check, key, &fluid->fills[i]))
+                return false;
+        }
+    }
+    return true;
+}
+
+bool scene_has_tables(const Scene *scene)
+{
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        const FluidDef *fluid = &scene->world.fluids[f];
+        if (formula_given(fluid->flow_file))
+            return true;
+        for (int i = 0; i < fluid->fill_count; i++)
+            if (scene_names_table(fluid->fills[i].below))
+                return true;
+    }
+    return false;
+}

@@ -1,0 +1,20 @@
+/* The files that a scene names: tables of heights and velocities at the start. */
+#ifndef SLOSH_SCENE_TABLES_H
+#define SLOSH_SCENE_TABLES_H
+
+#include "app/scene/scene.h"
+#include "app/yaml/tree.h"
+
+/* Reads the tables that the scene names, found from the folder of tree->path, into its world; checks that
+   they fit its dimensions. A table that was read lives as long as the program: scenes are copied, and worlds
+   made of them, with nobody to own it; a file with the same bytes is kept once. False with "file:line: ...".
+ */
+bool scene_read_tables(const Tree *tree, Scene *scene, Error *error);
+
+/* Whether the value of a key is the name of a table: it ends in ".csv". */
+bool scene_names_table(const char *text);
+
+/* Whether the scene names any. */
+bool scene_has_tables(const Scene *scene);
+
+#endif
