@@ -68,7 +68,7 @@ const OptionRow option_rows[] = {
     {"--coarse", NULL, VALIDATE, OPTION_FLAG, AT(coarse), .help = "a glance: few particles, with tolerances of its own"},
     {"-o", "OUT", CHART, OPTION_TEXT, AT(output), .help = "the chart, OUT.svg or OUT.png; its figures in OUT.csv, which a later run goes on with"},
     {"--time", "S", CHART, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a scene (2); a case has its own"},
-    {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods, of the scene's backend and cpu, and of those on a GPU where there is one"},
+    {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods, of the scene's backend and cpu, and of those on a GPU where there is one; particles.spacing=...: those, in place of 2, 1.5 and 1 of the scene's; any other scene key: a series each value; repeat for a product"},
     {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
      .help = "a published table again, beside its figures", .names = table_choice},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},

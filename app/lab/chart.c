@@ -37,12 +37,13 @@ bool chart_begin(Chart *chart, const char *path, int width, int height, Error *e
             has_ending(path, ".svg") ? "svg" : "pngcairo", width, height);
     fputs("set encoding utf8\nset output ", chart->gnuplot);
     chart_quote(chart->gnuplot, chart->output.temp);
-    fputs(
-        "\nset border 3 lc '#5a6672'\nset tics nomirror textcolor '#2a3440'\n"
-        "set grid lc '#d8dee4' lt 1\nset key outside right top noenhanced\n"
-        "set linetype 1 lc '#2a6f97'\nset linetype 2 lc '#e07a3f'\nset linetype 3 lc '#4f9d69'\n"
-        "set linetype 4 lc '#b0457b'\nset linetype 5 lc '#c9a227'\nset linetype 6 lc '#5b5ea6'\nset title noenhanced\n",
-        chart->gnuplot);
+    fputs("\nset border 3 lc '#5a6672'\nset tics nomirror textcolor '#2a3440'\n"
+          "set grid lc '#d8dee4' lt 1\nset key outside right top noenhanced\n"
+          "set linetype 1 lc '#2a6f97'\nset linetype 2 lc '#e07a3f'\nset linetype 3 lc '#4f9d69'\n"
+          "set linetype 4 lc '#b0457b'\nset linetype 5 lc '#c9a227'\nset linetype 6 lc '#5b5ea6'\n"
+          "set linetype 7 lc '#7a4f2a'\nset linetype 8 lc '#35a7a0'\nset linetype 9 lc '#c0392b'\n"
+          "set linetype 10 lc '#8795a3'\nset linetype cycle 10\nset title noenhanced\n",
+          chart->gnuplot);
     return true;
 }
 

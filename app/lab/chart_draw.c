@@ -5,7 +5,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 1100, HEIGHT = 470, LINE_HEIGHT = 14, LINES_MAX = 24 }; /* pixels; a line more of the key */
+enum {
+    WIDTH = 1100,
+    HEIGHT = 470,
+    LINE_HEIGHT = 14,
+    LINES_MAX = CHART_ROWS_MAX
+}; /* pixels; a line more of the key */
 
 /* The data's least and greatest values, as logarithms to the base 10. */
 typedef struct Extent {
@@ -106,24 +111,26 @@ static bool put_front(const ChartRows *rows, FILE *gnuplot)
             continue;
         }
         labelled[labels++] = row;
-        fprintf(gnuplot, "\"%s, %s, %zu, %s\"\n", row->method, row->backend, row->particles, row->step);
+        fprintf(gnuplot, "\"%s, %s%s%s, %zu, %s\"\n", row->method, row->backend, *row->swept ? ", " : "",
+                row->swept, row->particles, row->step);
     }
     fputs("EOD\n", gnuplot);
     return any;
 }
 
-/* The first line of the same method and backend. */
+/* The first line of the same method, backend and swept values. */
 static int first_of(const ChartRows *rows, const int opener[], int line)
 {
     const ChartRow *own = &rows->row[opener[line]];
     int l = 0;
     while (strcmp(rows->row[opener[l]].method, own->method) != 0 ||
-           strcmp(rows->row[opener[l]].backend, own->backend) != 0)
+           strcmp(rows->row[opener[l]].backend, own->backend) != 0 ||
+           strcmp(rows->row[opener[l]].swept, own->swept) != 0)
         l++;
     return l;
 }
 
-/* One a method and backend: its lines of other steps have the same, and other points. */
+/* One a method, backend and swept values: its lines of other steps have the same, and other points. */
 static int colour_of(const ChartRows *rows, const int opener[], int line)
 {
     const int first = first_of(rows, opener, line);
@@ -137,7 +144,7 @@ static void plot_cost(const ChartRows *rows, const int opener[], int lines, bool
 {
     fputs("set xlabel 'computing time a simulated second, s'\nplot ", gnuplot);
     for (int l = 0; l < lines; l++) {
-        char title[128];
+        char title[CHART_NAME];
         const ChartRow *row = &rows->row[opener[l]];
         chart_line_name(row, title);
         fprintf(gnuplot, "%s$line%d using 1:2 with points pt %d ps 0.9 lt %d title ", l ? ", " : "", l,
@@ -155,7 +162,7 @@ static void plot_order(const ChartRows *rows, const int opener[], int lines, dou
 {
     fputs("set xlabel 'spacing, m'\nplot ", gnuplot);
     for (int l = 0; l < lines; l++) {
-        char name[128], title[256];
+        char name[CHART_NAME], title[CHART_NAME + 64];
         const char *why;
         const ChartRow *row = &rows->row[opener[l]];
         const double order = chart_order(rows, opener[l], floor, &why);

@@ -8,7 +8,7 @@
 #include <string.h>
 
 static const double coarsenings[] = {2, 1.5, 1}; /* fills that are whole numbers of spacings often stay so */
-static const double FINEST = 0.5;                /* of a scene's reference */
+static const double FINEST = 0.5;                /* of a scene's reference, times the finest of these */
 static const double jitters[] = {1e-6, 2e-6, 3e-6};
 static const double DEFAULT_TIME = 2; /* s, of a scene */
 
@@ -114,7 +114,8 @@ static bool try_job(ChartPlan *plan, ChartJob job, Error *why)
     static Scene scene;
     static ChartRow row;
     if (plan->count == CHART_JOBS_MAX)
-        return error_set(why, "more than %d runs; name fewer methods or backends", CHART_JOBS_MAX);
+        return error_set(why, "more than %d runs; name fewer methods, backends or swept values",
+                         CHART_JOBS_MAX);
     if (!chart_prepare(&plan->subject, &job, &scene, &row, why))
         return false;
     plan->wants_context |= world_on_gpu(&scene.world);
@@ -134,52 +135,115 @@ static void add_job(ChartPlan *plan, ChartJob job)
    by next to nothing say below which distance nothing is known. */
 static bool add_reference(ChartPlan *plan, const char *backend, Error *error)
 {
-    const char *method = plan->scene.world.method;
+    const double least = plan->coarsenings[plan->coarsening_count - 1];
+    ChartJob job = {.role = CHART_REFERENCE,
+                    .method = plan->scene.world.method,
+                    .backend = backend,
+                    .coarsening = FINEST * least,
+                    .fineness = 1};
     Error why = {{0}};
-    if (!try_job(plan, (ChartJob){CHART_REFERENCE, method, backend, FINEST, 1, 0}, &why))
+    if (!try_job(plan, job, &why))
         return error_set(error,
                          "slosh chart: the run at %g of the spacing, which all are compared with, cannot be "
                          "made: %.700s",
-                         FINEST, why.message);
-    for (size_t i = 0; i < sizeof jitters / sizeof *jitters; i++)
-        add_job(plan, (ChartJob){CHART_FLOOR, method, backend, 1, 0, jitters[i]});
+                         FINEST * least, why.message);
+    job.role = CHART_FLOOR;
+    job.coarsening = least;
+    job.fineness = 0;
+    for (size_t i = 0; i < sizeof jitters / sizeof *jitters; i++) {
+        job.jitter = jitters[i];
+        add_job(plan, job);
+    }
     return true;
+}
+
+/* The scene or case, with one more setting. */
+static bool load_with(const ChartPlan *plan, const char *method, const char *text, Scene *scene, Error *error)
+{
+    const ChartSubject *subject = &plan->subject;
+    SceneSettings settings = *subject->settings;
+    const CaseSetup setup = {
+        .of = subject->of, .level = CASE_DEFAULT, .method = method, .settings = &settings};
+    if (settings.count == SCENE_SETTINGS_MAX)
+        return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
+    settings.said[settings.count] = text;
+    settings.set[settings.count++] = text + strlen("--sweep ");
+    return subject->of ? case_scene(&setup, scene, error)
+                       : scene_load(subject->scene, &settings, scene, NULL, error);
+}
+
+/* Which swept keys a method reads; of the others one run is enough. */
+static void find_effects(ChartPlan *plan, const char *method, bool effect[CHART_SWEEPS])
+{
+    static Scene scene;
+    char text[96], why[NOTE_SIZE];
+    Error error;
+    snprintf(text, sizeof text, "--sweep solver.method=%s", method);
+    const bool read = load_with(plan, method, text, &scene, &error);
+    for (int k = 0; k < plan->sweeps.count; k++) {
+        effect[k] = !read || chart_sweeps_effect(&plan->sweeps, k, &scene, why);
+        if (!effect[k])
+            fprintf(stderr, "%s is not swept with method %s: %s\n", plan->sweeps.key[k], method, why);
+    }
+}
+
+static void add_points(ChartPlan *plan, ChartJob job)
+{
+    for (job.fineness = 0; job.fineness < 2; job.fineness++)
+        for (int c = 0; c < plan->coarsening_count; c++) {
+            job.coarsening = plan->coarsenings[c];
+            add_job(plan, job);
+        }
 }
 
 static bool plan_jobs(ChartPlan *plan, Error *error)
 {
     const char *methods[CHART_NAMES_MAX], *backends[CHART_NAMES_MAX];
+    bool effect[CHART_NAMES_MAX][CHART_SWEEPS];
     const int m = methods_of(plan, methods), b = backends_of(plan, backends);
-    for (int at = 0; at < m * b; at++)
-        for (int fine = 0; fine < 2; fine++)
-            for (size_t c = 0; c < sizeof coarsenings / sizeof *coarsenings; c++)
-                add_job(plan,
-                        (ChartJob){CHART_POINT, methods[at % m], backends[at / m], coarsenings[c], fine, 0});
+    const int all = chart_sweeps_combinations(&plan->sweeps);
+    for (int i = 0; i < m; i++)
+        find_effects(plan, methods[i], effect[i]);
+    if (m > 0 && !chart_sweeps_check(&plan->sweeps, error))
+        return false;
+    for (int at = 0; at < m * b * all; at++) {
+        const int method = at / all % m;
+        ChartJob job = {.role = CHART_POINT, .method = methods[method], .backend = backends[at / all / m]};
+        if (chart_sweeps_set(&plan->sweeps, effect[method], at % all, &job))
+            add_points(plan, job);
+    }
     return plan->subject.of || add_reference(plan, backends[0], error);
 }
 
-/* Whether the scene can be read with each of the values. */
+/* Whether the scene can be read with each of the values, by its own method. */
 static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
 {
     static Scene scene;
-    char text[160];
-    const ChartSubject *subject = &plan->subject;
+    char text[SWEPT_TEXT];
     const bool of_method = strcmp(sweep->key, "solver.method") == 0;
-    bool ok = of_method || strcmp(sweep->key, "solver.backend") == 0 ||
-              error_set(error, "slosh chart: --sweep takes method or backend here, not '%.60s'", sweep->key);
+    bool ok = true;
     for (int v = 0; ok && v < sweep->count; v++) {
-        SceneSettings settings = *subject->settings;
-        const char *method = of_method || !subject->of ? sweep->values[v] : subject->of->methods[0].name;
-        snprintf(text, sizeof text, "--sweep %.60s=%.60s", sweep->key, sweep->values[v]);
-        const int last = settings.count < SCENE_SETTINGS_MAX ? settings.count++ : settings.count - 1;
-        settings.set[last] = text + strlen("--sweep ");
-        settings.said[last] = text;
-        const CaseSetup setup = {
-            .of = subject->of, .level = CASE_DEFAULT, .method = method, .settings = &settings};
-        ok = subject->of ? case_scene(&setup, &scene, error)
-                         : scene_load(subject->scene, &settings, &scene, NULL, error);
+        const Case *of = plan->subject.of;
+        snprintf(text, sizeof text, "--sweep %.60s=%.100s", sweep->key, sweep->values[v]);
+        ok = load_with(plan, of && !of_method ? of->methods[0].name : sweep->values[v], text, &scene, error);
     }
     return ok;
+}
+
+static bool plan_sweeps(ChartPlan *plan, Error *error)
+{
+    const Args *args = plan->args;
+    if (!chart_sweeps_take(args, &plan->sweeps, error))
+        return false;
+    for (int s = 0; s < args->sweep_count; s++)
+        if (!sweep_check(plan, &args->sweeps[s], error))
+            return false;
+    plan->coarsening_count = chart_sweeps_spacings(args, plan->scene.world.spacing, plan->coarsenings, error);
+    if (plan->coarsening_count == 0) {
+        plan->coarsening_count = sizeof coarsenings / sizeof *coarsenings;
+        memcpy(plan->coarsenings, coarsenings, sizeof coarsenings);
+    }
+    return plan->coarsening_count > 0;
 }
 
 /* OUT.csv beside OUT.svg. */
@@ -269,10 +333,7 @@ bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error)
     *plan = (ChartPlan){.args = args};
     if (!name_csv(plan, error) || !find_subject(plan, error))
         return false;
-    for (int s = 0; s < args->sweep_count; s++)
-        if (!sweep_check(plan, &args->sweeps[s], error))
-            return false;
-    if (!plan_jobs(plan, error))
+    if (!plan_sweeps(plan, error) || !plan_jobs(plan, error))
         return false;
     keep_notes_of_all(plan);
     return plan->count > 0 || error_set(error, "slosh chart: nothing of it can run here");

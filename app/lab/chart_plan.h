@@ -1,9 +1,9 @@
-/* What `slosh chart` runs: methods x backends x steps x spacings; of a scene the reference and the floor too.
- */
+/* What `slosh chart` runs: methods x backends x what is swept x steps x spacings; of a scene the reference
+   and the floor too. */
 #ifndef SLOSH_CHART_PLAN_H
 #define SLOSH_CHART_PLAN_H
 
-#include "app/lab/chart_run.h"
+#include "app/lab/chart_sweep.h"
 #include "app/session/args.h"
 #include "app/session/headless.h"
 
@@ -12,11 +12,14 @@ enum { CHART_JOBS_MAX = 200, CHART_NAMES_MAX = 8 };
 typedef struct ChartPlan {
     const Args *args;
     ChartSubject subject;
-    Scene scene;       /* as the command line has it: of a case with its first method */
-    char csv[1024];    /* where the runs are kept */
-    Notes notes;       /* of the scene */
-    char note[256];    /* backends that were left out, and why; or "" */
-    Headless *context; /* NULL as long as nobody needed one */
+    Scene scene;    /* as the command line has it: of a case with its first method */
+    char csv[1024]; /* where the runs are kept */
+    Notes notes;    /* of the scene */
+    ChartSweeps sweeps;
+    int coarsening_count;
+    double coarsenings[CHART_SPACINGS]; /* times the scene's spacing, the coarsest first */
+    char note[256];                     /* backends that were left out, and why; or "" */
+    Headless *context;                  /* NULL as long as nobody needed one */
     bool wants_context;
     int count;
     ChartJob jobs[CHART_JOBS_MAX];

@@ -15,7 +15,7 @@ static const char *remark(const ChartRows *rows, int i)
 static void print_orders(const ChartRows *rows, double floor, FILE *file)
 {
     for (int i = 0; i < rows->count; i++) {
-        char name[128];
+        char name[CHART_NAME];
         const char *why;
         if (!chart_opens_line(rows, i))
             continue;
@@ -37,8 +37,9 @@ void chart_print(const ChartRows *rows, double floor, FILE *file)
         char text[OUTCOME_TEXT];
         if (row->role == CHART_FLOOR)
             continue;
-        fprintf(file, "%-8s %-8s %-12s %10.4g %9zu %14.4g %7.3g %%%s\n", row->method, row->backend, row->step,
-                row->spacing, row->particles, row->seconds, 100 * row->error, remark(rows, i));
+        fprintf(file, "%-8s %-8s %-12s %10.4g %9zu %14.4g %7.3g %%%s%s%s\n", row->method, row->backend,
+                row->step, row->spacing, row->particles, row->seconds, 100 * row->error,
+                *row->swept ? "  " : "", row->swept, remark(rows, i));
         if (row->outcome.kind != OUTCOME_HOLDS)
             fprintf(file, "  %s\n", outcome_text(&row->outcome, text));
     }
@@ -58,6 +59,8 @@ static json_t *row_json(const ChartRows *rows, int i)
                   "particles", (json_int_t)row->particles, "seconds_per_second", number_json(row->seconds),
                   "error", number_json(row->error), "front", chart_on_front(rows, i));
     outcome_json(json, &row->outcome);
+    if (json && *row->swept)
+        json_object_set_new(json, "swept", json_string(row->swept));
     return json;
 }
 
@@ -71,10 +74,10 @@ static json_t *orders_json(const ChartRows *rows, double floor)
         if (!chart_opens_line(rows, i))
             continue;
         const double order = chart_order(rows, i, floor, &why);
-        json_array_append_new(orders,
-                              json_pack("{s:s, s:s, s:s, s:o, s:s?}", "method", row->method, "backend",
-                                        row->backend, "steps", row->fineness ? "fine" : "long", "order",
-                                        number_json(order), "why", why));
+        json_array_append_new(orders, json_pack("{s:s, s:s, s:s, s:o, s:s?, s:s*}", "method", row->method,
+                                                "backend", row->backend, "steps",
+                                                row->fineness ? "fine" : "long", "order", number_json(order),
+                                                "why", why, "swept", *row->swept ? row->swept : NULL));
     }
     return orders;
 }

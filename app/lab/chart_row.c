@@ -12,7 +12,7 @@
 
 static const char HEAD[] =
     "key,role,method,backend,step,fineness,spacing_m,particles,seconds_a_simulated_second,error,"
-    "outcome,outcome_s,outcome_words,series\n";
+    "outcome,outcome_s,outcome_words,swept,series\n";
 static const char *const roles[] = {"point", "reference", "floor"};
 
 /* What every chart's file begins with, whatever else its rows hold. */
@@ -91,7 +91,7 @@ static const char *impossible(const ChartRow *row, double fineness, double parti
 /* NULL, or what is wrong: the run is made again. */
 static const char *parse_row(char *line, ChartRow *row)
 {
-    enum { CELLS = 13 };
+    enum { CELLS = 14 };
     static const char unreadable[] = "row";
     char *cells[CELLS], *at = line, *end;
     double fineness, particles;
@@ -109,7 +109,8 @@ static const char *parse_row(char *line, ChartRow *row)
                     copy_name(row->step, cells[4]) && read_number(cells[5], &fineness) &&
                     read_number(cells[6], &row->spacing) && read_number(cells[7], &particles) &&
                     read_number(cells[8], &row->seconds) && read_number(cells[9], &row->error) &&
-                    parse_outcome(&cells[10], &row->outcome) && parse_series(at, row);
+                    parse_outcome(&cells[10], &row->outcome) &&
+                    snprintf(row->swept, CHART_SWEPT, "%s", cells[13]) < CHART_SWEPT && parse_series(at, row);
     const char *wrong = ok ? impossible(row, fineness, particles) : unreadable;
     if (wrong)
         return wrong;
@@ -189,9 +190,10 @@ void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan)
 static void print_row(const ChartRow *row, FILE *file)
 {
     const Outcome *outcome = &row->outcome;
-    fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,%s,%.9g,%s,", row->key, roles[row->role],
-            row->method, row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds,
-            row->error, outcome_word(outcome->kind), outcome->time, outcome->words);
+    fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,%s,%.9g,%s,%s,", row->key,
+            roles[row->role], row->method, row->backend, row->step, row->fineness, row->spacing,
+            row->particles, row->seconds, row->error, outcome_word(outcome->kind), outcome->time,
+            outcome->words, row->swept);
     for (int t = 0; t < CHART_TIMES && row->quantities > 0; t++)
         for (int q = 0; q < row->quantities; q++)
             fprintf(file, "%s%.17g", q ? " " : t ? ";" : "", row->series[t][q]);
@@ -314,7 +316,7 @@ bool chart_drawn(const ChartRow *row)
 bool chart_same_line(const ChartRow *a, const ChartRow *b)
 {
     return strcmp(a->method, b->method) == 0 && strcmp(a->backend, b->backend) == 0 &&
-           a->fineness == b->fineness;
+           strcmp(a->swept, b->swept) == 0 && a->fineness == b->fineness;
 }
 
 bool chart_opens_line(const ChartRows *rows, int row)
@@ -325,9 +327,10 @@ bool chart_opens_line(const ChartRows *rows, int row)
     return chart_drawn(&rows->row[row]);
 }
 
-void chart_line_name(const ChartRow *row, char name[128])
+void chart_line_name(const ChartRow *row, char name[CHART_NAME])
 {
-    snprintf(name, 128, "%s, %s, %s steps", row->method, row->backend, row->fineness ? "fine" : "long");
+    snprintf(name, CHART_NAME, "%s, %s%s%s, %s steps", row->method, row->backend, *row->swept ? ", " : "",
+             row->swept, row->fineness ? "fine" : "long");
 }
 
 /* Whether each finer run of the line is nearer than each coarser one. */

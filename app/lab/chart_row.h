@@ -10,7 +10,12 @@
 
 #include <stdio.h>
 
-enum { CHART_TIMES = 40, CHART_QUANTITIES = SCENE_METRICS_MAX * METRIC_NUMBERS, CHART_ROWS_MAX = 256 };
+enum {
+    CHART_TIMES = 40,
+    CHART_QUANTITIES = SCENE_METRICS_MAX * METRIC_NUMBERS,
+    CHART_ROWS_MAX = 256,
+    CHART_SWEPT = 128
+};
 
 /* Why a run is made. */
 typedef enum ChartRole {
@@ -23,9 +28,10 @@ typedef struct ChartRow {
     uint64_t key; /* of all that the run depends on */
     ChartRole role;
     char method[NAME_SIZE], backend[NAME_SIZE];
-    char step[NAME_SIZE]; /* "number 0.3" or "substeps 20" */
-    int fineness;         /* of the step: rows of the same one are one line of the convergence */
-    double spacing;       /* m */
+    char step[NAME_SIZE];    /* "number 0.3" or "substeps 20" */
+    char swept[CHART_SWEPT]; /* "support=2.6 kernel=cubic"; "" */
+    int fineness;            /* of the step: rows of the same one are one line of the convergence */
+    double spacing;          /* m */
     size_t particles;
     double seconds;  /* of computing, a simulated second; NaN: it broke */
     double error;    /* NaN: not known */
@@ -79,8 +85,9 @@ bool chart_drawn(const ChartRow *row);
 bool chart_same_line(const ChartRow *a, const ChartRow *b);
 bool chart_opens_line(const ChartRows *rows, int row);
 
-/* method, backend and "long steps" */
-void chart_line_name(const ChartRow *row, char name[128]);
+/* method, backend, what is swept and "long steps" */
+enum { CHART_NAME = CHART_SWEPT + 128 };
+void chart_line_name(const ChartRow *row, char name[CHART_NAME]);
 
 /* The order of the line that the row `first` opens: the slope of log error over log spacing. NaN where there
    is none to be seen, and *why says it. `floor` as of chart_draw. */

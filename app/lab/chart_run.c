@@ -54,6 +54,29 @@ __attribute__((format(printf, 3, 4))) static bool add(JobSettings *job, Error *e
     return true;
 }
 
+/* The job's own values of swept keys, and what the row calls them: the last parts of their names. */
+static bool add_swept(JobSettings *job, const ChartJob *of, ChartRow *row, Error *error)
+{
+    size_t used = 0;
+    for (int i = 0; i < of->set_count; i++) {
+        const char *setting = of->set[i] + strlen("--sweep "), *name = strchr(setting, '=');
+        if (job->all.count == SCENE_SETTINGS_MAX)
+            return error_set(error, "more than %d settings; write them into a scene file",
+                             SCENE_SETTINGS_MAX);
+        job->all.said[job->all.count] = of->set[i];
+        job->all.set[job->all.count++] = setting;
+        while (name > setting && name[-1] != '.')
+            name--;
+        used += (size_t)snprintf(row->swept + used, CHART_SWEPT - used, "%s%s", used > 0 ? " " : "", name);
+        if (used >= CHART_SWEPT)
+            return error_set(error, "the swept values have more than %d letters; sweep less at a time",
+                             CHART_SWEPT - 1);
+    }
+    for (char *at = row->swept; *at; at++)
+        *at = *at == ',' ? ';' : *at; /* the row's cells are parted by commas */
+    return true;
+}
+
 static bool load(const ChartSubject *subject, const ChartJob *job, JobSettings *settings, Scene *scene,
                  Error *error)
 {
@@ -72,7 +95,7 @@ static bool job_settings(const ChartSubject *subject, const ChartJob *job, JobSe
     *settings = (JobSettings){.all = *subject->settings};
     bool ok = add(settings, error, "solver.method=%s", job->method) &&
               add(settings, error, "solver.backend=%s", job->backend) &&
-              load(subject, job, settings, scene, error);
+              add_swept(settings, job, row, error) && load(subject, job, settings, scene, error);
     if (!ok)
         return false;
     const WorldDef *def = &scene->world;

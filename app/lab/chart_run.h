@@ -13,6 +13,8 @@ typedef struct ChartSubject {
     const SceneSettings *settings; /* of the command line */
 } ChartSubject;
 
+enum { CHART_SWEEPS = 8 };
+
 /* What differs from run to run. */
 typedef struct ChartJob {
     ChartRole role;
@@ -20,6 +22,8 @@ typedef struct ChartJob {
     double coarsening; /* times the scene's spacing */
     int fineness;      /* 0: steps as long as the scene's, or as its number says; 1: half of it */
     double jitter;     /* spacings; 0: as the scene has it */
+    int set_count;
+    const char *set[CHART_SWEEPS]; /* "--sweep key=value" of other keys */
 } ChartJob;
 
 /* The scene of that job, with row's key, method, backend, step and spacing. */

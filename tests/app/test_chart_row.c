@@ -123,6 +123,7 @@ static void the_chart_says_its_orders(void **state)
         const double spacing = 0.1 / (1 << i);
         add(CHART_POINT, spacing, pow(8, i), spacing * spacing)->particles = 1000 + (size_t)i;
         snprintf(add(CHART_POINT, spacing, pow(8, i), spacing)->method, NAME_SIZE, "mueller");
+        snprintf(add(CHART_POINT, spacing, 20 * pow(8, i), 2 * spacing)->swept, CHART_SWEPT, "support=2.6");
         add(CHART_POINT, spacing, 9 * pow(8, i), i == 1 ? 0.3 : 0.2)->fineness = 1;
     }
     assert_true(chart_draw(&rows, &words, 1e-4, file_path, &error));
@@ -133,6 +134,7 @@ static void the_chart_says_its_orders(void **state)
     unlink(file_path);
     const char *const there[] = {"wcsph, cpu, long steps: order 2.00",
                                  "mueller, cpu, long steps: order 1.00",
+                                 "wcsph, cpu, support=2.6, long steps: order 1.00",
                                  "wcsph, cpu, fine steps: no order: errors do not fall",
                                  "wcsph, cpu, 1002, number 0.3",
                                  "runs that differ by 1e-6",
@@ -169,6 +171,7 @@ static void a_file_keeps_them(void **state)
     assert_int_equal(again.count, 0);
     rows.count = 0;
     set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5);
+    snprintf(rows.row[0].swept, CHART_SWEPT, "support=2.6 kernel=cubic");
     add(CHART_FLOOR, 0.25, (double)NAN, (double)NAN)->outcome =
         (Outcome){OUTCOME_BLOWN_UP, 0.375, "a particle moves further than the support radius in one step"};
     assert_true(chart_rows_write(&rows, path, &error));
@@ -183,6 +186,8 @@ static void a_file_keeps_them(void **state)
     assert_true(row->outcome.kind == OUTCOME_HOLDS && isnan(row->outcome.time) && !*row->outcome.words);
     assert_true(again.row[1].outcome.kind == OUTCOME_BLOWN_UP && again.row[1].outcome.time == 0.375);
     assert_string_equal(again.row[1].outcome.words, rows.row[1].outcome.words);
+    assert_string_equal(row->swept, "support=2.6 kernel=cubic");
+    assert_string_equal(again.row[1].swept, "");
     assert_null(chart_rows_find(&again, 7));
     assert_false(chart_rows_write(&rows, "/no/such/folder/x.csv", &error));
 }

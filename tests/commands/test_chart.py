@@ -144,6 +144,34 @@ class Chart(command.CommandTest):
             self.assertAlmostEqual(a, b, delta=1e-3)  # the same simulation
         self.assertIn('mueller, compute, long steps: ', self.text('two.svg'))
 
+    def test_any_key_is_swept(self):
+        """A series each combination; a key that one method does not read gives that method one; the spacings' own axis."""
+        both = [*SMALL[:-1], 'wcsph', '--sweep', 'method=mueller,wcsph']
+        done = self.run_it('scene.yaml', '-o', 'out.svg', '--json', 'out.json', *both, '--sweep', 'solver.delta_sph=0,0.1',
+                           '--sweep', 'particles.spacing=0.1,0.2', '--sweep', 'particles.support=2.1,2.6')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('solver.delta_sph is not swept with method mueller: ', done.stderr)
+        figures = json.loads(self.read('out.json'))
+        points = [run for run in figures['runs'] if run['role'] == 'point']
+        self.assertEqual([run['spacing'] for run in points[:2]], [0.2, 0.1])
+        series = {(run['method'], run['swept']) for run in points}
+        self.assertEqual(len(points), 2 * 2 * len(series))
+        self.assertEqual(series, {('mueller', 'support=2.1'), ('mueller', 'support=2.6'), ('wcsph', 'delta_sph=0 support=2.1'),
+                                  ('wcsph', 'delta_sph=0 support=2.6'), ('wcsph', 'delta_sph=0.1 support=2.1'), ('wcsph', 'delta_sph=0.1 support=2.6')})
+        self.assertEqual({run['spacing'] for run in figures['runs'] if run['role'] == 'reference'}, {0.05})
+        for text in (done.stdout, self.text('out.svg')):
+            self.assertIn('wcsph, cpu, delta_sph=0.1 support=2.6, fine steps: ', text)
+        again = self.run_it('scene.yaml', '-o', 'out.svg', *both, '--sweep', 'particles.support=2.1,2.6', '--sweep', 'particles.spacing=0.2,0.1')
+        self.assertIn('are in out.csv already', again.stderr)
+
+    def test_a_sweep_that_changes_nothing_is_refused(self):
+        for words, sweep in (('changes nothing', 'solver.delta_sph=0,0.1'), ('changes no run', 'view.radius=1,2'),
+                             ('--sweep particles.spacing', 'particles=100,200')):
+            done = self.run_it('scene.yaml', '-o', 'out.svg', *SMALL, '--sweep', sweep)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(words, done.stderr)
+        self.assertEqual(os.listdir(self.folder), ['scene.yaml'])
+
     def test_a_case(self):
         done = self.run_it('free_fall', '-o', 'out.png', '--method', 'mueller')
         self.assertEqual(done.returncode, 0, done.stderr)
