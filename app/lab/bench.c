@@ -2,7 +2,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/held/hand_replay.h"
-#include "app/lab/outcome_watch.h"
+#include "app/outcome/outcome_watch.h"
 
 #include <math.h>
 #include <stdlib.h>

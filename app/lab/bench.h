@@ -3,7 +3,7 @@
 #define SLOSH_BENCH_H
 
 #include "app/base/progress.h"
-#include "app/lab/outcome.h"
+#include "app/outcome/outcome.h"
 #include "app/scene/scene.h"
 #include "app/session/studio.h"
 #include "sim/gl/timer.h"

@@ -4,7 +4,7 @@
 #ifndef SLOSH_CHART_ROW_H
 #define SLOSH_CHART_ROW_H
 
-#include "app/lab/outcome.h"
+#include "app/outcome/outcome.h"
 #include "app/metric/metric_list.h"
 #include "app/scene/scene.h"
 

@@ -1,7 +1,7 @@
 #include "app/lab/chart_run.h"
 
 #include "app/base/interrupt.h"
-#include "app/lab/outcome_watch.h"
+#include "app/outcome/outcome_watch.h"
 #include "app/scene/keys.h"
 #include "sim/base/stage.h"
 #include "sim/world/method.h"

@@ -9,7 +9,6 @@ typedef struct Chains {
     double limit;
     size_t mask;
     uint32_t *first, *next; /* a chain; a particle: numbers from 1 on */
-    uint8_t *close;         /* a particle */
 } Chains;
 
 static size_t chain_of(const Chains *chains, const int64_t cell[3])
@@ -19,7 +18,22 @@ static size_t chain_of(const Chains *chains, const int64_t cell[3])
     return (size_t)(hash ^ hash >> 29) & chains->mask;
 }
 
-static void look_along(const Chains *chains, size_t chain, size_t i)
+static void cell_of(const Chains *chains, size_t i, int64_t cell[3])
+{
+    for (size_t k = 0; k < 3; k++)
+        cell[k] = (int64_t)floor((double)chains->position[4 * i + k] / chains->limit);
+}
+
+static void put(const Chains *chains, size_t i)
+{
+    int64_t cell[3];
+    cell_of(chains, i, cell);
+    const size_t own = chain_of(chains, cell);
+    chains->next[i] = chains->first[own];
+    chains->first[own] = (uint32_t)i + 1;
+}
+
+static bool any_near(const Chains *chains, size_t chain, size_t i)
 {
     const float *x = chains->position + 4 * i;
     for (size_t at = chains->first[chain]; at; at = chains->next[at - 1]) {
@@ -27,26 +41,23 @@ static void look_along(const Chains *chains, size_t chain, size_t i)
         double r2 = 0;
         for (int k = 0; k < 3; k++)
             r2 += ((double)x[k] - (double)y[k]) * ((double)x[k] - (double)y[k]);
-        if (r2 < chains->limit * chains->limit)
-            chains->close[i] = chains->close[at - 1] = 1;
+        if (at != i + 1 && r2 < chains->limit * chains->limit)
+            return true;
     }
+    return false;
 }
 
-/* Against all before it in the cells around; then into its own. */
-static void take(const Chains *chains, size_t i)
+static bool is_close(const Chains *chains, size_t i)
 {
-    int64_t cell[3], at[3];
-    for (int k = 0; k < 3; k++)
-        cell[k] = (int64_t)floor((double)chains->position[4 * i + (size_t)k] / chains->limit);
-    for (int n = 0; n < 27; n++) {
-        at[0] = cell[0] + n % 3 - 1;
-        at[1] = cell[1] + n / 3 % 3 - 1;
-        at[2] = cell[2] + n / 9 - 1;
-        look_along(chains, chain_of(chains, at), i);
-    }
-    const size_t own = chain_of(chains, cell);
-    chains->next[i] = chains->first[own];
-    chains->first[own] = (uint32_t)i + 1;
+    int64_t cell[3];
+    bool close = false;
+    cell_of(chains, i, cell);
+    for (int n = 0; n < 27 && !close; n++)
+        close = any_near(
+            chains,
+            chain_of(chains, (int64_t[]){cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1}),
+            i);
+    return close;
 }
 
 /* Whether its cell has a number. */
@@ -56,26 +67,21 @@ static bool is_somewhere(const float x[3], double limit)
     return fabs((double)x[0]) < most && fabs((double)x[1]) < most && fabs((double)x[2]) < most;
 }
 
-bool metric_close(const Cloud *cloud, double limit, size_t *close)
+bool metric_close(const Cloud *cloud, double limit, size_t stride, size_t *close)
 {
     size_t chains_count = 1;
     while (chains_count < cloud->count)
         chains_count *= 2;
-    Chains chains = {cloud->position,
-                     limit,
-                     chains_count - 1,
-                     calloc(chains_count, sizeof(uint32_t)),
-                     calloc(cloud->count + 1, sizeof(uint32_t)),
-                     calloc(cloud->count + 1, 1)};
-    const bool ok = chains.first && chains.next && chains.close;
+    Chains chains = {cloud->position, limit, chains_count - 1, calloc(chains_count, sizeof(uint32_t)),
+                     calloc(cloud->count + 1, sizeof(uint32_t))};
+    const bool ok = chains.first && chains.next;
     *close = 0;
     for (size_t i = 0; ok && i < cloud->count; i++)
         if (is_somewhere(cloud->position + 4 * i, limit))
-            take(&chains, i);
-    for (size_t i = 0; ok && i < cloud->count; i++)
-        *close += chains.close[i];
+            put(&chains, i);
+    for (size_t i = 0; ok && i < cloud->count; i += stride)
+        *close += is_somewhere(cloud->position + 4 * i, limit) && is_close(&chains, i);
     free(chains.first);
     free(chains.next);
-    free(chains.close);
     return ok;
 }

@@ -160,8 +160,11 @@ const char *session_unlisted_text(const WorldInfo *info, char words[256])
 bool session_substep(Session *session, Error *error)
 {
     hand_replay_move(session->hand, session->world);
+    char words[FLUID_WATCH_WORDS];
     const bool stepped = world_substep(session->world, NULL, error);
     look(session);
+    if (stepped && fluid_watch(&session->watch, &session->scene.world, session->world, words))
+        fprintf(stderr, "%s\n", words);
     return stepped;
 }
 
@@ -228,6 +231,9 @@ static json_t *summary_json(const Session *session, const Args *args, const Summ
         json_object_set_new(json, "drained", json_integer((json_int_t)info->drained));
         solved_json(json, &info->solved);
     }
+    Outcome outcome;
+    if (fluid_watch_outcome(&session->watch, &info->trouble, &outcome))
+        outcome_json(json, &outcome);
     if (json && summary->step_seconds > 0)
         json_object_set_new(json, "step_seconds", json_real(summary->step_seconds));
     if (json && summary->compression)

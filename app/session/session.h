@@ -5,6 +5,7 @@
 #include "app/base/exit_code.h"
 #include "app/held/hand_replay.h"
 #include "app/metric/compression.h"
+#include "app/outcome/fluid_watch.h"
 #include "app/scene/scene.h"
 #include "app/session/args.h"
 #include "app/session/headless.h"
@@ -31,6 +32,7 @@ typedef struct Session {
     bool told_full; /* that emitters wait */
     bool told_lost; /* that particles find no place in the grid */
     bool told_unlisted;
+    FluidWatch watch;
 } Session;
 
 /* Loads the only scene of the command line and the recording of --device, says on standard error what

@@ -65,6 +65,7 @@ void simulator_make_world(Simulator *simulator)
     simulator->scene = simulator->start;
     world_destroy(simulator->world);
     simulator->told_trouble = (TroubleTold){0};
+    simulator->watch = (FluidWatch){0};
     simulator->told_full = simulator->told_lost = simulator->told_unlisted = false;
     simulator->world = world_create(&simulator->start.world, &error);
     simulator_gauge_begin(simulator);
@@ -225,6 +226,14 @@ void simulator_frame_end(Simulator *simulator)
     awaken(simulator);
 }
 
+/* The fluid loses volume, clumps or leaks: that, too. */
+static void watch_fluid(Simulator *simulator)
+{
+    char words[FLUID_WATCH_WORDS];
+    if (fluid_watch(&simulator->watch, &simulator->scene.world, simulator->world, words))
+        tell(simulator, false, words);
+}
+
 /* One step of the frame in hand. On a GPU without a clock of its own nothing is measured: what the CPU sees
    of such a step says nothing of it. */
 void simulator_frame_step(Simulator *simulator)
@@ -247,6 +256,8 @@ void simulator_frame_step(Simulator *simulator)
             ok = simulator_publish(simulator, &error);
     awaken(simulator);
     simulator->frame.spent_ms += wall_ms() - began;
+    if (ok)
+        watch_fluid(simulator);
     if (!ok || !info.within_frame)
         simulator_frame_end(simulator);
     if (!ok)

@@ -3,6 +3,7 @@
 #ifndef SLOSH_SIMULATOR_STATE_H
 #define SLOSH_SIMULATOR_STATE_H
 
+#include "app/outcome/fluid_watch.h"
 #include "app/recording/sim_command.h"
 #include "app/session/session.h"
 #include "app/session/simulator.h"
@@ -80,6 +81,7 @@ struct Simulator {
     bool told_full; /* that its emitters wait */
     bool told_lost; /* that particles find no place in the grid */
     bool told_unlisted;
+    FluidWatch watch;
     bool recording_lost; /* no memory for all of its commands */
     Upload *upload;
     void (*wake)(void);

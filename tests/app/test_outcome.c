@@ -1,7 +1,7 @@
 /* What counts as which outcome, on made-up histories; what a look sees of places, and of worlds that fail. */
 #include "tests/sim/fixture.h"
 
-#include "app/lab/outcome_watch.h"
+#include "app/outcome/outcome_watch.h"
 #include "app/metric/closeness.h"
 
 #include <jansson.h>
@@ -60,6 +60,17 @@ static void energy_that_grows_is_noise(void **state)
     history.look[8].energy = 92 + 1.2 * OUTCOME_GAIN * history.look[8].scale;
     history.look[9].energy = 150;
     expect(OUTCOME_NOISY, 0.8, "noisy at t = 0.8 s: energy grows without work done: 6 %");
+}
+
+static void fluid_that_loses_volume_is_squeezed(void **state)
+{
+    (void)state;
+    history.look[3].pressed = 0.9 * OUTCOME_PRESSED;
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+    history.look[4].pressed = 1.2 * OUTCOME_PRESSED;
+    history.look[5].pressed = 0.5;
+    expect(OUTCOME_SQUEEZED, 0.4,
+           "squeezed at t = 0.4 s: fluid has lost volume: it is pressed by 6 % in the mean");
 }
 
 static void particles_on_each_other_clump(void **state)
@@ -166,14 +177,24 @@ static void close_particles_are_those_of_all_pairs(void **state)
         }
         by_hand += is;
     }
-    assert_true(metric_close(&cloud, limit, &close));
+    assert_true(metric_close(&cloud, limit, 1, &close));
     assert_int_equal(close, by_hand);
     assert_true(close > 20 && close < N - 20);
+    size_t some = 0;
+    for (size_t i = 0; i < N; i += 7) /* each seventh, against all */
+        for (size_t j = 0, found = 0; j < N && !found; j++) {
+            double r2 = 0;
+            for (size_t k = 0; k < 3; k++)
+                r2 += pow((double)position[4 * i + k] - (double)position[4 * j + k], 2);
+            some += found = i != j && r2 < limit * limit;
+        }
+    assert_true(metric_close(&cloud, limit, 7, &close));
+    assert_int_equal(close, some);
     cloud.position = other; /* all at one place */
-    assert_true(metric_close(&cloud, limit, &close));
+    assert_true(metric_close(&cloud, limit, 1, &close));
     assert_int_equal(close, N);
     cloud.count = 1;
-    assert_true(metric_close(&cloud, limit, &close));
+    assert_true(metric_close(&cloud, limit, 1, &close));
     assert_int_equal(close, 0);
 }
 
@@ -208,6 +229,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(what_keeps_its_energy_holds, calm),
         cmocka_unit_test_setup(energy_that_grows_is_noise, calm),
+        cmocka_unit_test_setup(fluid_that_loses_volume_is_squeezed, calm),
         cmocka_unit_test_setup(particles_on_each_other_clump, calm),
         cmocka_unit_test_setup(particles_beyond_walls_are_a_leak, calm),
         cmocka_unit_test_setup(solvers_that_are_stuck_do_not_converge, calm),

@@ -1,4 +1,4 @@
-#include "app/lab/outcome.h"
+#include "app/outcome/outcome.h"
 
 #include "app/base/json_file.h"
 
@@ -78,6 +78,15 @@ static double part(size_t some, const OutcomeLook *look)
     return look->count > 0 ? (double)some / (double)look->count : 0;
 }
 
+static void judge_volume(const OutcomeLook *look, Outcome *outcome)
+{
+    if (!(look->pressed > OUTCOME_PRESSED) || outcome->kind >= OUTCOME_SQUEEZED)
+        return;
+    find(outcome, OUTCOME_SQUEEZED, look->time);
+    snprintf(outcome->words, OUTCOME_WORDS, "%s: it is pressed by %.3g %% in the mean",
+             outcome_help(OUTCOME_SQUEEZED), 100 * look->pressed);
+}
+
 /* What starts close, as emitters' fluid or a jittered lattice, is no clump. */
 static void judge_places(const OutcomeHistory *history, int i, Outcome *outcome)
 {
@@ -120,8 +129,10 @@ void outcome_judge(const OutcomeHistory *history, Outcome *outcome)
         judge_end(&history->trouble, outcome);
     } else {
         judge_energy(history, outcome);
-        for (int i = 0; i < history->count; i++)
+        for (int i = 0; i < history->count; i++) {
+            judge_volume(&history->look[i], outcome);
             judge_places(history, i, outcome);
+        }
     }
     without_commas(outcome->words);
 }

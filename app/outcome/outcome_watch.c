@@ -1,4 +1,4 @@
-#include "app/lab/outcome_watch.h"
+#include "app/outcome/outcome_watch.h"
 
 #include "app/metric/closeness.h"
 #include "sim/matter/solid_step.h"
@@ -60,34 +60,56 @@ static bool is_beyond(const WorldDef *def, const WorldInfo *info, const SolidPos
     return beyond;
 }
 
-static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldInfo *info, World *world)
+/* Of every `stride`-th particle whether it lies on another, and as many of all. */
+static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldInfo *info, size_t stride,
+                           World *world)
 {
     Cloud cloud = {0};
     SolidPose pose[SOLIDS_MAX];
+    double pressed = 0;
     for (int i = 0; i < def->solid_count; i++)
         solid_pose_at(&def->solids[i], info->time, &pose[i]);
     const bool ok =
-        cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, &look->close);
-    for (size_t i = 0; ok && i < cloud.count; i++)
+        cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, stride, &look->close);
+    for (size_t i = 0; ok && i < cloud.count; i++) {
         look->beyond += is_beyond(def, info, pose, cloud.position + 4 * i);
+        pressed += fmax((double)cloud.density[i] / def->fluids[cloud.fluid[i]].density - 1, 0);
+    }
+    look->close = look->close * stride < look->count ? look->close * stride : look->count;
+    look->pressed = cloud.count > 0 ? pressed / (double)cloud.count : 0;
     cloud_free(&cloud);
     return ok;
+}
+
+static OutcomeLook look_from(const WorldInfo *info)
+{
+    OutcomeLook look = {.time = info->time,
+                        .count = info->count,
+                        .lost = info->lost,
+                        .energy = (double)NAN,
+                        .scale = (double)NAN};
+    for (int k = 0; k < SOLVES_MAX; k++)
+        look.stuck |= info->solves[k].failed;
+    return look;
+}
+
+bool outcome_glance(OutcomeLook *look, const WorldDef *def, World *world)
+{
+    enum { LOOKED_AT = 2000 };
+    WorldInfo info;
+    world_info(world, &info);
+    *look = look_from(&info);
+    return look_at_places(look, def, &info, 1 + info.count / LOOKED_AT, world);
 }
 
 bool outcome_look(OutcomeHistory *history, const WorldDef *def, bool moved, World *world)
 {
     WorldInfo info;
     world_info(world, &info);
-    OutcomeLook look = {.time = info.time,
-                        .count = info.count,
-                        .lost = info.lost,
-                        .energy = (double)NAN,
-                        .scale = (double)NAN};
-    for (int k = 0; k < SOLVES_MAX; k++)
-        look.stuck |= info.solves[k].failed;
+    OutcomeLook look = look_from(&info);
     if (!moved && is_left_alone(def))
         look_at_energy(&look, def, world);
-    if (!look_at_places(&look, def, &info, world))
+    if (!look_at_places(&look, def, &info, 1, world))
         return false;
     history->count += history->count < OUTCOME_LOOKS_MAX;
     history->look[history->count - 1] = look;

@@ -1,0 +1,27 @@
+/* Watches a fluid while it runs, for what the sentinel does not go back for: lost volume, particles that lie on
+   each other or beyond walls (app/outcome/outcome.h). On backends on a GPU it would have to wait for each look,
+   and does not look. */
+#ifndef SLOSH_FLUID_WATCH_H
+#define SLOSH_FLUID_WATCH_H
+
+#include "app/outcome/outcome.h"
+
+/* A look takes a third of a step's time; so many steps from one to the next make it less than a hundredth. */
+enum { FLUID_WATCH_STEPS = 50, FLUID_WATCH_WORDS = OUTCOME_WORDS + 160 };
+
+/* Zero-initialise it; again where the scene begins anew. */
+typedef struct FluidWatch {
+    OutcomeHistory history; /* the first look and the last one */
+    Outcome worst;          /* of all looks */
+    unsigned told;          /* bit k: of OutcomeKind k */
+    uint64_t next;          /* step of the next look */
+} FluidWatch;
+
+/* After a step that is sound, at the end of a frame: looks where it is time. True where something is seen for the
+   first time: what, and what to do, in words. */
+bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char words[FLUID_WATCH_WORDS]);
+
+/* How the run went, with what ended it. False where there was no look. */
+bool fluid_watch_outcome(const FluidWatch *watch, const WorldTrouble *trouble, Outcome *outcome);
+
+#endif
