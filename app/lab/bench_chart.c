@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-enum { WIDTH = 820, HEIGHT = 460, LINES_MAX = 32 };
+enum { WIDTH = 820, HEIGHT = 460, LINES_MAX = 32, BAR = 72, MARGINS = 230 }; /* px; bars have names below */
 
 /* Whether an earlier result is of the same view and backend. */
 static bool seen_before(const BenchResult *results, size_t at)
@@ -118,8 +118,9 @@ bool table_draw(const Table *table, const BenchResult *results, size_t count, co
 {
     static Reference reference;
     Chart chart = {.gnuplot = NULL};
+    const int bars = table->shares ? 0 : MARGINS + BAR * (int)count, width = bars > WIDTH ? bars : WIDTH;
     if ((table->reference && !reference_load(table->reference, &reference, error)) ||
-        !chart_begin(&chart, path, WIDTH, HEIGHT, error))
+        !chart_begin(&chart, path, width, HEIGHT, error))
         return false;
     fputs("set title ", chart.gnuplot);
     label(chart.gnuplot, count > 0 ? results[0].renderer : "", "");

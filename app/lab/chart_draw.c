@@ -1,16 +1,24 @@
 /* The two charts of `slosh chart`. */
 #include "app/lab/chart.h"
+#include "app/lab/chart_labels.h"
 #include "app/lab/chart_row.h"
 
 #include <math.h>
 #include <string.h>
 
+enum { WIDTH = 1100, LINE_HEIGHT = 14, LINES_MAX = CHART_ROWS_MAX, LEGEND_MOST = 84 }; /* px; letters */
+
+/* Of the two panels, which are alike: edges, and where their legends begin, px. */
 enum {
-    WIDTH = 1100,
-    HEIGHT = 470,
-    LINE_HEIGHT = 14,
-    LINES_MAX = CHART_ROWS_MAX
-}; /* pixels; a line more of the key */
+    PANEL_LEFT = 78,
+    PANEL_WIDTH = 450,
+    PANEL_PITCH = 547,
+    PANEL_TOP = 72,
+    PANEL_HEIGHT = 370,
+    LEGEND = 488
+};
+
+static const double LABEL_FONT = 8, LABEL_HEIGHT = 11;
 
 /* The data's least and greatest values, as logarithms to the base 10. */
 typedef struct Extent {
@@ -43,23 +51,29 @@ static Extents extents_of(const ChartRows *rows)
     return all;
 }
 
-/* An axis a little longer than its data, by `before` and `behind` in powers of ten. Less than two decades
-   have numbers at 1, 2 and 5 of each. */
-static void put_axis(const char *axis, Extent data, double before, double behind, FILE *gnuplot)
+/* An axis a little longer than its data, by `before` and `behind` in powers of ten. */
+static Extent axis_of(Extent data, double before, double behind)
+{
+    return (Extent){data.low - before, data.high + behind};
+}
+
+/* Less than two decades have numbers at 1, 2 and 5 of each. */
+static void put_axis(const char *name, Extent axis, FILE *gnuplot)
 {
     static const double few[] = {1, 2, 5}, many[] = {1, 1.5, 2, 3, 4, 5, 7};
-    const double low = data.low - before, high = data.high + behind;
-    fprintf(gnuplot, "set %srange [%.9g:%.9g]\nset %stics ", axis, pow(10, low), pow(10, high), axis);
-    if (high - low > 2.5) {
+    const double length = axis.high - axis.low;
+    fprintf(gnuplot, "set %srange [%.9g:%.9g]\nset %stics ", name, pow(10, axis.low), pow(10, axis.high),
+            name);
+    if (length > 2.5) {
         fputs("autofreq\n", gnuplot);
         return;
     }
-    const bool close = high - low < 1;
+    const bool close = length < 1;
     const double *steps = close ? many : few;
     const int step_count = close ? 7 : 3;
     fputc('(', gnuplot);
     int tics = 0;
-    for (int power = (int)floor(low); power <= (int)ceil(high); power++)
+    for (int power = (int)floor(axis.low); power <= (int)ceil(axis.high); power++)
         for (int k = 0; k < step_count; k++)
             fprintf(gnuplot, "%s%.9g", tics++ ? ", " : "", steps[k] * pow(10, power));
     fputs(")\n", gnuplot);
@@ -83,39 +97,94 @@ static int put_lines(const ChartRows *rows, FILE *gnuplot, int opener[LINES_MAX]
     return lines;
 }
 
-/* Whether a label at the point would be written over one of the `count` before. */
-static bool is_covered(const ChartRow *const labelled[], int count, const ChartRow *row)
+/* The panel of the cost, as its labels are placed. */
+typedef struct CostPanel {
+    Extent time, error;
+    int height; /* of the picture, px */
+    LabelField field;
+} CostPanel;
+
+static double x_of(const CostPanel *panel, const ChartRow *row)
 {
-    for (int i = 0; i < count; i++)
-        if (fabs(log10(labelled[i]->seconds / row->seconds)) < 0.12 &&
-            fabs(log10(labelled[i]->error / row->error)) < 0.25)
-            return true;
-    return false;
+    const Extent *time = &panel->time;
+    return PANEL_LEFT + PANEL_WIDTH * (log10(row->seconds) - time->low) / (time->high - time->low);
 }
 
-/* False without one that can be drawn: gnuplot has no plot of nothing. */
-static bool put_front(const ChartRows *rows, FILE *gnuplot)
+static double y_of(const CostPanel *panel, const ChartRow *row)
 {
-    const ChartRow *labelled[CHART_ROWS_MAX];
-    int labels = 0;
-    bool any = false;
-    fputs("$front << EOD\n", gnuplot);
+    const Extent *error = &panel->error;
+    return PANEL_TOP + PANEL_HEIGHT * (error->high - log10(row->error)) / (error->high - error->low);
+}
+
+/* What is best for its time, in the order of time; how many. */
+static int front_of(const ChartRows *rows, const ChartRow *front[CHART_ROWS_MAX])
+{
+    int count = 0;
     for (int i = 0; i < rows->count; i++) {
-        const ChartRow *row = &rows->row[i];
-        if (!chart_drawn(row) || !chart_on_front(rows, i))
+        if (!chart_drawn(&rows->row[i]) || !chart_on_front(rows, i))
             continue;
-        any = true;
-        fprintf(gnuplot, "%.9g %.9g ", row->seconds, row->error);
-        if (is_covered(labelled, labels, row)) {
-            fputs("\"\"\n", gnuplot);
-            continue;
-        }
-        labelled[labels++] = row;
-        fprintf(gnuplot, "\"%s, %s%s%s, %zu, %s\"\n", row->method, row->backend, *row->swept ? ", " : "",
-                row->swept, row->particles, row->step);
+        int at = count++;
+        for (; at > 0 && front[at - 1]->seconds > rows->row[i].seconds; at--)
+            front[at] = front[at - 1];
+        front[at] = &rows->row[i];
     }
-    fputs("EOD\n", gnuplot);
-    return any;
+    return count;
+}
+
+static void put_label(int number, const CostPanel *panel, const ChartRow *row, const Box *place,
+                      const char *text, FILE *gnuplot)
+{
+    const double x = x_of(panel, row), y = y_of(panel, row);
+    const double to_x = fmin(fmax(x, place->left), place->right),
+                 to_y = fmin(fmax(y, place->top), place->bottom);
+    fprintf(gnuplot, "set label %d ", number);
+    chart_quote(gnuplot, text);
+    fprintf(gnuplot, " at screen %.5f,%.5f center noenhanced font ',%g'\n",
+            0.5 * (place->left + place->right) / WIDTH,
+            1 - 0.5 * (place->top + place->bottom) / panel->height, LABEL_FONT);
+    if (hypot(to_x - x, to_y - y) > 2 * LABEL_HEIGHT) /* far: a line says whose it is */
+        fprintf(gnuplot,
+                "set arrow %d from screen %.5f,%.5f to screen %.5f,%.5f nohead lw 0.5 lc '#8795a3'\n", number,
+                x / WIDTH, 1 - y / panel->height, to_x / WIDTH, 1 - to_y / panel->height);
+}
+
+/* Names keep off all points, and off the line of what is best where they can. */
+static void fill_field(const ChartRows *rows, CostPanel *panel, const ChartRow *const front[], int count)
+{
+    for (int i = 0; i < rows->count; i++)
+        if (chart_drawn(&rows->row[i]))
+            label_field_point(&panel->field, x_of(panel, &rows->row[i]), y_of(panel, &rows->row[i]));
+    for (int i = 0; i + 1 < count; i++)
+        label_field_line(&panel->field, x_of(panel, front[i]), y_of(panel, front[i]),
+                         x_of(panel, front[i + 1]), y_of(panel, front[i + 1]));
+}
+
+/* The names of what is best for its time; how many find no room. */
+static int put_labels(CostPanel *panel, const ChartRow *const front[], int count, FILE *gnuplot)
+{
+    int left_out = 0;
+    for (int i = 0; i < count; i++) {
+        const ChartRow *row = front[i];
+        char text[CHART_NAME];
+        Box place;
+        snprintf(text, sizeof text, "%s, %s%s%s, %zu, %s", row->method, row->backend, *row->swept ? ", " : "",
+                 row->swept, row->particles, row->step);
+        if (label_place(&panel->field, x_of(panel, row), y_of(panel, row), label_width(text, LABEL_FONT),
+                        LABEL_HEIGHT, &place))
+            put_label(100 + i, panel, row, &place, text, gnuplot);
+        else
+            left_out++;
+    }
+    return left_out;
+}
+
+/* A line of the legend, cut where it would leave the frame. */
+static void put_legend(const char *text, FILE *gnuplot)
+{
+    char cut[LEGEND_MOST + 1];
+    const bool longer = strlen(text) > LEGEND_MOST;
+    snprintf(cut, sizeof cut, "%.*s%s", longer ? LEGEND_MOST - 3 : LEGEND_MOST, text, longer ? "..." : "");
+    chart_quote(gnuplot, cut);
 }
 
 /* The first line of the same method, backend and swept values. */
@@ -140,22 +209,36 @@ static int colour_of(const ChartRows *rows, const int opener[], int line)
     return colour;
 }
 
-static void plot_cost(const ChartRows *rows, const int opener[], int lines, bool front, FILE *gnuplot)
+/* Behind the points; nothing without one that is best: gnuplot has no plot of nothing. */
+static void plot_front(int count, int left_out, FILE *gnuplot)
 {
-    fputs("set xlabel 'computing time a simulated second, s'\nplot ", gnuplot);
+    if (count == 0)
+        return;
+    fputs(", $front using 1:2 with lines lw 1.5 dt 2 lc '#2a3440' title 'best for its time", gnuplot);
+    if (left_out > 0)
+        fprintf(gnuplot, " (no room for %d name%s)", left_out, plural((size_t)left_out));
+    fputs("'", gnuplot);
+}
+
+static void plot_cost(const ChartRows *rows, const int opener[], int lines, CostPanel *panel, FILE *gnuplot)
+{
+    const ChartRow *front[CHART_ROWS_MAX];
+    const int count = front_of(rows, front);
+    fill_field(rows, panel, front, count);
+    const int left_out = put_labels(panel, front, count, gnuplot);
+    fputs("$front << EOD\n", gnuplot);
+    for (int i = 0; i < count; i++)
+        fprintf(gnuplot, "%.9g %.9g\n", front[i]->seconds, front[i]->error);
+    fputs("EOD\nset xlabel 'computing time a simulated second, s'\nplot ", gnuplot);
     for (int l = 0; l < lines; l++) {
         char title[CHART_NAME];
         const ChartRow *row = &rows->row[opener[l]];
         chart_line_name(row, title);
         fprintf(gnuplot, "%s$line%d using 1:2 with points pt %d ps 0.9 lt %d title ", l ? ", " : "", l,
                 row->fineness ? 6 : 7, colour_of(rows, opener, l));
-        chart_quote(gnuplot, title);
+        put_legend(title, gnuplot);
     }
-    if (front)
-        fputs(
-            ", $front using 1:2 smooth unique with lines lw 1.5 dt 2 lc '#2a3440' title 'best for its time', "
-            "$front using 1:2:3 with labels rotate by 30 left offset 0.5,0.5 font ',8' notitle",
-            gnuplot);
+    plot_front(count, left_out, gnuplot);
 }
 
 static void plot_order(const ChartRows *rows, const int opener[], int lines, double floor, FILE *gnuplot)
@@ -173,7 +256,7 @@ static void plot_order(const ChartRows *rows, const int opener[], int lines, dou
             snprintf(title, sizeof title, "%s: order %.2f", name, order);
         fprintf(gnuplot, "%s$line%d using 3:2 with linespoints lw 1.5 pt %d dt %d lt %d title ",
                 l ? ", " : "", l, row->fineness ? 6 : 7, row->fineness ? 2 : 1, colour_of(rows, opener, l));
-        chart_quote(gnuplot, title);
+        put_legend(title, gnuplot);
     }
 }
 
@@ -190,23 +273,35 @@ static void plot_floor(double floor, FILE *gnuplot)
 /* The title, and below it smaller what the error is of and what is to be noted. */
 static void put_title(const ChartWords *words, int height, FILE *gnuplot)
 {
-    const char *const small[] = {words->error, words->note};
-    fputs("set multiplot layout 1,2 title ", gnuplot);
-    chart_quote(gnuplot, words->title);
-    fputs(" noenhanced\nset tmargin 3.5", gnuplot);
-    for (int i = 0; i < 2; i++) {
-        fprintf(gnuplot, "\nset label %d ", 98 + i);
-        chart_quote(gnuplot, small[i]);
-        fprintf(gnuplot, " at screen 0.5,%g center noenhanced font ',8' textcolor '#5a6672'",
-                1 - (37.0 + 15 * i) / height);
+    const char *const lines[] = {words->title, words->error, words->note};
+    for (int i = 0; i < 3; i++) {
+        fprintf(gnuplot, "set label %d ", 97 + i);
+        chart_quote(gnuplot, lines[i]);
+        fprintf(gnuplot, " at screen 0.5,%g center noenhanced font ',%d' textcolor '%s'\n",
+                1 - (i ? 22.0 + 15 * i : 18.0) / height, i ? 8 : 11, i ? "#5a6672" : "#2a3440");
     }
-    fputs("\nset ylabel 'error'\nset xlabel offset 0,0.4\n", gnuplot);
+    fputs("set ylabel 'error'\nset xlabel offset 0,0.4\n", gnuplot);
 }
 
-static void plot_both(const ChartRows *rows, const int opener[], int lines, bool front, double floor,
+/* The place of panel 0 or 1, and of its legend. */
+static void put_panel(int panel, int height, FILE *gnuplot)
+{
+    const double left = PANEL_LEFT + panel * PANEL_PITCH;
+    fprintf(
+        gnuplot,
+        "set lmargin at screen %.5f\nset rmargin at screen %.5f\nset tmargin at screen %.5f\n"
+        "set bmargin at screen %.5f\nset key at screen %.5f,%.5f left top Left reverse noenhanced maxcols 1 "
+        "samplen 3 font ',9'\n",
+        left / WIDTH, (left + PANEL_WIDTH) / WIDTH, 1 - (double)PANEL_TOP / height,
+        1 - (double)(PANEL_TOP + PANEL_HEIGHT) / height, left / WIDTH, 1 - (double)LEGEND / height);
+}
+
+static void plot_both(const ChartRows *rows, const int opener[], int lines, double floor, int height,
                       FILE *gnuplot)
 {
+    static CostPanel panel;
     Extents extents = extents_of(rows);
+    put_panel(0, height, gnuplot);
     if (lines == 0) {
         fputs("unset logscale\nset label 1 'no error more than 0' at graph 0.1,0.5\nplot 0 notitle\n",
               gnuplot);
@@ -214,12 +309,18 @@ static void plot_both(const ChartRows *rows, const int opener[], int lines, bool
     }
     if (floor > 0 && log10(floor) > extents.error.low - 1)
         extend(&extents.error, floor);
-    put_axis("y", extents.error, 0.15, 0.3, gnuplot);
-    put_axis("x", extents.time, 0.1, 0.1 + 0.5 * (extents.time.high - extents.time.low), gnuplot);
-    plot_cost(rows, opener, lines, front, gnuplot);
+    panel = (CostPanel){
+        .time = axis_of(extents.time, 0.1, 0.1 + 0.2 * (extents.time.high - extents.time.low)),
+        .error = axis_of(extents.error, 0.15, 0.2),
+        .height = height,
+        .field = {.frame = {PANEL_LEFT, PANEL_TOP, PANEL_LEFT + PANEL_WIDTH, PANEL_TOP + PANEL_HEIGHT}}};
+    put_axis("y", panel.error, gnuplot);
+    put_axis("x", panel.time, gnuplot);
+    plot_cost(rows, opener, lines, &panel, gnuplot);
     plot_floor(floor, gnuplot);
-    fputs("unset label 98\nunset label 99\n", gnuplot);
-    put_axis("x", extents.spacing, 0.05, 0.05, gnuplot);
+    fputs("unset label\nunset arrow\n", gnuplot);
+    put_panel(1, height, gnuplot);
+    put_axis("x", axis_of(extents.spacing, 0.05, 0.05), gnuplot);
     plot_order(rows, opener, lines, floor, gnuplot);
     plot_floor(floor, gnuplot);
 }
@@ -227,19 +328,16 @@ static void plot_both(const ChartRows *rows, const int opener[], int lines, bool
 bool chart_draw(const ChartRows *rows, const ChartWords *words, double floor, const char *path, Error *error)
 {
     Chart chart = {.gnuplot = NULL};
-    int opener[LINES_MAX], height = HEIGHT + 2 * LINE_HEIGHT;
+    int opener[LINES_MAX], height = LEGEND + 3 * LINE_HEIGHT; /* the front and the floor, too */
     for (int i = 0; i < rows->count; i++)
         height += chart_opens_line(rows, i) ? LINE_HEIGHT : 0;
     if (!chart_begin(&chart, path, WIDTH, height, error))
         return false;
     FILE *gnuplot = chart.gnuplot;
     const int lines = put_lines(rows, gnuplot, opener);
-    const bool front = lines > 0 && put_front(rows, gnuplot);
-    fputs(
-        "set logscale xy\nset key below noenhanced maxcols 1 samplen 3 font ',9'\nset format xy '%g'\nset mxtics 10\n",
-        gnuplot);
+    fputs("set multiplot\nset logscale xy\nset format xy '%g'\nset mxtics 10\n", gnuplot);
     put_title(words, height, gnuplot);
-    plot_both(rows, opener, lines, front, floor, gnuplot);
+    plot_both(rows, opener, lines, floor, height, gnuplot);
     fputs("unset multiplot\n", gnuplot);
     return chart_end(&chart, error);
 }

@@ -4,6 +4,7 @@ import os
 import subprocess
 
 import command
+import svg_labels
 
 SCENE = 'scene.yaml'
 
@@ -141,6 +142,7 @@ class Tables(Case):
             self.assertAlmostEqual(float(row[7]), sum(s['median_ms'] for s in r['stages'] if s['part'] != 'sim'), 2)
         chart = self.read('chart.svg').decode()
         self.assertTrue(chart.rstrip().endswith('</svg>'))
+        self.assertEqual(svg_labels.faults(chart), [])
         for words in ['CPU, published', 'compute, spheres', 'particles']:
             self.assertIn(words, chart)
 

@@ -5,6 +5,7 @@ import signal
 import subprocess
 
 import command
+import svg_labels
 
 SMALL = ['--set', 'particles.spacing=0.1', '--time', '0.05', '--method', 'mueller']
 
@@ -24,6 +25,7 @@ class Chart(command.CommandTest):
         self.assertTrue('the finest run is the reference' in self.text('out.svg'))
         self.assertTrue('differ by 1e-6' in self.text('out.svg'))
         self.assertRegex(first.stderr, r'chart: +\d+ %  0:\d\d elapsed, about 0:\d\d left')
+        self.assertEqual(svg_labels.faults(self.text('out.svg')), [])
         rows = self.text('out.csv')
         self.assertEqual(len(rows.splitlines()), 1 + 6 + 1 + 3)
         again = self.run_it('tank.yaml', '-o', 'out.svg', *SMALL)
@@ -161,6 +163,7 @@ class Chart(command.CommandTest):
         self.assertEqual({run['spacing'] for run in figures['runs'] if run['role'] == 'reference'}, {0.05})
         for text in (done.stdout, self.text('out.svg')):
             self.assertIn('wcsph, cpu, delta_sph=0.1 support=2.6, fine steps: ', text)
+        self.assertEqual(svg_labels.faults(self.text('out.svg')), [])
         again = self.run_it('scene.yaml', '-o', 'out.svg', *both, '--sweep', 'particles.support=2.1,2.6', '--sweep', 'particles.spacing=0.2,0.1')
         self.assertIn('are in out.csv already', again.stderr)
 

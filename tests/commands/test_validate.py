@@ -7,6 +7,7 @@ import subprocess
 import time
 
 import command
+import svg_labels
 
 TOOLS_DOCS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../tools/docs')
 
@@ -44,7 +45,9 @@ class Validate(command.CommandTest):
         for name in names:
             self.assertIn(f'| `{name}` |', table)
             with open(os.path.join(self.folder, 'plots', name + '.svg'), encoding='utf-8') as file:
-                self.assertIn('</svg>', file.read())
+                plot = file.read()
+            self.assertIn('</svg>', plot)
+            self.assertEqual(svg_labels.faults(plot), [], name)
 
     def test_the_same_on_compute(self):
         # on a software renderer too, and the same figures each time
