@@ -65,13 +65,30 @@ static bool copy_name(char name[NAME_SIZE], const char *cell)
     return snprintf(name, NAME_SIZE, "%s", cell) < NAME_SIZE && *cell;
 }
 
+/* Commas part the cells: those of a text stand in the file as this. */
+static const char COMMA = '|';
+
+static void put_text(const char *text, FILE *file)
+{
+    for (; *text; text++)
+        fputc(*text == ',' ? COMMA : *text, file);
+    fputc(',', file);
+}
+
+static bool copy_text(char *text, size_t size, const char *cell)
+{
+    const bool whole = (size_t)snprintf(text, size, "%s", cell) < size;
+    for (; *text; text++)
+        *text = *text == COMMA ? ',' : *text;
+    return whole;
+}
+
 /* Of three cells: kind, time, words. */
 static bool parse_outcome(char *const cells[3], Outcome *outcome)
 {
     outcome->kind = outcome_of_word(cells[0]);
-    snprintf(outcome->words, sizeof outcome->words, "%s", cells[2]);
     return outcome->kind < OUTCOME_COUNT && read_number(cells[1], &outcome->time) &&
-           strlen(cells[2]) < sizeof outcome->words;
+           copy_text(outcome->words, sizeof outcome->words, cells[2]);
 }
 
 /* What no run has, or NULL. Of one that broke the seconds are NaN, of one without a reference the error. */
@@ -110,7 +127,7 @@ static const char *parse_row(char *line, ChartRow *row)
                     read_number(cells[6], &row->spacing) && read_number(cells[7], &particles) &&
                     read_number(cells[8], &row->seconds) && read_number(cells[9], &row->error) &&
                     parse_outcome(&cells[10], &row->outcome) &&
-                    snprintf(row->swept, CHART_SWEPT, "%s", cells[13]) < CHART_SWEPT && parse_series(at, row);
+                    copy_text(row->swept, CHART_SWEPT, cells[13]) && parse_series(at, row);
     const char *wrong = ok ? impossible(row, fineness, particles) : unreadable;
     if (wrong)
         return wrong;
@@ -190,10 +207,11 @@ void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan)
 static void print_row(const ChartRow *row, FILE *file)
 {
     const Outcome *outcome = &row->outcome;
-    fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,%s,%.9g,%s,%s,", row->key,
-            roles[row->role], row->method, row->backend, row->step, row->fineness, row->spacing,
-            row->particles, row->seconds, row->error, outcome_word(outcome->kind), outcome->time,
-            outcome->words, row->swept);
+    fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,%s,%.9g,", row->key, roles[row->role],
+            row->method, row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds,
+            row->error, outcome_word(outcome->kind), outcome->time);
+    put_text(outcome->words, file);
+    put_text(row->swept, file);
     for (int t = 0; t < CHART_TIMES && row->quantities > 0; t++)
         for (int q = 0; q < row->quantities; q++)
             fprintf(file, "%s%.17g", q ? " " : t ? ";" : "", row->series[t][q]);

@@ -72,8 +72,6 @@ static bool add_swept(JobSettings *job, const ChartJob *of, ChartRow *row, Error
             return error_set(error, "the swept values have more than %d letters; sweep less at a time",
                              CHART_SWEPT - 1);
     }
-    for (char *at = row->swept; *at; at++)
-        *at = *at == ',' ? ';' : *at; /* the row's cells are parted by commas */
     return true;
 }
 

@@ -36,11 +36,11 @@ OutcomeKind outcome_of_word(const char *word)
     return (OutcomeKind)kind;
 }
 
-/* Rows are kept in files whose cells are parted by commas. */
-static void without_commas(char text[OUTCOME_WORDS])
+/* Rows of tables have one. */
+static void put_on_one_line(char text[OUTCOME_WORDS])
 {
     for (char *at = text; *at; at++)
-        *at = *at == ',' ? ';' : *at == '\n' ? ' ' : *at;
+        *at = *at == '\n' ? ' ' : *at;
 }
 
 static const OutcomeKind of_trouble[STEP_TROUBLE_COUNT] = {
@@ -134,14 +134,14 @@ void outcome_judge(const OutcomeHistory *history, Outcome *outcome)
             judge_places(history, i, outcome);
         }
     }
-    without_commas(outcome->words);
+    put_on_one_line(outcome->words);
 }
 
 void outcome_not_run(const char *why, Outcome *outcome)
 {
     *outcome = (Outcome){.kind = OUTCOME_NONE, .time = (double)NAN};
     snprintf(outcome->words, OUTCOME_WORDS, "%.*s", OUTCOME_WORDS - 1, why);
-    without_commas(outcome->words);
+    put_on_one_line(outcome->words);
 }
 
 const char *outcome_text(const Outcome *outcome, char text[OUTCOME_TEXT])

@@ -77,7 +77,7 @@ enum { OUTCOME_WORDS = 192 };
 typedef struct Outcome {
     OutcomeKind kind;
     double time;               /* when it was first seen, s; NaN where it holds or did not run */
-    char words[OUTCOME_WORDS]; /* what was found, without a comma or a line's end; "" where it holds */
+    char words[OUTCOME_WORDS]; /* what was found, on one line; "" where it holds */
 } Outcome;
 
 /* The looks are some of a run's: what comes and goes between two of them is not seen. */

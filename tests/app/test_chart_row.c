@@ -171,9 +171,9 @@ static void a_file_keeps_them(void **state)
     assert_int_equal(again.count, 0);
     rows.count = 0;
     set_series(add(CHART_POINT, 0.125, 1.5, 0.25), 0.5);
-    snprintf(rows.row[0].swept, CHART_SWEPT, "support=2.6 kernel=cubic");
+    snprintf(rows.row[0].swept, CHART_SWEPT, "gravity=[0, -9, 0] kernel=cubic");
     add(CHART_FLOOR, 0.25, (double)NAN, (double)NAN)->outcome =
-        (Outcome){OUTCOME_BLOWN_UP, 0.375, "a particle moves further than the support radius in one step"};
+        (Outcome){OUTCOME_BLOWN_UP, 0.375, "a particle moves too far, much too far"};
     assert_true(chart_rows_write(&rows, path, &error));
     assert_true(chart_rows_read(&again, path, NULL, &error));
     assert_int_equal(again.count, 2);
@@ -186,7 +186,7 @@ static void a_file_keeps_them(void **state)
     assert_true(row->outcome.kind == OUTCOME_HOLDS && isnan(row->outcome.time) && !*row->outcome.words);
     assert_true(again.row[1].outcome.kind == OUTCOME_BLOWN_UP && again.row[1].outcome.time == 0.375);
     assert_string_equal(again.row[1].outcome.words, rows.row[1].outcome.words);
-    assert_string_equal(row->swept, "support=2.6 kernel=cubic");
+    assert_string_equal(row->swept, "gravity=[0, -9, 0] kernel=cubic");
     assert_string_equal(again.row[1].swept, "");
     assert_null(chart_rows_find(&again, 7));
     assert_false(chart_rows_write(&rows, "/no/such/folder/x.csv", &error));

@@ -26,7 +26,6 @@ static void expect(OutcomeKind kind, double time, const char *text)
     outcome_judge(&history, &outcome);
     assert_string_equal(outcome_text(&outcome, words), text);
     assert_int_equal(outcome.kind, kind);
-    assert_null(strchr(outcome.words, ','));
     if (isfinite(time))
         assert_true(fabs(outcome.time - time) < 1e-9);
     else
@@ -133,7 +132,7 @@ static void trouble_that_ends_a_run_is_its_kind(void **state)
     expect(
         OUTCOME_DIVERGES, 1,
         "does not converge at t = 1 s: the solver of density does not converge: solver.iterations 0 leaves 0 % "
-        "in the mean; solver.tolerance is 0 %");
+        "in the mean, solver.tolerance is 0 %");
 }
 
 static void words_are_the_same_everywhere(void **state)
@@ -148,7 +147,7 @@ static void words_are_the_same_everywhere(void **state)
     assert_string_equal(json_string_value(json_object_get(json, "outcome")), "not run");
     assert_true(json_is_null(json_object_get(json, "outcome_time")));
     assert_string_equal(json_string_value(json_object_get(json, "outcome_words")),
-                        "no memory; or no GPU at all");
+                        "no memory, or no GPU at all");
     json_decref(json);
 }
 

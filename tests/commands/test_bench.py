@@ -106,6 +106,11 @@ class Bench(Case):
         self.assertIn(f"mueller on cpu, solver.step.dt=0.9: {said}", done.stdout)
         self.assertIn(f"solver.step.dt=0.9: {broken['error']}", done.stderr)
         self.assertIn("1 of 3 cases failed", done.stderr)
+        # a solver that may not leave anything
+        self.slosh_out(*words[:-2], "--method", "dfsph", "--set", "solver.iterations=2", "--sweep", "solver.tolerance=0,0.0005")
+        stuck, calm = json.loads(self.read("b.json"))
+        self.assertEqual((stuck["outcome"], calm["outcome"]), ("does not converge", "holds"))
+        self.assertIn(stuck["outcome_words"], stuck["error"])
         # all of a sweep, or a scene alone: nothing was measured
         for wrong in (["--sweep", "solver.step.dt=0.9,0.8"], ["--set", "solver.step.dt=0.9"]):
             self.slosh_out(*words[:-2], *wrong, code=1)
