@@ -225,15 +225,20 @@ class Failures(CommandTest):
         self.assertEqual(found, {'command': 'render', 'scene': 'scene.yaml', 'output': 'a.png', 'error': said.strip()})
 
     def test_bench(self):
-        """The cases before it have their figures."""
+        """The cases before it and behind it have their figures."""
         found, said = self.failed('bench', 'scene.yaml', '--view', 'none', '--frames', '2', '--quiet',
-                                  '--sweep', 'solver.sound_speed=15,9000', '--set', 'solver.step.retries=0')
-        self.assertEqual(len(found), 2)
-        self.assertGreater(found[0]['frame_ms'], 0)
-        self.assertNotIn('error', found[0])
-        self.assertIn(found[1].pop('error'), said.splitlines())
+                                  '--sweep', 'solver.sound_speed=15,9000,20', '--set', 'solver.step.retries=0', code=0)
+        self.assertEqual(len(found), 3)
+        for measured in (found[0], found[2]):
+            self.assertGreater(measured['frame_ms'], 0)
+            self.assertNotIn('error', measured)
+        self.assertIn('solver.sound_speed=9000: ' + found[1].pop('error'), said.splitlines())
+        self.assertGreater(found[1].pop('outcome_time'), 0)
         self.assertEqual(found[1], {'scene': 'scene.yaml', 'backend': 'cpu', 'method': 'mueller', 'view': 'none',
-                                    'swept': 'solver.sound_speed=9000'})
+                                    'outcome': 'blown up', 'swept': 'solver.sound_speed=9000',
+                                    'outcome_words': 'a particle moves further than the support radius in one step'})
+        (found,), said = self.failed('bench', 'scene.yaml', '--view', 'none', '--frames', '2', '--quiet', *self.BREAKS)
+        self.assertIn(found['error'], said.splitlines())
 
     def test_validate(self):
         self.write('file', '')
