@@ -38,8 +38,11 @@ class Fragment(CommandTest):
         code, said = self.slosh('bench', 'overfull', *ON, '--view', 'none', '--frames', '1', '--json', 'b.json', '--set',
                                 'solver.step.substeps=2')
         self.assertEqual(code, 0, said)
-        lost = json.loads(self.read('b.json'))[0]['lost']
+        (bench,) = json.loads(self.read('b.json'))
+        lost = bench['lost']
         self.assertGreater(lost, 3500)
+        self.assertEqual(bench['outcome'], 'leaks')
+        self.assertRegex(bench['outcome_words'], r'\d+ of 8192 particles have no place in the grid')
         code, said = self.slosh('run', 'overfull', *ON, '-o', 'out.h5part', '--time', '0.02', '--quiet')
         found = re.search(r't = .*: (\d+) of 8192 particles find no place in the grid', said)
         self.assertTrue(found and abs(int(found.group(1)) - lost) < 0.05 * lost, said)  # of another step
