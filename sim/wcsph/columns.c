@@ -39,6 +39,16 @@ bool wcsph_corrects(const Constants *constants)
     return wcsph_constants(constants)->corrected_gradient != 0;
 }
 
+bool wcsph_carries(const Constants *constants)
+{
+    return wcsph_shifts(constants) && wcsph_corrects(constants);
+}
+
+static bool tells_kinds(const Constants *constants)
+{
+    return wcsph_diffuses(constants) || wcsph_corrects(constants);
+}
+
 #define OWN(k)     .at = COLUMN_OWN(k)
 #define AT(member) .at = offsetof(ParticleColumns, member)
 
@@ -51,7 +61,7 @@ const ColumnDef wcsph_columns[] = {
      .needed = differs_in_artificial},
     {"relative", "", OWN(RELATIVE), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS, .needed = wcsph_diffuses},
     {"slope", "1/m", OWN(SLOPE), 3, COLUMN_FLOAT, .needed = wcsph_diffuses},
-    {"kind", "", AT(kind), 1, COLUMN_FLOAT, .needed = wcsph_diffuses},
+    {"kind", "", AT(kind), 1, COLUMN_FLOAT, .needed = tells_kinds},
     {"uneven", "1/m4", OWN(UNEVEN), 3, COLUMN_FLOAT, .needed = wcsph_shifts},
     {"full", "1/m3", OWN(FULL), 1, COLUMN_FLOAT, .needed = wcsph_shifts},
     {"dense", "1/m3", OWN(DENSE), 1, COLUMN_FLOAT, .needed = wcsph_shifts},
@@ -59,5 +69,6 @@ const ColumnDef wcsph_columns[] = {
     {"correction", "", OWN(CORRECTION), 3, COLUMN_FLOAT, .flags = COLUMN_FLUIDS, .needed = wcsph_corrects},
     {"correction_mixed", "", OWN(CORRECTION + 3), 3, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = wcsph_corrects},
+    {"carried", "1/(m4 s)", OWN(CARRIED), 3, COLUMN_FLOAT, .needed = wcsph_carries},
     {0},
 };

@@ -20,6 +20,7 @@ static inline const WcsphBlock *wcsph_constants(const Constants *constants)
 bool wcsph_diffuses(const Constants *constants);
 bool wcsph_corrects(const Constants *constants);
 bool wcsph_shifts(const Constants *constants);
+bool wcsph_carries(const Constants *constants);
 bool wcsph_curves(const Constants *constants);
 bool wcsph_is_artificial(const Constants *constants);
 

@@ -20,8 +20,8 @@ static float ramp(float x, float from, float to)
     return fminf(fmaxf((x - from) / (to - from), 0), 1);
 }
 
-/* C = (M^-1 - 1) times a share: 0 at a surface, where less than 0.8 of the space around is full, 1 from 0.95
-   on; 0 where neighbours hardly span the space. */
+/* C = (M^-1 - 1) times a share: 0 in what flies apart, where less than 0.4 of the space around is full, 1
+   from 0.6 on, as a flat surface has it; 0 where neighbours hardly span the space. */
 static Matrix correction(const Matrix m, int dimensions)
 {
     const float cxx = m.yy * m.zz - m.yz * m.yz, cyy = m.xx * m.zz - m.zx * m.zx,
@@ -29,7 +29,7 @@ static Matrix correction(const Matrix m, int dimensions)
     const float cxy = m.yz * m.zx - m.xy * m.zz, cyz = m.xy * m.zx - m.yz * m.xx,
                 czx = m.xy * m.yz - m.zx * m.yy;
     const float det = m.xx * cxx + m.xy * cxy + m.zx * czx, mean = (m.xx + m.yy + m.zz) / 3;
-    const float share = ramp(mean, 0.8f, 0.95f) * ramp(det / (mean * mean * mean), 0.5f, 0.75f);
+    const float share = ramp(mean, 0.4f, 0.6f) * ramp(det / (mean * mean * mean), 0.5f, 0.75f);
     if (!(share > 0))
         return (Matrix){0};
     const float s = share / det, plane = dimensions == 2 ? 0 : 1;
@@ -40,10 +40,12 @@ static void correct_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     const int dimensions = range->cpu->constants->dimensions;
+    const float n0 = range->cpu->constants->rest_number_density;
     float *const *c = p->own + CORRECTION;
     cpu_pairs(range, &wcsph_matrix);
     for (size_t i = range->begin; i < range->end; i++) {
-        Matrix m = {c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i]};
+        const float v = p->volume[i] * n0;
+        Matrix m = {v * c[0][i], v * c[1][i], v * c[2][i], v * c[3][i], v * c[4][i], v * c[5][i]};
         if (dimensions == 2)
             m.zz = 0.5f * (m.xx + m.yy);
         m = correction(m, dimensions);
@@ -64,7 +66,7 @@ const Pass wcsph_correct = {
     .stage = STAGE_DENSITY,
     .cpu = &correct,
     .shader = "wcsph/correct",
-    .reads = "position fluid kind",
+    .reads = "position fluid kind volume",
     .writes = "correction correction_mixed",
     .needed = wcsph_corrects,
 };

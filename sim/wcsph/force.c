@@ -7,6 +7,7 @@ PAIR_LOOPS(wcsph_force);
 PAIR_LOOPS(wcsph_images_force);
 PAIR_LOOPS(wcsph_curvature);
 PAIR_LOOPS(wcsph_corrected_force);
+PAIR_LOOPS(wcsph_corrected_friction);
 
 /* 0 where less than 0.8 of the space around is full, at a surface; 1 from 0.95 on. */
 static float share_of(float full)
@@ -43,6 +44,14 @@ static void keep_notches(const Cpu *cpu, const WallsFar *far, size_t i)
             p->own[UNEVEN + k][i] -= n[k][i] * out / squared;
 }
 
+static void add_corrected(const CpuRange *range)
+{
+    const Constants *s = range->cpu->constants;
+    cpu_pairs(range, &wcsph_corrected_force);
+    if (s->rubs && wcsph_constants(s)->radial_friction > 0)
+        cpu_pairs(range, &wcsph_corrected_friction);
+}
+
 static void force_body(const CpuRange *range)
 {
     cpu_pairs(range, &wcsph_force);
@@ -50,7 +59,7 @@ static void force_body(const CpuRange *range)
     if (wcsph_curves(range->cpu->constants))
         cpu_pairs(range, &wcsph_curvature);
     if (range->cpu->now.own[CORRECTION])
-        cpu_pairs(range, &wcsph_corrected_force);
+        add_corrected(range);
     if (range->cpu->now.own[FULL])
         for (size_t i = range->begin; i < range->end; i++)
             complete_shift(range->cpu, i);

@@ -3,24 +3,7 @@
                                                             between fluids is none for it; Monaghan 1992
      force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...      conserves the energy that goes with that rate */
 #include "sim/wcsph/pair_kernel.h"
-
-/* m^-1 b of the symmetric m; 0 where det (3 m / trace) is below a quarter, since neighbours hardly span the
-   space then: all around it is 1, in the lattice's own corner 0.77. */
-typedef struct Symmetric {
-    f8 xx, yy, zz, xy, yz, zx;
-} Symmetric;
-
-SIMD_INLINE Place renormalise(const Symmetric m, const Place b)
-{
-    const f8 cxx = m.yy * m.zz - m.yz * m.yz, cyy = m.xx * m.zz - m.zx * m.zx,
-             czz = m.xx * m.yy - m.xy * m.xy;
-    const f8 cxy = m.yz * m.zx - m.xy * m.zz, cyz = m.xy * m.zx - m.yz * m.xx,
-             czx = m.xy * m.yz - m.zx * m.yy;
-    const f8 det = m.xx * cxx + m.xy * cxy + m.zx * czx, mean = (m.xx + m.yy + m.zz) / f8_splat(3);
-    const f8 scale = f8_masked(det > f8_splat(0.25f) * (mean * mean * mean), f8_splat(1) / det);
-    return (Place){scale * (cxx * b.x + cxy * b.y + czx * b.z), scale * (cxy * b.x + cyy * b.y + cyz * b.z),
-                   scale * (czx * b.x + cyz * b.y + czz * b.z)};
-}
+#include "sim/wcsph/pair_matrix.h"
 
 /* The gradient of relative density within a fluid, exact where that is linear: (sum F x x^T)^-1 sum F (e_i -
    e_j) x with x = x_ij (Antuono 2010, with volumes that are all the same). 0 next to solids: diffusion has to

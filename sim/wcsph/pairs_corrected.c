@@ -1,14 +1,11 @@
 /* What corrected gradients add to the sums of wcsph: sim/wcsph/corrected.c. With C = 0 all is as without.
-     M_i = sum F x_ij x_ij^T / n0                           1 on the lattice; images and solids have a part
+     M_i = V_i sum F x_ij x_ij^T                            1 on the lattice; images and solids have a part
      d rho_i / dt += (rho0_i / n0) (-sum F v_ij . C_i x_ij)
      force_i += sum (p_i V_i^2 C_i + p_j V_j^2 C_j) F x_ij   that rate's adjoint
-   The image of a particle has its C in the mirror. */
+     shift_i += sum (S_i + S_j) / 2 F x_ij                 S = n0^2 V^2 (1 + C) - 1: what an even pressure
+   pushes, so that particles lie as dense as the flow is The image of a particle has its C in the mirror. */
+#include "sim/wcsph/pair_matrix.h"
 #include "sim/wcsph/pair_mirror.h"
-
-/* A group's own C, or M. */
-typedef struct Symmetric {
-    f8 xx, yy, zz, xy, yz, zx;
-} Symmetric;
 
 /* In a mirror's axes. */
 SIMD_INLINE Symmetric mirrored(const Symmetric m, const Place sign)
@@ -88,7 +85,7 @@ SIMD_INLINE void add_mirrored(Symmetric *sum, const Symmetric m, const Place sig
     sum->xy += own.xy, sum->yz += own.yz, sum->zx += own.zx;
 }
 
-/* M, which sim/wcsph/corrected.c makes C of. */
+/* M / (n0 V_i), which sim/wcsph/corrected.c makes C of. */
 SIMD_INLINE void matrix_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
@@ -152,13 +149,28 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     }
 }
 
-/* Sums of F x_ij and of p_j V_j^2 C_j F x_ij. */
+/* Sums of F x_ij, of p_j V_j^2 C_j F x_ij and, for shifts, of S_j F x_ij. */
 typedef struct Pushed {
-    Place even, there;
+    Place even, there, shift;
 } Pushed;
 
+/* (n0 V)^2, of no V above that of THINNEST. */
+SIMD_INLINE f8 volume_squared(const PairArgs *args, f8 volume)
+{
+    const float n0 = args->constants->rest_number_density;
+    const f8 v = f8_splat(n0) * lesser(volume, f8_splat(1 / (THINNEST * n0)));
+    return v * v;
+}
+
+/* S x, of c = C x. */
+SIMD_INLINE Place evened(f8 v2, f8 x, f8 y, f8 z, const Place c)
+{
+    const f8 more = v2 - f8_splat(1);
+    return (Place){more * x + v2 * c.x, more * y + v2 * c.y, more * z + v2 * c.z};
+}
+
 SIMD_INLINE void corrected_push(const PairArgs *args, const Near near, const Seeker *from, const Rise *rise,
-                                const ShapeKernel kernel, Pushed *sum)
+                                const ShapeKernel kernel, const bool shifts, Pushed *sum)
 {
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, from->at, j);
@@ -166,32 +178,50 @@ SIMD_INLINE void corrected_push(const PairArgs *args, const Near near, const See
         const f8 push = f * (from->image ? image_term(*rise, d.term, d) : d.term);
         const Place c = times(correction_there(args, j), d.x, d.y, d.z);
         sum->even.x += f * d.x, sum->even.y += f * d.y, sum->even.z += f * d.z;
+        if (shifts) {
+            const Place more = evened(volume_squared(args, motion(args, j).w), d.x, d.y, d.z, c);
+            sum->shift.x += f * more.x, sum->shift.y += f * more.y, sum->shift.z += f * more.z;
+        }
         sum->there.x += push * c.x, sum->there.y += push * c.y, sum->there.z += push * c.z;
     }
 }
 
+SIMD_INLINE void shift_by(const PairArgs *args, size_t i, size_t begin, size_t end, const Place sign,
+                          const Pushed *sum, const Place corrected)
+{
+    const f8 half = f8_splat(0.5f * wcsph_constants(args->constants)->gradient_scale);
+    const f8 v2 = volume_squared(args, f8_load(args->volume + i));
+    const Place here = evened(v2, sum->even.x, sum->even.y, sum->even.z, corrected);
+    lanes_add(args->own[UNEVEN], i, begin, end, sign.x * half * (here.x + sum->shift.x));
+    lanes_add(args->own[UNEVEN + 1], i, begin, end, sign.y * half * (here.y + sum->shift.y));
+    lanes_add(args->own[UNEVEN + 2], i, begin, end, sign.z * half * (here.z + sum->shift.z));
+}
+
 SIMD_INLINE void push_of(const PairArgs *args, size_t i, size_t begin, size_t end, const Seeker *from,
-                         const Layers *layers, const ShapeKernel kernel)
+                         const Layers *layers, const ShapeKernel kernel, const bool shifts)
 {
     const f8 zero = f8_splat(0), pi = f8_load(args->pressure_term + i);
     const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
     const Mirrored image = {from->at, from->sign};
     const Themselves own = themselves(args, i);
     Rise rise = {zero, zero, zero, zero, zero};
-    Pushed sum = {{zero, zero, zero}, {zero, zero, zero}};
+    Pushed sum = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}};
     if (from->image)
         rise = rise_of(args, i, &image, layers);
-    corrected_push(args, near_of(args, i), from, &rise, kernel, &sum);
+    corrected_push(args, near_of(args, i), from, &rise, kernel, shifts, &sum);
     if (from->image)
-        corrected_push(args, near_themselves(&own), from, &rise, kernel, &sum);
+        corrected_push(args, near_themselves(&own), from, &rise, kernel, shifts, &sum);
     const Place here =
         times(mirrored(correction_of(args, i), from->sign), sum.even.x, sum.even.y, sum.even.z);
     lanes_add(args->fx, i, begin, end, from->sign.x * gradient * (pi * here.x + sum.there.x));
     lanes_add(args->fy, i, begin, end, from->sign.y * gradient * (pi * here.y + sum.there.y));
     lanes_add(args->fz, i, begin, end, from->sign.z * gradient * (pi * here.z + sum.there.z));
+    if (shifts)
+        shift_by(args, i, begin, end, from->sign, &sum, here);
 }
 
-SIMD_INLINE void push_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+SIMD_INLINE void push_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
+                            const bool shifts)
 {
     const WallsFar far = out_of_sight(args->constants);
     const f8 zero = f8_splat(0);
@@ -202,9 +232,17 @@ SIMD_INLINE void push_range(const PairArgs *args, size_t begin, size_t end, cons
         const Layers layers = count > 1 ? layers_of(args, i, begin, end) : none;
         for (int m = 0; m < count; m++) {
             const Seeker from = seeker_of(&images, m);
-            push_of(args, i, begin, end, &from, &layers, kernel);
+            push_of(args, i, begin, end, &from, &layers, kernel, shifts);
         }
     }
+}
+
+SIMD_INLINE void force_of(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
+{
+    if (args->own[UNEVEN])
+        push_range(args, begin, end, kernel, true);
+    else
+        push_range(args, begin, end, kernel, false);
 }
 
 PAIR_LOOP(wcsph_matrix)
@@ -219,5 +257,5 @@ PAIR_LOOP(wcsph_corrected_rate)
 
 PAIR_LOOP(wcsph_corrected_force)
 {
-    FOR_KERNEL(args, begin, end, push_range);
+    FOR_KERNEL(args, begin, end, force_of);
 }

@@ -40,6 +40,9 @@ extern const Pass wcsph_surface;
 /* Accelerations by pressure, viscosity, walls and solids; what shifting goes by. */
 extern const Pass wcsph_forces;
 
+/* What velocity changes by over such a shift. */
+extern const Pass wcsph_carry;
+
 /* Moves particles down the gradient of their number density as it was at the last grid, by a velocity of chi
    c h / 2 times that over n0: Lind 2012. */
 extern const Pass wcsph_shift;

@@ -7,19 +7,25 @@
 
 #include <math.h>
 
-/* By chi c (h / 2) dt V0 sum F x_ij. */
+/* By chi c (h / 2) dt V0 sum F x_ij, along no axis further than a tenth of a spacing. */
 static void shift_body(const CpuRange *range)
 {
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
-    float *const x[3] = {p->x, p->y, p->z};
+    float *const x[3] = {p->x, p->y, p->z}, *const v[3] = {p->vx, p->vy, p->vz};
     const float dt = range->input->dt;
     const float most = 0.1f * s->spacing,
                 scale = wcsph_constants(s)->shift_speed * dt / s->rest_number_density;
     const float part = fminf(dt * wcsph_constants(s)->density_return, 1);
     for (size_t i = range->begin; i < range->end; i++) {
+        float longest = 0;
         for (int k = 0; k < 3; k++)
-            x[k][i] += fminf(fmaxf(scale * p->own[UNEVEN + k][i], -most), most);
+            longest = fmaxf(longest, fabsf(scale * p->own[UNEVEN + k][i]));
+        const float times = longest > most ? scale * (most / longest) : scale;
+        for (int k = 0; k < 3; k++)
+            x[k][i] += times * p->own[UNEVEN + k][i];
+        for (int k = 0; p->own[CARRIED] && k < 3; k++)
+            v[k][i] += times * p->own[CARRIED + k][i];
         p->compression[i] += part * p->own[FULL][i] * (p->own[DENSE][i] - p->compression[i]);
     }
 }
@@ -31,7 +37,7 @@ const Pass wcsph_shift = {
     .stage = STAGE_FORCE,
     .cpu = &shift,
     .shader = "wcsph/shift",
-    .reads = "position compression uneven full dense",
-    .writes = "position compression",
+    .reads = "position velocity compression uneven full dense carried",
+    .writes = "position velocity compression",
     .needed = wcsph_shifts,
 };

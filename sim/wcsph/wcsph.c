@@ -107,6 +107,13 @@ static void continuity(const Substep *step)
     substep_run(step, &wcsph_continuity, 0.5 * step->dt);
 }
 
+static void shift(const Substep *step)
+{
+    if (wcsph_carries(step->constants))
+        substep_run(step, &wcsph_carry, 0);
+    substep_run(step, &wcsph_shift, step->dt);
+}
+
 /* Leapfrog as the symmetric composition continuity, drift, kick, drift, continuity (halves but for the kick):
    each part is exact by itself where the others hold still, so that the whole is of second order, runs
    backwards as forwards but for viscosity, and needs one grid a step. The rate at the end of a step is that
@@ -136,15 +143,15 @@ static void wcsph_substep(const Substep *step)
         substep_kick(step);
     if (wcsph_shifts(step->constants))
         STAGE (step->clock, STAGE_FORCE)
-            substep_run(step, &wcsph_shift, step->dt);
+            shift(step);
     STAGE (step->clock, STAGE_INTEGRATE)
         b->drift(state, &step->second_half);
     STAGE (step->clock, STAGE_DENSITY)
         continuity(step);
 }
 
-static const Pass *const passes[] = {&wcsph_state,    &wcsph_correct,    &wcsph_forces, &wcsph_shift,
-                                     &wcsph_gradient, &wcsph_continuity, NULL};
+static const Pass *const passes[] = {&wcsph_state, &wcsph_correct,  &wcsph_forces,     &wcsph_carry,
+                                     &wcsph_shift, &wcsph_gradient, &wcsph_continuity, NULL};
 static const Pass *const start[] = {&wcsph_correct, &wcsph_gradient, &wcsph_continuity, NULL};
 
 static bool is_radial(const Constants *constants)

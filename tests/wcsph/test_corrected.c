@@ -1,5 +1,6 @@
 /* Corrected gradients of wcsph (sim/wcsph/corrected.c): exact where velocity is linear and particles
-   are somewhat out of order; momentum and energy kept; the same bits with any number of threads. */
+   are somewhat out of order; momentum and energy kept; the same bits with any number of threads. And what
+   shifts carry then (sim/wcsph/carry.c). */
 #include "tests/sim/fixture.h"
 
 #include "sim/wcsph/wcsph.h"
@@ -40,9 +41,14 @@ static WorldDef def_of(bool corrected, double pressed)
     return def;
 }
 
+static bool is_inside(int i)
+{
+    return fabs((double)x0[3 * i]) < 0.5 && fabs((double)x0[3 * i + 1] - 1.2) < 0.5;
+}
+
 /* Of a flow whose divergence is 0.3 1/s everywhere: how far the rate of density is off at worst, away from
-   the walls, over that. */
-static double rate_error(bool corrected)
+   the walls, over what it is at a density of 1000 (1 + dense). */
+static double rate_error(bool corrected, double dense)
 {
     WorldDef def = def_of(corrected, 0);
     double worst = 0;
@@ -51,13 +57,14 @@ static double rate_error(bool corrected)
     for (int i = 0; i < ALL; i++) {
         v0[3 * i] = 0.5F * x0[3 * i] + 0.7F * x0[3 * i + 1];
         v0[3 * i + 1] = -0.2F * x0[3 * i + 1];
+        density0[i] = (float)(1000 * (1 + dense));
     }
     World *world = fixture_world(&def);
     fixture_step(world, 1);
     State s = fixture_read(world);
     for (int i = 0; i < ALL; i++)
-        if (fabs((double)x0[3 * i]) < 0.5 && fabs((double)x0[3 * i + 1] - 1.2) < 0.5)
-            worst = fmax(worst, fabs((1 - (double)s.density[i] / 1000) / def.dt / 0.3 - 1));
+        if (is_inside(i))
+            worst = fmax(worst, fabs((1 - (double)s.density[i] / (double)density0[i]) / def.dt / 0.3 - 1));
     fixture_free(&s);
     world_destroy(world);
     return worst;
@@ -66,10 +73,12 @@ static double rate_error(bool corrected)
 static void rates_of_linear_flows_are_exact(void **state)
 {
     (void)state;
-    const double plain = rate_error(false), corrected = rate_error(true);
-    printf("  off by %g, corrected %g\n", plain, corrected);
+    const double plain = rate_error(false, 0), corrected = rate_error(true, 0),
+                 dense = rate_error(true, 0.02);
+    printf("  off by %g, corrected %g, compressed %g\n", plain, corrected, dense);
     assert_true(plain > 0.02);
     assert_true(corrected < 0.003);
+    assert_true(dense < 0.003);
 }
 
 /* Of motion and of compression, by p = c^2 (rho - rho0): J over m. */
@@ -108,6 +117,93 @@ static void momentum_and_energy_are_kept(void **state)
     }
 }
 
+/* A shear is the same wherever particles are shifted to. */
+static void shifts_keep_linear_flows(void **state)
+{
+    (void)state;
+    WorldDef def = def_of(true, 0);
+    double most = 0, worst = 0;
+    def.dt = 0.01;
+    wcsph_def(&def)->shifting = 0.5;
+    for (int i = 0; i < ALL; i++)
+        v0[3 * i] = 0.7F * x0[3 * i + 1];
+    World *world = fixture_world(&def);
+    fixture_step(world, 1);
+    State s = fixture_read(world);
+    for (int i = 0; i < ALL; i++)
+        if (is_inside(i)) {
+            most = fmax(most, fabs((double)s.position[4 * i + 1] - (double)x0[3 * i + 1]));
+            worst = fmax(worst, fabs((double)s.velocity[4 * i] - 0.7 * (double)s.position[4 * i + 1]));
+        }
+    printf("  shifted by %g m; velocity off by %g m/s\n", most, worst);
+    assert_true(most > 1e-3);
+    assert_true(worst < 0.01 * most);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
+/* Of a lattice that carries e = 0.01 sin(k y) the places after a step; shifts go to where the flow is denser,
+   by half of its gradient: sum (S_i + S_j) / 2 F x_ij / n0 with S = -e. */
+static State of_a_wave(double shifting, double k)
+{
+    WorldDef def = def_of(true, 0);
+    def.periodic[0] = def.periodic[1] = true;
+    def.dt = 0.01;
+    wcsph_def(&def)->shifting = shifting;
+    for (int i = 0; i < ALL; i++) {
+        x0[3 * i] = (float)((i % SIDE + 0.5 - 0.5 * SIDE) * SPACING);
+        x0[3 * i + 1] = (float)((i / SIDE + 0.5) * SPACING);
+        density0[i] = (float)(1000 * (1 + 0.01 * sin(k * (double)x0[3 * i + 1])));
+    }
+    World *world = fixture_world(&def);
+    fixture_step(world, 1);
+    State s = fixture_read(world);
+    world_destroy(world);
+    return s;
+}
+
+static void shifts_follow_the_density_of_the_flow(void **state)
+{
+    (void)state;
+    const double chi = 0.5, k = 2 * M_PI / (SIDE * SPACING);
+    const double most = 0.5 * chi * SOUND * (0.5 * 3 * SPACING) * 0.01 * 0.01 * k;
+    State still = of_a_wave(0, k), shifted = of_a_wave(chi, k);
+    double worst = 0;
+    for (int i = 0; i < ALL; i++) {
+        const double shift = (double)shifted.position[4 * i + 1] - (double)still.position[4 * i + 1];
+        worst = fmax(worst, fabs(shift / most - cos(k * (double)x0[3 * i + 1])));
+    }
+    printf("  shifts of %g m off by %g of that\n", most, worst);
+    assert_true(worst < 0.1);
+    fixture_free(&still);
+    fixture_free(&shifted);
+}
+
+/* Of vortices in a box without walls, over a hundred steps. Shifts go by pairs; what they carry does not. */
+static void shifts_hardly_change_momentum(void **state)
+{
+    (void)state;
+    WorldDef def = def_of(true, 0);
+    const double k = 2 * M_PI / (SIDE * SPACING);
+    def.periodic[0] = def.periodic[1] = true;
+    def.dt = 2e-3;
+    wcsph_def(&def)->shifting = 0.2;
+    for (int i = 0; i < ALL; i++) {
+        v0[3 * i] = (float)(sin(k * (double)x0[3 * i]) * cos(k * (double)x0[3 * i + 1]));
+        v0[3 * i + 1] = (float)(-cos(k * (double)x0[3 * i]) * sin(k * (double)x0[3 * i + 1]));
+    }
+    World *world = fixture_world(&def);
+    WorldSums before, after;
+    world_sums(world, &before);
+    fixture_step(world, 100);
+    world_sums(world, &after);
+    const double change =
+        hypot(after.momentum[0] - before.momentum[0], after.momentum[1] - before.momentum[1]);
+    printf("  momentum changes by %.2g of %.2g kg m/s\n", change, after.momentum_scale);
+    assert_true(change < 1e-3 * after.momentum_scale);
+    world_destroy(world);
+}
+
 static void threads_change_no_bit(void **state)
 {
     (void)state;
@@ -129,6 +225,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rates_of_linear_flows_are_exact),
         cmocka_unit_test(momentum_and_energy_are_kept),
+        cmocka_unit_test(shifts_keep_linear_flows),
+        cmocka_unit_test(shifts_follow_the_density_of_the_flow),
+        cmocka_unit_test(shifts_hardly_change_momentum),
         cmocka_unit_test(threads_change_no_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

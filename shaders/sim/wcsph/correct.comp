@@ -4,7 +4,7 @@
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"
 #include "common/nan.glsl"
-layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = CORRECTIONS_BUFFER) writeonly buffer Corrections { vec4 correction[]; };
 
 vec3 diagonal = vec3(0), mixed = vec3(0), image_diagonal, image_mixed;
@@ -57,14 +57,14 @@ void main()
     ivec3 at = cell_of(x);
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     walk_images(x, at);
-    float scale = gradient_scale / rest_number_density;
+    float scale = gradient_scale * position[i].w;
     vec3 m = scale * diagonal, o = scale * mixed; // o: xy yz zx
     if (dimensions == 2)
         m.z = 0.5 * (m.x + m.y);
     vec3 c = vec3(m.y * m.z - o.y * o.y, m.x * m.z - o.z * o.z, m.x * m.y - o.x * o.x);
     vec3 e = vec3(o.y * o.z - o.x * m.z, o.x * o.z - o.y * m.x, o.x * o.y - o.z * m.y); // xy yz zx
     float det = m.x * c.x + o.x * e.x + o.z * e.z, mean = (m.x + m.y + m.z) / 3.0;
-    float share = clamp((mean - 0.8) / 0.15, 0.0, 1.0) * clamp((det / (mean * mean * mean) - 0.5) / 0.25, 0.0, 1.0);
+    float share = clamp((mean - 0.4) / 0.2, 0.0, 1.0) * clamp((det / (mean * mean * mean) - 0.5) / 0.25, 0.0, 1.0);
     bool spans = !is_nan(share) && share > 0.0;
     c = spans ? share * (c / det - 1.0) : vec3(0);
     if (dimensions == 2)

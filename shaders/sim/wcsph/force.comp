@@ -22,10 +22,40 @@ void correct_meet(uint j, vec3 d, float r2, float term);
 
 // push_of of sim/wcsph/pairs_corrected.c: sums of F x_ij, those of an image, and of p_j V_j^2 C_j F x_ij.
 vec3 even_push = vec3(0), even_image_push, correction_push = vec3(0);
+float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_number_density)); }
+
+#ifdef SHIFTING
+vec3 shift_push = vec3(0), shift_image_push; // of S_j F x_ij
+
+float volume_squared(float volume)
+{
+    float v = rest_number_density * volume_felt(volume);
+    return v * v;
+}
+#endif
+
+// tr C / (2 d) of particle i.
+float half_missing(uint i) { return dot(correction[2u * i].xyz, vec3(0.5 / float(dimensions))); }
+
+// sim/wcsph/pairs_friction.c.
+vec3 more_friction(uint j, vec3 d, float f, float term)
+{
+    Side other = side_of(j, term);
+    float both = volume_felt(self_side.volume) * volume_felt(other.volume);
+    return f * radial_friction * both * (self_side.viscosity + other.viscosity) *
+           (half_missing(self) + half_missing(j)) * dot(other.v - self_side.v, d) * d;
+}
 
 void correct_meet(uint j, vec3 d, float r2, float term)
 {
-    correction_push += gradient_scale * shape(sqrt(r2) * inverse_support) * term * corrected(j, d);
+#if defined RUBS && defined RADIAL
+    pair_sum += more_friction(j, d, gradient_scale * shape(sqrt(r2) * inverse_support), term);
+#endif
+    vec3 push = gradient_scale * shape(sqrt(r2) * inverse_support) * corrected(j, d);
+    correction_push += term * push;
+#ifdef SHIFTING
+    shift_push += volume_squared(volume_of(j)) * push;
+#endif
 }
 #endif
 
@@ -40,6 +70,9 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     even_meet(f, d, r2);
 #ifdef CORRECTED
     even_push += f * d;
+#ifdef SHIFTING
+    shift_push += (volume_squared(other.volume) - 1.0) * f * d;
+#endif
 #endif
     vec3 force = vec3(0), u = other.v - own.v;
     float most = 1.0 / (THINNEST * rest_number_density), both = min(own.volume, most) * min(other.volume, most);
@@ -85,13 +118,27 @@ void meet_image(uint j, vec3 d, float term)
     push_image(term, d);
 #ifdef CORRECTED
     float r2 = dot(d, d);
-    if (r2 < support * support)
-        image_push += image_shape(sqrt(r2)) * image_term(term, d) * corrected(j, d);
+    if (r2 >= support * support)
+        return;
+    vec3 push = image_shape(sqrt(r2)) * corrected(j, d);
+    image_push += image_term(term, d) * push;
+#ifdef SHIFTING
+    float v2 = volume_squared(volume_of(j));
+    shift_image_push += v2 * push + (v2 - 1.0) * image_shape(sqrt(r2)) * d;
+#endif
 #endif
 }
 
 #ifdef SOLIDS
-void meet_boundary_image(uint j, vec3 d, float volume) { push_image(uintBitsToFloat(boundary_state[j].x), d); }
+void meet_boundary_image(uint j, vec3 d, float volume)
+{
+    push_image(uintBitsToFloat(boundary_state[j].x), d);
+#if defined CORRECTED && defined SHIFTING
+    float r2 = dot(d, d);
+    if (r2 < support * support)
+        shift_image_push += (volume_squared(volume) - 1.0) * image_shape(sqrt(r2)) * d;
+#endif
+}
 #endif
 
 // Pressure of the images behind the walls on the particle at x, in the cell `at`, of the fluid's rest density.
@@ -111,11 +158,17 @@ vec3 images_force(vec3 x, ivec3 at, float density)
         image_push = vec3(0);
 #ifdef CORRECTED
         even_image_push = vec3(0);
+#ifdef SHIFTING
+        shift_image_push = vec3(0);
+#endif
 #endif
         WALK(image.x, at, meet_image, meet_boundary_image)
         force += image.sign * image_push;
 #ifdef CORRECTED
         even_push += gradient_scale * image.sign * even_image_push;
+#ifdef SHIFTING
+        shift_push += gradient_scale * image.sign * shift_image_push;
+#endif
 #endif
         even_end_image(image.sign);
     }
@@ -135,7 +188,12 @@ void main()
     Fluid fluid = fluids[FLUID_OF(i)];
     vec3 force = neighbours_force(i, x, at) + images_force(x, at, fluid.density);
 #ifdef CORRECTED
-    force += self_side.pressure * corrected(i, even_push) + correction_push;
+    vec3 here = corrected(i, even_push);
+    force += self_side.pressure * here + correction_push;
+#ifdef SHIFTING
+    float v2 = volume_squared(self_side.volume);
+    even_sum.xyz += 0.5 * ((v2 - 1.0) * even_push + v2 * here + shift_push);
+#endif
 #endif
     acceleration[i] = vec4(force / fluid.mass, 0.0);
     even_write(i);

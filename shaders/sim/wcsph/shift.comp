@@ -3,7 +3,7 @@
 #include "shaders/sim/wcsph/wcsph_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };       // w: rho / rho0 - 1
-layout(std430, binding = UNEVENS_BUFFER) readonly buffer Unevens { vec4 uneven[]; };   // two a particle: sum of F x_ij, share; n / n0 - 1
+layout(std430, binding = UNEVENS_BUFFER) readonly buffer Unevens { vec4 uneven[]; };   // two a particle: sum of F x_ij, share; n / n0 - 1, carried
 layout(location = PASS_DT_AT) uniform float dt;
 
 void main()
@@ -12,7 +12,13 @@ void main()
     if (i >= particle_count())
         return;
     vec4 own = uneven[2u * i];
-    float most = 0.1 * spacing;
-    position[i].xyz += clamp(shift_speed * dt / rest_number_density * own.xyz, -most, most);
+    float most = 0.1 * spacing, scale = shift_speed * dt / rest_number_density;
+    vec3 along = abs(scale * own.xyz);
+    float longest = max(along.x, max(along.y, along.z));
+    float times = longest > most ? scale * (most / longest) : scale;
+    position[i].xyz += times * own.xyz;
+#ifdef CORRECTED
+    velocity[i].xyz += times * uneven[2u * i + 1u].yzw;
+#endif
     velocity[i].w += min(dt * density_return, 1.0) * own.w * (uneven[2u * i + 1u].x - velocity[i].w);
 }
