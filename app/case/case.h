@@ -8,9 +8,17 @@
 
 #include "app/metric/cloud.h"
 #include "app/metric/curve.h"
+#include "app/probe/probe.h"
 #include "sim/world/world.h"
 
-enum { CASE_METRICS = 4, CASE_METHODS = 8, CASE_SETTINGS = 3, CASE_COLUMNS = 8, CASE_CURVES = 3 };
+enum {
+    CASE_METRICS = 4,
+    CASE_METHODS = 8,
+    CASE_SETTINGS = 3,
+    CASE_COLUMNS = 8,
+    CASE_CURVES = 3,
+    CASE_PROBES = 8
+};
 
 /* How finely a case runs, and which tolerances hold. */
 typedef enum CaseLevel { CASE_COARSE, CASE_DEFAULT, CASE_FULL, CASE_LEVELS } CaseLevel;
@@ -56,6 +64,8 @@ typedef struct CaseRun {
     CaseLevel level;
     WorldInfo info; /* of the present state */
     Cloud cloud;
+    Probes *probes;                                  /* of the scene; NULL: it has none */
+    float probe[CASE_PROBES];                        /* their columns, of the state in `cloud` */
     Curve column[CASE_COLUMNS];                      /* over time, by the case's `sample` */
     Curve found[CASE_CURVES], expected[CASE_CURVES]; /* for the plot, by its `judge` */
     Figure figures[CASE_METRICS];

@@ -113,6 +113,8 @@ static bool sample(CaseRun *run, World *world, Error *error)
 {
     if (!cloud_read(&run->cloud, world))
         return error_set(error, "no memory to read %zu particles; use a larger spacing", run->info.count);
+    if (run->probes)
+        probes_read(run->probes, &run->cloud, run->probe);
     if (run->of->sample)
         run->of->sample(run);
     return true;
@@ -159,6 +161,19 @@ static bool simulate(const CaseSetup *setup, CaseResult *result, World *world, P
     }
 }
 
+/* The probes of the case's scene. */
+static bool start_probes(CaseResult *result, Error *error)
+{
+    const ProbeList *list = &result->scene.probes;
+    if (list->count == 0)
+        return true;
+    result->run.probes = probes_create(list, &result->scene.world);
+    if (!result->run.probes)
+        return error_set(error, "no memory for the probes of %s", result->of->name);
+    return probes_columns(result->run.probes) <= CASE_PROBES ||
+           error_set(error, "%s: a case has at most %d numbers of probes", result->scene.path, CASE_PROBES);
+}
+
 bool case_run(const CaseSetup *setup, Progress *progress, double done, double part, CaseResult *result,
               Error *error)
 {
@@ -172,10 +187,13 @@ bool case_run(const CaseSetup *setup, Progress *progress, double done, double pa
     World *world = start_world(setup->of, &result->scene.world, error);
     if (!world)
         return false;
-    const bool ok = simulate(setup, result, world, progress, done, part, error);
+    const bool ok =
+        start_probes(result, error) && simulate(setup, result, world, progress, done, part, error);
     result->particles = result->run.info.count;
     world_destroy(world);
     cloud_free(&result->run.cloud);
+    probes_destroy(result->run.probes);
+    result->run.probes = NULL;
     result->seconds = (wall_ms() - begin) / 1000;
     return ok;
 }
