@@ -23,6 +23,7 @@ static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
     ChartRows *rows = &runs->rows;
     rows->metric_count = plan->scene.metric_count;
     memcpy(rows->metrics, plan->scene.metrics, sizeof rows->metrics);
+    rows->probe_count = plan->scene.probes.count;
     for (rows->count = 0; rows->count < plan->count; rows->count++) {
         const int i = rows->count;
         if (!chart_prepare(&plan->subject, &plan->jobs[i], &scene, &rows->row[i], error))

@@ -275,13 +275,31 @@ static bool distance_of(const ChartRow *row, const ChartRow *reference, int firs
     return times == 0 || range > 0;
 }
 
+/* Of one metric of `numbers` numbers, or, `apart`, the mean over those that have a range. */
+static bool metric_distance(const ChartRow *row, const ChartRow *reference, int first, int numbers,
+                            bool apart, double *distance)
+{
+    double sum = 0;
+    int compared = 0;
+    if (!apart)
+        return distance_of(row, reference, first, numbers, distance);
+    for (int q = first; q < first + numbers; q++)
+        if (distance_of(row, reference, q, 1, distance) && !isnan(*distance)) {
+            sum += *distance;
+            compared++;
+        }
+    *distance = sum / compared;
+    return compared > 0;
+}
+
 double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference)
 {
     double sum = 0, distance;
     int compared = 0, first = 0;
     for (int m = 0; m < rows->metric_count; m++) {
-        const int numbers = metric_kinds[rows->metrics[m]].numbers;
-        if (distance_of(row, reference, first, numbers, &distance)) {
+        const int numbers = metric_numbers(rows->metrics[m], rows->probe_count);
+        const bool apart = metric_kinds[rows->metrics[m]].numbers == 0;
+        if (metric_distance(row, reference, first, numbers, apart, &distance)) {
             sum += distance;
             compared++;
         }

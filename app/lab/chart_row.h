@@ -12,7 +12,7 @@
 
 enum {
     CHART_TIMES = 40,
-    CHART_QUANTITIES = SCENE_METRICS_MAX * METRIC_NUMBERS,
+    CHART_QUANTITIES = SCENE_METRICS_MAX * METRIC_NUMBERS + METRIC_PROBES,
     CHART_ROWS_MAX = 256,
     CHART_SWEPT = 128
 };
@@ -42,6 +42,7 @@ typedef struct ChartRow {
 
 typedef struct ChartRows {
     int metric_count, metrics[SCENE_METRICS_MAX]; /* that a scene's runs are compared by, as Scene has them */
+    int probe_count;                              /* of the scene */
     int count;
     ChartRow row[CHART_ROWS_MAX];
 } ChartRows;

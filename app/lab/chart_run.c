@@ -2,6 +2,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/outcome/outcome_watch.h"
+#include "app/probe/probe.h"
 #include "app/scene/keys.h"
 #include "sim/base/stage.h"
 #include "sim/world/method.h"
@@ -141,6 +142,8 @@ typedef struct SceneRun {
     const Scene *scene;
     World *world;
     MetricState state;
+    Probes *probes; /* NULL: no metric asks for them */
+    float *read;    /* a number a column */
     WorldInfo info;
     double before[CHART_QUANTITIES], now[CHART_QUANTITIES]; /* at `before_time` and at the present, s */
     double before_time;
@@ -149,6 +152,35 @@ typedef struct SceneRun {
     OutcomeHistory history;
 } SceneRun;
 
+/* The first number of each probe. */
+static void read_probes(SceneRun *run)
+{
+    const ProbeList *list = &run->scene->probes;
+    const float *at = run->read;
+    _Static_assert((int)METRIC_PROBES == (int)PROBES_MAX, "a number a probe");
+    if (!run->probes)
+        return;
+    probes_read(run->probes, &run->state.cloud, run->read);
+    run->state.probe_count = list->count;
+    for (int k = 0; k < list->count; at += probe_columns(&list->probe[k]), k++)
+        run->state.probe[k] = (double)*at;
+}
+
+/* False without memory. */
+static bool start_probes(SceneRun *run)
+{
+    const Scene *scene = run->scene;
+    bool asked = false;
+    for (int m = 0; m < scene->metric_count; m++)
+        asked |= metric_kinds[scene->metrics[m]].numbers == 0;
+    if (!asked)
+        return true;
+    run->probes = probes_create(&scene->probes, &scene->world);
+    if (run->probes)
+        run->read = malloc(((size_t)probes_columns(run->probes) + 1) * sizeof *run->read);
+    return run->read != NULL;
+}
+
 /* The metrics of the present state, one after the other; how many numbers, or -1 without memory. */
 static int note_state(SceneRun *run, double at[CHART_QUANTITIES])
 {
@@ -156,10 +188,10 @@ static int note_state(SceneRun *run, double at[CHART_QUANTITIES])
     int used = 0;
     if (!metric_state_read(&run->state, &scene->world, run->world, scene->metrics, scene->metric_count))
         return -1;
+    read_probes(run);
     for (int m = 0; m < scene->metric_count; m++) {
-        const MetricKind *metric = &metric_kinds[scene->metrics[m]];
-        metric->of(&run->state, at + used);
-        used += metric->numbers;
+        metric_kinds[scene->metrics[m]].of(&run->state, at + used);
+        used += metric_numbers(scene->metrics[m], scene->probes.count);
     }
     return used;
 }
@@ -235,9 +267,12 @@ static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress 
         return false;
     world_info(run.world, &run.info);
     row->particles = run.info.count;
-    const bool ok = sample_all(&run, until, row, progress, done, part, error);
+    const bool ok = start_probes(&run) ? sample_all(&run, until, row, progress, done, part, error)
+                                       : error_set(error, "no memory for the probes");
     judge(&run.history, &run.info.trouble, run.failure.message, row);
     metric_state_free(&run.state);
+    probes_destroy(run.probes);
+    free(run.read);
     world_destroy(run.world);
     return ok;
 }

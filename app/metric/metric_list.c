@@ -58,6 +58,16 @@ static void density_error(const MetricState *state, double out[])
                   (double)cloud->count;
 }
 
+static void probes(const MetricState *state, double out[])
+{
+    memcpy(out, state->probe, (size_t)state->probe_count * sizeof *out);
+}
+
+int metric_numbers(int metric, int probe_count)
+{
+    return metric_kinds[metric].numbers ? metric_kinds[metric].numbers : probe_count;
+}
+
 const MetricKind metric_kinds[] = {
     {"centre_of_mass", "m", "of all fluid, in the box's frame, but for periodic axes", 3, false,
      centre_of_mass},
@@ -70,6 +80,8 @@ const MetricKind metric_kinds[] = {
     {"height", "m", "of the highest particle over the floor", 1, true, height},
     {"density_error", "", "mean of what particles are pressed above the rest density, over it", 1, true,
      density_error},
+    {"probes", "", "what each of the scene's probes reads, its first number, over its range; their mean", 0,
+     true, probes},
     {NULL, NULL, NULL, 0, false, NULL},
 };
 

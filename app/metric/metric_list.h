@@ -5,7 +5,7 @@
 
 #include "app/metric/cloud.h"
 
-enum { METRIC_NUMBERS = 3 }; /* that one may have */
+enum { METRIC_NUMBERS = 3, METRIC_PROBES = 16 }; /* that one may have; that of a scene's probes */
 
 /* A state, as metrics are made from it. */
 typedef struct MetricState {
@@ -13,17 +13,25 @@ typedef struct MetricState {
     WorldInfo info;
     WorldSums sums;
     Cloud cloud; /* empty where no metric reads the particles */
+    /* What the scene's probes read, the first number of each; who asks fills it in behind metric_state_read.
+     */
+    int probe_count;
+    double probe[METRIC_PROBES];
 } MetricState;
 
 typedef struct MetricKind {
     const char *name, *unit, *help;
-    int numbers;    /* 1, or 3: x y z, compared as one, over the greatest range of the three */
+    int numbers;    /* 1, or 3: x y z, compared as one, over the greatest range of the three; 0: one a probe,
+                       each over its own range, and their mean */
     bool particles; /* wants MetricState.cloud */
-    void (*of)(const MetricState *state, double out[METRIC_NUMBERS]); /* NaN where the state has none */
+    void (*of)(const MetricState *state, double out[]); /* NaN where the state has none */
 } MetricKind;
 
 /* Ended by a NULL name. */
 extern const MetricKind metric_kinds[];
+
+/* How many numbers a metric has in a scene of so many probes. */
+int metric_numbers(int metric, int probe_count);
 
 /* What a scene that names none is compared by: their places in the list; how many. */
 int metric_defaults(int metrics[]);

@@ -46,5 +46,5 @@ bool scene_check(const Tree *tree, const Scene *scene, Error *error)
         if (!scene_check_probe(&check, k))
             return false;
     return scene_check_plane(&check, "gravity", scene->world.gravity) && check_spacing(&check) &&
-           scene_check_lid(&check) && check_view(&check);
+           scene_check_lid(&check) && scene_check_metrics(&check) && check_view(&check);
 }

@@ -40,5 +40,7 @@ bool scene_check_widths(const Check *check);
 
 /* check_probes.c */
 bool scene_check_probe(const Check *check, int index);
+/* Metrics that read probes need some. */
+bool scene_check_metrics(const Check *check);
 
 #endif

@@ -1,4 +1,5 @@
 /* Probes: names that columns can be called by, places where fluid can be. */
+#include "app/metric/metric_list.h"
 #include "app/scene/check_parts.h"
 #include "sim/matter/solid_step.h"
 
@@ -78,6 +79,17 @@ static bool check_plane(const Check *check, const char *path, const ProbeDef *pr
     snprintf(side, sizeof side, "%s.along", path);
     return hypot(hypot(probe->along[0], probe->along[1]), probe->along[2]) > 0 ||
            FAIL(check, side, "the side has no length; write one such as [0.1, 0, 0]");
+}
+
+bool scene_check_metrics(const Check *check)
+{
+    const Scene *scene = check->scene;
+    for (int m = 0; m < scene->metric_count; m++)
+        if (metric_kinds[scene->metrics[m]].numbers == 0 && scene->probes.count == 0)
+            return FAIL(check, "metrics",
+                        "metrics has 'probes', and the scene names none; add `probes`, or "
+                        "leave it out");
+    return true;
 }
 
 bool scene_check_probe(const Check *check, int index)

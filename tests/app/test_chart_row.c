@@ -92,6 +92,32 @@ static void metrics_count_alike(void **state)
     assert_true(isnan(chart_distance(&rows, row, reference)));
 }
 
+/* Each probe over its own range, and all of them as one metric: those that do not change are left out. */
+static void probes_count_as_one(void **state)
+{
+    (void)state;
+    rows.count = 0;
+    ChartRow *row = add(CHART_POINT, 0.1, 1, 0), *reference = add(CHART_REFERENCE, 0.02, 9, 0);
+    for (rows.metrics[1] = 0; metric_kinds[rows.metrics[1]].numbers != 0; rows.metrics[1]++)
+        ;
+    rows.metrics[0] = 1; /* kinetic energy */
+    rows.metric_count = 2;
+    rows.probe_count = 3;
+    for (int t = 0; t < CHART_TIMES; t++) {
+        const double share = t / (CHART_TIMES - 1.0);
+        const double right[] = {share, 1000 * share, 0.1 * share, 7};
+        for (int q = 0; q < 4; q++)
+            reference->series[t][q] = row->series[t][q] = right[q];
+        row->series[t][1] += 100;  /* a tenth of its range */
+        row->series[t][2] += 0.03; /* three tenths */
+        row->series[t][3] += 1;    /* of none */
+    }
+    assert_true(fabs(chart_distance(&rows, row, reference) - 0.5 * (0 + 0.2)) < 1e-12);
+    rows.probe_count = 4; /* more than the rows have */
+    assert_true(isnan(chart_distance(&rows, row, reference)));
+    rows.probe_count = 0;
+}
+
 static void nothing_on_the_front_is_beaten(void **state)
 {
     (void)state;
@@ -356,6 +382,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distances_are_over_the_range),
         cmocka_unit_test(metrics_count_alike),
+        cmocka_unit_test(probes_count_as_one),
         cmocka_unit_test(the_chart_says_its_orders),
         cmocka_unit_test(an_order_is_of_errors_that_fall),
         cmocka_unit_test(what_does_not_change_is_left_out),
