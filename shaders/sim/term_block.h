@@ -7,15 +7,22 @@
 
 BLOCK_STRUCT(FluidTerms)
 {
-    float tension; /* N/m */
+    float tension; /* N/m; of curvature N m */
+    float wet;     /* wetting_curvature of sim/matter/tension.h, 1/m */
 }
 BLOCK_END(FluidTerms);
 
 UNIFORM_BLOCK(TermBlock, TERM_BLOCK)
 {
-    float colour_scale;   /* of the colour field */
-    float drag_range;     /* m */
-    float friction_scale; /* R F over f(r / h) of sim/viscosity, 1/m7 */
+    float colour_scale;    /* of the colour field */
+    float drag_range;      /* m */
+    float friction_scale;  /* R F over f(r / h) of sim/viscosity, 1/m7 */
+    float curvature_least; /* curvature_weight of sim/matter/tension.h: no surface; a surface */
+    float curvature_whole;
+    float curvature_full; /* these four: its CurvatureScale */
+    float curvature_few;
+    float curvature_offset;
+    float curvature_most;
     FluidTerms fluid_terms[FLUIDS_MOST];
     ivec3 drag_nodes;  /* of the tables of friction of one, two, three faces */
     vec3 drag_steps;   /* their inverse steps, 1/m */

@@ -33,8 +33,7 @@ extern const Pass wcsph_correct;
 /* Density += dt times its rate by the equation of continuity; volume and pressure after it. */
 extern const Pass wcsph_continuity;
 
-/* Where there is surface tension by curvature: normals of the surfaces. In no list of the method's, since no
-   shader has it. */
+/* Where there is surface tension by curvature: normals of the surfaces. */
 extern const Pass wcsph_surface;
 
 /* Accelerations by pressure, viscosity, walls and solids; what shifting goes by. */

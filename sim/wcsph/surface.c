@@ -14,6 +14,8 @@ const Pass wcsph_surface = {
     .name = "surface",
     .stage = STAGE_FORCE,
     .cpu = &normals,
+    .shader = "wcsph/surface",
     .reads = "position kind",
     .writes = "outward",
+    .needed = wcsph_curves,
 };

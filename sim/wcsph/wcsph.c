@@ -150,8 +150,9 @@ static void wcsph_substep(const Substep *step)
         continuity(step);
 }
 
-static const Pass *const passes[] = {&wcsph_state, &wcsph_correct,  &wcsph_forces,     &wcsph_carry,
-                                     &wcsph_shift, &wcsph_gradient, &wcsph_continuity, NULL};
+static const Pass *const passes[] = {&wcsph_state,    &wcsph_surface,    &wcsph_correct,
+                                     &wcsph_forces,   &wcsph_carry,      &wcsph_shift,
+                                     &wcsph_gradient, &wcsph_continuity, NULL};
 static const Pass *const start[] = {&wcsph_correct, &wcsph_gradient, &wcsph_continuity, NULL};
 
 static bool is_radial(const Constants *constants)
@@ -169,18 +170,17 @@ static bool has_quintic(const Constants *constants)
     return wcsph_constants(constants)->kernel_shape == KERNEL_QUINTIC;
 }
 
-static const ShaderTerm terms[] = {{"KERNEL_WENDLAND_C2", has_wendland_c2},
-                                   {"KERNEL_QUINTIC", has_quintic},
-                                   {"RADIAL", is_radial},
-                                   {"ARTIFICIAL", wcsph_is_artificial},
-                                   {"DIFFUSION", wcsph_diffuses},
-                                   {"SHIFTING", wcsph_shifts},
-                                   {"CORRECTED", wcsph_corrects},
-                                   {0}};
+static const ShaderTerm terms[] = {
+    {"KERNEL_WENDLAND_C2", has_wendland_c2}, {"KERNEL_QUINTIC", has_quintic}, {"RADIAL", is_radial},
+    {"ARTIFICIAL", wcsph_is_artificial},     {"DIFFUSION", wcsph_diffuses},   {"SHIFTING", wcsph_shifts},
+    {"CORRECTED", wcsph_corrects},           {"CURVATURE", wcsph_curves},     {0}};
 
-/* Of vec4, see slope.comp and evenness.glsl. */
-static const ShaderBuffer buffers[] = {
-    {"Slopes", 16, wcsph_diffuses}, {"Unevens", 32, wcsph_shifts}, {"Corrections", 32, wcsph_corrects}, {0}};
+/* Of vec4, see slope.comp, evenness.glsl, correction.glsl and surface.glsl. */
+static const ShaderBuffer buffers[] = {{"Slopes", 16, wcsph_diffuses},
+                                       {"Unevens", 32, wcsph_shifts},
+                                       {"Corrections", 32, wcsph_corrects},
+                                       {"Outwards", 16, wcsph_curves},
+                                       {0}};
 
 const Method method_wcsph = {
     .name = "wcsph",

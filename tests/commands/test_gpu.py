@@ -55,8 +55,6 @@ class Gpu(CommandTest):
 
     def test_what_it_cannot_do_is_said(self):
         self.refused(2, "solver.backend.*'gpu'", '--backend', 'gpu')
-        self.refused(2, 'backend compute has no surface tension by curvature; use backend cpu', *ON,
-                     '--set', 'solver.method=wcsph', '--set', 'solver.surface_tension=curvature', '--set', 'fluids[0].surface_tension=1')
         self.refused(1, 'there is no GPU 15', *ON, '--gpu', '15')
         self.refused(1, r'needs a buffer of \d+ bytes for this scene, and this driver allows shaders \d+', *ON, '--particles', '20000000')
 

@@ -50,7 +50,7 @@ static inline double pair_terms(const Constants *s, const State *state, size_t i
     sum += vi * vj * u *
            (morris ? ((radial > 0 ? mu * radial * r * r : mu) + alpha) * gradient / r
                    : 0.5 * mu * s->lattice.laplacian_scale * kernel_viscosity_laplacian(r, h));
-    if (fi != fj || !s->tension_model)
+    if (fi != fj || !s->tension_model || s->tension_model == TENSION_CURVATURE) /* the latter is of no pair */
         return sum;
     const double t = h * h - r * r, dims = s->dimensions;
     return sum + (double)s->tension[fi] * vi * vj *

@@ -85,6 +85,7 @@ static inline WorldDef parity_def(const ParityTable *table, const ParityCase *c)
     for (int f = 0; f < 2; f++) {
         def.fluids[f].viscosity = c->viscosity[f];
         def.fluids[f].surface_tension = c->tension ? (c->dimensions == 2 ? 2 : 20) : 0;
+        def.fluids[f].contact_angle = f ? 60 : 120;
     }
     return def;
 }

@@ -29,6 +29,12 @@ static const ParityCase cases[] = {
     {"quintic, periodic, shifting", 2, 3, {1, 3}, .kernel = "quintic", .negative = true, .sides = "xy", .shifting = 0.2},
     {"cubic, periodic, cohesion, shifting", 3, 2.1, .tension = TENSION_COHESION,
      .kernel = "cubic", .delta = 0.1, .artificial = 0.1, .sides = "xz", .shifting = 0.1},
+    {"Wendland, curvature, shifting", 2, 3, .tension = TENSION_CURVATURE, .kernel = "wendland_c2", .delta = 0.1,
+     .artificial = 0.1, .negative = true, .shifting = 0.2, .solids = true, .runs = true},
+    {"Wendland, curvature, shifting, corrected", 3, 2.6, {1, 3}, TENSION_CURVATURE, .kernel = "wendland_c2", .delta = 0.1,
+     .form = VISCOSITY_RADIAL, .negative = true, .shifting = 0.2, .corrected = true, .no_slip = true},
+    {"cubic, curvature, periodic", 3, 2.1, .tension = TENSION_CURVATURE, .kernel = "cubic", .artificial = 0.1,
+     .sides = "x"},
     {"periodic", 3, 2.1, {1, 3}, .method = "mueller", .solids = true, .sides = "x"},
 };
 /* clang-format on */

@@ -444,6 +444,10 @@ static void wcsph_lives(void)
     LIVE(base, with_a_ball(d.solids, &d.solid_count), wcsph_def(&d)->shifting = 0.1,
          wcsph_def(&d)->delta_sph = 0.1, add_flow(&d));
     LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COHESION, d.fluids[0].surface_tension = 0.1);
+    LIVE(base, d.tension_model = TENSION_CURVATURE, d.fluids[0].surface_tension = 0.1,
+         with_a_ball(d.solids, &d.solid_count), wcsph_def(&d)->shifting = 0.2);
+    LIVE(base, d.tension_model = TENSION_CURVATURE, d.fluids[0].surface_tension = 0.1, d.periodic[0] = true,
+         wcsph_def(&d)->corrected_gradient = true);
 }
 
 static void implicit_viscosity_lives(void)

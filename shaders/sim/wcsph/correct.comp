@@ -1,5 +1,7 @@
 // wcsph: corrections of the gradients: matrix_range of sim/wcsph/pairs_corrected.c, correct_body of sim/wcsph/corrected.c.
+#ifndef CURVATURE
 #define LISTS_FIRST
+#endif
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"

@@ -28,7 +28,7 @@ void even_end_image(vec3 sign)
 void even_write(uint i)
 {
     float share = clamp((even_sum.w / (float(dimensions) * rest_number_density) - 0.8) / 0.15, 0.0, 1.0);
-    uneven[2u * i] = vec4(share * even_sum.xyz, share);
+    uneven[2u * i] = vec4(keep_notch(i, share * even_sum.xyz), share);
     uneven[2u * i + 1u] = vec4(kernel_scale * dense_sum / rest_number_density - 1.0, 0.0, 0.0, 0.0);
 }
 #else

@@ -5,7 +5,7 @@
 #define FELT_FORCE(i, term, d, r2) \
     (pair_force(side_of(i, term), felt_side, d, r2) + \
      gradient_scale * shape(sqrt(r2) * inverse_support) * term * corrected(i, d))
-#else
+#elif !defined CURVATURE
 #define LISTS_FIRST
 #endif
 #include "sim/constants.glsl"
@@ -14,6 +14,7 @@ void correct_meet(uint j, vec3 d, float r2, float term);
 #endif
 #include "sim/force.glsl"
 #include "sim/wcsph/wcsph.glsl"
+#include "sim/wcsph/curvature.glsl"
 #include "sim/wcsph/evenness.glsl"
 
 #ifdef CORRECTED
@@ -195,6 +196,7 @@ void main()
     even_sum.xyz += 0.5 * ((v2 - 1.0) * even_push + v2 * here + shift_push);
 #endif
 #endif
+    force += curvature_force(i, x, at);
     acceleration[i] = vec4(force / fluid.mass, 0.0);
     even_write(i);
 }

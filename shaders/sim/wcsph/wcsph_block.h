@@ -9,6 +9,7 @@
 #define SLOPES_BUFFER      5
 #define UNEVENS_BUFFER     7
 #define CORRECTIONS_BUFFER 9
+#define OUTWARDS_BUFFER    10
 
 /* Of rho0: friction takes fluid for no thinner, since what carries less has lost count in a splash, and would
    not stand the step that others do: docs/failures.md. */

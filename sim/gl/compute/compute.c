@@ -321,11 +321,6 @@ static bool compute_can(const WorldDef *def, Error *error)
         if (of && of->named(def) && !has_shader(pass))
             return error_set(error, "backend compute has no %s; use backend cpu", of->words);
     }
-    bool tense = false;
-    for (int f = 0; f < def->fluid_count; f++)
-        tense |= def->fluids[f].surface_tension > 0;
-    if (tense && def->tension_model == TENSION_CURVATURE)
-        return error_set(error, "backend compute has no surface tension by curvature; use backend cpu");
     return true;
 }
 

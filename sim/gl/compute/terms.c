@@ -34,7 +34,7 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
         {s->rubs, "RUBS"},
         {s->negative_pressure, "NEGATIVE_PRESSURE"},
         {s->method->carries_density, "CARRIES_DENSITY"},
-        {s->tension_model != TENSION_NONE, "TENSION"},
+        {s->tension_model == TENSION_COLOUR_FIELD || s->tension_model == TENSION_COHESION, "TENSION"},
         {s->tension_model == TENSION_COHESION, "COHESION"},
         {s->no_slip, "NO_SLIP"},
         {s->lid, "LID"},
@@ -150,7 +150,13 @@ void compute_term_constants(Compute *c)
     const Constants *s = c->constants;
     TermBlock terms = {.colour_scale = s->colour, .friction_scale = s->implicit.scale};
     for (int f = 0; f < s->fluid_count; f++)
-        terms.fluid_terms[f] = (FluidTerms){s->tension[f]};
+        terms.fluid_terms[f] = (FluidTerms){s->tension[f], s->wet[f]};
+    terms.curvature_least = CURVATURE_LEAST / 100.0F;
+    terms.curvature_whole = CURVATURE_WHOLE / 100.0F;
+    terms.curvature_full = s->curvature.full;
+    terms.curvature_few = s->curvature.few;
+    terms.curvature_offset = s->curvature.offset;
+    terms.curvature_most = s->curvature.most;
     if (s->no_slip)
         drag_constants(&s->drag, &terms);
     memcpy(terms.lid_velocity, s->lid_velocity, sizeof s->lid_velocity);
