@@ -86,6 +86,18 @@ double wetting_curvature(double angle, double spacing, double h)
     return cos(angle * (M_PI / 180)) / (layers * spacing);
 }
 
+/* The offset a second way: by the balance of half a drop, which forces between pairs keep whatever the
+   pressures are. Layers z below the surface of a drop of radius R have the part D of the weights and the
+   curvature (d - 1) / (R - z). With V the ball of one dimension less, and c = sum D z, they pull the halves
+   together by
+       sum D sigma (d - 1) V (R - z)^(d-2) = sigma (d - 1) V R^(d-2) (1 - (d - 2) c / R),
+   and pressure parts them by p V (R - L)^(d-1), where L is what the cut lacks at its rim:
+       p = sigma (d - 1) / R (1 + ((d - 1) L - (d - 2) c) / R).
+   Pairs are lacking that had one end outside. With F = -W' / r they carry F x^2 across the cut, so that
+       e = sum F x^2 |z| / (2 sum F x^2) = sum W |z| / (2 sum W)
+   by parts along x. Where pressure sets in as the force does, L = c + e, and p is too high by the part
+       (c + (d - 1) e) / R = (d - 1) offset / R,
+   which is what stands below. Were it the same up to the outermost layer, L would be e alone. */
 CurvatureScale curvature_calibrate(int dimensions, double spacing, double h)
 {
     const int reach = (int)ceil(h / spacing);
