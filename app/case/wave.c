@@ -75,7 +75,7 @@ const Case case_wave = {
     .spacing = {0.05, 0.025, 0.0125},
     .time = 5.5,
     .every = 0.02,
-    .metrics = {{"decay", "1/s", .tolerance = 0.05, .coarse = 0.1, .without = "does not oscillate"},
+    .metrics = {{"decay", "1/s", .tolerance = 0.02, .coarse = 0.02, .without = "does not oscillate"},
                 {"frequency", "rad/s", .tolerance = 0.015, .coarse = 0.02, .without = "does not oscillate"}},
     .plot = {.x = "time, s",
              .y = "centre of mass, m",

@@ -6,8 +6,10 @@
    hydrostatically: p' = p + rho0 g.(x' - x). |x_i - x_j'| = |x_i' - x_j|, so what particle i finds of images
    is what its own images find of the fluid. Number density with images is a function of places alone and the
    pressures' forces, without the hydrostatic part, its gradient: walls keep the energy that pairs keep, in
-   whatever order the fluid is, and pass no shear. The hydrostatic part is along the normal of the wall and,
-   in the mean, a function of the distance alone: going round gains nothing. */
+   whatever order the fluid is, and pass no shear. Friction with images, of walls that let fluid slip, is that
+   with a fluid in the mirror: the stress along the normal, and dissipation alone. The hydrostatic part is
+   along the normal of the wall and, in the mean, a function of the distance alone: going round gains nothing.
+ */
 #ifndef SLOSH_WALL_IMAGES_H
 #define SLOSH_WALL_IMAGES_H
 

@@ -136,31 +136,52 @@ SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float
 
 /* --- friction --- */
 
-/* In the form of Morris (sim/matter/viscosity.h): V_i V_j (mu_i + mu_j) F v_ji, of what `motion` has. */
+/* Of those that stand at `at`, with the velocities `vi`: what g times V_i is not in yet. */
+SIMD_INLINE void friction_of(const PairArgs *args, const Place at, const Near near, f8x4 vi, f8 mi,
+                             Place *sum)
+{
+    const Constants *s = args->constants;
+    const f8 inverse_h = f8_splat(1 / s->support_radius), same = f8_splat(s->viscosity[0]),
+             least = f8_splat(1e-6f);
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, at, j);
+        const f8 q = f8_sqrt(d.r2) * inverse_h, apart = f8_select(q > least, q, least);
+        const f8x4 v = motion(args, j);
+        const f8 mj = args->viscosity ? f8_gather(args->viscosity, j) : same;
+        const f8 drag = vi.w * v.w * (mi + mj) * shape(apart, INCOMPRESSIBLE_KERNEL);
+        sum->x += drag * (v.x - vi.x), sum->y += drag * (v.y - vi.y), sum->z += drag * (v.z - vi.z);
+    }
+}
+
+/* In the form of Morris (sim/matter/viscosity.h): V_i V_j (mu_i + mu_j) F v_ji, of what `motion` has; images,
+   where walls let fluid slip, with velocities in the mirror. */
 SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, float gradient)
 {
     const Constants *s = args->constants;
-    const f8 inverse_h = f8_splat(1 / s->support_radius), g = f8_splat(gradient),
-             same = f8_splat(s->viscosity[0]);
+    const f8 g = f8_splat(gradient), zero = f8_splat(0);
+    const WallsFar far = out_of_sight(s);
+    Images images;
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
         const Themselves own = themselves(args, i);
+        const Near near = near_of(args, i);
         const f8x4 vi = motion(args, own.j);
-        const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : same;
-        const f8 scale = g * vi.w, least = f8_splat(1e-6f);
-        f8 fx = f8_splat(0), fy = fx, fz = fx;
-        NEIGHBOURS (near, j) {
-            const Separation d = separation(args, at, j);
-            const f8 q = f8_sqrt(d.r2) * inverse_h, apart = f8_select(q > least, q, least);
-            const f8x4 v = motion(args, j);
-            const f8 mj = args->viscosity ? f8_gather(args->viscosity, j) : same;
-            const f8 drag = scale * v.w * (mi + mj) * shape(apart, INCOMPRESSIBLE_KERNEL);
-            fx += drag * (v.x - vi.x), fy += drag * (v.y - vi.y), fz += drag * (v.z - vi.z);
+        const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]);
+        Place sum = {zero, zero, zero};
+        friction_of(args, place_of(args, i), near, vi, mi, &sum);
+        const bool mirrored = !s->no_slip && images_of(args, &far, i, begin, end, &images);
+        for (int m = 1; mirrored && m <= images.count; m++) {
+            const Mirrored *image = &images.of[m];
+            const f8x4 v = {image->sign.x * vi.x, image->sign.y * vi.y, image->sign.z * vi.z, vi.w};
+            Place part = {zero, zero, zero};
+            friction_of(args, image->at, near, v, mi, &part);
+            friction_of(args, image->at, near_themselves(&own), v, mi, &part);
+            sum.x += image->sign.x * part.x;
+            sum.y += image->sign.y * part.y;
+            sum.z += image->sign.z * part.z;
         }
-        lanes_store(args->fx, i, begin, end, fx);
-        lanes_store(args->fy, i, begin, end, fy);
-        lanes_store(args->fz, i, begin, end, fz);
+        lanes_store(args->fx, i, begin, end, g * sum.x);
+        lanes_store(args->fy, i, begin, end, g * sum.y);
+        lanes_store(args->fz, i, begin, end, g * sum.z);
     }
 }
 

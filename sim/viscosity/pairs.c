@@ -1,5 +1,7 @@
 /* The pair sums of implicit viscosity: see sim/viscosity/passes.h. `place` has {x, mu}, `motion` {z, V}; of
-   boundary particles -V. */
+   boundary particles -V. Where walls let fluid slip, its images behind them (sim/box/wall_images.h) have a
+   part, with what is asked of them in the mirror: symmetric and positive like pairs. */
+#include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/cpu/pair_shape.h"
 #include "sim/viscosity/passes.h"
@@ -38,34 +40,105 @@ SIMD_INLINE void place_store(float *const *column, size_t i, size_t begin, size_
     lanes_store(column[2], i, begin, end, scale * sum.z);
 }
 
+/* Images of a group that rub; none where walls hold the fluid, whose own friction is all of it. */
+SIMD_INLINE bool rubbing_images(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
+                                Images *images)
+{
+    return !args->constants->no_slip && images_of(args, far, i, begin, end, images);
+}
+
+SIMD_INLINE f8x4 in_mirror(f8x4 v, const Mirrored *image)
+{
+    return (f8x4){image->sign.x * v.x, image->sign.y * v.y, image->sign.z * v.z, v.w};
+}
+
+SIMD_INLINE void place_add(Place *sum, const Mirrored *image, Place part)
+{
+    sum->x += image->sign.x * part.x;
+    sum->y += image->sign.y * part.y;
+    sum->z += image->sign.z * part.z;
+}
+
+SIMD_INLINE void block_add_mirrored(Block *sum, const Mirrored *image, const Block *part)
+{
+    const Place sign = image->sign;
+    sum->xx += part->xx, sum->yy += part->yy, sum->zz += part->zz;
+    sum->xy += sign.x * sign.y * part->xy;
+    sum->yz += sign.y * sign.z * part->yz;
+    sum->zx += sign.z * sign.x * part->zx;
+}
+
+/* Explicit friction; all blocks, and those of solids twice. */
+typedef struct Begun {
+    Place force;
+    Block all, held;
+} Begun;
+
+SIMD_INLINE Begun nothing_begun(void)
+{
+    const f8 zero = f8_splat(0);
+    const Block none = {zero, zero, zero, zero, zero, zero};
+    return (Begun){{zero, zero, zero}, none, none};
+}
+
+SIMD_INLINE void begin_of(const PairArgs *args, const Place at, const Near near, f8 mi, f8x4 vi,
+                          const ShapeKernel kernel, const bool solids, Begun *sum)
+{
+    const Constants *s = args->constants;
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, at, j);
+        const f8x4 v = motion(args, j);
+        const f8 c = weight(s, d, mi, solids ? greater(v.w, -v.w) : v.w, kernel);
+        const f8 pull = c * ((v.x - vi.x) * d.x + (v.y - vi.y) * d.y + (v.z - vi.z) * d.z);
+        sum->force.x += pull * d.x, sum->force.y += pull * d.y, sum->force.z += pull * d.z;
+        block_add(&sum->all, c, d);
+        if (solids)
+            block_add(&sum->held, f8_masked(v.w < f8_splat(0), c + c), d);
+    }
+}
+
 /* Explicit friction into the residual, the sum of all blocks into INVERSE. */
 SIMD_INLINE void begin_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                              const bool solids)
 {
     const Constants *s = args->constants;
-    const f8 zero = f8_splat(0);
+    const WallsFar far = out_of_sight(s);
+    Images images;
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
         const Near near = near_of(args, i);
+        const Themselves own = themselves(args, i);
         const f8 mi = f8_load(args->term[MISS] + i); /* its viscosity, until the pass ends */
-        const f8 vx = f8_load(args->vx + i), vy = f8_load(args->vy + i), vz = f8_load(args->vz + i);
-        Place force = {zero, zero, zero};
-        Block all = {zero, zero, zero, zero, zero, zero}, held = all;
-        NEIGHBOURS (near, j) {
-            const Separation d = separation(args, at, j);
-            const f8x4 v = motion(args, j);
-            const f8 c = weight(s, d, mi, solids ? greater(v.w, -v.w) : v.w, kernel);
-            const f8 pull = c * ((v.x - vx) * d.x + (v.y - vy) * d.y + (v.z - vz) * d.z);
-            force.x += pull * d.x, force.y += pull * d.y, force.z += pull * d.z;
-            block_add(&all, c, d);
-            if (solids)
-                block_add(&held, f8_masked(v.w < zero, c + c), d);
+        const f8x4 vi = {f8_load(args->vx + i), f8_load(args->vy + i), f8_load(args->vz + i), mi};
+        Begun sum = nothing_begun();
+        begin_of(args, place_of(args, i), near, mi, vi, kernel, solids, &sum);
+        const bool mirrored = rubbing_images(args, &far, i, begin, end, &images);
+        for (int m = 1; mirrored && m <= images.count; m++) {
+            const Mirrored *image = &images.of[m];
+            const f8x4 v = in_mirror(vi, image);
+            Begun part = nothing_begun();
+            begin_of(args, image->at, near, mi, v, kernel, solids, &part);
+            begin_of(args, image->at, near_themselves(&own), mi, v, kernel, solids, &part);
+            place_add(&sum.force, image, part.force);
+            block_add_mirrored(&sum.all, image, &part.all);
+            block_add_mirrored(&sum.held, image, &part.held);
         }
         const f8 scale = f8_splat(s->implicit.scale) * f8_load(args->volume + i);
-        place_store(args->term + RESIDUAL, i, begin, end, scale, force);
-        block_store(args->term + INVERSE, i, begin, end, scale, &all);
+        place_store(args->term + RESIDUAL, i, begin, end, scale, sum.force);
+        block_store(args->term + INVERSE, i, begin, end, scale, &sum.all);
         if (solids)
-            block_store(args->term + HELD, i, begin, end, scale, &held);
+            block_store(args->term + HELD, i, begin, end, scale, &sum.held);
+    }
+}
+
+SIMD_INLINE void product_of(const PairArgs *args, const Place at, const Near near, f8 mi, f8x4 z,
+                            const ShapeKernel kernel, Place *sum)
+{
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, at, j);
+        const f8x4 v = motion(args, j);
+        const f8 pull = weight(args->constants, d, mi, v.w, kernel) *
+                        ((z.x - v.x) * d.x + (z.y - v.y) * d.y + (z.z - v.z) * d.z);
+        sum->x += pull * d.x, sum->y += pull * d.y, sum->z += pull * d.z;
     }
 }
 
@@ -74,24 +147,25 @@ SIMD_INLINE void product_range(const PairArgs *args, size_t begin, size_t end, c
 {
     const Constants *s = args->constants;
     const f8 zero = f8_splat(0);
+    const WallsFar far = out_of_sight(s);
+    Images images;
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
         const Near near = near_of(args, i);
-        uint32_t own[LANES];
-        for (uint32_t k = 0; k < LANES; k++)
-            own[k] = i + k < args->count ? (uint32_t)i + k : (uint32_t)args->count;
-        const f8x4 z = motion(args, own);
-        const f8 mi = f8_load4(args->place, own).w;
-        Place force = {zero, zero, zero};
-        NEIGHBOURS (near, j) {
-            const Separation d = separation(args, at, j);
-            const f8x4 v = motion(args, j);
-            const f8 pull =
-                weight(s, d, mi, v.w, kernel) * ((z.x - v.x) * d.x + (z.y - v.y) * d.y + (z.z - v.z) * d.z);
-            force.x += pull * d.x, force.y += pull * d.y, force.z += pull * d.z;
+        const Themselves own = themselves(args, i);
+        const f8x4 z = motion(args, own.j);
+        const f8 mi = f8_load4(args->place, own.j).w;
+        Place sum = {zero, zero, zero};
+        product_of(args, place_of(args, i), near, mi, z, kernel, &sum);
+        const bool mirrored = rubbing_images(args, &far, i, begin, end, &images);
+        for (int m = 1; mirrored && m <= images.count; m++) {
+            const Mirrored *image = &images.of[m];
+            Place part = {zero, zero, zero};
+            product_of(args, image->at, near, mi, in_mirror(z, image), kernel, &part);
+            product_of(args, image->at, near_themselves(&own), mi, in_mirror(z, image), kernel, &part);
+            place_add(&sum, image, part);
         }
         place_store(args->term + PRODUCT, i, begin, end,
-                    f8_splat(s->implicit.scale) * f8_load(args->volume + i), force);
+                    f8_splat(s->implicit.scale) * f8_load(args->volume + i), sum);
     }
 }
 

@@ -9,11 +9,12 @@
      L(d)_i = sum c_ij (d_ji . x_ij) x_ij
      c_ij = V_i V_j (mu_i + mu_j) R F, radial: sim/matter/viscosity.h
      B_i = 2 sum c_ib x_ib x_ib^T, of boundary particles of solids, as if they had -d_i
-   K_i is what walls that hold the fluid have for its velocity (sim/box/wall_drag.h). The left side is
-   symmetric and positive. friction_i is the explicit one, with boundary particles as sim/cpu/boundary.c fills
-   them: so a short step does what an explicit one does, and flow that is steady is the explicit one's,
-   whatever B is. The radial form and no other: it leaves a body that turns as a whole alone, and Morris's,
-   which brakes it, would hold it fast at such viscosities.
+   K_i is what walls that hold the fluid have for its velocity (sim/box/wall_drag.h); of walls that let it
+   slip L has the images (sim/box/wall_images.h), with d in the mirror. The left side is symmetric and
+   positive. friction_i is the explicit one, with boundary particles as sim/cpu/boundary.c fills them: so a
+   short step does what an explicit one does, and flow that is steady is the explicit one's, whatever B is.
+   The radial form and no other: it leaves a body that turns as a whole alone, and Morris's, which brakes it,
+   would hold it fast at such viscosities.
 
    Conjugate gradients with one product an iteration (A. T. Chronopoulos, C. W. Gear, "s-step iterative
    methods for symmetric linear systems", 1989), preconditioned by the blocks D_i of 3 x 3, from d = 0. What

@@ -1,6 +1,6 @@
 /* What the images of the fluid in the walls of the box add to the sums of wcsph: the rate of density and
-   pressure, with what shifting goes by. They have no friction and no part in diffusion. See
-   sim/box/wall_images.h. */
+   pressure, with what shifting goes by; friction of walls that let fluid slip. They have no part in diffusion
+   and no artificial viscosity. See sim/box/wall_images.h. */
 #include "sim/wcsph/pair_mirror.h"
 
 /* Sum of F v_ij . x_ij over what the images of the group i find. */
@@ -47,6 +47,33 @@ SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, con
     }
 }
 
+/* Laminar viscosity as pairs have it (sim/wcsph/pairs.c), with velocities in the mirror: of a wall that slips
+   the stress along its normal, and no shear. By the kernel's own slope: it moves nothing apart. */
+SIMD_INLINE void image_rub(const PairArgs *args, size_t i, const Near near, const Mirrored *image,
+                           const ShapeKernel kernel, const bool radial, Found *sum)
+{
+    const Constants *s = args->constants;
+    const WcsphBlock *w = wcsph_constants(s);
+    const f8 inverse_h = f8_splat(1 / s->support_radius), least = f8_splat(1e-6f);
+    const f8 most = f8_splat(1 / (THINNEST * s->rest_number_density));
+    const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]);
+    const f8 volume = lesser(f8_load(args->volume + i), most), scale = f8_splat(w->radial_friction);
+    const f8 ui = image->sign.x * f8_load(args->vx + i), vi = image->sign.y * f8_load(args->vy + i),
+             wi = image->sign.z * f8_load(args->vz + i);
+    NEIGHBOURS (near, j) {
+        const Separation d = separation(args, image->at, j);
+        const f8x4 v = motion(args, j);
+        const f8 mj = args->viscosity ? f8_gather(args->viscosity, j) : mi;
+        const f8 rub =
+            shape(greater(f8_sqrt(d.r2) * inverse_h, least), kernel) * volume * lesser(v.w, most) * (mi + mj);
+        const f8 ux = v.x - ui, uy = v.y - vi, uz = v.z - wi;
+        const f8 along = rub * scale * (ux * d.x + uy * d.y + uz * d.z);
+        sum->fx += radial ? along * d.x : rub * ux;
+        sum->fy += radial ? along * d.y : rub * uy;
+        sum->fz += radial ? along * d.z : rub * uz;
+    }
+}
+
 SIMD_INLINE void add_found(const PairArgs *args, size_t i, size_t begin, size_t end, const Mirrored *image,
                            const Found found, const bool shifts)
 {
@@ -86,12 +113,21 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
 SIMD_INLINE void force_by(const PairArgs *args, size_t i, size_t begin, size_t end, const Mirrored *image,
                           const Layers *layers, const ShapeKernel kernel, const bool shifts)
 {
+    const Constants *s = args->constants;
+    const bool images_rub = s->rubs && !s->no_slip; /* else the wall's own friction is all of it */
     const f8 zero = f8_splat(0);
     const Themselves own = themselves(args, i);
     const Rise rise = rise_of(args, i, image, layers);
     Found found = {zero, zero, zero, zero, zero, zero, zero, zero};
     image_push(args, i, near_of(args, i), image, rise, kernel, shifts, &found);
     image_push(args, i, near_themselves(&own), image, rise, kernel, shifts, &found);
+    if (images_rub && wcsph_constants(s)->radial_friction > 0) {
+        image_rub(args, i, near_of(args, i), image, kernel, true, &found);
+        image_rub(args, i, near_themselves(&own), image, kernel, true, &found);
+    } else if (images_rub) {
+        image_rub(args, i, near_of(args, i), image, kernel, false, &found);
+        image_rub(args, i, near_themselves(&own), image, kernel, false, &found);
+    }
     add_found(args, i, begin, end, image, found, shifts);
 }
 

@@ -7,7 +7,7 @@ static const ParityCase cases[] = {
     {"many iterations",             3, 2.1, .dt = 1.0 / 60, .tolerance = 0.001},
     {"viscous, cohesion, no slip",  3, 2.6, {2, 0}, TENSION_COHESION, .no_slip = true},
     {"solids, one that holds",      3, 2.1, {1, 3}, .solids = true},
-    {"colour field, solids",        2, 2.6, {1, 0}, TENSION_COLOUR_FIELD, .solids = true},
+    {"colour field, solids",        2, 2.6, {1, 0}, TENSION_COLOUR_FIELD, .solids = true, .dt = 0.005},
     {"pressure that pulls",         2, 2.6, .negative = true},
     {"periodic",                    2, 2.6, {1, 3}, .sides = "x"},
     {"periodic, solids",            3, 2.1, .solids = true, .sides = "xz"},

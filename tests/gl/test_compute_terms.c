@@ -23,6 +23,7 @@ static const ParityCase cases[] = {
     {"cohesion", 2, 2.1, {1, 3}, TENSION_COHESION, .method = "mueller"},
     {"Wendland, laminar, periodic, lid, shifting", 2, 3, {1, 3}, .kernel = "wendland_c2", .delta = 0.1,
      .negative = true, .no_slip = true, .solids = true, .sides = "x", .shifting = 0.2, .lid = 1},
+    {"Wendland, radial, solids", 2, 3, {1, 3}, .kernel = "wendland_c2", .form = VISCOSITY_RADIAL, .solids = true},
     {"Wendland, corrected gradient", 2, 3, {1, 3}, .kernel = "wendland_c2", .delta = 0.1, .negative = true,
      .solids = true, .shifting = 0.2, .corrected = true},
     {"cubic, corrected gradient", 3, 2.1, .kernel = "cubic", .artificial = 0.1, .solids = true, .corrected = true},

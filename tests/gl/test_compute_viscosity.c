@@ -9,6 +9,7 @@ static const ParityCase cases[] = {
     {"quintic, no slip, lid",       2, 3,   {0, 200},  .method = "wcsph", .kernel = "quintic", .no_slip = true, .lid = 1},
     {"cubic, periodic",             3, 2.1, {500, 3000}, .method = "wcsph", .kernel = "cubic", .sides = "xz"},
     {"no slip, solids, cohesion",   3, 2.1, {5000, 1}, TENSION_COHESION, .method = "dfsph", .no_slip = true, .solids = true, .dt = 0.004},
+    {"Wendland, solids",            2, 3,   {300, 20}, .method = "wcsph", .kernel = "wendland_c2", .solids = true},
     {"no slip, solids",             2, 2.6, {100, 20}, .method = "pbf", .no_slip = true, .solids = true, .dt = 0.004},
 };
 /* clang-format on */

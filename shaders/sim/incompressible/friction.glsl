@@ -1,5 +1,5 @@
 // Friction in the form of Morris (friction_sums in sim/incompressible/pairs.h); with surface tension all forces but
-// pressure. A pass says volume_of, and FRICTION where that is not all of `friction_gradient`.
+// pressure. Images in walls that let fluid slip have a part in it. A pass says volume_of, and FRICTION where that is not all of `friction_gradient`.
 #define KERNEL_WENDLAND_C2 1
 #include "sim/force.glsl"
 #include "sim/shapes.glsl"
@@ -19,11 +19,52 @@ vec3 pair_force(Side one, Side other, vec3 d, float r2)
 #endif
 }
 
+#if defined RUBS && !defined NO_SLIP
+#include "sim/images.glsl"
+Side image_side; // self_side, its velocity in the mirror
+vec3 image_force;
+
+void rub_image(Side other, vec3 d)
+{
+    float least = 1e-6 * support, r2 = max(dot(d, d), least * least);
+    if (r2 < support * support)
+        image_force += pair_force(image_side, other, d, r2);
+}
+
+void meet_image(uint j, vec3 d, float term) { rub_image(side_of(j, term), d); }
+
+#ifdef SOLIDS
+void meet_boundary_image(uint j, vec3 d, float volume)
+{
+    rub_image(Side(0.0, volume, boundary_velocity[j].w, 0.0, boundary_velocity[j].xyz), d);
+}
+#endif
+
+vec3 images_force(uint i, vec3 x, ivec3 at)
+{
+    vec3 force = vec3(0);
+    int end = images_end(x);
+    Image image;
+    for (int walls = 1; walls < end; walls++) {
+        if (!image_of(x, walls, image))
+            continue;
+        image_side = self_side;
+        image_side.v *= image.sign;
+        image_force = vec3(0);
+        WALK_NEIGHBOURS(i, image.x, at, meet_image, meet_boundary_image, 0)
+        force += image.sign * image_force;
+    }
+    return force;
+}
+#else
+vec3 images_force(uint i, vec3 x, ivec3 at) { return vec3(0); }
+#endif
+
 vec3 other_forces(uint i)
 {
 #if defined RUBS || defined TENSION
-    vec3 x = near[i].xyz;
-    return neighbours_force(i, x, cell_of(x));
+    vec3 x = near[i].xyz, force = neighbours_force(i, x, cell_of(x));
+    return force + images_force(i, x, cell_of(x));
 #else
     return vec3(0);
 #endif

@@ -4,6 +4,8 @@
 #include "sim/viscosity/columns.glsl"
 #ifdef NO_SLIP
 #include "sim/wall_drag.glsl"
+#else
+#include "sim/images.glsl"
 #endif
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
@@ -40,6 +42,27 @@ void meet_boundary(uint j, vec3 d, float volume)
 }
 #endif
 
+// What its images find behind walls that let it slip, each in its mirror's axes.
+void meet_images(uint i, vec3 x, ivec3 at)
+{
+#ifndef NO_SLIP
+    vec3 v = own_velocity, force = friction, others = mixed, held_others = held_mixed;
+    int end = images_end(x);
+    Image image;
+    for (int walls = 1; walls < end; walls++) {
+        if (!image_of(x, walls, image))
+            continue;
+        own_velocity = image.sign * v;
+        friction = mixed = held_mixed = vec3(0);
+        WALK_NEIGHBOURS(i, image.x, at, meet, meet_boundary, 0)
+        force += image.sign * friction;
+        others += image.sign * image.sign.yzx * mixed;
+        held_others += image.sign * image.sign.yzx * held_mixed;
+    }
+    own_velocity = v, friction = force, mixed = others, held_mixed = held_others;
+#endif
+}
+
 // Walls of the box that hold the fluid: K; their force goes to the others. held_by_walls in sim/viscosity/passes.c.
 float held_by_walls(vec3 x, float volume)
 {
@@ -75,6 +98,7 @@ void main()
     own_viscosity = fluid.viscosity;
     own_velocity = velocity[i].xyz;
     WALK_NEIGHBOURS(i, place.xyz, cell_of(place.xyz), meet, meet_boundary, 0)
+    meet_images(i, place.xyz, cell_of(place.xyz));
     float scale = friction_scale * place.w, m = fluid.mass;
     friction *= scale;
     float inertia = (dt > 0.0 ? m / dt : ENDLESS * m) + held_by_walls(place.xyz, place.w);

@@ -2,6 +2,7 @@
 // product_range in sim/viscosity/pairs.c, product_body in sim/viscosity/passes.c.
 #include "sim/viscosity/viscosity.glsl"
 #include "sim/viscosity/columns.glsl"
+#include "sim/images.glsl"
 layout(std430, binding = TRIALS_BUFFER) readonly buffer Trials { vec4 trial[]; };
 
 vec3 own, sum = vec3(0);
@@ -13,13 +14,31 @@ void meet(uint j, vec3 d, float volume)
 }
 
 // Boundary particles, whose change is 0, are in the blocks `held`.
-void walk(uint i, vec3 x)
+void walk(uint i, vec3 x, ivec3 at)
 {
-    ivec3 at = cell_of(x);
 #ifdef LISTS
     WALK_LISTED(i, x, at, meet)
 #else
     WALK_FLUID(x, at, meet)
+#endif
+}
+
+// What its images find behind walls that let it slip, each in its mirror's axes.
+void walk_images(uint i, vec3 x, ivec3 at)
+{
+#ifndef NO_SLIP
+    vec3 z = own, whole = sum;
+    int end = images_end(x);
+    Image image;
+    for (int walls = 1; walls < end; walls++) {
+        if (!image_of(x, walls, image))
+            continue;
+        own = image.sign * z;
+        sum = vec3(0);
+        walk(i, image.x, at);
+        whole += image.sign * sum;
+    }
+    own = z, sum = whole;
 #endif
 }
 
@@ -31,7 +50,9 @@ void main()
     vec4 place = position[i], own_trial = trial[i];
     own = own_trial.xyz;
     own_viscosity = own_trial.w;
-    walk(i, place.xyz);
+    ivec3 at = cell_of(place.xyz);
+    walk(i, place.xyz, at);
+    walk_images(i, place.xyz, at);
     vec3 product = friction_scale * place.w * sum + scratch[SCRATCH_viscosity_inertia + i] * own;
 #ifdef SOLIDS
     product += times(column_of(SCRATCH_viscosity_held, i), column_of(SCRATCH_viscosity_held_mixed, i), own);

@@ -1,5 +1,8 @@
 // wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/wcsph/pairs.c, and
 // sim/wcsph/pairs_images.c.
+// Friction takes fluid for no thinner than that.
+float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_number_density)); }
+
 #ifdef CORRECTED
 #define MEET_MORE(j, d, r2, term) correct_meet(j, d, r2, term);
 #define FELT_FORCE(i, term, d, r2) \
@@ -23,7 +26,6 @@ void correct_meet(uint j, vec3 d, float r2, float term);
 
 // push_of of sim/wcsph/pairs_corrected.c: sums of F x_ij, those of an image, and of p_j V_j^2 C_j F x_ij.
 vec3 even_push = vec3(0), even_image_push, correction_push = vec3(0);
-float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_number_density)); }
 
 #ifdef SHIFTING
 vec3 shift_push = vec3(0), shift_image_push; // of S_j F x_ij
@@ -64,6 +66,19 @@ float volume_of(uint i) { return volume_at(velocity[i].w); }
 
 float extra_of(uint fluid) { return wcsph_fluids[fluid].artificial_viscosity; }
 
+
+// Laminar viscosity; f: the kernel's slope there.
+vec3 rub(Side own, Side other, vec3 d, float f)
+{
+#if defined RUBS && defined RADIAL
+    return f * volume_felt(own.volume) * volume_felt(other.volume) * (own.viscosity + other.viscosity) * radial_friction * dot(other.v - own.v, d) * d;
+#elif defined RUBS
+    return f * volume_felt(own.volume) * volume_felt(other.volume) * (own.viscosity + other.viscosity) * (other.v - own.v);
+#else
+    return vec3(0);
+#endif
+}
+
 // Pressure and laminar or artificial viscosity.
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
@@ -75,18 +90,11 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     shift_push += (volume_squared(other.volume) - 1.0) * f * d;
 #endif
 #endif
-    vec3 force = vec3(0), u = other.v - own.v;
-    float most = 1.0 / (THINNEST * rest_number_density), both = min(own.volume, most) * min(other.volume, most);
-#if defined RUBS && defined RADIAL
-    push += both * (own.viscosity + other.viscosity) * radial_friction * dot(u, d);
-#elif defined RUBS
-    force += f * both * (own.viscosity + other.viscosity) * u;
-#endif
 #ifdef ARTIFICIAL
     if (own.extra == other.extra || own.extra * other.extra == 0.0) // artificial_of of sim/wcsph/pairs.c
-        push += both * (own.extra + other.extra) * dot(u, d) / (r2 + support * support / 400.0);
+        push += volume_felt(own.volume) * volume_felt(other.volume) * (own.extra + other.extra) * dot(other.v - own.v, d) / (r2 + support * support / 400.0);
 #endif
-    return force + f * push * d;
+    return rub(own, other, d, f) + f * push * d;
 }
 
 // What pressure does on an image: of the hydrostatic part the rise from a particle to its own image is rise0 + 2 rise . d,
@@ -114,9 +122,21 @@ void push_image(float term, vec3 d)
 #endif
 }
 
+// Friction of walls that let fluid slip: image_rub of sim/wcsph/pairs_images.c. A macro, so that a side is not read for
+// nothing.
+#if defined RUBS && !defined NO_SLIP
+Side image_side; // self_side, its velocity in the mirror
+#define RUB_IMAGE(other, d)                                                                        \
+    if (dot(d, d) < support * support)                                                             \
+        image_push += rub(image_side, other, d, shape(max(length(d) * inverse_support, 1e-6)));
+#else
+#define RUB_IMAGE(other, d)
+#endif
+
 void meet_image(uint j, vec3 d, float term)
 {
     push_image(term, d);
+    RUB_IMAGE(side_of(j, term), d)
 #ifdef CORRECTED
     float r2 = dot(d, d);
     if (r2 >= support * support)
@@ -133,7 +153,9 @@ void meet_image(uint j, vec3 d, float term)
 #ifdef SOLIDS
 void meet_boundary_image(uint j, vec3 d, float volume)
 {
-    push_image(uintBitsToFloat(boundary_state[j].x), d);
+    float term = uintBitsToFloat(boundary_state[j].x);
+    push_image(term, d);
+    RUB_IMAGE(Side(term, volume, boundary_velocity[j].w, 0.0, boundary_velocity[j].xyz), d)
 #if defined CORRECTED && defined SHIFTING
     float r2 = dot(d, d);
     if (r2 < support * support)
@@ -142,7 +164,7 @@ void meet_boundary_image(uint j, vec3 d, float volume)
 }
 #endif
 
-// Pressure of the images behind the walls on the particle at x, in the cell `at`, of the fluid's rest density.
+// Pressure and friction of the images behind the walls on the particle at x, in the cell `at`, of the fluid's rest density.
 vec3 images_force(vec3 x, ivec3 at, float density)
 {
     float weight = density / (rest_number_density * rest_number_density);
@@ -157,6 +179,10 @@ vec3 images_force(vec3 x, ivec3 at, float density)
         rise = weight * mix(vec3(0), g, lessThan(image.sign, vec3(0)));
         rise0 = dot(rise, x - image.x);
         image_push = vec3(0);
+#if defined RUBS && !defined NO_SLIP
+        image_side = self_side;
+        image_side.v *= image.sign;
+#endif
 #ifdef CORRECTED
         even_image_push = vec3(0);
 #ifdef SHIFTING
