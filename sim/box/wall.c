@@ -363,14 +363,6 @@ float walls_number_density(const Walls *walls, const float x[3])
     return sums.number_density;
 }
 
-float wall_face_density(const Walls *walls, float d)
-{
-    const Face face = face_at(walls, 0, 1, d);
-    WallSums sums = {0};
-    add_faces(walls, (const Face *[]){&face}, 1, true, &sums);
-    return sums.number_density;
-}
-
 bool walls_contain(const Walls *walls, const float x[3])
 {
     for (int a = 0; a < walls->dimensions; a++) {

@@ -100,9 +100,6 @@ bool walls_at(const Walls *walls, const float x[3], WallSums *sums);
 /* Only the number density of it. */
 float walls_number_density(const Walls *walls, const float x[3]);
 
-/* That of one flat wall at the distance d, m. */
-float wall_face_density(const Walls *walls, float d);
-
 /* Whether x is in the box; false for what is not finite. */
 bool walls_contain(const Walls *walls, const float x[3]);
 

@@ -1,6 +1,7 @@
 /* How a world begins: its particles, from the fills or as they are given. */
 #include "sim/matter/balance.h"
 #include "sim/matter/fill.h"
+#include "sim/matter/packing.h"
 #include "sim/matter/seed.h"
 #include "sim/matter/vortices.h"
 #include "sim/world/world_struct.h"
@@ -24,35 +25,6 @@ static void seeds_free(Seeds *seeds)
     free(seeds->fluid);
     free(seeds->density);
     free(seeds->pressure);
-}
-
-/* The lattice leaves gaps next to solids that are not of it. A method whose particles carry their density
-   would take them for fluid that is there, and hold them open; what is missing is about what the solid would
-   add, were the particle in the lattice's place, less what it adds where it is. */
-static void thin_at_solids(const Constants *constants, const WorldDef *def, const Seeds *seeds, size_t count)
-{
-    BoxState pose[SOLIDS_MAX];
-    for (int k = 0; k < def->solid_count; k++)
-        solid_pose(&def->solids[k], 0, &pose[k]);
-    for (size_t i = 0; i < count; i++) {
-        double missing = 0;
-        for (int k = 0; k < def->solid_count; k++) {
-            double d[3];
-            for (int a = 0; a < 3; a++)
-                d[a] = seeds->position[3 * i + (size_t)a] - pose[k].position[a];
-            const double reach = solid_reach(&def->solids[k]) + def->support * def->spacing;
-            if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] > reach * reach)
-                continue;
-            quat_rotate_inverse(pose[k].orientation, d, d);
-            const double layers = solid_distance(&def->solids[k], def->dimensions, d) / def->spacing;
-            const float is = (float)(layers * def->spacing),
-                        rest = (float)((floor(layers - 0.5 + 1e-6) + 0.5) * def->spacing);
-            if (is > rest)
-                missing +=
-                    wall_face_density(&constants->walls, rest) - wall_face_density(&constants->walls, is);
-        }
-        seeds->density[i] *= (float)(1 - missing / constants->rest_number_density);
-    }
 }
 
 /* Moved points stay within the walls, and come in across periodic sides. */
@@ -98,16 +70,20 @@ static bool raise_seeds(const Constants *constants, const WorldDef *def, const S
     return ok;
 }
 
-/* A packing around solids without gaps. */
+/* A packing around solids without gaps; of particles that carry their density, in the order that they keep.
+ */
 static bool fit_seeds(const Constants *constants, const WorldDef *def, const bool take[FLUIDS_MAX],
                       const Seeds *seeds, size_t count)
 {
     Balance balance;
-    const bool ok =
-        balance_create(&balance, def, &constants->periodic, count, seeds->position, seeds->fluid, take);
+    bool ok = balance_create(&balance, def, &constants->periodic, count, seeds->position, seeds->fluid, take);
     if (ok)
         balance_fit(&balance, seeds->position);
     balance_destroy(&balance);
+    hold(constants, seeds, count);
+    if (ok && constants->method->carries_density)
+        ok = packing_settle(&(Packing){def, &constants->lattice, &constants->boundary}, count,
+                            seeds->position);
     hold(constants, seeds, count);
     return ok;
 }
@@ -268,8 +244,7 @@ static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *s
     bool take[FLUIDS_MAX];
     const size_t count = seed_count(def, def->spacing);
     const bool swirls = vortices_any(def), balanced = count > 0 && balances(def, count, take),
-               carries = constants->method->carries_density, thins = carries && def->solid_count > 0;
-    const bool dense = balanced || thins || (carries && swirls);
+               carries = constants->method->carries_density, dense = balanced || (carries && swirls);
     if ((count == 0 && !flow_emits(def)) || count > INT32_MAX)
         return error_set(error, count ? "more than 2^31 particles; use a larger spacing"
                                       : "the fluids' fills hold no particle; use a smaller spacing");
@@ -285,8 +260,6 @@ static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *s
             seeds->velocity[3 * i + k] = (float)def->fluids[seeds->fluid[i]].velocity[k];
     if (!add_flow(def, seeds, count, error))
         return false;
-    if (thins)
-        thin_at_solids(constants, def, seeds, count);
     if (balanced && !balance_seeds(constants, def, take, seeds, count))
         return error_set(error, "no memory for %zu particles; use a larger spacing", count);
     if (swirls)
