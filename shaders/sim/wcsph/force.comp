@@ -1,8 +1,5 @@
 // wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/wcsph/pairs.c, and
 // sim/wcsph/pairs_images.c.
-// Friction takes fluid for no thinner than that.
-float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_number_density)); }
-
 #ifdef CORRECTED
 #define MEET_MORE(j, d, r2, term) correct_meet(j, d, r2, term);
 #define FELT_FORCE(i, term, d, r2) \
@@ -19,6 +16,9 @@ void correct_meet(uint j, vec3 d, float r2, float term);
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/wcsph/curvature.glsl"
 #include "sim/wcsph/evenness.glsl"
+
+// Friction takes fluid for no thinner than that.
+float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_number_density)); }
 
 #ifdef CORRECTED
 #define CORRECTION_ACCESS readonly
