@@ -282,8 +282,8 @@ static void density_end(const CpuRange *range)
 
 /* --- solvers: an iteration --- */
 
-/* k by Jacobi's step and a part of its step before, then {x, k}. */
-static void pack_place(const CpuRange *range, float went_on)
+/* k by Jacobi's step and a part of its step before, then {x, k}. Of what begins to change a part goes on. */
+static void pack_place(const CpuRange *range, float went_on, float begins)
 {
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
@@ -298,7 +298,7 @@ static void pack_place(const CpuRange *range, float went_on)
             const float k =
                 before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + momentum * p->own[CHANGE][i];
             p->pressure_term[i] = k > 0 || pulls ? k : 0;
-            p->own[CHANGE][i] = p->pressure_term[i] - before;
+            p->own[CHANGE][i] = (p->own[CHANGE][i] == 0 ? begins : 1) * (p->pressure_term[i] - before);
         }
         const float k = of_fluid(range->cpu, i) ? p->pressure_term[i] : 0; /* those of solids have none */
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], k}, 16);
@@ -307,12 +307,12 @@ static void pack_place(const CpuRange *range, float went_on)
 
 static void pack_density(const CpuRange *range)
 {
-    pack_place(range, DENSITY_MOMENTUM);
+    pack_place(range, DENSITY_MOMENTUM, 1);
 }
 
 static void pack_divergence(const CpuRange *range)
 {
-    pack_place(range, DIVERGENCE_MOMENTUM);
+    pack_place(range, DIVERGENCE_MOMENTUM, DIVERGENCE_BEGINS);
 }
 
 static void push(const CpuRange *range)

@@ -4,7 +4,9 @@
 #ifdef DIVERGENCE
 #define BOUNDARY_TIMES 2.0
 #define MOMENTUM DIVERGENCE_MOMENTUM
+#define BEGINS DIVERGENCE_BEGINS
 #else
 #define MOMENTUM DENSITY_MOMENTUM
+#define BEGINS 1.0
 #endif
 layout(location = PASS_DT_AT) uniform float dt;

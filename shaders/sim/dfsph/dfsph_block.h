@@ -15,6 +15,10 @@
 #define DENSITY_MOMENTUM    0.8F
 #define DIVERGENCE_MOMENTUM 0.6F
 
+/* And of the first iteration, which turns short waves round: with all of it the second one would make them as
+   long again. Of what begins to change alone, so that no pass has to know which iteration it is. */
+#define DIVERGENCE_BEGINS 0.5F
+
 /* How far the solver of density moves a particle in a step, spacings. */
 #define MOVE_MOST 0.2F
 

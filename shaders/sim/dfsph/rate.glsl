@@ -50,6 +50,6 @@ void main()
     float residual = residual_of(own_move.w);
     float k = next_term(place.w, residual, scratch[SCRATCH_factor + i], scratch[SCRATCH_change + i]);
     scratch[SCRATCH_miss + i] = miss_of(residual, place.w);
-    scratch[SCRATCH_change + i] = k - place.w;
+    scratch[SCRATCH_change + i] = (scratch[SCRATCH_change + i] == 0.0 ? BEGINS : 1.0) * (k - place.w);
     near[i].w = k;
 }
