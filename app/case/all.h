@@ -11,6 +11,7 @@
     X(tilted)                                                                                                \
     X(layers)                                                                                                \
     X(layers_10)                                                                                             \
+    X(layers_1000)                                                                                           \
     X(growth)                                                                                                \
     X(growth_10)                                                                                             \
     X(dam_break)                                                                                             \

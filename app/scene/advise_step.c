@@ -50,11 +50,9 @@ void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
     if (def.step_mode == STEP_FIXED && step > STEP_SOUND_STANDS * crossing)
         advise(
             tree, "solver.step.dt", notes,
-            "the step of %.3g ms is too long for sound at %g m/s%s, which crosses a support radius in %.3g ms: "
+            "the step of %.3g ms is too long for sound at %g m/s, which crosses a support radius in %.3g ms: "
             "use %g substeps or more, or a lower solver.sound_speed",
-            1e3 * step, step_sound(&def),
-            step_sound(&def) > def.sound_speed ? " (of light fluid beside heavy)" : "", 1e3 * crossing,
-            substeps_for(&def, STEP_SOUND_CALM * crossing));
+            1e3 * step, step_sound(&def), 1e3 * crossing, substeps_for(&def, STEP_SOUND_CALM * crossing));
     else if (def.step_mode == STEP_FIXED && step > step_pressure(&def) * (1 + 1e-9))
         advise(
             tree, "solver.step.dt", notes,

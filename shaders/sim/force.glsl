@@ -20,7 +20,7 @@ float volume_of(uint i); // the method's: by the velocity's w
 
 // What a pair takes of one of the two.
 struct Side {
-    float pressure, volume, viscosity, extra; // pressure: p V^2
+    float pressure, volume, viscosity, extra, density; // pressure: p V^2; density: at rest, 0 of solids
     vec3 v;
 };
 
@@ -29,7 +29,7 @@ float extra_of(uint fluid); // the method's: what else of a fluid its pairs want
 Side side_of(uint i, float term)
 {
     uint fluid = FLUID_OF(i);
-    return Side(term, volume_of(i), fluids[fluid].viscosity, extra_of(fluid), SEEN_VELOCITY(i));
+    return Side(term, volume_of(i), fluids[fluid].viscosity, extra_of(fluid), fluids[fluid].density, SEEN_VELOCITY(i));
 }
 
 vec3 pair_force(Side one, Side other, vec3 d, float r2); // the method's: on `one`, which is d from `other`
@@ -73,7 +73,7 @@ void meet_boundary(uint j, vec3 d, float volume)
     uvec2 state = boundary_state[j];
     vec4 wall = boundary_velocity[j];
     SEPARATE(name[self].x, BOUNDARY_ID + state.y, d, r2)
-    boundary_sum += pair_force(self_side, Side(uintBitsToFloat(state.x), volume, wall.w, 0.0, wall.xyz), d, r2);
+    boundary_sum += pair_force(self_side, Side(uintBitsToFloat(state.x), volume, wall.w, 0.0, 0.0, wall.xyz), d, r2);
 }
 #endif
 
@@ -84,7 +84,7 @@ Side felt_side;
 Side wall_side(uint b)
 {
     vec4 wall = boundary_velocity[b];
-    return Side(uintBitsToFloat(boundary_state[b].x), boundary_position[b].w, wall.w, 0.0, wall.xyz);
+    return Side(uintBitsToFloat(boundary_state[b].x), boundary_position[b].w, wall.w, 0.0, 0.0, wall.xyz);
 }
 
 #define FELT_BEGIN felt_side = wall_side(felt_by);

@@ -2,6 +2,8 @@
 
 #include "sim/wcsph/constants.h"
 
+#include <math.h>
+
 /* With one fluid it is the same for all: then no column costs less. */
 static bool differs_in_viscosity(const Constants *constants)
 {
@@ -44,6 +46,16 @@ bool wcsph_carries(const Constants *constants)
     return wcsph_shifts(constants) && wcsph_corrects(constants);
 }
 
+bool wcsph_layers(const Constants *constants)
+{
+    float least = INFINITY, most = 0;
+    for (int f = 0; f < constants->fluid_count; f++) {
+        least = fminf(least, constants->density[f]);
+        most = fmaxf(most, constants->density[f]);
+    }
+    return most > CONTRAST_LEAST * least;
+}
+
 static bool tells_kinds(const Constants *constants)
 {
     return wcsph_diffuses(constants) || wcsph_corrects(constants);
@@ -70,5 +82,7 @@ const ColumnDef wcsph_columns[] = {
     {"correction_mixed", "", OWN(CORRECTION + 3), 3, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = wcsph_corrects},
     {"carried", "1/(m4 s)", OWN(CARRIED), 3, COLUMN_FLOAT, .needed = wcsph_carries},
+    {"rest_density", "kg/m3", OWN(REST_DENSITY), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
+     .needed = wcsph_layers},
     {0},
 };

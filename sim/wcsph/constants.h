@@ -22,6 +22,7 @@ bool wcsph_corrects(const Constants *constants);
 bool wcsph_shifts(const Constants *constants);
 bool wcsph_carries(const Constants *constants);
 bool wcsph_curves(const Constants *constants);
+bool wcsph_layers(const Constants *constants); /* two fluids differ by more than CONTRAST_LEAST */
 bool wcsph_is_artificial(const Constants *constants);
 
 #endif

@@ -5,6 +5,7 @@ PAIR_LOOPS(wcsph_slope);
 PAIR_LOOPS(wcsph_rate);
 PAIR_LOOPS(wcsph_images_rate);
 PAIR_LOOPS(wcsph_corrected_rate);
+PAIR_LOOPS(wcsph_interface_rate);
 
 /* Density += its rate times dt; pressure, and V = V0 rho0 / rho. Diffusion goes by the mean of before and
    after: so it is stable for steps up to 4 over its own rate, by the latter alone up to 2. */
@@ -30,6 +31,8 @@ static void state_body(const CpuRange *range)
             p->own[RELATIVE][i] = 0.5f * (before + e);
         if (p->own[ARTIFICIAL])
             p->own[ARTIFICIAL][i] = own->wcsph_fluids[fluid].artificial_viscosity;
+        if (p->own[REST_DENSITY])
+            p->own[REST_DENSITY][i] = s->density[fluid];
         cpu_fill_terms(cpu, i);
     }
 }
@@ -48,6 +51,8 @@ static void rate_body(const CpuRange *range)
     cpu_pairs(range, &wcsph_images_rate);
     if (p->own[CORRECTION])
         cpu_pairs(range, &wcsph_corrected_rate);
+    if (p->own[REST_DENSITY])
+        cpu_pairs(range, &wcsph_interface_rate);
     for (size_t i = range->begin; i < range->end; i++)
         p->own[RATE][i] = flow[i] / s->rest_number_density;
 }
@@ -68,7 +73,7 @@ static PairCost slope_pair(const Constants *constants)
 static PairCost continuity_pair(const Constants *constants)
 {
     const bool diffuses = wcsph_diffuses(constants);
-    return (PairCost){.gather = 32 + 20 * diffuses,
+    return (PairCost){.gather = 32 + 20 * diffuses + 4 * wcsph_layers(constants),
                       .flops = 20 + 13 * diffuses + wcsph_shape_flops(constants)};
 }
 
@@ -81,7 +86,8 @@ const Pass wcsph_state = {
     .cpu = &state,
     .shader = "wcsph/state",
     .reads = "fluid compression rate",
-    .writes = "compression volume pressure pressure_term relative kind viscosity artificial tension",
+    .writes = "compression volume pressure pressure_term relative kind viscosity artificial tension "
+              "rest_density",
 };
 
 const Pass wcsph_gradient = {
@@ -99,7 +105,8 @@ const Pass wcsph_continuity = {
     .stage = STAGE_DENSITY,
     .cpu = &continuity,
     .shader = "wcsph/continuity",
-    .reads = "position velocity fluid relative kind slope compression correction correction_mixed",
+    .reads = "position velocity fluid relative kind slope compression correction correction_mixed "
+             "rest_density",
     .writes = "rate compression volume pressure pressure_term relative kind viscosity artificial tension "
-              "acceleration",
+              "rest_density acceleration",
 };

@@ -8,6 +8,7 @@ PAIR_LOOPS(wcsph_images_force);
 PAIR_LOOPS(wcsph_curvature);
 PAIR_LOOPS(wcsph_corrected_force);
 PAIR_LOOPS(wcsph_corrected_friction);
+PAIR_LOOPS(wcsph_interface_force);
 
 /* 0 where less than 0.8 of the space around is full, at a surface; 1 from 0.95 on. */
 static float share_of(float full)
@@ -60,6 +61,8 @@ static void force_body(const CpuRange *range)
         cpu_pairs(range, &wcsph_curvature);
     if (range->cpu->now.own[CORRECTION])
         add_corrected(range);
+    if (range->cpu->now.own[REST_DENSITY])
+        cpu_pairs(range, &wcsph_interface_force);
     if (range->cpu->now.own[FULL])
         for (size_t i = range->begin; i < range->end; i++)
             complete_shift(range->cpu, i);
@@ -84,6 +87,7 @@ static PairCost force_pair(const Constants *constants)
         cost.gather += 16 + 4 * (viscous && many) + 4 * (artificial && many);
         cost.flops += 4 + (viscous ? (own->radial_friction > 0 ? 10 : 9) : 0) + 11 * artificial;
     }
+    cost.gather += 4 * wcsph_layers(constants);
     if (wcsph_shifts(constants))
         cost.flops += 9 + heights[own->kernel_shape];
     return cost;
@@ -134,7 +138,7 @@ const Pass wcsph_forces = {
     .shader = "wcsph/force",
     .reads =
         "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind outward correction "
-        "correction_mixed",
+        "correction_mixed rest_density",
     .writes = "acceleration uneven full dense",
     .felt = true,
     .mirrors = true,

@@ -3,68 +3,8 @@
      d rho_i / dt += (rho0_i / n0) (-sum F v_ij . C_i x_ij)
      force_i += sum (p_i V_i^2 C_i + p_j V_j^2 C_j) F x_ij   that rate's adjoint
      shift_i += sum (S_i + S_j) / 2 F x_ij                 S = n0^2 V^2 (1 + C) - 1: what an even pressure
-   pushes, so that particles lie as dense as the flow is The image of a particle has its C in the mirror. */
-#include "sim/wcsph/pair_matrix.h"
-#include "sim/wcsph/pair_mirror.h"
-
-/* In a mirror's axes. */
-SIMD_INLINE Symmetric mirrored(const Symmetric m, const Place sign)
-{
-    return (Symmetric){
-        m.xx, m.yy, m.zz, m.xy * sign.x * sign.y, m.yz * sign.y * sign.z, m.zx * sign.z * sign.x};
-}
-
-SIMD_INLINE Place times(const Symmetric m, f8 x, f8 y, f8 z)
-{
-    return (Place){m.xx * x + m.xy * y + m.zx * z, m.xy * x + m.yy * y + m.yz * z,
-                   m.zx * x + m.yz * y + m.zz * z};
-}
-
-SIMD_INLINE Symmetric correction_of(const PairArgs *args, size_t i)
-{
-    float *const *c = args->own + CORRECTION;
-    return (Symmetric){f8_load(c[0] + i), f8_load(c[1] + i), f8_load(c[2] + i),
-                       f8_load(c[3] + i), f8_load(c[4] + i), f8_load(c[5] + i)};
-}
-
-SIMD_INLINE Symmetric correction_there(const PairArgs *args, const uint32_t *j)
-{
-    float *const *c = args->own + CORRECTION;
-    return (Symmetric){f8_gather(c[0], j), f8_gather(c[1], j), f8_gather(c[2], j),
-                       f8_gather(c[3], j), f8_gather(c[4], j), f8_gather(c[5], j)};
-}
-
-/* Who looks for neighbours: the particles of a group, or an image of each. */
-typedef struct Seeker {
-    Place at, sign;
-    bool image;
-} Seeker;
-
-/* All of a group, themselves first: how many. */
-SIMD_INLINE int seekers_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
-                           Images *images)
-{
-    const f8 one = f8_splat(1);
-    const bool has = images_of(args, far, i, begin, end, images);
-    images->of[0] = (Mirrored){place_of(args, i), {one, one, one}};
-    return has ? images->count + 1 : 1;
-}
-
-SIMD_INLINE Seeker seeker_of(const Images *images, int m)
-{
-    return (Seeker){images->of[m].at, images->of[m].sign, m > 0};
-}
-
-/* F of a pair, up to the scale. */
-SIMD_INLINE f8 weight_of(const PairArgs *args, f8 r2, bool image, const ShapeKernel kernel)
-{
-    const float h = args->constants->support_radius, least = 1e-6f * h;
-    const f8 inverse_h = f8_splat(1 / h), least2 = f8_splat(least * least);
-    if (image)
-        return image_shape(f8_sqrt(greater(r2, least2)) * inverse_h, f8_splat(args->constants->spacing / h),
-                           kernel);
-    return f8_masked(r2 >= least2, shape(f8_sqrt(r2) * inverse_h, kernel));
-}
+   pushes, so that particles lie as dense as the flow is. The image of a particle has its C in the mirror. */
+#include "sim/wcsph/pair_seeker.h"
 
 SIMD_INLINE void spread(const PairArgs *args, const Near near, const Seeker *from, const ShapeKernel kernel,
                         Symmetric *m)
@@ -202,12 +142,9 @@ SIMD_INLINE void push_of(const PairArgs *args, size_t i, size_t begin, size_t en
 {
     const f8 zero = f8_splat(0), pi = f8_load(args->pressure_term + i);
     const f8 gradient = f8_splat(wcsph_constants(args->constants)->gradient_scale);
-    const Mirrored image = {from->at, from->sign};
     const Themselves own = themselves(args, i);
-    Rise rise = {zero, zero, zero, zero, zero};
+    const Rise rise = seeker_rise(args, i, from, layers);
     Pushed sum = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}};
-    if (from->image)
-        rise = rise_of(args, i, &image, layers);
     corrected_push(args, near_of(args, i), from, &rise, kernel, shifts, &sum);
     if (from->image)
         corrected_push(args, near_themselves(&own), from, &rise, kernel, shifts, &sum);

@@ -170,10 +170,16 @@ static bool has_quintic(const Constants *constants)
     return wcsph_constants(constants)->kernel_shape == KERNEL_QUINTIC;
 }
 
-static const ShaderTerm terms[] = {
-    {"KERNEL_WENDLAND_C2", has_wendland_c2}, {"KERNEL_QUINTIC", has_quintic}, {"RADIAL", is_radial},
-    {"ARTIFICIAL", wcsph_is_artificial},     {"DIFFUSION", wcsph_diffuses},   {"SHIFTING", wcsph_shifts},
-    {"CORRECTED", wcsph_corrects},           {"CURVATURE", wcsph_curves},     {0}};
+static const ShaderTerm terms[] = {{"KERNEL_WENDLAND_C2", has_wendland_c2},
+                                   {"KERNEL_QUINTIC", has_quintic},
+                                   {"RADIAL", is_radial},
+                                   {"ARTIFICIAL", wcsph_is_artificial},
+                                   {"DIFFUSION", wcsph_diffuses},
+                                   {"SHIFTING", wcsph_shifts},
+                                   {"CORRECTED", wcsph_corrects},
+                                   {"CURVATURE", wcsph_curves},
+                                   {"LAYERS", wcsph_layers},
+                                   {0}};
 
 /* Of vec4, see slope.comp, evenness.glsl, correction.glsl and surface.glsl. */
 static const ShaderBuffer buffers[] = {{"Slopes", 16, wcsph_diffuses},

@@ -10,7 +10,7 @@
 
 struct Constants; /* sim/world/constants.h */
 
-enum { COLUMNS_OWN = 24, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
+enum { COLUMNS_OWN = 25, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
 
 /* All that there may be of a particle, a column each; NULL where it is not needed. */
 typedef struct ParticleColumns {

@@ -79,10 +79,7 @@ double density_ratio(const WorldDef *def)
 
 double step_sound(const WorldDef *def)
 {
-    const Method *method = method_find(def->method);
-    if (method->incompressible)
-        return 0;
-    return def->sound_speed * (method->carries_density ? sqrt(fmax(1, density_ratio(def) / 10)) : 1);
+    return method_find(def->method)->incompressible ? 0 : def->sound_speed;
 }
 
 double artificial_kinematic(const WorldDef *def, double alpha)

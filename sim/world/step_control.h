@@ -10,7 +10,7 @@
 /* X(ENUM, name, help): what bounds a step */
 #define STEP_LIMITS(X)                                                                                       \
     X(DT, "dt", "the scene's fixed step")                                                                    \
-    X(COURANT, "courant", "number h / (c + greatest speed); c grows with density ratios above 10")           \
+    X(COURANT, "courant", "number h / (c + greatest speed)")                                                 \
     X(FORCE, "force", "number sqrt(h / greatest acceleration); without sound sqrt(number h / it)")           \
     X(VISCOUS, "viscous", "2 number, at most 0.7, of the longest step that friction stands")                 \
     X(MAX_DT, "max_dt", "the scene's greatest step")                                                         \
@@ -89,9 +89,7 @@ StepFriction step_friction(const WorldDef *def);
 /* The greatest density of a def's fluids over the least. */
 double density_ratio(const WorldDef *def);
 
-/* The speed of sound that bounds a step, m/s. Light particles that carry their density, between heavy ones,
-   are pushed by the pressure of those: above 1 : 10 a step has to be shorter by the root of the ratio
-   (docs/failures.md). */
+/* The speed of sound that bounds a step, m/s; 0 without sound. */
 double step_sound(const WorldDef *def);
 
 /* The viscosity that an artificial one stands for, alpha c h / 4, m2/s. */

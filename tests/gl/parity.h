@@ -28,6 +28,14 @@ static inline WorldDef stirred_def(int dimensions)
     return def;
 }
 
+/* How much of p_i V_i^2 a pair takes: 1, but for the contrast of sim/wcsph/pairs_interface.c. */
+static inline double share_of_pressure(const Constants *s, uint32_t fi, uint32_t fj)
+{
+    const double mine = (double)s->density[fi], theirs = (double)s->density[fj];
+    const double w = fmax(0, 1 - (double)CONTRAST_LEAST * fmin(mine, theirs) / fmax(mine, theirs));
+    return !s->method->carries_density ? 1 : mine < theirs ? 1 + w : 1 - w;
+}
+
 /* The magnitudes of what particle j does to i by pressure, viscosity and tension, N. */
 static inline double pair_terms(const Constants *s, const State *state, size_t i, size_t j, double r)
 {
@@ -45,8 +53,8 @@ static inline double pair_terms(const Constants *s, const State *state, size_t i
     double u = 0;
     for (size_t k = 0; k < 3; k++)
         u = hypot(u, (double)(state->velocity[4 * i + k] - state->velocity[4 * j + k]));
-    double sum =
-        gradient * (fabs((double)state->pressure[i]) * vi * vi + fabs((double)state->pressure[j]) * vj * vj);
+    double sum = gradient * (share_of_pressure(s, fi, fj) * fabs((double)state->pressure[i]) * vi * vi +
+                             share_of_pressure(s, fj, fi) * fabs((double)state->pressure[j]) * vj * vj);
     sum += vi * vj * u *
            (morris ? ((radial > 0 ? mu * radial * r * r : mu) + alpha) * gradient / r
                    : 0.5 * mu * s->lattice.laplacian_scale * kernel_viscosity_laplacian(r, h));

@@ -22,6 +22,7 @@ typedef struct ParityCase {
     double delta, artificial, shifting; /* of wcsph, as `kernel` */
     ViscosityForm form;
     bool corrected;
+    double light;       /* density of the second fluid, kg/m3; 0: stirred_def's */
     double tolerance;   /* of pbf; 0: the usual one */
     const char *method; /* NULL: the table's */
     bool runs;          /* for as many steps again, too */
@@ -59,6 +60,8 @@ static inline void parity_settings(const ParityCase *c, WorldDef *def)
     wcsph->artificial_viscosity = c->artificial;
     wcsph->shifting = c->shifting;
     wcsph->corrected_gradient = c->corrected;
+    if (c->light > 0)
+        def->fluids[1].density = c->light;
     wcsph->viscosity_form = (int)c->form;
     if (c->tolerance > 0)
         pbf_def(def)->tolerance = c->tolerance;

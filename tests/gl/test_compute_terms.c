@@ -27,6 +27,8 @@ static const ParityCase cases[] = {
     {"Wendland, corrected gradient", 2, 3, {1, 3}, .kernel = "wendland_c2", .delta = 0.1, .negative = true,
      .solids = true, .shifting = 0.2, .corrected = true},
     {"cubic, corrected gradient", 3, 2.1, .kernel = "cubic", .artificial = 0.1, .solids = true, .corrected = true},
+    {"quintic, 1 : 100", 2, 3, .kernel = "quintic", .delta = 0.1, .artificial = 0.1, .solids = true, .light = 10},
+    {"cubic, corrected gradient, 1 : 10", 3, 2.1, {1, 3}, .kernel = "cubic", .negative = true, .corrected = true, .light = 100},
     {"quintic, periodic, shifting", 2, 3, {1, 3}, .kernel = "quintic", .negative = true, .sides = "xy", .shifting = 0.2},
     {"cubic, periodic, cohesion, shifting", 3, 2.1, .tension = TENSION_COHESION,
      .kernel = "cubic", .delta = 0.1, .artificial = 0.1, .sides = "xz", .shifting = 0.1},

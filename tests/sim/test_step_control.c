@@ -78,8 +78,8 @@ static WorldInfo info_of(const World *world)
     return info;
 }
 
-/* A tank of heavy fluid below a light one, 1 : 1000, which number 0.3 without regard to it throws to 180 m/s.
- */
+/* A tank of heavy fluid below a light one, 1 : 1000, in the step of one fluid: by the sum of p V^2 of both it
+   reached 180 m/s. */
 static void light_fluid_rests_upon_heavy(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void light_fluid_rests_upon_heavy(void **state)
     snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "wendland_c2");
     fixture_block(&def, 0, -0.25, 0, -0.5, 0.25, 0.3, 0.5);
     fixture_block(&def, 1, -0.25, 0.3, -0.5, 0.25, 0.6, 0.5);
-    assert_true(fabs(step_sound(&def) - 200) < 1e-9);
+    assert_true(step_sound(&def) == def.sound_speed);
     World *world = fixture_world(&def);
     double fastest = 0;
     while (info_of(world).time < 0.2) {
@@ -105,10 +105,8 @@ static void light_fluid_rests_upon_heavy(void **state)
         fastest = fmax(fastest, sums.max_speed);
     }
     printf("fastest: %.2f m/s\n", fastest);
-    assert_true(fastest < 3);
+    assert_true(fastest < 0.7);
     world_destroy(world);
-    def.fluids[1].density = 100;
-    assert_true(step_sound(&def) == def.sound_speed);
 }
 
 typedef struct Stirred {

@@ -56,6 +56,7 @@ void meet(uint j, vec3 d, float volume)
     if (r2 >= h * h || r2 < least * least)
         return;
     float flow = dot(own_velocity - velocity[j].xyz, along(d));
+    flow *= 1.0 + contrast(fluids[own_fluid].density, fluids[FLUID_OF(j)].density);
     diffuse(j, d, flow);
     sum += shape(sqrt(r2) * inverse_support) * flow;
 }
@@ -64,7 +65,8 @@ void meet_image(uint j, vec3 d, float volume)
 {
     float r2 = dot(d, d);
     if (r2 < support * support)
-        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - velocity[j].xyz, along_image(d));
+        image_sum += image_shape(sqrt(r2)) * dot(image_velocity - velocity[j].xyz, along_image(d)) *
+                     (1.0 + contrast(fluids[own_fluid].density, fluids[FLUID_OF(j)].density));
 }
 
 #ifdef SOLIDS

@@ -26,6 +26,7 @@ float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_numb
 
 // push_of of sim/wcsph/pairs_corrected.c: sums of F x_ij, those of an image, and of p_j V_j^2 C_j F x_ij.
 vec3 even_push = vec3(0), even_image_push, correction_push = vec3(0);
+vec3 contrast_push = vec3(0), contrast_image_push; // the same with w, of sim/wcsph/pairs_interface.c
 
 #ifdef SHIFTING
 vec3 shift_push = vec3(0), shift_image_push; // of S_j F x_ij
@@ -54,8 +55,9 @@ void correct_meet(uint j, vec3 d, float r2, float term)
 #if defined RUBS && defined RADIAL
     pair_sum += more_friction(j, d, gradient_scale * shape(sqrt(r2) * inverse_support), term);
 #endif
+    float share = 1.0 - contrast(self_side.density, fluids[FLUID_OF(j)].density);
     vec3 push = gradient_scale * shape(sqrt(r2) * inverse_support) * corrected(j, d);
-    correction_push += term * push;
+    correction_push += share * term * push;
 #ifdef SHIFTING
     shift_push += volume_squared(volume_of(j)) * push;
 #endif
@@ -82,10 +84,12 @@ vec3 rub(Side own, Side other, vec3 d, float f)
 // Pressure and laminar or artificial viscosity.
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
-    float f = gradient_scale * shape(sqrt(r2) * inverse_support), push = own.pressure + other.pressure;
+    float f = gradient_scale * shape(sqrt(r2) * inverse_support), w = contrast(own.density, other.density);
+    float push = BOTH_PRESS(own.pressure, other.pressure, w);
     even_meet(f, d, r2);
 #ifdef CORRECTED
     even_push += f * d;
+    contrast_push += w * f * d;
 #ifdef SHIFTING
     shift_push += (volume_squared(other.volume) - 1.0) * f * d;
 #endif
@@ -109,16 +113,17 @@ float image_term(float term, vec3 d)
     return max(term + share * (rise0 + 2.0 * dot(rise, d)), min(term, 0.0));
 }
 
-void push_image(float term, vec3 d)
+void push_image(float term, vec3 d, float w)
 {
     float r2 = dot(d, d);
     if (r2 >= support * support)
         return;
     float f = image_shape(sqrt(r2));
-    image_push += f * (self_side.pressure + image_term(term, d)) * d;
+    image_push += f * BOTH_PRESS(self_side.pressure, image_term(term, d), w) * d;
     even_meet_image(f, d, r2);
 #ifdef CORRECTED
     even_image_push += f * d;
+    contrast_image_push += w * f * d;
 #endif
 }
 
@@ -135,14 +140,15 @@ Side image_side; // self_side, its velocity in the mirror
 
 void meet_image(uint j, vec3 d, float term)
 {
-    push_image(term, d);
+    float w = contrast(self_side.density, fluids[FLUID_OF(j)].density);
+    push_image(term, d, w);
     RUB_IMAGE(side_of(j, term), d)
 #ifdef CORRECTED
     float r2 = dot(d, d);
     if (r2 >= support * support)
         return;
     vec3 push = image_shape(sqrt(r2)) * corrected(j, d);
-    image_push += image_term(term, d) * push;
+    image_push += (1.0 - w) * image_term(term, d) * push;
 #ifdef SHIFTING
     float v2 = volume_squared(volume_of(j));
     shift_image_push += v2 * push + (v2 - 1.0) * image_shape(sqrt(r2)) * d;
@@ -154,8 +160,8 @@ void meet_image(uint j, vec3 d, float term)
 void meet_boundary_image(uint j, vec3 d, float volume)
 {
     float term = uintBitsToFloat(boundary_state[j].x);
-    push_image(term, d);
-    RUB_IMAGE(Side(term, volume, boundary_velocity[j].w, 0.0, boundary_velocity[j].xyz), d)
+    push_image(term, d, 0.0);
+    RUB_IMAGE(Side(term, volume, boundary_velocity[j].w, 0.0, 0.0, boundary_velocity[j].xyz), d)
 #if defined CORRECTED && defined SHIFTING
     float r2 = dot(d, d);
     if (r2 < support * support)
@@ -184,7 +190,7 @@ vec3 images_force(vec3 x, ivec3 at, float density)
         image_side.v *= image.sign;
 #endif
 #ifdef CORRECTED
-        even_image_push = vec3(0);
+        even_image_push = contrast_image_push = vec3(0);
 #ifdef SHIFTING
         shift_image_push = vec3(0);
 #endif
@@ -193,6 +199,7 @@ vec3 images_force(vec3 x, ivec3 at, float density)
         force += image.sign * image_push;
 #ifdef CORRECTED
         even_push += gradient_scale * image.sign * even_image_push;
+        contrast_push += gradient_scale * image.sign * contrast_image_push;
 #ifdef SHIFTING
         shift_push += gradient_scale * image.sign * shift_image_push;
 #endif
@@ -216,7 +223,7 @@ void main()
     vec3 force = neighbours_force(i, x, at) + images_force(x, at, fluid.density);
 #ifdef CORRECTED
     vec3 here = corrected(i, even_push);
-    force += self_side.pressure * here + correction_push;
+    force += self_side.pressure * (here + corrected(i, contrast_push)) + correction_push;
 #ifdef SHIFTING
     float v2 = volume_squared(self_side.volume);
     even_sum.xyz += 0.5 * ((v2 - 1.0) * even_push + v2 * here + shift_push);

@@ -10,6 +10,22 @@ float image_shape(float r)
     return shape(wide) * (wide / q);
 }
 
+// Between fluids of different density, sim/wcsph/pairs_interface.c: w of two rest densities, 0 of solids; what a pair
+// has by the p V^2 of both.
+#ifdef LAYERS
+float contrast(float mine, float theirs)
+{
+    if (min(mine, theirs) <= 0.0)
+        return 0.0;
+    float w = max(1.0 - CONTRAST_LEAST * min(mine, theirs) / max(mine, theirs), 0.0);
+    return mine < theirs ? w : -w;
+}
+#define BOTH_PRESS(own, other, w) ((own) + (other) + (w) * ((own) - (other)))
+#else
+#define contrast(mine, theirs) 0.0
+#define BOTH_PRESS(own, other, w) ((own) + (other))
+#endif
+
 struct State {
     float volume;
     vec2 pressure; // p, p V^2

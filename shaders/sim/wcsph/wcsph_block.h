@@ -15,6 +15,9 @@
    not stand the step that others do: docs/failures.md. */
 #define THINNEST 0.9f
 
+/* Two fluids of a greater contrast share their pressures by density: sim/wcsph/pairs_interface.c. */
+#define CONTRAST_LEAST 4.0f
+
 /* How near to a solid diffusion goes by differences alone, over h. */
 #define NEXT_TO_SOLID 0.95f
 
