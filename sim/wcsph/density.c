@@ -7,6 +7,14 @@ PAIR_LOOPS(wcsph_images_rate);
 PAIR_LOOPS(wcsph_corrected_rate);
 PAIR_LOOPS(wcsph_interface_rate);
 
+static void fill_rest_densities(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++)
+        if (p->fluid[i] < FLUIDS_MAX)
+            p->own[REST_DENSITY][i] = range->cpu->constants->density[p->fluid[i]];
+}
+
 /* Density += its rate times dt; pressure, and V = V0 rho0 / rho. Diffusion goes by the mean of before and
    after: so it is stable for steps up to 4 over its own rate, by the latter alone up to 2. */
 static void state_body(const CpuRange *range)
@@ -31,10 +39,10 @@ static void state_body(const CpuRange *range)
             p->own[RELATIVE][i] = 0.5f * (before + e);
         if (p->own[ARTIFICIAL])
             p->own[ARTIFICIAL][i] = own->wcsph_fluids[fluid].artificial_viscosity;
-        if (p->own[REST_DENSITY])
-            p->own[REST_DENSITY][i] = s->density[fluid];
         cpu_fill_terms(cpu, i);
     }
+    if (p->own[REST_DENSITY])
+        fill_rest_densities(range);
 }
 
 static void slope_body(const CpuRange *range)
