@@ -81,7 +81,7 @@ static bool judge(CaseRun *run, Error *error)
 #define COMMON                                                                                               \
     .methods = {{.name = "wcsph"},                                                                           \
                 {.name = "dfsph", .tolerance = {0.02, 0.025}, .coarse = {0.045, 0.045}},                     \
-                {.name = "mueller", .tolerance = {0.025, 0.09}, .coarse = {0.05, 0.1}},                      \
+                {.name = "mueller", .tolerance = {0.015, 0.015}, .coarse = {[1] = 0.025}},                   \
                 {.name = "pbf", .set = {"solver.step.dt=0.002"}, .tolerance = {0.03}, .coarse = {0.05}}},    \
     .time = 0.184, .every = 0.0005, /* T = 3.41 */                                                           \
         .metrics = {{"front off potential flow", "", .tolerance = 0.015, .coarse = 0.04},                    \

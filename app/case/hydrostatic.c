@@ -67,7 +67,7 @@ static bool judge(CaseRun *run, Error *error)
 
 #define COMMON                                                                                               \
     .methods = {{.name = "wcsph"},                                                                           \
-                {.name = "mueller", .tolerance = {0.05, 0, 0.02}, .coarse = {0, 0, 0.025, 0.025}},           \
+                {.name = "mueller", .tolerance = {0.025, 0.0005, 0.02}, .coarse = {0, 0.003, 0.025, 0.025}}, \
                 {.name = "dfsph",                                                                            \
                  .set = {"solver.divergence_tolerance=1e-5"},                                                \
                  .tolerance = {0.03, 0, 0.055},                                                              \

@@ -68,7 +68,7 @@ const Case case_wave = {
     .help = "a standing wave: its viscous decay and its frequency",
     .scene = "scenes/cases/standing_wave.yaml",
     .methods = {{.name = "wcsph"},
-                {.name = "mueller", .tolerance = {0.06, 0.07}, .coarse = {1, 0.1}},
+                {.name = "mueller", .tolerance = {0.06, 0.08}, .coarse = {1, 0.1}},
                 {.name = "dfsph", .tolerance = {0.7, 0.08}, .coarse = {2.5, 0.06}},
                 {.name = "pbf",
                  .left_out = "steps of 1/60 s damp the wave two to three times as much as friction does"}},

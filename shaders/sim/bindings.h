@@ -19,7 +19,6 @@
 #define STARTS_BUFFER     2 /* of the cells */
 #define PRESSURES_BUFFER  3
 #define VELOCITIES_BUFFER 4
-#define WALLS_BUFFER      7
 
 #define WATCH_BUFFER         2 /* of those that write it */
 #define ACCELERATIONS_BUFFER 5

@@ -33,12 +33,9 @@ UNIFORM_BLOCK(ConstantBlock, CONSTANT_BLOCK)
     int last_row;         /* behind them */
     int first_single_row; /* the same of single cells, where sides are periodic */
     int last_single_row;
-    vec3 half_size;    /* of the box, whose floor is at y = 0, m */
-    float wall_range;  /* of the tables, m */
-    ivec3 wall_nodes;  /* of the tables of one, two, three faces */
-    int dimensions;    /* 2, 3 */
-    vec3 wall_steps;   /* their inverse steps, 1/m */
-    ivec3 wall_offset; /* where they begin, in entries */
+    vec3 half_size;  /* of the box, whose floor is at y = 0, m */
+    float wall_lift; /* WallLift.scale */
+    int dimensions;  /* 2, 3 */
     Fluid fluids[FLUIDS_MOST];
     vec3 cell_origin;  /* with periodic sides floor((x - cell_origin) * cell_inverse) is the cell */
     vec3 cell_inverse; /* 1/m */

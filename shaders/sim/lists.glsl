@@ -50,6 +50,20 @@ uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + 
         LIST_END(i)                                                                         \
     }
 
+// Whom the pass that makes the lists meets once more, from elsewhere: of particle i's own list alone.
+#define WALK_KEPT(i, from, at, meet)                                                        \
+    {                                                                                       \
+        bool made = list[i] <= LIST_MOST;                                                   \
+        for (int row = made ? LAST_ROW - 1 : FIRST_ROW; row < LAST_ROW; row++) {            \
+            uvec2 range = made ? uvec2(0u, list[i]) : row_of(at, row);                      \
+            for (uint k = range.x; k < range.y; k++) {                                      \
+                uint j = made ? list[list_place(i, k)] : k;                                 \
+                vec4 other = PLACES[j];                                                     \
+                meet(j, from - other.xyz, other.w);                                         \
+            }                                                                               \
+        }                                                                                   \
+    }
+
 #ifdef SOLIDS
 #define WALK_BOUNDARY(x, at, meet_boundary, row_done)                                       \
     for (int row = FIRST_ROW; row < LAST_ROW; row++) {                                      \

@@ -9,6 +9,7 @@
 //
 // WALK_NEIGHBOURS is for what stands at its own place in the grid, particle i: of the fluid it may leave out what is h or
 // further away. The first pass of a step walks, and makes a list; the others of the step read it: lists.glsl.
+// WALK_AGAIN is for the pass that makes the list, behind that: for the images of i, who see no one else.
 // A pass that walks though particles have moved since the grid was made defines BEHIND_DRIFT: some have gone through a side.
 #ifndef PLACES
 #define PLACES position
@@ -61,6 +62,12 @@ uvec2 row_of(ivec3 at, int row)
 #define WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, row_done)    \
     WALK_LISTED(i, x, at, meet)                                     \
     WALK_BOUNDARY(x, at, meet_boundary, row_done)
+#define WALK_AGAIN(i, x, at, meet, meet_boundary)                   \
+    {                                                               \
+        WALK_KEPT(i, x, at, meet)                                   \
+        WALK_BOUNDARY(x, at, meet_boundary, 0)                      \
+    }
 #else
 #define WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, row_done) WALK_ROWS(x, at, meet, meet_boundary, row_done)
+#define WALK_AGAIN(i, x, at, meet, meet_boundary) { WALK(x, at, meet, meet_boundary) }
 #endif

@@ -28,7 +28,9 @@ static MethodKernels mueller_kernels(const WorldDef *def)
 
 static void mueller_set(Constants *constants, const WorldDef *def)
 {
-    const MuellerConstants own = {.poly6 = mueller_kernels(def).density->value == kernel_poly6};
+    const MuellerConstants own = {
+        .poly6 = mueller_kernels(def).density->value == kernel_poly6,
+        .lift = wall_lift_of(&constants->lattice, def->spacing, def->support * def->spacing)};
     memcpy(constants->of_method, &own, sizeof own);
 }
 
@@ -85,10 +87,11 @@ const Method method_mueller = {
     .name = "mueller",
     .help =
         "Müller 2003: density by summation, p = c^2 (rho - rho0); symplectic Euler; for looks: its pressure is "
-        "noise, and side walls slow what falls",
+        "noise",
     .keys = keys,
     .def = &usual,
     .def_size = sizeof usual,
+    .mirrors = true,
     .kernels = mueller_kernels,
     .friction = mueller_friction,
     .pressure = mueller_pressure,

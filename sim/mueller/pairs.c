@@ -1,24 +1,46 @@
 /* The pair sums of mueller. */
+#include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/mueller/passes.h"
 
-/* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). poly6 = (1 - q^2)^3, spiky = (1 - q)^3; the
-   scale comes last. */
+/* The kernel's shape: poly6 = (1 - q^2)^3, spiky = (1 - q)^3. */
+SIMD_INLINE f8 weight(f8 r2, f8 inverse_h, const bool poly6)
+{
+    const f8 t =
+        poly6 ? f8_positive(f8_splat(1) - r2 * inverse_h * inverse_h) : closeness(f8_sqrt(r2) * inverse_h);
+    return t * t * t;
+}
+
+/* Of neighbours, and of what the group's images find, the particles themselves among that. */
+SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const Images *images, const bool poly6)
+{
+    const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
+    const Place at = place_of(args, i);
+    const Near near = near_of(args, i);
+    f8 sum = f8_splat(0);
+    NEIGHBOURS (near, j) {
+        const f8x4 p = f8_load4(args->place, j);
+        sum += weight(apart(args, at, p).r2, inverse_h, poly6);
+        for (int m = 1; images && m <= images->count; m++)
+            sum += weight(apart(args, images->of[m].at, p).r2, inverse_h, poly6);
+    }
+    if (images) {
+        const Themselves own = themselves(args, i);
+        for (int m = 1; m <= images->count; m++)
+            sum += weight(separation(args, images->of[m].at, own.j).r2, inverse_h, poly6);
+    }
+    return sum;
+}
+
+/* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). The scale comes last. */
 SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, const bool poly6)
 {
-    const float h = args->constants->support_radius;
-    const f8 inverse_h = f8_splat(1 / h), one = f8_splat(1), scale = f8_splat(args->constants->kernel_scale);
-
+    const f8 one = f8_splat(1), scale = f8_splat(args->constants->kernel_scale);
+    const WallsFar far = out_of_sight(args->constants);
+    Images images;
     GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
-        f8 sum = f8_splat(0);
-        NEIGHBOURS (near, j) {
-            const Separation d = separation(args, at, j);
-            const f8 t = poly6 ? f8_positive(one - d.r2 * inverse_h * inverse_h)
-                               : closeness(f8_sqrt(d.r2) * inverse_h);
-            sum += t * t * t;
-        }
+        const bool mirrored = images_of(args, &far, i, begin, end, &images);
+        const f8 sum = mirrored ? density_of(args, i, &images, poly6) : density_of(args, i, NULL, poly6);
         lanes_store(args->number_density, i, begin, end, scale * (one + sum)); /* 1: its own */
     }
 }
@@ -31,49 +53,78 @@ PAIR_LOOP(mueller_density)
         density_range(args, begin, end, false);
 }
 
+/* Pressure of an image, in its particle's axes; r is never 0. */
+SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 pi, f8x4 near, Place *sum)
+{
+    const Constants *s = args->constants;
+    const Separation d = apart(args, image->at, near);
+    const f8 r = f8_sqrt(d.r2), t = closeness(r * f8_splat(1 / s->support_radius));
+    const f8 push = f8_splat(s->pressure_scale) * (t * t) * (pi + d.term) / r;
+    sum->x += image->sign.x * push * d.x;
+    sum->y += image->sign.y * push * d.y;
+    sum->z += image->sign.z * push * d.z;
+}
+
 /* Forces of pressure and viscosity, eq. 10 and 14. With volumes V = 1 / n in place of m / rho and the
    pressure terms p_i V_i^2 + p_j V_j^2 (the gradient of sum e(n_i), so that energy is conserved) they are
    symmetric for every density ratio. Eq. 10 has (p_i + p_j) / 2 in that place, which makes half of grad p:
    p_j alone sums up to grad p, p_i is there for symmetry only. */
-SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const bool viscous,
-                             const bool many)
+SIMD_INLINE Place force_of(const PairArgs *args, size_t i, const Images *images, const bool viscous,
+                           const bool many)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), pressure_scale = f8_splat(s->pressure_scale);
     const f8 viscosity_scale = f8_splat(s->viscosity_scale * (many ? 0.5f : s->viscosity[0]));
+    const Place at = place_of(args, i);
+    const Near near = near_of(args, i);
+    const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
+    const f8 pi = f8_load(args->pressure_term + i);
+    const f8 mi = viscous && many ? f8_load(args->viscosity + i) : f8_splat(0);
+    const f8 drag_scale = viscosity_scale * f8_load(args->volume + i);
+    Place sum = {f8_splat(0), f8_splat(0), f8_splat(0)};
 
-    GROUPS (i, begin, end) {
-        const Place at = place_of(args, i);
-        const Near near = near_of(args, i);
-        const f8 ui = f8_load(args->vx + i), vi = f8_load(args->vy + i), wi = f8_load(args->vz + i);
-        const f8 pi = f8_load(args->pressure_term + i);
-        const f8 mi = viscous && many ? f8_load(args->viscosity + i) : f8_splat(0);
-        const f8 drag_scale = viscosity_scale * f8_load(args->volume + i);
-        f8 fx = f8_splat(0), fy = fx, fz = fx;
+    NEIGHBOURS (near, j) {
+        const f8x4 p = f8_load4(args->place, j);
+        Separation d = apart(args, at, p);
+        if (__builtin_expect(near.coincident, 0))
+            d = separate(args, i, j, d);
 
-        NEIGHBOURS (near, j) {
-            Separation d = separation(args, at, j);
-            if (__builtin_expect(near.coincident, 0))
-                d = separate(args, i, j, d);
-
-            const f8 r = f8_sqrt(d.r2), t = closeness(r * inverse_h);
-            const f8 push = pressure_scale * (t * t) * (pi + d.term) / r;
-            fx += push * d.x;
-            fy += push * d.y;
-            fz += push * d.z;
-            if (viscous) {
-                const f8x4 v = motion(args, j);
-                f8 drag = drag_scale * t * v.w;
-                if (many)
-                    drag *= mi + f8_gather(args->viscosity, j);
-                fx += drag * (v.x - ui);
-                fy += drag * (v.y - vi);
-                fz += drag * (v.z - wi);
-            }
+        const f8 r = f8_sqrt(d.r2), t = closeness(r * inverse_h);
+        const f8 push = pressure_scale * (t * t) * (pi + d.term) / r;
+        sum.x += push * d.x;
+        sum.y += push * d.y;
+        sum.z += push * d.z;
+        if (viscous) {
+            const f8x4 v = motion(args, j);
+            f8 drag = drag_scale * t * v.w;
+            if (many)
+                drag *= mi + f8_gather(args->viscosity, j);
+            sum.x += drag * (v.x - ui);
+            sum.y += drag * (v.y - vi);
+            sum.z += drag * (v.z - wi);
         }
-        lanes_store(args->fx, i, begin, end, fx);
-        lanes_store(args->fy, i, begin, end, fy);
-        lanes_store(args->fz, i, begin, end, fz);
+        for (int m = 1; images && m <= images->count; m++)
+            push_by(args, &images->of[m], pi, p, &sum);
+    }
+    return sum;
+}
+
+SIMD_INLINE void force_range(const PairArgs *args, size_t begin, size_t end, const bool viscous,
+                             const bool many)
+{
+    const WallsFar far = out_of_sight(args->constants);
+    Images images;
+    GROUPS (i, begin, end) {
+        const Themselves own = themselves(args, i);
+        const bool mirrored = images_of(args, &far, i, begin, end, &images);
+        Place sum =
+            mirrored ? force_of(args, i, &images, viscous, many) : force_of(args, i, NULL, viscous, many);
+        for (int m = 1; mirrored && m <= images.count; m++)
+            push_by(args, &images.of[m], f8_load(args->pressure_term + i), f8_load4(args->place, own.j),
+                    &sum);
+        lanes_store(args->fx, i, begin, end, sum.x);
+        lanes_store(args->fy, i, begin, end, sum.y);
+        lanes_store(args->fz, i, begin, end, sum.z);
     }
 }
 

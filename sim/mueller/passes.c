@@ -7,13 +7,11 @@ PAIR_LOOPS(mueller_density);
 PAIR_LOOPS(mueller_force);
 
 /* The sum of the pairs stands in `volume`. */
-static void finish_density(Cpu *cpu, const WallsFar *far, size_t i)
+static void finish_density(Cpu *cpu, size_t i)
 {
     const Constants *s = cpu->constants;
     const CpuParticles *p = &cpu->now;
-    const float x[3] = {p->x[i], p->y[i], p->z[i]};
-    const float n = p->volume[i] + (walls_near(far, x) ? walls_number_density(&s->walls, x) : 0);
-    const float pressure = mueller_state(s, p->fluid[i], n / s->rest_number_density - 1);
+    const float n = p->volume[i], pressure = mueller_state(s, p->fluid[i], n / s->rest_number_density - 1);
 
     p->volume[i] = 1 / n;
     p->pressure[i] = s->negative_pressure || pressure > 0 ? pressure : 0;
@@ -21,68 +19,41 @@ static void finish_density(Cpu *cpu, const WallsFar *far, size_t i)
     cpu_fill_terms(cpu, i);
 }
 
-static WallsFar walls_far_of(const CpuRange *range)
-{
-    const Walls *walls = &range->cpu->constants->walls;
-    return walls_far(walls, walls->range);
-}
-
 static void density_body(const CpuRange *range)
 {
-    const WallsFar far = walls_far_of(range);
     cpu_pairs(range, &mueller_density);
     for (size_t i = range->begin; i < range->end; i++)
-        finish_density(range->cpu, &far, i);
+        finish_density(range->cpu, i);
 }
 
-/* The force of the walls on particle i: p_i V_i^2 s - V_i V0 rho0 m g with the sums of sim/box/wall.h. The
-   hydrostatic part fades out below the pressure of one layer, so that a drop on a wall falls freely, and must
-   not turn a push into a pull; fluid under tension pulls by itself. */
-static void wall_force(const Cpu *cpu, size_t i, const float g[3], const WallSums *sums, float out[3])
+/* Pressure goes on hydrostatically behind the walls: the part of its weight that they hold. It fades out
+   below the pressure of one layer, so that a drop on a wall falls freely. */
+static void add_lift(const CpuRange *range, const float x[3], size_t i)
 {
-    const Constants *s = cpu->constants;
-    const CpuParticles *p = &cpu->now;
-    const float *m = sums->moment, density = s->density[p->fluid[i]];
-    const float layer = density * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    const float fade = layer > 0 ? fminf(fmaxf(p->pressure[i] / layer, 0), 1) : 0;
-    const float weight = fade * density * p->volume[i] / s->rest_number_density;
-    const float moment_g[3] = {m[0] * g[0] + m[3] * g[1] + m[5] * g[2],
-                               m[3] * g[0] + m[1] * g[1] + m[4] * g[2],
-                               m[5] * g[0] + m[4] * g[1] + m[2] * g[2]};
-    for (int k = 0; k < 3; k++) {
-        const float push = p->pressure_term[i] * sums->push[k];
-        const float hydrostatic = -weight * moment_g[k];
-        const bool pulls = p->pressure[i] >= 0 && sums->push[k] * (push + hydrostatic) < 0;
-        out[k] = pulls ? 0 : push + hydrostatic;
-    }
-}
-
-static void add_walls(const CpuRange *range, const float x[3], size_t i)
-{
-    const Cpu *cpu = range->cpu;
-    const CpuParticles *p = &cpu->now;
-    WallSums sums;
-    if (!walls_at(&cpu->constants->walls, x, &sums))
-        return;
-    float g[3], force[3];
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    float g[3], lift[3];
     apparent_gravity_at(range->input->apparent, x, g);
-    wall_force(cpu, i, g, &sums, force);
-    p->ax[i] += force[0];
-    p->ay[i] += force[1];
-    p->az[i] += force[2];
+    const float layer = s->density[p->fluid[i]] * s->spacing * sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const float fade = layer > 0 ? fminf(fmaxf(p->pressure[i] / layer, 0), 1) : 0;
+    walls_lift(&mueller_constants(s)->lift, &s->walls, x, lift);
+    p->ax[i] -= fade * lift[0] * g[0];
+    p->ay[i] -= fade * lift[1] * g[1];
+    p->az[i] -= fade * lift[2] * g[2];
 }
 
 static void force_body(const CpuRange *range)
 {
+    const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
-    const WallsFar far = walls_far_of(range);
+    const WallsFar far = walls_far(&s->walls, s->support_radius);
     cpu_pairs(range, &mueller_force);
+    cpu_force_end(range);
     for (size_t i = range->begin; i < range->end; i++) {
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
         if (walls_near(&far, x))
-            add_walls(range, x, i);
+            add_lift(range, x, i);
     }
-    cpu_force_end(range);
 }
 
 /* Of a neighbour {x, p V^2}. */

@@ -2,11 +2,13 @@
 #ifndef SLOSH_MUELLER_PASSES_H
 #define SLOSH_MUELLER_PASSES_H
 
+#include "sim/box/wall_lift.h"
 #include "sim/cpu/pass.h"
 
 /* What a def means in numbers for mueller alone. */
 typedef struct MuellerConstants {
     bool poly6; /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
+    WallLift lift;
 } MuellerConstants;
 
 static inline const MuellerConstants *mueller_constants(const Constants *constants)

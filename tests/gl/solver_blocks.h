@@ -30,8 +30,7 @@
           CONSTANT(pressure_scale), CONSTANT(viscosity_scale), CONSTANT(stiffness_scale),                    \
           CONSTANT(first_cell), CONSTANT(particle_total), CONSTANT(grid_size), CONSTANT(cell_total),         \
           CONSTANT(first_row), CONSTANT(last_row), CONSTANT(first_single_row), CONSTANT(last_single_row),    \
-          CONSTANT(half_size), CONSTANT(wall_range), CONSTANT(wall_nodes), CONSTANT(dimensions),             \
-          CONSTANT(wall_steps), CONSTANT(wall_offset), CONSTANT(fluids[0].mass),                             \
+          CONSTANT(half_size), CONSTANT(wall_lift), CONSTANT(dimensions), CONSTANT(fluids[0].mass),          \
           CONSTANT(fluids[0].density), CONSTANT(fluids[0].stiffness), CONSTANT(fluids[0].viscosity),         \
           CONSTANT(fluids[7].viscosity), CONSTANT(cell_origin), CONSTANT(cell_inverse), CONSTANT(box_low),   \
           CONSTANT(box_whole)),                                                                              \

@@ -180,7 +180,7 @@ static void energy_is_conserved_with_one_kernel(void **state)
     const double poly6 = speed_after_a_jolt("poly6");
     printf("inviscid fluid after 1 s: %.2f m/s with the spiky kernel, %.1f m/s with poly6 as in the paper\n",
            spiky, poly6);
-    assert_true(poly6 > 5);
+    assert_true(poly6 > 3 * spiky);
 }
 
 /* Light over heavy, 1 : 4, stays so: the centres of mass do not approach. */

@@ -1,8 +1,9 @@
-/* The walls: rest density for a lattice that fills the box, tables against sums, no net force at rest, no
- * escape. */
+/* The walls: rest density for a lattice that fills the box, images against brute force, no net force at rest,
+ * no escape. */
 #include "fixture.h"
 
-#include "sim/box/wall.h"
+#include "sim/box/wall_images.h"
+#include "sim/box/wall_lift.h"
 
 static WorldDef full_box(double nx, double ny, double nz, double support)
 {
@@ -70,137 +71,142 @@ static void full_box_stays(void **state)
     world_destroy(world);
 }
 
-typedef struct Table {
-    Lattice lattice;
+enum { STREWN = 60 };
+
+/* Particles strewn in a box, so many that faces, edges and corners have some. */
+typedef struct Strewn {
+    float x[STREWN][3], h;
     Walls walls;
-} Table;
+    Lattice lattice;
+} Strewn;
 
-static Table make_walls(void)
+static void strew(const WorldDef *def, Strewn *s)
 {
-    Table t;
-    lattice_calibrate(3, 0.1, 0.21, &density_kernels[0], &density_kernels[0], &t.lattice);
-    assert_true(walls_create(&t.walls, (double[3]){2, 2, 2}, (bool[3]){false}, 0.1, 0.21, &density_kernels[0],
-                             &t.lattice));
-    return t;
+    const Kernel *kernel = method_kernels(def).density;
+    uint32_t seed = 11;
+    memset(s, 0, sizeof *s);
+    s->h = (float)(def->support * def->spacing);
+    lattice_calibrate(def->dimensions, def->spacing, (double)s->h, kernel, kernel, &s->lattice);
+    walls_place(&s->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
+    for (int i = 0; i < STREWN; i++)
+        for (int k = 0; k < def->dimensions; k++)
+            s->x[i][k] = (float)((fixture_random(&seed) - (k == 1 ? 0 : 0.5)) * def->box_size[k]);
 }
 
-/* Where the product of two different axes stands: xy yz zx after the squares. */
-static int pair_index(int a, int b)
+/* n / n0 of particle i by brute force: of all that it and its images see. */
+static double crowd(const Strewn *s, int i)
 {
-    return 3 + (a + b == 1 ? 0 : a + b == 3 ? 1 : 2);
+    Image image[IMAGES_MAX];
+    const int count = wall_images(&s->walls, s->x[i], s->h, image);
+    double sum = 0;
+    for (int m = 0; m < count; m++)
+        for (int j = 0; j < STREWN; j++) {
+            const float *x = image[m].x, *y = s->x[j];
+            const double d[3] = {(double)x[0] - (double)y[0], (double)x[1] - (double)y[1],
+                                 (double)x[2] - (double)y[2]};
+            const double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            sum += r < (double)s->h ? kernel_spiky(r, (double)s->h) : 0;
+        }
+    return sum * s->lattice.density_scale / s->lattice.number_density;
 }
 
-/* A table's value against sums over the lattice at the same place, averaged over the lattice's position along
-   the wall: within 2 % of the largest value; push and moment by component, with the signs of the far walls.
-   Not near two walls at once, where tables push more: the next test. */
-static void tables_equal_sums(void **state)
+/* Of all, over p's slope and n0: the integral of (x - 1) / x^2, x = n / n0. */
+static double energy_of(const Strewn *s)
 {
-    (void)state;
-    fixture_needs_cpu("the tables are the same for all backends");
-    Table t = make_walls();
-    uint32_t seed = 5;
-    double scale = 0;
-    for (int n = 0; n < 300; n++) {
-        const int faces = 1 + n % 3;
-        float slope[3] = {0};
-        double d[3], u[3] = {0}, density = 0, push[3] = {0}, moment[6] = {0};
-        float x[3] = {0, 1, 0};
-        for (int k = 0; k < faces; k++) {
-            d[k] = k == n % 2 ? fixture_random(&seed) * 0.2 : 0.04 + fixture_random(&seed) * 0.16;
-            u[k] = wall_distance((float)d[k], 0.1f, &slope[k]);
-            x[k] = (float)((k == 1 ? 0 : -1) + d[k]);
-        }
-        /* union = all that is behind some face: count each combination with its sign */
-        for (int set = 1; set < 1 << faces; set++) {
-            double sub[3];
-            int used = 0, axis[3];
-            for (int k = 0; k < faces; k++)
-                if (set >> k & 1) {
-                    sub[used] = u[k];
-                    axis[used++] = k;
-                }
-            for (int k = 0, next = used; k < 3; k++)
-                if (k >= faces || !(set >> k & 1))
-                    axis[next++] = k;
-            const double sign = used == 2 ? -1 : 1;
-            const int samples = used == 3 ? 1 : 400;
-            for (int m = 0; m < samples; m++) {
-                double offset[3] = {0}, w, p[3], q[6];
-                for (int k = used; k < 3; k++)
-                    offset[k] = fixture_random(&seed) - 0.5;
-                wall_sums_brute(used, sub, offset, 0.1, 0.21, &density_kernels[0], &t.lattice, &w, p, q);
-                density += sign * w / samples;
-                for (int k = 0; k < 3; k++)
-                    push[axis[k]] += sign * slope[axis[k]] * p[k] / samples;
-                for (int k = 0; k < 3; k++) {
-                    moment[axis[k]] += sign * q[k] / samples;
-                    moment[pair_index(axis[k], axis[(k + 1) % 3])] += sign * q[3 + k] / samples;
-                }
-            }
-        }
-        scale = fmax(scale, density);
-        for (int mirror = 0; mirror < 2; mirror++) {
-            float at[3] = {x[0], x[1], x[2]};
-            if (mirror) /* the opposite walls */
-                for (int k = 0; k < 3; k++)
-                    at[k] = k == 1 ? 2 - x[k] : -x[k];
-            WallSums sums;
-            walls_at(&t.walls, at, &sums);
-            const double n0 = t.lattice.number_density;
-            if (fabs(sums.number_density - density) > 0.01 * (n0 + density))
-                fail_msg("%d faces at %g %g %g: number density %g, the sum is %g", faces, d[0], d[1], d[2],
-                         sums.number_density / n0, density / n0);
-            assert_true(fabsf(walls_number_density(&t.walls, at) - sums.number_density) <= 1e-5f * (float)n0);
-            const double push_scale = n0 / 0.21, moment_scale = n0;
-            for (int k = 0; k < 3; k++) {
-                const double p = mirror ? -sums.push[k] : sums.push[k];
-                if (fabs(p - push[k]) > 0.04 * (push_scale + fabs(push[k])))
-                    fail_msg("%d faces: push %d is %g, the sum is %g", faces, k, p / push_scale,
-                             push[k] / push_scale);
-            }
-            for (int k = 0; k < 6; k++)
-                if (fabs(sums.moment[k] - moment[k]) > 0.04 * (moment_scale + fabs(moment[k])))
-                    fail_msg("%d faces: moment %d is %g, the sum is %g", faces, k,
-                             sums.moment[k] / moment_scale, moment[k] / moment_scale);
-        }
+    double sum = 0;
+    for (int i = 0; i < STREWN; i++) {
+        const double x = crowd(s, i);
+        sum += log(x) + 1 / x;
     }
-    assert_true(scale > 0.3 * t.lattice.number_density);
-    walls_destroy(&t.walls);
+    return sum;
 }
 
-/* The push of an edge or a corner does not fall off towards it, at any support, and is the gradient of the
- * density. */
-static void edges_and_corners_push(void **state)
+/* -dE / dx by differences. */
+static double slope_at(Strewn *s, int i, int axis)
+{
+    float *x = &s->x[i][axis];
+    const float at = *x;
+    *x = at + 1e-4F;
+    const double up = energy_of(s), high = (double)*x;
+    *x = at - 1e-4F;
+    const double down = energy_of(s), low = (double)*x;
+    *x = at;
+    return (down - up) / (high - low);
+}
+
+/* Not where a difference would cross the wall, nor where the image next to the wall is held. */
+static bool off_walls(const Strewn *s, const float x[3])
+{
+    const WallsFar far = walls_far(&s->walls, 2e-4F);
+    return !walls_near(&far, x);
+}
+
+/* Density is that of all images, and the accelerations are the slope of the energy: at faces, edges and
+   corners, for whom stands there and for others. */
+static void walls_push_by_their_energy(void **state)
 {
     (void)state;
-    fixture_needs_cpu("the tables are the same for all backends");
-    const double supports[] = {2.1, 2.6, 3};
-    for (int m = 0; m < 12; m++) {
-        const int dimensions = 2 + m % 2, faces = m / 6 == 0 ? 2 : dimensions;
-        const double h = 0.1 * supports[m / 2 % 3];
+    fixture_needs_mueller("of its energy");
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        static Strewn s;
+        WorldDef def = fixture_def(0.6, 0.5, 0.4);
+        def.dimensions = dimensions;
+        def.negative_pressure = true;
+        def.sound_speed = 1;
+        def.dt = 1e-4;
+        memset(def.gravity, 0, sizeof def.gravity);
+        fixture_layers(&def, 10);
+        strew(&def, &s);
+        def.initial = &(InitialState){.count = STREWN, .position = s.x[0]};
+        World *world = fixture_world(&def);
+        State before = fixture_read(world);
+        fixture_step(world, 1);
+        State after = fixture_read(world);
+        const double pushes = s.lattice.stiffness_scale * s.lattice.gradient_scale / s.lattice.density_scale;
+        double greatest = 0, worst = 0;
+        for (int i = 0; i < STREWN; i++) {
+            const double rho = 1000 * (1 + s.lattice.stiffness_scale * (crowd(&s, i) - 1));
+            if (fabs((double)before.density[i] - rho) > 1e-3 * rho)
+                fail_msg("%dD, particle %d: density %g, the images make it %g", dimensions, i,
+                         (double)before.density[i], rho);
+            for (int k = 0; k < dimensions && off_walls(&s, s.x[i]); k++) {
+                const double a = (double)after.velocity[4 * i + k] / def.dt, is = pushes * slope_at(&s, i, k);
+                greatest = fmax(greatest, fabs(is));
+                worst = fmax(worst, fabs(a - is));
+            }
+        }
+        printf("%dD: accelerations up to %.3g m/s2, off the energy's slope by %.2g\n", dimensions, greatest,
+               worst);
+        assert_true(greatest > 1 && worst < 0.01 * greatest);
+        fixture_free(&before);
+        fixture_free(&after);
+        world_destroy(world);
+    }
+}
+
+/* What walls hold of a layer's weight, in closed form against the lattice behind them. */
+static void walls_hold_what_their_lattice_does(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("the same for all backends");
+    for (int m = 0; m < 10; m++) {
+        const double supports[] = {1.6, 2.1, 2.6, 3, 4}, h = 0.1 * supports[m / 2];
+        const Kernel *spiky = density_kernel_find("spiky");
         Lattice lattice;
         Walls walls;
-        lattice_calibrate(dimensions, 0.1, h, &density_kernels[0], &density_kernels[0], &lattice);
-        assert_true(walls_create(&walls, (double[3]){2, 2, 2}, (bool[3]){false}, 0.1, h, &density_kernels[0],
-                                 &lattice));
-        double rest = 0;
-        for (int n = 50; n >= 0; n--) {
-            const float d = 0.001F * (float)n, aside = 1e-4F, z = faces == 3 ? d : 1;
-            WallSums sums;
-            walls_at(&walls, (float[3]){d - 1, d, z - 1}, &sums);
-            if (n == 50)
-                rest = sums.push[0];
-            if (!(sums.push[0] > 0.5 * rest))
-                fail_msg("%d faces, %g deep: the push is %g of that at rest", faces, 0.1 - d,
-                         sums.push[0] / rest);
-            const double slope = (walls_number_density(&walls, (float[3]){d + aside - 1, d, z - 1}) -
-                                  walls_number_density(&walls, (float[3]){d - 1, d, z - 1})) /
-                                 aside * lattice.gradient_scale / lattice.density_scale;
-            if (n < 50 && fabs(slope + sums.push[0]) > 0.1 * (rest + sums.push[0]))
-                fail_msg("%d faces, %g deep: the push is %g, the density's slope %g", faces, 0.1 - d,
-                         sums.push[0], slope);
+        lattice_calibrate(2 + m % 2, 0.1, h, spiky, spiky, &lattice);
+        walls_place(&walls, lattice.dimensions, (double[]){2, 2, 2}, (bool[]){true, false, false}, 0.1);
+        const WallLift lift = wall_lift_of(&lattice, 0.1, h);
+        for (int layer = 0; layer < 4; layer++) {
+            const double d = 0.1 * (layer + 0.5), is = wall_lift_brute(&lattice, 0.1, h, d);
+            float low[3], high[3];
+            walls_lift(&lift, &walls, (float[]){-1, (float)d, 0}, low);
+            walls_lift(&lift, &walls, (float[]){-1, (float)(2 - d), 0}, high);
+            assert_true(low[0] == 0 && low[2] == 0 && fabsf(high[1] - low[1]) < 1e-5F);
+            if (!(fabs((double)low[1] - is) < (layer == 0 ? 1e-5 : 0.025)))
+                fail_msg("support %g, layer %d: %g of a weight, the lattice has %g", 10 * h, layer,
+                         (double)low[1], is);
         }
-        walls_destroy(&walls);
     }
 }
 
@@ -292,12 +298,9 @@ static void a_drop_slides_down_freely(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(full_box_has_rest_density),
-        cmocka_unit_test(full_box_stays),
-        cmocka_unit_test(tables_equal_sums),
-        cmocka_unit_test(edges_and_corners_push),
-        cmocka_unit_test(what_is_in_a_corner_comes_out),
-        cmocka_unit_test(nothing_leaves),
+        cmocka_unit_test(full_box_has_rest_density),     cmocka_unit_test(full_box_stays),
+        cmocka_unit_test(walls_push_by_their_energy),    cmocka_unit_test(walls_hold_what_their_lattice_does),
+        cmocka_unit_test(what_is_in_a_corner_comes_out), cmocka_unit_test(nothing_leaves),
         cmocka_unit_test(a_drop_slides_down_freely),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,9 +1,23 @@
 // The neighbours of a particle, from the buckets of the cells around its own: nine rows of three cells, in two
 // dimensions three rows. Places fill up from the first on, so that an empty one ends a cell.
 #include "sim/fragment/cells.glsl"
+#include "sim/images.glsl"
 uniform usampler2DArray buckets; // four particles a texel: their indices + 1; 0: none
 
 void meet(int j); // what the pass makes of particle j, another one, of any distance
+void meet_images(int j); // what it makes of j, itself among them, that its images see
+
+// The images of the particle in the walls.
+Image images[26];
+int image_count = 0;
+
+void images_make(vec3 x)
+{
+    int end = images_end(x);
+    for (int walls = 1; walls < end; walls++)
+        if (image_of(x, walls, images[image_count]))
+            image_count++;
+}
 
 // Whether particle i at x stands in the buckets itself.
 bool meet_neighbours(int i, vec3 x)
@@ -11,6 +25,7 @@ bool meet_neighbours(int i, vec3 x)
     int middle = cell_index(cell_of(x));
     uint own = uint(i + 1);
     bool placed = false;
+    images_make(x);
     for (int row = first_row; row < last_row; row++) {
         int first = middle + cell_index(ivec3(-1, row % 3 - 1, row / 3 - 1));
         for (int cell = first; cell < first + 3; cell++) {
@@ -23,6 +38,8 @@ bool meet_neighbours(int i, vec3 x)
                         placed = true;
                     else
                         meet(int(four[k]) - 1);
+                    if (image_count > 0)
+                        meet_images(int(four[k]) - 1);
                 }
             }
         }

@@ -1,6 +1,6 @@
 // mueller: number density, volume, pressure: sim/mueller/pairs.c and finish_density in sim/mueller/passes.c.
 #include "sim/constants.glsl"
-#include "sim/walls.glsl"
+#include "sim/images.glsl"
 #define LISTS_FIRST
 #include "sim/walk.glsl"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
@@ -31,7 +31,12 @@ void main()
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
     WALK_NEIGHBOURS(i, x, at, meet, meet, 0)
-    float n = kernel_scale * sum + walls_at(x, true).density;
+    int end = images_end(x);
+    Image image;
+    for (int walls = 1; walls < end; walls++)
+        if (image_of(x, walls, image))
+            WALK_AGAIN(i, image.x, at, meet, meet)
+    float n = kernel_scale * sum;
     float p = fluids[FLUID_OF(i)].stiffness * (n / rest_number_density - 1.0);
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);

@@ -1,7 +1,6 @@
 // Number density, volume, pressure: sim/mueller/pairs.c and finish_density in sim/mueller/passes.c.
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
-#include "sim/walls.glsl"
 layout(location = 0) out vec4 fields; // volume, p, 0; 1 for a particle that has no place in the buckets, else 0
 layout(location = 1) out vec4 near; // what force.frag reads of others: x y z, p V^2
 #ifdef VISCOUS
@@ -11,9 +10,8 @@ layout(location = 2) out vec4 moving; // velocity, volume
 vec3 here;
 float sum;
 
-void meet(int j)
+void add(vec3 d)
 {
-    vec3 d = here - of_particle(position, j).xyz;
     float q2 = dot(d, d) * inverse_support * inverse_support;
 #ifdef POLY6
     float t = max(1.0 - q2, 0.0);
@@ -21,6 +19,15 @@ void meet(int j)
     float t = max(1.0 - sqrt(q2), 0.0);
 #endif
     sum += t * t * t;
+}
+
+void meet(int j) { add(here - of_particle(position, j).xyz); }
+
+void meet_images(int j)
+{
+    vec3 x = of_particle(position, j).xyz;
+    for (int k = 0; k < image_count; k++)
+        add(images[k].x - x);
 }
 
 void main()
@@ -32,7 +39,7 @@ void main()
     here = own.xyz;
     sum = 1.0; // itself, whether it has a place or not
     bool placed = meet_neighbours(i, here);
-    float n = kernel_scale * sum + walls_at(here, true).density;
+    float n = kernel_scale * sum;
     float p = fluid_of(speed.w).stiffness * (n / rest_number_density - 1.0);
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);

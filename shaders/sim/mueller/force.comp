@@ -1,4 +1,5 @@
-// mueller: accelerations by pressure, viscosity and walls: force_range in sim/mueller/pairs.c, and sim/mueller/passes.c.
+// mueller: accelerations by pressure, viscosity and the walls' images: force_range in sim/mueller/pairs.c, and
+// sim/mueller/passes.c.
 #define LISTS_LATER
 #include "sim/constants.glsl"
 #include "sim/force.glsl"
@@ -7,11 +8,19 @@ float volume_of(uint i) { return velocity[i].w; }
 
 float extra_of(uint fluid) { return 0.0; }
 
+// That of pressure, over d.
+float push_of(float terms, float r)
+{
+    float t = 1.0 - r * inverse_support;
+    return pressure_scale * (t * t) * terms / r;
+}
+
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
-    float r = sqrt(r2), t = 1.0 - r * inverse_support;
-    vec3 force = pressure_scale * (t * t) * (own.pressure + other.pressure) / r * d;
+    float r = sqrt(r2);
+    vec3 force = push_of(own.pressure + other.pressure, r) * d;
 #ifdef RUBS
+    float t = 1.0 - r * inverse_support;
     force += 0.5 * viscosity_scale * own.volume * t * other.volume * (own.viscosity + other.viscosity) * (other.v - own.v);
 #endif
     return force;
@@ -20,8 +29,38 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 #ifdef FELT_SOLIDS
 #include "sim/felt_solids.glsl"
 #else
+#include "sim/images.glsl"
 #include "sim/walls.glsl"
 layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
+
+vec3 image_push; // on an image, in its axes
+
+void meet_image(uint j, vec3 d, float term)
+{
+    float r = length(d);
+    if (r < support)
+        image_push += push_of(self_side.pressure + term, r) * d;
+}
+
+#ifdef SOLIDS
+void meet_boundary_image(uint j, vec3 d, float volume) { meet_image(j, d, uintBitsToFloat(boundary_state[j].x)); }
+#endif
+
+// On the images of particle i at x, in the cell `at`.
+vec3 images_force(uint i, vec3 x, ivec3 at)
+{
+    int end = images_end(x);
+    vec3 force = vec3(0);
+    Image image;
+    for (int walls = 1; walls < end; walls++) {
+        if (!image_of(x, walls, image))
+            continue;
+        image_push = vec3(0);
+        WALK_NEIGHBOURS(i, image.x, at, meet_image, meet_boundary_image, 0)
+        force += image.sign * image_push;
+    }
+    return force;
+}
 
 void main()
 {
@@ -29,9 +68,9 @@ void main()
     if (i >= particle_count())
         return;
     vec3 x = near[i].xyz;
+    ivec3 at = cell_of(x);
     Fluid fluid = fluids[FLUID_OF(i)];
-    vec3 force = neighbours_force(i, x, cell_of(x));
-    force += wall_force(walls_at(x, false), felt_at(x), fluid.density, volume_of(i), pressure[i].x, near[i].w);
-    acceleration[i] = vec4(force / fluid.mass, 0.0);
+    vec3 force = neighbours_force(i, x, at) + images_force(i, x, at);
+    acceleration[i] = vec4(force / fluid.mass + lift_at(x, felt_at(x), fluid.density, pressure[i].x), 0.0);
 }
 #endif

@@ -15,6 +15,22 @@ vec3 speed;
 float viscosity, drag_scale;
 #endif
 
+// Of pressure, over the distance.
+float push_of(float term, float r)
+{
+    float t = max(1.0 - r * inverse_support, 0.0);
+    return pressure_scale * (t * t) * (pressure_term + term) / r;
+}
+
+void meet_images(int j)
+{
+    vec4 other = of_particle(near, j);
+    for (int k = 0; k < image_count; k++) {
+        vec3 d = images[k].x - other.xyz;
+        force += images[k].sign * (push_of(other.w, length(d)) * d);
+    }
+}
+
 void meet(int j)
 {
     vec4 other = of_particle(near, j);
@@ -27,7 +43,7 @@ void meet(int j)
         r2 = least * least;
     }
     float r = sqrt(r2), t = 1.0 - r * inverse_support;
-    force += pressure_scale * (t * t) * (pressure_term + other.w) / r * d;
+    force += push_of(other.w, r) * d;
 #ifdef VISCOUS
     vec4 its = of_particle(moving, j);
 #if FLUIDS > 1
@@ -56,6 +72,5 @@ void main()
 #endif
     meet_neighbours(self, here);
     vec3 g = felt_origin - cross(felt_alpha, here) - cross(felt_omega, cross(felt_omega, here));
-    force += wall_force(walls_at(here, false), g, fluid.density, known.x, known.y, pressure_term);
-    acceleration = vec4(force / fluid.mass, 0.0);
+    acceleration = vec4(force / fluid.mass + lift_at(here, g, fluid.density, known.y), 0.0);
 }

@@ -1,6 +1,8 @@
 /* The uniform blocks of shaders/sim/constants.glsl. */
 #include "sim/gl/compute/compute.h"
 
+#include "sim/box/wall_lift.h"
+
 #include "shaders/sim/constant_block.h"
 #include "shaders/sim/step_block.h"
 
@@ -8,17 +10,6 @@
 #include <string.h>
 
 _Static_assert(FLUIDS_MOST == FLUIDS_MAX, "shaders know all fluids of a scene");
-
-static void walls_constants(const Walls *walls, ConstantBlock *c)
-{
-    memcpy(c->half_size, walls->half_size, sizeof walls->half_size);
-    c->wall_range = walls->range;
-    for (int t = 0; t < walls->dimensions; t++) {
-        c->wall_nodes[t] = walls->table[t].nodes;
-        c->wall_steps[t] = walls->table[t].inverse_step;
-        c->wall_offset[t] = (int)walls_entries(walls, t);
-    }
-}
 
 static void fluid_constants(const Constants *s, Fluid fluids[FLUIDS_MAX])
 {
@@ -66,10 +57,12 @@ void compute_constants(Compute *compute)
                        .pressure_scale = s->pressure_scale,
                        .viscosity_scale = s->viscosity_scale,
                        .stiffness_scale = s->stiffness_scale,
+                       .wall_lift =
+                           wall_lift_of(&s->lattice, (double)s->spacing, (double)s->support_radius).scale,
                        .particle_total = (int)compute->count,
                        .dimensions = s->dimensions};
     grid_constants(s, &c);
-    walls_constants(&s->walls, &c);
+    memcpy(c.half_size, s->walls.half_size, sizeof s->walls.half_size);
     fluid_constants(s, c.fluids);
     blocks_create(compute);
     glNamedBufferSubData(compute->constant_block, 0, sizeof c, &c);

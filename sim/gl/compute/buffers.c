@@ -18,7 +18,6 @@ static const struct {
     {"Scratch", offsetof(Compute, scratch)},
     {"Starts", offsetof(Compute, start)},
     {"Lists", offsetof(Compute, lists)},
-    {"WallTables", offsetof(Compute, walls)},
     {"DragTables", offsetof(Compute, drag)},
     {"WatchBlock", offsetof(Compute, watch.buffer)},
     {"Felt", offsetof(Compute, felt.buffer)},

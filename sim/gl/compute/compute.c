@@ -27,10 +27,10 @@ bool compute_no_memory(const Compute *c, Error *error)
 static void compute_destroy(void *state)
 {
     Compute *c = state;
-    const GLuint buffers[] = {c->cell,           c->rank,      c->order,    c->start,        c->totals[0],
-                              c->totals[1],      c->totals[2], c->pressure, c->acceleration, c->walls,
-                              c->constant_block, c->step,      c->terms,    c->of_method,    c->drag,
-                              c->scratch,        c->lists,     c->near,     c->felt.buffer,  c->felt.marked};
+    const GLuint buffers[] = {c->cell,      c->rank,      c->order,       c->start,        c->totals[0],
+                              c->totals[1], c->totals[2], c->pressure,    c->acceleration, c->constant_block,
+                              c->step,      c->terms,     c->of_method,   c->drag,         c->scratch,
+                              c->lists,     c->near,      c->felt.buffer, c->felt.marked};
     compute_particles_destroy(&c->now);
     compute_particles_destroy(&c->spare);
     compute_particles_destroy(&c->marked);
@@ -92,19 +92,6 @@ static bool buffers_create(Compute *c, Error *error)
             mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
             mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
            compute_no_memory(c, error);
-}
-
-static void walls_upload(Compute *c)
-{
-    const Walls *walls = &c->constants->walls;
-    if (c->constants->method->mirrors) /* it has none */
-        return;
-    c->walls = compute_buffer(c, "wall tables", walls_entries(walls, walls->dimensions) * sizeof(WallSums));
-    for (int t = 0; t < walls->dimensions && c->walls; t++) {
-        const size_t at = walls_entries(walls, t) * sizeof(WallSums),
-                     end = walls_entries(walls, t + 1) * sizeof(WallSums);
-        glNamedBufferSubData(c->walls, (GLintptr)at, (GLsizeiptr)(end - at), walls->table[t].sums);
-    }
 }
 
 typedef struct Source {
@@ -212,7 +199,7 @@ static size_t larger(size_t a, size_t b)
     return a > b ? a : b;
 }
 
-/* Of the largest array: a vec4 a particle, or what the method has; start of cells; walls. */
+/* Of the largest array: a vec4 a particle, or what the method has; start of cells. */
 static size_t most_bytes(const Constants *s, size_t capacity)
 {
     size_t particle =
@@ -222,9 +209,7 @@ static size_t most_bytes(const Constants *s, size_t capacity)
         particle = larger(particle, own && own->needed(s) ? own->size : 0);
     }
     const size_t particles = particle * capacity, cells = 4 * (s->cells.count + 2);
-    const size_t walls =
-        s->method->mirrors ? 0 : walls_entries(&s->walls, s->walls.dimensions) * sizeof(WallSums);
-    return larger(larger(particles, 16 * s->boundary.count), larger(cells, walls));
+    return larger(larger(particles, 16 * s->boundary.count), cells);
 }
 
 /* Solids stand at the bindings 12 to 15, a method's own columns at 8 to 10, beside those of the pass that
@@ -268,7 +253,6 @@ static void *compute_create(const Constants *constants, const WorldDef *def, con
         compute_destroy(c);
         return NULL;
     }
-    walls_upload(c);
     compute_constants(c);
     compute_lists_create(c); /* last: the steps can do without */
     if (c->full) {

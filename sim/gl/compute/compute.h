@@ -16,7 +16,7 @@ enum {
     COMPUTE_GAUGE_GROUPS = 64,
     COMPUTE_EXCESS_GROUPS = 64, /* as many as decide.comp adds up */
     COMPUTE_ALONG = 65535,      /* work groups in a row */
-    COMPUTE_NAMED = 20,
+    COMPUTE_NAMED = 19,
     COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and one of each term */
     COMPUTE_DEFINES_MAX = 4096
 };
@@ -121,7 +121,6 @@ typedef struct Compute {
     unsigned pressure;                    /* vec2: p, p V^2 */
     unsigned near;                        /* vec4: x y z, p V^2, which forces read of others */
     unsigned acceleration;                /* vec4 */
-    unsigned walls;                       /* tables */
     Mailbox watch;                        /* WatchBlock */
     bool watch_due;                       /* kicks were noted that were not sent */
     float longest;                        /* dt of the kicks since the watch was read, s */

@@ -1,6 +1,8 @@
 /* What is constant while a world lives, as GLSL: the compiler sees all of it. The names are those of
-   shaders/sim/constant_block.h, so that walls.glsl serves both backends. */
+   shaders/sim/constant_block.h, so that walls.glsl and images.glsl serve both backends. */
 #include "sim/gl/fragment/fragment.h"
+
+#include "sim/box/wall_lift.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -40,22 +42,6 @@ static void put_float(Text *to, const char *name, float value)
     put(to, "const float %s = %.9e;\n", name, (double)value);
 }
 
-static void put_walls(Text *to, const Walls *walls)
-{
-    float steps[3] = {0};
-    int nodes[3] = {0}, offset[3] = {0};
-    for (int t = 0; t < walls->dimensions; t++) {
-        nodes[t] = walls->table[t].nodes;
-        steps[t] = walls->table[t].inverse_step;
-        offset[t] = (int)walls_entries(walls, t);
-    }
-    put_floats(to, "half_size", 3, walls->half_size);
-    put_float(to, "wall_range", walls->range);
-    put_ints(to, "wall_nodes", 3, nodes);
-    put_floats(to, "wall_steps", 3, steps);
-    put_ints(to, "wall_offset", 3, offset);
-}
-
 /* Terms that the scene does not name are not compiled in. */
 static void put_terms(Text *to, const Constants *s)
 {
@@ -63,7 +49,7 @@ static void put_terms(Text *to, const Constants *s)
     SCALAR_LIST(X)
     X(COUNT, , )
 #undef X
-    put(to, "#define FLUIDS %d\n#define WALL_TEXTURE 1\n", s->fluid_count);
+    put(to, "#define FLUIDS %d\n", s->fluid_count);
     put(to, "%s%s", s->viscous ? "#define VISCOUS 1\n" : "",
         s->negative_pressure ? "#define NEGATIVE_PRESSURE 1\n" : "");
     for (const ShaderTerm *own = s->method->terms; own && own->name; own++)
@@ -98,5 +84,7 @@ void fragment_constants(const Fragment *f, char text[FRAGMENT_CONSTANTS_MAX])
     put_ints(&to, "grid_size", 3, s->cells.size);
     put(&to, "const int dimensions = %d, first_row = %d, last_row = %d;\n", s->dimensions, s->first_row,
         s->last_row);
-    put_walls(&to, &s->walls);
+    put_floats(&to, "half_size", 3, s->walls.half_size);
+    put_float(&to, "wall_lift",
+              wall_lift_of(&s->lattice, (double)s->spacing, (double)s->support_radius).scale);
 }

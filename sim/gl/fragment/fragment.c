@@ -117,9 +117,8 @@ static bool fragment_can(const WorldDef *def, Error *error)
 
 static bool fits(const Fragment *f, Error *error)
 {
-    GLint side = 0, numbers = 0;
+    GLint side = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &numbers);
     if (f->count > FRAGMENT_COUNT_MOST)
         return error_set(error,
                          "backend fragment holds up to %d particles, whose ids its depth buffer keeps "
@@ -133,12 +132,6 @@ static bool fits(const Fragment *f, Error *error)
     if (f->layers > FRAGMENT_LAYERS_MOST)
         return error_set(error, "backend fragment has up to %d layers; solver.grid_layers is %d",
                          FRAGMENT_LAYERS_MOST, f->layers);
-    const Walls *walls = &f->constants->walls;
-    if (walls_entries(walls, walls->dimensions) * sizeof(WallSums) / sizeof(float) > (size_t)numbers)
-        return error_set(error,
-                         "the tables of the walls are larger than the textures of %d numbers that this "
-                         "driver allows; use a smaller particles.support or backend compute",
-                         numbers);
     return true;
 }
 

@@ -60,7 +60,6 @@ typedef enum FragmentPass {
     X(ACCELERATION, "acceleration")                                                                          \
     X(HELD, "held")                                                                                          \
     X(BUCKETS, "buckets")                                                                                    \
-    X(WALLS, "wall_texture")                                                                                 \
     X(FINER, "finer")                                                                                        \
     X(BEFORE, "before")                                                                                      \
     X(BY_CELL, "by_cell")
@@ -121,11 +120,10 @@ typedef struct Fragment {
                            layer; the second by `mark`, too: all by cell */
     unsigned by_cell;   /* the second as a texture */
     unsigned written;   /* a query: how many particles were listed by cell */
-    int order_every, marks;      /* frames from one order to the next, 0: never; those since the last */
-    unsigned lists[3];           /* as vertex arrays */
-    unsigned feedback[2];        /* into the latter two */
-    unsigned walls, wall_buffer; /* the tables, as a texture; the buffer that it shows */
-    int levels;                  /* of the reduction, each coarser than the one before: */
+    int order_every, marks; /* frames from one order to the next, 0: never; those since the last */
+    unsigned lists[3];      /* as vertex arrays */
+    unsigned feedback[2];   /* into the latter two */
+    int levels;             /* of the reduction, each coarser than the one before: */
     unsigned found[FRAGMENT_LEVELS_MOST], held_sum[FRAGMENT_LEVELS_MOST]; /* see watch.frag */
     int level_size[FRAGMENT_LEVELS_MOST][2];
     unsigned watch[2];  /* 2 x 1: see watch_last.frag */

@@ -53,7 +53,6 @@ static void sample_neighbours(const Fragment *f)
 {
     fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
     fragment_sample(FRAGMENT_SAMPLE_BUCKETS, f->buckets);
-    fragment_sample(FRAGMENT_SAMPLE_WALLS, f->walls);
 }
 
 static void density(Fragment *f)

@@ -91,24 +91,6 @@ static void lists_create(Fragment *f)
     f->bytes += 3 * bytes;
 }
 
-static void walls_create_texture(Fragment *f)
-{
-    const Walls *walls = &f->constants->walls;
-    const size_t bytes = walls_entries(walls, walls->dimensions) * sizeof(WallSums);
-    glCreateBuffers(1, &f->wall_buffer);
-    glObjectLabel(GL_BUFFER, f->wall_buffer, -1, "wall tables");
-    glNamedBufferStorage(f->wall_buffer, (GLsizeiptr)bytes, NULL, GL_DYNAMIC_STORAGE_BIT);
-    for (int t = 0; t < walls->dimensions; t++) {
-        const size_t at = walls_entries(walls, t) * sizeof(WallSums),
-                     end = walls_entries(walls, t + 1) * sizeof(WallSums);
-        glNamedBufferSubData(f->wall_buffer, (GLintptr)at, (GLsizeiptr)(end - at), walls->table[t].sums);
-    }
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &f->walls);
-    glObjectLabel(GL_TEXTURE, f->walls, -1, "wall tables");
-    glTextureBuffer(f->walls, GL_R32F, f->wall_buffer);
-    f->bytes += bytes;
-}
-
 static bool watch_create(Fragment *f)
 {
     int width = f->width, height = f->height;
@@ -138,7 +120,6 @@ bool fragment_textures_create(Fragment *f, Error *error)
 {
     particles_create(f);
     buckets_create(f);
-    walls_create_texture(f);
     const bool enough = watch_create(f);
     lists_create(f);
     glCreateFramebuffers(1, &f->framebuffer);
@@ -180,12 +161,11 @@ void fragment_shown_create(Fragment *f)
 
 void fragment_textures_destroy(Fragment *f)
 {
-    const GLuint textures[] = {f->position[0], f->position[1], f->velocity[0],  f->velocity[1],
-                               f->held[0],     f->held[1],     f->fields,       f->acceleration,
-                               f->buckets,     f->walls,       f->watch[0],     f->watch[1],
-                               f->marked[0],   f->marked[1],   f->bucket_depth, f->placed,
+    const GLuint textures[] = {f->position[0], f->position[1], f->velocity[0],  f->velocity[1],  f->held[0],
+                               f->held[1],     f->fields,      f->acceleration, f->buckets,      f->watch[0],
+                               f->watch[1],    f->marked[0],   f->marked[1],    f->bucket_depth, f->placed,
                                f->word,        f->near,        f->moving,       f->by_cell};
-    const GLuint buffers[] = {f->wall_buffer, f->shown_position, f->shown_velocity};
+    const GLuint buffers[] = {f->shown_position, f->shown_velocity};
     glDeleteFramebuffers(f->layers, f->bucket_framebuffer);
     glDeleteFramebuffers(1, &f->framebuffer);
     glDeleteTextures(sizeof textures / sizeof *textures, textures);
