@@ -110,7 +110,7 @@ static void time_that_went_back_is_not_summed(void **state)
 {
     (void)state;
     WorldDef def = fall_def("mueller", 2);
-    def.dt = 0.02;
+    def.dt = 0.015;
     def.retries = 3;
     World *world = felt_on(&def, "compute");
     double seconds = 0;
