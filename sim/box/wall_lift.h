@@ -13,6 +13,7 @@
 #define SLOSH_WALL_LIFT_H
 
 #include "sim/box/wall.h"
+#include "sim/kernel/lattice.h"
 
 typedef struct WallLift {
     float reach; /* h, m */

@@ -183,7 +183,6 @@ const Method method_dfsph = {
     .keys = keys,
     .def = &usual,
     .def_size = sizeof usual,
-    .mirrors = true,
     .keeps_images = true,
     .incompressible = true,
     .solvers = {[SOLVE_DENSITY] = {"density", "solver.tolerance", "solver.iterations"},

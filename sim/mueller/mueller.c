@@ -91,7 +91,6 @@ const Method method_mueller = {
     .keys = keys,
     .def = &usual,
     .def_size = sizeof usual,
-    .mirrors = true,
     .kernels = mueller_kernels,
     .friction = mueller_friction,
     .pressure = mueller_pressure,

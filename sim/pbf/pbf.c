@@ -146,7 +146,6 @@ const Method method_pbf = {
     .keys = keys,
     .def = &usual,
     .def_size = sizeof usual,
-    .mirrors = true,
     .incompressible = true,
     .solvers = {{"places", "solver.compression", "solver.corrections"}},
     .leaps = true,

@@ -196,7 +196,6 @@ const Method method_wcsph = {
     .def_size = sizeof usual,
     .carries_density = true,
     .curvature = true,
-    .mirrors = true,
     .check = wcsph_check,
     .kernels = wcsph_kernels_of,
     .friction = wcsph_friction,

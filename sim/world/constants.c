@@ -342,11 +342,7 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     tension_set(constants, def);
     fluids_set(constants, def);
     own_set(constants, def);
-    if (method->mirrors)
-        walls_place(&constants->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
-    else if (!walls_create(&constants->walls, def->box_size, def->periodic, def->spacing, h, kernel,
-                           &constants->lattice))
-        return error_set(error, "no memory for the tables of the walls");
+    walls_place(&constants->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
     constants->dimensions = def->dimensions;
     constants->emits = flow_emits(def);
     constants->drains = def->drain_count > 0;
@@ -379,7 +375,6 @@ bool constants_vary(Constants *constants, const WorldDef *def)
 
 void constants_destroy(Constants *constants)
 {
-    walls_destroy(&constants->walls);
     boundary_destroy(&constants->boundary);
     wall_drag_destroy(&constants->drag);
 }

@@ -91,8 +91,7 @@ typedef struct Method {
     size_t def_size;      /* bytes; at most METHOD_DEF_SIZE */
     bool carries_density; /* its particles do; else density is summed */
     bool curvature;       /* it has surface tension by curvature */
-    bool mirrors;         /* walls of the box are mirrors (sim/box/wall_images.h); else tables */
-    bool keeps_images;    /* with `mirrors`: no place changes while the lists of a grid are walked */
+    bool keeps_images;    /* no place changes while the lists of a grid are walked: so images have lists */
     bool incompressible;  /* no sound: steps are bounded by the true greatest speed alone */
     MethodSolver
         solvers[SOLVES_OF_METHOD]; /* what is left of the first one's residual is the error of density */
