@@ -70,7 +70,7 @@ const Case case_tilted = {
 
 #define MUELLER                                                                                              \
     {                                                                                                        \
-        .name = "mueller", .tolerance = {0.04, 0.04}, .coarse = { 0.07, 0.07 }                                   \
+        .name = "mueller", .tolerance = {0.04, 0.04}, .coarse = { 0.07, 0.07 }                               \
     }
 #define DFSPH                                                                                                \
     {                                                                                                        \

@@ -4,9 +4,9 @@
 
 #include "app/metric/cloud.h"
 
-/* How many of every `stride`-th particle, of one fluid or of several, have another one nearer than `limit` (m, more
-   than 0), be it one of those or not; pairs across periodic sides are not seen, places that are no numbers are
-   left out. False when memory is short. */
+/* How many of every `stride`-th particle, of one fluid or of several, have another one nearer than `limit`
+   (m, more than 0), be it one of those or not; pairs across periodic sides are not seen, places that are no
+   numbers are left out. False when memory is short. */
 bool metric_close(const Cloud *cloud, double limit, size_t stride, size_t *close);
 
 #endif

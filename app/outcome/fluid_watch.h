@@ -1,6 +1,6 @@
-/* Watches a fluid while it runs, for what the sentinel does not go back for: lost volume, particles that lie on
-   each other or beyond walls (app/outcome/outcome.h). On backends on a GPU it would have to wait for each look,
-   and does not look. */
+/* Watches a fluid while it runs, for what the sentinel does not go back for: lost volume, particles that lie
+   on each other or beyond walls (app/outcome/outcome.h). On backends on a GPU it would have to wait for each
+   look, and does not look. */
 #ifndef SLOSH_FLUID_WATCH_H
 #define SLOSH_FLUID_WATCH_H
 
@@ -17,8 +17,8 @@ typedef struct FluidWatch {
     uint64_t next;          /* step of the next look */
 } FluidWatch;
 
-/* After a step that is sound, at the end of a frame: looks where it is time. True where something is seen for the
-   first time: what, and what to do, in words. */
+/* After a step that is sound, at the end of a frame: looks where it is time. True where something is seen for
+   the first time: what, and what to do, in words. */
 bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char words[FLUID_WATCH_WORDS]);
 
 /* How the run went, with what ended it. False where there was no look. */

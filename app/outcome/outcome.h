@@ -1,5 +1,5 @@
-/* How a run went: what counts as each kind of failure is written down here and nowhere else. All commands that
-   run a fluid say the words below in the terminal, the panel, the table and the JSON. */
+/* How a run went: what counts as each kind of failure is written down here and nowhere else. All commands
+   that run a fluid say the words below in the terminal, the panel, the table and the JSON. */
 #ifndef SLOSH_OUTCOME_H
 #define SLOSH_OUTCOME_H
 
@@ -35,8 +35,8 @@ OutcomeKind outcome_of_word(const char *word);
    all that moves, is pressed, or could come down. The scenes that gain most gain 2.2 % (docs/failures.md). */
 #define OUTCOME_GAIN 0.05
 
-/* Fluid has lost volume where its particles are pressed by so much above rest density in the mean. Calm scenes have
-   less than 0.02 with all methods. */
+/* Fluid has lost volume where its particles are pressed by so much above rest density in the mean. Calm
+   scenes have less than 0.02 with all methods. */
 #define OUTCOME_PRESSED 0.05
 
 /* Particles lie on each other where so many of them (a fraction) have another one nearer than so many
@@ -57,11 +57,11 @@ typedef struct OutcomeLook {
     size_t
         beyond;  /* of them, by OUTCOME_BEYOND spacings beyond a wall of the box or within a solid, or nowhere
                   */
-    size_t lost;    /* of them, without a place in the grid */
+    size_t lost; /* of them, without a place in the grid */
     double pressed; /* how much of their density is above that at rest, a fraction, in the mean */
-    bool stuck;  /* a solver of the last step ended in trouble */
-    double energy; /* of motion, place and compression, J; NaN: not known, or something does work */
-    double scale;  /* what its growth is compared with, J */
+    bool stuck;     /* a solver of the last step ended in trouble */
+    double energy;  /* of motion, place and compression, J; NaN: not known, or something does work */
+    double scale;   /* what its growth is compared with, J */
 } OutcomeLook;
 
 enum { OUTCOME_LOOKS_MAX = 64 };

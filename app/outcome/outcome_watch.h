@@ -10,8 +10,8 @@
    some ten steps' time. False when memory is short. */
 bool outcome_look(OutcomeHistory *history, const WorldDef *def, bool moved, World *world);
 
-/* A look at the places alone, for whoever looks often: of all particles, but whether they lie on others of some
-   two thousand. Some third of a step's time. False when memory is short. */
+/* A look at the places alone, for whoever looks often: of all particles, but whether they lie on others of
+   some two thousand. Some third of a step's time. False when memory is short. */
 bool outcome_glance(OutcomeLook *look, const WorldDef *def, World *world);
 
 /* Takes what ended the run, if something did. */

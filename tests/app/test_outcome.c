@@ -1,8 +1,8 @@
 /* What counts as which outcome, on made-up histories; what a look sees of places, and of worlds that fail. */
 #include "tests/sim/fixture.h"
 
-#include "app/outcome/outcome_watch.h"
 #include "app/metric/closeness.h"
+#include "app/outcome/outcome_watch.h"
 
 #include <jansson.h>
 
