@@ -148,7 +148,7 @@ static void find_way(const Crowd *crowd, const Lattice *lattice, uint32_t i, dou
 static bool crowd_create(Crowd *crowd, const Packing *packing, size_t count, const float *position)
 {
     const WorldDef *def = packing->def;
-    BoxState pose[SOLIDS_MAX];
+    BoxState pose[SOLIDS_MAX] = {0};
     *crowd = (Crowd){.fluid = count, .count = count, .h = def->support * def->spacing, .def = def};
     for (int a = 0; a < 3; a++)
         crowd->cells[a] = a < def->dimensions ? (int)fmax(1, floor(def->box_size[a] / crowd->h)) : 1;
