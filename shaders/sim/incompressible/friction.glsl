@@ -36,7 +36,7 @@ void meet_image(uint j, vec3 d, float term) { rub_image(side_of(j, term), d); }
 #ifdef SOLIDS
 void meet_boundary_image(uint j, vec3 d, float volume)
 {
-    rub_image(Side(0.0, volume, boundary_velocity[j].w, 0.0, boundary_velocity[j].xyz), d);
+    rub_image(Side(0.0, volume, boundary_velocity[j].w, 0.0, 0.0, boundary_velocity[j].xyz), d);
 }
 #endif
 
