@@ -126,7 +126,8 @@ class InTheWindow(Window):
         shade = bytes([SHADE] * 3)
         self.wait_for(lambda: shade * 20 in self.display.picture(self.window).replace(b'\xff', b''), self.process)
         self.quit()
-        self.assertEqual(self.slosh('replay', 'a.rec', '--quiet'), (0, ''))
+        code, said = self.slosh('replay', 'a.rec', '--quiet')  # that particles lie on each other, since nothing parts those of a toy
+        self.assertEqual((code, [line for line in said.splitlines() if 'nearer than 0.2 spacings' not in line]), (0, []))
 
 
 if __name__ == '__main__':

@@ -191,7 +191,7 @@ static void a_step_makes_so_many_calls(void **state)
     count_step("compute, dfsph, one iteration each", &def, (Bounds){31, 0, 300, 9});
     dfsph_def(&def)->iterations = 100;
     dfsph_def(&def)->tolerance = dfsph_def(&def)->divergence_tolerance = 1e-6;
-    count_step("compute, dfsph", &def, (Bounds){150, 0, 1400, 9});
+    count_step("compute, dfsph", &def, (Bounds){150, 0, 1400, 10});
     def = pool_def("compute", "pbf");
     def.dt = 1.0 / 60;
     count_step("compute, pbf", &def, (Bounds){60, 0, 600, 5});

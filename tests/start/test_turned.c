@@ -108,7 +108,7 @@ static void gravity_turns_at_once(void **state)
         def.gravity[0] = G;
         def.gravity[1] = 0;
         assert_true(world_change(world, &def, &error));
-        slosh_for(world, 500, false);
+        slosh_for(world, 650, false);
         expect_calm(world, def.method, "gravity turned", pressure_most[m]);
         world_destroy(world);
     }
@@ -127,7 +127,7 @@ static void gravity_sets_in(void **state)
         assert_true(look_at(world, 0, 0).fastest < 1e-3);
         def.gravity[0] = G;
         assert_true(world_change(world, &def, &error));
-        slosh_for(world, 500, false);
+        slosh_for(world, 650, false);
         expect_calm(world, def.method, "gravity set in", pressure_most[m]);
         world_destroy(world);
     }
