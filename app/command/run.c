@@ -96,6 +96,13 @@ static int complain(int code, const Error *error)
     return code;
 }
 
+/* The plot of --probes, also of a run that broke: of the rows that there are. */
+static int draw_probes(const Session *session, const Args *args, const Look *look, Error *error)
+{
+    const bool open = look->probes.table.figures != NULL;
+    return !open || probe_chart(args->probes, session->scene.title, error) ? 0 : complain(EXIT_FAILED, error);
+}
+
 static int finish(const Session *session, const Args *args, const Snapshot *file, const Look *look,
                   Error *error)
 {
@@ -109,18 +116,21 @@ static int finish(const Session *session, const Args *args, const Snapshot *file
                        .probes = args->probes ? &look->probes.table : NULL,
                        .stopped = !session_reached(session, args->time)};
     session_report(session, args, &summary);
-    if ((!args->probes || probe_chart(args->probes, session->scene.title, error)) &&
-        session_write_json(session, args, &summary, error))
-        return summary.stopped ? EXIT_INTERRUPTED : 0;
-    return complain(EXIT_FAILED, error);
+    if (!session_write_json(session, args, &summary, error))
+        return complain(EXIT_FAILED, error);
+    const int code = draw_probes(session, args, look, error);
+    return summary.stopped ? EXIT_INTERRUPTED : code;
 }
 
-static int fail(const Session *session, const Args *args, const Snapshot *file, const Error *error)
+static int fail(const Session *session, const Args *args, const Snapshot *file, const Look *look,
+                const Error *error)
 {
+    Error why;
     const Summary summary = {
         .command = "run", .product = "snapshots", .products = file ? snapshot_steps(file) : 0};
     const int code = session_fail(session, args, &summary, error);
     snapshot_series_left(file, args->output);
+    draw_probes(session, args, look, &why);
     return code;
 }
 
@@ -178,6 +188,14 @@ static bool check_probes(const Session *session, const Args *args, Error *error)
                            session->scene.path);
 }
 
+/* Of --probes: that what is there may be replaced, or is gone on with. */
+static bool check_table(const Args *args, bool resumed, Error *error)
+{
+    char table[1024];
+    probe_chart_table(args->probes, table);
+    return probe_chart_check(args->probes, error) && (resumed || probe_table_check(table, error));
+}
+
 static bool begin_probes(Session *session, const Args *args, bool resumed, Look *look, Error *error)
 {
     char table[1024];
@@ -198,14 +216,14 @@ static int run(Session *session, const Args *args, Error *error)
         return complain(EXIT_USAGE, error);
     if ((args->json && !json_file_check(args->json, error)) ||
         (args->forces && !output_check(args->forces, error)) ||
-        (args->probes && !output_check(args->probes, error)))
+        (args->probes && !check_table(args, resumed, error)))
         return complain(EXIT_FAILED, error);
     if (resumed) {
         file = resume(session, args, &busy, error);
         if (!file)
-            return busy ? fail(session, args, NULL, error) : complain(EXIT_USAGE, error);
+            return busy ? fail(session, args, NULL, &look, error) : complain(EXIT_USAGE, error);
     } else if (!(file = begin(session, args, error))) {
-        return fail(session, args, NULL, error);
+        return fail(session, args, NULL, &look, error);
     }
     progress_begin(&progress, stderr, "run", args->quiet);
     bool done = begin_forces(session, args, resumed, &look, error) &&
@@ -215,7 +233,7 @@ static int run(Session *session, const Args *args, Error *error)
     Error none = {{0}};
     done &= forces_log_close(&look.forces, done ? error : &none);
     done &= probe_series_close(&look.probes, done ? error : &none);
-    int code = done ? finish(session, args, file, &look, error) : fail(session, args, file, error);
+    int code = done ? finish(session, args, file, &look, error) : fail(session, args, file, &look, error);
     snapshot_close(file);
     cloud_free(&look.cloud);
     probe_series_free(&look.probes);
@@ -232,7 +250,7 @@ int cmd_run(const Args *args)
     if (code == 0)
         code = run(&session, args, &error);
     else if (code == EXIT_FAILED)
-        fail(&session, args, NULL, &error);
+        fail(&session, args, NULL, &(Look){.step_seconds = 0}, &error);
     else
         complain(code, &error);
     session_close(&session);

@@ -1,5 +1,6 @@
 #include "app/lab/chart.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/wait.h>
@@ -22,6 +23,16 @@ void chart_quote(FILE *gnuplot, const char *text)
     for (; *text; text++)
         fputs(*text == '\'' ? "''" : (char[]){*text, '\0'}, gnuplot);
     fputc('\'', gnuplot);
+}
+
+static bool not_installed(const char *path, Error *error)
+{
+    return error_set(error, "%s: gnuplot, which draws charts, is not installed; tools/setup does that", path);
+}
+
+bool chart_check(const char *path, Error *error)
+{
+    return system("command -v gnuplot >/dev/null 2>&1") == 0 || not_installed(path, error);
 }
 
 bool chart_begin(Chart *chart, const char *path, int width, int height, Error *error)
@@ -76,8 +87,7 @@ bool chart_end(Chart *chart, Error *error)
         return output_commit(&chart->output, error);
     output_discard(&chart->output);
     if (WIFEXITED(code) && WEXITSTATUS(code) == NOT_FOUND)
-        return error_set(error, "%s: gnuplot, which draws charts, is not installed; tools/setup does that",
-                         path);
+        return not_installed(path, error);
     if (code == 0)
         return error_set(error, "%s: gnuplot could not write it whole; is the disk full?", path);
     return error_set(error, "%s: gnuplot could not draw it (status %d)", path, code);

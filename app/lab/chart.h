@@ -15,6 +15,9 @@ typedef struct Chart {
 /* Whether a chart can have that name: FILE.svg or FILE.png. */
 bool chart_name(const char *path, Error *error);
 
+/* Whether gnuplot is there; false with the reason. */
+bool chart_check(const char *path, Error *error);
+
 /* Starts gnuplot, with terminal, output and the look of all charts set; pixels. */
 bool chart_begin(Chart *chart, const char *path, int width, int height, Error *error);
 

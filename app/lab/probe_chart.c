@@ -39,6 +39,14 @@ bool probe_chart_name(const char *path, Error *error)
                      path);
 }
 
+bool probe_chart_check(const char *path, Error *error)
+{
+    char table[1024];
+    probe_chart_table(path, table);
+    return output_check(path, error) &&
+           (is_table(path) || (output_check(table, error) && chart_check(path, error)));
+}
+
 void probe_chart_table(const char *path, char table[1024])
 {
     const char *dot = strrchr(path, '.');
@@ -216,13 +224,19 @@ static void plot_panel(const Table *table, const char *unit, FILE *gnuplot)
     fputc('\n', gnuplot);
 }
 
+static bool tell_nothing(const char *path)
+{
+    fprintf(stderr, "%s: no probe has met fluid; there is nothing to draw\n", path);
+    return true;
+}
+
 static bool draw(const Table *table, const char *path, const char *title, Error *error)
 {
     Chart chart = {.gnuplot = NULL};
     int first[PANELS_MAX];
     const int panels = panels_of(table, first);
     if (panels == 0)
-        return error_set(error, "%.300s: no probe has met fluid; there is nothing to draw", path);
+        return tell_nothing(path);
     if (!chart_begin(&chart, path, WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * panels, error))
         return false;
     put_curves(table, chart.gnuplot);

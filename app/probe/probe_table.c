@@ -14,6 +14,9 @@ static bool fail(const ProbeTable *table, Error *error)
     return error_set(error, "%.300s: %s", table->path, strerror(errno));
 }
 
+/* What the table of every scene's probes begins with. */
+static const char OURS[] = "time [s]";
+
 static char *header_of(const ProbeTable *table)
 {
     char *text = NULL;
@@ -21,7 +24,7 @@ static char *header_of(const ProbeTable *table)
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return NULL;
-    fputs("time [s]", out);
+    fputs(OURS, out);
     for (int k = 0; k < table->columns; k++) {
         const ProbeColumn *column = probes_column(table->probes, k);
         fprintf(out, ",%s [%s]", column->name, column->unit);
@@ -147,8 +150,29 @@ static bool go_on(ProbeTable *table, const char *header, double keep, Error *err
            (ftruncate(fileno(table->file), ftell(table->file)) == 0 || fail(table, error));
 }
 
+/* Whether the file is empty, or some scene's probes wrote it: no measurement, and no table of heights. */
+static bool is_ours(FILE *file, const char *path, Error *error)
+{
+    char start[sizeof OURS];
+    const size_t size = fread(start, 1, sizeof OURS - 1, file);
+    return size == 0 || (size == sizeof OURS - 1 && memcmp(start, OURS, size) == 0) ||
+           error_set(error, "%.300s: is there already, and no probes wrote it; name another file", path);
+}
+
+bool probe_table_check(const char *path, Error *error)
+{
+    FILE *file = fopen(path, "r");
+    const bool ours = !file || is_ours(file, path, error);
+    if (file)
+        fclose(file);
+    return ours;
+}
+
 static bool begin(ProbeTable *table, const char *header, Error *error)
 {
+    if (!is_ours(table->file, table->path, error))
+        return false;
+    rewind(table->file);
     return (ftruncate(fileno(table->file), 0) == 0 && fputs(header, table->file) >= 0 &&
             fflush(table->file) == 0) ||
            fail(table, error);

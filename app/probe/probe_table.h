@@ -33,9 +33,13 @@ typedef struct ProbeTable {
     float *value;          /* `columns` a row */
 } ProbeTable;
 
+/* Whether a table may begin there: no file, an empty one, or a table of some scene's probes. False with the
+   reason. */
+bool probe_table_check(const char *path, Error *error);
+
 /* Opens the table of these probes, which outlive it: anew, or with `keep` (s) not less than 0 behind the rows
    up to then, where there is such a table. False with the reason: it cannot be written, another slosh writes
-   it, or what is there is another table, which stays as it is. */
+   it, or what is there is something else, which stays as it is. */
 bool probe_table_open(ProbeTable *table, const char *path, const Probes *probes, double keep, Error *error);
 
 /* Adds a row, which waits: the step may be taken back. False when memory is short. */

@@ -79,10 +79,10 @@ class CommandTest(unittest.TestCase):
         """What the program left in the folder."""
         return sorted(set(os.listdir(self.folder)) - {'scene.yaml'})
 
-    def slosh(self, *arguments, timeout=120, before=obey_interrupts):
+    def slosh(self, *arguments, timeout=120, before=obey_interrupts, env=None):
         """Runs the program to its end: (exit code, standard error). OpenGL has nothing to complain of."""
         done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True,
-                              timeout=timeout, preexec_fn=before, check=False)
+                              timeout=timeout, preexec_fn=before, env=env, check=False)
         self.assertNotIn('GL error', done.stderr)
         return done.returncode, done.stderr
 

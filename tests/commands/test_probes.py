@@ -114,6 +114,52 @@ class Probes(CommandTest):
             self.assertIn(word, picture)
         self.assertEqual(len(self.rows('a.csv')), 101)
 
+    def test_a_file_of_another_s_is_kept(self):
+        """A table that no probes wrote is never replaced, the scene's own ones neither; one of probes is."""
+        self.write('scene.yaml', (SCENE + PROBES).replace('0.5, 0.5]}\nsolver', '0.5, 0.5]}\n        below: heights.csv\nsolver'))
+        heights = 'x (m),height (m)\n-0.5,0.4\n0.5,0.5\n'
+        self.write('heights.csv', heights)
+        for name in ('heights.csv', 'heights.svg'):
+            said = self.go('--probes', name, code=1)
+            self.assertIn('heights.csv: is there already, and no probes wrote it; name another file', said)
+            self.assertEqual(self.read('heights.csv').decode(), heights)
+        self.assertEqual(self.entries(), ['heights.csv'])
+        self.write('a.csv', '')
+        self.go('--probes', 'a.csv')
+        self.assertEqual(len(self.rows('a.csv')), 101)
+        self.go('--probes', 'a.csv', '--time', '0.1')
+        self.assertEqual(len(self.rows('a.csv')), 51)
+
+    def test_a_plot_that_cannot_be(self):
+        """Without gnuplot nothing begins; without a number there is no plot; one that fails keeps the JSON."""
+        os.mkdir(self.path('bin'))
+        done = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--probes', 'a.svg',
+                          env={**os.environ, 'PATH': self.path('bin')})
+        self.assertEqual(done[0], 1)
+        self.assertIn('a.svg: gnuplot, which draws charts, is not installed', done[1])
+        self.assertEqual(self.entries(), ['bin'])
+        self.write('bin/gnuplot', '#!/bin/sh\nexit 3\n')
+        os.chmod(self.path('bin/gnuplot'), 0o755)
+        done = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--time', TIME, '--every', EVERY, '--quiet', '--probes',
+                          'a.svg', '--json', 'a.json', env={**os.environ, 'PATH': self.path('bin')})
+        self.assertEqual(done[0], 1)
+        self.assertIn('gnuplot could not draw it', done[1])
+        self.assertIn('floor.pressure', json.loads(self.read('a.json'))['probes'])
+        self.write('scene.yaml', SCENE + 'probes:\n  - {name: air, point: {at: [0, 0.95, 0]}, fields: [density]}\n')
+        said = self.go('--probes', 'b.svg', '--json', 'b.json', name='b.h5part')
+        self.assertIn('b.svg: no probe has met fluid; there is nothing to draw\n', said)
+        self.assertIn('air.density', json.loads(self.read('b.json'))['probes'])
+
+    def test_a_run_that_ends_early_has_its_plot(self):
+        self.go('--probes', 'a.svg', '--set', 'solver.step.dt=0.2', '--set', 'solver.step.retries=0', '--time', '2', code=1)
+        self.assertIn('floor.pressure', self.read('a.svg').decode())
+        process = self.start('run', 'scene.yaml', '-o', 'b.h5part', '--time', '1000', '--every', EVERY, '--quiet', '--probes',
+                             'b.svg')
+        self.wait_for(lambda: os.path.exists(self.path('b.csv')) and self.read('b.csv').count(b'\n') > 9, process)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), 130)
+        self.assertIn('floor.pressure', self.read('b.svg').decode())
+
     def test_what_is_wrong_is_said(self):
         said = self.go('--probes', 'a.txt', code=2)
         self.assertIn("'a.txt' is no name for what probes read; name a FILE.csv, FILE.svg or FILE.png", said)
