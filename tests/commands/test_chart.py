@@ -47,6 +47,16 @@ class Chart(command.CommandTest):
         # the other sound has runs of its own; another title is the same flow
         self.assertEqual(len(self.text('out.csv').splitlines()), 1 + 2 * 10)
 
+    def test_a_table_that_changed_runs_again(self):
+        self.write('tank.yaml', command.SCENE.replace('0.5, 0.5]}\nsolver', '0.5, 0.5]}\n        below: heights.csv\n    velocity_table: flow.csv\nsolver'))
+        heights, flow = 'x (m),height (m)\n-0.5,{}\n0.5,0.5\n', 'x (m),vx (m/s)\n-0.5,{}\n0.5,0\n'
+        for high, fast, runs in ((0.5, 0.1, 1), (0.5, 0.1, 1), (0.4, 0.1, 2), (0.4, 0.2, 3)):
+            self.write('heights.csv', heights.format(high))
+            self.write('flow.csv', flow.format(fast))
+            done = self.run_it('tank.yaml', '-o', 'out.svg', '--quiet', *SMALL, '--time', '0.01')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(self.text('out.csv').splitlines()), 1 + runs * 10)
+
     def test_a_key_of_one_method_has_an_effect(self):
         words = ['scene.yaml', '-o', 'out.svg', '--set', 'solver.kernel=quintic', *SMALL]
         self.assertIn('solver.kernel has no effect', self.run_it(*words).stderr)
