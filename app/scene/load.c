@@ -60,13 +60,16 @@ static int dimensions_of(const Tree *tree)
     return size && size->kind == NODE_SEQUENCE && node_count(size) == 2 ? 2 : 3;
 }
 
-static bool read_scene(Tree *tree, bool goes_on, Scene *out, Error *error)
+/* A run that goes on has its places already; the spacing that gives a number of particles comes of the
+ * tables. */
+static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, Error *error)
 {
+    const bool needs_tables = !settings->goes_on || settings->particles > 0;
     tree->dimensions = dimensions_of(tree);
     if (!scene_read(tree, out, error))
         return false;
     out->world.dimensions = tree->dimensions;
-    return scene_check(tree, out, error) && (goes_on || scene_read_tables(tree, out, error));
+    return scene_check(tree, out, error) && (!needs_tables || scene_read_tables(tree, out, error));
 }
 
 /* A bowl's wall is thick enough to keep fluids apart, whatever the spacing became. */
@@ -95,7 +98,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
 {
     char scalar[NAME_SIZE];
     file_scalar(tree, scalar);
-    if (!apply_settings(tree, settings, error) || !read_scene(tree, settings->goes_on, out, error))
+    if (!apply_settings(tree, settings, error) || !read_scene(tree, settings, out, error))
         return false;
     out->purpose = settings->purpose;
     scene_advise_unused(tree, out, notes);

@@ -127,6 +127,19 @@ class Resume(CommandTest):
         said = self.go(code=2, name='b.h5part')
         self.assertIn('heights.csv: cannot be opened', said)
 
+    def test_a_number_of_particles_comes_of_the_tables(self):
+        """The same spacing as at the start; tables that have changed are told by the one that they give."""
+        text = SCENE.replace('0.5, 0.5]}\nsolver', '0.5, 0.5]}\n        below: heights.csv\nsolver')
+        some = ('--particles', '400')
+        self.write('scene.yaml', text)
+        self.write('heights.csv', 'x (m),height (m)\n-0.5,0.2\n0.5,0.3\n')
+        self.whole(*some)
+        self.go('--time', '0.2', *some)
+        self.go('--resume', *some)
+        self.same('whole.h5part', 'a.h5part')
+        os.remove(self.path('heights.csv'))
+        self.assertIn('heights.csv: cannot be opened', self.go('--resume', *some, code=2))
+
     def test_a_table_that_is_gone_is_told(self):
         """Rows from there on, and a line that says so."""
         self.go('--time', '0.2')
