@@ -1,5 +1,6 @@
 /* Probes: names that columns can be called by, places where fluid can be. */
 #include "app/metric/metric_list.h"
+#include "app/probe/probe.h"
 #include "app/scene/check_parts.h"
 #include "sim/matter/solid_step.h"
 
@@ -17,6 +18,38 @@ static const char *kind_of(const ProbeDef *probe)
     return names[probe->kind];
 }
 
+static bool has_column(const ProbeDef *probe, const char *name)
+{
+    for (int i = 0; i < probe_columns(probe); i++) {
+        ProbeColumn column;
+        probe_column(probe, i, &column);
+        if (strcmp(column.name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Place 1 of a line `wall` is called wall_1, as something else may be. */
+static bool check_columns(const Check *check, const char *path, int index)
+{
+    const ProbeDef *own = &check->scene->probes.probe[index];
+    for (int k = 0; k < index; k++) {
+        const ProbeDef *other = &check->scene->probes.probe[k];
+        const bool own_line = own->kind == PROBE_LINE, other_line = other->kind == PROBE_LINE;
+        const ProbeDef *line = own_line ? own : other, *place = own_line ? other : own;
+        for (int i = 0; own_line != other_line && i < probe_columns(place); i++) {
+            ProbeColumn column;
+            probe_column(place, i, &column);
+            if (strncmp(place->name, line->name, strlen(line->name)) == 0 && has_column(line, column.name))
+                return FAIL(
+                    check, path,
+                    "'%s' has a column %s, and so has probes[%d], '%s'; give one of them another name",
+                    own->name, column.name, k, other->name);
+        }
+    }
+    return true;
+}
+
 static bool check_name(const Check *check, int index)
 {
     const ProbeDef *probe = check->scene->probes.probe;
@@ -28,7 +61,7 @@ static bool check_name(const Check *check, int index)
     for (int k = 0; k < index; k++)
         if (strcmp(probe[k].name, name) == 0)
             return FAIL(check, path, "probes[%d] is called '%s' too; give each a name of its own", k, name);
-    return true;
+    return check_columns(check, path, index);
 }
 
 /* How deep in a solid that does not move, m; less than 0: in none. */

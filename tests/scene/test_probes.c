@@ -50,6 +50,16 @@ static void what_is_wrong_is_said(void **state)
                    "scene.yaml:8:12: 'a-b' cannot be the name of columns");
     assert_refused(PROBE("{name: a, point: {at: [0, 0, 0]}}\n  - {name: a, height: {at: [0, 0, 0]}}"),
                    "scene.yaml:9:12: probes[0] is called 'a' too");
+    assert_refused(PROBE("{name: a, line: {from: [0, 0, 0], to: [0, 1, 0], count: 3}}\n"
+                         "  - {name: a_2, point: {at: [0, 0, 0]}}"),
+                   "scene.yaml:9:12: 'a_2' has a column a_2.pressure, and so has probes[0], 'a'");
+    assert_refused(PROBE("{name: a_0, point: {at: [0, 0, 0]}}\n"
+                         "  - {name: a, line: {from: [0, 0, 0], to: [0, 1, 0], count: 3}}"),
+                   "scene.yaml:9:12: 'a' has a column a_0.pressure, and so has probes[0], 'a_0'");
+    assert_true(parse_text(PROBE("{name: a, line: {from: [0, 0, 0], to: [0, 1, 0], count: 3}}\n"
+                                 "  - {name: a_3, point: {at: [0, 0, 0]}}\n"
+                                 "  - {name: a_1, height: {at: [0, 0, 0]}}"),
+                           NULL, &scene, &error));
     assert_refused(PROBE("{name: a, point: {at: [0.6, 0, 0]}}"),
                    "scene.yaml:8:27: [0.6, 0, 0] is outside the box");
     assert_refused(PROBE("{name: a, line: {from: [0, 0, 0], to: [0, 1.1, 0]}}"),
