@@ -59,14 +59,24 @@ static void drop(ForcesLog *log)
         fclose(log->file);
     log->file = NULL;
     output_discard(&log->output);
+    output_unlock(&log->older);
+    output_unlock(&log->lock);
+}
+
+static bool begin(ForcesLog *log, const char *path, Error *error)
+{
+    return output_begin(&log->output, path, error) && output_lock(&log->older, path, error) &&
+           output_lock(&log->lock, log->output.temp, error);
 }
 
 bool forces_log_open(ForcesLog *log, const char *path, int solids, double keep, Error *error)
 {
     char header[HEADER_SIZE];
     *log = (ForcesLog){.solids = solids};
-    if (!output_begin(&log->output, path, error))
+    if (!begin(log, path, error)) {
+        drop(log);
         return false;
+    }
     make_header(solids, header);
     log->file = fopen(log->output.temp, "w");
     if (!log->file)
@@ -87,7 +97,7 @@ static void write_push(FILE *file, const Push *push)
 static bool name_table(ForcesLog *log, Error *error)
 {
     log->named = true;
-    return output_commit(&log->output, error);
+    return output_lock_commit(&log->older, &log->output, error);
 }
 
 bool forces_log_add(ForcesLog *log, double time, const Forces *mean, Error *error)
@@ -111,11 +121,12 @@ bool forces_log_close(ForcesLog *log, Error *error)
     if (!file)
         return true;
     const bool sound = !ferror(file);
-    if (fclose(file) == 0 && sound)
-        return log->named || name_table(log, error);
-    error_set(error, "%.300s: %s", log->output.path, strerror(errno));
-    output_discard(&log->output);
-    return false;
+    bool closed = fclose(file) == 0 && sound;
+    if (!closed)
+        error_set(error, "%.300s: %s", log->output.path, strerror(errno));
+    closed = closed && (log->named || name_table(log, error));
+    drop(log);
+    return closed;
 }
 
 static json_t *push_json(const Push *push)

@@ -5,7 +5,7 @@
 #ifndef SLOSH_FORCES_LOG_H
 #define SLOSH_FORCES_LOG_H
 
-#include "app/base/output.h"
+#include "app/base/output_lock.h"
 #include "sim/matter/forces.h"
 
 #include <jansson.h>
@@ -15,14 +15,16 @@
 typedef struct ForcesLog {
     FILE *file; /* NULL: there is none */
     Output output;
-    bool named; /* the table has its name; else it is still a temporary file */
+    OutputLock older, lock; /* of what is replaced, until then; of the table */
+    bool named;             /* the table has its name; else it is still a temporary file */
     int solids;
     Forces all; /* of all rows that were added, summed over time */
 } ForcesLog;
 
 /* Begins a table of so many solids that gets its name with its first row, or in forces_log_close: until then
    an older one stays. The rows that a table of that name has up to `keep` (s) stay: less than 0 for a new
-   run. False with the reason: it can't be written, or what is there is another table. */
+   run. False with the reason: it can't be written, another slosh writes it, or what is there is another
+   table. */
 bool forces_log_open(ForcesLog *log, const char *path, int solids, double keep, Error *error);
 
 /* Adds a row, of means; none where no time went by. It is the system's from then on: a program that is killed

@@ -148,6 +148,19 @@ class Resume(CommandTest):
         rows = self.read('a.csv').decode().splitlines()
         self.assertGreater(float(rows[1].split(',')[0]), 0.2)
 
+    def test_one_table_of_forces_has_one_writer(self):
+        """From its first moment: a second run is refused, the table of the first stays whole."""
+        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000', '--every', EVERY, '--quiet',
+                             '--forces', 'a.csv')
+        self.wait_for(lambda: os.path.exists(self.path('a.csv')), process)
+        said = self.go('--forces', 'a.csv', name='b.h5part', code=1)
+        self.assertIn('a.csv: is being written by another slosh; wait for its end, or name another file', said)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), 130)
+        times = [float(row.split(',')[0]) for row in self.read('a.csv').decode().splitlines()[1:]]
+        self.assertEqual(times, sorted(set(times)))
+        self.go('--forces', 'a.csv', name='b.h5part')
+
     def test_forces_that_are_not_to_be_had(self):
         said = self.go('--forces', 'a.csv', '--backend', 'fragment', code=2)
         self.assertIn('backend fragment sums no forces; use backend cpu or compute', said)
