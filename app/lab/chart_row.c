@@ -162,8 +162,12 @@ bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *e
         return true;
     const bool empty = getline(&head, &size, file) <= 0;
     const bool ours = empty || strncmp(head, OURS, sizeof OURS - 1) == 0;
-    if (!empty && ours && strcmp(head, HEAD) == 0)
+    const bool same = !empty && strcmp(head, HEAD) == 0;
+    if (same)
         read_rows(rows, file, path, warnings);
+    else if (!empty && ours && warnings)
+        fprintf(warnings, "%s: is of another version of slosh; its rows are left out, its runs made again\n",
+                path);
     free(head);
     fclose(file);
     return ours || error_set(error,

@@ -47,8 +47,9 @@ typedef struct ChartRows {
     ChartRow row[CHART_ROWS_MAX];
 } ChartRows;
 
-/* The sound rows of an older run; none where there is no such file, or it is empty. Each other row is told to
-   `warnings` (NULL: to nobody). False with the reason where the file is no chart's: it is not to be replaced.
+/* The sound rows of an older run; none where there is no such file, or it is empty. Each other row, or
+   that the file is of another version, is told to `warnings` (NULL: to nobody). False with the reason where
+   the file is no chart's: it is not to be replaced.
  */
 bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error);
 
