@@ -64,12 +64,28 @@ void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
         advise_viscous(tree, &def, &friction, notes);
 }
 
+static double greatest_of_table(const FieldTable *table)
+{
+    size_t places = table ? 1 : 0;
+    double speed2 = 0;
+    for (int k = 0; table && k < 3; k++)
+        places *= (size_t)table->count[k];
+    for (size_t i = 0; i < places; i++) {
+        double sum = 0;
+        for (int c = 0; c < FIELD_TABLE_COLUMNS; c++)
+            sum += table->value[c] ? table->value[c][i] * table->value[c][i] : 0;
+        speed2 = fmax(speed2, sum);
+    }
+    return sqrt(speed2);
+}
+
 static double greatest_start(const WorldDef *def)
 {
     double speed = 0;
     for (int f = 0; f < def->fluid_count; f++) {
         const double *v = def->fluids[f].velocity;
-        speed = fmax(speed, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + def->fluids[f].taylor_green);
+        speed = fmax(speed, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + def->fluids[f].taylor_green +
+                                greatest_of_table(def->fluids[f].flow_table));
         for (int i = 0; i < def->fluids[f].emit_count; i++)
             speed = fmax(speed, def->fluids[f].emits[i].speed);
     }

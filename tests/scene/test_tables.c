@@ -163,6 +163,18 @@ static void tables_of_a_scene(void **state)
     assert_non_null(strstr(notes.line[1], "in y, and the fluid from 0 to 1 m"));
 }
 
+/* sqrt(20^2 + 2 g H) */
+static void the_speed_of_a_table_counts(void **state)
+{
+    (void)state;
+    Error error;
+    write_file("heights.csv", "x (m),height (m)\n-0.5,0.2\n0.5,0.6\n");
+    write_file("flow.csv", "y,vx,vy\n0,0,0\n0.5,12,-16\n1,1,1\n");
+    assert_true(load(TANK "solver: {sound_speed: 15, step: {mode: cfl}}\n", &error));
+    assert_int_equal(notes.count, 1);
+    assert_non_null(strstr(notes.line[0], "15 m/s is little for fluid that may come to 20.5 m/s"));
+}
+
 static void expect_refusal(const char *text, const char *words)
 {
     Error error;
@@ -216,6 +228,7 @@ int main(void)
         cmocka_unit_test(velocities_of_a_grid),
         cmocka_unit_test(bad_files_are_told),
         cmocka_unit_test(tables_of_a_scene),
+        cmocka_unit_test(the_speed_of_a_table_counts),
         cmocka_unit_test(tables_that_a_scene_cannot_have),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
