@@ -26,7 +26,8 @@ static const char *cell(char out[32], const char *form, double number)
 static void print_miss(const CaseResult *result, int m, FILE *file)
 {
     const char *without = result->of->metrics[m].without;
-    if (!isfinite(result->run.figures[m].error))
+    const bool judged = !result->of->metrics[m].no_verdict;
+    if (judged && !isfinite(result->run.figures[m].error))
         fprintf(file, "  missed: %s", without && !*result->failure ? without : "no value");
     else if (!case_passed(result, m))
         fputs("  missed", file);

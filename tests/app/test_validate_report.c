@@ -8,8 +8,11 @@
 static const Case swing = {
     .name = "swing",
     .metrics = {{"frequency", "rad/s", .tolerance = 0.07, .without = "does not oscillate"},
-                {"width", "m", .tolerance = 0.05}},
+                {"width", "m", .tolerance = 0.05},
+                {"shape", "", .no_verdict = true}},
 };
+
+static Figure shape = {0.5, 1, 0.5};
 
 static CaseResult *result_of(Figure frequency, Figure width)
 {
@@ -19,6 +22,7 @@ static CaseResult *result_of(Figure frequency, Figure width)
     snprintf(result.scene.world.backend, NAME_SIZE, "cpu");
     result.run.figures[0] = frequency;
     result.run.figures[1] = width;
+    result.run.figures[2] = shape;
     return &result;
 }
 
@@ -53,6 +57,18 @@ static void a_figure_without_a_value_is_words(void **state)
     assert_non_null(strstr(text, "  missed\n"));
     assert_null(strstr(text, "missed:"));
     printed(result_of(good, good), text);
+    assert_null(strstr(text, "missed"));
+}
+
+/* It is shown and not judged: with a value or without. */
+static void what_has_no_verdict_is_no_miss(void **state)
+{
+    (void)state;
+    char text[4096];
+    shape = (Figure){(double)NAN, 1, (double)NAN};
+    printed(result_of(good, good), text);
+    shape = (Figure){0.5, 1, 0.5};
+    assert_non_null(strstr(text, "shape"));
     assert_null(strstr(text, "missed"));
 }
 
@@ -102,9 +118,8 @@ static void a_figure_without_a_value_is_null(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_figure_without_a_value_is_words),
-        cmocka_unit_test(a_run_that_broke_says_so_itself),
-        cmocka_unit_test(json_says_what_failed),
+        cmocka_unit_test(a_figure_without_a_value_is_words), cmocka_unit_test(what_has_no_verdict_is_no_miss),
+        cmocka_unit_test(a_run_that_broke_says_so_itself),   cmocka_unit_test(json_says_what_failed),
         cmocka_unit_test(a_figure_without_a_value_is_null),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
