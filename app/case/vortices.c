@@ -54,6 +54,6 @@ const Case case_vortices_1000 = {
     .help = "Taylor and Green's vortices, Re 1000: what else than viscosity takes their energy",
     .setting = "fluids[0].viscosity=1",
     .spacing = {0.04, 0.01, 0.005},
-    .metrics = {{"slope of ln energy", "1/s", .tolerance = 0.05, .coarse = 0.18}},
+    .metrics = {{"slope of ln energy", "1/s", .tolerance = 0.02, .coarse = 0.06}},
     COMMON,
 };
