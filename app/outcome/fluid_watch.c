@@ -1,9 +1,25 @@
 #include "app/outcome/fluid_watch.h"
 
 #include "app/outcome/outcome_watch.h"
+#include "sim/kernel/kernel.h"
 #include "sim/world/method.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+/* Particles pair under the cubic kernel, and hardly under the other ones that a method lets a scene choose.
+ */
+static const char *advice_on_clumps(const WorldDef *def)
+{
+    const char *kernel = method_kernels(def).slope->name;
+    const bool chosen = !method_find(def->method)->incompressible && shape_kernel_find(kernel);
+    if (!chosen)
+        return "; use a particles.support of 2.5 or less, or shorter steps";
+    return strcmp(kernel, "cubic") == 0
+               ? "; use solver.kernel wendland_c2 with a particles.support of 3 or more, or a support of 2.5 or less"
+               : "; use a larger particles.support, or solver.shifting 0.2";
+}
 
 static const char *advice(OutcomeKind kind, const WorldDef *def)
 {
@@ -12,42 +28,71 @@ static const char *advice(OutcomeKind kind, const WorldDef *def)
     case OUTCOME_SQUEEZED:
         return solves ? "; use more solver.iterations or shorter steps" : "; use a higher solver.sound_speed";
     case OUTCOME_CLUMPS:
-        return "; use solver.kernel wendland_c2 with a particles.support of 3 or more, or a support of 2.5 or less";
+        return advice_on_clumps(def);
     case OUTCOME_LEAKS:
         return "; use shorter steps, or solids that are thicker than twice the spacing";
+    case OUTCOME_DIVERGES:
+        return "; use shorter steps, or more of the solver's iterations (solver.iterations, "
+               "solver.viscosity_iterations)";
     default:
         return "";
     }
 }
 
-/* Of a history of two looks: what it began with, and what it is now. */
-static bool look(FluidWatch *watch, const WorldDef *def, World *world)
+/* What starts close, as emitters' fluid or a jittered lattice, is no clump; nothing else is normal. */
+static void begin(FluidWatch *watch, const OutcomeLook *first)
 {
-    OutcomeHistory *history = &watch->history;
-    const int at = history->count > 0;
-    if (!outcome_glance(&history->look[at], def, world))
-        return false; /* no memory: the next look may have it */
-    history->count = at + 1;
-    return true;
+    watch->looked = true;
+    watch->start = (OutcomeLook){.time = first->time,
+                                 .count = first->count,
+                                 .close = watch->resumed ? 0 : first->close,
+                                 .energy = (double)NAN,
+                                 .scale = (double)NAN};
+}
+
+static void judge(const FluidWatch *watch, const OutcomeLook *now, Outcome *outcome)
+{
+    const OutcomeHistory history = {.count = 2, .look = {watch->start, *now}};
+    outcome_judge(&history, outcome);
+}
+
+/* Without what was told: it does not hide the other kinds. */
+static OutcomeLook untold(const FluidWatch *watch, OutcomeLook look)
+{
+    if (watch->told >> OUTCOME_SQUEEZED & 1)
+        look.pressed = 0;
+    if (watch->told >> OUTCOME_CLUMPS & 1)
+        look.close = 0;
+    if (watch->told >> OUTCOME_LEAKS & 1)
+        look.beyond = look.lost = 0;
+    if (watch->told >> OUTCOME_DIVERGES & 1)
+        look.stuck = false;
+    return look;
 }
 
 bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char words[FLUID_WATCH_WORDS])
 {
     WorldInfo info;
+    OutcomeLook look;
     Outcome now;
     world_info(world, &info);
     if (world_on_gpu(def) || info.within_frame || info.step < watch->next)
         return false;
     watch->next = info.step + FLUID_WATCH_STEPS;
-    if (!look(watch, def, world))
-        return false;
-    outcome_judge(&watch->history, &now);
+    if (!outcome_glance(&look, def, world))
+        return false; /* no memory: the next look may have it */
+    if (!watch->looked)
+        begin(watch, &look);
+    judge(watch, &look, &now);
     if (now.kind > watch->worst.kind)
         watch->worst = now;
-    if (now.kind <= OUTCOME_HOLDS || watch->told >> now.kind & 1)
+    look = untold(watch, look);
+    judge(watch, &look, &now);
+    if (now.kind <= OUTCOME_HOLDS)
         return false;
     watch->told |= 1u << now.kind;
-    snprintf(words, FLUID_WATCH_WORDS, "t = %.4g s: %s%s", now.time, now.words, advice(now.kind, def));
+    snprintf(words, FLUID_WATCH_WORDS, "t = %.4g s: %s: %s%s", now.time, outcome_word(now.kind), now.words,
+             advice(now.kind, def));
     return true;
 }
 
@@ -58,5 +103,5 @@ bool fluid_watch_outcome(const FluidWatch *watch, const WorldTrouble *trouble, O
         outcome_judge(&end, outcome);
     else
         *outcome = watch->worst;
-    return trouble->ended || watch->history.count > 0;
+    return trouble->ended || watch->looked;
 }

@@ -7,18 +7,21 @@
 #include "app/outcome/outcome.h"
 
 /* A look takes a third of a step's time; so many steps from one to the next make it less than a hundredth. */
-enum { FLUID_WATCH_STEPS = 50, FLUID_WATCH_WORDS = OUTCOME_WORDS + 160 };
+enum { FLUID_WATCH_STEPS = 50, FLUID_WATCH_WORDS = OUTCOME_WORDS + 192 };
 
-/* Zero-initialise it; again where the scene begins anew. */
+/* Zero-initialise it but for `resumed`; again where the scene begins anew. */
 typedef struct FluidWatch {
-    OutcomeHistory history; /* the first look and the last one */
-    Outcome worst;          /* of all looks */
-    unsigned told;          /* bit k: of OutcomeKind k */
-    uint64_t next;          /* step of the next look */
+    bool resumed;      /* goes on from a state that is not the scene's start: none of it is normal */
+    bool looked;       /* there was a look */
+    OutcomeLook start; /* what is normal: particles that are close at the first look; all else 0 */
+    Outcome worst;     /* of all looks */
+    unsigned told;     /* bit k: of OutcomeKind k */
+    uint64_t next;     /* step of the next look */
 } FluidWatch;
 
-/* After a step that is sound, at the end of a frame: looks where it is time. True where something is seen for
-   the first time: what, and what to do, in words. */
+/* After a step that is sound, at the end of a frame: looks where it is time. True where a kind of failure is
+   seen for the first time: its word, what was found, and what to do. Of several kinds at once the worst is
+   told, the next one at the next look. */
 bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char words[FLUID_WATCH_WORDS]);
 
 /* How the run went, with what ended it. False where there was no look. */

@@ -35,6 +35,7 @@ int session_open(Session *session, const Args *args, bool draws, Error *error)
     SceneSettings settings = args->settings;
     *session = (Session){.began_ms = wall_ms()};
     settings.goes_on = args->resume && access(args->output, F_OK) == 0;
+    session->watch.resumed = settings.goes_on;
     if (!scene_load(args->scenes[0], &settings, &session->scene, &notes, error))
         return EXIT_USAGE;
     notes_print(&notes, stderr);

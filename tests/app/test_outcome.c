@@ -2,7 +2,9 @@
 #include "tests/sim/fixture.h"
 
 #include "app/metric/closeness.h"
+#include "app/outcome/fluid_watch.h"
 #include "app/outcome/outcome_watch.h"
+#include "sim/wcsph/wcsph.h"
 
 #include <jansson.h>
 
@@ -223,6 +225,138 @@ static void a_world_that_ends_says_of_what(void **state)
     assert_true(outcome.time > 0 && strstr(error.message, outcome.words));
 }
 
+/* ---- the watch over a run: what it sees of a calm world is made up by the def that it is given ---- */
+
+static World *world;
+static WorldDef calm_def;
+static FluidWatch watch;
+static char said[FLUID_WATCH_WORDS];
+
+static int calm_world(void **state)
+{
+    (void)state;
+    calm_def = fixture_def(1, 1, 1);
+    fixture_block(&calm_def, 0, -0.5, 0, -0.5, 0.5, 0.5, 0.5);
+    world = fixture_world(&calm_def);
+    watch = (FluidWatch){0};
+    return 0;
+}
+
+static int end_world(void **state)
+{
+    (void)state;
+    world_destroy(world);
+    return 0;
+}
+
+static bool look_now(const WorldDef *def)
+{
+    watch.next = 0;
+    return fluid_watch(&watch, def, world, said);
+}
+
+/* Its fluid is half as dense at rest. */
+static WorldDef squeezed_def(void)
+{
+    WorldDef def = calm_def;
+    def.fluids[0].density = 500;
+    return def;
+}
+
+/* A ball is where the fluid is. */
+static WorldDef leaking_def(void)
+{
+    WorldDef def = squeezed_def();
+    def.solids[def.solid_count++] = (SolidDef){.kind = SOLID_SPHERE, .centre = {0, 0.25, 0}, .radius = 0.2};
+    return def;
+}
+
+/* All lattice neighbours are near one another. */
+static WorldDef clumped_def(void)
+{
+    WorldDef def = calm_def;
+    def.spacing = 10 * calm_def.spacing;
+    return def;
+}
+
+static void looks_come_at_their_steps(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    const WorldTrouble none = {.count = 0};
+    const WorldDef squeezed = squeezed_def();
+    assert_false(fluid_watch_outcome(&watch, &none, &outcome));
+    assert_false(fluid_watch(&watch, &calm_def, world, said));
+    assert_int_equal(watch.next, FLUID_WATCH_STEPS);
+    for (int k = 1; k < FLUID_WATCH_STEPS; k++) {
+        assert_true(world_step(world, NULL, &error));
+        assert_false(fluid_watch(&watch, &squeezed, world, said));
+    }
+    assert_true(fluid_watch_outcome(&watch, &none, &outcome) && outcome.kind == OUTCOME_HOLDS);
+    assert_true(world_step(world, NULL, &error) && fluid_watch(&watch, &squeezed, world, said));
+}
+
+/* What it begins with hides nothing that comes later. */
+static void each_kind_is_told_once(void **state)
+{
+    (void)state;
+    const WorldDef leaking = leaking_def(), squeezed = squeezed_def(), clumped = clumped_def();
+    assert_true(look_now(&leaking) && strstr(said, "s: leaks: ") &&
+                strstr(said, "are beyond a wall; use shorter"));
+    assert_true(look_now(&leaking) &&
+                strstr(said, "t = 0 s: squeezed: fluid has lost volume: it is pressed by"));
+    assert_non_null(strstr(said, "in the mean; use a higher solver.sound_speed"));
+    assert_false(look_now(&leaking));
+    assert_false(look_now(&squeezed));
+    assert_true(look_now(&clumped) && strstr(said, "s: clumps: "));
+    assert_false(look_now(&clumped) || look_now(&calm_def));
+}
+
+/* Of a scene's start it is normal; of a run that goes on it is not. */
+static void what_starts_close_is_no_clump(void **state)
+{
+    (void)state;
+    const WorldDef clumped = clumped_def();
+    assert_false(look_now(&clumped) || look_now(&clumped));
+    watch = (FluidWatch){.resumed = true};
+    assert_true(look_now(&clumped) && strstr(said, "s: clumps: "));
+}
+
+static void advice_fits_the_kernel(void **state)
+{
+    (void)state;
+    WorldDef clumped = clumped_def();
+    static const struct {
+        const char *method, *kernel, *advice;
+    } cases[] = {{"wcsph", "cubic", "; use solver.kernel wendland_c2 with"},
+                 {"wcsph", "wendland_c2", "; use a larger particles.support, or solver.shifting"},
+                 {"mueller", NULL, "; use a particles.support of 2.5 or less, or shorter steps"},
+                 {"dfsph", NULL, "; use a particles.support of 2.5 or less, or shorter steps"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        watch = (FluidWatch){.resumed = true};
+        snprintf(clumped.method, sizeof clumped.method, "%s", cases[k].method);
+        if (cases[k].kernel)
+            snprintf(wcsph_def(&clumped)->kernel, NAME_SIZE, "%s", cases[k].kernel);
+        assert_true(look_now(&clumped));
+        assert_non_null(strstr(said, cases[k].advice));
+    }
+}
+
+static void the_worst_stays_but_for_the_end(void **state)
+{
+    (void)state;
+    const WorldDef leaking = leaking_def();
+    const WorldTrouble none = {.count = 1}, end = {.ended = true, .what = STEP_TROUBLE_ENERGY, .time = 2};
+    assert_true(look_now(&leaking));
+    look_now(&calm_def);
+    assert_true(fluid_watch_outcome(&watch, &none, &outcome) && outcome.kind == OUTCOME_LEAKS);
+    assert_true(fluid_watch_outcome(&watch, &end, &outcome) && outcome.kind == OUTCOME_NOISY);
+    watch = (FluidWatch){0};
+    assert_true(fluid_watch_outcome(&watch, &end, &outcome) && outcome.kind == OUTCOME_NOISY);
+}
+
+#define WATCHED(test) cmocka_unit_test_setup_teardown(test, calm_world, end_world)
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -236,6 +370,11 @@ int main(void)
         cmocka_unit_test(words_are_the_same_everywhere),
         cmocka_unit_test(close_particles_are_those_of_all_pairs),
         cmocka_unit_test(a_world_that_ends_says_of_what),
+        WATCHED(looks_come_at_their_steps),
+        WATCHED(each_kind_is_told_once),
+        WATCHED(what_starts_close_is_no_clump),
+        WATCHED(advice_fits_the_kernel),
+        WATCHED(the_worst_stays_but_for_the_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 """Each scene of scenes/failures provokes what its comment says, slosh says so in those words, and what the comment names mends it."""
+import json
 import pathlib
 import shlex
 import subprocess
@@ -25,6 +26,24 @@ class Failures(unittest.TestCase):
                                   check=False)
         self.assertIn(done.returncode, (0, 1), (words, done.stderr))
         return done.stderr, done.returncode
+
+    def test_a_run_says_how_it_went(self):
+        """The kind's word in the terminal, and the same in the JSON; a run that goes on says it of what it finds."""
+        with tempfile.TemporaryDirectory() as folder:
+            for scene, more, kind in (('failures/closed_door', ['--time', '1'], 'squeezed'),
+                                      ('failures/closed_door', ['--time', '1.1', '--resume'], 'squeezed'),
+                                      ('failures/thin_sheet', ['--time', '0.05'], 'holds')):
+                done = subprocess.run([command.PROGRAM, 'run', scene, '-o', f'{kind}.h5part', *more, '--json', 'a.json', '--quiet'],
+                                      cwd=folder, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                json_ = json.loads((pathlib.Path(folder) / 'a.json').read_text())
+                self.assertEqual(json_['outcome'], kind)
+                if kind == 'holds':
+                    self.assertNotIn('outcome_words', json_)
+                else:
+                    self.assertIn(f"t = {json_['outcome_time']:.4g} s: {kind}: fluid has lost volume", done.stderr)
+                    self.assertRegex(json_['outcome_words'], r'it is pressed by \d')
+                    self.assertEqual('--resume' in more, json_['outcome_time'] >= 1)
 
     def test_each_is_said_and_mended(self):
         self.assertGreater(len(SCENES), 9)
