@@ -116,11 +116,13 @@ static void advise_thin(const Tree *tree, const WorldDef *world, int f, Notes *n
 static void advise_beyond(const Tree *tree, const char *path, const WorldDef *world, const FieldTable *table,
                           const double low[3], const double high[3], Notes *notes)
 {
-    for (int k = 0; k < world->dimensions; k++) {
+    for (int k = 0; k < 3; k++) {
+        if (k >= world->dimensions || table->count[k] < 2)
+            continue; /* nothing depends on it */
         const double first = table->place[k][0], last = table->place[k][table->count[k] - 1];
         /* the outermost particles are half a spacing from the faces */
-        if (table->count[k] > 1 && (low[k] + 0.5 * world->spacing < first - 1e-6 * world->spacing ||
-                                    high[k] - 0.5 * world->spacing > last + 1e-6 * world->spacing))
+        if (low[k] + 0.5 * world->spacing < first - 1e-6 * world->spacing ||
+            high[k] - 0.5 * world->spacing > last + 1e-6 * world->spacing)
             advise(tree, path, notes,
                    "the table reaches from %g to %g m in %c, and the fluid from %g to %g m: beyond the table "
                    "it has what stands at its edge",
