@@ -212,7 +212,15 @@ static void another_table_stays(void **state)
     assert_non_null(strstr(error.message, "is no table of this scene's probes"));
     read_file("probes_other.csv", text);
     assert_string_equal(text, "time,force\n0,1\n");
+    assert_false(probe_table_open(&table, "probes_other.csv", probes, -1, &error));
+    assert_non_null(strstr(error.message, "is there already, and no probes wrote it"));
+    assert_false(probe_table_check("probes_other.csv", &error));
+    read_file("probes_other.csv", text);
+    assert_string_equal(text, "time,force\n0,1\n");
+    unlink("probes_other.csv");
+    assert_true(probe_table_check("probes_other.csv", &error));
     assert_true(probe_table_open(&table, "probes_other.csv", probes, -1, &error));
+    assert_true(probe_table_check("probes_other.csv", &error));
     assert_false(probe_table_open(&other, "probes_other.csv", probes, -1, &error));
     assert_non_null(strstr(error.message, "is being written by another slosh"));
     assert_true(probe_table_close(&table, &error));
