@@ -9,7 +9,8 @@ enum {
     RELATIVE,   /* copy of the compression, for diffusion: the pass of continuity changes the column of
                    neighbours meanwhile */
     SLOPE,      /* its gradient, 1/m */
-    UNEVEN = SLOPE + 3,         /* what shifting goes by: sum of F x_ij, 1/m4 */
+    UNEVEN = SLOPE + 3,         /* what shifting goes by: sum of F x_ij, 1/m4; with corrected gradients that of
+                                   (S_i + S_j) / 2 F x_ij more, sim/wcsph/pairs_corrected.c */
     FULL = UNEVEN + 3,          /* of F r^2, 1/m3; then 0 to 1, how far from a surface */
     DENSE,                      /* of W, 1/m3; then n / n0 - 1 */
     OUTWARD,                    /* the normal of a surface, times the weight of a particle in it */

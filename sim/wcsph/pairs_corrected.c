@@ -2,8 +2,10 @@
      M_i = V_i sum F x_ij x_ij^T                            1 on the lattice; images and solids have a part
      d rho_i / dt += (rho0_i / n0) (-sum F v_ij . C_i x_ij)
      force_i += sum (p_i V_i^2 C_i + p_j V_j^2 C_j) F x_ij   that rate's adjoint
-     shift_i += sum (S_i + S_j) / 2 F x_ij                 S = n0^2 V^2 (1 + C) - 1: what an even pressure
-   pushes, so that particles lie as dense as the flow is. The image of a particle has its C in the mirror. */
+     uneven_i += sum (S_i + S_j) / 2 F x_ij                S = n0^2 V^2 (1 + C) - 1
+   Shifts go by that sum with the plain one of F x_ij: both are what an even pressure pushes, so that
+   particles lie as dense as the flow is. The image of a particle has its C in the mirror; boundary particles
+   of solids have none and V0. */
 #include "sim/wcsph/pair_seeker.h"
 
 SIMD_INLINE void spread(const PairArgs *args, const Near near, const Seeker *from, const ShapeKernel kernel,
@@ -94,12 +96,12 @@ typedef struct Pushed {
     Place even, there, shift;
 } Pushed;
 
-/* (n0 V)^2, of no V above that of THINNEST. */
+/* (n0 V)^2, of no V above that of THINNEST; 1 of boundary particles that no friction sees, whose V is 0. */
 SIMD_INLINE f8 volume_squared(const PairArgs *args, f8 volume)
 {
     const float n0 = args->constants->rest_number_density;
     const f8 v = f8_splat(n0) * lesser(volume, f8_splat(1 / (THINNEST * n0)));
-    return v * v;
+    return f8_select(volume > f8_splat(0), v * v, f8_splat(1));
 }
 
 /* S x, of c = C x. */

@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-/* By chi c (h / 2) dt V0 sum F x_ij, along no axis further than a tenth of a spacing. */
+/* By chi c (h / 2) dt V0 sum F x_ij, with corrected gradients sum (1 + (S_i + S_j) / 2) F x_ij of
+   sim/wcsph/pairs_corrected.c, along no axis further than a tenth of a spacing. */
 static void shift_body(const CpuRange *range)
 {
     const Constants *s = range->cpu->constants;

@@ -204,6 +204,52 @@ static void shifts_hardly_change_momentum(void **state)
     world_destroy(world);
 }
 
+/* Fluid on the lattice about a block, after a step. */
+static State beside_a_block(int slip)
+{
+    WorldDef def = def_of(true, 0);
+    static InitialState around;
+    def.dt = 0.01;
+    def.fluids[0].viscosity = 1;
+    wcsph_def(&def)->shifting = 0.5;
+    def.solids[def.solid_count++] = (SolidDef){
+        .kind = SOLID_BOX, .centre = {0, 1.2, 0}, .size = {8 * SPACING, 8 * SPACING, 1}, .slip = slip};
+    around = *def.initial;
+    around.count = 0;
+    for (int i = 0; i < ALL; i++) {
+        const int x = i % SIDE, y = i / SIDE;
+        if (abs(2 * x - (SIDE - 1)) < 8 && abs(2 * y - (SIDE - 1)) < 8)
+            continue;
+        x0[3 * around.count] = (float)((x + 0.5 - 0.5 * SIDE) * SPACING);
+        x0[3 * around.count + 1] = (float)((y + 0.5) * SPACING);
+        density0[around.count++] = 1000;
+    }
+    def.initial = &around;
+    World *world = fixture_world(&def);
+    fixture_step(world, 1);
+    State s = fixture_read(world);
+    world_destroy(world);
+    return s;
+}
+
+/* Whether friction sees the particles of a solid is nothing to shifts. */
+static void shifts_beside_solids_are_even(void **state)
+{
+    (void)state;
+    State sticks = beside_a_block(SLIP_NONE), slips = beside_a_block(SLIP_FREE);
+    double most = 0, apart = 0;
+    for (size_t i = 0; i < slips.count; i++)
+        for (size_t k = 0; k < 2; k++) {
+            const double x = (double)slips.position[4 * i + k];
+            most = fmax(most, fabs(x - (double)x0[3 * i + k]));
+            apart = fmax(apart, fabs(x - (double)sticks.position[4 * i + k]));
+        }
+    printf("  shifts of %g m at most, %g m from those beside a block that holds\n", most, apart);
+    assert_true(most < 1e-5 && apart < 1e-6);
+    fixture_free(&sticks);
+    fixture_free(&slips);
+}
+
 static void threads_change_no_bit(void **state)
 {
     (void)state;
@@ -228,6 +274,7 @@ int main(void)
         cmocka_unit_test(shifts_keep_linear_flows),
         cmocka_unit_test(shifts_follow_the_density_of_the_flow),
         cmocka_unit_test(shifts_hardly_change_momentum),
+        cmocka_unit_test(shifts_beside_solids_are_even),
         cmocka_unit_test(threads_change_no_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

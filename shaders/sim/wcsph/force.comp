@@ -34,7 +34,7 @@ vec3 shift_push = vec3(0), shift_image_push; // of S_j F x_ij
 float volume_squared(float volume)
 {
     float v = rest_number_density * volume_felt(volume);
-    return v * v;
+    return volume > 0.0 ? v * v : 1.0;
 }
 #endif
 
