@@ -136,13 +136,14 @@ SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float
 
 /* --- friction --- */
 
-/* Of those that stand at `at`, with the velocities `vi`: what g times V_i is not in yet. */
+/* Of those that stand at `at`, with the velocities `vi`, from nobody nearer than `nearest`, in h: what g
+   times V_i is not in yet. */
 SIMD_INLINE void friction_of(const PairArgs *args, const Place at, const Near near, f8x4 vi, f8 mi,
-                             Place *sum)
+                             float nearest, Place *sum)
 {
     const Constants *s = args->constants;
     const f8 inverse_h = f8_splat(1 / s->support_radius), same = f8_splat(s->viscosity[0]),
-             least = f8_splat(1e-6f);
+             least = f8_splat(nearest);
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, at, j);
         const f8 q = f8_sqrt(d.r2) * inverse_h, apart = f8_select(q > least, q, least);
@@ -154,11 +155,13 @@ SIMD_INLINE void friction_of(const PairArgs *args, const Place at, const Near ne
 }
 
 /* In the form of Morris (sim/matter/viscosity.h): V_i V_j (mu_i + mu_j) F v_ji, of what `motion` has; images,
-   where walls let fluid slip, with velocities in the mirror. */
+   where walls let fluid slip, with velocities in the mirror, and of none nearer than half a spacing: what
+   stands on a wall would turn round in a step that friction stands elsewhere. */
 SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, float gradient)
 {
     const Constants *s = args->constants;
     const f8 g = f8_splat(gradient), zero = f8_splat(0);
+    const float half = 0.5f * s->spacing / s->support_radius;
     const WallsFar far = out_of_sight(s);
     Images images;
     GROUPS (i, begin, end) {
@@ -167,14 +170,14 @@ SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, f
         const f8x4 vi = motion(args, own.j);
         const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]);
         Place sum = {zero, zero, zero};
-        friction_of(args, place_of(args, i), near, vi, mi, &sum);
+        friction_of(args, place_of(args, i), near, vi, mi, 1e-6f, &sum);
         const bool mirrored = !s->no_slip && images_of(args, &far, i, begin, end, &images);
         for (int m = 1; mirrored && m <= images.count; m++) {
             const Mirrored *image = &images.of[m];
             const f8x4 v = {image->sign.x * vi.x, image->sign.y * vi.y, image->sign.z * vi.z, vi.w};
             Place part = {zero, zero, zero};
-            friction_of(args, image->at, near, v, mi, &part);
-            friction_of(args, image->at, near_themselves(&own), v, mi, &part);
+            friction_of(args, image->at, near, v, mi, half, &part);
+            friction_of(args, image->at, near_themselves(&own), v, mi, half, &part);
             sum.x += image->sign.x * part.x;
             sum.y += image->sign.y * part.y;
             sum.z += image->sign.z * part.z;

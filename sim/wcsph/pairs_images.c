@@ -48,13 +48,16 @@ SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, con
 }
 
 /* Laminar viscosity as pairs have it (sim/wcsph/pairs.c), with velocities in the mirror: of a wall that slips
-   the stress along its normal, and no shear. By the kernel's own slope: it moves nothing apart. */
+   the stress along its normal, and no shear. By the kernel's own slope: it moves nothing apart. In Morris's
+   form of none nearer than half a spacing, as the lattice has them at walls: what stands on a wall would turn
+   round in a step that friction stands elsewhere. */
 SIMD_INLINE void image_rub(const PairArgs *args, size_t i, const Near near, const Mirrored *image,
                            const ShapeKernel kernel, const bool radial, Found *sum)
 {
     const Constants *s = args->constants;
     const WcsphBlock *w = wcsph_constants(s);
-    const f8 inverse_h = f8_splat(1 / s->support_radius), least = f8_splat(1e-6f);
+    const f8 inverse_h = f8_splat(1 / s->support_radius),
+             least = f8_splat(radial ? 1e-6f : 0.5f * s->spacing / s->support_radius);
     const f8 most = f8_splat(1 / (THINNEST * s->rest_number_density));
     const f8 mi = args->viscosity ? f8_load(args->viscosity + i) : f8_splat(s->viscosity[0]);
     const f8 volume = lesser(f8_load(args->volume + i), most), scale = f8_splat(w->radial_friction);

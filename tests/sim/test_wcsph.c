@@ -216,7 +216,8 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
                 const double w = contrast_of(def, cloud, i, j);
                 const double push = (1 + w) * pressure[i] * volume[i] * volume[i] +
                                     (1 - w) * pressure[j] * volume[j] * volume[j];
-                const double d = fmax(sqrt(dot(x, x)), 1e-6 * r->h);
+                const double nearest = wcsph_def(def)->viscosity_form ? 1e-6 * r->h : 0.5 * def->spacing;
+                const double d = fmax(sqrt(dot(x, x)), nearest);
                 const double rub = f == 0 ? 0
                                           : -r->gradient * r->kernel->derivative(d, r->h) / d * volume[i] *
                                                 volume[j] *
@@ -529,7 +530,7 @@ static void any_threads_give_the_same_bits(void **state)
     }
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
     /* On x86-64 with any instruction set; what this build gave when sums equalled brute force. */
-    if (hash[0] != 0x9af019b9d9b471d0ULL)
+    if (hash[0] != 0x4dbbab78ac618705ULL)
         fail_msg("the bits have changed: hash %016llx", (unsigned long long)hash[0]);
 }
 

@@ -45,7 +45,8 @@ static WorldDef def_of(const Tried *tried, double size)
     return def;
 }
 
-/* Two fluids out of order, a particle in each cell of a block in the low corner; then copies of it, which
+/* Two fluids out of order, a particle in each cell of a block in the low corner, a quarter of a spacing off
+   its walls at least, where Morris's friction is a mirror's; then copies of it, which
    stand about `corner`, mirrored across all the sides that `copy` says. */
 static size_t fill(const Tried *tried, const double corner[3], int copies, float *x, float *v, uint8_t *fluid)
 {
@@ -57,7 +58,7 @@ static size_t fill(const Tried *tried, const double corner[3], int copies, float
             const size_t cell[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE},
                          to = (size_t)copy * count + i;
             for (size_t k = 0; k < 3; k++) {
-                const double sign = copy >> k & 1 ? -1 : 1, jitter = 0.6 * (fixture_random(&seed) - 0.5);
+                const double sign = copy >> k & 1 ? -1 : 1, jitter = 0.56 * (fixture_random(&seed) - 0.5);
                 const bool flat = k == 2 && layers == 1;
                 x[3 * to + k] =
                     (float)(flat ? 0 : corner[k] + sign * CELL * ((double)cell[k] + 0.5 + jitter));

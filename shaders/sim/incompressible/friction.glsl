@@ -1,5 +1,5 @@
 // Friction in the form of Morris (friction_sums in sim/incompressible/pairs.h); with surface tension all forces but
-// pressure. Images in walls that let fluid slip have a part in it. A pass says volume_of, and FRICTION where that is not all of `friction_gradient`.
+// pressure. Images in walls that let fluid slip have a part in it, none as from nearer than half a spacing. A pass says volume_of, and FRICTION where that is not all of `friction_gradient`.
 #define KERNEL_WENDLAND_C2 1
 #include "sim/force.glsl"
 #include "sim/shapes.glsl"
@@ -26,9 +26,9 @@ vec3 image_force;
 
 void rub_image(Side other, vec3 d)
 {
-    float least = 1e-6 * support, r2 = max(dot(d, d), least * least);
+    float r2 = dot(d, d);
     if (r2 < support * support)
-        image_force += pair_force(image_side, other, d, r2);
+        image_force += pair_force(image_side, other, d, max(r2, 0.25 * spacing * spacing));
 }
 
 void meet_image(uint j, vec3 d, float term) { rub_image(side_of(j, term), d); }

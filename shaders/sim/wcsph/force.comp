@@ -130,10 +130,15 @@ void push_image(float term, vec3 d, float w)
 // Friction of walls that let fluid slip: image_rub of sim/wcsph/pairs_images.c. A macro, so that a side is not read for
 // nothing.
 #if defined RUBS && !defined NO_SLIP
+#ifdef RADIAL
+#define RUB_NEAREST 1e-6
+#else
+#define RUB_NEAREST (0.5 * spacing * inverse_support)
+#endif
 Side image_side; // self_side, its velocity in the mirror
 #define RUB_IMAGE(other, d)                                                                        \
     if (dot(d, d) < support * support)                                                             \
-        image_push += rub(image_side, other, d, shape(max(length(d) * inverse_support, 1e-6)));
+        image_push += rub(image_side, other, d, shape(max(length(d) * inverse_support, RUB_NEAREST)));
 #else
 #define RUB_IMAGE(other, d)
 #endif
