@@ -23,6 +23,7 @@ typedef struct Crowd {
     int cells[3];
     double h;
     const WorldDef *def;
+    BoxState pose[SOLIDS_MAX]; /* of the solids, at the start */
 } Crowd;
 
 static void to_solid(const BoxState *pose, const float *x, double out[3])
@@ -58,8 +59,9 @@ static bool in_box(const WorldDef *def, const float *x)
 
 /* Boundary particles where fluid may see them: not behind walls, nor in a solid that is named before theirs.
  */
-static void add_boundary(Crowd *crowd, const Boundary *boundary, const BoxState *pose)
+static void add_boundary(Crowd *crowd, const Boundary *boundary)
 {
+    const BoxState *pose = crowd->pose;
     for (size_t b = 0; b < boundary->count; b++) {
         const int solid = boundary->solid[b];
         float *x = crowd->position + 3 * crowd->count;
@@ -145,10 +147,10 @@ static void find_way(const Crowd *crowd, const Lattice *lattice, uint32_t i, dou
         way[a] = sum[3] < WHOLE ? 0 : fmin(fmax(PART * spacing * spacing * sum[a], -most), most);
 }
 
-static bool crowd_create(Crowd *crowd, const Packing *packing, size_t count, const float *position)
+static bool crowd_create(Crowd *crowd, const Packing *packing, size_t count, const uint8_t *fluid,
+                         const float *position)
 {
     const WorldDef *def = packing->def;
-    BoxState pose[SOLIDS_MAX] = {0};
     *crowd = (Crowd){.fluid = count, .count = count, .h = def->support * def->spacing, .def = def};
     for (int a = 0; a < 3; a++)
         crowd->cells[a] = a < def->dimensions ? (int)fmax(1, floor(def->box_size[a] / crowd->h)) : 1;
@@ -161,10 +163,10 @@ static bool crowd_create(Crowd *crowd, const Packing *packing, size_t count, con
         return false;
     memcpy(crowd->position, position, 3 * count * sizeof *position);
     for (int k = 0; k < def->solid_count; k++)
-        solid_pose(&def->solids[k], 0, &pose[k]);
-    add_boundary(crowd, packing->boundary, pose);
+        solid_pose(&def->solids[k], 0, &crowd->pose[k]);
+    add_boundary(crowd, packing->boundary);
     for (size_t i = 0; i < count; i++)
-        if (within(def, pose, def->solid_count, position + 3 * i, crowd->h))
+        if (packing->take[fluid[i]] && within(def, crowd->pose, def->solid_count, position + 3 * i, crowd->h))
             crowd->near[crowd->near_count++] = (uint32_t)i;
     crowd->way = malloc((3 * crowd->near_count + 1) * sizeof *crowd->way);
     return crowd->way;
@@ -179,16 +181,28 @@ static void crowd_destroy(Crowd *crowd)
     free(crowd->way);
 }
 
-bool packing_settle(const Packing *packing, size_t count, float *position)
+/* All at once, but for those whose ways end in a solid. */
+static void take_ways(Crowd *crowd)
+{
+    const WorldDef *def = crowd->def;
+    for (size_t k = 0; k < crowd->near_count; k++) {
+        float *x = crowd->position + 3 * (size_t)crowd->near[k], to[3];
+        for (int a = 0; a < 3; a++)
+            to[a] = x[a] + (float)crowd->way[3 * k + (size_t)a];
+        if (!within(def, crowd->pose, def->solid_count, to, 0))
+            memcpy(x, to, sizeof to);
+    }
+}
+
+bool packing_settle(const Packing *packing, size_t count, const uint8_t *fluid, float *position)
 {
     Crowd crowd;
-    const bool ok = crowd_create(&crowd, packing, count, position);
+    const bool ok = crowd_create(&crowd, packing, count, fluid, position);
     for (int round = 0; ok && round < ROUNDS; round++) {
         sort(&crowd);
         for (size_t k = 0; k < crowd.near_count; k++)
             find_way(&crowd, packing->lattice, crowd.near[k], crowd.way + 3 * k);
-        for (size_t k = 0; k < 3 * crowd.near_count; k++)
-            crowd.position[3 * (size_t)crowd.near[k / 3] + k % 3] += (float)crowd.way[k];
+        take_ways(&crowd);
     }
     if (ok)
         memcpy(position, crowd.position, 3 * count * sizeof *position);

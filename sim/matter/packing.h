@@ -16,11 +16,12 @@ typedef struct Packing {
     const WorldDef *def;
     const Lattice *lattice;
     const Boundary *boundary;
+    const bool *take; /* FLUIDS_MAX: whose particles move */
 } Packing;
 
-/* Moves the particles at `position` (3 each, m) that are within a support radius of a solid down the gradient
-   of their number density. Those near a surface, a wall or a periodic side stay, as all that have not their
-   neighbours all around. False when memory is short. */
-bool packing_settle(const Packing *packing, size_t count, float *position);
+/* Moves the particles of those fluids at `position` (3 each, m) that are within a support radius of a solid
+   down the gradient of the number density of all, and into no solid. Those near a surface, a wall or a
+   periodic side stay, as all that have not their neighbours all around. False when memory is short. */
+bool packing_settle(const Packing *packing, size_t count, const uint8_t *fluid, float *position);
 
 #endif

@@ -82,8 +82,8 @@ static bool fit_seeds(const Constants *constants, const WorldDef *def, const boo
     balance_destroy(&balance);
     hold(constants, seeds, count);
     if (ok && constants->method->carries_density)
-        ok = packing_settle(&(Packing){def, &constants->lattice, &constants->boundary}, count,
-                            seeds->position);
+        ok = packing_settle(&(Packing){def, &constants->lattice, &constants->boundary, take}, count,
+                            seeds->fluid, seeds->position);
     hold(constants, seeds, count);
     return ok;
 }
