@@ -130,6 +130,8 @@ void world_put_back(World *world, const WorldNumbers *numbers, size_t count)
 {
     world->kicked = false;
     world->seen = STEP_TROUBLE_NONE;
+    for (int k = 0; k < SOLVES_MAX; k++)
+        world->solves[k].failed = false;
     world->count = count;
     world->emitted = (uint64_t)numbers->emitted;
     world->drained = (uint64_t)numbers->drained;
