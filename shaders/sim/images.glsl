@@ -1,4 +1,4 @@
-// The walls of the box as mirrors, for methods whose walls are (Method.mirrors): sim/box/wall_images.c.
+// The walls of the box as mirrors: sim/box/wall_images.c.
 struct Image {
     vec3 x;
     vec3 sign; // -1 along the axes in a mirror, else 1

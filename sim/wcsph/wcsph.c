@@ -26,7 +26,7 @@ static const Key keys[] = {
     NUMBER("solver.shifting", 0, "", 0, 1, AT(shifting),
            "keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none"),
     BOOLEAN("solver.corrected_gradient", 0, AT(corrected_gradient),
-            "gradients exact for linear fields, away from surfaces: for flows that its noise would brake"),
+            "gradients exact for linear fields, at surfaces too: for flows that their noise would brake"),
     KEYS_END,
 };
 /* clang-format on */
