@@ -53,12 +53,14 @@ PAIR_LOOP(mueller_density)
         density_range(args, begin, end, false);
 }
 
-/* Pressure of an image, in its particle's axes; r is never 0. */
+/* Pressure of an image, in its particle's axes; one that rounding puts upon its neighbour pushes nowhere. */
 SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 pi, f8x4 near, Place *sum)
 {
     const Constants *s = args->constants;
+    const float least = 1e-9f * s->support_radius; /* no bit of another r2 */
     const Separation d = apart(args, image->at, near);
-    const f8 r = f8_sqrt(d.r2), t = closeness(r * f8_splat(1 / s->support_radius));
+    const f8 r = f8_sqrt(d.r2 + f8_splat(least * least)),
+             t = closeness(r * f8_splat(1 / s->support_radius));
     const f8 push = f8_splat(s->pressure_scale) * (t * t) * (pi + d.term) / r;
     sum->x += image->sign.x * push * d.x;
     sum->y += image->sign.y * push * d.y;

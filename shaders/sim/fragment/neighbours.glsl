@@ -44,5 +44,7 @@ bool meet_neighbours(int i, vec3 x)
             }
         }
     }
+    if (!placed && image_count > 0)
+        meet_images(i);
     return placed;
 }

@@ -30,14 +30,14 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 #include "sim/felt_solids.glsl"
 #else
 #include "sim/images.glsl"
-#include "sim/walls.glsl"
+#include "sim/wall_lift.glsl"
 layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
 
 vec3 image_push; // on an image, in its axes
 
 void meet_image(uint j, vec3 d, float term)
 {
-    float r = length(d);
+    float r = max(length(d), 1e-6 * support);
     if (r < support)
         image_push += push_of(self_side.pressure + term, r) * d;
 }

@@ -1,7 +1,7 @@
 // Accelerations by pressure, viscosity and walls: sim/mueller/pairs.c and sim/mueller/passes.c.
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
-#include "sim/walls.glsl"
+#include "sim/wall_lift.glsl"
 #include "sim/pair_direction.glsl"
 uniform sampler2D fields, near, moving; // of density.frag
 uniform vec3 felt_origin, felt_alpha, felt_omega; // apparent gravity
@@ -27,7 +27,7 @@ void meet_images(int j)
     vec4 other = of_particle(near, j);
     for (int k = 0; k < image_count; k++) {
         vec3 d = images[k].x - other.xyz;
-        force += images[k].sign * (push_of(other.w, length(d)) * d);
+        force += images[k].sign * (push_of(other.w, max(length(d), 1e-6 * support)) * d);
     }
 }
 

@@ -1,5 +1,5 @@
 /* What is constant while a world lives, as GLSL: the compiler sees all of it. The names are those of
-   shaders/sim/constant_block.h, so that walls.glsl and images.glsl serve both backends. */
+   shaders/sim/constant_block.h, so that wall_lift.glsl and images.glsl serve both backends. */
 #include "sim/gl/fragment/fragment.h"
 
 #include "sim/box/wall_lift.h"
