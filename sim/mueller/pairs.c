@@ -59,8 +59,7 @@ SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 pi, f8x
     const Constants *s = args->constants;
     const float least = 1e-9f * s->support_radius; /* no bit of another r2 */
     const Separation d = apart(args, image->at, near);
-    const f8 r = f8_sqrt(d.r2 + f8_splat(least * least)),
-             t = closeness(r * f8_splat(1 / s->support_radius));
+    const f8 r = f8_sqrt(d.r2 + f8_splat(least * least)), t = closeness(r * f8_splat(1 / s->support_radius));
     const f8 push = f8_splat(s->pressure_scale) * (t * t) * (pi + d.term) / r;
     sum->x += image->sign.x * push * d.x;
     sum->y += image->sign.y * push * d.y;

@@ -12,8 +12,8 @@
    K_i is what walls that hold the fluid have for its velocity (sim/box/wall_drag.h); of walls that let it
    slip L has the images (sim/box/wall_images.h), with d in the mirror. The left side is symmetric and
    positive. friction_i is the explicit one, with boundary particles as sim/cpu/boundary.c fills them: so a
-   short step does what an explicit one does, and flow that is steady is the explicit one's, whatever B is. But
-   for wcsph with corrected gradients: its own explicit friction has 1 + tr C / d of each of a pair
+   short step does what an explicit one does, and flow that is steady is the explicit one's, whatever B is.
+   But for wcsph with corrected gradients: its own explicit friction has 1 + tr C / d of each of a pair
    (sim/wcsph/pairs_friction.c), friction_i as L has not.
    The radial form and no other: it leaves a body that turns as a whole alone, and Morris's, which brakes it,
    would hold it fast at such viscosities.
