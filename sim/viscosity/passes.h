@@ -13,8 +13,8 @@
    slip L has the images (sim/box/wall_images.h), with d in the mirror. The left side is symmetric and
    positive. friction_i is the explicit one, with boundary particles as sim/cpu/boundary.c fills them: so a
    short step does what an explicit one does, and flow that is steady is the explicit one's, whatever B is.
-   But for wcsph with corrected gradients: its own explicit friction has 1 + tr C / d of each of a pair
-   (sim/wcsph/pairs_friction.c), friction_i as L has not.
+   But for corrected gradients, which give explicit friction a factor of 1 + tr C / d from each of a pair:
+   friction_i as L has none of it.
    The radial form and no other: it leaves a body that turns as a whole alone, and Morris's, which brakes it,
    would hold it fast at such viscosities.
 
