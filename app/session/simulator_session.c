@@ -249,6 +249,8 @@ void simulator_frame_step(Simulator *simulator)
     bool ok = world_substep(simulator->world, clock, &error);
     world_info(simulator->world, &info);
     tell_news(simulator, &info);
+    if (ok)
+        watch_fluid(simulator); /* before the state is shown: a frame is as good as over then */
     if (ok && simulator->here)
         ok = simulator_publish(simulator, &error);
     else if (ok)
@@ -256,8 +258,6 @@ void simulator_frame_step(Simulator *simulator)
             ok = simulator_publish(simulator, &error);
     awaken(simulator);
     simulator->frame.spent_ms += wall_ms() - began;
-    if (ok)
-        watch_fluid(simulator);
     if (!ok || !info.within_frame)
         simulator_frame_end(simulator);
     if (!ok)
