@@ -7,15 +7,18 @@
 #include "app/device/mapping.h"
 #include "app/output/export.h"
 #include "app/output/pictures.h"
+#include "app/recording/recording.h"
+#include "app/scene/tables.h"
 #include "app/session/args_table.h"
 
 #include <fnmatch.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 
-enum { FILES_MAX = ARGS_SCENES_MAX + 16 };
+enum { FILES_MAX = 2 * ARGS_SCENES_MAX + 256 }; /* a scene, and of some of them a table a fill */
 
 typedef enum Use { FILE_READ, FILE_REPLACED, FILE_NEW /* refused where it is there */ } Use;
 
@@ -110,17 +113,52 @@ static void add_outputs(Files *files, const Args *args)
 
 /* ---- what is read ---- */
 
+static void add_table(void *user, const char *path)
+{
+    add(user, FILE_READ, "the scene's table", path, NULL);
+}
+
+static void add_tables(Files *files, const Args *args, const char *path)
+{
+    size_t size;
+    Error none;
+    char *bytes = scene_file_read(path, &size, &none);
+    if (bytes)
+        scene_find_tables(path, bytes, size, &args->settings, add_table, files);
+    free(bytes);
+}
+
+static void add_recording(Files *files, const char *path)
+{
+    Recording recording;
+    Error none;
+    add(files, FILE_READ, "the recording", path, NULL);
+    if (!recording_read(path, &recording, &none))
+        return;
+    scene_find_tables(recording.path, recording.text, recording.size, &recording.settings, add_table, files);
+    recording_destroy(&recording);
+}
+
+static void add_scene(Files *files, const Args *args, const char *name)
+{
+    char path[SCENE_PATH_SIZE];
+    if (!scene_path_find(name, path, NULL))
+        return;
+    add(files, FILE_READ, "the scene", path, NULL);
+    add_tables(files, args, path);
+}
+
 static void add_scenes(Files *files, const Args *args)
 {
     char path[SCENE_PATH_SIZE];
     for (int i = 0; i < args->scene_count; i++) {
         const char *name = args->scenes[i];
         if (args->command == COMMAND_REPLAY)
-            add(files, FILE_READ, "the recording", name, NULL);
+            add_recording(files, name);
         else if (args->command == COMMAND_EXPORT)
             add(files, FILE_READ, "the file of snapshots", name, NULL);
-        else if (args->command != COMMAND_VALIDATE && scene_path_find(name, path, NULL))
-            add(files, FILE_READ, "the scene", path, NULL);
+        else if (args->command != COMMAND_VALIDATE)
+            add_scene(files, args, name);
     }
     if (scene_path_find("scenes", path, NULL)) /* what is read without being named */
         add(files, FILE_READ, "the folder of scenes", path, "*.yaml");

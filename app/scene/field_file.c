@@ -63,6 +63,8 @@ static bool next_cell(const Reader *r, const char **at, const char *end, char ce
         stop--;
     if (stop - begin >= CELL_SIZE)
         return WRONG(r, r->line, "a cell of %d letters; write a number or a name", (int)(stop - begin));
+    if (memchr(begin, 0, (size_t)(stop - begin)))
+        return WRONG(r, r->line, "a cell with a byte 0; write a table as %s", "text");
     memcpy(cell, begin, (size_t)(stop - begin));
     cell[stop - begin] = '\0';
     return true;

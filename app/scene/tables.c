@@ -1,8 +1,10 @@
 #include "app/scene/tables.h"
 
+#include "app/base/path.h"
 #include "app/base/read_file.h"
 #include "app/scene/check_parts.h"
 #include "app/scene/field_file.h"
+#include "app/yaml/yaml.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -119,6 +121,49 @@ bool scene_read_tables(const Tree *tree, Scene *scene, Error *error)
         }
     }
     return true;
+}
+
+/* ---- which files a scene names ---- */
+
+typedef struct Finder {
+    const char *scene;
+    void (*found)(void *user, const char *path);
+    void *user;
+} Finder;
+
+static void find_in(const Finder *finder, const Node *fluid, const char *key)
+{
+    const Node *node = fluid->kind == NODE_MAPPING ? node_child(fluid, key) : NULL;
+    char path[1200];
+    Error none;
+    if (node && node->kind == NODE_SCALAR && node->text && scene_names_table(node->text) &&
+        path_of(finder->scene, node->text, path, &none))
+        finder->found(finder->user, path);
+}
+
+static void find_all(const Finder *finder, const Node *fluids)
+{
+    for (const Node *fluid = fluids ? fluids->first : NULL; fluid; fluid = fluid->next) {
+        const Node *fills = fluid->kind == NODE_MAPPING ? node_child(fluid, "fill") : NULL;
+        find_in(finder, fluid, "velocity_table");
+        for (const Node *fill = fills ? fills->first : NULL; fill; fill = fill->next)
+            find_in(finder, fill, "below");
+    }
+}
+
+void scene_find_tables(const char *path, const char *bytes, size_t size, const SceneSettings *settings,
+                       void (*found)(void *user, const char *path), void *user)
+{
+    const Finder finder = {path, found, user};
+    Tree tree;
+    Error none;
+    bool ok = size <= SCENE_BYTES_MAX && tree_read(&tree, path, bytes, size, &none);
+    for (int i = 0; ok && settings && i < settings->count; i++)
+        ok = tree_set(&tree, settings->set[i], settings->said[i], &none);
+    if (ok)
+        find_all(&finder, tree_at(&tree, "fluids"));
+    if (size <= SCENE_BYTES_MAX)
+        tree_free(&tree);
 }
 
 bool scene_has_tables(const Scene *scene)

@@ -412,6 +412,24 @@ class Clashes(CommandTest):
         self.refused('run', 'scene.yaml', '-o', 'a.h5part', '--shaders', 'shaders', '--json', 'shaders/a.frag',
                      reason=would('--json shaders/a.frag', '--shaders shaders'))
 
+    def test_tables_that_a_scene_names(self):
+        would = '{} would replace {}'.format
+        tables = command.SCENE.replace('0.5, 0.5]}\nsolver', '0.5, 0.5]}\n        below: heights.csv\nsolver')
+        os.mkdir(self.path('in'))
+        self.write('in/tank.yaml', tables)
+        self.write('in/heights.csv', 'x (m),height (m)\n-0.5,0.3\n0.5,0.5\n')
+        self.write('flow.csv', 'x (m),vx (m/s)\n-0.5,0\n0.5,0\n')
+        run = ('run', 'in/tank.yaml', '-o', 'a.h5part')
+        for option in ('--json', '--forces', '--probes'):
+            self.refused(*run, option, 'in/heights.csv',
+                         reason='slosh run: ' + would(f'{option} in/heights.csv', "the scene's table in/heights.csv"))
+        self.refused('play', 'in/tank.yaml', '--record', 'in//heights.csv', reason="the scene's table in/heights.csv")
+        self.refused('bench', 'scene.yaml', 'in/tank.yaml', '--json', 'in/heights.csv', reason="the scene's table in/heights.csv")
+        flow = self.path('flow.csv')
+        self.refused('run', 'scene.yaml', '-o', 'a.h5part', '--set', f'fluids[0].velocity_table={flow}', '--json', 'flow.csv',
+                     reason=would('--json flow.csv', f"the scene's table {flow}"))
+        self.assertEqual(self.slosh(*run, '--time', '0', '--quiet', '--json', 'heights.csv')[0], 0)  # another one
+
     def test_scenes_that_are_read_unasked(self):
         os.mkdir(self.path('scenes'))
         self.refused('play', '--json', 'scenes/box_slosh.yaml',

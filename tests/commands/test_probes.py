@@ -120,10 +120,15 @@ class Probes(CommandTest):
         heights = 'x (m),height (m)\n-0.5,0.4\n0.5,0.5\n'
         self.write('heights.csv', heights)
         for name in ('heights.csv', 'heights.svg'):
-            said = self.go('--probes', name, code=1)
-            self.assertIn('heights.csv: is there already, and no probes wrote it; name another file', said)
+            said = self.go('--probes', name, code=2)
+            self.assertIn("would replace the scene's table heights.csv; name another file", said)
             self.assertEqual(self.read('heights.csv').decode(), heights)
-        self.assertEqual(self.entries(), ['heights.csv'])
+        self.write('other.csv', heights)
+        for name in ('other.csv', 'other.svg'):
+            said = self.go('--probes', name, code=1)
+            self.assertIn('other.csv: is there already, and no probes wrote it; name another file', said)
+            self.assertEqual(self.read('other.csv').decode(), heights)
+        self.assertEqual(self.entries(), ['heights.csv', 'other.csv'])
         self.write('a.csv', '')
         self.go('--probes', 'a.csv')
         self.assertEqual(len(self.rows('a.csv')), 101)
