@@ -65,6 +65,7 @@ typedef struct CaseRun {
     WorldInfo info; /* of the present state */
     Cloud cloud;
     Probes *probes;                                  /* of the scene; NULL: it has none */
+    bool feels;                                      /* one of them is a force */
     float probe[CASE_PROBES];                        /* their columns, of the state in `cloud` */
     Curve column[CASE_COLUMNS];                      /* over time, by the case's `sample` */
     Curve found[CASE_CURVES], expected[CASE_CURVES]; /* for the plot, by its `judge` */

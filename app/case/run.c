@@ -109,12 +109,20 @@ static World *start_world(const Case *of, const WorldDef *def, Error *error)
     return world;
 }
 
+static void read_probes(CaseRun *run, World *world)
+{
+    Forces forces = {0};
+    if (run->feels)
+        world_forces(world, &forces);
+    probes_read(run->probes, &run->cloud, &forces, run->probe);
+}
+
 static bool sample(CaseRun *run, World *world, Error *error)
 {
     if (!cloud_read(&run->cloud, world))
         return error_set(error, "no memory to read %zu particles; use a larger spacing", run->info.count);
     if (run->probes)
-        probes_read(run->probes, &run->cloud, run->probe);
+        read_probes(run, world);
     if (run->of->sample)
         run->of->sample(run);
     return true;
@@ -162,11 +170,14 @@ static bool simulate(const CaseSetup *setup, CaseResult *result, World *world, P
 }
 
 /* The probes of the case's scene. */
-static bool start_probes(CaseResult *result, Error *error)
+static bool start_probes(CaseResult *result, World *world, Error *error)
 {
     const ProbeList *list = &result->scene.probes;
     if (list->count == 0)
         return true;
+    result->run.feels = probe_list_feels(list);
+    if (result->run.feels && !world_feel(world, error))
+        return false;
     result->run.probes = probes_create(list, &result->scene.world);
     if (!result->run.probes)
         return error_set(error, "no memory for the probes of %s", result->of->name);
@@ -188,7 +199,7 @@ bool case_run(const CaseSetup *setup, Progress *progress, double done, double pa
     if (!world)
         return false;
     const bool ok =
-        start_probes(result, error) && simulate(setup, result, world, progress, done, part, error);
+        start_probes(result, world, error) && simulate(setup, result, world, progress, done, part, error);
     result->particles = result->run.info.count;
     world_destroy(world);
     cloud_free(&result->run.cloud);

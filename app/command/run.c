@@ -42,13 +42,13 @@ static bool step(Session *session, Look *look, Error *error)
     return ok;
 }
 
-static bool add_forces(const Session *session, ForcesLog *log, Error *error)
+static bool add_forces(Session *session, Look *look, Error *error)
 {
     Forces forces;
-    if (!log->file)
+    if (!look->forces.file)
         return true;
-    world_forces(session->world, &forces);
-    return forces_log_add(log, session->info.time, &forces, error);
+    probe_series_forces(&look->probes, session, &forces);
+    return forces_log_add(&look->forces, session->info.time, &forces, error);
 }
 
 static bool add_snapshot(SnapshotSeries *series, const Session *session, Look *look, Error *error)
@@ -84,7 +84,7 @@ static bool simulate(Session *session, const Args *args, Snapshot *file, Look *l
             keep_last(session, file);
             return false;
         }
-        if (!add_forces(session, &look->forces, error) || !probe_series_frame(&look->probes, session, error))
+        if (!add_forces(session, look, error) || !probe_series_frame(&look->probes, session, error))
             return false;
         progress_update(progress, session->info.time / args->time);
     }
@@ -212,7 +212,8 @@ static int run(Session *session, const Args *args, Error *error)
     Snapshot *file;
     bool busy = false;
     const bool resumed = args->resume && access(args->output, F_OK) == 0;
-    if (!check_probes(session, args, error) || (args->forces && !world_feel(session->world, error)))
+    const bool feels = args->forces || (args->probes && probe_list_feels(&session->scene.probes));
+    if (!check_probes(session, args, error) || (feels && !world_feel(session->world, error)))
         return complain(EXIT_USAGE, error);
     if ((args->json && !json_file_check(args->json, error)) ||
         (args->forces && !output_check(args->forces, error)) ||

@@ -176,6 +176,8 @@ typedef struct SceneRun {
     MetricState state;
     Probes *probes; /* NULL: no metric asks for them */
     float *read;    /* a number a column */
+    bool feels;     /* one of them is a force: */
+    Forces felt;    /* summed since the last sample */
     WorldInfo info;
     double before[CHART_QUANTITIES], now[CHART_QUANTITIES]; /* at `before_time` and at the present, s */
     double before_time;
@@ -189,16 +191,22 @@ static void read_probes(SceneRun *run)
 {
     const ProbeList *list = &run->scene->probes;
     const float *at = run->read;
+    Forces forces = {0};
     _Static_assert((int)METRIC_PROBES == (int)PROBES_MAX, "a number a probe");
     if (!run->probes)
         return;
-    probes_read(run->probes, &run->state.cloud, run->read);
+    if (run->feels)
+        world_forces(run->world, &forces);
+    forces_add_mean(&run->felt, &forces);
+    forces = run->felt;
+    forces_mean(&forces);
+    probes_read(run->probes, &run->state.cloud, &forces, run->read);
     run->state.probe_count = list->count;
     for (int k = 0; k < list->count; at += probe_columns(&list->probe[k]), k++)
         run->state.probe[k] = (double)*at;
 }
 
-/* False without memory. */
+/* False without memory; `failure` where the backend sums no forces. */
 static bool start_probes(SceneRun *run)
 {
     const Scene *scene = run->scene;
@@ -207,6 +215,7 @@ static bool start_probes(SceneRun *run)
         asked |= metric_kinds[scene->metrics[m]].numbers == 0;
     if (!asked)
         return true;
+    run->feels = probe_list_feels(&scene->probes) && world_feel(run->world, &run->failure);
     run->probes = probes_create(&scene->probes, &scene->world);
     if (run->probes)
         run->read = malloc(((size_t)probes_columns(run->probes) + 1) * sizeof *run->read);
@@ -235,6 +244,7 @@ static bool advance_to(SceneRun *run, double due, double until, Progress *progre
 {
     double length = 0;
     bool sound = true;
+    run->felt = (Forces){0};
     while (!sound || run->info.time < due - 1e-9) {
         const double from = run->info.time;
         if (sound && (length <= 0 || from + 1.5 * length >= due)) {
@@ -299,8 +309,9 @@ static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress 
         return false;
     world_info(run.world, &run.info);
     row->particles = run.info.count;
-    const bool ok = start_probes(&run) ? sample_all(&run, until, row, progress, done, part, error)
-                                       : error_set(error, "no memory for the probes");
+    const bool ok = !start_probes(&run)    ? error_set(error, "no memory for the probes")
+                    : *run.failure.message ? true
+                                           : sample_all(&run, until, row, progress, done, part, error);
     judge(&run.history, &run.info.trouble, run.failure.message, row);
     metric_state_free(&run.state);
     probes_destroy(run.probes);

@@ -28,12 +28,13 @@ static void text_of(const PanelPlot *plot, int at, int line, double value, char 
 {
     const ProbePlot *own = plot->of;
     (void)at;
+    const char *unit = own->column[line].unit;
     if (isnan(value))
-        snprintf(out, 48, "dry");
-    else if (strcmp(own->column[line].unit, "kg/m3") == 0)
+        snprintf(out, 48, "%s", *unit == 'N' ? "not known" : "dry");
+    else if (strcmp(unit, "kg/m3") == 0)
         snprintf(out, 48, "%.5g kg/m3", value);
     else
-        panel_si_text(value, own->column[line].unit, out);
+        panel_si_text(value, unit, out);
 }
 
 /* How many of its columns have the unit of the first: those that one range serves. */

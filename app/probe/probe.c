@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { PUSH = 6 };             /* numbers of a force: itself, then its torque */
 enum { HEIGHT_PLACES = 4000 }; /* of a gauge, at most: in a box that is very high */
 
 /* A probe's sensors and columns, one behind the other. */
@@ -14,6 +15,7 @@ typedef struct Probe {
     ProbeDef def;
     int first, count; /* of its sensors */
     double step;      /* height: from sensor to sensor, m */
+    int on;           /* force: a solid's number, -1: the box */
 } Probe;
 
 struct Probes {
@@ -22,6 +24,7 @@ struct Probes {
     Sensors *sensors;
     SensorReading *reading; /* one a sensor */
     ProbeColumn *column;
+    Forces felt; /* last; of 0 s before there are any */
 };
 
 void probes_destroy(Probes *probes)
@@ -48,6 +51,8 @@ int probe_columns(const ProbeDef *def)
 {
     if (def->kind == PROBE_HEIGHT)
         return 1;
+    if (def->kind == PROBE_FORCE)
+        return PUSH;
     return components_of(def) * (def->kind == PROBE_LINE ? def->count : 1);
 }
 
@@ -71,6 +76,9 @@ static void measure(Probe *probe, const WorldDef *def)
                                              : of->count * of->count;
     if (of->kind == PROBE_HEIGHT)
         measure_height(probe, def);
+    if (of->kind == PROBE_FORCE)
+        probe->count = 0;
+    probe->on = probe_on(of, def->solid_count);
 }
 
 /* The place of sensor i: of a plane in the middle of its part. */
@@ -100,7 +108,7 @@ static unsigned wants_of(const ProbeDef *def)
                                                    [PROBE_SPEED] = SENSOR_VELOCITY,
                                                    [PROBE_VELOCITY] = SENSOR_VELOCITY};
     unsigned wants = 0;
-    for (int f = 0; def->kind != PROBE_HEIGHT && f < def->field_count; f++)
+    for (int f = 0; f < def->field_count && def->kind != PROBE_HEIGHT; f++)
         wants |= of[def->fields[f]];
     return wants;
 }
@@ -123,9 +131,15 @@ void probe_column(const ProbeDef *def, int index, ProbeColumn *out)
     const int numbers = components_of(def);
     char place[16] = "", axis[3] = "";
     const char *field = "height", *unit = "m";
+    const bool force = def->kind == PROBE_FORCE;
+    if (force) {
+        field = index < 3 ? "force" : "torque";
+        unit = index < 3 ? "N" : "N m";
+        snprintf(axis, sizeof axis, "_%c", "xyz"[index % 3]);
+    }
     if (def->kind == PROBE_LINE)
         snprintf(place, sizeof place, "_%d", index / numbers);
-    if (def->kind != PROBE_HEIGHT) {
+    if (def->kind != PROBE_HEIGHT && !force) {
         int rest = index % numbers, f = 0;
         for (; rest >= probe_fields[def->fields[f]].components; f++)
             rest -= probe_fields[def->fields[f]].components;
@@ -143,7 +157,7 @@ int probe_shown(const ProbeDef *def, int index[PROBE_SHOWN])
 {
     const int columns = probe_columns(def), shown = columns < PROBE_SHOWN ? columns : PROBE_SHOWN;
     for (int k = 0; k < shown; k++)
-        index[k] = shown > 1 ? k * (columns - 1) / (shown - 1) : 0;
+        index[k] = def->kind == PROBE_FORCE ? k : shown > 1 ? k * (columns - 1) / (shown - 1) : 0;
     return shown;
 }
 
@@ -251,13 +265,25 @@ static float *put(float *out, const ProbeDef *def, const SensorReading *reading,
     return out;
 }
 
-void probes_read(Probes *probes, const Cloud *cloud, float out[])
+static float *put_push(float *out, const Probe *probe, const Forces *felt)
 {
+    const Push *push = probe->on < 0 ? &felt->box : &felt->solid[probe->on];
+    for (int k = 0; k < PUSH; k++)
+        *out++ = felt->seconds > 0 ? (float)(k < 3 ? push->force[k] : push->torque[k - 3]) : NAN;
+    return out;
+}
+
+void probes_read(Probes *probes, const Cloud *cloud, const Forces *forces, float out[])
+{
+    if (forces && forces->seconds > 0)
+        probes->felt = *forces;
     sensors_read(probes->sensors, cloud, probes->reading);
     for (const Probe *p = probes->probe; p < probes->probe + probes->count; p++) {
         const SensorReading *reading = probes->reading + p->first;
         if (p->def.kind == PROBE_HEIGHT)
             *out++ = (float)height_of(p, reading);
+        else if (p->def.kind == PROBE_FORCE)
+            out = put_push(out, p, &probes->felt);
         else if (p->def.kind == PROBE_PLANE)
             out = put(out, &p->def, reading, p->count);
         else

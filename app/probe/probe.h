@@ -4,6 +4,7 @@
 
 #include "app/metric/cloud.h"
 #include "app/probe/probe_def.h"
+#include "sim/matter/forces.h"
 
 typedef struct Probes Probes;
 
@@ -19,9 +20,8 @@ typedef struct ProbeColumn {
 int probe_columns(const ProbeDef *def);
 void probe_column(const ProbeDef *def, int index, ProbeColumn *out);
 
-/* Which of its columns a small plot shows: three at most, the first, the last, the one in the middle; how
- * many.
- */
+/* Which of its columns a small plot shows: three at most, the first, the last, the one in the middle, of a
+   force its three; how many. */
 int probe_shown(const ProbeDef *def, int index[PROBE_SHOWN]);
 
 /* The probes of the list in a world of `def`; NULL without memory. Both are read here only. */
@@ -31,7 +31,10 @@ void probes_destroy(Probes *probes); /* NULL is allowed */
 int probes_columns(const Probes *probes);
 const ProbeColumn *probes_column(const Probes *probes, int column);
 
-/* A number a column; NaN where there is no fluid to have one. A pressure there is 0, and so is a height. */
-void probes_read(Probes *probes, const Cloud *cloud, float out[]);
+/* A number a column; NaN where there is no fluid to have one. A pressure there is 0, and so is a height.
+   `forces`: means since the last reading, of world_forces; with no seconds the last ones stay, and before the
+   first step there is no number. NULL where no probe is a force (probe_list_feels): else the world is to sum
+   them (world_feel). */
+void probes_read(Probes *probes, const Cloud *cloud, const Forces *forces, float out[]);
 
 #endif

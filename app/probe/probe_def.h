@@ -1,17 +1,26 @@
 /* A scene's probes: places where `slosh run --probes` and the panel read pressure, density and velocity of
-   the fluid, or the height of its surface. Plain data; lengths in m, in the box's frame, in which a probe
-   rests. */
+   the fluid, or the height of its surface; and what fluid does to the box and to solids. Plain data; lengths
+   in m, in the box's frame, in which a probe rests. */
 #ifndef SLOSH_PROBE_DEF_H
 #define SLOSH_PROBE_DEF_H
 
-enum { PROBES_MAX = 16, PROBE_NAME_SIZE = 32, PROBE_LINE_MAX = 200, PROBE_PLANE_MAX = 40 };
+#include <stdbool.h>
+
+enum {
+    PROBES_MAX = 16,
+    PROBE_NAME_SIZE = 32,
+    PROBE_ON_SIZE = 16,
+    PROBE_LINE_MAX = 200,
+    PROBE_PLANE_MAX = 40
+};
 
 /* X(ENUM, name, help) */
 #define PROBE_KIND_LIST(X)                                                                                   \
     X(POINT, "point", "the fluid at a place")                                                                \
     X(HEIGHT, "height", "how high the surface of the fluid is over a place; 0: there is none")               \
     X(LINE, "line", "the fluid at places along a line, both ends among them, a column each")                 \
-    X(PLANE, "plane", "the mean over a parallelogram")
+    X(PLANE, "plane", "the mean over a parallelogram")                                                       \
+    X(FORCE, "force", "force and torque of the fluid on the box or a solid: the mean since the last reading")
 
 typedef enum ProbeKind {
 #define X(NAME, name, help) PROBE_##NAME,
@@ -48,16 +57,24 @@ typedef struct ProbeDef {
     double at[3];               /* point, height; of the plane: its middle */
     double from[3], to[3];      /* line */
     double along[3], across[3]; /* plane: its sides */
+    char on[PROBE_ON_SIZE];     /* force: "box", all its walls; "solid_0" */
     int count;                  /* line: places; plane: places along each side */
     double size;                /* diameter of the ball around each place that counts, m; 0: see probe_size */
     double average;             /* s: a mean over so long stands beside each value; 0: none does */
-    int field_count, fields[PROBE_FIELD_COUNT]; /* each a ProbeField; of a height none count */
+    int field_count, fields[PROBE_FIELD_COUNT]; /* each a ProbeField; of a height and a force none count */
 } ProbeDef;
 
 typedef struct ProbeList {
     int count;
     ProbeDef probe[PROBES_MAX];
 } ProbeList;
+
+/* Whose force it is: the solid's number, -1 of the box; -2: there is nothing of that name among so many
+ * solids. */
+int probe_on(const ProbeDef *probe, int solids);
+
+/* Whether the list has a force. */
+bool probe_list_feels(const ProbeList *list);
 
 /* The size that is taken, m: the asked one, four spacings at least; where none is asked for, six spacings, or
    twice the support radius. */

@@ -2,6 +2,9 @@
 #include "app/probe/probe_def.h"
 #include "sim/base/key_rows.h"
 
+#include <stdio.h>
+#include <string.h>
+
 #define AT(field)    offsetof(ProbeList, field)
 #define PROBE(field) offsetof(ProbeDef, field)
 
@@ -27,6 +30,10 @@ const ProbeFieldRow probe_fields[] = {
     SIDE(S, along, "one side, from end to end")                                                              \
     SIDE(S, across, "the other one; in two dimensions [0, 0]: a strip of length `along`")                    \
     COUNT(S, PROBE_PLANE_MAX, "places along each side")
+#define FIELDS_FORCE(S)                                                                                      \
+    TEXT(                                                                                                    \
+        S ".on", I, PROBE_ON_SIZE, PROBE(on), "box",                                                         \
+        "box: all its walls together, the torque about its origin; solid_0, solid_1: a solid by its number, about its own centre"),
 #define PROBE_ROWS(KIND, NAME, HELP)                                                                         \
     VARIANT("probes[]." NAME, PROBE(kind), PROBE_##KIND, HELP), FIELDS_##KIND("probes[]." NAME)
 
@@ -34,6 +41,7 @@ static void probe_init(void *element, int index)
 {
     ProbeDef *probe = element;
     (void)index;
+    snprintf(probe->on, sizeof probe->on, "box");
     probe->count = PLACES;
     probe->field_count = 1;
     probe->fields[0] = PROBE_PRESSURE;
@@ -45,6 +53,23 @@ double probe_size(const ProbeDef *probe, double spacing, double support)
     return probe->size == 0 ? own : probe->size < least ? least : probe->size;
 }
 
+int probe_on(const ProbeDef *probe, int solids)
+{
+    int number, length = 0;
+    if (strcmp(probe->on, "box") == 0)
+        return -1;
+    const bool named = sscanf(probe->on, "solid_%3d%n", &number, &length) == 1 && !probe->on[length];
+    return named && number >= 0 && number < solids ? number : -2;
+}
+
+bool probe_list_feels(const ProbeList *list)
+{
+    for (int k = 0; k < list->count; k++)
+        if (list->probe[k].kind == PROBE_FORCE)
+            return true;
+    return false;
+}
+
 /* clang-format off */
 const Key probe_keys[] = {
     LIST("probes", I, 0, PROBES_MAX, AT(probe), AT(count), ProbeDef, probe_init,
@@ -52,7 +77,7 @@ const Key probe_keys[] = {
     TEXT("probes[].name", R | I, PROBE_NAME_SIZE, PROBE(name), NULL, "letters, digits and _; each its own: columns are called by it"),
     PROBE_KIND_LIST(PROBE_ROWS)
     NAMES_OF("probes[].fields", 1, PROBE_FIELD_COUNT, probe_fields, PROBE(fields), PROBE(field_count),
-             "what is read; a height has none", .flags = I, .fallback = "[pressure]"),
+             "what is read; a height and a force have none", .flags = I, .fallback = "[pressure]"),
     NUMBER("probes[].size", I, "m", 0, 100, PROBE(size),
            "diameter of the ball around each place whose fluid counts, less outwards; 0: 6 spacings, or twice the support radius; at least 4 spacings"),
     NUMBER("probes[].average", I, "s", 0, 1e6, PROBE(average),

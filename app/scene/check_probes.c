@@ -125,6 +125,18 @@ bool scene_check_metrics(const Check *check)
     return true;
 }
 
+static bool check_on(const Check *check, const char *path, const ProbeDef *probe)
+{
+    const int solids = check->scene->world.solid_count;
+    char on[80];
+    snprintf(on, sizeof on, "%s.on", path);
+    if (probe_on(probe, solids) >= -1)
+        return true;
+    if (solids == 0)
+        return FAIL(check, on, "'%s' feels no force; the scene has no solid: write box", probe->on);
+    return FAIL(check, on, "'%s' feels no force; write box, or solid_0 to solid_%d", probe->on, solids - 1);
+}
+
 bool scene_check_probe(const Check *check, int index)
 {
     const ProbeDef *probe = &check->scene->probes.probe[index];
@@ -139,6 +151,8 @@ bool scene_check_probe(const Check *check, int index)
         return check_place(check, from, probe->from) && check_place(check, to, probe->to);
     case PROBE_PLANE:
         return check_plane(check, path, probe);
+    case PROBE_FORCE:
+        return check_on(check, path, probe);
     default:
         return check_place(check, from, probe->at);
     }

@@ -9,11 +9,22 @@ static bool no_memory(Error *error)
     return error_set(error, "no memory for the probes; use fewer of them, or a larger spacing");
 }
 
+/* A mean of the last step, which is also kept for whoever asks later. */
+static const Forces *feel_now(ProbeSeries *series, const Session *session, Forces *now)
+{
+    if (!series->feels)
+        return NULL;
+    world_forces(session->world, now);
+    forces_add_mean(&series->felt, now);
+    return now;
+}
+
 static bool read_now(ProbeSeries *series, const Session *session, Error *error)
 {
+    Forces now;
     if (!cloud_read(&series->cloud, session->world))
         return no_memory(error);
-    probes_read(series->probes, &series->cloud, series->value);
+    probes_read(series->probes, &series->cloud, feel_now(series, session, &now), series->value);
     series->troubles = session->info.trouble.count;
     return probe_table_add(&series->table, session->info.time, series->value) || no_memory(error);
 }
@@ -38,6 +49,7 @@ bool probe_series_begin(ProbeSeries *series, Session *session, const char *path,
     if (!path)
         return true;
     const bool there = access(path, F_OK) == 0;
+    series->feels = probe_list_feels(&session->scene.probes);
     series->probes = probes_create(&session->scene.probes, &session->scene.world);
     series->value =
         series->probes ? malloc(((size_t)probes_columns(series->probes) + 1) * sizeof(float)) : NULL;
@@ -50,6 +62,13 @@ bool probe_series_begin(ProbeSeries *series, Session *session, const char *path,
     return resumed || (read_now(series, session, error) && probe_table_write(&series->table, error));
 }
 
+/* What a frame read that the world takes back. */
+static void drop(ProbeSeries *series)
+{
+    probe_table_drop(&series->table);
+    series->felt = (Forces){0};
+}
+
 bool probe_series_step(ProbeSeries *series, const Session *session, Error *error)
 {
     if (!series->probes)
@@ -57,8 +76,21 @@ bool probe_series_step(ProbeSeries *series, const Session *session, Error *error
     if (session->info.trouble.count == series->troubles)
         return read_now(series, session, error);
     series->troubles = session->info.trouble.count;
-    probe_table_drop(&series->table);
+    drop(series);
     return true;
+}
+
+void probe_series_forces(ProbeSeries *series, Session *session, Forces *forces)
+{
+    if (!series->feels) {
+        world_forces(session->world, forces);
+        return;
+    }
+    if (!world_sound(session->world))
+        drop(series);
+    *forces = series->felt;
+    forces_mean(forces);
+    series->felt = (Forces){0};
 }
 
 bool probe_series_frame(ProbeSeries *series, const Session *session, Error *error)
@@ -66,7 +98,7 @@ bool probe_series_frame(ProbeSeries *series, const Session *session, Error *erro
     if (!series->probes)
         return true;
     if (!world_sound(session->world)) /* the next step goes back to the begin of this frame */
-        probe_table_drop(&series->table);
+        drop(series);
     return probe_table_write(&series->table, error);
 }
 

@@ -12,6 +12,8 @@ typedef struct ProbeSeries {
     float *value; /* a row */
     ProbeTable table;
     unsigned troubles; /* of the world, when the last row was read */
+    bool feels;        /* one of them is a force, */
+    Forces felt;       /* which all read, summed since the last call of probe_series_forces */
 } ProbeSeries;
 
 /* Opens the table at `path` (NULL: there is none to be), anew with the present state as its first row, or,
@@ -20,6 +22,10 @@ bool probe_series_begin(ProbeSeries *series, Session *session, const char *path,
 
 /* After a step of a frame: reads, or forgets the rows of a frame that the world has taken back. */
 bool probe_series_step(ProbeSeries *series, const Session *session, Error *error);
+
+/* What was felt since the last call, as world_forces has it: that must not be asked for by others while some
+   probe is a force. */
+void probe_series_forces(ProbeSeries *series, Session *session, Forces *forces);
 
 /* At the end of a frame: its rows come into the file. On a GPU waits for the frame. */
 bool probe_series_frame(ProbeSeries *series, const Session *session, Error *error);

@@ -25,6 +25,8 @@ void simulator_probes_begin(Simulator *simulator)
     simulator->probes_ms = 0;
     if (scene->probes.count == 0 || !simulator->world)
         return;
+    Error none; /* a backend that sums none: the panel shows no number (advise_probes tells) */
+    simulator->feels = probe_list_feels(&scene->probes) && world_feel(simulator->world, &none);
     simulator->probes = probes_create(&scene->probes, &scene->world);
     if (simulator->probes)
         simulator->read = malloc(((size_t)probes_columns(simulator->probes) + 1) * sizeof *simulator->read);
@@ -59,6 +61,7 @@ void simulator_probes(Simulator *simulator)
 {
     ProbeSample sample;
     WorldInfo info;
+    Forces forces = {0};
     pthread_mutex_lock(&simulator->lock);
     const bool watched = simulator->watched_probes;
     pthread_mutex_unlock(&simulator->lock);
@@ -67,7 +70,9 @@ void simulator_probes(Simulator *simulator)
         return;
     simulator->probes_ms = wall_ms();
     world_info(simulator->world, &info);
-    probes_read(simulator->probes, &simulator->cloud, simulator->read);
+    if (simulator->feels)
+        world_forces(simulator->world, &forces);
+    probes_read(simulator->probes, &simulator->cloud, &forces, simulator->read);
     sample.time = info.time;
     choose(&simulator->scene.probes, simulator->read, sample.value);
     pthread_mutex_lock(&simulator->lock);

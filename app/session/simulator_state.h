@@ -76,6 +76,7 @@ struct Simulator {
     Cloud cloud;               /* for them, */
     float *read;               /* and a number a column */
     double probes_ms;          /* wall time at which they were read */
+    bool feels;                /* one of them is a force, which the world sums */
     Recording recording;
     TroubleTold told_trouble;
     bool told_full; /* that its emitters wait */

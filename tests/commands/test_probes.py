@@ -51,6 +51,28 @@ class Probes(CommandTest):
         self.assertAlmostEqual(figures['floor.pressure']['max'] / max(pressure), 1, 6)
         self.assertEqual(figures['rake_2.density'], {'unit': 'kg/m3', 'rows': 0, 'mean': None, 'min': None, 'max': None})
 
+    def test_forces_are_those_of_the_table(self):
+        """A row a step whose means over a frame are the rows of --forces, together and alone."""
+        self.write('scene.yaml', SCENE + 'probes:\n  - {name: tank, force: {}}\n  - {name: ball, force: {on: solid_0}}\n'
+                   'solids: [{sphere: {centre: [0.2, 0.2, 0], radius: 0.15}}]\n')
+        self.go('--probes', 'a.csv', '--forces', 'both.csv', '--json', 'a.json')
+        self.go('--forces', 'alone.csv', name='b.h5part')
+        self.go('--probes', 'b.csv', name='c.h5part')
+        self.assertEqual(self.read('a.csv'), self.read('b.csv'))
+        both, alone, steps = self.rows('both.csv'), self.rows('alone.csv'), self.rows('a.csv')
+        self.assertEqual((len(both), len(alone), len(steps)), (50, 50, 101))
+        self.assertEqual(steps[0]['tank.force_y [N]'], '')
+        for k, (one, other) in enumerate(zip(both, alone)):
+            for name, value in other.items():
+                self.assertAlmostEqual(float(one[name]), float(value), delta=1e-6 * max(1, abs(float(value))))
+            for probe, column in (('tank', 'box'), ('ball', 'solid_0')):
+                for what, unit in (('force_y', 'N'), ('torque_z', 'N m')):
+                    mean = sum(float(row[f'{probe}.{what} [{unit}]']) for row in steps[1 + 2 * k:3 + 2 * k]) / 2
+                    self.assertAlmostEqual(float(other[f'{column}_{what}']), mean, delta=1e-4 * max(1, abs(mean)))
+        with open(self.path('a.json')) as file:
+            figures = json.load(file)['probes']
+        self.assertEqual((figures['ball.torque_z']['unit'], figures['tank.force_y']['rows']), ('N m', 100))
+
     def test_they_change_nothing(self):
         """Equal bits with and without, and on any number of threads."""
         self.go('--probes', 'a.csv')

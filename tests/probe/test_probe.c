@@ -16,20 +16,30 @@ static void columns_have_names(void **state)
 {
     (void)state;
     const WorldDef def = cloud_box(3, 0.05);
-    ProbeList list = {4,
+    ProbeList list = {5,
                       {probe_of("a", PROBE_POINT, PROBE_VELOCITY), probe_of("b", PROBE_HEIGHT, PROBE_SPEED),
-                       probe_of("c", PROBE_LINE, PROBE_DENSITY), probe_of("d", PROBE_PLANE, PROBE_PRESSURE)}};
+                       probe_of("c", PROBE_LINE, PROBE_DENSITY), probe_of("d", PROBE_PLANE, PROBE_PRESSURE),
+                       probe_of("e", PROBE_FORCE, PROBE_PRESSURE)}};
+    int shown[PROBE_SHOWN];
+    snprintf(list.probe[4].on, PROBE_ON_SIZE, "box");
     list.probe[2].to[1] = 0.4;
     list.probe[2].count = 2;
     list.probe[3].along[0] = list.probe[3].across[2] = 0.2;
     static const char *const names[] = {"a.velocity_x", "a.velocity_y", "a.velocity_z", "b.height",
-                                        "c_0.density",  "c_1.density",  "d.pressure"};
+                                        "c_0.density",  "c_1.density",  "d.pressure",   "e.force_x",
+                                        "e.force_y",    "e.force_z",    "e.torque_x",   "e.torque_y",
+                                        "e.torque_z"};
     Probes *probes = probes_create(&list, &def);
-    assert_int_equal(probes_columns(probes), 7);
-    for (int k = 0; k < 7; k++)
+    assert_int_equal(probes_columns(probes), 13);
+    for (int k = 0; k < 13; k++)
         assert_string_equal(probes_column(probes, k)->name, names[k]);
     assert_string_equal(probes_column(probes, 3)->unit, "m");
     assert_string_equal(probes_column(probes, 6)->unit, "Pa");
+    assert_string_equal(probes_column(probes, 9)->unit, "N");
+    assert_string_equal(probes_column(probes, 10)->unit, "N m");
+    assert_int_equal(probe_shown(&list.probe[4], shown), 3);
+    assert_true(shown[0] == 0 && shown[1] == 1 && shown[2] == 2);
+    assert_true(!probe_list_feels(&(ProbeList){.count = 4}) && probe_list_feels(&list));
     probes_destroy(probes);
 }
 
@@ -53,12 +63,48 @@ static void places_are_read(void **state)
     list.probe[2].count = 40;
     Probes *probes = probes_create(&list, &def);
     assert_int_equal(probes_columns(probes), 7);
-    probes_read(probes, &cloud, out);
+    probes_read(probes, &cloud, NULL, out);
     for (int k = 0; k < 5; k++)
         near((double)out[k], 9810 * (0.6 - 0.1 * k), 20);
     near((double)out[5], 9810 * 0.4, 10);
     near((double)out[6], 9810 * 0.5 * 0.5 * 0.625, 120); /* from 0.1 to 0.6 m, of 0.8 m */
     probes_destroy(probes);
+}
+
+/* Of the box and of a solid; the last ones stay where no step was. */
+static void forces_are_passed_on(void **state)
+{
+    (void)state;
+    WorldDef def = cloud_box(3, 0.05);
+    const Cloud none = cloud_of(&def);
+    ProbeList list = {
+        2, {probe_of("a", PROBE_FORCE, PROBE_PRESSURE), probe_of("b", PROBE_FORCE, PROBE_PRESSURE)}};
+    Forces felt = {.seconds = 0.1, .box = {{1, 2, 3}, {4, 5, 6}}};
+    float out[12];
+    felt.solid[1] = (Push){{7, 8, 9}, {10, 11, 12}};
+    def.solid_count = 2;
+    snprintf(list.probe[0].on, PROBE_ON_SIZE, "box");
+    snprintf(list.probe[1].on, PROBE_ON_SIZE, "solid_1");
+    Probes *probes = probes_create(&list, &def);
+    probes_read(probes, &none, &(Forces){0}, out);
+    for (int k = 0; k < 12; k++)
+        assert_true(isnan(out[k]));
+    probes_read(probes, &none, &felt, out);
+    for (int repeat = 0; repeat < 2; repeat++) {
+        for (int k = 0; k < 12; k++)
+            assert_true(out[k] == (float)(k + 1));
+        probes_read(probes, &none, &(Forces){0}, out);
+    }
+    probes_destroy(probes);
+    static const struct {
+        const char *on;
+        int is;
+    } names[] = {{"box", -1},      {"solid_0", 0},   {"solid_1", 1}, {"solid_2", -2},
+                 {"solid_-1", -2}, {"solid_1x", -2}, {"floor", -2}};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        snprintf(list.probe[0].on, PROBE_ON_SIZE, "%s", names[k].on);
+        assert_int_equal(probe_on(&list.probe[0], 2), names[k].is);
+    }
 }
 
 /* Over the middle, in a corner, in the plane; a foot off the floor; drops do not count, nor what is below the
@@ -83,13 +129,13 @@ static void heights_are_those_of_the_surface(void **state)
             Cloud cloud = cloud_at_rest(&def, high);
             if (layers < 20)
                 cloud_add(&cloud, 0.013, high + 0.17, 0, 0);
-            probes_read(probes, &cloud, out);
+            probes_read(probes, &cloud, NULL, out);
             near((double)out[0], high, layers == 1 ? 0.006 : 0.003);
             near((double)out[1], high, layers == 1 ? 0.006 : 0.003);
             near((double)out[2], fmax(high - 0.25, 0), 0.003);
         }
         Cloud none = cloud_of(&def);
-        probes_read(probes, &none, out);
+        probes_read(probes, &none, NULL, out);
         assert_true(out[0] == 0 && out[2] == 0);
         probes_destroy(probes);
     }
@@ -233,11 +279,9 @@ static void another_table_stays(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_have_names),
-        cmocka_unit_test(places_are_read),
-        cmocka_unit_test(heights_are_those_of_the_surface),
-        cmocka_unit_test(means_go_back_so_far),
-        cmocka_unit_test(a_table_goes_on_to_the_same_bytes),
+        cmocka_unit_test(columns_have_names),   cmocka_unit_test(places_are_read),
+        cmocka_unit_test(forces_are_passed_on), cmocka_unit_test(heights_are_those_of_the_surface),
+        cmocka_unit_test(means_go_back_so_far), cmocka_unit_test(a_table_goes_on_to_the_same_bytes),
         cmocka_unit_test(another_table_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

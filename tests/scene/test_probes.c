@@ -45,7 +45,7 @@ static void what_is_wrong_is_said(void **state)
     (void)state;
     assert_refused(PROBE("{point: {at: [0, 0, 0]}}"), "scene.yaml:8:5: probes[0].name is missing");
     assert_refused(PROBE("{name: a}"),
-                   "scene.yaml:8:5: probes[0] must have exactly one of: point, height, line, plane");
+                   "scene.yaml:8:5: probes[0] must have exactly one of: point, height, line, plane, force");
     assert_refused(PROBE("{name: a-b, point: {at: [0, 0, 0]}}"),
                    "scene.yaml:8:12: 'a-b' cannot be the name of columns");
     assert_refused(PROBE("{name: a, point: {at: [0, 0, 0]}}\n  - {name: a, height: {at: [0, 0, 0]}}"),
@@ -60,6 +60,13 @@ static void what_is_wrong_is_said(void **state)
                                  "  - {name: a_3, point: {at: [0, 0, 0]}}\n"
                                  "  - {name: a_1, height: {at: [0, 0, 0]}}"),
                            NULL, &scene, &error));
+    assert_refused(PROBE("{name: a, force: {on: floor}}"),
+                   "scene.yaml:8:27: 'floor' feels no force; the scene has no solid: write box");
+    assert_refused(
+        PROBE("{name: a, force: {on: solid_1}}\nsolids: [{sphere: {centre: [0, 0.6, 0], radius: 0.2}}]"),
+        "scene.yaml:8:27: 'solid_1' feels no force; write box, or solid_0 to solid_0");
+    assert_true(parse_text(PROBE("{name: a, force: {}}"), NULL, &scene, &error));
+    assert_string_equal(scene.probes.probe[0].on, "box");
     assert_refused(PROBE("{name: a, point: {at: [0.6, 0, 0]}}"),
                    "scene.yaml:8:27: [0.6, 0, 0] is outside the box");
     assert_refused(PROBE("{name: a, line: {from: [0, 0, 0], to: [0, 1.1, 0]}}"),
