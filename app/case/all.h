@@ -16,6 +16,7 @@
     X(growth_10)                                                                                             \
     X(dam_break)                                                                                             \
     X(dam_break_2d)                                                                                          \
+    X(dam_pressure)                                                                                          \
     X(free_fall)                                                                                             \
     X(bucket)                                                                                                \
     X(sloshing)                                                                                              \
