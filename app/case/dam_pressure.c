@@ -41,6 +41,19 @@ static double miss_of(const Curve *found, const Curve *expected, double window)
     return miss / all;
 }
 
+/* What is drawn is what is compared: means. */
+static void judge_wall(CaseRun *run, int wall, double to_t, double to_p)
+{
+    const Curve *column = &run->column[wall];
+    Curve raw = {.count = 0};
+    for (size_t i = 0; i < column->count; i++)
+        curve_add(&raw, column->at[i][0] * to_t, column->at[i][1] * to_p);
+    run->figures[wall] = figure_scaled(miss_of(&raw, &run->expected[wall], WINDOW[wall]), 0, 1);
+    for (double at = WINDOW[wall]; at < run->info.time * to_t; at += 0.5 * WINDOW[wall])
+        curve_add(&run->found[wall], at, mean_about(&raw, at, WINDOW[wall]));
+    curve_free(&raw);
+}
+
 static bool judge(CaseRun *run, Error *error)
 {
     static Reference reference;
@@ -50,17 +63,12 @@ static bool judge(CaseRun *run, Error *error)
     if (!reference_load("scenes/reference/dam-break-pressure.csv", &reference, error))
         return false;
     for (int wall = 0; wall < WALLS; wall++) {
-        const Curve *column = &run->column[wall];
-        for (size_t i = 0; i < column->count; i++)
-            curve_add(&run->found[wall], column->at[i][0] * sqrt(2 * g / a),
-                      column->at[i][1] / (def->fluids[0].density * g * a));
         for (int row = 0; row < reference.rows; row++) {
             const double value = reference_number(&reference, row, names[wall]);
             if (!isnan(value))
                 curve_add(&run->expected[wall], reference_number(&reference, row, "T"), value);
         }
-        run->figures[wall] =
-            figure_scaled(miss_of(&run->found[wall], &run->expected[wall], WINDOW[wall]), 0, 1);
+        judge_wall(run, wall, sqrt(2 * g / a), 1 / (def->fluids[0].density * g * a));
     }
     return true;
 }
@@ -70,14 +78,14 @@ const Case case_dam_pressure = {
     .help = "a collapsing column: its pressure on the wall behind it and on the one that it meets",
     .scene = "scenes/cases/dam_pressure.yaml",
     .methods = {{.name = "wcsph"},
-                {.name = "dfsph", .tolerance = {0.045, 0.06}, .coarse = {0.12, 0.8}},
-                {.name = "mueller", .tolerance = {0.065, 0.15}, .coarse = {0.16, 0.4}},
+                {.name = "dfsph", .tolerance = {0.045, 0.04}, .coarse = {0.12, 0.8}},
+                {.name = "mueller", .tolerance = {0.065, 0.12}, .coarse = {0.16, 0.4}},
                 {.name = "pbf", .left_out = "it stops the front in blows of single steps: 16 to 52 % off"}},
     .spacing = {0.05715 / 20, 0.05715 / 60, 0.05715 / 90},
     .time = 0.2285, /* T = 4.23 */
     .every = 0.00025,
     .metrics = {{"behind, off potential flow", "", .tolerance = 0.035, .coarse = 0.07},
-                {"on the end wall, off potential flow", "", .tolerance = 0.1, .coarse = 0.55}},
+                {"on the end wall, off potential flow", "", .tolerance = 0.08, .coarse = 0.55}},
     .plot = {.x = "T = t sqrt(2 g / a)",
              .y = "pressure over rho g a",
              .found = {"behind", "end wall"},
