@@ -17,6 +17,17 @@ bool chart_name(const char *path, Error *error)
            error_set(error, "'%s' is no name for a chart; name a FILE.svg or a FILE.png", path);
 }
 
+bool chart_table_name(const char *path, char table[1024], Error *error)
+{
+    if (!chart_name(path, error))
+        return false;
+    if (strlen(path) >= 1024)
+        return error_set(error, "the name of the chart has more than %d bytes; name a shorter one", 1023);
+    snprintf(table, 1024, "%s", path);
+    memcpy(strrchr(table, '.'), ".csv", sizeof ".csv");
+    return true;
+}
+
 void chart_quote(FILE *gnuplot, const char *text)
 {
     fputc('\'', gnuplot);

@@ -15,6 +15,9 @@ typedef struct Chart {
 /* Whether a chart can have that name: FILE.svg or FILE.png. */
 bool chart_name(const char *path, Error *error);
 
+/* OUT.csv, where the runs of a chart OUT.svg are kept; false for what can be no chart's name. */
+bool chart_table_name(const char *path, char table[1024], Error *error);
+
 /* Whether gnuplot is there; false with the reason. */
 bool chart_check(const char *path, Error *error);
 

@@ -12,35 +12,10 @@ static const double FINEST = 0.5;                /* of a scene's reference, time
 static const double jitters[] = {1e-6, 2e-6, 3e-6};
 static const double DEFAULT_TIME = 2; /* s, of a scene */
 
-/* The last setting of that key on the command line, or NULL. */
-static const char *set_value(const SceneSettings *settings, const char *key)
-{
-    const size_t length = strlen(key);
-    const char *value = NULL;
-    for (int i = 0; i < settings->count; i++)
-        if (strncmp(settings->set[i], key, length) == 0 && settings->set[i][length] == '=')
-            value = settings->set[i] + length + 1;
-    return value;
-}
-
-/* What --sweep or the option says for the key: how many. */
-static int names_given(const Args *args, const char *key, const char *names[CHART_NAMES_MAX])
-{
-    int count = 0;
-    const char *one = set_value(&args->settings, key);
-    for (int s = 0; s < args->sweep_count; s++)
-        for (int v = 0; strcmp(args->sweeps[s].key, key) == 0 && v < args->sweeps[s].count; v++)
-            if (count < CHART_NAMES_MAX)
-                names[count++] = args->sweeps[s].values[v];
-    if (count == 0 && one)
-        names[count++] = one;
-    return count;
-}
-
 /* Those of the case, or all that there are. */
 static int methods_of(const ChartPlan *plan, const char *methods[CHART_NAMES_MAX])
 {
-    int count = names_given(plan->args, "solver.method", methods);
+    int count = sweep_names(plan->args, "solver.method", methods);
     if (count > 0)
         return count;
     if (plan->subject.of)
@@ -80,7 +55,7 @@ static void note_left_out(ChartPlan *plan, const char *const left[], int count)
 static int backends_of(ChartPlan *plan, const char *backends[CHART_NAMES_MAX])
 {
     const char *left[CHART_NAMES_MAX];
-    int count = names_given(plan->args, "solver.backend", backends), left_count = 0;
+    int count = sweep_names(plan->args, "solver.backend", backends), left_count = 0;
     if (count > 0)
         return count;
     backends[count++] = plan->scene.world.backend;
@@ -246,20 +221,6 @@ static bool plan_sweeps(ChartPlan *plan, Error *error)
     return plan->coarsening_count > 0;
 }
 
-/* OUT.csv beside OUT.svg. */
-static bool name_csv(ChartPlan *plan, Error *error)
-{
-    const char *output = plan->args->output;
-    if (!chart_name(output, error))
-        return false;
-    if (strlen(output) >= sizeof plan->csv)
-        return error_set(error, "the name of the chart has more than %zu bytes; name a shorter one",
-                         sizeof plan->csv - 1);
-    snprintf(plan->csv, sizeof plan->csv, "%s", output);
-    memcpy(strrchr(plan->csv, '.'), ".csv", sizeof ".csv");
-    return true;
-}
-
 /* A case's name, or a scene's. */
 static bool find_subject(ChartPlan *plan, Error *error)
 {
@@ -331,7 +292,7 @@ static void keep_notes_of_all(ChartPlan *plan)
 bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error)
 {
     *plan = (ChartPlan){.args = args};
-    if (!name_csv(plan, error) || !find_subject(plan, error))
+    if (!chart_table_name(args->output, plan->csv, error) || !find_subject(plan, error))
         return false;
     if (!plan_sweeps(plan, error) || !plan_jobs(plan, error))
         return false;

@@ -7,7 +7,7 @@
 #include "app/session/args.h"
 #include "app/session/headless.h"
 
-enum { CHART_JOBS_MAX = 200, CHART_NAMES_MAX = 8 };
+enum { CHART_JOBS_MAX = 200, CHART_NAMES_MAX = SWEEP_NAMES_MAX };
 
 typedef struct ChartPlan {
     const Args *args;

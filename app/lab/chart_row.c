@@ -1,10 +1,8 @@
 #include "app/lab/chart_row.h"
 
+#include "app/lab/row_text.h"
 #include "app/metric/curve.h"
 
-#include "app/base/output.h"
-
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,19 +16,12 @@ static const char *const roles[] = {"point", "reference", "floor"};
 /* What every chart's file begins with, whatever else its rows hold. */
 static const char OURS[] = "key,role,method,backend,";
 
-static bool read_number(const char *text, double *number)
-{
-    char *end;
-    *number = strtod(text, &end);
-    return end != text && !*end;
-}
-
 /* "1 2 3": how many, or -1. */
 static int parse_numbers(char *text, double numbers[CHART_QUANTITIES])
 {
     int read = 0;
     for (char *cell = strsep(&text, " "); cell; cell = strsep(&text, " "), read++)
-        if (read == CHART_QUANTITIES || !read_number(cell, &numbers[read]))
+        if (read == CHART_QUANTITIES || !row_number(cell, &numbers[read]))
             return -1;
     return read;
 }
@@ -65,32 +56,6 @@ static bool copy_name(char name[NAME_SIZE], const char *cell)
     return snprintf(name, NAME_SIZE, "%s", cell) < NAME_SIZE && *cell;
 }
 
-/* Commas part the cells: those of a text stand in the file as this. */
-static const char COMMA = '|';
-
-static void put_text(const char *text, FILE *file)
-{
-    for (; *text; text++)
-        fputc(*text == ',' ? COMMA : *text, file);
-    fputc(',', file);
-}
-
-static bool copy_text(char *text, size_t size, const char *cell)
-{
-    const bool whole = (size_t)snprintf(text, size, "%s", cell) < size;
-    for (; *text; text++)
-        *text = *text == COMMA ? ',' : *text;
-    return whole;
-}
-
-/* Of three cells: kind, time, words. */
-static bool parse_outcome(char *const cells[3], Outcome *outcome)
-{
-    outcome->kind = outcome_of_word(cells[0]);
-    return outcome->kind < OUTCOME_COUNT && read_number(cells[1], &outcome->time) &&
-           copy_text(outcome->words, sizeof outcome->words, cells[2]);
-}
-
 /* What no run has, or NULL. Of one that broke the seconds are NaN, of one without a reference the error. */
 static const char *impossible(const ChartRow *row, double fineness, double particles)
 {
@@ -123,11 +88,11 @@ static const char *parse_row(char *line, ChartRow *row)
     *row = (ChartRow){.key = strtoull(cells[0], &end, 16)};
     const bool ok = end == cells[0] + 16 && !*end && parse_role(cells[1], &row->role) &&
                     copy_name(row->method, cells[2]) && copy_name(row->backend, cells[3]) &&
-                    copy_name(row->step, cells[4]) && read_number(cells[5], &fineness) &&
-                    read_number(cells[6], &row->spacing) && read_number(cells[7], &particles) &&
-                    read_number(cells[8], &row->seconds) && read_number(cells[9], &row->error) &&
-                    parse_outcome(&cells[10], &row->outcome) &&
-                    copy_text(row->swept, CHART_SWEPT, cells[13]) && parse_series(at, row);
+                    copy_name(row->step, cells[4]) && row_number(cells[5], &fineness) &&
+                    row_number(cells[6], &row->spacing) && row_number(cells[7], &particles) &&
+                    row_number(cells[8], &row->seconds) && row_number(cells[9], &row->error) &&
+                    row_outcome(&cells[10], &row->outcome) && row_text(row->swept, CHART_SWEPT, cells[13]) &&
+                    parse_series(at, row);
     const char *wrong = ok ? impossible(row, fineness, particles) : unreadable;
     if (wrong)
         return wrong;
@@ -214,31 +179,26 @@ static void print_row(const ChartRow *row, FILE *file)
     fprintf(file, "%016" PRIx64 ",%s,%s,%s,%s,%d,%.9g,%zu,%.12g,%.6g,%s,%.9g,", row->key, roles[row->role],
             row->method, row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds,
             row->error, outcome_word(outcome->kind), outcome->time);
-    put_text(outcome->words, file);
-    put_text(row->swept, file);
+    row_put_text(outcome->words, file);
+    row_put_text(row->swept, file);
     for (int t = 0; t < CHART_TIMES && row->quantities > 0; t++)
         for (int q = 0; q < row->quantities; q++)
             fprintf(file, "%s%.17g", q ? " " : t ? ";" : "", row->series[t][q]);
     fputc('\n', file);
 }
 
+static bool print_rows(const void *of, FILE *file)
+{
+    const ChartRows *rows = of;
+    fputs(HEAD, file);
+    for (int i = 0; i < rows->count; i++)
+        print_row(&rows->row[i], file);
+    return true;
+}
+
 bool chart_rows_write(const ChartRows *rows, const char *path, Error *error)
 {
-    Output output = {.path = ""};
-    if (!output_begin(&output, path, error))
-        return false;
-    FILE *file = fopen(output.temp, "w");
-    if (file) {
-        fputs(HEAD, file);
-        for (int i = 0; i < rows->count; i++)
-            print_row(&rows->row[i], file);
-        const bool whole = !ferror(file);
-        if (fclose(file) == 0 && whole)
-            return output_commit(&output, error);
-    }
-    error_set(error, "%s: cannot be written (%s)", path, strerror(errno));
-    output_discard(&output);
-    return false;
+    return rows_write(path, print_rows, rows, error);
 }
 
 const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key)

@@ -1,9 +1,9 @@
 #include "app/lab/chart_run.h"
 
 #include "app/base/interrupt.h"
+#include "app/lab/run_key.h"
 #include "app/outcome/outcome_watch.h"
 #include "app/probe/probe.h"
-#include "app/scene/keys.h"
 #include "sim/base/stage.h"
 #include "sim/world/method.h"
 
@@ -13,60 +13,6 @@
 #include <string.h>
 
 enum { TEXTS = 6, TEXT_SIZE = 96, LOOK_EVERY = 4, LOOKS = 10 }; /* looks take some steps' time */
-
-static uint64_t hash(uint64_t h, const char *text, size_t size)
-{
-    for (size_t i = 0; i < size; i++) /* FNV-1a */
-        h = (h ^ (uint8_t)text[i]) * 0x100000001b3ULL;
-    return (h ^ 0xff) * 0x100000001b3ULL;
-}
-
-static uint64_t hash_numbers(uint64_t h, const double numbers[], size_t count)
-{
-    return hash(h, (const char *)numbers, count * sizeof *numbers);
-}
-
-/* What a table holds: its file keeps its name. */
-static uint64_t hash_table(uint64_t h, const FieldTable *table)
-{
-    size_t places = 1;
-    if (!table)
-        return h;
-    for (int k = 0; k < 3; k++) {
-        const size_t planes = (size_t)table->count[k];
-        h = hash_numbers(h, table->place[k], planes > 1 ? planes : 0);
-        places *= planes;
-    }
-    for (int c = 0; c < FIELD_TABLE_COLUMNS; c++)
-        h = hash_numbers(h, table->value[c], table->value[c] ? places : 0);
-    return h;
-}
-
-static uint64_t hash_tables(uint64_t h, const WorldDef *def)
-{
-    for (int f = 0; f < def->fluid_count; f++) {
-        h = hash_table(h, def->fluids[f].flow_table);
-        for (int i = 0; i < def->fluids[f].fill_count; i++)
-            h = hash_table(h, def->fluids[f].fills[i].heights);
-    }
-    return h;
-}
-
-/* Of all settings as they were resolved, by whatever file or option, but for how it looks. */
-static bool hash_scene(const Scene *scene, uint64_t *h, Error *error)
-{
-    char *text = scene_print_text(scene);
-    for (const char *line = text; line && *line;) {
-        const size_t size = strcspn(line, "\n");
-        if (strncmp(line, "title ", 6) != 0 && strncmp(line, "view.", 5) != 0 &&
-            strncmp(line, "hand.", 5) != 0)
-            *h = hash(*h, line, size);
-        line += size + (line[size] == '\n');
-    }
-    free(text);
-    *h = hash_tables(*h, &scene->world);
-    return text != NULL || error_set(error, "no memory for the settings of %.200s", scene->path);
-}
 
 /* The settings that the job adds to those of the command line; `texts` holds them. */
 typedef struct JobSettings {
@@ -157,7 +103,7 @@ bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scen
                       .fineness = job->fineness,
                       .seconds = (double)NAN,
                       .error = (double)NAN,
-                      .key = 0xcbf29ce484222325ULL};
+                      .key = RUN_KEY};
     if (!job_settings(subject, job, &settings, scene, row, error) ||
         !load(subject, job, &settings, scene, error) || !world_can(&scene->world, error))
         return false;
@@ -165,8 +111,8 @@ bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scen
     snprintf(row->backend, NAME_SIZE, "%s", scene->world.backend);
     snprintf(rest, sizeof rest, "%s %d %.9g", SLOSH_VERSION, (int)job->role, subject->time);
     const char *name = subject->of ? subject->of->name : "";
-    row->key = hash(hash(row->key, rest, strlen(rest)), name, strlen(name));
-    return hash_scene(scene, &row->key, error);
+    row->key = run_key_text(run_key_text(row->key, rest), name);
+    return run_key_scene(scene, &row->key, error);
 }
 
 /* A scene on its way through time. */

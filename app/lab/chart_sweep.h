@@ -6,7 +6,7 @@
 #include "app/lab/chart_run.h"
 #include "app/session/args.h"
 
-enum { CHART_SPACINGS = 8, SWEPT_TEXT = 192 };
+enum { CHART_SPACINGS = 8, SWEPT_TEXT = 192, SWEEP_NAMES_MAX = 8 };
 
 /* The keys but method, backend and spacing, with their values. */
 typedef struct ChartSweeps {
@@ -16,6 +16,10 @@ typedef struct ChartSweeps {
     char text[CHART_SWEEPS][ARGS_SWEEP_VALUES_MAX][SWEPT_TEXT]; /* "--sweep key=value" */
     bool effective[CHART_SWEEPS];                               /* with some method */
 } ChartSweeps;
+
+/* What --sweep, or else the last setting, says for a key such as solver.method: how many; 0 where the command
+   line says nothing of it. */
+int sweep_names(const Args *args, const char *key, const char *names[SWEEP_NAMES_MAX]);
 
 /* Takes those of the command line; false for a key that a chart cannot have, with the reason. Whether the
    scene can be read with the values is the caller's to see. */

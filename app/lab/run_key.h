@@ -1,0 +1,19 @@
+/* A number of all that a run depends on, by which tables of runs know what they have already. */
+#ifndef SLOSH_RUN_KEY_H
+#define SLOSH_RUN_KEY_H
+
+#include "app/scene/scene.h"
+
+#include <stdint.h>
+
+/* Of nothing. */
+#define RUN_KEY 0xcbf29ce484222325ULL
+
+/* `key` with a text. */
+uint64_t run_key_text(uint64_t key, const char *text);
+
+/* With all settings of the scene as they were resolved, by whatever file or option, but for how it looks, and
+   what its tables hold. False without memory: then the key is of no use. */
+bool run_key_scene(const Scene *scene, uint64_t *key, Error *error);
+
+#endif
