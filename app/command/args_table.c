@@ -14,11 +14,12 @@ enum {
     BENCH = 1 << COMMAND_BENCH,
     VALIDATE = 1 << COMMAND_VALIDATE,
     CHART = 1 << COMMAND_CHART,
+    STABILITY = 1 << COMMAND_STABILITY,
     REPLAY = 1 << COMMAND_REPLAY,
     EXPORT = 1 << COMMAND_EXPORT,
     DEVICES = 1 << COMMAND_DEVICES,
     INFO = 1 << COMMAND_INFO,
-    ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | INFO
+    ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | INFO
 };
 
 const CommandRow command_rows[] = {
@@ -35,6 +36,9 @@ const CommandRow command_rows[] = {
      "known flows against their references; without a CASE, all", 0, ARGS_SCENES_MAX, NULL, 0, 0},
     {COMMAND_CHART, "chart", "SCENE|CASE -o OUT.svg|.png [OPTIONS]",
      "speed against accuracy over methods, steps and resolutions", 1, 1, "OUT.svg or OUT.png", 0, 0},
+    {COMMAND_STABILITY, "stability", "SCENE -o OUT.svg|.png [OPTIONS]",
+     "where methods hold and how they fail: the largest step over two keys of a scene", 1, 1,
+     "OUT.svg or OUT.png", 0, 0},
     {COMMAND_REPLAY, "replay", "FILE [OPTIONS]",
      "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
     {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply [OPTIONS]",
@@ -69,6 +73,10 @@ const OptionRow option_rows[] = {
     {"-o", "OUT", CHART, OPTION_TEXT, AT(output), .help = "the chart, OUT.svg or OUT.png; its figures in OUT.csv, which a later run goes on with"},
     {"--time", "S", CHART, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a scene (2); a case has its own"},
     {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods, of the scene's backend and cpu, and of those on a GPU where there is one; particles.spacing=...: those, in place of 2, 1.5 and 1 of the scene's; any other scene key: a series each value; repeat for a product"},
+    {"-o", "OUT", STABILITY, OPTION_TEXT, AT(output), .help = "the map, OUT.svg or OUT.png; its trials in OUT.csv, which a later run goes on with"},
+    {"--axis", "KEY=a:b", STABILITY, OPTION_AXIS, AT(axes), .help = "a key of the scene from a to b, at 8 values or, as a:b:n, at n; by factors where that is a decade and more; twice for a map (sound speed and viscosity around the scene's)"},
+    {"--time", "S", STABILITY, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a trial (four times what a fall from the top takes)"},
+    {"--sweep", "KEY=A,B,...", STABILITY, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: a map each, in place of the scene's own"},
     {"--table", "NAME", BENCH, OPTION_TEXT, AT(table),
      .help = "a published table again, beside its figures", .names = table_choice},
     {"--time", "S", RENDER | RUN, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds (5)"},
@@ -114,16 +122,16 @@ const OptionRow option_rows[] = {
      .help = "the spacing that gives about N particles"},
     {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes"},
     {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "which equations"},
-    {"--view", "NAME", ALL & ~(VALIDATE | CHART), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn"},
+    {"--view", "NAME", ALL & ~(VALIDATE | CHART | STABILITY), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn"},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
     {"--simd", "NAME", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.simd", .help = "instructions of the CPU's sums"},
-    {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
-    {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
+    {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
+    {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
     {"--device", "file:PATH", PLAY | DEVICES, OPTION_DEVICE, AT(device),
      .help = "a recording of motion devices in place of those that are plugged in"},
     {"--device", "file:PATH", RENDER | RUN | BENCH, OPTION_DEVICE, AT(device),
      .help = "a recording of motion devices (slosh devices --record) moves the box, in simulated time"},
-    {"--device", "file:PATH", VALIDATE | CHART, OPTION_REFUSED, .help = "refused: what is compared moves as the scene says, and no other way"},
+    {"--device", "file:PATH", VALIDATE | CHART | STABILITY, OPTION_REFUSED, .help = "refused: what is compared moves as the scene says, and no other way"},
     {"--device", "file:PATH", REPLAY, OPTION_REFUSED, .help = "refused: all that moved the box is in the recorded session"},
     {"--device", "file:PATH", EXPORT, OPTION_REFUSED, .help = "refused: nothing is simulated; slosh run takes it"},
     {"--device", "file:PATH", INFO, OPTION_REFUSED, .help = "refused: nothing is simulated; slosh devices lists what is in a recording"},
@@ -152,8 +160,8 @@ static void help_program(FILE *file)
 {
     fprintf(file, "slosh: a fluid of particles, simulated, shown and measured\n\n");
     for (const CommandRow *row = command_rows; row->name; row++)
-        fprintf(file, "  slosh %-8s %-42s %s\n", row->name, row->usage, row->help);
-    fprintf(file, "  slosh %-51s %s\n", "--version", "says which slosh this is");
+        fprintf(file, "  slosh %-9s %-42s %s\n", row->name, row->usage, row->help);
+    fprintf(file, "  slosh %-52s %s\n", "--version", "says which slosh this is");
     fprintf(file, "\n");
     for (const HelpTopic *topic = help_topics; topic->name; topic++)
         fprintf(file, "`slosh help %s`: %s.\n", topic->name, topic->help);

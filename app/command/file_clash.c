@@ -99,7 +99,7 @@ static void add_outputs(Files *files, const Args *args)
         add_render(files, output);
     else if (output && args->command == COMMAND_EXPORT)
         add_export(files, output);
-    else if (output && args->command == COMMAND_CHART)
+    else if (output && (args->command == COMMAND_CHART || args->command == COMMAND_STABILITY))
         add_chart(files, output);
     else
         add(files, FILE_REPLACED, "-o", output, args->command == COMMAND_VALIDATE ? "*.svg" : NULL);

@@ -37,6 +37,8 @@ static int run_command(const Args *args)
         return cmd_validate(args);
     case COMMAND_CHART:
         return cmd_chart(args);
+    case COMMAND_STABILITY:
+        return cmd_stability(args);
     case COMMAND_REPLAY:
         return cmd_replay(args);
     case COMMAND_EXPORT:

@@ -177,6 +177,15 @@ static bool parse_sweep(const Parser *parser, const char *text)
     return true;
 }
 
+static bool parse_axis(const Parser *parser, const char *text)
+{
+    Args *args = parser->args;
+    if (args->axis_count == ARGS_AXES_MAX)
+        return fail(parser, "more than %d times --axis; use fewer", ARGS_AXES_MAX);
+    args->axes[args->axis_count++] = text;
+    return true;
+}
+
 static bool parse_device(const Parser *parser, const OptionRow *option, const char *text)
 {
     *(const char **)field(parser, option) = text;
@@ -214,6 +223,8 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
         return parse_setting(parser, option, text);
     case OPTION_SWEEP:
         return parse_sweep(parser, text);
+    case OPTION_AXIS:
+        return parse_axis(parser, text);
     case OPTION_DEVICE:
         return parse_device(parser, option, text);
     case OPTION_FLAG:

@@ -11,7 +11,13 @@
 #include <stddef.h>
 #include <stdio.h>
 
-enum { ARGS_SCENES_MAX = 64, ARGS_SWEEPS_MAX = 8, ARGS_SWEEP_VALUES_MAX = 32, ARGS_POOL_BYTES = 8192 };
+enum {
+    ARGS_SCENES_MAX = 64,
+    ARGS_SWEEPS_MAX = 8,
+    ARGS_AXES_MAX = 4,
+    ARGS_SWEEP_VALUES_MAX = 32,
+    ARGS_POOL_BYTES = 8192
+};
 
 typedef enum Command {
     COMMAND_HELP, /* also --help: of `help_for`, or of the program where that is COMMAND_HELP */
@@ -22,8 +28,9 @@ typedef enum Command {
     COMMAND_BENCH,
     COMMAND_VALIDATE, /* `scenes` holds the cases */
     COMMAND_CHART,    /* `scenes` holds a scene or a case */
-    COMMAND_REPLAY,   /* `scenes` holds the recording */
-    COMMAND_EXPORT,   /* `scenes` holds the snapshots */
+    COMMAND_STABILITY,
+    COMMAND_REPLAY, /* `scenes` holds the recording */
+    COMMAND_EXPORT, /* `scenes` holds the snapshots */
     COMMAND_DEVICES,
     COMMAND_INFO,
     COMMAND_COUNT
@@ -89,6 +96,8 @@ typedef struct Args {
     const char *write_mapping; /* devices: FILE, or NULL */
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
+    int axis_count;
+    const char *axes[ARGS_AXES_MAX]; /* stability: "KEY=a:b" */
     size_t pool_used;
     char pool[ARGS_POOL_BYTES]; /* texts that settings and sweeps point at */
 } Args;

@@ -22,6 +22,7 @@ typedef enum OptionKind {
     OPTION_CHOICE,    /* enum or int: `min` and the place of the name in `value`, "a|b|c" */
     OPTION_SETTING,   /* path=value for the scene: all of it, or the value for the row's `path` */
     OPTION_SWEEP,     /* KEY=a,b,c */
+    OPTION_AXIS,      /* KEY=a:b */
     OPTION_DEVICE,    /* const char *: file:PATH */
     OPTION_REFUSED,   /* not for these commands: `help` says why, after "--device is " */
     OPTION_HELP

@@ -57,10 +57,11 @@ APP = {
     "session": "base metric probe outcome scene recording hand held output",
     "case": "base metric probe scene",
     "lab": "base metric probe outcome scene held session case",
+    "stability": "base outcome scene session lab",
     "window": "",
     "panel": "probe scene hand held session",
     "play": "base scene recording hand device held output session lab window panel",
-    "command": "base metric probe outcome yaml scene recording hand device held output session case lab play",
+    "command": "base metric probe outcome yaml scene recording hand device held output session case lab stability play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]

@@ -1,0 +1,441 @@
+/* The map of `slosh stability`: cells by the largest step that holds, with what fails above it; over one axis
+   the steps themselves with the limits of theory. */
+#include "app/lab/chart.h"
+#include "app/lab/chart_labels.h"
+#include "app/stability/stable_map.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    PANEL_LEFT = 78,
+    PANEL_WIDTH = 450,
+    PANEL_PITCH = 560,
+    PANEL_TOP = 84,
+    PANEL_HEIGHT = 370,
+    LEGEND = 512, /* from a row of panels' top */
+    LINE_HEIGHT = 14,
+    WIDTH_OF_ONE = 640
+};
+
+static const char *const kind_colours[OUTCOME_COUNT] = {
+    [OUTCOME_NONE] = "#8795a3",     [OUTCOME_HOLDS] = "#4f9d69",    [OUTCOME_NOISY] = "#c9a227",
+    [OUTCOME_SQUEEZED] = "#5b5ea6", [OUTCOME_CLUMPS] = "#7a4f2a",   [OUTCOME_LEAKS] = "#35a7a0",
+    [OUTCOME_DIVERGES] = "#e07a3f", [OUTCOME_BLOWN_UP] = "#c0392b",
+};
+
+typedef struct Drawing {
+    const StableMap *map;
+    FILE *gnuplot;
+    int width, height;  /* px */
+    int row;            /* of a row of panels with their legends, px */
+    double least, most; /* of the steps that hold, s */
+} Drawing;
+
+typedef struct Place {
+    int series;
+    double left, top; /* of the panel's field, px */
+} Place;
+
+static void find_range(Drawing *d)
+{
+    d->least = (double)INFINITY;
+    d->most = 0;
+    for (int n = 0; n < d->map->count; n++) {
+        const double step = stable_largest(&d->map->found[n]);
+        d->least = isfinite(step) ? fmin(d->least, step) : d->least;
+        d->most = isfinite(step) ? fmax(d->most, step) : d->most;
+    }
+}
+
+/* From pale to blue by the logarithm of the step. */
+static void colour_of(const Drawing *d, double step, char colour[8])
+{
+    static const int pale[3] = {0xf6, 0xf3, 0xe4}, deep[3] = {0x5f, 0xa3, 0xc9};
+    const double range = log(d->most / d->least), part = range > 0 ? log(step / d->least) / range : 1;
+    int rgb[3];
+    for (int k = 0; k < 3; k++)
+        rgb[k] = (int)lround(pale[k] + part * (deep[k] - pale[k]));
+    snprintf(colour, 8, "#%02x%02x%02x", (unsigned)rgb[0], (unsigned)rgb[1], (unsigned)rgb[2]);
+}
+
+static void axis_title(const StableAxis *axis, char title[160])
+{
+    snprintf(title, 160, "%.95s%s%.32s", axis->key, *axis->row->unit ? ", " : "", axis->row->unit);
+}
+
+static void put_axis_title(const Drawing *d, const char *which, const StableAxis *axis)
+{
+    char title[160];
+    axis_title(axis, title);
+    fprintf(d->gnuplot, "set %slabel ", which);
+    chart_quote(d->gnuplot, title);
+    fputs(" noenhanced\n", d->gnuplot);
+}
+
+static void put_place(const Drawing *d, const Place *place)
+{
+    const double left = place->left, top = place->top, w = d->width, h = d->height;
+    fprintf(d->gnuplot,
+            "set lmargin at screen %.5f\nset rmargin at screen %.5f\nset tmargin at screen %.5f\n"
+            "set bmargin at screen %.5f\nset key at screen %.5f,%.5f left top Left reverse noenhanced "
+            "maxcols 1 samplen 2 font ',9'\n",
+            left / w, (left + PANEL_WIDTH) / w, 1 - top / h, 1 - (top + PANEL_HEIGHT) / h, left / w,
+            1 - (top + LEGEND - PANEL_TOP) / h);
+}
+
+/* The method, in words above its panel, and how far theory is off. */
+static void put_heading(const Drawing *d, const Place *place)
+{
+    const StableSeries *series = &d->map->plan->series[place->series];
+    const StableSpread spread = stable_spread(d->map, place->series);
+    char text[160];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s, %s", series->method, series->backend);
+    if (spread.ratios > 0)
+        snprintf(text + used, sizeof text - used, ": measured / theory %.2f to %.2f, median %.2f",
+                 spread.least, spread.most, spread.median);
+    fprintf(d->gnuplot, "set label 90 ");
+    chart_quote(d->gnuplot, text);
+    fprintf(d->gnuplot, " at screen %.5f,%.5f left noenhanced font ',9' textcolor '#2a3440'\n",
+            place->left / d->width, 1 - (place->top - 12) / d->height);
+}
+
+/* ---- the kinds above what holds ---- */
+
+static bool has_marks(const Drawing *d, int series, OutcomeKind kind, bool silent)
+{
+    bool any = false;
+    for (int n = 0; n < d->map->count; n++)
+        for (int i = 0; i < STABLE_ABOVE; i++) {
+            const StableCellFound *found = &d->map->found[n];
+            any |= found->searched && found->cell.series == series && found->search.above[i].kind == kind &&
+                   found->search.above[i].silent == silent;
+        }
+    return any;
+}
+
+/* Where the kinds that a panel has are plotted from blocks of that name, silent ones as open squares. */
+static void plot_kinds(const Drawing *d, int series, const char *block)
+{
+    for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
+        for (int silent = 0; silent < 2; silent++)
+            if (has_marks(d, series, (OutcomeKind)kind, silent))
+                fprintf(d->gnuplot,
+                        ", $%s%d%s using 1:2 with points pt %d ps 0.7 lw 1.5 lc rgb '%s' title '%s%s'", block,
+                        kind, silent ? "s" : "", silent ? 4 : 5, kind_colours[kind],
+                        outcome_word((OutcomeKind)kind),
+                        silent                  ? ", which the sentinel does not find"
+                        : kind == OUTCOME_HOLDS ? " again"
+                                                : "");
+}
+
+/* ---- two axes ---- */
+
+/* Tics in the middle of cells, as many as there is room for. */
+static void put_cell_tics(const Drawing *d, const char *which, const StableAxis *axis, double room)
+{
+    double widest = 0;
+    for (int i = 0; i < axis->count; i++)
+        widest = fmax(widest, which[0] == 'x' ? label_width(axis->text[i], 11) : 14);
+    const int each = (int)fmax(1, ceil((widest + 4) * axis->count / room));
+    fprintf(d->gnuplot, "set %stics (", which);
+    for (int i = 0; i < axis->count; i += each)
+        fprintf(d->gnuplot, "%s'%.4g' %g", i ? ", " : "", axis->value[i], i + 0.5);
+    fputs(")\n", d->gnuplot);
+}
+
+/* What stands in a cell: the ratio to theory, or, of methods that theory says nothing of, the step in ms. */
+static void cell_text(const StableCellFound *found, char text[16])
+{
+    const double step = stable_largest(found);
+    const char *more = found->search.end == STABLE_ALWAYS ? ">" : "";
+    if (!found->searched)
+        snprintf(text, 16, "?");
+    else if (found->search.end == STABLE_NEVER)
+        snprintf(text, 16, "none");
+    else if (isfinite(found->ratio))
+        snprintf(text, 16, "%s%.2f%s", more, found->ratio, stable_again(found) ? "*" : "");
+    else
+        snprintf(text, 16, "%s%.3g%s", more, 1000 * step, stable_again(found) ? "*" : "");
+}
+
+static void put_cells(const Drawing *d, const Place *place)
+{
+    const StablePlan *plan = d->map->plan;
+    const double wide = (double)PANEL_WIDTH / plan->axis[0].count,
+                 high = (double)PANEL_HEIGHT / plan->axis[1].count;
+    int label = 100;
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        const double step = stable_largest(found);
+        const int x = found->cell.at[0], y = found->cell.at[1];
+        char colour[8] = "#e3e6ea", text[16];
+        if (found->cell.series != place->series)
+            continue;
+        if (isfinite(step))
+            colour_of(d, step, colour);
+        fprintf(
+            d->gnuplot,
+            "set object rectangle from first %d,%d to %d,%d fc rgb '%s' fs solid 1 border lc rgb '#ffffff' back\n",
+            x, y, x + 1, y + 1, colour);
+        cell_text(found, text);
+        if (label_width(text, 9) + 2 < wide && high > 26)
+            fprintf(d->gnuplot,
+                    "set label %d '%s' at first %g,%g center noenhanced font ',9' textcolor '#2a3440'\n",
+                    label++, text, x + 0.5, y + 0.66);
+    }
+}
+
+/* Where the mark of a sample stands: in a row along the foot of its cell, the shortest step to the left. */
+static void put_marks(const Drawing *d, const Place *place, OutcomeKind kind, bool silent)
+{
+    fprintf(d->gnuplot, "$marks%d%s << EOD\n", (int)kind, silent ? "s" : "");
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        for (int i = 0; i < STABLE_ABOVE && found->searched && found->cell.series == place->series; i++)
+            if (found->search.above[i].kind == kind && found->search.above[i].silent == silent)
+                fprintf(d->gnuplot, "%g %g\n", found->cell.at[0] + (i + 1.0) / (STABLE_ABOVE + 1),
+                        found->cell.at[1] + 0.25);
+    }
+    fputs("EOD\n", d->gnuplot);
+}
+
+static void plot_map(const Drawing *d, const Place *place)
+{
+    const StablePlan *plan = d->map->plan;
+    fprintf(d->gnuplot, "set xrange [0:%d]\nset yrange [0:%d]\n", plan->axis[0].count, plan->axis[1].count);
+    put_cell_tics(d, "x", &plan->axis[0], PANEL_WIDTH);
+    put_cell_tics(d, "y", &plan->axis[1], PANEL_HEIGHT);
+    put_axis_title(d, "x", &plan->axis[0]);
+    put_axis_title(d, "y", &plan->axis[1]);
+    put_cells(d, place);
+    for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
+        for (int silent = 0; silent < 2; silent++)
+            if (has_marks(d, place->series, (OutcomeKind)kind, silent))
+                put_marks(d, place, (OutcomeKind)kind, silent);
+    fputs("plot -1 notitle", d->gnuplot);
+    plot_kinds(d, place->series, "marks");
+    fputc('\n', d->gnuplot);
+}
+
+/* ---- one axis ---- */
+
+typedef double OfLimits(const StableLimits *limits);
+
+static double of_sound(const StableLimits *limits)
+{
+    return limits->sound;
+}
+
+static double of_friction(const StableLimits *limits)
+{
+    return limits->friction;
+}
+
+static double of_courant(const StableLimits *limits)
+{
+    return limits->courant;
+}
+
+static double of_force(const StableLimits *limits)
+{
+    return limits->force;
+}
+
+static double of_viscous(const StableLimits *limits)
+{
+    return limits->viscous;
+}
+
+static const struct LimitLine {
+    const char *name, *style;
+    OfLimits *of;
+} limit_lines[] = {
+    {"sound on the lattice, 2 / omega", "lw 1.5 lc '#2a6f97'", of_sound},
+    {"friction on the lattice", "lw 1.5 lc '#b0457b'", of_friction},
+    {"Courant, 0.4 l / c", "lw 1.2 dt 2 lc '#2a6f97'", of_courant},
+    {"force, 0.25 sqrt(l / g)", "lw 1.2 dt 3 lc '#4f9d69'", of_force},
+    {"viscous, 0.125 l^2 / nu", "lw 1.2 dt 2 lc '#b0457b'", of_viscous},
+};
+enum { LIMIT_LINES = sizeof limit_lines / sizeof *limit_lines };
+
+/* A cell's samples of that kind, in ms. */
+static void put_steps(const Drawing *d, int series, OutcomeKind kind, bool silent)
+{
+    fprintf(d->gnuplot, "$steps%d%s << EOD\n", (int)kind, silent ? "s" : "");
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        const StableSearch *search = &found->search;
+        if (found->cell.series != series || !found->searched)
+            continue;
+        for (int i = 0; i < STABLE_ABOVE; i++)
+            if (search->above[i].kind == kind && search->above[i].silent == silent) {
+                fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]],
+                        1000 * stable_step(stable_sample(search, i)));
+            }
+    }
+    fputs("EOD\n", d->gnuplot);
+}
+
+/* How many of its places lie in the frame. */
+static int put_limit(const Drawing *d, int series, int limit, double highest)
+{
+    int lines = 0;
+    fprintf(d->gnuplot, "$limit%d << EOD\n", limit);
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        const double step = found->searched ? limit_lines[limit].of(&found->limits) : (double)INFINITY;
+        if (found->cell.series == series && isfinite(step)) {
+            fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]], 1000 * step);
+            lines += step <= highest;
+        }
+    }
+    fputs("EOD\n", d->gnuplot);
+    return lines;
+}
+
+static int put_largest(const Drawing *d, int series)
+{
+    int lines = 0;
+    fputs("$largest << EOD\n", d->gnuplot);
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        if (found->cell.series == series && isfinite(stable_largest(found))) {
+            fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]],
+                    1000 * stable_largest(found));
+            lines++;
+        }
+    }
+    fputs("EOD\n", d->gnuplot);
+    return lines;
+}
+
+/* Of the trials and a factor of two around; theory may lie beyond. */
+static double put_line_ranges(const Drawing *d, int series)
+{
+    const StableAxis *axis = &d->map->plan->axis[0];
+    const double from = axis->value[0], to = axis->value[axis->count - 1], margin = 0.05 * (to - from);
+    double low = (double)INFINITY, high = 0;
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        if (found->cell.series != series || !found->searched)
+            continue;
+        const double step = stable_step(found->search.rung), lattice = found->limits.lattice;
+        low = fmin(low, fmin(step, found->limits.courant));
+        high = fmax(high, fmax(2 * step, isfinite(lattice) ? lattice : 0));
+    }
+    if (high > 0)
+        fprintf(d->gnuplot, "set yrange [%.9g:%.9g]\n", 500 * low, 2000 * high);
+    if (axis->logarithmic)
+        fprintf(d->gnuplot, "set logscale x\nset xrange [%.9g:%.9g]\n", from / 1.15, to * 1.15);
+    else
+        fprintf(d->gnuplot, "set xrange [%.9g:%.9g]\n", from - margin, to + margin);
+    return 2 * high;
+}
+
+static void plot_line(const Drawing *d, const Place *place)
+{
+    const StableAxis *axis = &d->map->plan->axis[0];
+    int limits[LIMIT_LINES];
+    fputs("set logscale y\nset format xy '%g'\n", d->gnuplot);
+    const double highest = put_line_ranges(d, place->series);
+    put_axis_title(d, "x", axis);
+    fputs("set ylabel 'step, ms'\n", d->gnuplot);
+    for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
+        for (int silent = 0; silent < 2; silent++)
+            put_steps(d, place->series, (OutcomeKind)kind, silent);
+    for (int i = 0; i < LIMIT_LINES; i++)
+        limits[i] = put_limit(d, place->series, i, highest);
+    const int largest = put_largest(d, place->series);
+    fputs("plot 1 / 0 notitle", d->gnuplot);
+    for (int i = 0; i < LIMIT_LINES; i++)
+        if (limits[i] > 0)
+            fprintf(d->gnuplot, ", $limit%d using 1:2 with lines %s title '%s'", i, limit_lines[i].style,
+                    limit_lines[i].name);
+        else
+            fprintf(d->gnuplot, ", 1 / 0 with lines %s title '%s: beyond, or none'", limit_lines[i].style,
+                    limit_lines[i].name);
+    if (largest > 0)
+        fprintf(
+            d->gnuplot,
+            ", $largest using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '%s' title 'largest step that holds'",
+            kind_colours[OUTCOME_HOLDS]);
+    plot_kinds(d, place->series, "steps");
+    fputc('\n', d->gnuplot);
+}
+
+/* ---- the whole ---- */
+
+static void put_titles(const Drawing *d)
+{
+    const StablePlan *plan = d->map->plan;
+    const int most = d->width / 8;
+    char line[2][256];
+    snprintf(line[0], sizeof line[0], "%.80s: the largest step that holds %.3g s", plan->scene_name,
+             plan->time);
+    if (plan->axis_count < 2)
+        snprintf(line[1], sizeof line[1], "squares: what is at 1.09, 1.3, 1.54 and 2 times that step");
+    else
+        snprintf(
+            line[1], sizeof line[1],
+            "colour: %.3g ms (pale) to %.3g ms (blue); number: over that of theory, of methods without sound "
+            "ms; squares: what is at 1.09, 1.3, 1.54 and 2 times the step",
+            1000 * d->least, 1000 * d->most);
+    for (int i = 0; i < 2; i++) {
+        char cut[256];
+        snprintf(cut, sizeof cut, "%.*s", most * (i ? 3 : 2) / 2, line[i]);
+        fprintf(d->gnuplot, "set label %d ", 98 + i);
+        chart_quote(d->gnuplot, cut);
+        fprintf(d->gnuplot, " at screen 0.5,%g center noenhanced font ',%d' textcolor '%s'\n",
+                1 - (i ? 40.0 : 18.0) / d->height, i ? 8 : 11, i ? "#5a6672" : "#2a3440");
+    }
+}
+
+static void draw_series(const Drawing *d, int series)
+{
+    const int row = series / 2, column = series % 2;
+    const Place place = {
+        .series = series, .left = PANEL_LEFT + column * PANEL_PITCH, .top = PANEL_TOP + row * d->row};
+    put_place(d, &place);
+    put_heading(d, &place);
+    if (d->map->plan->axis_count == 2)
+        plot_map(d, &place);
+    else
+        plot_line(d, &place);
+    fputs("unset label\nunset object\nunset logscale\nset yrange [*:*]\n", d->gnuplot);
+}
+
+/* As many lines as the longest legend has. */
+static int legend_lines(const Drawing *d)
+{
+    int most = 0;
+    for (int s = 0; s < d->map->plan->series_count; s++) {
+        int lines = d->map->plan->axis_count == 2 ? 0 : LIMIT_LINES + 1;
+        for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
+            for (int silent = 0; silent < 2; silent++)
+                lines += has_marks(d, s, (OutcomeKind)kind, silent);
+        most = lines > most ? lines : most;
+    }
+    return most;
+}
+
+bool stable_draw(const StableMap *map, const char *path, Error *error)
+{
+    Chart chart = {.gnuplot = NULL};
+    const int series = map->plan->series_count;
+    Drawing d = {.map = map,
+                 .width = series > 1 ? PANEL_LEFT + PANEL_PITCH + PANEL_WIDTH + 22 : WIDTH_OF_ONE,
+                 .height = 0};
+    d.row = LEGEND + legend_lines(&d) * LINE_HEIGHT + 16;
+    d.height = (series + 1) / 2 * d.row;
+    find_range(&d);
+    if (!chart_begin(&chart, path, d.width, d.height, error))
+        return false;
+    d.gnuplot = chart.gnuplot;
+    fputs("set multiplot\n", d.gnuplot);
+    put_titles(&d);
+    for (int s = 0; s < series; s++)
+        draw_series(&d, s);
+    fputs("unset multiplot\n", d.gnuplot);
+    return chart_end(&chart, error);
+}
