@@ -102,27 +102,9 @@ static bool check_rows(const ChartPlan *plan, const ChartRows *rows, Error *erro
     return known > 0 || error_set(error, "every run broke: no error is known; use a smaller step");
 }
 
-/* "error: centre_of_mass and kinetic_energy, rms over range" */
-static void name_error(const ChartPlan *plan, char name[256])
-{
-    size_t used = (size_t)snprintf(name, 256, "error: ");
-    if (plan->subject.of) {
-        snprintf(name + used, 256 - used, "%s", plan->subject.of->metrics[0].name);
-        return;
-    }
-    for (int m = 0; m < plan->scene.metric_count && used < 200; m++)
-        used += (size_t)snprintf(name + used, 256 - used, "%s%s",
-                                 m == 0                              ? ""
-                                 : m + 1 == plan->scene.metric_count ? " and "
-                                                                     : ", ",
-                                 metric_kinds[plan->scene.metrics[m]].name);
-    if (used < 256)
-        snprintf(name + used, 256 - used, ", rms over range");
-}
-
 static bool finish(const ChartPlan *plan, Runs *runs, Error *error)
 {
-    char title[256], name[256];
+    char title[256], name[256 + sizeof "error: "];
     const Args *args = plan->args;
     const Case *of = plan->subject.of;
     ChartRows *rows = &runs->rows;
@@ -132,7 +114,7 @@ static bool finish(const ChartPlan *plan, Runs *runs, Error *error)
         chart_print(rows, floor, stdout);
     snprintf(title, sizeof title, "%.120s%s", of ? of->help : args->scenes[0],
              of ? "" : ": the finest run is the reference");
-    name_error(plan, name);
+    chart_error_name(&plan->subject, &plan->scene, name + snprintf(name, sizeof name, "error: "));
     const ChartWords words = {title, name, plan->note};
     chart_rows_merge(&runs->kept, plan->csv, rows);
     const bool drawn = chart_rows_write(&runs->kept, plan->csv, error) &&

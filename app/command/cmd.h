@@ -13,6 +13,7 @@ int cmd_bench(const Args *args);
 int cmd_validate(const Args *args);
 int cmd_chart(const Args *args);
 int cmd_stability(const Args *args);
+int cmd_fit(const Args *args);
 int cmd_replay(const Args *args);
 int cmd_export(const Args *args);
 int cmd_devices(const Args *args);

@@ -99,7 +99,8 @@ static void add_outputs(Files *files, const Args *args)
         add_render(files, output);
     else if (output && args->command == COMMAND_EXPORT)
         add_export(files, output);
-    else if (output && (args->command == COMMAND_CHART || args->command == COMMAND_STABILITY))
+    else if (output && (args->command == COMMAND_CHART || args->command == COMMAND_STABILITY ||
+                        args->command == COMMAND_FIT))
         add_chart(files, output);
     else
         add(files, FILE_REPLACED, "-o", output, args->command == COMMAND_VALIDATE ? "*.svg" : NULL);

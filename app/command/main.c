@@ -39,6 +39,8 @@ static int run_command(const Args *args)
         return cmd_chart(args);
     case COMMAND_STABILITY:
         return cmd_stability(args);
+    case COMMAND_FIT:
+        return cmd_fit(args);
     case COMMAND_REPLAY:
         return cmd_replay(args);
     case COMMAND_EXPORT:

@@ -10,7 +10,6 @@
 static const double coarsenings[] = {2, 1.5, 1}; /* fills that are whole numbers of spacings often stay so */
 static const double FINEST = 0.5;                /* of a scene's reference, times the finest of these */
 static const double jitters[] = {1e-6, 2e-6, 3e-6};
-static const double DEFAULT_TIME = 2; /* s, of a scene */
 
 /* Those of the case, or all that there are. */
 static int methods_of(const ChartPlan *plan, const char *methods[CHART_NAMES_MAX])
@@ -221,38 +220,6 @@ static bool plan_sweeps(ChartPlan *plan, Error *error)
     return plan->coarsening_count > 0;
 }
 
-/* A case's name, or a scene's. */
-static bool find_subject(ChartPlan *plan, Error *error)
-{
-    const Args *args = plan->args;
-    SceneSettings settings = args->settings;
-    Error no_case, no_scene;
-    settings.purpose = SCENE_FOR_CHART;
-    plan->subject = (ChartSubject){.scene = args->scenes[0],
-                                   .time = args->time_given ? args->time : DEFAULT_TIME,
-                                   .settings = &args->settings};
-    plan->subject.of = case_find(args->scenes[0], &no_case);
-    if (plan->subject.time <= 0)
-        return error_set(error, "slosh chart: --time must be more than 0");
-    if (plan->subject.of && args->time_given)
-        return error_set(error, "slosh chart: the case %s has a time of its own; leave --time out",
-                         plan->subject.of->name);
-    const CaseSetup setup = {.of = plan->subject.of,
-                             .level = CASE_DEFAULT,
-                             .method = plan->subject.of ? plan->subject.of->methods[0].name : NULL,
-                             .settings = &settings};
-    if (plan->subject.of)
-        return case_scene(&setup, &plan->scene, error);
-    if (scene_load(args->scenes[0], &settings, &plan->scene, &plan->notes, &no_scene))
-        return true;
-    const char *near = case_near(args->scenes[0]);
-    char *hint = strstr(no_scene.message, "; did you mean '");
-    if (near && hint)
-        *hint = 0; /* one is enough */
-    return near ? error_set(error, "%.700s; did you mean the case '%s'?", no_scene.message, near)
-                : error_set(error, "%s", no_scene.message);
-}
-
 /* What is said of settings without effect is said where they have none in each run. */
 static void keep_common(Notes *notes, const Notes *other)
 {
@@ -292,7 +259,8 @@ static void keep_notes_of_all(ChartPlan *plan)
 bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error)
 {
     *plan = (ChartPlan){.args = args};
-    if (!chart_table_name(args->output, plan->csv, error) || !find_subject(plan, error))
+    if (!chart_table_name(args->output, plan->csv, error) ||
+        !chart_subject_find(args, &plan->subject, &plan->scene, &plan->notes, error))
         return false;
     if (!plan_sweeps(plan, error) || !plan_jobs(plan, error))
         return false;

@@ -12,29 +12,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXTS = 6, TEXT_SIZE = 96, LOOK_EVERY = 4, LOOKS = 10 }; /* looks take some steps' time */
+enum { LOOK_EVERY = 4, LOOKS = 10 }; /* looks take some steps' time */
 
-/* The settings that the job adds to those of the command line; `texts` holds them. */
-typedef struct JobSettings {
-    SceneSettings all;
-    char texts[TEXTS][TEXT_SIZE];
-    int used;
-} JobSettings;
-
-__attribute__((format(printf, 3, 4))) static bool add(JobSettings *job, Error *error, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static bool add(ChartSettings *job, Error *error, const char *format,
+                                                      ...)
 {
     va_list arguments;
     if (job->all.count == SCENE_SETTINGS_MAX)
         return error_set(error, "more than %d settings; write them into a scene file", SCENE_SETTINGS_MAX);
     va_start(arguments, format);
-    vsnprintf(job->texts[job->used], TEXT_SIZE, format, arguments);
+    vsnprintf(job->texts[job->used], CHART_TEXT_SIZE, format, arguments);
     va_end(arguments);
     job->all.set[job->all.count++] = job->texts[job->used++];
     return true;
 }
 
 /* The job's own values of swept keys, and what the row calls them: the last parts of their names. */
-static bool add_swept(JobSettings *job, const ChartJob *of, ChartRow *row, Error *error)
+static bool add_swept(ChartSettings *job, const ChartJob *of, ChartRow *row, Error *error)
 {
     size_t used = 0;
     for (int i = 0; i < of->set_count; i++) {
@@ -54,7 +48,7 @@ static bool add_swept(JobSettings *job, const ChartJob *of, ChartRow *row, Error
     return true;
 }
 
-static bool load(const ChartSubject *subject, const ChartJob *job, JobSettings *settings, Scene *scene,
+static bool load(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
                  Error *error)
 {
     if (!subject->of)
@@ -66,10 +60,10 @@ static bool load(const ChartSubject *subject, const ChartJob *job, JobSettings *
 
 /* First as the scene has it, to know its spacing and step; then with those of the job. A step of mode fixed
    shrinks with the spacing. */
-static bool job_settings(const ChartSubject *subject, const ChartJob *job, JobSettings *settings,
-                         Scene *scene, ChartRow *row, Error *error)
+bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
+                    ChartRow *row, Error *error)
 {
-    *settings = (JobSettings){.all = *subject->settings};
+    *settings = (ChartSettings){.all = *subject->settings};
     bool ok = add(settings, error, "solver.method=%s", job->method) &&
               add(settings, error, "solver.backend=%s", job->backend) &&
               add_swept(settings, job, row, error) && load(subject, job, settings, scene, error);
@@ -91,20 +85,21 @@ static bool job_settings(const ChartSubject *subject, const ChartJob *job, JobSe
         snprintf(row->step, NAME_SIZE, "%.3g ms", 1000 * def->dt / substeps);
         ok = ok && add(settings, error, "solver.step.substeps=%d", substeps);
     }
-    return ok && (job->jitter == 0 || add(settings, error, "particles.jitter=%.9g", job->jitter));
+    return ok &&
+           (job->jitter == 0 || add(settings, error, "particles.jitter=%.9g", def->jitter + job->jitter));
 }
 
 bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scene, ChartRow *row,
                    Error *error)
 {
-    JobSettings settings;
+    ChartSettings settings;
     char rest[128];
     *row = (ChartRow){.role = job->role,
                       .fineness = job->fineness,
                       .seconds = (double)NAN,
                       .error = (double)NAN,
                       .key = RUN_KEY};
-    if (!job_settings(subject, job, &settings, scene, row, error) ||
+    if (!chart_settings(subject, job, &settings, scene, row, error) ||
         !load(subject, job, &settings, scene, error) || !world_can(&scene->world, error))
         return false;
     snprintf(row->method, NAME_SIZE, "%s", scene->world.method);
@@ -289,8 +284,8 @@ static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow 
 {
     static CaseResult result;
     static Scene scene;
-    JobSettings settings;
-    if (!job_settings(subject, job, &settings, &scene, row, error))
+    ChartSettings settings;
+    if (!chart_settings(subject, job, &settings, &scene, row, error))
         return false;
     CaseWatch watch = {.every = 0.99 * subject->of->time / LOOKS};
     const CaseSetup setup = {.of = subject->of,
@@ -316,8 +311,8 @@ bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, 
     static Scene scene;
     if (subject->of)
         return run_case(subject, job, row, progress, done, part, error);
-    JobSettings settings;
-    return job_settings(subject, job, &settings, &scene, row, error) &&
+    ChartSettings settings;
+    return chart_settings(subject, job, &settings, &scene, row, error) &&
            load(subject, job, &settings, &scene, error) &&
            run_scene(&scene, subject->time, row, progress, done, part, error);
 }

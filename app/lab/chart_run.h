@@ -4,14 +4,7 @@
 
 #include "app/case/run.h"
 #include "app/lab/chart_row.h"
-
-/* What is charted. */
-typedef struct ChartSubject {
-    const Case *of;                /* or NULL: */
-    const char *scene;             /* as scene_load takes it */
-    double time;                   /* s, of a scene */
-    const SceneSettings *settings; /* of the command line */
-} ChartSubject;
+#include "app/lab/chart_subject.h"
 
 enum { CHART_SWEEPS = 8 };
 
@@ -21,10 +14,25 @@ typedef struct ChartJob {
     const char *method, *backend;
     double coarsening; /* times the scene's spacing */
     int fineness;      /* 0: steps as long as the scene's, or as its number says; 1: half of it */
-    double jitter;     /* spacings; 0: as the scene has it */
+    double jitter;     /* spacings, besides the scene's own */
     int set_count;
     const char *set[CHART_SWEEPS]; /* "--sweep key=value" of other keys */
 } ChartJob;
+
+enum { CHART_TEXTS = 6, CHART_TEXT_SIZE = 96 };
+
+/* The settings of a run: those of the command line, and behind them those that the job adds. It points into
+   itself: it isn't to be copied. */
+typedef struct ChartSettings {
+    SceneSettings all;
+    char texts[CHART_TEXTS][CHART_TEXT_SIZE];
+    int used;
+} ChartSettings;
+
+/* Fills in row's step, spacing and what is swept, too; `scene` is for scratch. A case adds its own before
+   them. */
+bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
+                    ChartRow *row, Error *error);
 
 /* The scene of that job, with row's key, method, backend, step and spacing. */
 bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scene, ChartRow *row,

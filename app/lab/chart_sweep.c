@@ -12,21 +12,10 @@ static bool begins(const char *text, const char *with)
     return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* The last setting of that key on the command line, or NULL. */
-static const char *set_value(const SceneSettings *settings, const char *key)
-{
-    const size_t length = strlen(key);
-    const char *value = NULL;
-    for (int i = 0; i < settings->count; i++)
-        if (strncmp(settings->set[i], key, length) == 0 && settings->set[i][length] == '=')
-            value = settings->set[i] + length + 1;
-    return value;
-}
-
 int sweep_names(const Args *args, const char *key, const char *names[SWEEP_NAMES_MAX])
 {
     int count = 0;
-    const char *one = set_value(&args->settings, key);
+    const char *one = chart_set_value(&args->settings, key);
     for (int s = 0; s < args->sweep_count; s++)
         for (int v = 0; strcmp(args->sweeps[s].key, key) == 0 && v < args->sweeps[s].count; v++)
             if (count < SWEEP_NAMES_MAX)

@@ -29,6 +29,7 @@ typedef enum Command {
     COMMAND_VALIDATE, /* `scenes` holds the cases */
     COMMAND_CHART,    /* `scenes` holds a scene or a case */
     COMMAND_STABILITY,
+    COMMAND_FIT,    /* `scenes` holds a scene or a case */
     COMMAND_REPLAY, /* `scenes` holds the recording */
     COMMAND_EXPORT, /* `scenes` holds the snapshots */
     COMMAND_DEVICES,
@@ -84,6 +85,7 @@ typedef struct Args {
     bool surface;              /* export: the fluid's surface instead of the particles */
     double level, cell;        /* of it; 0: not given */
     ColorChoice color_by;      /* export: of a .ply */
+    double error, frame_ms;    /* fit: percent, ms; 0: not given */
     bool full, coarse;         /* validate: finer or coarser than its default set */
     const char *table;         /* bench: NAME, or NULL */
     bool play;                 /* bench: the live window */

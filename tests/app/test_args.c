@@ -169,6 +169,7 @@ static void slips_are_named(void **state)
     refuse("run s -o o --mapping m", "slosh run: --mapping says what motion devices do; add --device");
     refuse("validate --device file:a", "slosh validate: --device is refused: what is compared moves");
     refuse("chart s -o o.svg --device file:a", "slosh chart: --device is refused: what is compared moves");
+    refuse("fit s --error 5 --device file:a", "slosh fit: --device is refused: what is compared moves");
     refuse("replay r --device=file:a", "slosh replay: --device is refused: all that moved the box");
     refuse("export a -o b --device file:a", "slosh export: --device is refused: nothing is simulated");
     refuse("info --device file:a", "slosh info: --device is refused: nothing is simulated");

@@ -61,7 +61,8 @@ APP = {
     "window": "",
     "panel": "probe scene hand held session",
     "play": "base scene recording hand device held output session lab window panel",
-    "command": "base metric probe outcome yaml scene recording hand device held output session case lab stability play",
+    "fit": "base metric outcome yaml scene session case lab",
+    "command": "base metric probe outcome yaml scene recording hand device held output session case lab stability fit play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]

@@ -1,0 +1,222 @@
+#include "app/fit/fit_runs.h"
+
+#include "app/base/interrupt.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Spacings by which repeats of a run differ. */
+static const double jitters[] = {1e-6, 2e-6, 3e-6};
+enum { REPEATS = sizeof jitters / sizeof *jitters };
+
+/* Of the reference: half the scene's spacing, and half its step. */
+static const double FINEST = 0.5;
+
+bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *runs, Error *error)
+{
+    *runs = (FitRuns){.axes = axes, .csv = csv, .quiet = quiet, .floor = (double)NAN};
+    const Scene *scene = axes->scene;
+    runs->used.metric_count = scene->metric_count;
+    memcpy(runs->used.metrics, scene->metrics, sizeof runs->used.metrics);
+    runs->used.probe_count = scene->probes.count;
+    return chart_rows_read(&runs->kept, csv, stderr, error);
+}
+
+/* What takes so short a time, s, is timed again, so many times in all, and the least time counts: another
+   program, or the threads' start, would decide. */
+static const double SHORT = 0.3;
+enum { TIMINGS = 3 };
+
+/* A bar on a terminal alone: elsewhere the lines of the runs say how far it is. */
+static bool run(FitRuns *runs, const ChartJob *job, ChartRow *row)
+{
+    Progress progress;
+    char what[96];
+    double least = INFINITY;
+    const double time = runs->axes->subject.of ? runs->axes->subject.of->time : runs->axes->subject.time;
+    snprintf(what, sizeof what, "%.20s at %.4g m", row->method, row->spacing);
+    progress_begin(&progress, stderr, what, runs->quiet || !isatty(STDERR_FILENO));
+    bool ok = true, again = true;
+    for (int i = 0; ok && again && i < TIMINGS; i++) {
+        ok = chart_run(&runs->axes->subject, job, row, &progress, (double)i / TIMINGS, 1.0 / TIMINGS,
+                       &runs->error) &&
+             !interrupted();
+        again = job->role == CHART_POINT && row->seconds * time < SHORT; /* not of what broke */
+        least = fmin(least, row->seconds);
+    }
+    progress_end(&progress);
+    row->seconds = isfinite(row->seconds) ? least : row->seconds;
+    return ok;
+}
+
+/* The row of the job, by an older run where there is one. */
+static bool row_of(FitRuns *runs, const ChartJob *job, ChartRow *row)
+{
+    static Scene scene;
+    if (!chart_prepare(&runs->axes->subject, job, &scene, row, &runs->error))
+        return false;
+    const ChartRow *old = chart_rows_find(&runs->kept, row->key);
+    const bool there = old && old->outcome.kind != OUTCOME_NONE; /* what failed by no fault of a fluid */
+    if (there)
+        *row = *old;
+    else if (!run(runs, job, row))
+        return false;
+    runs->there += there;
+    runs->made += !there;
+    chart_rows_add(&runs->used, row, &runs->used);
+    if (there)
+        return true;
+    chart_rows_add(&runs->kept, row, &runs->used);
+    chart_rows_merge(&runs->kept, runs->csv, &runs->used);
+    return chart_rows_write(&runs->kept, runs->csv, &runs->error);
+}
+
+/* Of a scene over its reference; of a case its own. */
+static double error_of(const FitRuns *runs, const ChartRow *row)
+{
+    if (runs->axes->subject.of || !isfinite(row->seconds))
+        return row->error;
+    return chart_distance(&runs->used, row, &runs->reference);
+}
+
+/* How far two runs are apart: of a case their errors. NaN: one broke. */
+static double apart(const FitRuns *runs, const ChartRow *a, const ChartRow *b)
+{
+    if (!isfinite(a->seconds) || !isfinite(b->seconds))
+        return (double)NAN;
+    return runs->axes->subject.of ? fabs(a->error - b->error) : chart_distance(&runs->used, a, b);
+}
+
+static FitPoint own_point(const FitAxes *axes)
+{
+    FitPoint point = {{0}};
+    for (int x = 0; x < axes->axes; x++)
+        point.at[x] = axes->axis[x].own;
+    return point;
+}
+
+bool fit_runs_floor(FitRuns *runs)
+{
+    static ChartRow row[REPEATS];
+    const FitPoint own = own_point(runs->axes);
+    FitJob job;
+    fit_axes_job(runs->axes, &own, &job);
+    job.job.role = CHART_FLOOR;
+    for (int i = 0; i < REPEATS; i++) {
+        job.job.jitter = jitters[i];
+        if (!row_of(runs, &job.job, &row[i]))
+            return false;
+        for (int k = 0; k < i; k++)
+            runs->floor = fmax(runs->floor, apart(runs, &row[i], &row[k])); /* fmax passes over NaN */
+    }
+    return true;
+}
+
+bool fit_runs_reference(FitRuns *runs)
+{
+    if (runs->axes->subject.of)
+        return true;
+    const FitPoint own = own_point(runs->axes);
+    FitJob job;
+    fit_axes_job(runs->axes, &own, &job);
+    job.job.role = CHART_REFERENCE;
+    job.job.coarsening = FINEST;
+    job.job.fineness = 1;
+    if (!row_of(runs, &job.job, &runs->reference))
+        return false;
+    return isfinite(runs->reference.seconds) ||
+           error_set(&runs->error,
+                     "the finest run, which all are compared with, broke (%s): no error is "
+                     "known; use a smaller step or a larger spacing",
+                     runs->reference.outcome.words);
+}
+
+/* ---- what the search asks for ---- */
+
+static double work(void *of, const FitPoint *point)
+{
+    return fit_axes_work(((const FitRuns *)of)->axes, point);
+}
+
+/* Another setting may be the same scene: one that names what was so already. */
+static bool exists(void *of, const FitPoint *point)
+{
+    static Scene scene;
+    static ChartRow row;
+    FitRuns *runs = of;
+    FitJob job;
+    Error why;
+    if (!fit_axes_job(runs->axes, point, &job))
+        return false;
+    if (chart_prepare(&runs->axes->subject, &job.job, &scene, &row, &why))
+        return !chart_rows_find(&runs->used, row.key);
+    if (strcmp(why.message, runs->left_out.message) != 0 && !runs->quiet)
+        fprintf(stderr, "left out: %s\n", why.message);
+    runs->left_out = why;
+    return false;
+}
+
+static void say(const FitRuns *runs, const ChartRow *row)
+{
+    if (runs->quiet)
+        return;
+    fprintf(stderr, "%s, %s, spacing %.4g m%s%s: ", row->method, row->step, row->spacing,
+            *row->swept ? ", " : "", row->swept);
+    if (isfinite(row->error))
+        fprintf(stderr, "error %.3g %%, ", 100 * row->error);
+    if (isfinite(row->seconds))
+        fprintf(stderr, "%.3g s a simulated second, ", row->seconds);
+    fprintf(stderr, "%s\n", outcome_word(row->outcome.kind));
+}
+
+static bool make(void *of, const FitPoint *point, double predicted, FitFigures *figures)
+{
+    static ChartRow row;
+    FitRuns *runs = of;
+    FitJob job;
+    (void)predicted;
+    if (!fit_axes_job(runs->axes, point, &job) || !row_of(runs, &job.job, &row))
+        return false;
+    row.error = error_of(runs, &row);
+    chart_rows_add(&runs->used, &row, &runs->used);
+    *figures = (FitFigures){.cost = row.seconds,
+                            .error = row.error,
+                            .holds = row.outcome.kind == OUTCOME_HOLDS,
+                            .row = (int)(chart_rows_find(&runs->used, row.key) - runs->used.row)};
+    say(runs, &row);
+    return true;
+}
+
+static bool repeat(void *of, const FitPoint *point, const FitFigures *figures, double *worst, bool *holds)
+{
+    static ChartRow row;
+    FitRuns *runs = of;
+    FitJob job;
+    fit_axes_job(runs->axes, point, &job);
+    job.job.role = CHART_FLOOR;
+    *worst = figures->error;
+    *holds = true;
+    for (int i = 0; i < REPEATS; i++) {
+        job.job.jitter = jitters[i];
+        if (!row_of(runs, &job.job, &row))
+            return false;
+        *worst = fmax(*worst, error_of(runs, &row));
+        *holds &= row.outcome.kind == OUTCOME_HOLDS;
+    }
+    return true;
+}
+
+void fit_runs_space(FitRuns *runs, FitSpace *space)
+{
+    const FitAxes *axes = runs->axes;
+    *space = (FitSpace){.axes = axes->axes,
+                        .power = axes->scene->world.dimensions + 1,
+                        .exists = exists,
+                        .work = work,
+                        .run = make,
+                        .repeat = repeat,
+                        .of = runs};
+    memcpy(space->axis, axes->axis, sizeof space->axis);
+}

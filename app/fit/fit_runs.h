@@ -1,0 +1,32 @@
+/* The runs of `slosh fit`: made one at a time, kept in a file as those of a chart, none made twice. */
+#ifndef SLOSH_FIT_RUNS_H
+#define SLOSH_FIT_RUNS_H
+
+#include "app/fit/fit_axes.h"
+
+typedef struct FitRuns {
+    const FitAxes *axes;
+    const char *csv; /* where they are kept */
+    bool quiet;
+    ChartRows kept;     /* all of the file */
+    ChartRows used;     /* of this search, in the order in which it asked for them */
+    int there, made;    /* runs that were in the file already, and others */
+    ChartRow reference; /* of a scene: what all are compared with */
+    double floor;       /* how far runs are apart that differ by a millionth of a spacing; NaN: they broke */
+    Error left_out;     /* why the last setting was, that could not be made */
+    Error error;        /* why a run could not be made; "" where a signal came */
+} FitRuns;
+
+/* Reads what is kept. False with the reason. */
+bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *runs, Error *error);
+
+/* The scatter of the scene as it is: its spread, into `floor`. False: see error. */
+bool fit_runs_floor(FitRuns *runs);
+
+/* The finest run of a scene; nothing of a case. False: see error. */
+bool fit_runs_reference(FitRuns *runs);
+
+/* What the search asks for. */
+void fit_runs_space(FitRuns *runs, FitSpace *space);
+
+#endif

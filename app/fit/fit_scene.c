@@ -1,0 +1,232 @@
+#include "app/fit/fit_scene.h"
+
+#include "app/base/output.h"
+#include "app/base/path.h"
+#include "app/lab/bench.h"
+#include "app/scene/advise.h"
+#include "app/scene/keys.h"
+#include "app/scene/tables.h"
+#include "app/yaml/print.h"
+#include "app/yaml/yaml.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Its first words: what begins with them may be replaced. */
+static const char OURS[] = "# Written by slosh fit";
+
+bool fit_scene_check(const char *path, Error *error)
+{
+    char head[sizeof OURS] = "";
+    FILE *file = fopen(path, "r");
+    const bool read = file && fread(head, 1, sizeof OURS - 1, file) > 0;
+    if (file)
+        fclose(file);
+    if (read && strcmp(head, OURS) != 0)
+        return error_set(
+            error,
+            "%s: is there already, and slosh fit did not write it; name another with -o, or move "
+            "that file",
+            path);
+    return output_check(path, error);
+}
+
+/* ---- the tree ---- */
+
+/* What the scene had for the key of "path=value", as a comment; NULL where it is the same, and nothing is to
+   be set. Another preset may fill in another value where none is named. */
+static const char *was(Tree *tree, const FitPlan *plan, bool other_preset, const char *setting)
+{
+    char path[128], now[128];
+    const char *value = strchr(setting, '=') + 1;
+    snprintf(path, sizeof path, "%.*s", (int)(value - 1 - setting), setting);
+    const Node *node = tree_at(tree, path);
+    const Key *key = scene_key_find(path);
+    if (key)
+        key_value_text(key, &plan->scene, now, sizeof now);
+    const char *before = node && node->text ? node->text : key ? now : "";
+    if (strcmp(before, value) == 0)
+        return node || !other_preset ? NULL : "as it was";
+    const size_t size = strlen(before) + sizeof "was , which no line said";
+    char *text = tree_alloc(tree, size);
+    if (text)
+        snprintf(text, size, "was %s%s", before, node ? "" : ", which no line said");
+    return text;
+}
+
+/* Of a case what it sets itself; then the command line's; then what was chosen. */
+static bool apply(const FitPlan *plan, const ChartSettings *chosen, const ChartJob *job, Tree *tree,
+                  Error *error)
+{
+    const Case *of = plan->subject.of;
+    const CaseMethod *with = of ? case_method(of, job->method) : NULL;
+    const SceneSettings *given = plan->subject.settings;
+    const bool other_preset = plan->ladder.tries[plan->ladder.best].point.at[FIT_PRESET] > 0;
+    bool ok = !of || !of->setting || tree_set(tree, of->setting, "of the case", error);
+    for (int i = 0; ok && with && i < CASE_SETTINGS && with->set[i]; i++)
+        ok = tree_set(tree, with->set[i], "of the case", error);
+    for (int i = 0; ok && i < given->count; i++)
+        ok = tree_set(tree, given->set[i], given->said[i], error);
+    for (int i = given->count; ok && i < chosen->all.count; i++) {
+        const char *comment = was(tree, plan, other_preset, chosen->all.set[i]);
+        ok = !comment || tree_set(tree, chosen->all.set[i], comment, error);
+    }
+    return ok;
+}
+
+static bool has_effect(const Scene *scene, const char *path)
+{
+    static Notes notes;
+    notes.count = 0;
+    scene_unused(scene, path, &notes);
+    return notes.count == 0;
+}
+
+/* Keys of that mapping that had an effect, and have none any more. */
+static void drop_unused(Node *mapping, const char *above, const Scene *own, const Scene *chosen)
+{
+    Node **at = &mapping->first;
+    while (mapping->kind == NODE_MAPPING && *at) {
+        char path[128];
+        snprintf(path, sizeof path, "%.60s.%.60s", above, (*at)->key);
+        drop_unused(*at, path, own, chosen);
+        if ((*at)->kind == NODE_SCALAR && has_effect(own, path) && !has_effect(chosen, path))
+            *at = (*at)->next;
+        else
+            at = &(*at)->next;
+    }
+}
+
+/* Tables are found from the scene's folder: one that the new file would not find gets its whole name. */
+static void keep_tables(Tree *tree, Node *node, const char *output)
+{
+    char from[2 * PATH_MAX], to[2 * PATH_MAX], place[PATH_MAX], other[PATH_MAX];
+    for (Node *child = node->first; child; child = child->next)
+        keep_tables(tree, child, output);
+    if (!node->text || *node->text == '/' || !scene_names_table(node->text))
+        return;
+    const char *slash = strrchr(tree->path, '/'), *out = strrchr(output, '/');
+    snprintf(from, sizeof from, "%.*s%.1000s", slash ? (int)(slash + 1 - tree->path) : 0, tree->path,
+             node->text);
+    snprintf(to, sizeof to, "%.*s%.1000s", out ? (int)(out + 1 - output) : 0, output, node->text);
+    if (!realpath(from, place) || (realpath(to, other) && strcmp(place, other) == 0))
+        return;
+    char *whole = tree_alloc(tree, strlen(place) + 1);
+    if (whole) {
+        memcpy(whole, place, strlen(place));
+        node->text = whole;
+    }
+}
+
+/* ---- the words above it ---- */
+
+static void print_best(const FitPlan *plan, FILE *file)
+{
+    const FitTry *best = &plan->ladder.tries[plan->ladder.best], *own = fit_plan_own(plan);
+    fprintf(file,
+            "# Error: %.3g %% (%s), of repeats that differ by a millionth of a spacing up to %.3g %%.\n",
+            100 * best->figures.error, plan->error_of, 100 * best->worst);
+    if (!plan->subject.of)
+        fprintf(
+            file,
+            "# It is against the finest run of the scene, half its spacing and half its step, over %g s.\n",
+            plan->subject.time);
+    fprintf(file, "# Cost: %.3g s of computing a simulated second, without pictures, on %s, %d thread%s.\n",
+            best->figures.cost, bench_processor(), fit_threads(plan), fit_threads(plan) == 1 ? "" : "s");
+    if (own && own != best && isfinite(own->figures.cost))
+        fprintf(file, "# The scene as it was: %.3g %% at %.3g s, %.3g times as much.\n",
+                100 * own->figures.error, own->figures.cost, own->figures.cost / best->figures.cost);
+    else if (own == best)
+        fprintf(file, "# It is the scene as it was: none of those that were tried is better.\n");
+}
+
+/* What it beats: the next best that is within. */
+static void print_rival(const FitPlan *plan, FILE *file)
+{
+    const FitLadder *ladder = &plan->ladder;
+    const bool cheap = isinf(plan->goal.cost);
+    int rival = -1, ran = 0;
+    for (int i = 0; i < ladder->count; i++) {
+        const FitFigures *figures = &ladder->tries[i].figures;
+        ran += ladder->tries[i].fate != FIT_PRUNED;
+        if (ladder->tries[i].fate == FIT_WITHIN &&
+            (rival < 0 || (cheap ? figures->cost < ladder->tries[rival].figures.cost
+                                 : figures->error < ladder->tries[rival].figures.error)))
+            rival = i;
+    }
+    fprintf(file, "# Tried: %d settings; %d more were predicted to be too dear.\n", ran, ladder->count - ran);
+    if (rival < 0)
+        return;
+    const ChartRow *row = fit_plan_row(plan, rival);
+    fprintf(file, "# The next best of them: %s, %s, spacing %.4g m%s%s: %.3g %% at %.3g s.\n", row->method,
+            row->step, row->spacing, *row->swept ? ", " : "", row->swept, 100 * row->error, row->seconds);
+}
+
+static void print_head(const FitPlan *plan, FILE *file)
+{
+    char goal[96];
+    fit_goal_text(plan, goal, sizeof goal);
+    fprintf(file, "%s, by\n#   %s\n# The %s that was found %s.\n", OURS, plan->command,
+            isinf(plan->goal.cost) ? "cheapest" : "most accurate", goal);
+    print_best(plan, file);
+    print_rival(plan, file);
+    if (plan->subject.of && plan->subject.of->start)
+        fprintf(file, "# The case %s changes the start of this scene in a way that no scene can say.\n",
+                plan->subject.of->name);
+}
+
+/* ---- the file ---- */
+
+static bool write_tree(const FitPlan *plan, const Tree *tree, Error *error)
+{
+    Output output = {.path = ""};
+    if (!output_begin(&output, plan->output, error))
+        return false;
+    FILE *file = fopen(output.temp, "w");
+    if (file) {
+        print_head(plan, file);
+        tree_print(tree, file);
+        const bool whole = !ferror(file);
+        if (fclose(file) == 0 && whole)
+            return output_commit(&output, error);
+    }
+    error_set(error, "%s: cannot be written (%s)", plan->output, strerror(errno));
+    output_discard(&output);
+    return false;
+}
+
+static bool write_chosen(const FitPlan *plan, Tree *tree, Error *error)
+{
+    static Scene scene;
+    static ChartRow row;
+    FitJob job;
+    ChartSettings settings;
+    fit_axes_job(&plan->axes, &plan->ladder.tries[plan->ladder.best].point, &job);
+    if (!chart_settings(&plan->subject, &job.job, &settings, &scene, &row, error) ||
+        !apply(plan, &settings, &job.job, tree, error) ||
+        !chart_prepare(&plan->subject, &job.job, &scene, &row, error))
+        return false;
+    Node *solver = (Node *)tree_at(tree, "solver");
+    if (solver)
+        drop_unused(solver, "solver", &plan->scene, &scene);
+    keep_tables(tree, tree->root, plan->output);
+    return write_tree(plan, tree, error);
+}
+
+bool fit_scene_write(const FitPlan *plan, Error *error)
+{
+    char path[SCENE_PATH_SIZE];
+    size_t size;
+    Tree tree;
+    const char *name = plan->subject.of ? plan->subject.of->scene : plan->subject.scene;
+    char *bytes = scene_path_find(name, path, error) ? scene_file_read(path, &size, error) : NULL;
+    if (!bytes)
+        return false;
+    const bool ok = tree_read(&tree, path, bytes, size, error) && write_chosen(plan, &tree, error);
+    tree_free(&tree);
+    free(bytes);
+    return ok;
+}

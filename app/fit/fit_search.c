@@ -1,0 +1,462 @@
+#include "app/fit/fit_search.h"
+
+#include <math.h>
+#include <stddef.h>
+
+typedef struct Search {
+    const FitSpace *space;
+    const FitGoal *goal;
+    FitLadder *ladder;
+    int rungs;    /* the axis of the ladder */
+    bool stopped; /* by the asker */
+} Search;
+
+static bool same_line(const FitSpace *space, const FitPoint *a, const FitPoint *b)
+{
+    for (int x = 0; x < space->axes; x++)
+        if (space->axis[x].kind == FIT_LINE && a->at[x] != b->at[x])
+            return false;
+    return true;
+}
+
+static int differing(const FitSpace *space, const FitPoint *a, const FitPoint *b)
+{
+    int count = 0;
+    for (int x = 0; x < space->axes; x++)
+        count += a->at[x] != b->at[x];
+    return count;
+}
+
+static FitTry *find(const Search *search, const FitPoint *point)
+{
+    for (int i = 0; i < search->ladder->count; i++)
+        if (differing(search->space, &search->ladder->tries[i].point, point) == 0)
+            return &search->ladder->tries[i];
+    return NULL;
+}
+
+/* ---- what is better ---- */
+
+static bool wants_cheap(const FitGoal *goal)
+{
+    return isinf(goal->cost);
+}
+
+/* Of all repeats. */
+static double error_of(const FitTry *try)
+{
+    return fmax(try->figures.error, try->worst); /* which passes over NaN */
+}
+
+/* How often the bound goes into what is bound; at most 1 is within. */
+static double excess(const FitGoal *goal, const FitTry *try)
+{
+    return wants_cheap(goal) ? error_of(try) / goal->error : try->figures.cost / goal->cost;
+}
+
+static double value(const FitGoal *goal, const FitTry *try)
+{
+    return wants_cheap(goal) ? try->figures.cost : error_of(try);
+}
+
+static bool sound(const FitTry *try)
+{
+    return try->fate != FIT_PRUNED && try->figures.holds && isfinite(try->figures.cost) &&
+           isfinite(try->figures.error);
+}
+
+static bool within(const Search *search, const FitTry *try)
+{
+    return sound(try) && excess(search->goal, try) <= 1;
+}
+
+/* What is to be small; of what is outside the bound, what it would be along the ladder where the bound is
+   met: errors go with the spacing, costs with its power. */
+static double merit(const Search *search, const FitTry *try)
+{
+    const FitGoal *goal = search->goal;
+    if (!sound(try))
+        return INFINITY;
+    const double power = wants_cheap(goal) ? search->space->power : 1 / search->space->power;
+    return value(goal, try) * pow(fmax(excess(goal, try), 1), power);
+}
+
+static void choose(Search *search)
+{
+    FitLadder *ladder = search->ladder;
+    ladder->best = -1;
+    for (int i = 0; i < ladder->count; i++) {
+        FitTry *try = &ladder->tries[i];
+        if (try->fate == FIT_BEST)
+            try->fate = FIT_WITHIN;
+        if (within(search, try) &&
+            (ladder->best < 0 ||
+             value(search->goal, try) < value(search->goal, &ladder->tries[ladder->best])))
+            ladder->best = i;
+    }
+    if (ladder->best >= 0)
+        ladder->tries[ladder->best].fate = FIT_BEST;
+}
+
+/* ---- one setting ---- */
+
+/* By the nearest of those that were run of the same line; of several the least. NaN: none was. */
+static double predict(const Search *search, const FitPoint *point)
+{
+    const FitSpace *space = search->space;
+    double cost = (double)NAN;
+    int least = FIT_AXES + 1;
+    for (int i = 0; i < search->ladder->count; i++) {
+        const FitTry *try = &search->ladder->tries[i];
+        const int off = differing(space, &try->point, point);
+        if (try->fate == FIT_PRUNED || !isfinite(try->figures.cost) || off > least ||
+            !same_line(space, &try->point, point))
+            continue;
+        const double by =
+            try->figures.cost * space->work(space->of, point) / space->work(space->of, &try->point);
+        cost = off < least || !(cost < by) ? by : cost;
+        least = off;
+    }
+    return cost;
+}
+
+/* What a run may cost. */
+static double ceiling(const Search *search)
+{
+    const FitLadder *ladder = search->ladder;
+    if (!wants_cheap(search->goal))
+        return FIT_MARGIN * search->goal->cost;
+    return ladder->best < 0 ? INFINITY : FIT_MARGIN * ladder->tries[ladder->best].figures.cost;
+}
+
+static FitTry *add(Search *search, const FitPoint *point, double predicted)
+{
+    FitLadder *ladder = search->ladder;
+    FitTry *try = &ladder->tries[ladder->count++];
+    *try = (FitTry){.point = *point,
+                    .predicted = predicted,
+                    .worst = (double)NAN,
+                    .fate = FIT_PRUNED,
+                    .figures = {(double)NAN, (double)NAN, false, -1}};
+    return try;
+}
+
+static bool run(Search *search, FitTry *try)
+{
+    const FitSpace *space = search->space;
+    if (!space->run(space->of, &try->point, try->predicted, &try->figures)) {
+        search->stopped = true;
+        search->ladder->count--; /* it was not finished */
+        return false;
+    }
+    try->fate = FIT_BROKE;
+    if (sound(try))
+        try->fate = within(search, try) ? FIT_WITHIN : FIT_BEYOND;
+    choose(search);
+    return true;
+}
+
+/* The setting with its figures; NULL: there is none, or the search ends. What was too dear is asked again:
+   the ceiling may be higher by now. */
+static FitTry *ask(Search *search, const FitPoint *point, bool always)
+{
+    const FitSpace *space = search->space;
+    FitTry *try = find(search, point);
+    if (search->stopped || (try && try->fate != FIT_PRUNED))
+        return search->stopped ? NULL : try;
+    if (!try && search->ladder->count == FIT_TRIES) {
+        search->ladder->full = true;
+        return NULL;
+    }
+    if (!try && !space->exists(space->of, point))
+        return NULL;
+    const double predicted = predict(search, point);
+    const bool dear = !always && predicted > ceiling(search);
+    if (!try)
+        try = add(search, point, predicted);
+    else if (!dear) { /* runs stand in their order */
+        const FitTry again = *try;
+        FitTry *last = &search->ladder->tries[search->ladder->count - 1];
+        for (; try < last; try++)
+            *try = try[1];
+        *last = again;
+        choose(search);
+    }
+    try->predicted = predicted;
+    return dear || run(search, try) ?
+    try : NULL
+        ;
+}
+
+/* ---- lines ---- */
+
+/* Within the first rung is the cheapest of the line; the most accurate is any that its cost allows. */
+static void walk(Search *search, FitPoint point)
+{
+    const int rungs = search->space->axis[search->rungs].values;
+    for (int r = 0; r < rungs && !search->stopped; r++) {
+        point.at[search->rungs] = r;
+        const FitTry *try = ask(search, &point, false);
+        if (try && (try->fate == FIT_PRUNED || (wants_cheap(search->goal) && within(search, try))))
+            break;
+    }
+}
+
+static FitPoint own(const FitSpace *space)
+{
+    FitPoint point = {{0}};
+    for (int x = 0; x < space->axes; x++)
+        point.at[x] = space->axis[x].own;
+    return point;
+}
+
+/* Like a clock's hands: false behind the last line. */
+static bool next_line(const FitSpace *space, FitPoint *point)
+{
+    for (int x = 0; x < space->axes; x++) {
+        if (space->axis[x].kind != FIT_LINE)
+            continue;
+        if (++point->at[x] < space->axis[x].values)
+            return true;
+        point->at[x] = 0;
+    }
+    return false;
+}
+
+static FitPoint first_line(const FitSpace *space)
+{
+    FitPoint point = own(space);
+    for (int x = 0; x < space->axes; x++)
+        point.at[x] = space->axis[x].kind == FIT_LINE ? 0 : point.at[x];
+    return point;
+}
+
+/* ---- columns ---- */
+
+/* The next place of a step from `from`, after `to` (-1: the first); -1: there is none. */
+static int next_place(const FitAxis *axis, int from, int to)
+{
+    for (to++; axis->kind != FIT_LINE && axis->kind != FIT_LADDER && to < axis->values; to++)
+        if (to != from && (axis->kind == FIT_FREE || to == from - 1 || to == from + 1))
+            return to;
+    return -1;
+}
+
+/* The finest rung that may be run, of a line of which one was. */
+static int finest(const Search *search, FitPoint point)
+{
+    int rung = search->space->axis[search->rungs].values - 1;
+    for (; rung > 0; rung--) {
+        point.at[search->rungs] = rung;
+        if (predict(search, &point) <= ceiling(search))
+            break;
+    }
+    return rung;
+}
+
+/* All rungs of a column differ in nothing else. Errors fall with the spacing: where the finest rung that can
+   be better is outside the bound on the error, all coarser ones are; where it is within, one of them may be
+   too. The rung of the least merit is left in `column`; its merit is given. */
+static double try_column(Search *search, FitPoint *column)
+{
+    double least = INFINITY;
+    FitPoint point = *column;
+    for (int rung = finest(search, point); rung >= 0 && !search->stopped; rung--) {
+        point.at[search->rungs] = rung;
+        const FitTry *try = ask(search, &point, false);
+        if (!try || try->fate == FIT_PRUNED)
+            break;
+        const double found = merit(search, try);
+        if (found < least) {
+            least = found;
+            *column = point;
+        }
+        const bool good = within(search, try);
+        if (wants_cheap(search->goal) ? !good && isfinite(found) : good)
+            break;
+    }
+    return least;
+}
+
+/* How much worse two steps may be, each for itself, that are tried together. */
+static const double PAIR_REACH = 2;
+
+typedef struct Steps {
+    int count;
+    int axis[FIT_AXES * FIT_VALUES], place[FIT_AXES * FIT_VALUES];
+} Steps;
+
+/* Columns that differ along one axis; moves to a better one. Those that are not much worse go into `near`. */
+static bool step_singles(Search *search, FitPoint *at, Steps *near)
+{
+    const FitSpace *space = search->space;
+    const FitPoint from = *at;
+    double here = merit(search, find(search, at));
+    const double before = here;
+    near->count = 0;
+    for (int x = 0; x < space->axes; x++)
+        for (int v = -1; (v = next_place(&space->axis[x], from.at[x], v)) >= 0 && !search->stopped;) {
+            FitPoint to = from;
+            to.at[x] = v;
+            const double there = try_column(search, &to);
+            if (there < PAIR_REACH * before) {
+                near->axis[near->count] = x;
+                near->place[near->count++] = v;
+            }
+            if (there < here) {
+                here = there;
+                *at = to;
+            }
+        }
+    return here < before;
+}
+
+/* Two of those steps at once. */
+static bool step_pairs(Search *search, FitPoint *at, const Steps *near)
+{
+    const FitPoint from = *at;
+    double here = merit(search, find(search, at));
+    const double before = here;
+    for (int a = 0; a < near->count; a++)
+        for (int b = a + 1; b < near->count && !search->stopped; b++) {
+            FitPoint to = from;
+            if (near->axis[a] == near->axis[b])
+                continue;
+            to.at[near->axis[a]] = near->place[a];
+            to.at[near->axis[b]] = near->place[b];
+            const double there = try_column(search, &to);
+            if (there < here) {
+                here = there;
+                *at = to;
+            }
+        }
+    return here < before;
+}
+
+static void descend(Search *search, FitPoint at, bool pairs)
+{
+    Steps near;
+    do
+        while (step_singles(search, &at, &near) && !search->stopped) {
+        }
+    while (pairs && !search->stopped && step_pairs(search, &at, &near));
+}
+
+/* ---- all of it ---- */
+
+/* The best of the line; NULL: none is sound. */
+static const FitTry *best_of_line(const Search *search, const FitPoint *line)
+{
+    const FitTry *best = NULL;
+    for (int i = 0; i < search->ladder->count; i++) {
+        const FitTry *try = &search->ladder->tries[i];
+        if (same_line(search->space, &try->point, line) &&
+            merit(search, try) < (best ? merit(search, best) : INFINITY))
+            best = try;
+    }
+    return best;
+}
+
+static double best_merit(const Search *search)
+{
+    double best = INFINITY;
+    for (int i = 0; i < search->ladder->count; i++)
+        best = fmin(best, merit(search, &search->ladder->tries[i]));
+    return best;
+}
+
+/* How much worse a line may be that steps along other axes are tried from: none gains more, by far. */
+static double reach(const Search *search)
+{
+    enum { GAIN = 8 };
+    return wants_cheap(search->goal) ? GAIN : pow(GAIN, 1 / search->space->power);
+}
+
+/* Where all of a line broke its steps may be too long: again with the first places of ordered axes. */
+static void walk_line(Search *search, FitPoint line)
+{
+    walk(search, line);
+    if (best_of_line(search, &line))
+        return;
+    for (int x = 0; x < search->space->axes; x++)
+        line.at[x] = search->space->axis[x].kind == FIT_ORDERED ? 0 : line.at[x];
+    walk(search, line);
+}
+
+static void search_lines(Search *search)
+{
+    FitPoint line = first_line(search->space);
+    do
+        walk_line(search, line);
+    while (!search->stopped && next_line(search->space, &line));
+    line = first_line(search->space);
+    do {
+        const FitTry *best = best_of_line(search, &line);
+        if (best && merit(search, best) <= reach(search) * best_merit(search))
+            descend(search, best->point, false);
+    } while (!search->stopped && next_line(search->space, &line));
+}
+
+/* From the best, and from what promises more though it is outside the bound. */
+static void search_best(Search *search)
+{
+    FitLadder *ladder = search->ladder;
+    int from = -1;
+    for (int i = 0; i < ladder->count; i++)
+        if (isfinite(merit(search, &ladder->tries[i])) &&
+            (from < 0 || merit(search, &ladder->tries[i]) < merit(search, &ladder->tries[from])))
+            from = i;
+    if (from >= 0)
+        descend(search, ladder->tries[from].point, true);
+    if (ladder->best >= 0 && !search->stopped)
+        descend(search, ladder->tries[ladder->best].point, true);
+}
+
+/* False where the best does not stand: it is none any more. */
+static bool confirm(Search *search)
+{
+    const FitSpace *space = search->space;
+    FitTry *best = search->ladder->best < 0 ? NULL : &search->ladder->tries[search->ladder->best];
+    bool holds = true;
+    if (!best || !space->repeat || !isnan(best->worst))
+        return true;
+    if (!space->repeat(space->of, &best->point, &best->figures, &best->worst, &holds)) {
+        best->worst = (double)NAN;
+        search->stopped = true;
+        return true;
+    }
+    best->figures.holds = holds;
+    if (!within(search, best))
+        best->fate = FIT_REPEAT;
+    choose(search);
+    return best->fate == FIT_BEST;
+}
+
+bool fit_search(const FitSpace *space, const FitGoal *goal, FitLadder *ladder)
+{
+    Search search = {.space = space, .goal = goal, .ladder = ladder};
+    ladder->count = 0;
+    ladder->full = false;
+    ladder->best = -1;
+    while (space->axis[search.rungs].kind != FIT_LADDER)
+        search.rungs++;
+    const FitPoint start = own(space);
+    if (!ask(&search, &start, true) && search.stopped)
+        return false;
+    search_lines(&search);
+    do
+        search_best(&search);
+    while (!search.stopped && !confirm(&search));
+    return !search.stopped;
+}
+
+int fit_nearest(const FitLadder *ladder, const FitGoal *goal)
+{
+    int nearest = -1;
+    for (int i = 0; i < ladder->count; i++) {
+        const FitTry *try = &ladder->tries[i];
+        if (sound(try) && (nearest < 0 || excess(goal, try) < excess(goal, &ladder->tries[nearest])))
+            nearest = i;
+    }
+    return nearest;
+}

@@ -1,0 +1,13 @@
+/* A tree as YAML again. What the file's own text had besides, its comments and its layout, is gone. */
+#ifndef SLOSH_YAML_PRINT_H
+#define SLOSH_YAML_PRINT_H
+
+#include "app/yaml/tree.h"
+
+#include <stdio.h>
+
+/* Read again it gives the same tree. Behind a value that the command line said stands what its `said` is, as
+   a comment. */
+void tree_print(const Tree *tree, FILE *file);
+
+#endif
