@@ -1,0 +1,158 @@
+/* slosh fit against all settings of a small grid, of a dam break in the plane. Costs are particles times
+   steps: no other program on the machine changes them. */
+#include "tests/sim/fixture.h"
+
+#include "app/fit/fit_plan.h"
+#include "sim/gl/backends.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static Args args;
+static FitPlan plan;
+static FitSpace real;
+static Error error;
+static char csv[] = "/tmp/slosh_fit_XXXXXX";
+static int asked;
+
+/* Particles times steps of a simulated second: all steps are fixed, "1.25 ms". */
+static double cost_of(const FitFigures *figures)
+{
+    const ChartRow *row = &plan.runs.used.row[figures->row];
+    char *end;
+    const double step_ms = strtod(row->step, &end);
+    assert_string_equal(end, " ms");
+    return isfinite(row->seconds) ? (double)row->particles * 1000 / step_ms : (double)NAN;
+}
+
+static bool run(void *of, const FitPoint *point, double predicted, FitFigures *figures)
+{
+    asked++;
+    if (!real.run(of, point, predicted, figures))
+        fail_msg("%s", plan.runs.error.message);
+    figures->cost = cost_of(figures);
+    return true;
+}
+
+/* The grid: two methods, spacings from 4 to 1 of the scene's, three steps, two supports. */
+static void make_grid(FitSpace *space)
+{
+    fit_runs_space(&plan.runs, &real);
+    *space = real;
+    space->run = run;
+    space->repeat = NULL;
+    space->axis[FIT_METHOD].values = 2;
+    space->axis[FIT_PRESET].values = 1;
+    space->axis[FIT_SPACING].values = 8;
+    space->axis[FIT_STEP].values = 3;
+    space->axis[FIT_SUPPORT].values = 2;
+    for (int x = FIT_TERM; x < space->axes; x++)
+        space->axis[x].values = 1;
+}
+
+static const FitTry *find(const FitPoint *point)
+{
+    for (int i = 0; i < plan.ladder.count; i++)
+        if (plan.ladder.tries[i].fate != FIT_PRUNED &&
+            memcmp(&plan.ladder.tries[i].point, point, sizeof *point) == 0)
+            return &plan.ladder.tries[i];
+    return NULL;
+}
+
+/* The least of all of the grid. */
+static double exhaustive(const FitSpace *space, int *all)
+{
+    double best = INFINITY;
+    *all = 0;
+    for (int i = 0; i < 2 * 8 * 3 * 2; i++) {
+        const FitPoint point = {{i % 2, 0, i / 2 % 8, i / 16 % 3, i / 48}};
+        const FitTry *try = find(&point);
+        FitFigures figures;
+        if (try)
+            figures = try->figures;
+        else if (!space->exists(space->of, &point) || !space->run(space->of, &point, (double)NAN, &figures))
+            continue;
+        ++*all;
+        if (figures.holds && figures.error <= plan.goal.error && figures.cost <= plan.goal.cost)
+            best = fmin(best, isinf(plan.goal.cost) ? figures.cost : figures.error);
+    }
+    return best;
+}
+
+static void start(const char *asked_for, const char *amount)
+{
+    char *words[] = {"slosh",
+                     "fit",
+                     SLOSH_SOURCE_DIR "/scenes/dam_break_2d.yaml",
+                     (char *)asked_for,
+                     (char *)amount,
+                     "--set",
+                     "particles.spacing=0.04",
+                     "--time",
+                     "0.15",
+                     "--quiet"};
+    if (!args_parse(sizeof words / sizeof *words, words, &args, &error) ||
+        !fit_plan_make(&args, &plan, &error) || !fit_runs_begin(&plan.axes, csv, true, &plan.runs, &error))
+        fail_msg("%s", error.message);
+    if (!fit_runs_floor(&plan.runs) || !fit_runs_reference(&plan.runs))
+        fail_msg("%s", plan.runs.error.message);
+}
+
+static void compare(const char *what, const char *amount, double cost)
+{
+    FitSpace space;
+    int all;
+    start(what, amount);
+    if (cost > 0)
+        plan.goal = (FitGoal){INFINITY, cost};
+    make_grid(&space);
+    asked = 0;
+    assert_true(fit_search(&space, &plan.goal, &plan.ladder));
+    const int ran = asked;
+    const double best = exhaustive(&space, &all);
+    assert_true(plan.ladder.best >= 0 && isfinite(best));
+    const FitFigures *found = &plan.ladder.tries[plan.ladder.best].figures;
+    const double ratio = (isinf(plan.goal.cost) ? found->cost : found->error) / best;
+    print_message("%s %s: %.3f of the best of %d, by %d runs\n", what, amount, ratio, all, ran);
+    assert_true(ratio <= 1.1);
+    assert_true(ran < all);
+}
+
+static void the_cheapest(void **state)
+{
+    (void)state;
+    compare("--error", "4", 0);
+    compare("--error", "8", 0);
+    compare("--error", "15", 0);
+}
+
+static void the_most_accurate(void **state)
+{
+    (void)state;
+    compare("--frame-ms", "1", 5e4);
+    compare("--frame-ms", "2", 2e5);
+}
+
+static int make_csv(void **state)
+{
+    (void)state;
+    backends_add();
+    const int file = mkstemp(csv);
+    return file < 0 ? -1 : close(file);
+}
+
+static int remove_csv(void **state)
+{
+    (void)state;
+    return unlink(csv);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_cheapest),
+        cmocka_unit_test(the_most_accurate),
+    };
+    return cmocka_run_group_tests(tests, make_csv, remove_csv);
+}
