@@ -6,19 +6,25 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const fates[] = {[FIT_BEST] = "best",   [FIT_WITHIN] = "within", [FIT_BEYOND] = "beyond",
-                                    [FIT_BROKE] = "broke", [FIT_REPEAT] = "repeat", [FIT_PRUNED] = "pruned"};
+static const char *const fates[] = {
+    [FIT_BEST] = "best", [FIT_WITHIN] = "within", [FIT_BEYOND] = "beyond", [FIT_BROKE] = "broke",
+    [FIT_LUCK] = "luck", [FIT_REPEAT] = "repeat", [FIT_PRUNED] = "pruned"};
 
 /* Why it was kept or left. */
 static void print_why(const FitPlan *plan, const FitTry *try, FILE *file)
 {
     const bool cheap = isinf(plan->goal.cost);
-    if (try->fate == FIT_BEST)
+    if (try->fate == FIT_BEST && isfinite(try->finer))
+        fprintf(file, "chosen; repeats up to %.3g %%, the next finer spacing %.3g %%", 100 * try->worst,
+                100 * try->finer);
+    else if (try->fate == FIT_BEST)
         fprintf(file, "chosen; repeats up to %.3g %%", 100 * try->worst);
     else if (try->fate == FIT_WITHIN)
         fputs(cheap ? "left: dearer" : "left: less accurate", file);
     else if (try->fate == FIT_BEYOND)
         fputs(cheap ? "left: too far off" : "left: too dear", file);
+    else if (try->fate == FIT_LUCK)
+        fprintf(file, "left: luck, the next finer spacing has %.3g %%", 100 * try->finer);
     else if (try->fate == FIT_REPEAT)
         fprintf(file, "left: a repeat has %.3g %%%s", 100 * try->worst,
                 try->figures.holds ? "" : ", or does not hold");

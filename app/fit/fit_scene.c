@@ -36,6 +36,14 @@ bool fit_scene_check(const char *path, Error *error)
 
 /* ---- the tree ---- */
 
+static bool has_effect(const Scene *scene, const char *path)
+{
+    static Notes notes;
+    notes.count = 0;
+    scene_unused(scene, path, &notes);
+    return notes.count == 0;
+}
+
 /* What the scene had for the key of "path=value", as a comment; NULL where it is the same, and nothing is to
    be set. Another preset may fill in another value where none is named. */
 static const char *was(Tree *tree, const FitPlan *plan, bool other_preset, const char *setting)
@@ -50,11 +58,23 @@ static const char *was(Tree *tree, const FitPlan *plan, bool other_preset, const
     const char *before = node && node->text ? node->text : key ? now : "";
     if (strcmp(before, value) == 0)
         return node || !other_preset ? NULL : "as it was";
+    if (!node && !has_effect(&plan->scene, path))
+        return "had no effect before";
     const size_t size = strlen(before) + sizeof "was , which no line said";
     char *text = tree_alloc(tree, size);
     if (text)
         snprintf(text, size, "was %s%s", before, node ? "" : ", which no line said");
     return text;
+}
+
+/* Whether a later setting is of the same key, and holds. */
+static bool comes_again(const SceneSettings *settings, int i)
+{
+    const size_t length = strcspn(settings->set[i], "=") + 1;
+    for (int later = i + 1; later < settings->count; later++)
+        if (strncmp(settings->set[i], settings->set[later], length) == 0)
+            return true;
+    return false;
 }
 
 /* Of a case what it sets itself; then the command line's; then what was chosen. */
@@ -71,18 +91,12 @@ static bool apply(const FitPlan *plan, const ChartSettings *chosen, const ChartJ
     for (int i = 0; ok && i < given->count; i++)
         ok = tree_set(tree, given->set[i], given->said[i], error);
     for (int i = given->count; ok && i < chosen->all.count; i++) {
+        if (comes_again(&chosen->all, i))
+            continue;
         const char *comment = was(tree, plan, other_preset, chosen->all.set[i]);
         ok = !comment || tree_set(tree, chosen->all.set[i], comment, error);
     }
     return ok;
-}
-
-static bool has_effect(const Scene *scene, const char *path)
-{
-    static Notes notes;
-    notes.count = 0;
-    scene_unused(scene, path, &notes);
-    return notes.count == 0;
 }
 
 /* Keys of that mapping that had an effect, and have none any more. */
@@ -129,6 +143,8 @@ static void print_best(const FitPlan *plan, FILE *file)
     fprintf(file,
             "# Error: %.3g %% (%s), of repeats that differ by a millionth of a spacing up to %.3g %%.\n",
             100 * best->figures.error, plan->error_of, 100 * best->worst);
+    if (isfinite(best->finer))
+        fprintf(file, "# At the next finer spacing it is %.3g %%.\n", 100 * best->finer);
     if (!plan->subject.of)
         fprintf(
             file,

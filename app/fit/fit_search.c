@@ -67,7 +67,7 @@ static bool sound(const FitTry *try)
 
 static bool within(const Search *search, const FitTry *try)
 {
-    return sound(try) && excess(search->goal, try) <= 1;
+    return sound(try) && excess(search->goal, try) <= 1 && try->fate != FIT_LUCK;
 }
 
 /* What is to be small; of what is outside the bound, what it would be along the ladder where the bound is
@@ -136,6 +136,7 @@ static FitTry *add(Search *search, const FitPoint *point, double predicted)
     *try = (FitTry){.point = *point,
                     .predicted = predicted,
                     .worst = (double)NAN,
+                    .finer = (double)NAN,
                     .fate = FIT_PRUNED,
                     .figures = {(double)NAN, (double)NAN, false, -1}};
     return try;
@@ -412,13 +413,42 @@ static void search_best(Search *search)
         descend(search, ladder->tries[ladder->best].point, true);
 }
 
+/* NULL: there is none. */
+static FitTry *best_try(const Search *search)
+{
+    return search->ladder->best < 0 ? NULL : &search->ladder->tries[search->ladder->best];
+}
+
+/* False where the next finer rung of the best is outside the bound on the error: it is no best any more. Of a
+   rung that breaks nothing is known. */
+static bool confirm_finer(Search *search)
+{
+    FitPoint finer = best_try(search)->point;
+    if (!wants_cheap(search->goal) || !isnan(best_try(search)->finer) ||
+        ++finer.at[search->rungs] == search->space->axis[search->rungs].values)
+        return true;
+    const FitPoint point = best_try(search)->point;
+    const FitTry *there = ask(search, &finer, true);
+    const bool luck = there && sound(there) && error_of(there) > search->goal->error;
+    FitTry *best = find(search, &point); /* tries may have moved */
+    best->finer = there ? there->figures.error : (double)NAN;
+    if (luck)
+        best->fate = FIT_LUCK;
+    choose(search);
+    return best->fate == FIT_BEST;
+}
+
 /* False where the best does not stand: it is none any more. */
 static bool confirm(Search *search)
 {
     const FitSpace *space = search->space;
-    FitTry *best = search->ladder->best < 0 ? NULL : &search->ladder->tries[search->ladder->best];
     bool holds = true;
-    if (!best || !space->repeat || !isnan(best->worst))
+    if (!best_try(search))
+        return true;
+    if (!confirm_finer(search))
+        return false;
+    FitTry *best = best_try(search);
+    if (search->stopped || !space->repeat || !isnan(best->worst))
         return true;
     if (!space->repeat(space->of, &best->point, &best->figures, &best->worst, &holds)) {
         best->worst = (double)NAN;

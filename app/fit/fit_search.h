@@ -7,7 +7,9 @@
    differ along the ladder alone) that are one step off along another axis, from their finest rung that may be
    cheaper; from the best of all columns that are two steps off. Nothing is run that is predicted to cost
    FIT_MARGIN times what it is to beat: the cost of the nearest setting of its line that was run, times the
-   ratio of their work. What is best is repeated; a repeat that is beyond the bound counts. */
+   ratio of their work. What is best is asked for twice more. Errors fall with the spacing: where its next
+   finer rung is outside the bound on the error, luck brought it within, and it is left. Then it is repeated;
+   a repeat that is beyond the bound counts. */
 #ifndef SLOSH_FIT_SEARCH_H
 #define SLOSH_FIT_SEARCH_H
 
@@ -66,6 +68,7 @@ typedef enum FitFate {
     FIT_WITHIN, /* within the bound, but no better */
     FIT_BEYOND, /* outside the bound */
     FIT_BROKE,  /* broke, or does not hold */
+    FIT_LUCK,   /* its next finer rung is beyond */
     FIT_REPEAT, /* a repeat of it is beyond */
     FIT_PRUNED  /* not run: predicted too dear */
 } FitFate;
@@ -75,6 +78,7 @@ typedef struct FitTry {
     FitFigures figures;
     double predicted; /* cost; NaN: nothing was known */
     double worst;     /* error of its repeats; NaN: none */
+    double finer;     /* error of its next finer rung; NaN: not asked */
     FitFate fate;
 } FitTry;
 

@@ -64,13 +64,22 @@ static bool exists(void *of, const FitPoint *point)
     return point->at[LINE] != 2 || point->at[TERM] != 3;
 }
 
+/* Whether its next coarser rung is within: it may be asked for to confirm that. */
+static bool confirms(Toy *toy, FitPoint point)
+{
+    if (point.at[RUNG]-- == 0)
+        return false;
+    const FitFigures coarser = figures(toy, &point);
+    return coarser.holds && coarser.error <= toy->goal->error;
+}
+
 static bool run(void *of, const FitPoint *point, double predicted, FitFigures *found)
 {
     Toy *toy = of;
     if (++toy->asked == toy->stop_at)
         return false;
     *found = figures(toy, point);
-    if (toy->asked > 1 && isfinite(toy->goal->error))
+    if (toy->asked > 1 && isfinite(toy->goal->error) && toy->ripple == 0 && !confirms(toy, *point))
         assert_false(predicted > FIT_MARGIN * toy->best * (1 + 1e-9));
     if (toy->asked > 1 && isfinite(toy->goal->cost))
         assert_false(predicted > FIT_MARGIN * toy->goal->cost * (1 + 1e-9));
@@ -93,6 +102,15 @@ static FitSpace space_of(Toy *toy)
                       .of = toy};
 }
 
+/* Whether the next finer rung is too: else it is luck. */
+static bool is_no_luck(Toy *toy, FitPoint point, const FitGoal *goal)
+{
+    if (isinf(goal->error) || ++point.at[RUNG] == RUNGS)
+        return true;
+    const FitFigures finer = figures(toy, &point);
+    return !finer.holds || finer.error <= goal->error;
+}
+
 /* The least of all that are within; INFINITY: none is. */
 static double exhaustive(Toy *toy, const FitGoal *goal)
 {
@@ -100,7 +118,8 @@ static double exhaustive(Toy *toy, const FitGoal *goal)
     for (int i = 0; i < 3 * RUNGS * STEPS * 4; i++) {
         const FitPoint point = {{i % 3, i / 3 % RUNGS, i / 3 / RUNGS % STEPS, i / 3 / RUNGS / STEPS}};
         const FitFigures all = figures(toy, &point);
-        if (exists(toy, &point) && all.holds && all.error <= goal->error && all.cost <= goal->cost)
+        if (exists(toy, &point) && all.holds && all.error <= goal->error && all.cost <= goal->cost &&
+            is_no_luck(toy, point, goal))
             best = fmin(best, isinf(goal->cost) ? all.cost : all.error);
     }
     return best;

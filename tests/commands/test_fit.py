@@ -33,9 +33,9 @@ class Fit(FitTest):
         self.assertTrue(best['error'] <= best['worst'] <= 0.2)
         for run in found['runs']:
             within = run['outcome'] == 'holds' and run['error'] <= 0.2
-            self.assertEqual(run['fate'], 'best' if run is best else 'within' if within else
-                             'broke' if run['outcome'] != 'holds' else 'beyond')
-            self.assertTrue(not within or run['seconds_per_second'] >= best['seconds_per_second'], run)
+            self.assertIn(run['fate'], ('best',) if run is best else ('within', 'luck', 'repeat') if within else
+                          ('broke',) if run['outcome'] != 'holds' else ('beyond',))
+            self.assertTrue(run['fate'] != 'within' or run['seconds_per_second'] >= best['seconds_per_second'], run)
         self.assertEqual([run['own'] for run in found['runs']], [True] + [False] * (len(found['runs']) - 1))
         for words in ('chosen', 'the scene as it is', 'of a spacing: ', 'scene_fit.yaml, the cheapest found within 20 % on '):
             self.assertIn(words, done.stdout)
