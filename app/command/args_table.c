@@ -119,6 +119,8 @@ const OptionRow option_rows[] = {
      .help = "how long, with --play; with --micro at most, for one count of particles (20)"},
     {"--micro", NULL, BENCH, OPTION_FLAG, AT(micro),
      .help = "each pass of a method alone on cpu, at 10000 to 4000000 particles, beside what the machine could do; with --time S at that time too"},
+    {"--ablate", NULL, BENCH, OPTION_FLAG, AT(ablate),
+     .help = "what each term of the scene's model costs, and what its metrics change without it: --time S simulated seconds (2) without each, in turn"},
     {"--clock", "gl|finish", BENCH, OPTION_CHOICE, AT(clock), .min = CLOCK_CHOICE_GL,
      .help = "GPU stages by GL timer queries, or by glFinish and the CPU's clock"},
     {"--sweep", "KEY=A,B,...", BENCH, OPTION_SWEEP, AT(sweeps),

@@ -1,6 +1,7 @@
 #include "app/lab/bench.h"
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
+#include "app/command/bench_ablate.h"
 #include "app/command/bench_micro.h"
 #include "app/command/bench_plan.h"
 #include "app/command/cmd.h"
@@ -229,8 +230,10 @@ int cmd_bench(const Args *args)
     static Plan plan;
     interrupt_install();
     if (!plan_make(args, &plan, &error) || !device_check(args, &error) ||
-        (!args->micro && !cases_check(&plan, &wants_context, &error)))
+        (!args->micro && !args->ablate && !cases_check(&plan, &wants_context, &error)))
         return fail(&error, EXIT_USAGE);
+    if (args->ablate)
+        return bench_ablate(&plan);
     if (args->micro)
         return bench_micro(&plan);
     if (args->play)

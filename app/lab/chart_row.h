@@ -35,6 +35,7 @@ typedef struct ChartRow {
     size_t particles;
     double seconds;  /* of computing, a simulated second; NaN: it broke */
     double error;    /* NaN: not known */
+    uint64_t steps;  /* of a scene, in all; the file does not keep it: 0 then */
     Outcome outcome; /* how it went; of OUTCOME_NONE that it has not been run */
     int quantities;  /* of a scene: the numbers of its metrics, one after the other, at even times; else 0 */
     double series[CHART_TIMES][CHART_QUANTITIES];

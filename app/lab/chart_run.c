@@ -226,6 +226,7 @@ static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *pro
             row->series[k][q] = w < 1 ? run->before[q] + w * (run->now[q] - run->before[q]) : run->now[q];
     }
     row->seconds = run->spent / until;
+    row->steps = run->info.step;
     return true;
 }
 

@@ -69,7 +69,8 @@ typedef struct Key {
     void (*init)(void *element,
                  int index); /* list: defaults of an element, which is zeroed; `index`: its place */
     const char
-        *fallback; /* the default in words where it isn't one constant; NULL: as in the struct's defaults */
+        *fallback;   /* the default in words where it isn't one constant; NULL: as in the struct's defaults */
+    const char *off; /* the row is a term of the model: its value in a scene that does without; NULL: none */
     const char *help;      /* one line */
     const KeyOwner *owner; /* of the key and of those below it; NULL: that of the mapping above, if any */
 } Key;

@@ -39,10 +39,10 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
         .path = PATH, .type = KEY_NUMBER, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),           \
         .help = __VA_ARGS__                                                                                  \
     }
-#define CURVE(PATH, FLAGS, UNIT, LO, HI, AT, TABLE, HELP)                                                    \
+#define CURVE(PATH, FLAGS, UNIT, LO, HI, AT, TABLE, ...)                                                     \
     {                                                                                                        \
         .path = PATH, .type = KEY_CURVE, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), .offset = AT,         \
-        .aux = TABLE, .help = HELP                                                                           \
+        .aux = TABLE, .help = __VA_ARGS__                                                                    \
     }
 #define VEC3(PATH, FLAGS, UNIT, LO, HI, AT, HELP)                                                            \
     {                                                                                                        \

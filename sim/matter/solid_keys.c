@@ -44,7 +44,7 @@ const Key solid_keys[] = {
          "bodies in the box that the fluid flows around, in its frame; each has one shape"),
     SOLID_LIST(SOLID_ROWS)
     CHOICE_OF("solids[].slip", KEY_INDEX, slip_names, SOLID(slip),
-           "free: fluid glides along it; none: it sticks, by the fluid's viscosity"),
+           "free: fluid glides along it; none: it sticks, by the fluid's viscosity", .off = "free"),
     COLOR("solids[].color", I | KEY_SINGLE, SOLID(color), NULL, "sRGB: [red, green, blue], each 0 to 1"),
     LIST("solids[].motion", 0, 0, MOTIONS_MAX, SOLID(motions), SOLID(motion_count), Motion, NULL,
          "how it moves in the box; all together, turns about its centre"),

@@ -19,14 +19,14 @@ static const WcsphDef usual = {
 static const Key keys[] = {
     CHOICE_OF("solver.kernel", 0, shape_kernels, AT(kernel), "its kernel"),
     NUMBER("solver.artificial_viscosity", 0, "", 0, 1, AT(artificial_viscosity),
-           "alpha, for fluids without a viscosity; 0: none"),
+           "alpha, for fluids without a viscosity; 0: none", .off = "0"),
     CHOICE_OF("solver.viscosity_form", KEY_INDEX, viscosity_kinds, AT(viscosity_form),
            "what friction by a fluid's viscosity acts along; radial: right at free surfaces, for half the step"),
-    NUMBER("solver.delta_sph", 0, "", 0, 0.5, AT(delta_sph), "diffusion of density, 0.1 as a rule; 0: none"),
+    NUMBER("solver.delta_sph", 0, "", 0, 0.5, AT(delta_sph), "diffusion of density, 0.1 as a rule; 0: none", .off = "0"),
     NUMBER("solver.shifting", 0, "", 0, 1, AT(shifting),
-           "keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none"),
+           "keeps particles evenly spread, for flows that would line them up, 0.2 as a rule; 0: none", .off = "0"),
     BOOLEAN("solver.corrected_gradient", 0, AT(corrected_gradient),
-            "gradients exact for linear fields, at surfaces too: for flows that their noise would brake"),
+            "gradients exact for linear fields, at surfaces too: for flows that their noise would brake", .off = "false"),
     KEYS_END,
 };
 /* clang-format on */

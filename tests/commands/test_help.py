@@ -23,7 +23,7 @@ VALUES = {
     '--seconds': '1', '--coarse': None, '--error': '90', '--frame-ms': '33', '--full': None, '--interpolate': None, '--help': None}
 
 # What does not go with the rest, or needs a display: by command.
-APART = {'bench': {'--play', '--micro', '--seconds', '--table', '-o'}, 'devices': {'--mapping', '--write-mapping', '--record'}}
+APART = {'bench': {'--play', '--micro', '--ablate', '--seconds', '--table', '-o'}, 'devices': {'--mapping', '--write-mapping', '--record'}}
 
 
 class Help(CommandTest):

@@ -58,11 +58,12 @@ APP = {
     "case": "base metric probe scene",
     "lab": "base metric probe outcome scene held session case",
     "stability": "base outcome scene session lab",
+    "fit": "base metric outcome yaml scene session case lab",
+    "ablate": "base metric outcome scene lab",
     "window": "",
     "panel": "probe scene hand held session",
     "play": "base scene recording hand device held output session lab window panel",
-    "fit": "base metric outcome yaml scene session case lab",
-    "command": "base metric probe outcome yaml scene recording hand device held output session case lab stability fit play",
+    "command": "base metric probe outcome yaml scene recording hand device held output session case lab stability fit ablate play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]

@@ -1,0 +1,93 @@
+"""slosh bench --ablate: what each term of a scene costs, and what changes without it."""
+import json
+import shutil
+import signal
+import subprocess
+
+import command
+
+# In the plane, with terms of wcsph that matter and one that does nothing: fluid without friction slips past any wall.
+SCENE = """\
+box: {size: [1, 1], slip: none}
+particles: {spacing: 0.05, support: 2.6}
+fluids: [{fill: [block: {min: [-0.5, 0], max: [0, 0.6]}]}]
+solver: {method: wcsph, delta_sph: 0.1, sound_speed: 30, step: {dt: 0.002, substeps: 4, retries: 0}}
+"""
+
+
+class Ablate(command.CommandTest):
+    def run_it(self, *words):
+        return subprocess.run([command.PROGRAM, 'bench', *words, '--ablate', '--json', 'out.json'], cwd=self.folder,
+                              capture_output=True, text=True, timeout=200, check=False)
+
+    def rows(self):
+        return json.loads(self.read('out.json'))
+
+    def test_terms_and_what_they_change(self):
+        self.write('tank.yaml', SCENE)
+        done = self.run_it('tank.yaml', '--time', '0.2', '--threads', '1')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        whole, *terms = self.rows()
+        self.assertEqual((whole['term'], whole['terms'], whole['runs'], whole['outcome']), (None, len(terms), 4, 'holds'))
+        by_name = {row['term']: row for row in terms}
+        self.assertEqual(set(by_name), {'box.slip', 'solver.artificial_viscosity', 'solver.delta_sph'})
+        for row in terms:
+            self.assertIn(f"{row['term']} {row['value']}", done.stdout)
+            self.assertEqual(row['runs'], 3)
+            self.assertTrue(row['ms_step'] > 0 and row['seconds_per_second'] > 0)
+            self.assertAlmostEqual(row['steps_per_second'], 2000, delta=20)
+        # nothing to hold: the same bits; and diffusion of density is a loop over pairs of its own
+        self.assertEqual(by_name['box.slip']['changes'], 0)
+        self.assertIn(by_name['box.slip']['advice'], ('of no account', 'drop it'))
+        self.assertGreater(by_name['solver.delta_sph']['changes'], whole['floor'])
+        self.assertGreater(by_name['solver.artificial_viscosity']['changes'], whole['floor'])
+        if not shutil.which('valgrind'):
+            self.fail('valgrind is not installed: apt-get install valgrind')
+        self.assertGreater(whole['instructions_step'], 1e5)
+        self.assertGreater(by_name['solver.delta_sph']['saves_instructions'], 0.05)
+        self.assertLess(abs(by_name['box.slip']['saves_instructions']), 0.01)
+
+    def test_a_term_without_which_the_run_breaks(self):
+        # thick fluid by explicit friction at that step: the solver that iterates is needed
+        self.write('tank.yaml', SCENE.replace('fluids: [{', 'fluids: [{viscosity: 20000, ').replace('method: wcsph, delta_sph: 0.1', 'viscosity: implicit'))
+        done = self.run_it('tank.yaml', '--time', '0.1', '--threads', '1', '--quiet')
+        self.assertEqual((done.returncode, done.stdout), (0, ''), done.stderr)
+        by_name = {row['term']: row for row in self.rows()}
+        self.assertEqual(by_name[None]['outcome'], 'holds')
+        broken = by_name['solver.viscosity']
+        self.assertEqual((broken['advice'], broken['runs'], broken['changes']), ('needed', 0, None), broken)
+        self.assertEqual(broken['outcome'], 'blown up')
+        self.assertTrue(broken['outcome_words'])
+
+    def test_a_scene_without_terms(self):
+        self.write('tank.yaml', SCENE.replace(', slip: none', '').replace('method: wcsph, delta_sph: 0.1, ', ''))
+        done = self.run_it('tank.yaml', '--time', '0.1')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('the scene has no term that it could do without', done.stdout)
+        self.assertEqual([row['terms'] for row in self.rows()], [0])
+
+    def test_what_stands_alone(self):
+        for words in (['--sweep', 'method=mueller,wcsph'], ['--micro'], ['--play'], ['--time', '0']):
+            done = self.run_it('scene.yaml', *words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('--ablate', done.stderr)
+        self.assertEqual(self.entries(), [])
+
+    def test_interrupt_shows_what_there_is(self):
+        self.write('tank.yaml', SCENE)
+        process = subprocess.Popen([command.PROGRAM, 'bench', 'tank.yaml', '--ablate', '--time', '30', '--json', 'out.json'],
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True, preexec_fn=command.obey_interrupts)
+        self.addCleanup(process.kill)
+        while 'ablate' not in process.stderr.readline():
+            self.assertIsNone(process.poll(), 'the program ended too early')
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn('the whole scene', out)
+        self.assertIn('solver.delta_sph 0.1', out)
+        self.assertEqual(self.rows()[0]['term'], None)
+
+
+if __name__ == '__main__':
+    command.main()
