@@ -1,6 +1,7 @@
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
 #include "app/base/output.h"
+#include "app/command/chart_views.h"
 #include "app/command/cmd.h"
 #include "app/lab/chart_plan.h"
 #include "app/lab/chart_report.h"
@@ -184,6 +185,8 @@ int cmd_chart(const Args *args)
     Error error = {{0}};
     int code = EXIT_USAGE;
     interrupt_install();
+    if (args->views)
+        return chart_views(args);
     if (chart_plan_make(args, &plan, &error))
         code = chart(&plan, &error);
     else

@@ -48,12 +48,12 @@ uint64_t run_key_text(uint64_t key, const char *text)
     return hash(key, text, strlen(text));
 }
 
-bool run_key_scene(const Scene *scene, uint64_t *key, Error *error)
+bool run_key_scene(const Scene *scene, bool looks, uint64_t *key, Error *error)
 {
     char *text = scene_print_text(scene);
     for (const char *line = text; line && *line;) {
         const size_t size = strcspn(line, "\n");
-        if (strncmp(line, "title ", 6) != 0 && strncmp(line, "view.", 5) != 0 &&
+        if (strncmp(line, "title ", 6) != 0 && (looks || strncmp(line, "view.", 5) != 0) &&
             strncmp(line, "hand.", 5) != 0)
             *key = hash(*key, line, size);
         line += size + (line[size] == '\n');

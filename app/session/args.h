@@ -90,6 +90,7 @@ typedef struct Args {
     const char *table;         /* bench: NAME, or NULL */
     bool play;                 /* bench: the live window */
     bool micro;                /* bench: each pass alone */
+    bool views;                /* chart: pictures instead of runs */
     bool ablate;               /* bench: the scene without each of its terms */
     double seconds;            /* of either; more than 0; default 20 */
     const char *record;        /* FILE, or NULL; of devices: raw reports */

@@ -71,7 +71,7 @@ static bool try_rung(void *context, int rung, bool whole, StableFound *found)
         return false;
     snprintf(rest, sizeof rest, "%s %.9g %d", SLOSH_VERSION, seeker->plan->time, (int)STABLE_LOOKS);
     row.key = run_key_text(RUN_KEY, rest);
-    if (!run_key_scene(&scene, &row.key, seeker->error))
+    if (!run_key_scene(&scene, false, &row.key, seeker->error))
         return false;
     const StableRow *there = stable_rows_find(seeker->rows, row.key);
     if (there && whole && there->finder == FOUND_BY_LOOK)

@@ -15,11 +15,23 @@ typedef struct ViewShapes {
     int bytes;         /* of the largest block */
 } ViewShapes;
 
+enum { VIEW_GRADES_MAX = 8 };
+
+/* A key of a view that trades time for likeness: what `slosh chart --views` tries. */
+typedef struct ViewGrade {
+    const char *path;                        /* of the key */
+    const char *values[VIEW_GRADES_MAX + 1]; /* from the coarsest to the finest, ended by NULL */
+    /* It has an effect where the key at this path has this value; NULL: always. */
+    const char *where, *value;
+    bool alike; /* all values ask for the same picture: the reference keeps the scene's */
+} ViewGrade;
+
 typedef struct ViewKind {
     const char *name, *help;
-    const Key *keys; /* of its own settings, ended by a row without a path; NULL: it has none */
-    const void *def; /* the struct of these settings with its defaults */
-    size_t def_size; /* bytes; at most VIEW_OWN_SIZE */
+    const Key *keys;         /* of its own settings, ended by a row without a path; NULL: it has none */
+    const ViewGrade *grades; /* of these keys, ended by a row without a path; NULL: none */
+    const void *def;         /* the struct of these settings with its defaults */
+    size_t def_size;         /* bytes; at most VIEW_OWN_SIZE */
     /* False, with the reason and the key at fault, where no driver could draw the subject; NULL: all can be
      * drawn. */
     bool (*check)(const Subject *subject, const char **key, Error *error);

@@ -310,6 +310,7 @@ const ViewKind view_splat = {
     .create = splat_create,
     .destroy = splat_destroy,
     .keys = splat_keys,
+    .grades = splat_grades,
     .def = &splat_usual,
     .def_size = sizeof splat_usual,
     .same = splat_same,

@@ -65,6 +65,15 @@ const Key splat_keys[] = {
 };
 /* clang-format on */
 
+const ViewGrade splat_grades[] = {
+    {"view.splat.shape", {"paper", "perspective"}, NULL, NULL, false},
+    {"view.splat.sprite", {"point", "quad"}, NULL, NULL, false},
+    {"view.splat.cull", {"false", "true"}, NULL, NULL, true},
+    {"view.splat.filter_iterations", {"1", "2", "4"}, "view.splat.filter", "narrow_range", false},
+    {"view.splat.antialias", {"false", "true"}, NULL, NULL, false},
+    {0},
+};
+
 SplatDef *splat_def(const ViewDef *def)
 {
     return view_own(def, &view_splat);

@@ -46,6 +46,7 @@ SplatDef *splat_def(const ViewDef *def);
 
 extern const SplatDef splat_usual; /* the defaults */
 extern const Key splat_keys[];     /* ended by a row without a path */
+extern const ViewGrade splat_grades[];
 
 /* By their enums, ended by NULL. */
 extern const char *const splat_weights_names[];

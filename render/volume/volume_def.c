@@ -67,6 +67,17 @@ const Key volume_keys[] = {
 };
 /* clang-format on */
 
+const ViewGrade volume_grades[] = {
+    {"view.volume.cells", {"24", "48", "96", "192"}, "view.volume.cell", "0", false},
+    {"view.volume.method", {"geometry", "layers", "planes", "scatter", "gather", "slabs"}, NULL, NULL, true},
+    {"view.volume.step", {"4", "2", "1", "0.5", "0.25"}, NULL, NULL, false},
+    {"view.volume.threshold", {"0.9", "0.99", "0.999"}, NULL, NULL, false},
+    {"view.volume.shadows", {"false", "true"}, NULL, NULL, false},
+    {"view.volume.jitter", {"true", "false"}, NULL, NULL, false},
+    {"view.volume.skip", {"false", "true"}, NULL, NULL, true},
+    {0},
+};
+
 VolumeDef *volume_def(const ViewDef *def)
 {
     return view_own(def, &view_volume);

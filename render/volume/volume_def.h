@@ -65,6 +65,7 @@ VolumeDef *volume_def(const ViewDef *def);
 
 extern const VolumeDef volume_usual; /* the defaults */
 extern const Key volume_keys[];      /* ended by a row without a path */
+extern const ViewGrade volume_grades[];
 
 /* By their enums, ended by NULL. */
 extern const char *const volume_bounds_names[],

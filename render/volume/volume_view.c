@@ -162,6 +162,7 @@ const ViewKind view_volume = {
     .create = create,
     .destroy = destroy,
     .keys = volume_keys,
+    .grades = volume_grades,
     .def = &volume_usual,
     .def_size = sizeof volume_usual,
     .check = check,

@@ -60,10 +60,11 @@ APP = {
     "stability": "base outcome scene session lab",
     "fit": "base metric outcome yaml scene session case lab",
     "ablate": "base metric outcome scene lab",
+    "gallery": "base scene session lab",
     "window": "",
     "panel": "probe scene hand held session",
     "play": "base scene recording hand device held output session lab window panel",
-    "command": "base metric probe outcome yaml scene recording hand device held output session case lab stability fit ablate play",
+    "command": "base metric probe outcome yaml scene recording hand device held output session case lab stability fit ablate gallery play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]
