@@ -164,6 +164,7 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
         events->watches_probes = panel_probes(ui, data);
         panel_history(ui, data);
         panel_colors(ui, data, &panel->start, events);
+        panel_terms(ui, data->scene, &panel->start, events);
         panel_scene(ui, data->scene, &panel->start, events);
         draw_end(ui, data);
     }

@@ -517,6 +517,34 @@ static void test_nothing_is_cut_at_any_scale(void **state)
     }
 }
 
+/* A live one is switched off and on to its own value; of another it is said what it takes. */
+static void test_terms_have_switches(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = session_open(&session, "two_oils", 400, TALL, 13);
+    panel_destroy(session.panel);
+    session.panel = panel_create(); /* another start */
+    session.scene.world.wall_slip = SLIP_NONE;
+    desk_frames(desk, 30);
+    assert_null(desk_find(desk, "term fluids[1].viscosity")); /* closed */
+    desk_click_at(desk, "Terms", 0.3F);
+    desk_frames(desk, 30);
+    const double viscosity = session.scene.world.fluids[1].viscosity;
+    assert_true(viscosity > 0);
+    desk_click_at(desk, "term fluids[1].viscosity", 0.1F);
+    assert_true(session.scene.world.fluids[1].viscosity == 0);
+    assert_true(session.scene.world.fluids[0].viscosity > 0);
+    desk_frames(desk, 30);
+    desk_click_at(desk, "term fluids[1].viscosity", 0.1F);
+    assert_true(session.scene.world.fluids[1].viscosity == viscosity);
+    assert_int_equal(session.settings, 2);
+    assert_int_equal(session.refused, 0);
+    assert_non_null(desk_find(desk, "none; needs a new start: --set box.slip=free"));
+    assert_nothing_is_cut(desk);
+    session_close(&session, desk);
+}
+
 static void test_small_windows_scroll(void **state)
 {
     (void)state;
@@ -569,6 +597,7 @@ int main(void)
         cmocka_unit_test_teardown(test_gauges_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_probes_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),
+        cmocka_unit_test_teardown(test_terms_have_switches, no_gl_errors),
         cmocka_unit_test_teardown(test_small_windows_scroll, no_gl_errors),
         cmocka_unit_test_teardown(test_help_lists_every_row, no_gl_errors),
     };
