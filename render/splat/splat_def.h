@@ -3,6 +3,7 @@
 #define SLOSH_SPLAT_DEF_H
 
 #include "render/frame/view.h"
+#include "sim/base/room.h"
 
 typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
 typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER, SPLAT_ELLIPSOID } SplatShape;
@@ -19,7 +20,7 @@ typedef enum SplatShow {
 
 typedef enum SplatFilter { SPLAT_NO_FILTER, SPLAT_NARROW_RANGE } SplatFilter;
 
-typedef struct SplatDef {
+typedef struct IN_A_ROOM SplatDef {
     double eps; /* how far below the surface spheres still blend, in radii */
     SplatWeights weights;
     SplatShape shape;

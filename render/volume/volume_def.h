@@ -3,6 +3,7 @@
 #define SLOSH_VOLUME_DEF_H
 
 #include "render/frame/view.h"
+#include "sim/base/room.h"
 
 typedef enum VolumeBounds { VOLUME_BOX, VOLUME_FLUID } VolumeBounds;
 typedef enum VolumeMethod {
@@ -29,7 +30,7 @@ typedef enum VolumeShow {
 /* How the view volume casts its rays. */
 typedef enum RaycastLook { RAYCAST_OPAQUE, RAYCAST_WATER, RAYCAST_TRANSLUCENT } RaycastLook;
 
-typedef struct RaycastDef {
+typedef struct IN_A_ROOM RaycastDef {
     RaycastLook look;
     double level;     /* of the field, where the surface of opaque and water is */
     double step;      /* between two samples, cells */
@@ -47,7 +48,7 @@ typedef struct RaycastDef {
     bool skip;          /* empty bricks: else all between the faces of the volume is marched through */
 } RaycastDef;
 
-typedef struct VolumeDef {
+typedef struct IN_A_ROOM VolumeDef {
     int cells;   /* along the box's longest side, where `cell` is 0 */
     double cell; /* side of a cell, in spacings; 0: by `cells` */
     VolumeBounds bounds;

@@ -1,13 +1,14 @@
 #include "sim/cpu/cpu.h"
 
 #include "sim/base/key_rows.h"
+#include "sim/base/room.h"
 #include "sim/world/world.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct CpuDef {
+typedef struct IN_A_ROOM CpuDef {
     int threads; /* 0: one a processor */
     int simd;    /* of simd_kinds */
 } CpuDef;

@@ -2,9 +2,10 @@
 #ifndef SLOSH_DFSPH_H
 #define SLOSH_DFSPH_H
 
+#include "sim/base/room.h"
 #include "sim/world/method.h"
 
-typedef struct DfsphDef {
+typedef struct IN_A_ROOM DfsphDef {
     double tolerance;            /* mean compression that the solver of density leaves, a fraction */
     double divergence_tolerance; /* mean compression that a step's velocities may make, a fraction */
     int iterations;              /* of each solver, at most */

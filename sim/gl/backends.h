@@ -2,12 +2,13 @@
 #ifndef SLOSH_BACKENDS_H
 #define SLOSH_BACKENDS_H
 
+#include "sim/base/room.h"
 #include "sim/world/backend.h"
 
 extern const Backend backend_compute, backend_fragment;
 
 /* The settings of fragment's grid, whose layers hold four particles a cell each. */
-typedef struct FragmentDef {
+typedef struct IN_A_ROOM FragmentDef {
     int grid_layers; /* 0: as many as a lattice needs */
     int lost_limit;  /* so many particles may find no place in the grid in a step */
 } FragmentDef;

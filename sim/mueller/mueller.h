@@ -2,9 +2,10 @@
 #ifndef SLOSH_MUELLER_H
 #define SLOSH_MUELLER_H
 
+#include "sim/base/room.h"
 #include "sim/world/method.h"
 
-typedef struct MuellerDef {
+typedef struct IN_A_ROOM MuellerDef {
     char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel/kernel.h */
 } MuellerDef;
 

@@ -2,9 +2,10 @@
 #ifndef SLOSH_PBF_H
 #define SLOSH_PBF_H
 
+#include "sim/base/room.h"
 #include "sim/world/method.h"
 
-typedef struct PbfDef {
+typedef struct IN_A_ROOM PbfDef {
     double tolerance; /* mean compression with which iterations may end, a fraction; 0: all of them run */
     int iterations;   /* of a step, at most */
 } PbfDef;

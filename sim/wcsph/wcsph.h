@@ -2,9 +2,10 @@
 #ifndef SLOSH_WCSPH_H
 #define SLOSH_WCSPH_H
 
+#include "sim/base/room.h"
 #include "sim/world/method.h"
 
-typedef struct WcsphDef {
+typedef struct IN_A_ROOM WcsphDef {
     char kernel[NAME_SIZE];      /* see shape_kernels in sim/kernel/kernel.h */
     double artificial_viscosity; /* alpha, for fluids without a viscosity */
     int viscosity_form;          /* a ViscosityForm of sim/matter/viscosity.h */

@@ -5,11 +5,12 @@
 
 #include "render/frame/view.h"
 #include "sim/base/key_rows.h"
+#include "sim/base/room.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
 
-typedef struct ToyDef {
+typedef struct IN_A_ROOM ToyDef {
     double shade; /* 0 black, 1 white */
 } ToyDef;
 
