@@ -198,7 +198,7 @@ static void draw_shadow(Renderer *renderer, const ParticleBuffers *particles, co
 static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may not have done so */
-    if (renderer->def.box)
+    if (renderer->def.box && !frame->flat)
         edges_draw(&renderer->edges, frame);
     if (!renderer->def.legend)
         return;

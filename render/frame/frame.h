@@ -47,6 +47,7 @@ typedef struct Frame {
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
     const char *shown, *shown_unit; /* what that range is of, for the legend */
     bool by_fluid;                  /* coloured by the fluids' own colours */
+    bool flat;                      /* the picture is no look into space: no edges of the box */
     bool plain;                     /* colours as they are, without light and shadow */
 } Frame;
 

@@ -7,6 +7,8 @@
 #include "tests/sim/toy_shaders.h"
 
 #include "render/renderer.h"
+#include "render/slice/slice_def.h"
+#include "render/slice/slice_kernel.h"
 #include "sim/gl/limits.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
@@ -533,6 +535,8 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     }
     for (int show = VOLUME_SLICE; show <= VOLUME_NORMALS; show++)
         VIEW("volume", volume_def(&v)->show = (VolumeShow)show);
+    for (int kernel = 1; slice_kernels[kernel].name; kernel++)
+        VIEW("slice", slice_def(&v)->kernel = kernel);
     return count;
 }
 
@@ -549,6 +553,7 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
          volume_def(&v)->bounds = VOLUME_FLUID);
     VIEW("volume", volume_def(&v)->method = VOLUME_GATHER, volume_def(&v)->raycast.look = RAYCAST_TRANSLUCENT,
          volume_def(&v)->raycast.by_scalar = 0.5);
+    VIEW("slice", slice_def(&v)->show = SLICE_FLAT);
     return count;
 }
 

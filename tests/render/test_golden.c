@@ -2,6 +2,7 @@
    8 of 255.
 
    SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
+#include "render/slice/slice_def.h"
 #include "tests/read_image.h"
 #include "tests/render/fixture.h"
 
@@ -244,6 +245,29 @@ static void test_volume_slice(void **state)
     check(&golden);
 }
 
+/* In space, with lines, and flat. */
+static void test_slice(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("slice", 240, 180);
+    text_set(golden.def.kind, "slice");
+    memcpy(slice_def(&golden.def)->normal, (double[3]){0.3, 0.2, 1}, sizeof(double[3]));
+    slice_def(&golden.def)->isolines = 5;
+    golden.def.box = golden.def.legend = true;
+    check(&golden);
+}
+
+static void test_slice_flat(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("slice_flat", 240, 120);
+    text_set(golden.def.kind, "slice");
+    golden.def.color_by = SCALAR_FLUID;
+    slice_def(&golden.def)->show = SLICE_FLAT;
+    golden.def.legend = true;
+    check(&golden);
+}
+
 /* Two fluids over the floor, and a ball that stands in one of them. */
 static void cast_volume(const char *name, RaycastLook look)
 {
@@ -306,6 +330,8 @@ int main(void)
         cmocka_unit_test_teardown(test_splat_ellipsoid, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_w1, no_gl_errors),
         cmocka_unit_test_teardown(test_volume_slice, no_gl_errors),
+        cmocka_unit_test_teardown(test_slice, no_gl_errors),
+        cmocka_unit_test_teardown(test_slice_flat, no_gl_errors),
         cmocka_unit_test_teardown(test_volume, no_gl_errors),
         cmocka_unit_test_teardown(test_volume_water, no_gl_errors),
         cmocka_unit_test_teardown(test_volume_translucent, no_gl_errors),

@@ -1,0 +1,50 @@
+/* The sums of a slice: at each sample of a raster on a plane those of all particles within a support radius,
+   each drawn once as a quad and blended into 32-bit floats. After "Visualisation and analysis of SPH data"
+   (paper 004, section on slices).
+
+   Needs a current OpenGL 4.5 core context. */
+#ifndef SLOSH_SLICE_SUM_H
+#define SLOSH_SLICE_SUM_H
+
+#include "render/particles/particle_bind.h"
+#include "render/slice/slice_plane.h"
+#include "sim/base/error.h"
+#include "sim/gl/particle_buffers.h"
+
+/* What is summed, and where. */
+typedef struct SliceJob {
+    SlicePlane plane;
+    int samples[2]; /* along and up; each at the centre of its part of the rectangle */
+    int kernel;     /* of slice_kernels, at least 1 */
+    int dimensions; /* 2: particles have areas, and kernels are the plane's */
+    double support; /* radius h of the kernel, m */
+    Scalar scalar;
+} SliceJob;
+
+/* Zero-initialise it. */
+typedef struct SliceSum {
+    unsigned program, uniforms, framebuffer;
+    unsigned
+        sums; /* texture, RGBA32F: of V W s, of V W, the latter of particles whose scalar is no number, and
+                 0; rows from the bottom up. Particles without a place or a volume count for nothing */
+    int kernel, dimensions; /* that the program is for */
+    int samples[2];         /* of the texture */
+    QuadIndices quads;
+} SliceSum;
+
+/* False when a shader does not compile or the driver has no such texture; slice_sum_destroy is needed in
+   either case. The texture is this one's, up to the next run. The scalar must be among the attributes. */
+bool slice_sum_run(SliceSum *sum, const SliceJob *job, const ParticleBuffers *particles, Error *error);
+void slice_sum_destroy(SliceSum *sum);
+
+/* The sums of the last run, 4 floats a sample, rows from the bottom up; waits for them. */
+void slice_sum_read(const SliceSum *sum, float *out);
+
+/* Whether no particle reaches a sample. */
+bool slice_empty(const float sums[4]);
+
+/* What a sample that is not empty shows: NaN where most of its fluid has a scalar that is no number. Raw: the
+   sum of V W s; else that over the sum of V W (Shepard 1968). */
+double slice_value(const float sums[4], bool raw);
+
+#endif

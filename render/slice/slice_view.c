@@ -1,0 +1,211 @@
+#include "render/slice/slice_def.h"
+
+#include "render/frame/colormap.h"
+#include "render/frame/legend.h"
+#include "render/slice/slice_kernel.h"
+#include "render/slice/slice_sum.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/slice/slice_bindings.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct SliceView {
+    SliceSum sum;
+    unsigned program, vertex_array, colormap;
+    bool has_scalar; /* that is shown */
+} SliceView;
+
+static void destroy(void *state)
+{
+    SliceView *view = state;
+    slice_sum_destroy(&view->sum);
+    glDeleteProgram(view->program);
+    glDeleteVertexArrays(1, &view->vertex_array);
+    glDeleteTextures(1, &view->colormap);
+    free(view);
+}
+
+static bool check(const Subject *subject, const char **key, Error *error)
+{
+    const double *normal = slice_def(subject->def)->normal;
+    *key = "view.slice.normal";
+    return normal[0] != 0 || normal[1] != 0 || normal[2] != 0 ||
+           error_set(error, "a normal of length 0 is across no plane; [0, 0, 1] looks along z");
+}
+
+static void *create(const Subject *subject, Error *error)
+{
+    static const char *const stages[] = {"slice/slice_show.vert", "slice/slice_show.frag", NULL};
+    SliceView *view = calloc(1, sizeof *view);
+    if (!view) {
+        error_set(error, "out of memory for the view");
+        return NULL;
+    }
+    glCreateVertexArrays(1, &view->vertex_array);
+    view->colormap = colormap_texture(subject->def->colormap);
+    if (!view->colormap)
+        error_set(error, "unknown colormap \"%s\"; viridis is the default", subject->def->colormap);
+    view->program = view->colormap ? program_create("slice show", stages, NULL, error) : 0;
+    if (view->program)
+        return view;
+    destroy(view);
+    return NULL;
+}
+
+/* A scene of two dimensions is a plane itself. */
+static bool make_plane(const ParticleBuffers *particles, const Frame *frame, SlicePlane *plane)
+{
+    static const double origin[3], across[3] = {0, 0, 1};
+    const SliceDef *def = slice_def(frame->def);
+    const bool flat = frame->slab > 0;
+    return slice_plane_make(particles->box_size, flat ? origin : def->point, flat ? across : def->normal,
+                            plane);
+}
+
+/* What the legend leaves of the picture's width, pixels. */
+static double flat_width(const Frame *frame)
+{
+    const double legend = legend_width_pixels(frame->def, frame->world, frame->height);
+    return fmax(frame->width - legend, frame->width / 2.0);
+}
+
+/* Samples that are pixels. */
+static void flat_samples(const SlicePlane *plane, const Frame *frame, int samples[2])
+{
+    const double scale = fmin(flat_width(frame) / plane->size[0], frame->height / plane->size[1]);
+    for (int k = 0; k < 2; k++)
+        samples[k] = (int)fmax(floor(plane->size[k] * scale + 1e-9), 1);
+}
+
+static void plane_samples(const SlicePlane *plane, int most, int samples[2])
+{
+    const double scale = most / fmax(plane->size[0], plane->size[1]);
+    for (int k = 0; k < 2; k++)
+        samples[k] = (int)fmax(ceil(plane->size[k] * scale - 1e-6), 1);
+}
+
+/* Particles smaller than a sample would fall between samples: the kernel reaches one at least. */
+static double support_of(const SliceJob *job, const ParticleBuffers *particles)
+{
+    const double across = hypot(job->plane.size[0] / job->samples[0], job->plane.size[1] / job->samples[1]);
+    return fmax(particles->support_radius, 0.75 * across);
+}
+
+static bool make_job(const ParticleBuffers *particles, const Frame *frame, SliceJob *job)
+{
+    const SliceDef *def = slice_def(frame->def);
+    *job = (SliceJob){.kernel = slice_kernel_of(def->kernel, frame->world),
+                      .dimensions = frame->slab > 0 ? 2 : 3,
+                      .scalar = frame->def->color_by};
+    if (!make_plane(particles, frame, &job->plane))
+        return false;
+    if (def->show == SLICE_FLAT)
+        flat_samples(&job->plane, frame, job->samples);
+    else
+        plane_samples(&job->plane, def->samples, job->samples);
+    job->support = support_of(job, particles);
+    return true;
+}
+
+static void set_filter(unsigned texture, GLint filter)
+{
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, filter);
+}
+
+/* A flat slice has nothing behind it; its samples are pixels. */
+static void begin_flat(const SliceView *view, const SliceJob *job, const Frame *frame)
+{
+    const double *back = frame->def->background;
+    const GLfloat color[4] = {(GLfloat)back[0], (GLfloat)back[1], (GLfloat)back[2], 1};
+    glClearNamedFramebufferfv(frame->target->framebuffer, GL_COLOR, 0, color);
+    glClearNamedFramebufferfv(frame->target->framebuffer, GL_DEPTH, 0, (float[1]){0});
+    glDisable(GL_DEPTH_TEST);
+    glViewport(((int)flat_width(frame) - job->samples[0]) / 2, (frame->height - job->samples[1]) / 2,
+               job->samples[0], job->samples[1]);
+    set_filter(view->sum.sums, GL_NEAREST);
+}
+
+static void begin_in_space(const SliceView *view, const Frame *frame)
+{
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glViewport(0, 0, frame->width, frame->height);
+    set_filter(view->sum.sums, GL_LINEAR);
+}
+
+/* Where colours are those of fluids, or the scalar is not there, it shows how much fluid there is. */
+static unsigned what_is_shown(const SliceView *view, const Frame *frame)
+{
+    if (!view->has_scalar)
+        return SLICE_FIELD;
+    return slice_def(frame->def)->raw ? SLICE_RAW : SLICE_MEAN;
+}
+
+static void show_sums(const SliceView *view, const SliceJob *job, const Frame *frame)
+{
+    const SliceDef *def = slice_def(frame->def);
+    const bool flat = def->show == SLICE_FLAT;
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glDisable(GL_BLEND);
+    if (flat)
+        begin_flat(view, job, frame);
+    else
+        begin_in_space(view, frame);
+    glUseProgram(view->program);
+    glUniform1ui(FLAT_AT, flat);
+    glUniform1ui(SHOWN_AT, what_is_shown(view, frame));
+    glUniform1f(CUT_AT, (float)def->cut);
+    glUniform1ui(ISOLINES_AT, (GLuint)def->isolines);
+    glBindTextureUnit(SUMS_UNIT, view->sum.sums);
+    glBindTextureUnit(COLORMAP_UNIT, view->colormap);
+    glBindVertexArray(view->vertex_array);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SliceView *view = state;
+    SliceJob job;
+    Error error;
+    bool made = false;
+    view->has_scalar =
+        frame->def->color_by != SCALAR_FLUID && particles->scalar[frame->def->color_by].buffer != 0;
+    GL_STAGE(frame->timer, STAGE_BLEND)
+    made = make_job(particles, frame, &job) && slice_sum_run(&view->sum, &job, particles, &error);
+    GL_STAGE(frame->timer, STAGE_SHADE)
+    if (made) /* else the plane misses the box, or memory that was there is not there now */
+        show_sums(view, &job, frame);
+}
+
+/* The field is 1 in a fluid at rest, more where it is compressed. */
+static void show(const ViewDef *def, Frame *frame)
+{
+    frame->flat = slice_def(def)->show == SLICE_FLAT;
+    if (!frame->by_fluid)
+        return;
+    frame->by_fluid = false;
+    frame->shown = "field";
+    frame->shown_unit = "";
+    frame->range[0] = 0;
+    frame->range[1] = 1.25;
+}
+
+const ViewKind view_slice = {
+    .name = "slice",
+    .help = "a scalar on a plane through the fluid, exact in each sample",
+    .radius = 0.5,
+    .keys = slice_keys,
+    .def = &slice_usual,
+    .def_size = sizeof slice_usual,
+    .check = check,
+    .create = create,
+    .destroy = destroy,
+    .show = show,
+    .draw = draw,
+};

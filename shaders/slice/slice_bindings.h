@@ -1,0 +1,23 @@
+/* The numbers by which C hands to the shaders of slices what only they read; those of
+   shaders/shared/bindings.h besides. */
+#ifndef SLOSH_SLICE_BINDINGS_H
+#define SLOSH_SLICE_BINDINGS_H
+
+/* Uniform blocks */
+#define SLICE_BLOCK 2
+
+/* Texture units */
+#define SUMS_UNIT 1
+
+/* Locations of uniforms */
+#define SHOWN_AT    16
+#define CUT_AT      17
+#define ISOLINES_AT 18
+#define FLAT_AT     19
+
+/* Values of the uniform shown */
+#define SLICE_MEAN  0 /* sum V W s over sum V W */
+#define SLICE_RAW   1 /* sum V W s */
+#define SLICE_FIELD 2 /* sum V W */
+
+#endif

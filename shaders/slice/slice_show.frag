@@ -1,0 +1,27 @@
+// Colours of the sums: the colormap's, magenta where most is no number, nothing where there is no fluid.
+#include "common/frame.glsl"
+#include "shaders/slice/slice_bindings.h"
+
+layout(binding = SUMS_UNIT) uniform sampler2D sums;
+layout(binding = COLORMAP_UNIT) uniform sampler2D colormap;
+layout(location = SHOWN_AT) uniform uint shown;
+layout(location = CUT_AT) uniform float cut;
+layout(location = ISOLINES_AT) uniform uint isolines;
+layout(location = 0) in vec2 share;
+layout(location = 0) out vec4 color;
+
+void main()
+{
+    vec4 sum = texture(sums, share);
+    float field = sum.g + sum.b;
+    bool unknown = sum.b > sum.g && shown != SLICE_FIELD;
+    float mean = sum.r / max(sum.g, 1e-30);
+    float value = shown == SLICE_FIELD ? field : shown == SLICE_RAW ? sum.r : mean;
+    float level = (value - range_low) * range_scale * float(isolines + 1u), wide = fwidth(level);
+    if (!(field > 0.0) || field < cut)
+        discard;
+    color = texelFetch(colormap, ivec2(clamp((value - range_low) * range_scale, 0.0, 1.0) * 255.0 + 0.5, 0), 0);
+    float nearest = round(level);
+    bool line = isolines > 0u && nearest > 0.5 && nearest < float(isolines) + 0.5 && abs(level - nearest) < 0.7 * wide && wide < 0.7;
+    color.rgb = unknown ? vec3(1.0, 0.0, 0.6) : line ? color.rgb * 0.15 : color.rgb;
+}

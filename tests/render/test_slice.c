@@ -1,0 +1,404 @@
+/* View `slice`: its kernels, its plane, each sample against a sum over all particles in double precision, and
+   what it does with numbers that are none. */
+#include "tests/render/fixture.h"
+
+#include "render/frame/colormap.h"
+#include "render/slice/slice_def.h"
+#include "render/slice/slice_kernel.h"
+#include "render/slice/slice_sum.h"
+#include "sim/kernel/kernel.h"
+#include "sim/world/method.h"
+
+enum { SAMPLES = 64, KERNELS = 7 };
+
+/* ---- kernels ---- */
+
+static void each_kernel_has_a_unit_integral(void **state)
+{
+    (void)state;
+    for (int k = 1; slice_kernels[k].name; k++)
+        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+            const double h = 0.7;
+            const int parts = 20000;
+            double sum = 0;
+            for (int i = 0; i < parts; i++) {
+                const double r = h * (i + 0.5) / parts;
+                sum += h / parts * slice_kernel_value(k, dimensions, r, h) *
+                       (dimensions == 2 ? 2 * M_PI * r : 4 * M_PI * r * r);
+            }
+            if (fabs(sum - 1) > 1e-6)
+                fail_msg("%s in %d dimensions: %.9f", slice_kernels[k].name, dimensions, sum);
+        }
+}
+
+static void compare_kernel(const Kernel *kernel)
+{
+    const int k = slice_kernel_named(kernel->name);
+    assert_string_equal(slice_kernels[k].name, kernel->name);
+    for (int i = 0; i <= 12; i++) {
+        const double r = 0.1 * i, h = 1.1, own = slice_kernel_value(k, 3, r, h), theirs = kernel->value(r, h);
+        assert_true(fabs(own - theirs) <= 1e-12);
+    }
+}
+
+/* With the values that solvers use. */
+static void solvers_have_the_same_kernels(void **state)
+{
+    (void)state;
+    for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
+        compare_kernel(kernel);
+    for (const Kernel *kernel = shape_kernels; kernel->name; kernel++)
+        compare_kernel(kernel);
+    WorldDef world = world_def_default();
+    text_set(world.method, "mueller");
+    assert_string_equal(slice_kernels[slice_kernel_of(0, &world)].name, method_kernels(&world).density->name);
+    assert_int_equal(slice_kernel_of(4, &world), 4);
+}
+
+/* ---- planes ---- */
+
+static void a_plane_is_as_large_as_the_box_there(void **state)
+{
+    (void)state;
+    static const double box[3] = {2, 1, 0.5}, middle[3] = {0, 0.5, 0};
+    static const struct {
+        double normal[3], size[2];
+    } cases[] = {{{0, 0, 3}, {2, 1}},
+                 {{2, 0, 0}, {0.5, 1}},
+                 {{0, 1, 0}, {2, 0.5}},
+                 {{0, -1, 0}, {2, 0.5}},
+                 {{1, 1, 0}, {0.5, M_SQRT2}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        SlicePlane plane;
+        assert_true(slice_plane_make(box, middle, cases[i].normal, &plane));
+        for (int k = 0; k < 2; k++)
+            assert_true(fabs(plane.size[k] - cases[i].size[k]) < 1e-12);
+        double at[3], dot = 0, right[3];
+        slice_plane_sample(&plane, (int[2]){3, 5}, 1, 2, at); /* the middle */
+        for (int k = 0; k < 3; k++) {
+            assert_true(fabs(at[k] - middle[k]) < 1e-12);
+            dot += plane.along[k] * plane.up[k];
+            right[k] = plane.along[(k + 1) % 3] * plane.up[(k + 2) % 3] -
+                       plane.along[(k + 2) % 3] * plane.up[(k + 1) % 3] - plane.normal[k];
+        }
+        assert_true(fabs(dot) < 1e-12 && fabs(right[0]) + fabs(right[1]) + fabs(right[2]) < 1e-12);
+    }
+}
+
+static void a_plane_may_miss_the_box(void **state)
+{
+    (void)state;
+    static const double box[3] = {2, 1, 0.5};
+    SlicePlane plane;
+    assert_false(slice_plane_make(box, (double[3]){0, 1.1, 0}, (double[3]){0, 1, 0}, &plane));
+    assert_true(plane.size[0] == 0 && plane.size[1] == 0);
+    assert_false(slice_plane_make(box, (double[3]){5, 5, 5}, (double[3]){1, 1, 1}, &plane));
+}
+
+/* ---- sums ---- */
+
+typedef struct SliceScene {
+    Particles *particles;
+    ParticleBuffers state;
+    SliceJob job;
+} SliceScene;
+
+/* A fluid without order in a box 2 x 1 x 1 m: volumes and speeds differ. */
+static SliceScene wild_scene(double spacing, const double point[3], const double normal[3])
+{
+    SliceScene scene = {particles_wave(spacing), {0}, {.kernel = 1, .dimensions = 3}};
+    Particles *particles = scene.particles;
+    for (size_t i = 0; i < particles->count; i++) {
+        for (int k = 0; k < 3; k++)
+            particles->position[4 * i + (size_t)k] +=
+                (float)(0.3 * spacing * sin(37.1 * (double)(3 * i) + k));
+        particles->position[4 * i + 3] = (float)(pow(spacing, 3) * (1 + 0.2 * sin(9.7 * (double)i)));
+    }
+    scene.state = box_state(particles->count, spacing);
+    slice_plane_make(scene.state.box_size, point, normal, &scene.job.plane);
+    scene.job.samples[0] = SAMPLES, scene.job.samples[1] = SAMPLES - 17;
+    scene.job.support = scene.state.support_radius;
+    scene.job.scalar = SCALAR_SPEED;
+    return scene;
+}
+
+static float *sums_of(SliceScene *scene)
+{
+    Error error = {0};
+    SliceSum sum = {0};
+    ParticleBuffers buffers;
+    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    float *out = malloc(sizeof(float[4]) * (size_t)(scene->job.samples[0] * scene->job.samples[1]));
+    assert_non_null(out);
+    if (!slice_sum_run(&sum, &scene->job, &buffers, &error))
+        fail_msg("%s", error.message);
+    slice_sum_read(&sum, out);
+    slice_sum_destroy(&sum);
+    upload_destroy(upload);
+    return out;
+}
+
+/* Of sum V W s, sum V W and the latter of what is no number. */
+static void brute_sums(const SliceScene *scene, const double at[3], double sums[3])
+{
+    const SliceJob *job = &scene->job;
+    sums[0] = sums[1] = sums[2] = 0;
+    for (size_t i = 0; i < scene->particles->count; i++) {
+        const float *p = &scene->particles->position[4 * i], speed = scene->particles->speed[i];
+        const double d[3] = {p[0] - at[0], p[1] - at[1], p[2] - at[2]};
+        const double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        const double part = p[3] * slice_kernel_value(job->kernel, job->dimensions, r, job->support);
+        if (isnan(d[0]) || r >= job->support)
+            continue;
+        sums[isnan(speed) ? 2 : 1] += part;
+        sums[0] += isnan(speed) ? 0 : part * speed;
+    }
+}
+
+/* The worst of all samples, as shares of the greatest sums. */
+static double worst_sample(SliceScene *scene)
+{
+    double worst = 0, range[3] = {1e-30, 1e-30, 1e-30};
+    float *sums = sums_of(scene);
+    for (int pass = 0; pass < 2; pass++)
+        for (int row = 0; row < scene->job.samples[1]; row++)
+            for (int column = 0; column < scene->job.samples[0]; column++) {
+                double at[3], wanted[3];
+                const float *found = &sums[4 * (row * scene->job.samples[0] + column)];
+                slice_plane_sample(&scene->job.plane, scene->job.samples, column, row, at);
+                brute_sums(scene, at, wanted);
+                for (int k = 0; k < 3; k++)
+                    if (pass == 0)
+                        range[k] = fmax(range[k], fabs(wanted[k]));
+                    else
+                        worst = fmax(worst, fabs((double)found[k] - wanted[k]) / range[k]);
+            }
+    free(sums);
+    return worst;
+}
+
+static void free_scene(SliceScene *scene)
+{
+    free(scene->particles);
+}
+
+static void each_sample_is_the_sum_over_all_particles(void **state)
+{
+    (void)state;
+    static const double normals[][3] = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {0.3, -0.5, 0.8}, {-1, 0.02, 0.4}};
+    const double point[3] = {0.2, 0.3, -0.07};
+    for (int k = 1; k < KERNELS; k++)
+        for (size_t n = 0; n < sizeof normals / sizeof *normals; n++) {
+            SliceScene scene = wild_scene(0.08, point, normals[n]);
+            scene.job.kernel = k;
+            const double worst = worst_sample(&scene);
+            if (!(worst < 4e-6))
+                fail_msg("%s, normal %zu: %g of the range off", slice_kernels[k].name, n, worst);
+            free_scene(&scene);
+        }
+}
+
+/* Particles of a third of a sample, of which most reach none, and some that are wider than the slice. */
+static void small_and_large_particles(void **state)
+{
+    (void)state;
+    static const double supports[] = {0.3, 40, 300};
+    for (size_t i = 0; i < 3; i++) {
+        SliceScene scene = wild_scene(0.1, (double[3]){0, 0.3, 0}, (double[3]){0.1, 0.2, 1});
+        scene.job.support = supports[i] * scene.job.plane.size[0] / SAMPLES;
+        const double worst = worst_sample(&scene);
+        if (!(worst < 1e-5)) /* 300 samples: every particle adds to every one */
+            fail_msg("a support of %g samples: %g of the range off", supports[i], worst);
+        free_scene(&scene);
+    }
+}
+
+/* In the middle of a lattice the mean of a constant is that constant, and of a linear field the field. */
+static void a_lattice_keeps_constants_and_slopes(void **state)
+{
+    (void)state;
+    const double d = 0.05;
+    SliceScene scene = {calloc(1, sizeof(Particles)), {0}, {.kernel = 2, .dimensions = 3}};
+    for (int linear = 0; linear < 2; linear++) {
+        scene.particles->count = 0;
+        for (int i = 0; i < 20 * 20 * 20; i++) {
+            const double x = (i % 20 - 9.5) * d, y = (i / 20 % 20 + 0.5) * d, z = (i / 400 - 9.5) * d;
+            particles_add(scene.particles, x, y, z, linear ? 3 * x + 2 * y : 5, 0);
+            scene.particles->position[4 * i + 3] = (float)(d * d * d);
+        }
+        scene.state = box_state(scene.particles->count, d);
+        scene.state.box_size[0] = 1;
+        slice_plane_make(scene.state.box_size, (double[3]){0, 0.5, 0.013}, (double[3]){0.1, 0.3, 1},
+                         &scene.job.plane);
+        scene.job.samples[0] = scene.job.samples[1] = SAMPLES;
+        scene.job.support = 3 * d;
+        scene.job.scalar = SCALAR_SPEED;
+        float *sums = sums_of(&scene);
+        int inside = 0;
+        for (int s = 0; s < SAMPLES * SAMPLES; s++) {
+            double at[3];
+            slice_plane_sample(&scene.job.plane, scene.job.samples, s % SAMPLES, s / SAMPLES, at);
+            if (fabs(at[0]) > 0.34 || fabs(at[1] - 0.5) > 0.34 || fabs(at[2]) > 0.34)
+                continue;
+            const double wanted = linear ? 3 * at[0] + 2 * at[1] : 5,
+                         off = fabs(slice_value(&sums[4 * s], false) - wanted);
+            inside++;
+            if (!(off < (linear ? 4e-3 : 5e-5))) /* of 5: what is left is the lattice's own error */
+                fail_msg("%s: %g off", linear ? "linear" : "constant", off);
+        }
+        assert_true(inside > 1000);
+        free(sums);
+    }
+    free_scene(&scene);
+}
+
+/* A drop whose speed is no number, and a particle that is nowhere. */
+static void what_is_no_number_stays_where_it_is(void **state)
+{
+    (void)state;
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0.1, 0}, (double[3]){0, 0.1, 1});
+    Particles *particles = scene.particles;
+    const size_t first = particles->count;
+    particles_add(particles, 0.7, 0.8, 0, NAN, 0);
+    particles->position[4 * first + 3] = 5e-4F;
+    particles->speed[7] = NAN;
+    particles->position[4 * 11 + 1] = NAN;
+    particles->position[4 * 13 + 3] = INFINITY;
+    scene.state.count = particles->count;
+    float *sums = sums_of(&scene);
+    int unknown = 0;
+    for (int s = 0; s < scene.job.samples[0] * scene.job.samples[1]; s++) {
+        assert_true(isfinite(sums[4 * s]) && isfinite(sums[4 * s + 1]) && isfinite(sums[4 * s + 2]));
+        unknown += !slice_empty(&sums[4 * s]) && isnan(slice_value(&sums[4 * s], false));
+    }
+    assert_in_range(unknown, 5, 200);
+    free(sums);
+    particles->position[4 * 13 + 3] = 0; /* which brute force sums up */
+    const double worst = worst_sample(&scene);
+    assert_true(worst < 4e-6);
+    free_scene(&scene);
+}
+
+/* ---- the view ---- */
+
+enum { WIDE = 96, HIGH = 72 };
+
+static void picture_of(SliceScene *scene, const ViewDef *def, uint8_t rgb[3 * WIDE * HIGH])
+{
+    Error error = {0};
+    ParticleBuffers buffers;
+    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    buffers.scalar_min[SCALAR_SPEED] = 0;
+    buffers.scalar_max[SCALAR_SPEED] = 3;
+    Renderer *renderer = renderer_create(def, NULL, WIDE, HIGH, &error);
+    if (!renderer)
+        fail_msg("%s", error.message);
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_read(renderer, rgb);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+}
+
+static ViewDef flat_view(void)
+{
+    ViewDef def = bare_view();
+    text_set(def.kind, "slice");
+    slice_def(&def)->show = SLICE_FLAT;
+    return def;
+}
+
+/* The colours of a flat slice are those of the sums that tests above have checked. */
+static void a_pixel_has_the_colour_of_its_value(void **state)
+{
+    (void)state;
+    uint8_t rgb[3 * WIDE * HIGH], map[3 * COLORMAP_SIZE];
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    ViewDef def = flat_view();
+    int shown = 0;
+    assert_true(colormap_fill("viridis", map));
+    picture_of(&scene, &def, rgb);
+    scene.job.samples[0] = WIDE, scene.job.samples[1] = WIDE / 2; /* the box is 2 x 1 m */
+    float *sums = sums_of(&scene);
+    for (int row = 0; row < WIDE / 2; row++)
+        for (int column = 0; column < WIDE; column++) {
+            const float *sum = &sums[4 * (row * WIDE + column)];
+            const int line = (HIGH + WIDE / 2) / 2 - 1 - row;
+            const uint8_t *pixel = &rgb[3 * (line * WIDE + column)];
+            const double share = slice_value(sum, false) / 3 * 255;
+            if (!(sum[1] > 0.3F))
+                continue;
+            const int low = (int)fmax(floor(share - 0.5), 0), high = (int)fmin(ceil(share + 0.5), 255);
+            bool right = false;
+            for (int i = low; i <= high; i++)
+                right |= abs(map[3 * i] - pixel[0]) <= 1 && abs(map[3 * i + 1] - pixel[1]) <= 1 &&
+                         abs(map[3 * i + 2] - pixel[2]) <= 1;
+            if (!right)
+                fail_msg("pixel %d %d is %d %d %d", column, line, pixel[0], pixel[1], pixel[2]);
+            shown++;
+        }
+    assert_true(shown > 500);
+    free(sums);
+    free_scene(&scene);
+}
+
+/* Drops of a hundredth of a pixel. */
+static void small_particles_are_not_lost(void **state)
+{
+    (void)state;
+    static const double spacing = 2.0 / WIDE / 100;
+    uint8_t rgb[3 * WIDE * HIGH], none[3 * WIDE * HIGH];
+    SliceScene scene = wild_scene(0.5, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    ViewDef def = flat_view();
+    slice_def(&def)->cut = 0;
+    scene.particles->count = 1;
+    scene.particles->position[3] = 0; /* nothing */
+    scene.state = box_state(1, spacing);
+    picture_of(&scene, &def, none);
+    scene.particles->count = 0;
+    for (int i = 0; i < 20; i++) {
+        particles_add(scene.particles, -0.9 + 0.0917 * i, 0.5, 0, 1, 0);
+        scene.particles->position[4 * i + 3] = (float)(spacing * spacing * spacing);
+    }
+    scene.state = box_state(20, spacing);
+    picture_of(&scene, &def, rgb);
+    int drawn = 0;
+    for (int i = 0; i < WIDE * HIGH; i++)
+        drawn += memcmp(&rgb[3 * i], &none[3 * i], 3) != 0;
+    assert_in_range(drawn, 20, 100);
+    free_scene(&scene);
+}
+
+static void a_plane_beside_the_fluid_is_empty(void **state)
+{
+    (void)state;
+    uint8_t rgb[3 * WIDE * HIGH];
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    ViewDef def = flat_view();
+    static const double heights[] = {0.97, 7}; /* above the fluid, above the box */
+    for (int k = 0; k < 2; k++) {
+        slice_def(&def)->point[1] = heights[k];
+        memcpy(slice_def(&def)->normal, (double[3]){0, 1, 0}, sizeof(double[3]));
+        picture_of(&scene, &def, rgb);
+        for (int i = 0; k == 0 && i < WIDE * HIGH; i++)
+            assert_memory_equal(&rgb[3 * i], rgb, 3);
+    }
+    free_scene(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_kernel_has_a_unit_integral),
+        cmocka_unit_test(solvers_have_the_same_kernels),
+        cmocka_unit_test(a_plane_is_as_large_as_the_box_there),
+        cmocka_unit_test(a_plane_may_miss_the_box),
+        cmocka_unit_test_teardown(each_sample_is_the_sum_over_all_particles, no_gl_errors),
+        cmocka_unit_test_teardown(small_and_large_particles, no_gl_errors),
+        cmocka_unit_test_teardown(a_lattice_keeps_constants_and_slopes, no_gl_errors),
+        cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
+        cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
+        cmocka_unit_test_teardown(small_particles_are_not_lost, no_gl_errors),
+        cmocka_unit_test_teardown(a_plane_beside_the_fluid_is_empty, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
