@@ -1,6 +1,6 @@
 #include "render/slice/slice_def.h"
 
-#include "render/slice/slice_kernel.h"
+#include "render/plane/plane_kernel.h"
 #include "sim/base/key_rows.h"
 
 static const char *const show_names[] = {[SLICE_PLANE] = "plane", [SLICE_FLAT] = "flat", NULL};
@@ -15,7 +15,7 @@ const Key slice_keys[] = {
     VEC3("view.slice.point", L, "m", -1e6, 1e6, AT(point), "that the plane goes through, in the box's frame; two dimensions have one plane only"),
     VEC3("view.slice.normal", L, "", -1e6, 1e6, AT(normal), "across the plane, of any length but 0"),
     CHOICE_OF("view.slice.show", L | KEY_INDEX, show_names, AT(show), "plane: where it is in the box; flat: filling the picture"),
-    CHOICE_OF("view.slice.kernel", L | KEY_INDEX, slice_kernels, AT(kernel), "that sums are made with; its support radius is the solver's"),
+    CHOICE_OF("view.slice.kernel", L | KEY_INDEX, plane_kernels, AT(kernel), "that sums are made with; its support radius is the solver's"),
     BOOLEAN("view.slice.raw", L, AT(raw), "sum V W s as it is; else over sum V W, the mean that is right near the surface too"),
     INTEGER("view.slice.samples", L, 16, 8192, AT(samples), "along the longer side where it is shown in the box; flat has one a pixel"),
     NUMBER("view.slice.cut", L, "", 0, 1, AT(cut), "where sum V W is less there is no fluid to be shown; a plane surface has 0.5"),

@@ -14,7 +14,7 @@ typedef struct IN_A_ROOM SliceDef {
     double point[3],
         normal[3]; /* of the plane, box's frame; the point in m, the normal of any length but 0 */
     SliceShow show;
-    int kernel;   /* of slice_kernels; 0: the solver's */
+    int kernel;   /* of plane_kernels; 0: the solver's */
     bool raw;     /* the sum as it is; else over that of the kernels */
     int samples;  /* along the longer side where it is shown in space */
     double cut;   /* samples are empty whose sum V W is less */

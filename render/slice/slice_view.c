@@ -2,8 +2,8 @@
 
 #include "render/frame/colormap.h"
 #include "render/frame/legend.h"
-#include "render/slice/slice_kernel.h"
-#include "render/slice/slice_sum.h"
+#include "render/plane/plane_kernel.h"
+#include "render/plane/plane_sum.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/slice/slice_bindings.h"
 #include "sim/gl/program.h"
@@ -14,7 +14,7 @@
 #include <string.h>
 
 typedef struct SliceView {
-    SliceSum sum;
+    PlaneSum sum;
     unsigned program, vertex_array, colormap;
     bool has_scalar; /* that is shown */
 } SliceView;
@@ -22,7 +22,7 @@ typedef struct SliceView {
 static void destroy(void *state)
 {
     SliceView *view = state;
-    slice_sum_destroy(&view->sum);
+    plane_sum_destroy(&view->sum);
     glDeleteProgram(view->program);
     glDeleteVertexArrays(1, &view->vertex_array);
     glDeleteTextures(1, &view->colormap);
@@ -57,13 +57,12 @@ static void *create(const Subject *subject, Error *error)
 }
 
 /* A scene of two dimensions is a plane itself. */
-static bool make_plane(const ParticleBuffers *particles, const Frame *frame, SlicePlane *plane)
+static bool make_plane(const ParticleBuffers *particles, const Frame *frame, Plane *plane)
 {
     static const double origin[3], across[3] = {0, 0, 1};
     const SliceDef *def = slice_def(frame->def);
     const bool flat = frame->slab > 0;
-    return slice_plane_make(particles->box_size, flat ? origin : def->point, flat ? across : def->normal,
-                            plane);
+    return plane_make(particles->box_size, flat ? origin : def->point, flat ? across : def->normal, plane);
 }
 
 /* What the legend leaves of the picture's width, pixels. */
@@ -74,14 +73,14 @@ static double flat_width(const Frame *frame)
 }
 
 /* Samples that are pixels. */
-static void flat_samples(const SlicePlane *plane, const Frame *frame, int samples[2])
+static void flat_samples(const Plane *plane, const Frame *frame, int samples[2])
 {
     const double scale = fmin(flat_width(frame) / plane->size[0], frame->height / plane->size[1]);
     for (int k = 0; k < 2; k++)
         samples[k] = (int)fmax(floor(plane->size[k] * scale + 1e-9), 1);
 }
 
-static void plane_samples(const SlicePlane *plane, int most, int samples[2])
+static void plane_samples(const Plane *plane, int most, int samples[2])
 {
     const double scale = most / fmax(plane->size[0], plane->size[1]);
     for (int k = 0; k < 2; k++)
@@ -89,16 +88,16 @@ static void plane_samples(const SlicePlane *plane, int most, int samples[2])
 }
 
 /* Particles smaller than a sample would fall between samples: the kernel reaches one at least. */
-static double support_of(const SliceJob *job, const ParticleBuffers *particles)
+static double support_of(const PlaneJob *job, const ParticleBuffers *particles)
 {
     const double across = hypot(job->plane.size[0] / job->samples[0], job->plane.size[1] / job->samples[1]);
     return fmax(particles->support_radius, 0.75 * across);
 }
 
-static bool make_job(const ParticleBuffers *particles, const Frame *frame, SliceJob *job)
+static bool make_job(const ParticleBuffers *particles, const Frame *frame, PlaneJob *job)
 {
     const SliceDef *def = slice_def(frame->def);
-    *job = (SliceJob){.kernel = slice_kernel_of(def->kernel, frame->world),
+    *job = (PlaneJob){.kernel = plane_kernel_of(def->kernel, frame->world),
                       .dimensions = frame->slab > 0 ? 2 : 3,
                       .scalar = frame->def->color_by};
     if (!make_plane(particles, frame, &job->plane))
@@ -118,7 +117,7 @@ static void set_filter(unsigned texture, GLint filter)
 }
 
 /* A flat slice has nothing behind it; its samples are pixels. */
-static void begin_flat(const SliceView *view, const SliceJob *job, const Frame *frame)
+static void begin_flat(const SliceView *view, const PlaneJob *job, const Frame *frame)
 {
     const double *back = frame->def->background;
     const GLfloat color[4] = {(GLfloat)back[0], (GLfloat)back[1], (GLfloat)back[2], 1};
@@ -147,7 +146,7 @@ static unsigned what_is_shown(const SliceView *view, const Frame *frame)
     return slice_def(frame->def)->raw ? SLICE_RAW : SLICE_MEAN;
 }
 
-static void show_sums(const SliceView *view, const SliceJob *job, const Frame *frame)
+static void show_sums(const SliceView *view, const PlaneJob *job, const Frame *frame)
 {
     const SliceDef *def = slice_def(frame->def);
     const bool flat = def->show == SLICE_FLAT;
@@ -171,13 +170,13 @@ static void show_sums(const SliceView *view, const SliceJob *job, const Frame *f
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SliceView *view = state;
-    SliceJob job;
+    PlaneJob job;
     Error error;
     bool made = false;
     view->has_scalar =
         frame->def->color_by != SCALAR_FLUID && particles->scalar[frame->def->color_by].buffer != 0;
     GL_STAGE(frame->timer, STAGE_BLEND)
-    made = make_job(particles, frame, &job) && slice_sum_run(&view->sum, &job, particles, &error);
+    made = make_job(particles, frame, &job) && plane_sum_run(&view->sum, &job, particles, &error);
     GL_STAGE(frame->timer, STAGE_SHADE)
     if (made) /* else the plane misses the box, or memory that was there is not there now */
         show_sums(view, &job, frame);

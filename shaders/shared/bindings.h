@@ -6,6 +6,7 @@
 /* Uniform blocks; views have 2 and up */
 #define FRAME_BLOCK 0
 #define SOLID_BLOCK 1
+#define PLANE_BLOCK 12
 
 /* Storage buffers: the particles that are drawn */
 #define POSITIONS_STORAGE 0

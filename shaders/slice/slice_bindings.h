@@ -3,9 +3,6 @@
 #ifndef SLOSH_SLICE_BINDINGS_H
 #define SLOSH_SLICE_BINDINGS_H
 
-/* Uniform blocks */
-#define SLICE_BLOCK 2
-
 /* Texture units */
 #define SUMS_UNIT 1
 

@@ -3,8 +3,8 @@
 #include "tests/gl/solver_blocks.h"
 
 #include "shaders/shared/frame_block.h"
+#include "shaders/shared/plane_block.h"
 #include "shaders/shared/solid_block.h"
-#include "shaders/slice/slice_block.h"
 #include "shaders/volume/raycast_block.h"
 #include "shaders/volume/volume_block.h"
 #include "sim/gl/shader_source.h"
@@ -39,7 +39,7 @@ typedef struct Block {
 #define RAYCAST(member) MEMBER(RaycastBlock, member)
 #define VOLUME(member)  MEMBER(VolumeBlock, member)
 #define SOLID(member)   MEMBER(SolidBlock, member)
-#define SLICE(member)   MEMBER(SliceBlock, member)
+#define SLICE(member)   MEMBER(PlaneBlock, member)
 
 static const Block blocks[] = {
     SOLVER_BLOCKS,
@@ -62,9 +62,9 @@ static const Block blocks[] = {
           VOLUME(volume_low), VOLUME(kernel_radius), VOLUME(volume_high), VOLUME(radius2_inverse),
           VOLUME(volume_size), VOLUME(particle_count), VOLUME(list_size), VOLUME(list_scale),
           VOLUME(kernel_peak)),
-    BLOCK("slice/slice_block.h", SliceBlock, SLICE(slice_corner), SLICE(slice_along), SLICE(slice_up),
-          SLICE(slice_normal), SLICE(slice_side), SLICE(slice_samples), SLICE(slice_support),
-          SLICE(slice_peak)),
+    BLOCK("shared/plane_block.h", PlaneBlock, SLICE(plane_corner), SLICE(plane_along), SLICE(plane_up),
+          SLICE(plane_normal), SLICE(plane_side), SLICE(plane_samples), SLICE(plane_support),
+          SLICE(plane_peak)),
 };
 
 /* A block of std140 is active, with all members, where no shader reads any of them. */

@@ -6,9 +6,9 @@
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
 
+#include "render/plane/plane_kernel.h"
 #include "render/renderer.h"
 #include "render/slice/slice_def.h"
-#include "render/slice/slice_kernel.h"
 #include "sim/gl/limits.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
@@ -535,7 +535,7 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     }
     for (int show = VOLUME_SLICE; show <= VOLUME_NORMALS; show++)
         VIEW("volume", volume_def(&v)->show = (VolumeShow)show);
-    for (int kernel = 1; slice_kernels[kernel].name; kernel++)
+    for (int kernel = 1; plane_kernels[kernel].name; kernel++)
         VIEW("slice", slice_def(&v)->kernel = kernel);
     return count;
 }

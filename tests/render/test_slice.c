@@ -3,9 +3,9 @@
 #include "tests/render/fixture.h"
 
 #include "render/frame/colormap.h"
+#include "render/plane/plane_kernel.h"
+#include "render/plane/plane_sum.h"
 #include "render/slice/slice_def.h"
-#include "render/slice/slice_kernel.h"
-#include "render/slice/slice_sum.h"
 #include "sim/kernel/kernel.h"
 #include "sim/world/method.h"
 
@@ -16,27 +16,27 @@ enum { SAMPLES = 64, KERNELS = 7 };
 static void each_kernel_has_a_unit_integral(void **state)
 {
     (void)state;
-    for (int k = 1; slice_kernels[k].name; k++)
+    for (int k = 1; plane_kernels[k].name; k++)
         for (int dimensions = 2; dimensions <= 3; dimensions++) {
             const double h = 0.7;
             const int parts = 20000;
             double sum = 0;
             for (int i = 0; i < parts; i++) {
                 const double r = h * (i + 0.5) / parts;
-                sum += h / parts * slice_kernel_value(k, dimensions, r, h) *
+                sum += h / parts * plane_kernel_value(k, dimensions, r, h) *
                        (dimensions == 2 ? 2 * M_PI * r : 4 * M_PI * r * r);
             }
             if (fabs(sum - 1) > 1e-6)
-                fail_msg("%s in %d dimensions: %.9f", slice_kernels[k].name, dimensions, sum);
+                fail_msg("%s in %d dimensions: %.9f", plane_kernels[k].name, dimensions, sum);
         }
 }
 
 static void compare_kernel(const Kernel *kernel)
 {
-    const int k = slice_kernel_named(kernel->name);
-    assert_string_equal(slice_kernels[k].name, kernel->name);
+    const int k = plane_kernel_named(kernel->name);
+    assert_string_equal(plane_kernels[k].name, kernel->name);
     for (int i = 0; i <= 12; i++) {
-        const double r = 0.1 * i, h = 1.1, own = slice_kernel_value(k, 3, r, h), theirs = kernel->value(r, h);
+        const double r = 0.1 * i, h = 1.1, own = plane_kernel_value(k, 3, r, h), theirs = kernel->value(r, h);
         assert_true(fabs(own - theirs) <= 1e-12);
     }
 }
@@ -51,8 +51,8 @@ static void solvers_have_the_same_kernels(void **state)
         compare_kernel(kernel);
     WorldDef world = world_def_default();
     text_set(world.method, "mueller");
-    assert_string_equal(slice_kernels[slice_kernel_of(0, &world)].name, method_kernels(&world).density->name);
-    assert_int_equal(slice_kernel_of(4, &world), 4);
+    assert_string_equal(plane_kernels[plane_kernel_of(0, &world)].name, method_kernels(&world).density->name);
+    assert_int_equal(plane_kernel_of(4, &world), 4);
 }
 
 /* ---- planes ---- */
@@ -69,12 +69,12 @@ static void a_plane_is_as_large_as_the_box_there(void **state)
                  {{0, -1, 0}, {2, 0.5}},
                  {{1, 1, 0}, {0.5, M_SQRT2}}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        SlicePlane plane;
-        assert_true(slice_plane_make(box, middle, cases[i].normal, &plane));
+        Plane plane;
+        assert_true(plane_make(box, middle, cases[i].normal, &plane));
         for (int k = 0; k < 2; k++)
             assert_true(fabs(plane.size[k] - cases[i].size[k]) < 1e-12);
         double at[3], dot = 0, right[3];
-        slice_plane_sample(&plane, (int[2]){3, 5}, 1, 2, at); /* the middle */
+        plane_sample(&plane, (int[2]){3, 5}, 1, 2, at); /* the middle */
         for (int k = 0; k < 3; k++) {
             assert_true(fabs(at[k] - middle[k]) < 1e-12);
             dot += plane.along[k] * plane.up[k];
@@ -89,10 +89,10 @@ static void a_plane_may_miss_the_box(void **state)
 {
     (void)state;
     static const double box[3] = {2, 1, 0.5};
-    SlicePlane plane;
-    assert_false(slice_plane_make(box, (double[3]){0, 1.1, 0}, (double[3]){0, 1, 0}, &plane));
+    Plane plane;
+    assert_false(plane_make(box, (double[3]){0, 1.1, 0}, (double[3]){0, 1, 0}, &plane));
     assert_true(plane.size[0] == 0 && plane.size[1] == 0);
-    assert_false(slice_plane_make(box, (double[3]){5, 5, 5}, (double[3]){1, 1, 1}, &plane));
+    assert_false(plane_make(box, (double[3]){5, 5, 5}, (double[3]){1, 1, 1}, &plane));
 }
 
 /* ---- sums ---- */
@@ -100,7 +100,7 @@ static void a_plane_may_miss_the_box(void **state)
 typedef struct SliceScene {
     Particles *particles;
     ParticleBuffers state;
-    SliceJob job;
+    PlaneJob job;
 } SliceScene;
 
 /* A fluid without order in a box 2 x 1 x 1 m: volumes and speeds differ. */
@@ -115,7 +115,7 @@ static SliceScene wild_scene(double spacing, const double point[3], const double
         particles->position[4 * i + 3] = (float)(pow(spacing, 3) * (1 + 0.2 * sin(9.7 * (double)i)));
     }
     scene.state = box_state(particles->count, spacing);
-    slice_plane_make(scene.state.box_size, point, normal, &scene.job.plane);
+    plane_make(scene.state.box_size, point, normal, &scene.job.plane);
     scene.job.samples[0] = SAMPLES, scene.job.samples[1] = SAMPLES - 17;
     scene.job.support = scene.state.support_radius;
     scene.job.scalar = SCALAR_SPEED;
@@ -125,15 +125,15 @@ static SliceScene wild_scene(double spacing, const double point[3], const double
 static float *sums_of(SliceScene *scene)
 {
     Error error = {0};
-    SliceSum sum = {0};
+    PlaneSum sum = {0};
     ParticleBuffers buffers;
     Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
     float *out = malloc(sizeof(float[4]) * (size_t)(scene->job.samples[0] * scene->job.samples[1]));
     assert_non_null(out);
-    if (!slice_sum_run(&sum, &scene->job, &buffers, &error))
+    if (!plane_sum_run(&sum, &scene->job, &buffers, &error))
         fail_msg("%s", error.message);
-    slice_sum_read(&sum, out);
-    slice_sum_destroy(&sum);
+    plane_sum_read(&sum, out);
+    plane_sum_destroy(&sum);
     upload_destroy(upload);
     return out;
 }
@@ -141,13 +141,13 @@ static float *sums_of(SliceScene *scene)
 /* Of sum V W s, sum V W and the latter of what is no number. */
 static void brute_sums(const SliceScene *scene, const double at[3], double sums[3])
 {
-    const SliceJob *job = &scene->job;
+    const PlaneJob *job = &scene->job;
     sums[0] = sums[1] = sums[2] = 0;
     for (size_t i = 0; i < scene->particles->count; i++) {
         const float *p = &scene->particles->position[4 * i], speed = scene->particles->speed[i];
         const double d[3] = {p[0] - at[0], p[1] - at[1], p[2] - at[2]};
         const double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        const double part = p[3] * slice_kernel_value(job->kernel, job->dimensions, r, job->support);
+        const double part = p[3] * plane_kernel_value(job->kernel, job->dimensions, r, job->support);
         if (isnan(d[0]) || r >= job->support)
             continue;
         sums[isnan(speed) ? 2 : 1] += part;
@@ -165,7 +165,7 @@ static double worst_sample(SliceScene *scene)
             for (int column = 0; column < scene->job.samples[0]; column++) {
                 double at[3], wanted[3];
                 const float *found = &sums[4 * (row * scene->job.samples[0] + column)];
-                slice_plane_sample(&scene->job.plane, scene->job.samples, column, row, at);
+                plane_sample(&scene->job.plane, scene->job.samples, column, row, at);
                 brute_sums(scene, at, wanted);
                 for (int k = 0; k < 3; k++)
                     if (pass == 0)
@@ -193,7 +193,7 @@ static void each_sample_is_the_sum_over_all_particles(void **state)
             scene.job.kernel = k;
             const double worst = worst_sample(&scene);
             if (!(worst < 4e-6))
-                fail_msg("%s, normal %zu: %g of the range off", slice_kernels[k].name, n, worst);
+                fail_msg("%s, normal %zu: %g of the range off", plane_kernels[k].name, n, worst);
             free_scene(&scene);
         }
 }
@@ -228,8 +228,8 @@ static void a_lattice_keeps_constants_and_slopes(void **state)
         }
         scene.state = box_state(scene.particles->count, d);
         scene.state.box_size[0] = 1;
-        slice_plane_make(scene.state.box_size, (double[3]){0, 0.5, 0.013}, (double[3]){0.1, 0.3, 1},
-                         &scene.job.plane);
+        plane_make(scene.state.box_size, (double[3]){0, 0.5, 0.013}, (double[3]){0.1, 0.3, 1},
+                   &scene.job.plane);
         scene.job.samples[0] = scene.job.samples[1] = SAMPLES;
         scene.job.support = 3 * d;
         scene.job.scalar = SCALAR_SPEED;
@@ -237,11 +237,11 @@ static void a_lattice_keeps_constants_and_slopes(void **state)
         int inside = 0;
         for (int s = 0; s < SAMPLES * SAMPLES; s++) {
             double at[3];
-            slice_plane_sample(&scene.job.plane, scene.job.samples, s % SAMPLES, s / SAMPLES, at);
+            plane_sample(&scene.job.plane, scene.job.samples, s % SAMPLES, s / SAMPLES, at);
             if (fabs(at[0]) > 0.34 || fabs(at[1] - 0.5) > 0.34 || fabs(at[2]) > 0.34)
                 continue;
             const double wanted = linear ? 3 * at[0] + 2 * at[1] : 5,
-                         off = fabs(slice_value(&sums[4 * s], false) - wanted);
+                         off = fabs(plane_value(&sums[4 * s], false) - wanted);
             inside++;
             if (!(off < (linear ? 4e-3 : 5e-5))) /* of 5: what is left is the lattice's own error */
                 fail_msg("%s: %g off", linear ? "linear" : "constant", off);
@@ -269,7 +269,7 @@ static void what_is_no_number_stays_where_it_is(void **state)
     int unknown = 0;
     for (int s = 0; s < scene.job.samples[0] * scene.job.samples[1]; s++) {
         assert_true(isfinite(sums[4 * s]) && isfinite(sums[4 * s + 1]) && isfinite(sums[4 * s + 2]));
-        unknown += !slice_empty(&sums[4 * s]) && isnan(slice_value(&sums[4 * s], false));
+        unknown += !plane_empty(&sums[4 * s]) && isnan(plane_value(&sums[4 * s], false));
     }
     assert_in_range(unknown, 5, 200);
     free(sums);
@@ -324,7 +324,7 @@ static void a_pixel_has_the_colour_of_its_value(void **state)
             const float *sum = &sums[4 * (row * WIDE + column)];
             const int line = (HIGH + WIDE / 2) / 2 - 1 - row;
             const uint8_t *pixel = &rgb[3 * (line * WIDE + column)];
-            const double share = slice_value(sum, false) / 3 * 255;
+            const double share = plane_value(sum, false) / 3 * 255;
             if (!(sum[1] > 0.3F))
                 continue;
             const int low = (int)fmax(floor(share - 0.5), 0), high = (int)fmin(ceil(share + 0.5), 255);

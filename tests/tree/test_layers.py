@@ -37,11 +37,12 @@ GL = {"": "", "compute": "", "fragment": ""}
 RENDER = {
     "frame": "",
     "particles": "",
+    "plane": "particles",
     "ui": "frame",
 }
 VIEWS = own_folders("render", "ViewKind view")
-RENDER |= {name: "frame particles" for name in VIEWS}
-RENDER[""] = " ".join(["frame particles ui", *VIEWS])
+RENDER |= {name: "frame particles plane" for name in VIEWS}
+RENDER[""] = " ".join(["frame particles plane ui", *VIEWS])
 APP = {
     "base": "",
     "metric": "base",

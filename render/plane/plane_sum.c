@@ -1,16 +1,16 @@
-#include "render/slice/slice_sum.h"
+#include "render/plane/plane_sum.h"
 
-#include "render/slice/slice_kernel.h"
-#include "shaders/slice/slice_block.h"
+#include "render/plane/plane_kernel.h"
+#include "shaders/shared/plane_block.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdio.h>
 
-static bool follow_kernel(SliceSum *sum, const SliceJob *job, Error *error)
+static bool follow_kernel(PlaneSum *sum, const PlaneJob *job, Error *error)
 {
-    static const char *const stages[] = {"slice/slice_sum.vert", "slice/slice_sum.frag", NULL};
+    static const char *const stages[] = {"render/plane_sum.vert", "render/plane_sum.frag", NULL};
     char defines[64];
     if (sum->program && sum->kernel == job->kernel)
         return true;
@@ -21,7 +21,7 @@ static bool follow_kernel(SliceSum *sum, const SliceJob *job, Error *error)
     return sum->program != 0;
 }
 
-static bool follow_samples(SliceSum *sum, const int samples[2], Error *error)
+static bool follow_samples(PlaneSum *sum, const int samples[2], Error *error)
 {
     GLint most = 0;
     if (sum->sums && sum->samples[0] == samples[0] && sum->samples[1] == samples[1])
@@ -43,7 +43,7 @@ static bool follow_samples(SliceSum *sum, const int samples[2], Error *error)
     return true;
 }
 
-static void create(SliceSum *sum)
+static void create(PlaneSum *sum)
 {
     if (sum->framebuffer)
         return;
@@ -51,32 +51,32 @@ static void create(SliceSum *sum)
     glObjectLabel(GL_FRAMEBUFFER, sum->framebuffer, -1, "slice sums");
     glCreateBuffers(1, &sum->uniforms);
     glObjectLabel(GL_BUFFER, sum->uniforms, -1, "slice");
-    glNamedBufferStorage(sum->uniforms, sizeof(SliceBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(sum->uniforms, sizeof(PlaneBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
     quad_indices_create(&sum->quads);
 }
 
-static void fill(SliceSum *sum, const SliceJob *job)
+static void fill(PlaneSum *sum, const PlaneJob *job)
 {
-    const SlicePlane *plane = &job->plane;
+    const Plane *plane = &job->plane;
     const double side[2] = {plane->size[0] / job->samples[0], plane->size[1] / job->samples[1]};
-    SliceBlock block = {.slice_support = (float)job->support,
-                        .slice_peak = (float)(slice_kernels[job->kernel].norm[job->dimensions - 2] /
+    PlaneBlock block = {.plane_support = (float)job->support,
+                        .plane_peak = (float)(plane_kernels[job->kernel].norm[job->dimensions - 2] /
                                               pow(job->support, job->dimensions))};
     for (int k = 0; k < 3; k++) {
-        block.slice_corner[k] = plane->corner[k];
-        block.slice_along[k] = plane->along[k] / side[0];
-        block.slice_up[k] = plane->up[k] / side[1];
-        block.slice_normal[k] = plane->normal[k] / job->support;
+        block.plane_corner[k] = plane->corner[k];
+        block.plane_along[k] = plane->along[k] / side[0];
+        block.plane_up[k] = plane->up[k] / side[1];
+        block.plane_normal[k] = plane->normal[k] / job->support;
     }
     for (int k = 0; k < 2; k++) {
-        block.slice_side[k] = (float)side[k];
-        block.slice_samples[k] = (float)job->samples[k];
+        block.plane_side[k] = (float)side[k];
+        block.plane_samples[k] = (float)job->samples[k];
     }
     glNamedBufferSubData(sum->uniforms, 0, sizeof block, &block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, SLICE_BLOCK, sum->uniforms);
+    glBindBufferBase(GL_UNIFORM_BUFFER, PLANE_BLOCK, sum->uniforms);
 }
 
-static void draw(SliceSum *sum, const SliceJob *job, const ParticleBuffers *particles)
+static void draw(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles)
 {
     static const GLfloat none[4] = {0};
     glClearNamedFramebufferfv(sum->framebuffer, GL_COLOR, 0, none);
@@ -96,7 +96,7 @@ static void draw(SliceSum *sum, const SliceJob *job, const ParticleBuffers *part
     glDisable(GL_BLEND);
 }
 
-bool slice_sum_run(SliceSum *sum, const SliceJob *job, const ParticleBuffers *particles, Error *error)
+bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles, Error *error)
 {
     create(sum);
     if (!follow_kernel(sum, job, error) || !follow_samples(sum, job->samples, error))
@@ -105,29 +105,29 @@ bool slice_sum_run(SliceSum *sum, const SliceJob *job, const ParticleBuffers *pa
     return true;
 }
 
-void slice_sum_destroy(SliceSum *sum)
+void plane_sum_destroy(PlaneSum *sum)
 {
     glDeleteProgram(sum->program);
     glDeleteFramebuffers(1, &sum->framebuffer);
     glDeleteTextures(1, &sum->sums);
     glDeleteBuffers(1, &sum->uniforms);
     quad_indices_destroy(&sum->quads);
-    *sum = (SliceSum){0};
+    *sum = (PlaneSum){0};
 }
 
-void slice_sum_read(const SliceSum *sum, float *out)
+void plane_sum_read(const PlaneSum *sum, float *out)
 {
     const GLsizei bytes = (GLsizei)(4 * sizeof(float)) * sum->samples[0] * sum->samples[1];
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glGetTextureImage(sum->sums, 0, GL_RGBA, GL_FLOAT, bytes, out);
 }
 
-bool slice_empty(const float sums[4])
+bool plane_empty(const float sums[4])
 {
     return !(sums[1] + sums[2] > 0);
 }
 
-double slice_value(const float sums[4], bool raw)
+double plane_value(const float sums[4], bool raw)
 {
     if (sums[2] > sums[1])
         return NAN;

@@ -2,7 +2,7 @@
 #include "common/particles.glsl"
 #include "common/particle_scalars.glsl"
 #include "common/nan.glsl"
-#include "shaders/slice/slice_block.h"
+#include "shaders/shared/plane_block.h"
 
 layout(location = 0) flat out ivec2 cell;  // the sample that the centre is in
 layout(location = 1) flat out vec4 disc;   // where in it, 0 .. 1; (distance / h)^2; V times the kernel's peak
@@ -18,17 +18,17 @@ void main()
     cell = ivec2(0);
     disc = vec4(0.0);
     scalar = vec2(0.0);
-    dvec3 from_corner = dvec3(place) - slice_corner;
-    float away = float(dot(from_corner, slice_normal)), left = 1.0 - away * away;
+    dvec3 from_corner = dvec3(place) - plane_corner;
+    float away = float(dot(from_corner, plane_normal)), left = 1.0 - away * away;
     if (is_nan(vec4(place, volume)) || !(left > 0.0) || !(volume > 0.0) || volume > 1e30)
         return;
-    dvec2 centre = dvec2(dot(from_corner, slice_along), dot(from_corner, slice_up));
+    dvec2 centre = dvec2(dot(from_corner, plane_along), dot(from_corner, plane_up));
     bool known = !is_nan(value) && abs(value) < 1e30;
     cell = ivec2(floor(centre));
-    disc = vec4(centre - dvec2(cell), away * away, volume * slice_peak);
+    disc = vec4(centre - dvec2(cell), away * away, volume * plane_peak);
     scalar = known ? vec2(value, 0.0) : vec2(0.0, 1.0);
     // a margin, since rasterisers round places to 1/256 of a sample
-    vec2 half_side = sqrt(left) * slice_support / slice_side + 1.0 / 64.0;
+    vec2 half_side = sqrt(left) * plane_support / plane_side + 1.0 / 64.0;
     vec2 corner = vec2(centre) + half_side * (vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1) * 2.0 - 1.0);
-    gl_Position = vec4(corner / slice_samples * 2.0 - 1.0, 0.0, 1.0);
+    gl_Position = vec4(corner / plane_samples * 2.0 - 1.0, 0.0, 1.0);
 }

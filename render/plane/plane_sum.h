@@ -3,26 +3,26 @@
    (paper 004, section on slices).
 
    Needs a current OpenGL 4.5 core context. */
-#ifndef SLOSH_SLICE_SUM_H
-#define SLOSH_SLICE_SUM_H
+#ifndef SLOSH_PLANE_SUM_H
+#define SLOSH_PLANE_SUM_H
 
 #include "render/particles/particle_bind.h"
-#include "render/slice/slice_plane.h"
+#include "render/plane/plane.h"
 #include "sim/base/error.h"
 #include "sim/gl/particle_buffers.h"
 
 /* What is summed, and where. */
-typedef struct SliceJob {
-    SlicePlane plane;
+typedef struct PlaneJob {
+    Plane plane;
     int samples[2]; /* along and up; each at the centre of its part of the rectangle */
-    int kernel;     /* of slice_kernels, at least 1 */
+    int kernel;     /* of plane_kernels, at least 1 */
     int dimensions; /* 2: particles have areas, and kernels are the plane's */
     double support; /* radius h of the kernel, m */
     Scalar scalar;
-} SliceJob;
+} PlaneJob;
 
 /* Zero-initialise it. */
-typedef struct SliceSum {
+typedef struct PlaneSum {
     unsigned program, uniforms, framebuffer;
     unsigned
         sums; /* texture, RGBA32F: of V W s, of V W, the latter of particles whose scalar is no number, and
@@ -30,21 +30,21 @@ typedef struct SliceSum {
     int kernel, dimensions; /* that the program is for */
     int samples[2];         /* of the texture */
     QuadIndices quads;
-} SliceSum;
+} PlaneSum;
 
-/* False when a shader does not compile or the driver has no such texture; slice_sum_destroy is needed in
+/* False when a shader does not compile or the driver has no such texture; plane_sum_destroy is needed in
    either case. The texture is this one's, up to the next run. The scalar must be among the attributes. */
-bool slice_sum_run(SliceSum *sum, const SliceJob *job, const ParticleBuffers *particles, Error *error);
-void slice_sum_destroy(SliceSum *sum);
+bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles, Error *error);
+void plane_sum_destroy(PlaneSum *sum);
 
 /* The sums of the last run, 4 floats a sample, rows from the bottom up; waits for them. */
-void slice_sum_read(const SliceSum *sum, float *out);
+void plane_sum_read(const PlaneSum *sum, float *out);
 
 /* Whether no particle reaches a sample. */
-bool slice_empty(const float sums[4]);
+bool plane_empty(const float sums[4]);
 
 /* What a sample that is not empty shows: NaN where most of its fluid has a scalar that is no number. Raw: the
    sum of V W s; else that over the sum of V W (Shepard 1968). */
-double slice_value(const float sums[4], bool raw);
+double plane_value(const float sums[4], bool raw);
 
 #endif

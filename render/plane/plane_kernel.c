@@ -1,4 +1,4 @@
-#include "render/slice/slice_kernel.h"
+#include "render/plane/plane_kernel.h"
 
 #include "sim/world/method.h"
 
@@ -39,8 +39,8 @@ static double cusp(double q)
     return (1 - q) * (1 - q);
 }
 
-/* Their order is that of shaders/slice/slice_kernel.glsl. The test integrates each to 1. */
-const SliceKernel slice_kernels[] = {
+/* Their order is that of shaders/common/plane_kernel.glsl. The test integrates each to 1. */
+const PlaneKernel plane_kernels[] = {
     {.name = "solver", .help = "the method's own"},
     {"cubic", "cubic spline: Monaghan and Lattanzio 1985", cubic, {40 / (7 * M_PI), 8 / M_PI}},
     {"wendland_c2", "Wendland 1995", wendland_c2, {7 / M_PI, 21 / (2 * M_PI)}},
@@ -51,24 +51,24 @@ const SliceKernel slice_kernels[] = {
     {0},
 };
 
-int slice_kernel_named(const char *name)
+int plane_kernel_named(const char *name)
 {
-    for (int k = 1; slice_kernels[k].name; k++)
-        if (strcmp(slice_kernels[k].name, name) == 0)
+    for (int k = 1; plane_kernels[k].name; k++)
+        if (strcmp(plane_kernels[k].name, name) == 0)
             return k;
     return 1;
 }
 
-int slice_kernel_of(int asked, const WorldDef *world)
+int plane_kernel_of(int asked, const WorldDef *world)
 {
     if (asked > 0)
         return asked;
     const Kernel *own = method_find(world->method) ? method_kernels(world).density : NULL;
-    return own ? slice_kernel_named(own->name) : 1;
+    return own ? plane_kernel_named(own->name) : 1;
 }
 
-double slice_kernel_value(int kernel, int dimensions, double r, double h)
+double plane_kernel_value(int kernel, int dimensions, double r, double h)
 {
-    const SliceKernel *row = &slice_kernels[kernel];
+    const PlaneKernel *row = &plane_kernels[kernel];
     return r < h ? row->norm[dimensions - 2] * row->shape(r / h) / pow(h, dimensions) : 0;
 }

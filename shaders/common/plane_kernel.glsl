@@ -1,5 +1,5 @@
-// The kernel's shape over q = r / h below 1, as in render/slice/slice_kernel.c; KERNEL is its number there.
-float slice_shape(float q)
+// The kernel's shape over q = r / h below 1, as in render/plane/plane_kernel.c; KERNEL is its number there.
+float plane_shape(float q)
 {
     float t = 1.0 - q;
 #if KERNEL == 1

@@ -1,6 +1,6 @@
 // What one particle adds to one sample, by the true distance in space.
-#include "shaders/slice/slice_block.h"
-#include "slice/slice_kernel.glsl"
+#include "shaders/shared/plane_block.h"
+#include "common/plane_kernel.glsl"
 
 layout(location = 0) flat in ivec2 cell;
 layout(location = 1) flat in vec4 disc;
@@ -9,10 +9,10 @@ layout(location = 0) out vec4 sums;
 
 void main()
 {
-    vec2 samples = vec2(ivec2(gl_FragCoord.xy) - cell) + (0.5 - disc.xy), off = samples * (slice_side / slice_support);
+    vec2 samples = vec2(ivec2(gl_FragCoord.xy) - cell) + (0.5 - disc.xy), off = samples * (plane_side / plane_support);
     float square = dot(off, off) + disc.z;
     if (square >= 1.0)
         discard;
-    float weight = disc.w * slice_shape(sqrt(square));
+    float weight = disc.w * plane_shape(sqrt(square));
     sums = vec4(weight * scalar.x, weight * (1.0 - scalar.y), weight * scalar.y, 0.0);
 }

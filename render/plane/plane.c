@@ -1,4 +1,4 @@
-#include "render/slice/slice_plane.h"
+#include "render/plane/plane.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,7 @@ static void scale_to_one(double v[3])
         v[k] /= length;
 }
 
-static void make_axes(const double normal[3], SlicePlane *plane)
+static void make_axes(const double normal[3], Plane *plane)
 {
     double *n = plane->normal, *up = plane->up, *along = plane->along;
     memcpy(n, normal, sizeof plane->normal);
@@ -34,7 +34,7 @@ typedef struct Extent {
     double low[2], high[2]; /* from the point, m */
 } Extent;
 
-static void add_point(const SlicePlane *plane, const double from_point[3], Extent *extent)
+static void add_point(const Plane *plane, const double from_point[3], Extent *extent)
 {
     const double at[2] = {dot(from_point, plane->along), dot(from_point, plane->up)};
     for (int k = 0; k < 2; k++) {
@@ -52,7 +52,7 @@ static void box_corner(const double size[3], const double point[3], int number, 
 }
 
 /* Where the plane cuts the edge between two corners. */
-static void add_edge(const SlicePlane *plane, const double a[3], const double b[3], Extent *extent)
+static void add_edge(const Plane *plane, const double a[3], const double b[3], Extent *extent)
 {
     const double above = dot(a, plane->normal), below = dot(b, plane->normal);
     if (above * below > 0)
@@ -69,8 +69,7 @@ static void add_edge(const SlicePlane *plane, const double a[3], const double b[
     add_point(plane, cut, extent);
 }
 
-bool slice_plane_make(const double box_size[3], const double point[3], const double normal[3],
-                      SlicePlane *plane)
+bool plane_make(const double box_size[3], const double point[3], const double normal[3], Plane *plane)
 {
     Extent extent = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     make_axes(normal, plane);
@@ -91,7 +90,7 @@ bool slice_plane_make(const double box_size[3], const double point[3], const dou
     return cuts;
 }
 
-void slice_plane_sample(const SlicePlane *plane, const int samples[2], int column, int row, double at[3])
+void plane_sample(const Plane *plane, const int samples[2], int column, int row, double at[3])
 {
     const double x = plane->size[0] * (column + 0.5) / samples[0],
                  y = plane->size[1] * (row + 0.5) / samples[1];
