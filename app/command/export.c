@@ -2,9 +2,9 @@
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
 #include "app/command/cmd.h"
+#include "app/command/export_parts.h"
 #include "sim/base/stage.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static int fail(int code, const Error *error)
@@ -17,23 +17,6 @@ static int fail_run(const Args *args, const Error *error)
 {
     failure_json_write(failure_json("export", "input", args->scenes[0], args->output, error), args->json);
     return fail(EXIT_FAILED, error);
-}
-
-/* The last snapshot, or the first at or after --time, give or take what rounding does to a time. */
-static bool choose(const Args *args, SnapshotReader *reader, size_t *index, Error *error)
-{
-    const size_t last = snapshot_count_steps(reader) - 1;
-    const double least = args->time - 1e-9 * fmax(args->time, 1);
-    double time = -INFINITY;
-    *index = args->time_given ? 0 : last;
-    if (!args->time_given)
-        return true;
-    for (; *index <= last; ++*index)
-        if (!snapshot_read_time(reader, *index, &time, error))
-            return false;
-        else if (time >= least)
-            return true;
-    return error_set(error, "%s: ends at %.9g s, before --time %.9g", args->scenes[0], time, args->time);
 }
 
 static json_t *surface_json(const Export *export)
@@ -124,26 +107,10 @@ static bool understand_surface(Export *export, SurfaceDef *surface, const Args *
            surface_check(surface, &export->scene, error);
 }
 
-static void tell_gap(const SnapshotReader *reader, const char *path)
-{
-    char words[256];
-    if (snapshot_gap(reader, words) && snapshot_count_steps(reader) > 0)
-        fprintf(stderr, "%s: warning: %s; only the %zu before it can be exported\n", path, words,
-                snapshot_count_steps(reader));
-}
-
-static bool no_snapshot(const SnapshotReader *reader, const char *path, Error *error)
-{
-    char words[256];
-    if (snapshot_gap(reader, words))
-        return error_set(error, "%s: %s; give the steps names from Step#0 on", path, words);
-    return error_set(error, "%s: has no whole snapshot; make some with slosh run", path);
-}
-
 /* What is to be done, before anything is: false is a mistake of the command line or of the input. */
 static bool understand(Export *export, SurfaceDef *surface, size_t *index, const Args *args, Error *error)
 {
-    if (!export_kind(args->output, &export->kind, error))
+    if (!export_needs_slice(args, error) || !export_kind(args->output, &export->kind, error))
         return false;
     if (export_is_series(export->kind) && args->time_given)
         return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vtp or a FILE.ply",
@@ -151,14 +118,11 @@ static bool understand(Export *export, SurfaceDef *surface, size_t *index, const
     if (args->color_by != COLOR_CHOICE_AUTO && (export->kind == EXPORT_PVD || export->kind == EXPORT_VTP))
         return error_set(error,
                          "--color-by is of a .ply; a .vtp has every scalar, and ParaView colours by any");
-    export->reader = snapshot_open(args->scenes[0], error);
-    if (!export->reader)
+    if (!export_open(args, &export->reader, error))
         return false;
-    tell_gap(export->reader, args->scenes[0]);
-    if (snapshot_count_steps(export->reader) == 0)
-        return no_snapshot(export->reader, args->scenes[0], error);
     export->flaws = snapshot_flaws(export->reader, args->surface);
-    return understand_surface(export, surface, args, error) && choose(args, export->reader, index, error);
+    return understand_surface(export, surface, args, error) &&
+           export_choose(args, export->reader, index, error);
 }
 
 int cmd_export(const Args *args)
@@ -168,6 +132,8 @@ int cmd_export(const Args *args)
     Error error = {{0}};
     size_t index = 0;
     interrupt_install();
+    if (args->slice)
+        return export_slice(args);
     const int code = understand(&export, &surface, &index, args, &error) ? run(&export, index, args, &error)
                                                                          : fail(EXIT_USAGE, &error);
     snapshot_reader_close(export.reader);

@@ -137,6 +137,9 @@ typedef struct SnapshotScene {
 /* False with what is missing or cannot be: afterwards lengths and densities are more than 0. */
 bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error);
 
+/* The name of the kernel that its method sums with, as its settings say; false where they do not. */
+bool snapshot_kernel(const SnapshotReader *reader, char name[NAME_SIZE]);
+
 /* The volume of particle i, 1 / number density, m3: what the views have of it (ParticleArrays.position). At
    most 20 spacings^3; not finite where the density is not or the fluid is unknown. */
 double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, size_t i);

@@ -167,6 +167,34 @@ static double read_stiffness_scale(const SnapshotReader *reader, const SnapshotS
     return lattice.stiffness_scale;
 }
 
+/* Puts the file's choices into the method's own settings. */
+static void choose_as_said(const char *settings, const Method *method, WorldDef *def)
+{
+    for (const Key *key = method->keys; key && key->path; key++) {
+        char line[NAME_SIZE + 64], word[NAME_SIZE];
+        snprintf(line, sizeof line, "\n%.64s = ", key->path);
+        if (key->type == KEY_CHOICE && !(key->flags & KEY_INDEX) && setting_word(settings, line, word))
+            memcpy((char *)method_def(def, method) + key->offset, word, NAME_SIZE);
+    }
+}
+
+bool snapshot_kernel(const SnapshotReader *reader, char name[NAME_SIZE])
+{
+    char own[NAME_SIZE] = "", *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
+    const Method *method = setting_word(settings, "\nsolver.method = ", own) ? method_find(own) : NULL;
+    WorldDef def = world_def_default();
+    const Kernel *kernel = NULL;
+    if (method) {
+        memcpy(def.method, own, sizeof own);
+        choose_as_said(settings, method, &def);
+        kernel = method_kernels(&def).density;
+    }
+    if (kernel)
+        snprintf(name, NAME_SIZE, "%s", kernel->name);
+    free(settings);
+    return kernel != NULL;
+}
+
 /* Numbers of a damaged file: other code takes them as they are. NaN is none of these. */
 static bool check_scene(const SnapshotReader *reader, const SnapshotScene *scene, Error *error)
 {

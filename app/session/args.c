@@ -89,6 +89,7 @@ static bool parse_size(const Parser *parser, const OptionRow *option, const char
                     option->max, text);
     size[0] = (int)width;
     size[1] = (int)height;
+    parser->args->size_given = true;
     return true;
 }
 

@@ -72,20 +72,24 @@ typedef struct Args {
     const char *probes;  /* run: FILE, or NULL */
     const char *shaders; /* DIR, or NULL: those in the program */
     bool time_given;
-    double time;       /* s, at least 0; default 5 */
-    bool interpolate;  /* render: pictures between two states of a fixed step */
-    bool resume;       /* run: go on behind the last snapshot of the output */
-    double every;      /* s, more than 0; default 1/30 */
-    double fps;        /* more than 0; default 30 */
-    int frames;        /* at least 1; 0: not given */
+    double time;      /* s, at least 0; default 5 */
+    bool interpolate; /* render: pictures between two states of a fixed step */
+    bool resume;      /* run: go on behind the last snapshot of the output */
+    double every;     /* s, more than 0; default 1/30 */
+    double fps;       /* more than 0; default 30 */
+    int frames;       /* at least 1; 0: not given */
+    bool size_given;
     int width, height; /* pixels, 1 to 16384; default 1280 x 720, of bench 512 x 512 */
     int gpu;           /* number of the EGL device; -1: not given */
     ClockChoice clock;
-    SnapshotFrame frame;       /* export: that positions and velocities are in */
-    bool surface;              /* export: the fluid's surface instead of the particles */
-    double level, cell;        /* of it; 0: not given */
-    ColorChoice color_by;      /* export: of a .ply */
-    double error, frame_ms;    /* fit: percent, ms; 0: not given */
+    SnapshotFrame frame;    /* export: that positions and velocities are in */
+    bool surface;           /* export: the fluid's surface instead of the particles */
+    double level, cell;     /* of it; 0: not given */
+    ColorChoice color_by;   /* export: of a .ply */
+    double error, frame_ms; /* fit: percent, ms; 0: not given */
+    const char *slice; /* export: "{point: ..., normal: ...}"; NULL: no slice, and none of the next three */
+    const char *scalar, *kernel; /* NULL: not given */
+    bool raw;
     bool full, coarse;         /* validate: finer or coarser than its default set */
     const char *table;         /* bench: NAME, or NULL */
     bool play;                 /* bench: the live window */

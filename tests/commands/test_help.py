@@ -23,7 +23,9 @@ VALUES = {
     '--seconds': '1', '--coarse': None, '--error': '90', '--frame-ms': '33', '--full': None, '--interpolate': None, '--help': None}
 
 # What does not go with the rest, or needs a display: by command.
-APART = {'bench': {'--play', '--micro', '--ablate', '--seconds', '--table', '-o'}, 'devices': {'--mapping', '--write-mapping', '--record'}}
+APART = {'bench': {'--play', '--micro', '--ablate', '--seconds', '--table', '-o'},
+         'export': {'--slice', '--scalar', '--kernel', '--raw', '--size'},  # tests/commands/test_slice.py
+         'devices': {'--mapping', '--write-mapping', '--record'}}
 
 
 class Help(CommandTest):

@@ -54,7 +54,7 @@ APP = {
     "hand": "base scene",
     "device": "base yaml scene recording hand",
     "held": "base scene hand device",
-    "output": "base scene",
+    "output": "base yaml scene",
     "session": "base metric probe outcome scene recording hand held output",
     "case": "base metric probe scene",
     "lab": "base metric probe outcome scene held session case",

@@ -1,0 +1,21 @@
+/* What all kinds of `slosh export` share, and that of slices. */
+#ifndef SLOSH_EXPORT_PARTS_H
+#define SLOSH_EXPORT_PARTS_H
+
+#include "app/output/snapshot.h"
+#include "app/session/args.h"
+
+/* The snapshots of the command line, at least one; a gap behind them is told. False with the reason; *reader
+   is to be closed in either case. */
+bool export_open(const Args *args, SnapshotReader **reader, Error *error);
+
+/* The last snapshot, or the first at or after --time. */
+bool export_choose(const Args *args, SnapshotReader *reader, size_t *index, Error *error);
+
+/* False where an option or the output's name is of a slice, and --slice is not there. */
+bool export_needs_slice(const Args *args, Error *error);
+
+/* With --slice; returns the exit code. */
+int export_slice(const Args *args);
+
+#endif

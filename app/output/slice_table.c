@@ -1,0 +1,234 @@
+#include "app/output/slice_table.h"
+
+#include "app/scene/value.h"
+#include "app/yaml/yaml.h"
+#include "render/particles/upload.h"
+#include "render/plane/plane_kernel.h"
+#include "render/plane/plane_sum.h"
+#include "sim/base/key_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- scalars ---- */
+
+static double velocity(const SnapshotStep *step, size_t i, int axis)
+{
+    return step->velocity[axis][i];
+}
+
+static double velocity_x(const SnapshotStep *step, size_t i)
+{
+    return velocity(step, i, 0);
+}
+
+static double velocity_y(const SnapshotStep *step, size_t i)
+{
+    return velocity(step, i, 1);
+}
+
+static double velocity_z(const SnapshotStep *step, size_t i)
+{
+    return velocity(step, i, 2);
+}
+
+static double speed(const SnapshotStep *step, size_t i)
+{
+    return hypot(hypot(velocity(step, i, 0), velocity(step, i, 1)), velocity(step, i, 2));
+}
+
+static double density(const SnapshotStep *step, size_t i)
+{
+    return step->density[i];
+}
+
+static double pressure(const SnapshotStep *step, size_t i)
+{
+    return step->pressure[i];
+}
+
+static double compression(const SnapshotStep *step, size_t i)
+{
+    return step->compression[i];
+}
+
+static double fluid(const SnapshotStep *step, size_t i)
+{
+    return step->fluid[i];
+}
+
+const SliceScalar slice_scalars[] = {
+    {"speed", "m/s", speed},
+    {"velocity_x", "m/s", velocity_x},
+    {"velocity_y", "m/s", velocity_y},
+    {"velocity_z", "m/s", velocity_z},
+    {"density", "kg/m3", density},
+    {"pressure", "Pa", pressure},
+    {"compression", "", compression},
+    {"fluid", "", fluid},
+    {0},
+};
+
+/* ---- what is wanted ---- */
+
+/* clang-format off */
+static const Key keys[] = {
+    VEC3("point", 0, "m", -1e6, 1e6, offsetof(SliceWanted, point), ""),
+    VEC3("normal", 0, "", -1e6, 1e6, offsetof(SliceWanted, normal), ""),
+    KEYS_END,
+};
+/* clang-format on */
+
+static bool read_key(SliceWanted *wanted, const Tree *tree, const Node *node, Error *error)
+{
+    for (const Key *key = keys; key->path; key++)
+        if (strcmp(key->path, node->key) == 0)
+            return value_read(tree, key, node, key->path, (char *)wanted, error);
+    return tree_error_key(tree, node, error, "unknown key \"%.60s\"; point and normal are known", node->key);
+}
+
+static bool read_keys(SliceWanted *wanted, const Tree *tree, const Node *root, Error *error)
+{
+    if (!root || root->kind != NODE_MAPPING)
+        return error_set(error, "--slice must be {point: [x, y, z], normal: [x, y, z]}");
+    for (const Node *node = root->first; node; node = node->next)
+        if (!read_key(wanted, tree, node, error))
+            return false;
+    const double *normal = wanted->normal;
+    return normal[0] != 0 || normal[1] != 0 || normal[2] != 0 ||
+           error_set(error, "--slice: a normal of length 0 is across no plane; [0, 0, 1] looks along z");
+}
+
+bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error)
+{
+    Tree tree = {.path = "--slice"};
+    Node *root = NULL;
+    const bool read = yaml_read(&tree, "--slice", text, strlen(text), &root, error) &&
+                      read_keys(wanted, &tree, root, error);
+    tree_free(&tree);
+    return read;
+}
+
+/* ---- sums ---- */
+
+/* The particles as a view sees them. */
+typedef struct Arrays {
+    float *position, *scalar;
+} Arrays;
+
+static bool fill_arrays(Arrays *arrays, const SliceScalar *scalar, const SnapshotScene *scene,
+                        const SnapshotStep *step)
+{
+    const double cell = pow(scene->spacing, scene->dimensions);
+    arrays->position = malloc((step->count + 1) * sizeof(float[4]));
+    arrays->scalar = malloc((step->count + 1) * sizeof(float));
+    if (!arrays->position || !arrays->scalar)
+        return false;
+    for (size_t i = 0; i < step->count; i++) {
+        const int of = step->fluid[i];
+        const bool known = of >= 0 && (size_t)of < scene->fluid_count;
+        for (int k = 0; k < 3; k++)
+            arrays->position[4 * i + (size_t)k] = step->position[k][i];
+        arrays->position[4 * i + 3] = known ? (float)(scene->density[of] * cell / step->density[i]) : 0;
+        arrays->scalar[i] = (float)scalar->of(step, i);
+    }
+    return true;
+}
+
+static ParticleBuffers state_of(const SnapshotScene *scene, const SnapshotStep *step)
+{
+    ParticleBuffers state = {.count = step->count,
+                             .spacing = scene->spacing,
+                             .support_radius = scene->support_radius,
+                             .box = step->box,
+                             .time = step->time};
+    memcpy(state.box_size, scene->box_size, sizeof state.box_size);
+    return state;
+}
+
+static bool sum_up(const PlaneJob *job, const Arrays *arrays, const ParticleBuffers *state, float *sums,
+                   Error *error)
+{
+    ParticleArrays particles = {.position = arrays->position};
+    particles.scalar[job->scalar] = arrays->scalar;
+    ParticleBuffers buffers;
+    PlaneSum sum = {0};
+    Upload *upload = upload_create(state->count > 0 ? state->count : 1, PARTICLE_SCALAR(job->scalar), error);
+    const bool made = upload && upload_arrays(upload, &particles, state, error) &&
+                      upload_take(upload, &buffers) && plane_sum_run(&sum, job, &buffers, error);
+    if (made)
+        plane_sum_read(&sum, sums);
+    plane_sum_destroy(&sum);
+    upload_destroy(upload);
+    return made;
+}
+
+static bool allocate(SliceTable *table, float **sums, Error *error)
+{
+    const size_t count = (size_t)table->wanted.samples[0] * (size_t)table->wanted.samples[1];
+    *sums = malloc(count * sizeof(float[4]));
+    table->value = malloc(count * sizeof(float));
+    table->field = malloc(count * sizeof(float));
+    return (*sums && table->value && table->field) ||
+           error_set(error, "out of memory for a slice of %d x %d samples", table->wanted.samples[0],
+                     table->wanted.samples[1]);
+}
+
+static void fill_table(SliceTable *table, const float *sums)
+{
+    const size_t count = (size_t)table->wanted.samples[0] * (size_t)table->wanted.samples[1];
+    for (size_t i = 0; i < count; i++) {
+        const bool empty = plane_empty(&sums[4 * i]);
+        table->empty += empty;
+        table->value[i] = empty ? NAN : (float)plane_value(&sums[4 * i], table->wanted.raw);
+        table->field[i] = sums[4 * i + 1] + sums[4 * i + 2];
+    }
+}
+
+static bool make(SliceTable *table, const SnapshotScene *scene, const SnapshotStep *step, Error *error)
+{
+    const SliceWanted *wanted = &table->wanted;
+    const PlaneJob job = {.plane = table->plane,
+                          .samples = {wanted->samples[0], wanted->samples[1]},
+                          .kernel = wanted->kernel,
+                          .dimensions = scene->dimensions,
+                          .support = scene->support_radius,
+                          .scalar = SCALAR_SPEED}; /* the place of whichever scalar is wanted */
+    const ParticleBuffers state = state_of(scene, step);
+    Arrays arrays = {0};
+    float *sums = NULL;
+    const bool made = allocate(table, &sums, error) &&
+                      (fill_arrays(&arrays, &slice_scalars[wanted->scalar], scene, step) ||
+                       error_set(error, "out of memory for the particles")) &&
+                      sum_up(&job, &arrays, &state, sums, error);
+    if (made)
+        fill_table(table, sums);
+    free(arrays.position);
+    free(arrays.scalar);
+    free(sums);
+    return made;
+}
+
+bool slice_table_make(const SliceWanted *wanted, const SnapshotScene *scene, const SnapshotStep *step,
+                      SliceTable *table, Error *error)
+{
+    *table = (SliceTable){.wanted = *wanted, .time = step->time};
+    if (!plane_make(scene->box_size, wanted->point, wanted->normal, &table->plane))
+        return error_set(error,
+                         "--slice: the plane misses the box, which is x %.4g .. %.4g, y 0 .. %.4g, z %.4g .. "
+                         "%.4g m",
+                         -scene->box_size[0] / 2, scene->box_size[0] / 2, scene->box_size[1],
+                         -scene->box_size[2] / 2, scene->box_size[2] / 2);
+    if (make(table, scene, step, error))
+        return true;
+    slice_table_free(table);
+    return false;
+}
+
+void slice_table_free(SliceTable *table)
+{
+    free(table->value);
+    free(table->field);
+    *table = (SliceTable){0};
+}

@@ -1,0 +1,159 @@
+"""slosh export --slice: the numbers are those of sums over all particles in double precision, and ParaView finds them where
+they belong."""
+import csv
+import json
+import shutil
+import subprocess
+
+import h5py
+import numpy
+
+import command
+from command import CommandTest, limit_files
+
+TILTED = '{point: [0, 0.3, 0.05], normal: [0.2, -0.1, 1]}'
+WILD = ('--set', 'solver.method=wcsph', '--time', '0.3')
+
+# Runs in ParaView's Python, apart from h5py.
+READ = """
+import json, sys
+from paraview.simple import OpenDataFile
+from paraview import servermanager
+from vtk.util.numpy_support import vtk_to_numpy
+reader = OpenDataFile(sys.argv[1])
+reader.UpdatePipeline()
+data = servermanager.Fetch(reader)
+arrays = data.GetPointData()
+json.dump({'points': [data.GetPoint(k) for k in range(data.GetNumberOfPoints())],
+           'time': data.GetFieldData().GetArray('TimeValue').GetValue(0),
+           **{arrays.GetArrayName(k): vtk_to_numpy(arrays.GetArray(k)).tolist()
+              for k in range(arrays.GetNumberOfArrays())}}, open(sys.argv[2], 'w'))
+"""
+
+
+def cubic(q):
+    return 8 / numpy.pi * numpy.where(q < 0.5, 1 - 6 * q * q * (1 - q), numpy.where(q < 1, 2 * (1 - q) ** 3, 0))
+
+
+def cusp(q):
+    return 15 / (2 * numpy.pi) * numpy.where(q < 1, (1 - q) ** 2, 0)
+
+
+class Slice(CommandTest):
+    def run_scene(self, *options):
+        code, said = self.slosh('run', 'scene.yaml', '-o', 'a.h5part', '--every', '0.1', '--quiet', *options)
+        self.assertEqual(code, 0, said)
+
+    def export(self, out, plane, *options):
+        code, said = self.slosh('export', 'a.h5part', '-o', out, '--slice', plane, *options)
+        self.assertEqual(code, 0, said)
+        return said
+
+    def rows(self, name):
+        """(places, values) with NaN where nothing is."""
+        with open(self.path(name), encoding='utf-8') as file:
+            head, *rows = csv.reader(file)
+        self.assertEqual(head, ['x', 'y', 'z', 'value'])
+        return (numpy.array([row[:3] for row in rows], float),
+                numpy.array([float(row[3]) if row[3] else numpy.nan for row in rows]))
+
+    def sums(self, places, shape, scalar, step='Step#3'):
+        """Sums of V W s and of V W by all particles at each place."""
+        with h5py.File(self.path('a.h5part')) as file:
+            group, h = file[step], file.attrs['support_radius']
+            at = numpy.stack([group[axis][:] for axis in 'xyz'], 1).astype(float)
+            mass = numpy.asarray(file.attrs['fluid_densities'])[group['fluid'][:]] * file.attrs['spacing'] ** 3
+            volume, value = mass / group['density'][:].astype(float), scalar(group)
+        weights = [volume * shape(numpy.linalg.norm(at - place, axis=1) / h) / h ** 3 for place in places]
+        return numpy.array([[(w * value).sum(), w.sum()] for w in weights])
+
+    def compare(self, name, shape, scalar, raw):
+        places, values = self.rows(name)
+        some = slice(None, None, 7)
+        sums = self.sums(places[some], shape, scalar)
+        there = sums[:, 1] > 0
+        numpy.testing.assert_array_equal(there, ~numpy.isnan(values[some]))
+        self.assertGreater(there.sum(), 50)
+        self.assertGreater((~there).sum(), 50)
+        wanted = sums[there, 0] if raw else sums[there, 0] / sums[there, 1]
+        off = numpy.abs(values[some][there] - wanted).max() / numpy.abs(wanted).max()
+        self.assertLess(off, 3e-6)  # measured: 3e-7; the bar is 1e-4
+
+    def test_each_value_is_the_sum_over_all_particles(self):
+        self.run_scene(*WILD)
+        self.export('a.csv', TILTED, '--size', '61x47', '--kernel', 'cubic')
+        self.compare('a.csv', cubic, lambda group: group['pressure'][:].astype(float), False)
+        self.export('b.csv', '{point: [0.1, 0.5, 0], normal: [0.4, 1, 0]}', '--size', '40x40', '--kernel', 'cusp', '--raw',
+                    '--scalar', 'velocity_y')
+        self.compare('b.csv', cusp, lambda group: group['velocity_1'][:].astype(float), True)
+
+    def test_the_plane_is_where_it_was_asked_for(self):
+        self.run_scene(*WILD)
+        self.export('a.csv', TILTED, '--size', '20x10')
+        places, _ = self.rows('a.csv')
+        off = (places - [0, 0.3, 0.05]) @ numpy.array([0.2, -0.1, 1])
+        self.assertLess(numpy.abs(off).max(), 1e-8)
+        self.assertEqual(len(places), 200)
+
+    def test_paraview_finds_the_same_numbers_there(self):
+        if not shutil.which('pvpython'):
+            self.skipTest('pvpython is not there: install python3-paraview')
+        self.run_scene(*WILD)
+        for name in ('a.csv', 'a.vti'):
+            self.export(name, TILTED, '--size', '31x23', '--scalar', 'speed', '--time', '0.2')
+        self.write('read.py', READ)
+        done = subprocess.run(['pvpython', '--no-mpi', 'read.py', 'a.vti', 'read.json'], cwd=self.folder,
+                              capture_output=True, text=True, check=False, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        seen = json.loads(self.read('read.json'))
+        places, values = self.rows('a.csv')
+        numpy.testing.assert_allclose(seen['points'], places, atol=1e-8)
+        numpy.testing.assert_array_equal(numpy.float32(seen['speed']), numpy.float32(values))
+        with h5py.File(self.path('a.h5part')) as file:
+            self.assertEqual(seen['time'], file['Step#2'].attrs['TimeValue'])
+        self.assertTrue(((numpy.array(seen['field']) > 0) == ~numpy.isnan(values)).all())
+
+    def test_json_says_what_was_done(self):
+        self.run_scene('--time', '0.1')
+        self.export('a.vti', '{}', '--json', 'a.json', '--size', '16x8')
+        said = json.loads(self.read('a.json'))['slice']
+        self.assertEqual((said['samples'], said['scalar'], said['raw']), ([16, 8], 'pressure', False))
+        self.assertIn(said['kernel'], ('spiky', 'poly6', 'cubic'))  # the method's own
+
+    def test_a_plane_above_the_fluid_is_empty(self):
+        self.run_scene('--time', '0.1')
+        said = self.export('a.csv', '{point: [0, 0.97, 0], normal: [0, 1, 0]}', '--size', '8x8')
+        self.assertIn('no particle is within a support radius of the plane', said)
+        self.assertTrue(numpy.isnan(self.rows('a.csv')[1]).all())
+
+    def test_what_is_wrong_is_said_and_nothing_is_left(self):
+        self.run_scene('--time', '0.1')
+        plane = ('--slice', '{}')
+        for code, words, options in (
+                (2, 'unknown key "pont"; point and normal are known', ('a.csv', '--slice', '{pont: [0, 0, 0]}')),
+                (2, 'point must be', ('a.csv', '--slice', '{point: [0, 0]}')),
+                (2, 'must be {point:', ('a.csv', '--slice', '[1]')),
+                (2, 'a normal of length 0', ('a.csv', '--slice', '{normal: [0, 0, 0]}')),
+                (2, 'did you mean pressure', ('a.csv', *plane, '--scalar', 'presure')),
+                (2, 'take cubic', ('a.csv', *plane, '--kernel', 'cubical')),
+                (2, 'use .vti or .csv', ('a.ply', *plane)),
+                (2, 'makes no sense with --slice', ('a.csv', *plane, '--surface')),
+                (2, 'add --slice', ('a.csv',)),
+                (2, 'add --slice', ('a.ply', '--raw')),
+                (1, 'the plane misses the box', ('a.csv', '--slice', '{point: [0, 1.5, 0], normal: [0, 1, 0]}'))):
+            done, said = self.slosh('export', 'a.h5part', '-o', *options)
+            self.assertEqual((done, words in said), (code, True), said)
+        self.assertEqual(self.entries(), ['a.h5part'])
+
+    def test_a_full_disk(self):
+        self.run_scene('--time', '0.1')
+        self.write('a.csv', 'older')
+        code, said = self.slosh('export', 'a.h5part', '-o', 'a.csv', '--slice', '{}', before=limit_files(20000))
+        self.assertEqual(code, 1)
+        self.assertIn('a.csv: cannot be written', said)
+        self.assertEqual(self.read('a.csv'), b'older')
+        self.assertEqual(self.entries(), ['a.csv', 'a.h5part'])
+
+
+if __name__ == '__main__':
+    command.main()
