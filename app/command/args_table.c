@@ -40,11 +40,12 @@ const CommandRow command_rows[] = {
     {COMMAND_STABILITY, "stability", "SCENE -o OUT.svg|.png [OPTIONS]",
      "where methods hold and how they fail: the largest step over two keys of a scene", 1, 1,
      "OUT.svg or OUT.png", 0, 0},
-    {COMMAND_FIT, "fit", "SCENE|CASE --error PERCENT|--frame-ms MS [OPTIONS]",
-     "the cheapest settings within an error, or the most accurate in real time", 1, 1, NULL, 0, 0},
+    {COMMAND_FIT, "fit", "SCENE|CASE --error PERCENT [OPTIONS]",
+     "the cheapest settings within an error, or with --frame-ms the most accurate in real time", 1, 1, NULL,
+     0, 0},
     {COMMAND_REPLAY, "replay", "FILE [OPTIONS]",
      "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
-    {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply|.vti|.csv [OPTIONS]",
+    {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply|.csv|.vti ...",
      "writes snapshots in the formats of other programs", 1, 1, "OUT.pvd, OUT.vtp or OUT.ply", 256, 192},
     {COMMAND_DEVICES, "devices", "[--watch] [--record FILE] [OPTIONS]",
      "motion devices: which there are, what they say, and how to open them", 0, 0, NULL, 0, 0},
@@ -180,7 +181,7 @@ static void help_program(FILE *file)
 {
     fprintf(file, "slosh: a fluid of particles, simulated, shown and measured\n\n");
     for (const CommandRow *row = command_rows; row->name; row++)
-        fprintf(file, "  slosh %-9s %-42s %s\n", row->name, row->usage, row->help);
+        fprintf(file, "  slosh %-9s %-44s %s\n", row->name, row->usage, row->help);
     fprintf(file, "  slosh %-52s %s\n", "--version", "says which slosh this is");
     fprintf(file, "\n");
     for (const HelpTopic *topic = help_topics; topic->name; topic++)
