@@ -182,7 +182,7 @@ static void help_program(FILE *file)
     fprintf(file, "slosh: a fluid of particles, simulated, shown and measured\n\n");
     for (const CommandRow *row = command_rows; row->name; row++)
         fprintf(file, "  slosh %-9s %-44s %s\n", row->name, row->usage, row->help);
-    fprintf(file, "  slosh %-52s %s\n", "--version", "says which slosh this is");
+    fprintf(file, "  slosh %-54s %s\n", "--version", "says which slosh this is");
     fprintf(file, "\n");
     for (const HelpTopic *topic = help_topics; topic->name; topic++)
         fprintf(file, "`slosh help %s`: %s.\n", topic->name, topic->help);
