@@ -1,5 +1,7 @@
 #include "sim/cpu/pass.h"
 
+#include "sim/box/wall_cushion.h"
+
 #include <string.h>
 
 PAIR_LOOPS(lists);
@@ -91,5 +93,23 @@ void cpu_force_end(const CpuRange *range)
         p->ax[i] *= inverse_mass;
         p->ay[i] *= inverse_mass;
         p->az[i] *= inverse_mass;
+    }
+}
+
+void cpu_cushion(const CpuRange *range)
+{
+    const Walls *walls = &range->cpu->constants->walls;
+    const CpuParticles *p = &range->cpu->now;
+    const WallsFar far = walls_far(walls, CUSHION_REACH * walls->spacing);
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float x[3] = {p->x[i], p->y[i], p->z[i]};
+        if (!walls_near(&far, x))
+            continue;
+        float g[3], a[3] = {p->ax[i], p->ay[i], p->az[i]};
+        apparent_gravity_at(range->input->apparent, x, g);
+        walls_cushion(walls, range->input->dt, g, x, a);
+        p->ax[i] = a[0];
+        p->ay[i] = a[1];
+        p->az[i] = a[2];
     }
 }

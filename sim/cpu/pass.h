@@ -67,4 +67,7 @@ static inline float cpu_pair_viscosity(const SolidPair *pair)
 /* Forces as sums over pairs and walls become accelerations, surface tension among them. */
 void cpu_force_end(const CpuRange *range);
 
+/* sim/box/wall_cushion.h, behind cpu_force_end. */
+void cpu_cushion(const CpuRange *range);
+
 #endif

@@ -49,6 +49,7 @@ static void force_body(const CpuRange *range)
     const WallsFar far = walls_far(&s->walls, s->support_radius);
     cpu_pairs(range, &mueller_force);
     cpu_force_end(range);
+    cpu_cushion(range);
     for (size_t i = range->begin; i < range->end; i++) {
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
         if (walls_near(&far, x))

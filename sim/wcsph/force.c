@@ -73,6 +73,7 @@ static void force_body(const CpuRange *range)
             keep_notches(range->cpu, &far, i);
     }
     cpu_force_end(range);
+    cpu_cushion(range);
 }
 
 /* Of a neighbour {x, p V^2}; with friction {v, V}, and what of it differs from fluid to fluid. */

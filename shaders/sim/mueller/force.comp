@@ -62,6 +62,9 @@ vec3 images_force(uint i, vec3 x, ivec3 at)
     return force;
 }
 
+#include "sim/wall_cushion.glsl"
+layout(location = PASS_DT_AT) uniform float dt;
+
 void main()
 {
     uint i = invocation();
@@ -71,6 +74,7 @@ void main()
     ivec3 at = cell_of(x);
     Fluid fluid = fluids[FLUID_OF(i)];
     vec3 force = neighbours_force(i, x, at) + images_force(i, x, at);
-    acceleration[i] = vec4(force / fluid.mass + lift_at(x, felt_at(x), fluid.density, pressure[i].x), 0.0);
+    vec3 g = felt_at(x), held = lift_at(x, g, fluid.density, pressure[i].x) + cushion_at(x, g, dt);
+    acceleration[i] = vec4(force / fluid.mass + held, 0.0);
 }
 #endif

@@ -2,9 +2,11 @@
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
 #include "sim/wall_lift.glsl"
+#include "sim/wall_cushion.glsl"
 #include "sim/pair_direction.glsl"
 uniform sampler2D fields, near, moving; // of density.frag
 uniform vec3 felt_origin, felt_alpha, felt_omega; // apparent gravity
+uniform float dt;
 layout(location = 0) out vec4 acceleration;
 
 int self;
@@ -72,5 +74,6 @@ void main()
 #endif
     meet_neighbours(self, here);
     vec3 g = felt_origin - cross(felt_alpha, here) - cross(felt_omega, cross(felt_omega, here));
-    acceleration = vec4(force / fluid.mass + lift_at(here, g, fluid.density, known.y), 0.0);
+    vec3 held = lift_at(here, g, fluid.density, known.y) + cushion_at(here, g, dt);
+    acceleration = vec4(force / fluid.mass + held, 0.0);
 }

@@ -217,6 +217,9 @@ vec3 images_force(vec3 x, ivec3 at, float density)
 #ifdef FELT_SOLIDS
 #include "sim/felt_solids.glsl"
 #else
+#include "sim/wall_cushion.glsl"
+layout(location = PASS_DT_AT) uniform float dt;
+
 void main()
 {
     uint i = invocation();
@@ -235,7 +238,7 @@ void main()
 #endif
 #endif
     force += curvature_force(i, x, at);
-    acceleration[i] = vec4(force / fluid.mass, 0.0);
+    acceleration[i] = vec4(force / fluid.mass + cushion_at(x, felt_at(x), dt), 0.0);
     even_write(i);
 }
 #endif

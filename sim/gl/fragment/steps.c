@@ -63,8 +63,9 @@ static void density(Fragment *f)
          f->constants->viscous ? 3 : 2);
 }
 
-static void force(Fragment *f, const ApparentGravity *gravity)
+static void force(Fragment *f, const ApparentGravity *gravity, float dt)
 {
+    fragment_set1(f, FRAGMENT_FORCE, FRAGMENT_dt, dt);
     fragment_set3(f, FRAGMENT_FORCE, FRAGMENT_felt_origin, gravity->origin);
     fragment_set3(f, FRAGMENT_FORCE, FRAGMENT_felt_alpha, gravity->alpha);
     fragment_set3(f, FRAGMENT_FORCE, FRAGMENT_felt_omega, gravity->omega);
@@ -81,7 +82,7 @@ void fragment_pass(void *state, const Pass *pass, const PassInput *input)
     if (pass->stage == STAGE_DENSITY)
         density(state);
     else
-        force(state, input->apparent);
+        force(state, input->apparent, input->dt);
 }
 
 void fragment_kick(void *state, const float gravity[3], float dt)

@@ -1,0 +1,14 @@
+/* How the walls' cushion is made, of which C and shaders read the same: sim/box/wall_cushion.h. */
+#ifndef SLOSH_WALL_CUSHION_PART_H
+#define SLOSH_WALL_CUSHION_PART_H
+
+/* How far it reaches, spacings: the lattice's first layer, and nearly all of a tank's, stand beyond it. */
+#define CUSHION_REACH 0.3f
+
+/* At the wall itself, over the pull into it: what lies on a wall alone rests at 0.24 spacings. */
+#define CUSHION_PUSH 5.0f
+
+/* (omega dt)^2 of its spring, at most: no step is too long for it. */
+#define CUSHION_TURN 0.5f
+
+#endif
