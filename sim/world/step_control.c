@@ -128,14 +128,43 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
         snprintf(words, 200, "use %s", shorter);
 }
 
+static double least_viscosity(const FluidDef *fluid)
+{
+    const TimeTable *table = &fluid->viscosity_table;
+    double least = table->rows > 0 ? INFINITY : fluid->viscosity;
+    for (int row = 0; row < table->rows; row++)
+        least = fmin(least, table->value[row]);
+    return least;
+}
+
+/* The rate at which implicit friction damps what boils, 1/s: of the least viscous fluid, over the heaviest's
+   density. In a column that boils it is 62 to 83 nu / h^2 (docs/failures.md). */
+static double boiling_damped(const WorldDef *def)
+{
+    static const double DAMPED = 40;
+    const double h = def->support * def->spacing;
+    double least = INFINITY, heaviest = 0;
+    for (int f = 0; f < def->fluid_count; f++) {
+        least = fmin(least, least_viscosity(&def->fluids[f]));
+        heaviest = fmax(heaviest, def->fluids[f].density);
+    }
+    return def->viscosity_solver == VISCOSITY_IMPLICIT && def->fluid_count > 0
+               ? DAMPED * least / (heaviest * h * h)
+               : 0;
+}
+
+/* With v' = (v - dt w^2 x) / (1 + dt r), x' = x + dt v', nothing grows up to (dt w)^2 = 4 + 2 r dt; without
+   damping w dt = 2, at `still`. */
 double step_pressure(const WorldDef *def)
 {
     const Method *method = method_find(def->method);
     const double *g = def->gravity, fall = greatest_fall(def),
                  speed = sqrt(sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) * fall);
-    return method->incompressible && !method->leaps
-               ? STEP_PRESSURE_STANDS * def->support * def->spacing / speed
-               : INFINITY;
+    if (!method->incompressible || method->leaps || speed == 0)
+        return INFINITY;
+    const double still = STEP_PRESSURE_STANDS * def->support * def->spacing / speed,
+                 damped = 0.25 * still * boiling_damped(def);
+    return still * (damped + sqrt(damped * damped + 1));
 }
 
 double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,

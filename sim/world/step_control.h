@@ -108,8 +108,8 @@ double step_viscous(const WorldDef *def, const StepFriction *friction);
 
 /* The longest step that the pressure of fluid at rest stands, s, of a method without sound that does not
    leap: multipliers are those of the step's middle, and with p / rho = g times depth behind them places boil
-   from 0.3 h / sqrt(g depth) in 3D on (0.43 in 2D), at any tolerance. Depth is the greatest fall. INFINITY of
-   other methods. */
+   from 0.3 h / sqrt(g depth) in 3D on (0.43 in 2D), at any tolerance; later where implicit friction damps it.
+   Depth is the greatest fall. INFINITY of other methods. */
 double step_pressure(const WorldDef *def);
 #define STEP_PRESSURE_STANDS 0.25
 
