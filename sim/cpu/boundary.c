@@ -145,10 +145,25 @@ typedef struct BoundaryPass {
     const ApparentGravity *gravity;
 } BoundaryPass;
 
+/* The cells around one: boundary particles that follow each other mostly share it. */
+typedef struct Around {
+    uint32_t cell;
+    int count; /* of rows; 0: of no cell yet */
+    CellRow rows[CELL_ROWS];
+} Around;
+
+static void look_around(const PairArgs *args, uint32_t cell, Around *around)
+{
+    if (around->count > 0 && around->cell == cell)
+        return;
+    around->cell = cell;
+    around->count = cell_rows(args->constants, args->cell_start, cell, around->rows);
+}
+
 /* Adami, Hu, Adams, "A generalized wall boundary condition for smoothed particle hydrodynamics", 2012, eq. 27
    and 23: the fluid's pressure goes on hydrostatically, its velocity, where it sticks, through that of the
    wall. A volume of 0 where it slips: then no friction sees the particle. */
-static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
+static void fill_one(const BoundaryPass *pass, const PairArgs *args, Around *around, size_t i)
 {
     Cpu *cpu = pass->cpu;
     const Constants *s = cpu->constants;
@@ -159,11 +174,10 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, size_t i)
     const float x[3] = {p->x[i], p->y[i], p->z[i]}, volume = 1 / s->rest_number_density;
     const bool sticks = s->viscous && s->solids[solid].slip == SLIP_NONE;
     Seen seen = {0};
-    CellRow rows[CELL_ROWS];
-    const int row_count = cell_rows(args->constants, args->cell_start, cpu->cell[i], rows);
-    for (int row = 0; row < row_count; row++) {
-        const float *shift = rows[row].shift, from[3] = {x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]};
-        for (uint32_t k = cpu->owned_before[rows[row].begin]; k < cpu->owned_before[rows[row].end]; k++)
+    look_around(args, cpu->cell[i], around);
+    for (const CellRow *row = around->rows; row < around->rows + around->count; row++) {
+        const float *shift = row->shift, from[3] = {x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]};
+        for (uint32_t k = cpu->owned_before[row->begin]; k < cpu->owned_before[row->end]; k++)
             see(cpu, args, from, cpu->owned_at[k], &seen);
     }
     float pressure = 0, g[3], a[3];
@@ -191,8 +205,9 @@ static void fill_range(void *context, size_t begin, size_t end)
 {
     const BoundaryPass *pass = context;
     const PairArgs args = cpu_pair_args(pass->cpu);
+    Around around = {.count = 0};
     for (size_t k = begin; k < end; k++)
-        fill_one(pass, &args, pass->cpu->boundary_at[k]);
+        fill_one(pass, &args, &around, pass->cpu->boundary_at[k]);
 }
 
 void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity)
@@ -201,13 +216,33 @@ void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity)
     parallel_ranges(cpu->threads, cpu->constants->boundary.count, CPU_GRAIN, fill_range, &pass);
 }
 
+/* Their own velocities, of those whose place is that of their solid. */
+static void restore_range(void *context, size_t begin, size_t end)
+{
+    const Place *place = context;
+    const Cpu *cpu = place->cpu;
+    const CpuParticles *p = &cpu->now;
+    for (size_t k = begin; k < end; k++) {
+        const size_t i = cpu->boundary_at[k];
+        const int solid = p->fluid[i] - FLUIDS_MAX;
+        const float x[3] = {p->x[i], p->y[i], p->z[i]};
+        float v[3];
+        if (!place->which[solid] || x[0] == ASIDE)
+            continue;
+        solid_velocity_at(&cpu->solid[solid].end, x, v);
+        p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
+    }
+}
+
 void cpu_boundary_restore(Cpu *cpu)
 {
     const Constants *s = cpu->constants;
     Place place = {.cpu = cpu};
+    bool any = false;
     for (int k = 0; k < s->solid_count; k++)
-        place.which[k] = s->viscous && s->solids[k].slip == SLIP_NONE;
-    place_solids(&place);
+        any |= place.which[k] = s->viscous && s->solids[k].slip == SLIP_NONE;
+    if (any)
+        parallel_ranges(cpu->threads, s->boundary.count, 4 * CPU_GRAIN, restore_range, &place);
 }
 
 bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3])
