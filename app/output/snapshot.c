@@ -27,7 +27,7 @@ struct Snapshot {
     Output output;
     OutputLock lock, older; /* on the file; on the one that it will replace */
     hid_t file;
-    const Method *method; /* whose own columns are written too */
+    ColumnRows saved; /* columns of its worlds' states */
     size_t steps;
     double time; /* of the last one written */
     bool failed;
@@ -153,7 +153,7 @@ Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error)
     }
     snapshot->time = -1;
     snapshot->file = -1;
-    snapshot->method = method_find(scene->world.method);
+    snapshot->saved = columns_saved(&scene->world);
     if (!begin(snapshot, path, scene, error)) {
         snapshot_close(snapshot);
         snapshot = NULL;
@@ -167,7 +167,7 @@ bool snapshot_note_hand(Snapshot *snapshot, const char *mark, Error *error)
            hdf5_fail(error, snapshot->output.path, "cannot be written");
 }
 
-Snapshot *snapshot_continue(const char *path, const Method *method, size_t steps, OutputLock *lock,
+Snapshot *snapshot_continue(const char *path, const ColumnRows *saved, size_t steps, OutputLock *lock,
                             Error *error)
 {
     Snapshot *snapshot = calloc(1, sizeof *snapshot);
@@ -179,7 +179,7 @@ Snapshot *snapshot_continue(const char *path, const Method *method, size_t steps
     const hid_t access = snapshot_access();
     snapshot->lock = *lock;
     lock->state = OUTPUT_UNLOCKED;
-    snapshot->method = method;
+    snapshot->saved = *saved;
     snapshot->steps = steps;
     snapshot->time = -1;
     snprintf(snapshot->output.path, sizeof snapshot->output.path, "%s", path);
@@ -368,7 +368,7 @@ static bool grow_buffers(Snapshot *snapshot, size_t count, Error *error)
     snapshot->id = malloc(count * sizeof(uint32_t));
     if (!snapshot->position || !snapshot->velocity || !snapshot->fluid || !snapshot->id ||
         !snapshot_step_allocate(&snapshot->buffer, count) ||
-        !snapshot_step_own(&snapshot->buffer, snapshot->method)) {
+        !snapshot_step_own(&snapshot->buffer, &snapshot->saved)) {
         free_buffers(snapshot);
         return error_set(error, "%s: out of memory for %zu particles", snapshot->output.path, count);
     }

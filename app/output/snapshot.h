@@ -47,7 +47,7 @@ typedef struct SnapshotStep {
     float *compression; /* density over that at rest, less 1: a method that carries density goes on from it */
     int32_t *fluid;     /* index into the root's fluid_names */
     int64_t *id;
-    int own_count; /* columns of the method's own that a run goes on from: snapshot_step_own */
+    int own_count; /* columns not every method has that a run goes on from: snapshot_step_own */
     struct {
         char name[32]; /* of the dataset */
         int place;     /* in ParticleColumns.own */
@@ -57,8 +57,8 @@ typedef struct SnapshotStep {
 
 /* Arrays for `count` particles, not initialised; false, and nothing to free, when memory is short. */
 bool snapshot_step_allocate(SnapshotStep *step, size_t count);
-/* The same for the columns that a method adds to the saved state; NULL: none. */
-bool snapshot_step_own(SnapshotStep *step, const Method *method);
+/* The same for what is no method's of a saved state's columns (columns_saved). */
+bool snapshot_step_own(SnapshotStep *step, const ColumnRows *saved);
 void snapshot_step_free(SnapshotStep *step); /* a zeroed one is allowed */
 
 /* ---- writing ---- */
@@ -147,9 +147,9 @@ double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, siz
 /* Reads step `index` into new arrays, that the caller frees. */
 bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
 
-/* Reads into that step what the method adds to the saved state. False, and the step is empty, where the file
-   lacks it. */
-bool snapshot_read_own(SnapshotReader *reader, size_t index, const Method *method, SnapshotStep *step,
+/* Reads into that step the columns of snapshot_step_own. False, and the step is empty, where the file lacks
+   one. */
+bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *saved, SnapshotStep *step,
                        Error *error);
 
 void snapshot_reader_close(SnapshotReader *reader); /* NULL is allowed */

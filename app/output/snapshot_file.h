@@ -52,7 +52,7 @@ hid_t snapshot_access(void);
 
 /* A Snapshot that appends to a file that has so many whole steps, and takes over its lock, which is
    then no longer the caller's. NULL with the reason. */
-Snapshot *snapshot_continue(const char *path, const Method *method, size_t steps, OutputLock *lock,
+Snapshot *snapshot_continue(const char *path, const ColumnRows *saved, size_t steps, OutputLock *lock,
                             Error *error);
 
 /* The text attribute of the root in new memory; NULL when there is none. */

@@ -344,11 +344,11 @@ bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step
                      missing);
 }
 
-bool snapshot_read_own(SnapshotReader *reader, size_t index, const Method *method, SnapshotStep *step,
+bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *saved, SnapshotStep *step,
                        Error *error)
 {
     const char *missing = NULL;
-    if (!snapshot_step_own(step, method)) {
+    if (!snapshot_step_own(step, saved)) {
         snapshot_step_free(step);
         return error_set(error, "%s: out of memory", reader->path);
     }

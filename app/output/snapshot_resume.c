@@ -122,9 +122,9 @@ static bool check_hand(const SnapshotReader *reader, const char *path, const cha
     return same;
 }
 
-static bool state_of(const SnapshotStep *step, const Method *method, WorldState *state)
+static bool state_of(const SnapshotStep *step, const WorldDef *def, WorldState *state)
 {
-    if (!world_state_reserve(state, method, step->count))
+    if (!world_state_reserve(state, def, step->count))
         return false;
     state->numbers = step->restart;
     const ParticleColumns *p = &state->particles;
@@ -143,18 +143,19 @@ static bool state_of(const SnapshotStep *step, const Method *method, WorldState 
     return true;
 }
 
-static bool read_last(SnapshotReader *reader, const char *path, const Method *method, WorldState *state,
+static bool read_last(SnapshotReader *reader, const char *path, const WorldDef *def, WorldState *state,
                       Error *error)
 {
     SnapshotStep step;
+    const ColumnRows saved = columns_saved(def);
     const size_t steps = snapshot_count_steps(reader);
     if (steps == 0)
         return error_set(error, "%s: has no whole step to resume from; remove it to start anew", path);
     if (!snapshot_read_step(reader, steps - 1, &step, error) ||
-        !snapshot_read_own(reader, steps - 1, method, &step, error))
+        !snapshot_read_own(reader, steps - 1, &saved, &step, error))
         return false;
     const bool known = step.restart.version != 0;
-    const bool read = known && state_of(&step, method, state);
+    const bool read = known && state_of(&step, def, state);
     snapshot_step_free(&step);
     return read || error_set(error,
                              known ? "%s: out of memory"
@@ -171,7 +172,7 @@ static size_t read_end(const char *path, const Scene *scene, const char *hand, W
         return 0;
     const bool good = check_steps(reader, path, error) && check_scene(reader, path, scene, error) &&
                       check_hand(reader, path, hand, error) &&
-                      read_last(reader, path, method_find(scene->world.method), state, error);
+                      read_last(reader, path, &scene->world, state, error);
     const size_t steps = snapshot_count_steps(reader);
     snapshot_reader_close(reader);
     return good ? steps : 0;
@@ -183,8 +184,8 @@ Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand
     OutputLock lock = {.state = OUTPUT_UNLOCKED};
     *busy = !output_lock(&lock, path, error);
     const size_t steps = *busy ? 0 : read_end(path, scene, hand, state, error);
-    Snapshot *snapshot =
-        steps > 0 ? snapshot_continue(path, method_find(scene->world.method), steps, &lock, error) : NULL;
+    const ColumnRows saved = columns_saved(&scene->world);
+    Snapshot *snapshot = steps > 0 ? snapshot_continue(path, &saved, steps, &lock, error) : NULL;
     output_unlock(&lock);
     return snapshot;
 }

@@ -45,13 +45,12 @@ static bool add_own(SnapshotStep *step, const ColumnDef *column, size_t some)
     return all;
 }
 
-bool snapshot_step_own(SnapshotStep *step, const Method *method)
+bool snapshot_step_own(SnapshotStep *step, const ColumnRows *saved)
 {
-    const ColumnDef *column = method ? method->columns : NULL;
     bool all = true;
-    for (; column && column->name; column++)
-        if (column->flags & COLUMN_SAVED && column_own(column) >= 0)
-            all &= add_own(step, column, step->count ? step->count : 1);
+    for (int k = 0; k < saved->count; k++)
+        if (column_own(saved->row[k]) >= 0)
+            all &= add_own(step, saved->row[k], step->count ? step->count : 1);
     return all;
 }
 

@@ -51,8 +51,8 @@ static bool columns_fit(Cpu *cpu)
 {
     const ColumnDef *own = cpu->constants->method->columns;
     cpu->all = column_rows(own, 0, cpu->constants);
-    cpu->saved = column_rows(own, COLUMN_SAVED, NULL);
-    cpu->sorted = column_rows(own, COLUMN_SORTED, NULL);
+    cpu->saved = column_rows(own, COLUMN_SAVED, cpu->constants);
+    cpu->sorted = column_rows(own, COLUMN_SORTED, cpu->constants);
     cpu->of_fluids = column_rows(own, COLUMN_FLUIDS, NULL);
     return columns_create(&cpu->now, &cpu->all, cpu->capacity, &cpu->bytes) &&
            columns_create(&cpu->spare, &cpu->sorted, cpu->capacity, &cpu->bytes);

@@ -97,7 +97,8 @@ SIMD_INLINE void begin_of(const PairArgs *args, const Place at, const Near near,
     }
 }
 
-/* Explicit friction into the residual, the sum of all blocks into INVERSE. */
+/* Explicit friction, of the velocities that the iterations begin with, into the residual, the sum of all
+ * blocks into INVERSE. */
 SIMD_INLINE void begin_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                              const bool solids)
 {
@@ -108,7 +109,7 @@ SIMD_INLINE void begin_range(const PairArgs *args, size_t begin, size_t end, con
         const Near near = near_of(args, i);
         const Themselves own = themselves(args, i);
         const f8 mi = f8_load(args->term[MISS] + i); /* its viscosity, until the pass ends */
-        const f8x4 vi = {f8_load(args->vx + i), f8_load(args->vy + i), f8_load(args->vz + i), mi};
+        const f8x4 vi = motion(args, own.j);
         Begun sum = nothing_begun();
         begin_of(args, place_of(args, i), near, mi, vi, kernel, solids, &sum);
         const bool mirrored = rubbing_images(args, &far, i, begin, end, &images);

@@ -17,16 +17,21 @@ static float inertia_of(const CpuRange *range, size_t i)
 
 /* --- begin --- */
 
+/* Velocities that go on as in the step before; those of solids stay. */
 static void pack_begin(const CpuRange *range)
 {
     Cpu *cpu = range->cpu;
-    const CpuParticles *p = &cpu->now;
+    const CpuParticles p = cpu->now;
+    float *const *before = p.own + BEFORE;
     for (size_t i = range->begin; i < range->end; i++) {
-        const float mu = p->viscosity ? p->viscosity[i] : cpu->constants->viscosity[0],
-                    volume = p->fluid[i] < FLUIDS_MAX ? p->volume[i] : -p->volume[i];
-        p->term[MISS][i] = mu;
-        memcpy(cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], mu}, 16);
-        memcpy(cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], volume}, 16);
+        const bool solid = p.fluid[i] >= FLUIDS_MAX;
+        const float mu = p.viscosity ? p.viscosity[i] : cpu->constants->viscosity[0],
+                    volume = solid ? -p.volume[i] : p.volume[i], dt = solid ? 0 : range->input->dt;
+        const float v[3] = {p.vx[i] + dt * before[0][i], p.vy[i] + dt * before[1][i],
+                            p.vz[i] + dt * before[2][i]};
+        p.term[MISS][i] = mu;
+        memcpy(cpu->place[i], (float[]){p.x[i], p.y[i], p.z[i], mu}, 16);
+        memcpy(cpu->motion[i], (float[]){v[0], v[1], v[2], volume}, 16);
     }
 }
 
@@ -58,43 +63,54 @@ static void invert(float *const m[6], size_t i)
         m[k][i] = (float)(scale * all[k]);
 }
 
+/* The product with a symmetric matrix. */
+static void times(float *const m[6], size_t i, const float v[3], float out[3])
+{
+    out[0] = m[0][i] * v[0] + m[3][i] * v[1] + m[5][i] * v[2];
+    out[1] = m[3][i] * v[0] + m[1][i] * v[1] + m[4][i] * v[2];
+    out[2] = m[5][i] * v[0] + m[4][i] * v[1] + m[2][i] * v[2];
+}
+
 static float length(const float v[3])
 {
     return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Begins along the change that all else makes, w: there `motion` has it for the product. */
-static void begin_one(const CpuRange *range, size_t i, float w[3])
+/* The residual of d as it begins; z, the first direction, into PRODUCT. */
+static void begin_one(const CpuRange *range, size_t i)
 {
     const CpuParticles *p = &range->cpu->now;
-    float *const *t = p->term;
+    float *const *t = p->term, *const *before = p->own + BEFORE;
     const float *g = range->input->gravity, dt = range->input->dt,
                 m = range->cpu->constants->mass[p->fluid[i]], mu = t[MISS][i];
     const float v[3] = {p->vx[i], p->vy[i], p->vz[i]},
-                a[3] = {p->ax[i] + g[0], p->ay[i] + g[1], p->az[i] + g[2]};
-    float force[3] = {t[RESIDUAL][i], t[RESIDUAL + 1][i], t[RESIDUAL + 2][i]};
+                a[3] = {p->ax[i] + g[0], p->ay[i] + g[1], p->az[i] + g[2]},
+                d[3] = {dt * before[0][i], dt * before[1][i], dt * before[2][i]};
+    float force[3] = {t[RESIDUAL][i], t[RESIDUAL + 1][i], t[RESIDUAL + 2][i]}, held[3] = {0}, z[3];
     t[INERTIA][i] = inertia_of(range, i) + held_by_walls(range, i, mu, v, force);
+    if (t[HELD])
+        times(t + HELD, i, d, held);
     for (int k = 0; k < 3; k++) {
-        t[RESIDUAL + k][i] = force[k] + m * a[k];
-        t[CHANGE + k][i] = t[DIRECTION + k][i] = t[ALONG + k][i] = 0;
+        force[k] += m * a[k] - t[INERTIA][i] * d[k] - 0.5F * held[k]; /* the sums have half of it */
+        t[RESIDUAL + k][i] = force[k];
+        t[CHANGE + k][i] = d[k];
+        t[DIRECTION + k][i] = t[ALONG + k][i] = 0;
         t[INVERSE + k][i] += t[INERTIA][i] + (t[HELD] ? 0.5F * t[HELD + k][i] : 0);
         t[INVERSE + 3 + k][i] += t[HELD] ? 0.5F * t[HELD + 3 + k][i] : 0; /* the sum has them once */
-        w[k] = dt * a[k];
     }
     invert(t + INVERSE, i);
-    t[MISS][i] = dt / m * length((float[]){t[RESIDUAL][i], t[RESIDUAL + 1][i], t[RESIDUAL + 2][i]});
+    times(t + INVERSE, i, force, z);
+    for (int k = 0; k < 3; k++)
+        t[PRODUCT + k][i] = z[k];
+    t[MISS][i] = dt / m * length(force);
     t[SCALE][i] = length(v) + dt * (length(a) + length(g));
 }
 
 static void begin_body(const CpuRange *range)
 {
     cpu_pairs(range, &viscosity_sums);
-    for (size_t i = range->begin; i < range->end; i++) {
-        float w[3];
-        begin_one(range, i, w);
-        for (int k = 0; k < 3; k++)
-            range->cpu->now.term[PRODUCT + k][i] = w[k];
-    }
+    for (size_t i = range->begin; i < range->end; i++)
+        begin_one(range, i);
 }
 
 /* For products: boundary particles, whose change is 0, are in B. */
@@ -118,20 +134,12 @@ const Pass viscosity_begin = {
     .stage = STAGE_SOLVE,
     .cpu = &begin,
     .shader = "viscosity/begin",
-    .reads = "position velocity fluid volume viscosity acceleration",
-    .writes = "residual direction along change product inverse held inertia miss scale",
+    .reads = "position velocity fluid volume viscosity acceleration acceleration_before",
+    .writes = "velocity_change residual direction along product inverse held inertia miss scale",
     .mirrors = true,
 };
 
 /* --- an iteration --- */
-
-/* The product with a symmetric matrix. */
-static void times(float *const m[6], size_t i, const float v[3], float out[3])
-{
-    out[0] = m[0][i] * v[0] + m[3][i] * v[1] + m[5][i] * v[2];
-    out[1] = m[3][i] * v[0] + m[1][i] * v[1] + m[4][i] * v[2];
-    out[2] = m[5][i] * v[0] + m[4][i] * v[1] + m[2][i] * v[2];
-}
 
 static void step_body(const CpuRange *range)
 {
@@ -186,8 +194,8 @@ const Pass viscosity_step = {
     .stage = STAGE_SOLVE,
     .cpu = &step,
     .shader = "viscosity/step",
-    .reads = "fluid direction along product change residual inverse",
-    .writes = "direction along change residual miss",
+    .reads = "fluid direction along product velocity_change residual inverse",
+    .writes = "direction along velocity_change residual miss",
 };
 
 const Pass viscosity_product = {
@@ -205,11 +213,12 @@ static void end_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     const float *g = range->input->gravity, rate = range->input->dt > 0 ? 1 / range->input->dt : 0;
-    for (size_t i = range->begin; i < range->end && rate > 0; i++) {
-        p->ax[i] = rate * p->term[CHANGE][i] - g[0];
-        p->ay[i] = rate * p->term[CHANGE + 1][i] - g[1];
-        p->az[i] = rate * p->term[CHANGE + 2][i] - g[2];
-    }
+    float *const a[3] = {p->ax, p->ay, p->az}, *const *before = p->own + BEFORE;
+    for (int k = 0; k < 3; k++)
+        for (size_t i = range->begin; i < range->end && rate > 0; i++) {
+            before[k][i] = rate * p->term[CHANGE + k][i];
+            a[k][i] = before[k][i] - g[k];
+        }
 }
 
 static const CpuPass end = {.loops = {{end_body}}};
@@ -219,13 +228,18 @@ const Pass viscosity_end = {
     .stage = STAGE_SOLVE,
     .cpu = &end,
     .shader = "viscosity/end",
-    .reads = "change acceleration",
-    .writes = "acceleration",
+    .reads = "velocity_change",
+    .writes = "acceleration acceleration_before",
 };
 
 static bool is_implicit(const Constants *constants)
 {
     return constants->implicit.on;
+}
+
+static bool is_named(const Constants *constants)
+{
+    return constants->implicit.named;
 }
 
 static bool by_solids(const Constants *constants)
@@ -240,6 +254,8 @@ static bool by_solids(const Constants *constants)
     }
 
 const ColumnDef viscosity_columns[] = {
+    {"acceleration_before", "m/s2", .at = COLUMN_OWN(BEFORE), 3, COLUMN_FLOAT,
+     .flags = COLUMN_SAVED | COLUMN_SORTED, .needed = is_named},
     TERM("velocity_change", "m/s", CHANGE, 3),
     TERM("residual", "N", RESIDUAL, 3),
     TERM("direction", "m/s", DIRECTION, 3),

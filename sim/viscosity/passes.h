@@ -19,15 +19,19 @@
    would hold it fast at such viscosities.
 
    Conjugate gradients with one product an iteration (A. T. Chronopoulos, C. W. Gear, "s-step iterative
-   methods for symmetric linear systems", 1989), preconditioned by the blocks D_i of 3 x 3, from d = 0. What
-   starts fluid that falls is dt a, along which the first iteration goes; what creeps goes on as it does. So
-   no state is kept from step to step. */
+   methods for symmetric linear systems", 1989), preconditioned by the blocks D_i of 3 x 3. They begin with
+   the accelerations of the step before, which are a part of the saved state: the sums of the right side are
+   then those of the residual, with v + d for v, and cost nothing more. Fluid that falls, creeps or is shaken
+   needs few iterations so, or none. */
 #ifndef SLOSH_VISCOSITY_PASSES_H
 #define SLOSH_VISCOSITY_PASSES_H
 
 #include "sim/cpu/pass.h"
 
-/* Where its columns stand among those of terms. */
+/* Of what goes on from step to step: d / dt, m/s2: 3. */
+enum { BEFORE = COLUMNS_KEPT };
+
+/* Where its other columns stand among those of terms. */
 enum {
     CHANGE,                   /* d, m/s: 3 */
     RESIDUAL = CHANGE + 3,    /* what is left of the right side, N: 3 */

@@ -10,7 +10,7 @@
 
 struct Constants; /* sim/world/constants.h */
 
-enum { COLUMNS_OWN = 25, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
+enum { COLUMNS_OWN = 28, COLUMNS_KEPT = 25, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
 
 /* All that there may be of a particle, a column each; NULL where it is not needed. */
 typedef struct ParticleColumns {
@@ -27,7 +27,7 @@ typedef struct ParticleColumns {
     float *viscosity;     /* of the particle's fluid, Pa s */
     float *tension;       /* the same, N/m; of cohesion scaled */
     float *kind;          /* its fluid as a number: pairs of one fluid have the same */
-    float *own[COLUMNS_OWN];   /* of the method: as its rows say */
+    float *own[COLUMNS_OWN];   /* of the method: as its rows say; from COLUMNS_KEPT on what terms keep */
     float *term[COLUMNS_TERM]; /* of terms that methods share (sim/world/method.h): the same */
 } ParticleColumns;
 
@@ -55,6 +55,9 @@ typedef struct ColumnDef {
 
 /* Where column k of the shared terms stands. */
 #define COLUMN_TERM(k) (offsetof(ParticleColumns, term) + (size_t)(k) * sizeof(float *))
+
+/* Where a shared term's column k stands that goes on from step to step. */
+#define COLUMN_KEPT(k) COLUMN_OWN(COLUMNS_KEPT + (k))
 
 /* Which of the method's own a column's first component is; -1: none of them. */
 int column_own(const ColumnDef *column);

@@ -32,6 +32,17 @@ static void add_rows(ColumnRows *rows, const ColumnDef *from, unsigned flags,
             rows->row[rows->count++] = from;
 }
 
+ColumnRows columns_saved(const WorldDef *def)
+{
+    ColumnRows rows = {0};
+    add_rows(&rows, columns_common, COLUMN_SAVED, NULL);
+    add_rows(&rows, method_find(def->method)->columns, COLUMN_SAVED, NULL);
+    for (const Term *const *term = shared_terms; *term; term++)
+        if ((*term)->named(def))
+            add_rows(&rows, (*term)->columns, COLUMN_SAVED, NULL);
+    return rows;
+}
+
 ColumnRows column_rows(const ColumnDef *own, unsigned flags, const struct Constants *constants)
 {
     ColumnRows rows = {0};

@@ -236,7 +236,8 @@ static void fluids_set(Constants *constants, const WorldDef *def)
         constants->viscous |= viscous;
         constants->varies |= fluid->viscosity_table.rows > 0;
     }
-    constants->implicit.on = constants->viscous && def->viscosity_solver == VISCOSITY_IMPLICIT;
+    constants->implicit.named = def->viscosity_solver == VISCOSITY_IMPLICIT;
+    constants->implicit.on = constants->viscous && constants->implicit.named;
     constants->implicit.tolerance = def->viscosity_tolerance;
     constants->implicit.most = def->viscosity_iterations;
     constants->rubs = constants->viscous && !constants->implicit.on;

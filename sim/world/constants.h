@@ -27,6 +27,7 @@ typedef struct CellGrid {
 
 /* Friction at the end of a step, where the def says so: sim/viscosity. */
 typedef struct ImplicitViscosity {
+    bool named;         /* the def says so, */
     bool on;            /* and some fluid is viscous */
     ShapeKernel kernel; /* the method's where pair loops have it (sim/cpu/pair_shape.h) */
     float scale;      /* R F over f(r / h): a pair's force is V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij */

@@ -4,12 +4,10 @@
 
 /* Where conjugate gradients stand. */
 typedef struct Conjugate {
-    int iteration;
     double power, go, turn;
 } Conjugate;
 
-/* The next step along the next direction: Chronopoulos and Gear 1989, eq. 2.2. The first iteration goes along
-   a direction that somebody has chosen, so the second begins anew. */
+/* The next step along the next direction: Chronopoulos and Gear 1989, eq. 2.2. */
 static void conjugate(const Substep *step, const Iteration *iteration, Conjugate *now)
 {
     if (!iteration->power)
@@ -17,11 +15,10 @@ static void conjugate(const Substep *step, const Iteration *iteration, Conjugate
     const Backend *b = step->backend;
     const double power = b->sum(step->state, iteration->power),
                  curvature = b->sum(step->state, iteration->curvature);
-    now->turn = now->iteration > 1 && now->power != 0 ? power / now->power : 0;
+    now->turn = now->power != 0 ? power / now->power : 0;
     const double bent = curvature - (now->turn != 0 && now->go != 0 ? now->turn * power / now->go : 0);
     now->go = bent > 0 ? power / bent : 0;
     now->power = power;
-    now->iteration++;
 }
 
 static void measure(const Substep *step, const Iteration *iteration, double scale, StepSolve *solve)

@@ -131,7 +131,9 @@ typedef struct Term {
     const char *words;                                 /* what a backend that lacks it has none of */
     bool (*named)(const WorldDef *def);                /* whether the scene names it, */
     bool (*needed)(const struct Constants *constants); /* and some fluid has it */
-    const ColumnDef *columns;   /* at COLUMN_TERM, none of them saved or sorted, ended by a NULL name */
+    /* At COLUMN_TERM; those that are saved and sorted, on which the next step begins, at COLUMN_KEPT, needed
+       wherever the scene names the term. Ended by a NULL name. */
+    const ColumnDef *columns;
     const Pass *const *passes;  /* all of them, ended by NULL */
     const ShaderTerm *terms;    /* ended by a NULL name; NULL: none */
     const ShaderBuffer *buffer; /* one; NULL: none */
@@ -143,6 +145,9 @@ typedef struct Term {
 
 /* All of them, ended by NULL. */
 extern const Term *const shared_terms[];
+
+/* The columns of a def's saved state: every method's, its method's, and those of the terms that it names. */
+ColumnRows columns_saved(const WorldDef *def);
 
 /* Of all solvers of a step, the method's first, by number. */
 const MethodSolver *solver_of(const Method *method, int solve);

@@ -14,20 +14,19 @@ void world_state_free(WorldState *state)
     *state = (WorldState){.count = 0};
 }
 
-bool world_state_reserve(WorldState *state, const Method *method, size_t count)
+bool world_state_reserve(WorldState *state, const WorldDef *def, size_t count)
 {
-    const ColumnRows saved = column_rows(method->columns, COLUMN_SAVED, NULL);
-    if (count > state->capacity || state->method != method) {
+    const ColumnRows saved = columns_saved(def);
+    const Method *method = method_find(def->method);
+    if (count > state->capacity || state->method != method)
         world_state_free(state);
-        if (!columns_create(&state->particles, &saved, count, NULL)) {
-            world_state_free(state);
-            return false;
-        }
-    }
     state->method = method;
     state->capacity = count > state->capacity ? count : state->capacity;
     state->count = count;
-    return true;
+    if (columns_create(&state->particles, &saved, state->capacity, NULL))
+        return true;
+    world_state_free(state);
+    return false;
 }
 
 void world_save_numbers(World *world, WorldNumbers *numbers)
@@ -69,7 +68,7 @@ bool world_save(World *world, WorldState *state, Error *error)
 {
     if (!world_sound(world))
         return not_sound(world, error);
-    if (!world_state_reserve(state, world->method, world->count) ||
+    if (!world_state_reserve(state, &world->def, world->count) ||
         !world->backend->save(world->state, &state->particles))
         return error_set(error, "no memory for the state of %zu particles", world->count);
     world_save_numbers(world, &state->numbers);

@@ -51,13 +51,13 @@ enum {
 typedef struct WorldState {
     WorldNumbers numbers;
     size_t count, capacity;    /* particles; room for them */
-    const Method *method;      /* whose columns these are */
+    const Method *method;      /* whose columns these are, beside those of terms that its def names */
     ParticleColumns particles; /* those that are saved */
 } WorldState;
 
-/* Room for so many particles of a method; what was in it is lost. False when memory is short: then it is
+/* Room for so many particles of a def; what was in it is lost. False when memory is short: then it is
  * empty. */
-bool world_state_reserve(WorldState *state, const Method *method, size_t count);
+bool world_state_reserve(WorldState *state, const WorldDef *def, size_t count);
 void world_state_free(WorldState *state); /* a zeroed one is allowed */
 
 /* The numbers alone, for who has the particles from world_read. */

@@ -19,7 +19,7 @@ static WorldDef def_of(const ParityCase *c)
 {
     WorldDef def = parity_def(&table, c);
     def.viscosity_solver = VISCOSITY_IMPLICIT;
-    def.viscosity_tolerance = 1e-5; /* so that it goes on for some iterations */
+    def.viscosity_tolerance = 1e-6; /* so that it goes on for some iterations */
     def.viscosity_iterations = 500;
     def.reproducible = true;
     return def;

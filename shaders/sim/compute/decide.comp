@@ -24,7 +24,7 @@ bool decide(float mean, float greatest)
 
 void conjugate(float next_power, float curvature)
 {
-    turn = iterations > 1u && power != 0.0 ? next_power / power : 0.0;
+    turn = power != 0.0 ? next_power / power : 0.0;
     float bent = curvature - (turn != 0.0 && go != 0.0 ? turn * next_power / go : 0.0);
     go = bent > 0.0 ? next_power / bent : 0.0;
     power = next_power;

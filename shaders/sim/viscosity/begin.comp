@@ -1,6 +1,7 @@
 // Implicit viscosity: the right side, the blocks, and where the iterations begin: begin_range in sim/viscosity/pairs.c,
 // begin_one in sim/viscosity/passes.c.
 #include "sim/viscosity/viscosity.glsl"
+#include "sim/own.glsl"
 #include "sim/viscosity/columns.glsl"
 #ifdef NO_SLIP
 #include "sim/wall_drag.glsl"
@@ -15,7 +16,14 @@ layout(location = PASS_DT_AT) uniform float dt;
 
 #define ENDLESS 1e18 // m in a step of no time: nothing changes
 
-// Explicit friction; the sums of all blocks, and of those of solids twice: xx yy zz, xy yz zx.
+// What the velocity changes by where it goes on as in the step before: where the iterations begin.
+vec3 change_before(uint j)
+{
+    uint at = OWN_viscosity_acceleration_before + j;
+    return dt * vec3(own[at], own[OWN_STRIDE + at], own[2u * OWN_STRIDE + at]);
+}
+
+// Explicit friction, with that change; the sums of all blocks, and of those of solids twice: xx yy zz, xy yz zx.
 vec3 own_velocity, friction = vec3(0);
 vec3 diagonal = vec3(0), mixed = vec3(0), held_diagonal = vec3(0), held_mixed = vec3(0);
 
@@ -28,7 +36,7 @@ void rub(float c, vec3 d, vec3 v)
 
 void meet(uint j, vec3 d, float volume)
 {
-    rub(weight(d, fluids[FLUID_OF(j)].viscosity, volume), d, velocity[j].xyz);
+    rub(weight(d, fluids[FLUID_OF(j)].viscosity, volume), d, velocity[j].xyz + change_before(j));
 }
 
 #ifdef SOLIDS
@@ -64,11 +72,11 @@ void meet_images(uint i, vec3 x, ivec3 at)
 }
 
 // Walls of the box that hold the fluid: K; their force goes to the others. held_by_walls in sim/viscosity/passes.c.
-float held_by_walls(vec3 x, float volume)
+float held_by_walls(vec3 x, float volume, vec3 v)
 {
 #ifdef NO_SLIP
     float scale = own_viscosity * volume / rest_number_density, k = scale * wall_drag_at(x);
-    friction -= k * own_velocity;
+    friction -= k * v;
 #ifdef LID
     friction += scale * wall_drag_sum(x, true) * lid_velocity;
 #endif
@@ -96,18 +104,22 @@ void main()
     vec4 place = position[i];
     Fluid fluid = fluids[FLUID_OF(i)];
     own_viscosity = fluid.viscosity;
-    own_velocity = velocity[i].xyz;
+    vec3 v = velocity[i].xyz, change = change_before(i);
+    own_velocity = v + change;
     WALK_NEIGHBOURS(i, place.xyz, cell_of(place.xyz), meet, meet_boundary, 0)
     meet_images(i, place.xyz, cell_of(place.xyz));
     float scale = friction_scale * place.w, m = fluid.mass;
     friction *= scale;
-    float inertia = (dt > 0.0 ? m / dt : ENDLESS * m) + held_by_walls(place.xyz, place.w);
-    vec3 a = acceleration[i].xyz + kick_gravity, residual = friction + m * a;
+    float inertia = (dt > 0.0 ? m / dt : ENDLESS * m) + held_by_walls(place.xyz, place.w, v);
+    vec3 a = acceleration[i].xyz + kick_gravity, residual = friction + m * a - inertia * change;
     diagonal = scale * (diagonal + 0.5 * held_diagonal) + inertia; // the sum has those of solids once
     mixed = scale * (mixed + 0.5 * held_mixed);
+#ifdef SOLIDS
+    residual -= 0.5 * scale * times(held_diagonal, held_mixed, change); // the sums have the other half
+#endif
     invert(diagonal, mixed);
     column_set(SCRATCH_viscosity_residual, i, residual);
-    column_set(SCRATCH_viscosity_velocity_change, i, vec3(0));
+    column_set(SCRATCH_viscosity_velocity_change, i, change);
     column_set(SCRATCH_viscosity_direction, i, vec3(0));
     column_set(SCRATCH_viscosity_along, i, vec3(0));
     column_set(SCRATCH_viscosity_inverse, i, diagonal);
@@ -118,6 +130,6 @@ void main()
 #endif
     scratch[SCRATCH_viscosity_inertia + i] = inertia;
     scratch[SCRATCH_viscosity_miss + i] = dt / m * length(residual);
-    scratch[SCRATCH_viscosity_scale + i] = length(own_velocity) + dt * (length(a) + length(kick_gravity));
-    trial[i] = vec4(dt * a, own_viscosity);
+    scratch[SCRATCH_viscosity_scale + i] = length(v) + dt * (length(a) + length(kick_gravity));
+    trial[i] = vec4(times(diagonal, mixed, residual), own_viscosity);
 }

@@ -1,6 +1,8 @@
 // Implicit viscosity: the accelerations that make the change of velocity: end_body in sim/viscosity/passes.c.
 #include "sim/constants.glsl"
 #include "sim/scratch.glsl"
+#define OWN_ACCESS writeonly
+#include "sim/own.glsl"
 #include "sim/viscosity/columns.glsl"
 layout(std430, binding = ACCELERATIONS_BUFFER) buffer Accelerations { vec4 acceleration[]; };
 layout(location = PASS_DT_AT) uniform float dt;
@@ -8,6 +10,10 @@ layout(location = PASS_DT_AT) uniform float dt;
 void main()
 {
     uint i = invocation();
-    if (i < particle_count() && dt > 0.0)
-        acceleration[i].xyz = column_of(SCRATCH_viscosity_velocity_change, i) / dt - kick_gravity;
+    if (i >= particle_count() || dt <= 0.0)
+        return;
+    vec3 a = column_of(SCRATCH_viscosity_velocity_change, i) / dt;
+    for (uint k = 0u; k < 3u; k++)
+        own[OWN_viscosity_acceleration_before + k * OWN_STRIDE + i] = a[k];
+    acceleration[i].xyz = a - kick_gravity;
 }

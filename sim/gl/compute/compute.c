@@ -203,7 +203,7 @@ static size_t larger(size_t a, size_t b)
 static size_t most_bytes(const Constants *s, size_t capacity)
 {
     size_t particle =
-        larger(16, 4 * larger((size_t)compute_own_of(s->method).count, (size_t)compute_scratch_of(s).total));
+        larger(16, 4 * larger((size_t)compute_own_of(s).count, (size_t)compute_scratch_of(s).total));
     for (int k = 0; k < COMPUTE_BUFFERS; k++) {
         const ShaderBuffer *own = compute_buffer_at(s, k);
         particle = larger(particle, own && own->needed(s) ? own->size : 0);
@@ -217,7 +217,7 @@ static size_t most_bytes(const Constants *s, size_t capacity)
 static bool supported(const Constants *s, size_t capacity, Error *error)
 {
     const bool solids = s->solid_count > 0;
-    const int columns = (compute_own_of(s->method).count > 0) + (compute_scratch_of(s).total > 0);
+    const int columns = (compute_own_of(s).count > 0) + (compute_scratch_of(s).total > 0);
     const int plain = columns > 0 ? 11 : 8;
     const GlLimits have = gl_limits();
     const GlNeeds needs = {.who = solids ? "backend compute with solids" : "backend compute",
@@ -247,7 +247,7 @@ static void *compute_create(const Constants *constants, const WorldDef *def, con
     c->constants = constants;
     c->count = initial->count;
     c->capacity = capacity;
-    c->own = compute_own_of(constants->method);
+    c->own = compute_own_of(constants);
     if (!buffers_create(c, error) ||
         !((compute_term_buffers(c) && compute_scratch_fit(c)) || compute_no_memory(c, error))) {
         compute_destroy(c);

@@ -33,9 +33,12 @@ typedef struct ComputeParticles {
     unsigned own;  /* float, a column behind the other: ComputeOwn; 0: the method keeps none */
 } ComputeParticles;
 
-/* What a method keeps of a particle in columns of its own: of each its place in ParticleColumns.own. */
+/* What a method and terms keep of a particle in columns of their own: of each component its place in
+   ParticleColumns.own; the columns, and whose they are: NULL is the method. */
 typedef struct ComputeOwn {
     int count, place[COLUMNS_OWN];
+    ColumnRows rows;
+    const Term *of[COLUMNS_OWN];
 } ComputeOwn;
 
 /* The columns of scratch that a scene's shaders have, and whose they are: NULL is the method. */
@@ -203,8 +206,8 @@ void compute_list_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX])
 /* Of a method that keeps no columns of its own these do nothing. Lines for the shaders behind those
    of compute_defines; the columns to and from plain arrays, those that are NULL left out, or to another
    buffer; 0 for so many particles; from `now` to `spare` in another order, or past the drained. */
-ComputeOwn compute_own_of(const Method *method);
-void compute_own_rows(const Method *method, ColumnRows *rows); /* adds them */
+ComputeOwn compute_own_of(const Constants *constants);
+void compute_own_rows(const Compute *compute, ColumnRows *rows); /* adds them */
 void compute_own_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
 void compute_own_upload(const Compute *compute, const ParticleColumns *from);
 void compute_own_download(const Compute *compute, const ParticleColumns *to);

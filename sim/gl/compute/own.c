@@ -1,6 +1,6 @@
-/* What a method keeps of each particle in columns of its own: one storage buffer with all of them, a column
-   behind the other, with room for `capacity` numbers each. Another has the scratch of its shaders.
-   shaders/sim/own.glsl and scratch.glsl read them. */
+/* What a method, and the terms that its scene names, keep of each particle in columns of their own: one
+   storage buffer with all of them, a column behind the other, with room for `capacity` numbers each. Another
+   has the scratch of its shaders. shaders/sim/own.glsl and scratch.glsl read them. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
@@ -38,20 +38,30 @@ bool compute_scratch_fit(Compute *c)
     return true;
 }
 
-ComputeOwn compute_own_of(const Method *method)
+static void add_kept(const Constants *s, const ColumnDef *columns, const Term *of, ComputeOwn *own)
+{
+    for (; columns && columns->name; columns++)
+        if (kept(columns) && (!of || columns->needed(s))) {
+            own->of[own->rows.count] = of;
+            own->rows.row[own->rows.count++] = columns;
+            for (int k = 0; k < columns->components; k++)
+                own->place[own->count++] = column_own(columns) + k;
+        }
+}
+
+ComputeOwn compute_own_of(const Constants *s)
 {
     ComputeOwn own = {0};
-    for (const ColumnDef *column = method->columns; column && column->name; column++)
-        for (int k = 0; kept(column) && k < column->components; k++)
-            own.place[own.count++] = column_own(column) + k;
+    add_kept(s, s->method->columns, NULL, &own);
+    for (const Term *const *term = shared_terms; *term; term++)
+        add_kept(s, (*term)->columns, *term, &own);
     return own;
 }
 
-void compute_own_rows(const Method *method, ColumnRows *rows)
+void compute_own_rows(const Compute *c, ColumnRows *rows)
 {
-    for (const ColumnDef *column = method->columns; column && column->name; column++)
-        if (kept(column))
-            rows->row[rows->count++] = column;
+    for (int k = 0; k < c->own.rows.count; k++)
+        rows->row[rows->count++] = c->own.rows.row[k];
 }
 
 /* Where a column's first component stands in its buffer; of a term the term's name stands before it. */
@@ -68,9 +78,8 @@ void compute_own_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
 {
     const ComputeScratch scratch = compute_scratch_of(c->constants);
     size_t own = 0, at = 0;
-    for (const ColumnDef *column = c->constants->method->columns; column && column->name; column++)
-        if (kept(column))
-            define(c, "OWN", NULL, column, &own, out);
+    for (int k = 0; k < c->own.rows.count; k++)
+        define(c, "OWN", c->own.of[k], c->own.rows.row[k], &own, out);
     for (int k = 0; k < scratch.count; k++)
         define(c, "SCRATCH", scratch.of[k], scratch.row[k], &at, out);
     const size_t used = strlen(out);

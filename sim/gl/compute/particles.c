@@ -112,7 +112,7 @@ static uint32_t *entries_create(size_t count)
 static ColumnRows rows_of(const Compute *c)
 {
     ColumnRows rows = packing_rows(&packing, c->constants->method);
-    compute_own_rows(c->constants->method, &rows);
+    compute_own_rows(c, &rows);
     return rows;
 }
 

@@ -112,7 +112,7 @@ static bool upload(Fragment *f, const ParticleColumns *from)
 
 bool fragment_set_particles(Fragment *f, const InitialState *initial)
 {
-    const ColumnRows saved = column_rows(f->constants->method->columns, COLUMN_SAVED, NULL);
+    const ColumnRows saved = column_rows(f->constants->method->columns, COLUMN_SAVED, f->constants);
     ParticleColumns columns = {0};
     bool done = columns_create(&columns, &saved, f->count, NULL);
     if (done) {
@@ -126,7 +126,7 @@ bool fragment_set_particles(Fragment *f, const InitialState *initial)
 bool fragment_save(void *state, const ParticleColumns *to)
 {
     const Fragment *f = state;
-    const ColumnRows saved = column_rows(f->constants->method->columns, COLUMN_SAVED, NULL);
+    const ColumnRows saved = column_rows(f->constants->method->columns, COLUMN_SAVED, f->constants);
     ParticleColumns copy;
     if (!download(f, &copy))
         return false;
