@@ -20,6 +20,7 @@
     X(free_fall)                                                                                             \
     X(bucket)                                                                                                \
     X(sloshing)                                                                                              \
+    X(rolling)                                                                                               \
     X(wave)                                                                                                  \
     X(ellipse)                                                                                               \
     X(collision)                                                                                             \
