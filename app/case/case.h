@@ -38,6 +38,7 @@ typedef struct CaseMethod {
     const char *left_out;           /* why it does not, unless it is asked for; NULL: it runs */
     const char *set[CASE_SETTINGS]; /* settings of its own, as --set takes them, ended by NULL */
     double tolerance[CASE_METRICS], coarse[CASE_METRICS]; /* of the metrics; 0: the metric's own */
+    const char *why[CASE_METRICS]; /* of a figure that is known to miss: what of, in words */
 } CaseMethod;
 
 /* What a metric gave. */

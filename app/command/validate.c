@@ -3,6 +3,7 @@
 #include "app/base/output.h"
 #include "app/case/run.h"
 #include "app/command/cmd.h"
+#include "app/lab/case_watch.h"
 #include "app/lab/validate_report.h"
 #include "app/session/headless.h"
 #include "sim/matter/seed.h"
@@ -123,7 +124,21 @@ static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *
     return ok && plan_keep(plan, wants_context, error);
 }
 
-static bool run_all(const Plan *plan, CaseResult *results, int *done, Error *error)
+/* As case_run, and how it went. */
+static bool run_one(const CaseSetup *planned, Progress *progress, double done, double part,
+                    CaseResult *result, Outcome *outcome, Error *error)
+{
+    CaseWatch watch = case_watch_begin(planned->of);
+    CaseSetup setup = *planned;
+    setup.watch = case_watch;
+    setup.watcher = &watch;
+    if (!case_run(&setup, progress, done, part, result, error))
+        return false;
+    case_watch_outcome(&watch, result, outcome);
+    return true;
+}
+
+static bool run_all(const Plan *plan, CaseResult *results, Outcome *outcomes, int *done, Error *error)
 {
     const Args *args = plan->args;
     Progress progress;
@@ -137,13 +152,13 @@ static bool run_all(const Plan *plan, CaseResult *results, int *done, Error *err
     progress_begin(&progress, stderr, "validate", args->quiet);
     for (; ok && *done < plan->count && !interrupted(); ++*done) {
         const double part = plan->work[*done] / all;
-        ok = case_run(&plan->setups[*done], &progress, before, part, &results[*done], error);
+        ok = run_one(&plan->setups[*done], &progress, before, part, &results[*done], &outcomes[*done], error);
         if (!ok)
             break;
         before += part;
         progress_end(&progress);
         if (!args->quiet)
-            validate_print(&results[*done], stdout);
+            validate_print(&results[*done], &outcomes[*done], stdout);
     }
     progress_end(&progress);
     return ok;
@@ -192,13 +207,14 @@ static int count_missed(const CaseResult *results, int count, FILE *file)
 }
 
 /* What is done is written, whatever ended it. */
-static int finish(const Plan *plan, const CaseResult *results, int done, bool ran, Error *error)
+static int finish(const Plan *plan, const CaseResult *results, const Outcome *outcomes, int done, bool ran,
+                  Error *error)
 {
     const Args *args = plan->args;
     Error no_json, no_plot;
     const char *failure = ran ? NULL : error->message;
     const bool written =
-        !args->json || validate_write_json(results, (size_t)done, failure, args->json, &no_json);
+        !args->json || validate_write_json(results, outcomes, (size_t)done, failure, args->json, &no_json);
     const bool drawn = plot_all(args, results, done, &no_plot);
     if (!written)
         fprintf(stderr, "%s\n", no_json.message);
@@ -219,7 +235,7 @@ static int fail(const char *json, const Error *error)
 {
     Error no_json;
     fprintf(stderr, "%s\n", error->message);
-    if (json && !validate_write_json(NULL, 0, error->message, json, &no_json))
+    if (json && !validate_write_json(NULL, NULL, 0, error->message, json, &no_json))
         fprintf(stderr, "%s\n", no_json.message);
     return EXIT_FAILED;
 }
@@ -230,8 +246,9 @@ static int validate(const Plan *plan, bool wants_context, Error *error)
     int done = 0;
     Headless *context = NULL;
     CaseResult *results = calloc((size_t)plan->count + 1, sizeof *results);
+    Outcome *outcomes = calloc((size_t)plan->count + 1, sizeof *outcomes);
     const bool can_write = !args->json || json_file_check(args->json, error);
-    bool ok = can_write && (results || error_set(error, "no memory for the results")) &&
+    bool ok = can_write && ((results && outcomes) || error_set(error, "no memory for the results")) &&
               (!args->output || make_folder(args->output, error));
     if (ok && wants_context)
         ok = (context = headless_create(args->gpu, error)) != NULL;
@@ -239,14 +256,15 @@ static int validate(const Plan *plan, bool wants_context, Error *error)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
     int code;
     if (ok) {
-        const bool ran = run_all(plan, results, &done, error);
-        code = finish(plan, results, done, ran, error);
+        const bool ran = run_all(plan, results, outcomes, &done, error);
+        code = finish(plan, results, outcomes, done, ran, error);
     } else {
         code = fail(can_write ? args->json : NULL, error);
     }
     for (int i = 0; results && i < plan->count; i++)
         case_result_free(&results[i]);
     headless_destroy(context);
+    free(outcomes);
     free(results);
     return code;
 }

@@ -1,6 +1,7 @@
 #include "app/lab/chart_run.h"
 
 #include "app/base/interrupt.h"
+#include "app/lab/case_watch.h"
 #include "app/lab/run_key.h"
 #include "app/outcome/outcome_watch.h"
 #include "app/probe/probe.h"
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOOK_EVERY = 4, LOOKS = 10 }; /* looks take some steps' time */
+enum { LOOK_EVERY = 4 }; /* looks take some steps' time */
 
 __attribute__((format(printf, 3, 4))) static bool add(ChartSettings *job, Error *error, const char *format,
                                                       ...)
@@ -262,24 +263,6 @@ static bool run_scene(const Scene *scene, double until, ChartRow *row, Progress 
     return ok;
 }
 
-typedef struct CaseWatch {
-    OutcomeHistory history;
-    bool looked;
-    double every, next; /* s */
-} CaseWatch;
-
-/* Of a case's states some. */
-static void watch_case(void *watcher, const WorldDef *def, World *world)
-{
-    CaseWatch *watch = watcher;
-    WorldInfo info;
-    world_info(world, &info);
-    if (watch->looked && info.time < watch->next)
-        return;
-    watch->next = info.time + watch->every;
-    watch->looked |= outcome_look(&watch->history, def, false, world);
-}
-
 static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
                      double done, double part, Error *error)
 {
@@ -288,12 +271,12 @@ static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow 
     ChartSettings settings;
     if (!chart_settings(subject, job, &settings, &scene, row, error))
         return false;
-    CaseWatch watch = {.every = 0.99 * subject->of->time / LOOKS};
+    CaseWatch watch = case_watch_begin(subject->of);
     const CaseSetup setup = {.of = subject->of,
                              .level = CASE_DEFAULT,
                              .method = job->method,
                              .settings = &settings.all,
-                             .watch = watch_case,
+                             .watch = case_watch,
                              .watcher = &watch};
     const bool ok = case_run(&setup, progress, done, part, &result, error);
     row->particles = result.particles;

@@ -22,19 +22,29 @@ static const char *cell(char out[32], const char *form, double number)
     return out;
 }
 
-/* Why a figure did not pass, as the line's end. */
-static void print_miss(const CaseResult *result, int m, FILE *file)
+/* What a miss comes of, where that is known; NULL. */
+static const char *why_of(const CaseResult *result, int m)
 {
+    const CaseMethod *method = case_method(result->of, result->scene.world.method);
+    return method && !case_passed(result, m) ? method->why[m] : NULL;
+}
+
+/* Why a figure did not pass, and how its run went, as the line's end. */
+static void print_miss(const CaseResult *result, const Outcome *outcome, int m, FILE *file)
+{
+    const char *why = why_of(result, m);
     const char *without = result->of->metrics[m].without;
     const bool judged = !result->of->metrics[m].no_verdict;
     if (judged && !isfinite(result->run.figures[m].error))
         fprintf(file, "  missed: %s", without && !*result->failure ? without : "no value");
     else if (!case_passed(result, m))
-        fputs("  missed", file);
+        fprintf(file, "  missed%s%s", why ? ": " : "", why ? why : "");
+    if (outcome->kind > OUTCOME_HOLDS)
+        fprintf(file, "  %s", outcome_word(outcome->kind));
     fputc('\n', file);
 }
 
-void validate_print(const CaseResult *result, FILE *file)
+void validate_print(const CaseResult *result, const Outcome *outcome, FILE *file)
 {
     const WorldDef *def = &result->scene.world;
     for (int m = 0; m < CASE_METRICS && result->of->metrics[m].name; m++) {
@@ -46,36 +56,43 @@ void validate_print(const CaseResult *result, FILE *file)
                 cell(reference, "%.5g", figure->reference), cell(error, "%.3g %%", 100 * figure->error),
                 cell(tolerance, "%.3g %%", 100 * case_tolerance(result->of, m, result->level, def->method)),
                 result->seconds);
-        print_miss(result, m, file);
+        print_miss(result, outcome, m, file);
+    }
+    if (outcome->kind > OUTCOME_HOLDS) {
+        char text[OUTCOME_TEXT];
+        fprintf(file, "  %s\n", outcome_text(outcome, text));
     }
     if (*result->failure)
         fprintf(file, "  %s\n", result->failure);
     fflush(file);
 }
 
-static json_t *figure_json(const CaseResult *result, int m)
+static json_t *figure_json(const CaseResult *result, const Outcome *outcome, int m)
 {
     const CaseMetric *metric = &result->of->metrics[m];
     const Figure *figure = &result->run.figures[m];
     const WorldDef *def = &result->scene.world;
     const double tolerance = case_tolerance(result->of, m, result->level, def->method);
-    return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:f, s:I, s:s, s:s*}", "case",
-                     result->of->name, "metric", metric->name, "method", def->method, "backend", def->backend,
-                     "value", number_json(figure->value), "reference", number_json(figure->reference),
-                     "error", number_json(figure->error), "tolerance", number_json(tolerance), "passed",
-                     isnan(tolerance) ? json_null() : json_boolean(case_passed(result, m)), "seconds",
-                     result->seconds, "particles", (json_int_t)result->particles, "unit", metric->unit,
-                     "failure", *result->failure ? result->failure : NULL);
+    json_t *object =
+        json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:f, s:I, s:s, s:s*, s:s*}", "case",
+                  result->of->name, "metric", metric->name, "method", def->method, "backend", def->backend,
+                  "value", number_json(figure->value), "reference", number_json(figure->reference), "error",
+                  number_json(figure->error), "tolerance", number_json(tolerance), "passed",
+                  isnan(tolerance) ? json_null() : json_boolean(case_passed(result, m)), "seconds",
+                  result->seconds, "particles", (json_int_t)result->particles, "unit", metric->unit,
+                  "failure", *result->failure ? result->failure : NULL, "why", why_of(result, m));
+    outcome_json(object, outcome);
+    return object;
 }
 
-bool validate_write_json(const CaseResult *results, size_t count, const char *failure, const char *path,
-                         Error *error)
+bool validate_write_json(const CaseResult *results, const Outcome *outcomes, size_t count,
+                         const char *failure, const char *path, Error *error)
 {
     json_t *cases = json_array();
     bool ok = cases != NULL;
     for (size_t i = 0; i < count; i++)
         for (int m = 0; ok && m < CASE_METRICS && results[i].of->metrics[m].name; m++)
-            ok = json_array_append_new(cases, figure_json(&results[i], m)) == 0;
+            ok = json_array_append_new(cases, figure_json(&results[i], &outcomes[i], m)) == 0;
     json_t *all = ok ? json_pack("{s:O, s:s*}", "cases", cases, "error", failure) : NULL;
     const bool written = json_file_write(all, path, error);
     json_decref(all);

@@ -7,12 +7,14 @@
 
 static const Case swing = {
     .name = "swing",
+    .methods = {{.name = "dfsph", .why = {[1] = "waves of its own"}}},
     .metrics = {{"frequency", "rad/s", .tolerance = 0.07, .without = "does not oscillate"},
                 {"width", "m", .tolerance = 0.05},
                 {"shape", "", .no_verdict = true}},
 };
 
 static Figure shape = {0.5, 1, 0.5};
+static Outcome outcome = {.kind = OUTCOME_HOLDS};
 
 static CaseResult *result_of(Figure frequency, Figure width)
 {
@@ -36,7 +38,7 @@ static void all_of(FILE *file, char text[4096])
 static void printed(const CaseResult *result, char text[4096])
 {
     FILE *file = tmpfile();
-    validate_print(result, file);
+    validate_print(result, &outcome, file);
     all_of(file, text);
 }
 
@@ -92,7 +94,7 @@ static void json_says_what_failed(void **state)
     close(mkstemp(path));
     CaseResult *result = result_of(none, none);
     snprintf(result->failure, sizeof result->failure, "a particle moved too far");
-    assert_true(validate_write_json(result, 1, "no memory", path, &error));
+    assert_true(validate_write_json(result, &outcome, 1, "no memory", path, &error));
     all_of(fopen(path, "r"), text);
     unlink(path);
     assert_non_null(strstr(text, "\"failure\": \"a particle moved too far\""));
@@ -105,7 +107,7 @@ static void a_figure_without_a_value_is_null(void **state)
     char text[4096], path[] = "/tmp/validate_report_XXXXXX";
     Error error = {{0}};
     close(mkstemp(path));
-    assert_true(validate_write_json(result_of(none, good), 1, NULL, path, &error));
+    assert_true(validate_write_json(result_of(none, good), &outcome, 1, NULL, path, &error));
     all_of(fopen(path, "r"), text);
     unlink(path);
     assert_non_null(strstr(text, "\"value\": null"));
@@ -115,12 +117,38 @@ static void a_figure_without_a_value_is_null(void **state)
     assert_null(strstr(text, "NaN"));
 }
 
+/* In the row, below it, and in the JSON; of a miss, its own words. */
+static void how_it_went_is_told(void **state)
+{
+    (void)state;
+    char text[4096], path[] = "/tmp/validate_report_XXXXXX";
+    Error error = {{0}};
+    CaseResult *result = result_of(good, bad);
+    snprintf(result->scene.world.method, NAME_SIZE, "dfsph");
+    outcome = (Outcome){OUTCOME_SQUEEZED, 0.5, "fluid has lost volume: it is pressed by 7 % in the mean"};
+    printed(result, text);
+    assert_non_null(strstr(text, "  squeezed\n"));
+    assert_non_null(strstr(text, "  missed: waves of its own  squeezed\n"));
+    assert_non_null(
+        strstr(text, "  squeezed at t = 0.5 s: fluid has lost volume: it is pressed by 7 % in the mean\n"));
+    close(mkstemp(path));
+    assert_true(validate_write_json(result, &outcome, 1, NULL, path, &error));
+    all_of(fopen(path, "r"), text);
+    unlink(path);
+    assert_non_null(strstr(text, "\"outcome\": \"squeezed\""));
+    assert_non_null(strstr(text, "\"outcome_words\": \"fluid has lost volume"));
+    assert_non_null(strstr(text, "\"why\": \"waves of its own\""));
+    outcome = (Outcome){.kind = OUTCOME_HOLDS};
+    printed(result_of(good, good), text);
+    assert_null(strstr(text, "holds"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_figure_without_a_value_is_words), cmocka_unit_test(what_has_no_verdict_is_no_miss),
         cmocka_unit_test(a_run_that_broke_says_so_itself),   cmocka_unit_test(json_says_what_failed),
-        cmocka_unit_test(a_figure_without_a_value_is_null),
+        cmocka_unit_test(a_figure_without_a_value_is_null),  cmocka_unit_test(how_it_went_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
