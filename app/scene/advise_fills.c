@@ -165,6 +165,21 @@ static void advise_start(const Tree *tree, const WorldDef *world, const size_t c
                "%zu particles start at rest, not in balance: that is for %d at most", count, BALANCE_MOST);
 }
 
+/* All that there is, and nothing comes. */
+static void advise_lone(const Tree *tree, const WorldDef *world, const size_t counts[], Notes *notes)
+{
+    size_t count = 0;
+    bool more = false;
+    for (int f = 0; f < world->fluid_count; f++) {
+        count += counts[f];
+        more |= world->fluids[f].emit_count > 0;
+    }
+    if (count == 1 && !more)
+        advise(tree, "fluids", notes,
+               "one particle has no neighbours: nothing presses it, and it falls like a stone; use a smaller "
+               "spacing, or larger fills");
+}
+
 void advise_fills(const Tree *tree, const Scene *scene, Notes *notes)
 {
     const WorldDef *world = &scene->world;
@@ -173,6 +188,7 @@ void advise_fills(const Tree *tree, const Scene *scene, Notes *notes)
         return;
     seed_counts(world, counts);
     advise_start(tree, world, counts, notes);
+    advise_lone(tree, world, counts, notes);
     for (int f = 0; f < world->fluid_count; f++) {
         advise_mass(tree, world, f, counts[f], notes);
         advise_thin(tree, world, f, notes);

@@ -11,6 +11,8 @@ void advise_places(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_borne(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_slip(const Tree *tree, const Scene *scene, Notes *notes);
 
+void advise_solids(const Tree *tree, const Scene *scene, Notes *notes);
+
 void advise_probes(const Tree *tree, const Scene *scene, Notes *notes);
 
 #endif

@@ -21,4 +21,7 @@ bool scene_fits_memory(double particles);
 /* m3, overlaps counted twice. */
 double scene_fluid_volume(const Scene *scene);
 
+/* The least width of a solid's matter, m. */
+double scene_solid_width(const SolidDef *solid, int dimensions);
+
 #endif

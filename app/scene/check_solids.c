@@ -39,8 +39,7 @@ bool scene_check_solid(const Check *check, int index)
     return true;
 }
 
-/* The least width of a solid's matter, m. */
-static double solid_width(const SolidDef *solid, int dimensions)
+double scene_solid_width(const SolidDef *solid, int dimensions)
 {
     switch (solid->kind) {
     case SOLID_BOX:
@@ -59,7 +58,7 @@ bool scene_check_widths(const Check *check)
     const WorldDef *world = &check->scene->world;
     for (int k = 0; k < world->solid_count; k++) {
         const SolidDef *solid = &world->solids[k];
-        const double width = solid_width(solid, world->dimensions);
+        const double width = scene_solid_width(solid, world->dimensions);
         char path[64];
         snprintf(path, sizeof path, "solids[%d].%s", k, solid_name(solid->kind));
         if (!(width >= (1 - 1e-9) * world->spacing))

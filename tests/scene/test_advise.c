@@ -93,6 +93,12 @@ static const struct Case {
     {{"box.slip=none"}, "--set box.slip=none: slip none has no effect: only fluid with a viscosity is held"},
     {{"box.slip=none", "fluids[0].viscosity=1"}, NULL},
     {{"solids=[{sphere: {centre: [0, 0.8, 0], radius: 0.1}, slip: none}]"}, "none has no effect"},
+    {{"solids=[{sphere: {centre: [0, 0.8, 0], radius: 0.06}}]",
+      "motion=[{shake: {axis: [1, 0, 0], amplitude: 10, frequency: 3}}]"},
+     "and the solid is 0.12 m thin: fluid may cross it"},
+    {{"solids=[{sphere: {centre: [0, 0.8, 0], radius: 0.06}}]",
+      "motion=[{shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 3}}]"},
+     NULL},
     {{"solver.method=wcsph", "fluids[0].viscosity=0.001"},
      "0.001 Pa s takes the place of solver.artificial_viscosity 0.05, which is some 52.5 Pa s"},
     {{"solver.method=wcsph", "fluids[0].viscosity=0.001", "solver.artificial_viscosity=0"}, NULL},
@@ -105,7 +111,7 @@ static const struct Case {
      NULL}, /* it is for the other one */
     /* fills */
     {{"fluids[0].fill=[{block: {min: [0, 0.1, 0], max: [0.1, 0.2, 0.1]}}]"},
-     NULL}, /* one particle is meant */
+     "scene.yaml:4:1: one particle has no neighbours: nothing presses it"},
     {{"fluids[0].fill=[{block: {min: [0, 0.1, 0], max: [0.5, 0.2, 0.5]}}]"},
      "the block is 1 spacing thick: too few"},
     {{"fluids[0].fill=[{ball: {centre: [0, 0.5, 0], radius: 0.3}}]"}, "% more mass than its fills: "},
