@@ -154,9 +154,9 @@ static void cell_text(const StableCellFound *found, char text[16])
     else if (found->search.end == STABLE_NEVER)
         snprintf(text, 16, "none");
     else if (isfinite(found->ratio))
-        snprintf(text, 16, "%s%.2f%s", more, found->ratio, stable_again(found) ? "*" : "");
+        snprintf(text, 16, "%s%.2f%s", more, found->ratio, stable_uneven(found) ? "*" : "");
     else
-        snprintf(text, 16, "%s%.3g%s", more, 1000 * step, stable_again(found) ? "*" : "");
+        snprintf(text, 16, "%s%.3g%s", more, 1000 * step, stable_uneven(found) ? "*" : "");
 }
 
 static void put_cells(const Drawing *d, const Place *place)

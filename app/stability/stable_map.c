@@ -44,9 +44,11 @@ double stable_largest(const StableCellFound *found)
                                                                 : (double)NAN;
 }
 
-bool stable_again(const StableCellFound *found)
+bool stable_uneven(const StableCellFound *found)
 {
-    return found->searched && found->search.end != STABLE_ALWAYS && found->search.again > found->search.rung;
+    const StableSearch *search = &found->search;
+    const bool holes = search->below.kind != OUTCOME_NONE && search->below.kind != OUTCOME_HOLDS;
+    return found->searched && (holes || (search->end != STABLE_ALWAYS && search->again > search->rung));
 }
 
 int stable_silent(const StableCellFound *found)
@@ -95,7 +97,7 @@ StableSpread stable_spread(const StableMap *map, int series)
         spread.cells++;
         spread.never += found->search.end == STABLE_NEVER;
         spread.always += found->search.end == STABLE_ALWAYS;
-        spread.again += stable_again(found);
+        spread.uneven += stable_uneven(found);
         spread.silent += stable_silent(found) > 0;
         if (isfinite(found->ratio) && found->search.end == STABLE_FOUND)
             ratios[spread.ratios++] = found->ratio;

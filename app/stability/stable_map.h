@@ -29,8 +29,9 @@ void stable_map_free(StableMap *map);
 /* The largest step that holds, s; NaN where none does. */
 double stable_largest(const StableCellFound *found);
 
-/* Whether what is above holds again. */
-bool stable_again(const StableCellFound *found);
+/* Whether a sample above what fails holds again, or one below what holds fails: halving may have missed
+   another limit. */
+bool stable_uneven(const StableCellFound *found);
 
 /* How many of the samples above what holds fail and are not found by the sentinel. */
 int stable_silent(const StableCellFound *found);
@@ -39,8 +40,8 @@ int stable_silent(const StableCellFound *found);
 int stable_idle_axis(const StableMap *map);
 
 typedef struct StableSpread {
-    int cells, never, always, again, silent, ratios; /* of cells; `silent`: with a sample that is */
-    double least, median, most;                      /* of the ratios */
+    int cells, never, always, uneven, silent, ratios; /* of cells; `silent`: with a sample that is */
+    double least, median, most;                       /* of the ratios */
 } StableSpread;
 
 /* Of one series. */

@@ -49,7 +49,9 @@ static void print_cell(const StableMap *map, const StableCellFound *found, FILE 
         fprintf(file, "holds at no step tried, down to %.3g ms: ", 1000 * stable_step(search->rung));
     for (int i = 0; i < STABLE_ABOVE && search->end != STABLE_ALWAYS; i++)
         fprintf(file, "%s%s", i ? ", " : "", found_word(&search->above[i], word));
-    fprintf(file, "%s\n", stable_again(found) ? "; holds again further up" : "");
+    if (stable_uneven(found))
+        fprintf(file, "; uneven: %s at 0.71 times the step", found_word(&search->below, word));
+    fputc('\n', file);
 }
 
 static void print_spread(const StableMap *map, int series, FILE *file)
@@ -67,9 +69,9 @@ static void print_spread(const StableMap *map, int series, FILE *file)
             file,
             "%d of %d cells have steps up to twice the largest that holds whose trouble the sentinel does not find\n",
             spread.silent, spread.cells);
-    if (spread.again > 0)
-        fprintf(file, "%d of %d cells hold again at a longer step than one that does not\n", spread.again,
-                spread.cells);
+    if (spread.uneven > 0)
+        fprintf(file, "%d of %d cells are uneven: a longer step holds again, or a shorter one does not\n",
+                spread.uneven, spread.cells);
 }
 
 /* "viscosity" of "fluids[0].viscosity" */
@@ -131,8 +133,8 @@ static json_t *cell_json(const StableMap *map, const StableCellFound *found)
     return json_pack("{s:o, s:o, s:s, s:f, s:o, s:o, s:o, s:b}", "at", at, "holds",
                      number_json(stable_largest(found)), "end", ends[found->search.end], "last_tried",
                      stable_step(found->search.rung), "above", above_json(&found->search), "theory",
-                     limits_json(&found->limits), "ratio", number_json(found->ratio), "holds_again",
-                     stable_again(found));
+                     limits_json(&found->limits), "ratio", number_json(found->ratio), "uneven",
+                     stable_uneven(found));
 }
 
 static json_t *series_json(const StableMap *map, int series)

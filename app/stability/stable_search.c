@@ -54,9 +54,14 @@ int stable_sample(const StableSearch *search, int sample)
     return search->rung + (search->end == STABLE_NEVER ? sample * STABLE_RUNGS : stable_above[sample]);
 }
 
-static bool look_above(const Bracket *b, int most, StableSearch *search)
+/* Whether what is longer fails, and what is shorter holds. */
+static bool look_around(const Bracket *b, int most, StableSearch *search)
 {
     search->again = search->rung;
+    search->below = (StableFound){.kind = OUTCOME_NONE};
+    if (search->end != STABLE_NEVER &&
+        !b->attempt(b->context, search->rung - STABLE_BELOW, false, &search->below))
+        return false;
     for (int i = 0; i < STABLE_ABOVE; i++) {
         const int rung = stable_sample(search, i);
         search->above[i] = (StableFound){.kind = OUTCOME_NONE};
@@ -81,5 +86,5 @@ bool stable_search(StableTry *attempt, void *context, int first, int most, Stabl
         return false;
     search->end = !b.held ? STABLE_NEVER : !b.failed ? STABLE_ALWAYS : STABLE_FOUND;
     search->rung = b.held ? b.holds : b.fails;
-    return look_above(&b, most, search);
+    return look_around(&b, most, search);
 }

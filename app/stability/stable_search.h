@@ -7,8 +7,9 @@
 #include "app/outcome/outcome.h"
 
 /* STABLE_DOWN: below the first rung nothing further is tried, an eighth of the first step; STABLE_ABOVE:
-   samples of what is longer than what holds. */
-enum { STABLE_RUNGS = 8, STABLE_DOWN = 24, STABLE_ABOVE = 4 };
+   samples of what is longer than what holds; STABLE_BELOW: rungs below it where one is shorter, 0.71 times.
+ */
+enum { STABLE_RUNGS = 8, STABLE_DOWN = 24, STABLE_ABOVE = 4, STABLE_BELOW = 4 };
 
 /* Rungs above the largest that holds where the kinds of failure are looked for: 1.09, 1.3, 1.54 and 2 times
    the step. */
@@ -33,6 +34,7 @@ typedef struct StableSearch {
     StableEnd end;
     int rung;                        /* the largest that holds, of those that hold from below on */
     StableFound above[STABLE_ABOVE]; /* what is at stable_sample() */
+    StableFound below;               /* at rung - STABLE_BELOW; of STABLE_NEVER not tried */
     int again;                       /* a rung above one that does not hold, which holds again; else `rung` */
 } StableSearch;
 

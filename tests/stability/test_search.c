@@ -40,7 +40,7 @@ static void a_limit_is_found_from_anywhere(void **state)
             MadeUp m = {.limit = limit, .low = 1000};
             const StableSearch search = search_of(&m, first, 200);
             assert_true(search.end == STABLE_FOUND && search.rung == limit && search.again == limit);
-            assert_true(m.tries <= 14 && m.wholes == STABLE_ABOVE);
+            assert_true(m.tries <= 15 && search.below.kind == OUTCOME_HOLDS && m.wholes == STABLE_ABOVE);
             for (int i = 0; i < STABLE_ABOVE; i++)
                 assert_int_equal(search.above[i].kind, OUTCOME_BLOWN_UP);
         }
@@ -60,6 +60,9 @@ static void what_is_above_is_told(void **state)
     assert_true(search.rung == 3 && search.again == 8);
     assert_int_equal(search.above[2].kind, OUTCOME_HOLDS);
     assert_int_equal(search.above[3].kind, OUTCOME_BLOWN_UP);
+    m = (MadeUp){.limit = -1000, .low = 3, .high = 5, .silent = 2000}; /* what holds is an island */
+    search = search_of(&m, 4, 200);
+    assert_true(search.end == STABLE_FOUND && search.rung == 5 && search.below.kind == OUTCOME_NOISY);
     m = (MadeUp){.limit = 3, .low = 1000};
     search = search_of(&m, 0, 5); /* what may not be tried is not */
     assert_true(search.rung == 3);
