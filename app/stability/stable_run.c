@@ -24,7 +24,7 @@ typedef struct Seeker {
     const StableRows *rows; /* that are there */
     int number;
     StableCell cell;
-    bool makes; /* what is not there is made, and told: */
+    StableRows *made; /* what is not there is made, told and added here, which is `rows`; NULL: it is not */
     int pipe;
     Headless **context;
     int threads; /* of a trial */
@@ -57,6 +57,8 @@ static bool make_trial(const Seeker *seeker, Scene *scene, bool whole, StableRow
     if (!stable_trial(scene, seeker->plan->time, whole, row, seeker->error))
         return false;
     message.row = *row;
+    if (!stable_rows_add(seeker->made, row))
+        return error_set(seeker->error, "no memory for the trials");
     return tell(seeker, &message) || error_set(seeker->error, "a trial cannot be told (%s)", strerror(errno));
 }
 
@@ -79,7 +81,7 @@ static bool try_rung(void *context, int rung, bool whole, StableFound *found)
     snprintf(row.method, NAME_SIZE, "%s", series->method);
     snprintf(row.backend, NAME_SIZE, "%s", series->backend);
     stable_at(seeker->plan, seeker->cell, row.at, sizeof row.at);
-    if (!there && !seeker->makes)
+    if (!there && !seeker->made)
         return error_set(seeker->error, "not searched");
     if (!there && !make_trial(seeker, &scene, whole, &row))
         return false;
@@ -110,7 +112,7 @@ bool stable_recall(const StablePlan *plan, int cell, const StableRows *rows, Sta
 /* ---- the processes ---- */
 
 /* Takes cells until there are none; its exit code is of no use, its messages are. */
-static void work(const StablePlan *plan, const StableRows *rows, int pipe, int *next, int threads)
+static void work(const StablePlan *plan, StableRows *rows, int pipe, int *next, int threads)
 {
     Headless *context = NULL;
     const int all = stable_cells(plan);
@@ -120,7 +122,7 @@ static void work(const StablePlan *plan, const StableRows *rows, int pipe, int *
         Seeker seeker = {.plan = plan,
                          .rows = rows,
                          .number = number,
-                         .makes = true,
+                         .made = rows,
                          .pipe = pipe,
                          .context = &context,
                          .threads = threads,
