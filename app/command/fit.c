@@ -68,9 +68,10 @@ static bool search(FitPlan *plan, Error *error)
 {
     FitSpace space;
     FitRuns *runs = &plan->runs;
+    bool ok = fit_runs_floor(runs) && check_floor(plan, error) && fit_runs_reference(runs);
     fit_runs_space(runs, &space);
-    if (!fit_runs_floor(runs) || !check_floor(plan, error) || !fit_runs_reference(runs) ||
-        !fit_search(&space, &plan->goal, &plan->ladder)) {
+    ok = ok && fit_search(&space, &plan->goal, &plan->ladder);
+    if (!ok) {
         *error = *runs->error.message ? runs->error : *error;
         return false;
     }

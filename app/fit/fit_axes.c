@@ -23,12 +23,13 @@ static const char *const supports[] = {NULL, "2.1", "2.6", "3", "3.5"};
 /* Terms of a method, and kernels: what changes the error and the cost, but not the flow. */
 static const struct {
     const char *path, *value[4]; /* the first: the scene's own */
+    bool inviscid;               /* for fluids without a viscosity alone */
 } terms[FIT_TERMS] = {
-    {"solver.kernel", {NULL, "wendland_c2", "cubic"}},
-    {"solver.delta_sph", {NULL, "0", "0.1"}},
-    {"solver.shifting", {NULL, "0", "0.2"}},
-    {"solver.corrected_gradient", {NULL, "false", "true"}},
-    {"solver.artificial_viscosity", {NULL, "0", "0.02"}},
+    {"solver.kernel", {NULL, "wendland_c2", "cubic"}, false},
+    {"solver.delta_sph", {NULL, "0", "0.1"}, false},
+    {"solver.shifting", {NULL, "0", "0.2"}, false},
+    {"solver.corrected_gradient", {NULL, "false", "true"}, false},
+    {"solver.artificial_viscosity", {NULL, "0", "0.02"}, true},
 };
 
 enum { SPACINGS = sizeof spacings / sizeof *spacings, STEPS = sizeof steps / sizeof *steps };
@@ -181,6 +182,14 @@ static void find_presets(FitAxes *axes)
             axes->preset[(*found)++] = preset->name;
 }
 
+static bool has_inviscid(const WorldDef *def)
+{
+    for (int f = 0; f < def->fluid_count; f++)
+        if (fluid_viscosity_most(&def->fluids[f]) == 0)
+            return true;
+    return false;
+}
+
 /* Which terms each method reads. */
 static void find_effects(FitAxes *axes)
 {
@@ -195,7 +204,8 @@ static void find_effects(FitAxes *axes)
         for (int t = 0; t < FIT_TERMS; t++) {
             notes.count = 0;
             scene_unused(&scene, terms[t].path, &notes);
-            axes->effect[m][t] = read && notes.count == 0;
+            axes->effect[m][t] =
+                read && notes.count == 0 && (!terms[t].inviscid || has_inviscid(&scene.world));
         }
     }
 }

@@ -212,6 +212,7 @@ void fit_runs_space(FitRuns *runs, FitSpace *space)
 {
     const FitAxes *axes = runs->axes;
     *space = (FitSpace){.axes = axes->axes,
+                        .scatter = fmax(runs->floor, 0),
                         .power = axes->scene->world.dimensions + 1,
                         .exists = exists,
                         .work = work,

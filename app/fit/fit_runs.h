@@ -26,7 +26,7 @@ bool fit_runs_floor(FitRuns *runs);
 /* The finest run of a scene; nothing of a case. False: see error. */
 bool fit_runs_reference(FitRuns *runs);
 
-/* What the search asks for. */
+/* What the search asks for; the floor is known. */
 void fit_runs_space(FitRuns *runs, FitSpace *space);
 
 #endif

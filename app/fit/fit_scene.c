@@ -5,6 +5,7 @@
 #include "app/lab/bench.h"
 #include "app/scene/advise.h"
 #include "app/scene/keys.h"
+#include "app/scene/preset.h"
 #include "app/scene/tables.h"
 #include "app/yaml/print.h"
 #include "app/yaml/yaml.h"
@@ -60,10 +61,11 @@ static const char *was(Tree *tree, const FitPlan *plan, bool other_preset, const
         return node || !other_preset ? NULL : "as it was";
     if (!node && !has_effect(&plan->scene, path))
         return "had no effect before";
-    const size_t size = strlen(before) + sizeof "was , which no line said";
+    const char *from = node ? "" : preset_gave(&plan->scene, path) ? ", from the preset" : ", by default";
+    const size_t size = sizeof "was " + strlen(before) + strlen(from);
     char *text = tree_alloc(tree, size);
     if (text)
-        snprintf(text, size, "was %s%s", before, node ? "" : ", which no line said");
+        snprintf(text, size, "was %s%s", before, from);
     return text;
 }
 

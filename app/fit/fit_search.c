@@ -81,6 +81,21 @@ static double merit(const Search *search, const FitTry *try)
     return value(goal, try) * pow(fmax(excess(goal, try), 1), power);
 }
 
+/* Of those that are as accurate, as far as can be told, the cheapest. */
+static void prefer_cheap(Search *search)
+{
+    FitLadder *ladder = search->ladder;
+    if (ladder->best < 0 || wants_cheap(search->goal))
+        return;
+    const double error = error_of(&ladder->tries[ladder->best]) + search->space->scatter;
+    for (int i = 0; i < ladder->count; i++) {
+        const FitTry *try = &ladder->tries[i];
+        if (within(search, try) && error_of(try) <= error &&
+            try->figures.cost < ladder->tries[ladder->best].figures.cost)
+            ladder->best = i;
+    }
+}
+
 static void choose(Search *search)
 {
     FitLadder *ladder = search->ladder;
@@ -94,6 +109,7 @@ static void choose(Search *search)
              value(search->goal, try) < value(search->goal, &ladder->tries[ladder->best])))
             ladder->best = i;
     }
+    prefer_cheap(search);
     if (ladder->best >= 0)
         ladder->tries[ladder->best].fate = FIT_BEST;
 }
@@ -282,6 +298,9 @@ static double try_column(Search *search, FitPoint *column)
 /* How much worse two steps may be, each for itself, that are tried together. */
 static const double PAIR_REACH = 2;
 
+/* What a step must gain, a fraction, that others are tried from where it leads. */
+static const double GAIN = 0.02;
+
 typedef struct Steps {
     int count;
     int axis[FIT_AXES * FIT_VALUES], place[FIT_AXES * FIT_VALUES];
@@ -309,7 +328,7 @@ static bool step_singles(Search *search, FitPoint *at, Steps *near)
                 *at = to;
             }
         }
-    return here < before;
+    return here < (1 - GAIN) * before;
 }
 
 /* Two of those steps at once. */
@@ -331,7 +350,7 @@ static bool step_pairs(Search *search, FitPoint *at, const Steps *near)
                 *at = to;
             }
         }
-    return here < before;
+    return here < (1 - GAIN) * before;
 }
 
 static void descend(Search *search, FitPoint at, bool pairs)
@@ -369,8 +388,8 @@ static double best_merit(const Search *search)
 /* How much worse a line may be that steps along other axes are tried from: none gains more, by far. */
 static double reach(const Search *search)
 {
-    enum { GAIN = 8 };
-    return wants_cheap(search->goal) ? GAIN : pow(GAIN, 1 / search->space->power);
+    enum { MOST = 8 };
+    return wants_cheap(search->goal) ? MOST : pow(MOST, 1 / search->space->power);
 }
 
 /* Where all of a line broke its steps may be too long: again with the first places of ordered axes. */

@@ -46,7 +46,8 @@ typedef struct FitFigures {
 typedef struct FitSpace {
     int axes;
     FitAxis axis[FIT_AXES];
-    double power; /* cost grows as spacing^-power: dimensions + 1 */
+    double scatter; /* errors that differ by no more are alike; 0: none are */
+    double power;   /* cost grows as spacing^-power: dimensions + 1 */
     /* Whether there is such a setting that differs from all that were asked for. */
     bool (*exists)(void *of, const FitPoint *point);
     /* About what it takes beside others of its line. */

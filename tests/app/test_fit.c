@@ -111,7 +111,9 @@ static void start(const char *asked_for, const char *amount)
                      "particles.spacing=0.04",
                      "--time",
                      "0.15",
-                     "--quiet"};
+                     "--quiet",
+                     "--threads",
+                     "1"};
     if (!args_parse(sizeof words / sizeof *words, words, &args, &error) ||
         !fit_plan_make(&args, &plan, &error) || !fit_runs_begin(&plan.axes, csv, true, &plan.runs, &error))
         fail_msg("%s", error.message);

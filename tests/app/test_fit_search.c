@@ -269,6 +269,24 @@ static void a_repeat_that_is_beyond_counts(void **state)
     assert_int_equal(left, 1);
 }
 
+/* What repeats scatter by is no gain: of settings as accurate as far as can be told the cheapest. */
+static void scatter_is_no_gain(void **state)
+{
+    (void)state;
+    const FitGoal goal = {INFINITY, 2};
+    Toy toy = {.order = 1, .step_error = 0.001, .goal = &goal};
+    FitSpace space = space_of(&toy);
+    assert_true(fit_search(&space, &goal, &ladder));
+    const FitFigures most = ladder.tries[ladder.best].figures;
+    space.scatter = 0.3 * most.error;
+    assert_true(fit_search(&space, &goal, &ladder));
+    const FitFigures found = ladder.tries[ladder.best].figures;
+    assert_true(found.cost < most.cost && found.error <= most.error + space.scatter);
+    for (int i = 0; i < ladder.count; i++)
+        if (ladder.tries[i].fate == FIT_WITHIN && ladder.tries[i].figures.error <= most.error + space.scatter)
+            assert_true(ladder.tries[i].figures.cost >= found.cost);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -277,6 +295,7 @@ int main(void)
         cmocka_unit_test(nothing_within),
         cmocka_unit_test(stops_where_it_is_told),
         cmocka_unit_test(a_repeat_that_is_beyond_counts),
+        cmocka_unit_test(scatter_is_no_gain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
