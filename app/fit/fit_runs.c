@@ -14,6 +14,37 @@ enum { REPEATS = sizeof jitters / sizeof *jitters };
 /* Of the reference: half the scene's spacing, and half its step. */
 static const double FINEST = 0.5;
 
+static FitPoint own_point(const FitAxes *axes)
+{
+    FitPoint point = {{0}};
+    for (int x = 0; x < axes->axes; x++)
+        point.at[x] = axes->axis[x].own;
+    return point;
+}
+
+static void reference_job(const FitAxes *axes, FitJob *job)
+{
+    const FitPoint own = own_point(axes);
+    fit_axes_job(axes, &own, job);
+    job->job.role = CHART_REFERENCE;
+    job->job.coarsening = FINEST;
+    job->job.fineness = 1;
+}
+
+/* Before anything runs. */
+static bool check_reference(const FitAxes *axes, Error *error)
+{
+    static Scene scene;
+    static ChartRow row;
+    FitJob job;
+    Error why;
+    reference_job(axes, &job);
+    return axes->subject.of || chart_prepare(&axes->subject, &job.job, &scene, &row, &why) ||
+           error_set(error,
+                     "the run at half the spacing, which all are compared with, cannot be made: %.700s",
+                     why.message);
+}
+
 bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *runs, Error *error)
 {
     *runs = (FitRuns){.axes = axes, .csv = csv, .quiet = quiet, .floor = (double)NAN};
@@ -21,7 +52,7 @@ bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *r
     runs->used.metric_count = scene->metric_count;
     memcpy(runs->used.metrics, scene->metrics, sizeof runs->used.metrics);
     runs->used.probe_count = scene->probes.count;
-    return chart_rows_read(&runs->kept, csv, stderr, error);
+    return chart_rows_read(&runs->kept, csv, stderr, error) && check_reference(axes, error);
 }
 
 /* What takes so short a time, s, is timed again, so many times in all, and the least time counts: another
@@ -89,14 +120,6 @@ static double apart(const FitRuns *runs, const ChartRow *a, const ChartRow *b)
     return runs->axes->subject.of ? fabs(a->error - b->error) : chart_distance(&runs->used, a, b);
 }
 
-static FitPoint own_point(const FitAxes *axes)
-{
-    FitPoint point = {{0}};
-    for (int x = 0; x < axes->axes; x++)
-        point.at[x] = axes->axis[x].own;
-    return point;
-}
-
 bool fit_runs_floor(FitRuns *runs)
 {
     static ChartRow row[REPEATS];
@@ -118,12 +141,8 @@ bool fit_runs_reference(FitRuns *runs)
 {
     if (runs->axes->subject.of)
         return true;
-    const FitPoint own = own_point(runs->axes);
     FitJob job;
-    fit_axes_job(runs->axes, &own, &job);
-    job.job.role = CHART_REFERENCE;
-    job.job.coarsening = FINEST;
-    job.job.fineness = 1;
+    reference_job(runs->axes, &job);
     if (!row_of(runs, &job.job, &runs->reference))
         return false;
     return isfinite(runs->reference.seconds) ||
