@@ -120,9 +120,11 @@ static void count_all(Work *work, Ablation *ablation)
         AblateRow *row = &ablation->row[i];
         const char *more = i > 0 ? work->settings[i - 1] + strlen("--sweep ") : NULL;
         progress_update(&work->progress, (double)(work->done + i) / work->all);
-        if ((i == 0 || row->runs > 0) &&
-            !instructions_count(work->setup->scene, work->setup->settings, more, few ? 0 : COUNTED_MOST,
-                                &row->instructions, &why))
+        if (row->runs == 0 || instructions_count(work->setup->scene, work->setup->settings, more,
+                                                 few ? 0 : COUNTED_MOST, &row->instructions, &why))
+            continue;
+        row->instructions = (double)NAN;
+        if (i == 0)
             snprintf(ablation->not_counted, sizeof ablation->not_counted, "%.200s", why.message);
     }
 }

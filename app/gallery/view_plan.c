@@ -62,6 +62,8 @@ static const char *end_of(const ViewGrade *grade, const char *now, bool finest)
     double own, first, last;
     for (; grade->values[count]; count++)
         at = strcmp(grade->values[count], now) == 0 ? count : at;
+    if (count == 0)
+        return now;
     const char *low = grade->values[0], *high = grade->values[count - 1];
     if (!number_of(now, &own) || !number_of(low, &first) || !number_of(high, &last))
         return at < 0 ? now : finest ? high : low;
