@@ -245,7 +245,7 @@ AblateAdvice ablate_advice(const Ablation *ablation, int row)
     if (isnan(saved) || isnan(noise) || isnan(without->change) || isnan(ablation->floor))
         return ABLATE_UNKNOWN;
     const bool costs = saved > noise || ablate_counted(ablation, row) > ABLATE_COUNTED;
-    const bool changes = without->change > ablation->floor;
+    const bool changes = without->change > fmax(ablation->floor, ABLATE_LEAST);
     if (costs)
         return changes ? ABLATE_WEIGH : ABLATE_DROP;
     return changes ? ABLATE_KEEP : ABLATE_IDLE;

@@ -28,9 +28,9 @@ typedef struct AblateRow {
 typedef struct Ablation {
     const char *scene;
     char method[NAME_SIZE], backend[NAME_SIZE], renderer[256]; /* "" where no context was needed */
-    size_t particles;
-    double time; /* s of each run */
-    int count;   /* rows; the first is the whole scene */
+    size_t particles;                                          /* at the start */
+    double time;                                               /* s of each run */
+    int count;                                                 /* rows; the first is the whole scene */
     AblateRow row[TERMS_MAX + 1];
     double floor;          /* the greatest distance of two repeats of the whole scene; NaN: not known */
     char not_counted[256]; /* why there are no instructions; "" where there are */
@@ -64,6 +64,10 @@ double ablate_counted(const Ablation *ablation, int row);
 /* A term costs something where it takes more of the time than its rounds lie apart, or, since a busy machine
    hides much, so many of the instructions (a fraction). */
 #define ABLATE_COUNTED 0.02
+
+/* Metrics that change less than that are not said to change, however alike repeats are: fluid that emitters
+   send out is the same in each. */
+#define ABLATE_LEAST 1e-4
 
 /* What to make of a term, by the figures above and nothing else. X(ENUM, word, help) */
 #define ABLATE_ADVICE(X)                                                                                     \

@@ -63,7 +63,7 @@ static void print_help(const Ablation *ablation, FILE *file)
 
 void ablate_print(const Ablation *ablation, FILE *file)
 {
-    fprintf(file, "%s  %s  %s  %zu particles  %g s each\n", ablation->scene, ablation->backend,
+    fprintf(file, "%s  %s  %s  %zu particles at the start  %g s each\n", ablation->scene, ablation->backend,
             ablation->method, ablation->particles, ablation->time);
     if (ablation->count <= 1) {
         fprintf(file, "the scene has no term that it could do without\n\n");

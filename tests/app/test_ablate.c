@@ -136,6 +136,11 @@ static void advice_is_by_cost_and_change(void **state)
     a.row[1].instructions = 990;
     a.row[1].change = 0.011;
     assert_int_equal(ablate_advice(&a, 1), ABLATE_KEEP);
+    a.floor = 0; /* repeats are the same to the bit */
+    a.row[1].change = 0.9e-4;
+    assert_int_equal(ablate_advice(&a, 1), ABLATE_IDLE);
+    a.row[1].change = 1.1e-4;
+    assert_int_equal(ablate_advice(&a, 1), ABLATE_KEEP);
     a.row[1].outcome.kind = OUTCOME_BLOWN_UP;
     assert_int_equal(ablate_advice(&a, 1), ABLATE_NEEDED);
     a.row[1].outcome.kind = OUTCOME_NONE;
