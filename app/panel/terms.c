@@ -22,11 +22,22 @@ static bool can_switch(const SceneTerm *term)
     return term->key->flags & KEY_LIVE && strlen(term->value) < TERM_SIZE - 1;
 }
 
+/* "solver.artificial_viscosity", 0.05 as "solver artificial viscosity 0.05", which wraps. */
+static void label_of(const SceneTerm *term, char label[2 * TERM_SIZE])
+{
+    snprintf(label, 2 * TERM_SIZE, "%s", term->path);
+    for (char *c = label; *c; c++)
+        if (*c == '_' || *c == '.')
+            *c = ' ';
+    const size_t used = strlen(label);
+    snprintf(label + used, 2 * TERM_SIZE - used, " %s", term->value);
+}
+
 static void draw_switch(Ui *ui, const SceneTerm *term, bool on, PanelEvents *events)
 {
     char id[TERM_SIZE + 8], label[2 * TERM_SIZE], help[512];
     snprintf(id, sizeof id, "term %s", term->path);
-    snprintf(label, sizeof label, "%s %s", term->path, term->value);
+    label_of(term, label);
     key_help_text(term->key, help, sizeof help);
     const UiField field = {.id = id, .label = label, .help = help};
     if (ui_checkbox(ui, &field, &on) && events->setting_count < PANEL_SETTINGS_MAX)
@@ -37,10 +48,11 @@ static void draw_switch(Ui *ui, const SceneTerm *term, bool on, PanelEvents *eve
 /* What the world is made with: said, and how to do without it. */
 static void draw_fixed(Ui *ui, const SceneTerm *term)
 {
-    char value[3 * TERM_SIZE];
-    snprintf(value, sizeof value, "%.20s; needs a new start: --set %.60s=%.20s", term->value, term->path,
+    char text[4 * TERM_SIZE], label[2 * TERM_SIZE];
+    label_of(term, label);
+    snprintf(text, sizeof text, "%.60s: needs a new start to go, with --set %.60s=%.20s", label, term->path,
              term->key->off);
-    ui_row(ui, term->path, value);
+    ui_faint(ui, text);
 }
 
 void panel_terms(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events)

@@ -540,7 +540,14 @@ static void test_terms_have_switches(void **state)
     assert_true(session.scene.world.fluids[1].viscosity == viscosity);
     assert_int_equal(session.settings, 2);
     assert_int_equal(session.refused, 0);
-    assert_non_null(desk_find(desk, "none; needs a new start: --set box.slip=free"));
+    assert_non_null(desk_find(desk, "box slip none: needs a new start to go, with --set box.slip=free"));
+    assert_nothing_is_cut(desk);
+    session_close(&session, desk);
+    desk = session_open(&session, "impact", 400, TALL, 13); /* long names */
+    desk_click_at(desk, "Terms", 0.3F);
+    desk_frames(desk, 30);
+    assert_non_null(desk_find(desk, "solver artificial viscosity 0.05: needs a new start to go, with --set "
+                                    "solver.artificial_viscosity=0"));
     assert_nothing_is_cut(desk);
     session_close(&session, desk);
 }
