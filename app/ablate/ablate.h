@@ -8,7 +8,7 @@
 
 #include "app/ablate/instructions.h"
 #include "app/lab/chart_row.h"
-#include "app/scene/term.h"
+#include "app/term/term.h"
 
 enum { ABLATE_ROUNDS = 3, ABLATE_RUNS = ABLATE_ROUNDS + 1 };
 

@@ -44,7 +44,7 @@ void panel_devices(Ui *ui, const PanelData *data, PanelEvents *events);
 void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);
 void panel_scene(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events);
 
-/* terms.c: a switch for each term of the model that the scene had at its start (app/scene/term.h). */
+/* terms.c: a switch for each term of the model that the scene had at its start (app/term/term.h). */
 void panel_terms(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events);
 
 /* key.c: the widget of a live key, and what it asks for. `base` and `start` are what the key's offset

@@ -1,4 +1,4 @@
-#include "app/scene/term.h"
+#include "app/term/term.h"
 
 #include "sim/base/time_table.h"
 

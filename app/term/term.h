@@ -1,7 +1,7 @@
 /* The terms of a scene's model: what it could do without. A term is a row of the table of keys with a value
    `off` (sim/base/key.h). */
-#ifndef SLOSH_SCENE_TERM_H
-#define SLOSH_SCENE_TERM_H
+#ifndef SLOSH_TERM_H
+#define SLOSH_TERM_H
 
 #include "app/scene/keys.h"
 
