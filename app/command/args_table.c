@@ -36,7 +36,7 @@ const CommandRow command_rows[] = {
     {COMMAND_VALIDATE, "validate", "[CASE...] [OPTIONS]",
      "known flows against their references; without a CASE, all", 0, ARGS_SCENES_MAX, NULL, 0, 0},
     {COMMAND_CHART, "chart", "SCENE|CASE -o OUT.svg|.png [OPTIONS]",
-     "speed against accuracy over methods, steps and resolutions", 1, 1, "OUT.svg or OUT.png", 256, 256},
+     "speed against accuracy over methods, steps and resolutions", 1, 1, "OUT.svg or OUT.png", 0, 0},
     {COMMAND_STABILITY, "stability", "SCENE -o OUT.svg|.png [OPTIONS]",
      "where methods hold and how they fail: the largest step over two keys of a scene", 1, 1,
      "OUT.svg or OUT.png", 0, 0},
@@ -78,7 +78,7 @@ const OptionRow option_rows[] = {
     {"--time", "S", CHART, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a scene (2; of --views 0.5); a case has its own"},
     {"--views", NULL, CHART, OPTION_FLAG, AT(views), .help = "instead: of each view and each of its settings the time of a picture against its error, at --time; --set view.kind=NAME: of that view"},
     {"--sweep", "KEY=A,B,...", CHART, OPTION_SWEEP, AT(sweeps), .help = "method=... or backend=...: those, in place of all methods, of the scene's backend and cpu, and of those on a GPU where there is one; particles.spacing=...: those, in place of 2, 1.5 and 1 of the scene's; any other scene key: a series each value; repeat for a product"},
-    {"--size", "WxH", CHART, OPTION_SIZE, AT(width), .min = 1, .max = 16384, .help = "of a picture of --views, pixels"},
+    {"--size", "WxH", CHART, OPTION_SIZE, AT(width), .min = 1, .max = 16384, .help = "of a picture of --views, pixels (256x256)"},
     {"-o", "OUT", STABILITY, OPTION_TEXT, AT(output), .help = "the map, OUT.svg or OUT.png; its trials in OUT.csv, which a later run goes on with"},
     {"--axis", "KEY=a:b", STABILITY, OPTION_AXIS, AT(axes), .help = "a key of the scene from a to b, at 8 values or, as a:b:n, at n; by factors where that is a decade and more; twice for a map (sound speed and viscosity around the scene's)"},
     {"--time", "S", STABILITY, OPTION_NUMBER, AT(time), .max = 1e6, .help = "simulated seconds of a trial (four times what a fall from the top takes)"},
@@ -217,7 +217,7 @@ void args_help(Command command, FILE *file)
         const Key named = {.choice = option->names}, *names = key ? key : &named;
         for (int i = 0; key_choice(names, i); i++)
             fprintf(file, "%s%s", i ? ", " : ": ", key_choice(names, i));
-        if (option->kind == OPTION_SIZE)
+        if (option->kind == OPTION_SIZE && row->width > 0)
             fprintf(file, " (%dx%d)", row->width, row->height);
         fputc('\n', file);
     }

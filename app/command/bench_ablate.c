@@ -16,9 +16,9 @@ static bool scenes_check(const Plan *plan, bool *context, Error *error)
     static Scene scene;
     const Args *args = plan->args;
     *context = false;
-    if (args->table || args->play || args->micro || args->device || args->sweep_count > 0)
+    if (args->table || args->play || args->micro || args->device || args->sweep_count > 0 || args->frames > 0)
         return error_set(error, "slosh bench: --ablate stands alone; leave --table, --play, --micro, "
-                                "--device and --sweep out");
+                                "--device, --sweep and --frames out");
     if (args->time_given && !(args->time > 0))
         return error_set(error, "slosh bench: --ablate needs a --time of more than 0");
     for (size_t i = 0; i < plan_cases(plan); i++) {

@@ -187,6 +187,10 @@ int cmd_chart(const Args *args)
     interrupt_install();
     if (args->views)
         return chart_views(args);
+    if (args->width > 0) {
+        fprintf(stderr, "slosh chart: --size is of the pictures of --views; leave it out\n");
+        return EXIT_USAGE;
+    }
     if (chart_plan_make(args, &plan, &error))
         code = chart(&plan, &error);
     else

@@ -15,6 +15,8 @@
 
 static const double DEFAULT_TIME = 0.5; /* s */
 
+enum { DEFAULT_SIDE = 256 };
+
 /* Rows of the plan in its order, a reference's among them unused; and all that the file has. */
 typedef struct Gallery {
     const Args *args;
@@ -23,6 +25,7 @@ typedef struct Gallery {
     Headless *context;
     int factor;
     double time;
+    int width, height;
     ViewRows kept, rows;
     bool made[VIEW_JOBS_MAX];
     int wanted, there; /* pictures but the references */
@@ -49,6 +52,8 @@ static bool gallery_check(Gallery *gallery, Error *error)
 {
     const Args *args = gallery->args;
     gallery->time = args->time_given ? args->time : DEFAULT_TIME;
+    gallery->width = args->width > 0 ? args->width : DEFAULT_SIDE;
+    gallery->height = args->height > 0 ? args->height : DEFAULT_SIDE;
     if (args->sweep_count > 0)
         return error_set(error, "slosh chart: --views has a plan of its own; leave --sweep out, or name one "
                                 "view by --set view.kind=...");
@@ -61,8 +66,8 @@ static bool make_rows(Gallery *gallery, Error *error)
     static Scene scene;
     char more[512];
     const Args *args = gallery->args;
-    snprintf(more, sizeof more, "%s %.9g %d %d %d %s", SLOSH_VERSION, gallery->time, args->width,
-             args->height, gallery->factor, headless_renderer(gallery->context));
+    snprintf(more, sizeof more, "%s %.9g %d %d %d %s", SLOSH_VERSION, gallery->time, gallery->width,
+             gallery->height, gallery->factor, headless_renderer(gallery->context));
     for (int i = 0; i < gallery->plan.count; i++) {
         const ViewJob *job = &gallery->plan.jobs[i];
         ViewRow *row = &gallery->rows.row[gallery->rows.count++];
@@ -123,9 +128,9 @@ static bool need_reference(Gallery *gallery, int job, Error *error)
         return true;
     linear_picture_free(&gallery->reference);
     gallery->reference_of = -1;
-    const bool ok = view_job_scene(&gallery->plan, &gallery->plan.jobs[at], &scene, error) &&
-                    shoot(&scene, gallery->world, gallery->args->width, gallery->args->height,
-                          gallery->factor, false, &shot, error);
+    const bool ok =
+        view_job_scene(&gallery->plan, &gallery->plan.jobs[at], &scene, error) &&
+        shoot(&scene, gallery->world, gallery->width, gallery->height, gallery->factor, false, &shot, error);
     if (ok)
         gallery->reference = shot.picture;
     gallery->reference_of = ok ? at : -1;
@@ -143,7 +148,7 @@ static bool draw_one(Gallery *gallery, int job, Error *error)
         return false;
     if (!need_reference(gallery, job, &why) ||
         !view_job_scene(&gallery->plan, &gallery->plan.jobs[job], &scene, &why) ||
-        !shoot(&scene, gallery->world, gallery->args->width, gallery->args->height, 1, true, &shot, &why)) {
+        !shoot(&scene, gallery->world, gallery->width, gallery->height, 1, true, &shot, &why)) {
         fprintf(stderr, "%s, %s: %s\n", row->view, row->settings, why.message);
         linear_picture_free(&shot.picture);
         return true;
@@ -188,7 +193,7 @@ static bool finish(Gallery *gallery, Error *error)
     const Args *args = gallery->args;
     drop_references(gallery);
     snprintf(title, sizeof title, "%.120s at %g s: pictures of %d x %d", args->scenes[0], gallery->time,
-             args->width, args->height);
+             gallery->width, gallery->height);
     snprintf(
         note, sizeof note,
         "error: rms of linear light over white, against each view's finest settings, %d x %d supersampled",
@@ -196,7 +201,7 @@ static bool finish(Gallery *gallery, Error *error)
     snprintf(renderer, sizeof renderer, "renderer: %.200s", headless_renderer(gallery->context));
     const ViewWords words = {title, note, renderer};
     const ViewFacts facts = {args->scenes[0], headless_renderer(gallery->context),
-                             args->width,     args->height,
+                             gallery->width,  gallery->height,
                              gallery->factor, gallery->time};
     if (!args->quiet)
         view_rows_print(&gallery->rows, &words, stdout);
@@ -220,17 +225,17 @@ static bool gallery_open(Gallery *gallery, Error *error)
         !(gallery->context = headless_create(args->gpu, error)))
         return false;
     fprintf(stderr, "renderer: %s\n", headless_renderer(gallery->context));
-    gallery->factor = shot_factor(args->width, args->height);
+    gallery->factor = shot_factor(gallery->width, gallery->height);
     if (gallery->factor < 2)
         return error_set(error,
                          "slosh chart: a picture of %d x %d is too large to be supersampled here; use a "
                          "smaller --size",
-                         args->width, args->height);
+                         gallery->width, gallery->height);
     if (gallery->factor < SHOT_FACTOR)
         fprintf(
             stderr,
             "references are supersampled %d x %d in place of %d x %d: a picture of %d x %d allows no more\n",
-            gallery->factor, gallery->factor, SHOT_FACTOR, SHOT_FACTOR, args->width, args->height);
+            gallery->factor, gallery->factor, SHOT_FACTOR, SHOT_FACTOR, gallery->width, gallery->height);
     return true;
 }
 

@@ -67,7 +67,7 @@ class Ablate(command.CommandTest):
         self.assertEqual([row['terms'] for row in self.rows()], [0])
 
     def test_what_stands_alone(self):
-        for words in (['--sweep', 'method=mueller,wcsph'], ['--micro'], ['--play'], ['--time', '0']):
+        for words in (['--sweep', 'method=mueller,wcsph'], ['--frames', '5'], ['--micro'], ['--play'], ['--time', '0']):
             done = self.run_it('scene.yaml', *words)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn('--ablate', done.stderr)

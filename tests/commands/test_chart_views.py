@@ -63,6 +63,9 @@ class ChartViews(command.CommandTest):
         self.assertIn('7 x 7 supersampled', done.stdout)
 
     def test_what_cannot_be(self):
+        done = self.slosh('chart', 'scene.yaml', '-o', 'out.svg', '--size', '32x32')
+        self.assertEqual((done[0], self.entries()), (2, []), done[1])
+        self.assertIn('--size is of the pictures of --views', done[1])
         done = self.run_it('--sweep', 'method=mueller')
         self.assertEqual((done.returncode, self.entries()), (2, []), done.stderr)
         self.assertIn('--views has a plan of its own', done.stderr)
