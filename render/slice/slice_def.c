@@ -24,6 +24,11 @@ const Key slice_keys[] = {
 };
 /* clang-format on */
 
+const ViewGrade slice_grades[] = {
+    {"view.slice.samples", {"64", "128", "256", "512", "1024"}, NULL, NULL, false},
+    {0},
+};
+
 SliceDef *slice_def(const ViewDef *def)
 {
     return view_own(def, &view_slice);

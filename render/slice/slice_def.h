@@ -28,5 +28,6 @@ SliceDef *slice_def(const ViewDef *def);
 
 extern const SliceDef slice_usual; /* the defaults */
 extern const Key slice_keys[];     /* ended by a row without a path */
+extern const ViewGrade slice_grades[];
 
 #endif

@@ -200,6 +200,7 @@ const ViewKind view_slice = {
     .help = "a scalar on a plane through the fluid, exact in each sample",
     .radius = 0.5,
     .keys = slice_keys,
+    .grades = slice_grades,
     .def = &slice_usual,
     .def_size = sizeof slice_usual,
     .check = check,
