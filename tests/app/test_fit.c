@@ -102,9 +102,10 @@ static double exhaustive(const FitSpace *space, int *ran)
 
 static void start(const char *asked_for, const char *amount)
 {
+    static char scene[] = SLOSH_SOURCE_DIR "/scenes/dam_break_2d.yaml";
     char *words[] = {"slosh",
                      "fit",
-                     SLOSH_SOURCE_DIR "/scenes/dam_break_2d.yaml",
+                     scene,
                      (char *)asked_for,
                      (char *)amount,
                      "--set",
