@@ -25,6 +25,8 @@ static const char *advice(OutcomeKind kind, const WorldDef *def)
 {
     const bool solves = method_find(def->method)->incompressible;
     switch (kind) {
+    case OUTCOME_NOISY:
+        return "; use shorter steps";
     case OUTCOME_SQUEEZED:
         return solves ? "; use more solver.iterations or shorter steps" : "; use a higher solver.sound_speed";
     case OUTCOME_CLUMPS:
@@ -59,6 +61,8 @@ static void judge(const FluidWatch *watch, const OutcomeLook *now, Outcome *outc
 /* Without what was told: it does not hide the other kinds. */
 static OutcomeLook untold(const FluidWatch *watch, OutcomeLook look)
 {
+    if (watch->told >> OUTCOME_NOISY & 1)
+        look.energy = (double)NAN;
     if (watch->told >> OUTCOME_SQUEEZED & 1)
         look.pressed = 0;
     if (watch->told >> OUTCOME_CLUMPS & 1)
@@ -79,13 +83,14 @@ bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char word
     if (world_on_gpu(def) || info.within_frame || info.step < watch->next)
         return false;
     watch->next = info.step + FLUID_WATCH_STEPS;
-    if (!outcome_glance(&look, def, world))
+    if (!outcome_glance(&look, def, !watch->closed, world))
         return false; /* no memory: the next look may have it */
     if (!watch->looked)
         begin(watch, &look);
     judge(watch, &look, &now);
     if (now.kind > watch->worst.kind)
         watch->worst = now;
+    watch->start.energy = fmin(watch->start.energy, look.energy); /* which passes over NaN */
     look = untold(watch, look);
     judge(watch, &look, &now);
     if (now.kind <= OUTCOME_HOLDS)

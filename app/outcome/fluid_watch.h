@@ -1,6 +1,6 @@
 /* Watches a fluid while it runs, for what the sentinel does not go back for: lost volume, particles that lie
-   on each other or beyond walls (app/outcome/outcome.h). On backends on a GPU it would have to wait for each
-   look, and does not look. */
+   on each other or beyond walls, energy that grows too slowly for it (app/outcome/outcome.h). On backends on
+   a GPU it would have to wait for each look, and does not look. */
 #ifndef SLOSH_FLUID_WATCH_H
 #define SLOSH_FLUID_WATCH_H
 
@@ -9,11 +9,13 @@
 /* A look takes a third of a step's time; so many steps from one to the next make it less than a hundredth. */
 enum { FLUID_WATCH_STEPS = 50, FLUID_WATCH_WORDS = OUTCOME_WORDS + 192 };
 
-/* Zero-initialise it but for `resumed`; again where the scene begins anew. */
+/* Zero-initialise it but for `closed` and `resumed`; again where the scene begins anew. */
 typedef struct FluidWatch {
+    bool closed;       /* nothing but the scene acts, no hand, no changes: its energy is followed */
     bool resumed;      /* goes on from a state that is not the scene's start: none of it is normal */
     bool looked;       /* there was a look */
-    OutcomeLook start; /* what is normal: particles that are close at the first look; all else 0 */
+    OutcomeLook start; /* what is normal: particles that are close at the first look; the least energy so far;
+                          all else 0 */
     Outcome worst;     /* of all looks */
     unsigned told;     /* bit k: of OutcomeKind k */
     uint64_t next;     /* step of the next look */

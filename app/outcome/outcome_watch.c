@@ -32,19 +32,17 @@ static double scale_of(const WorldDef *def, double mass, const WorldGauge *gauge
            0.5 * mass * c * c;
 }
 
-static void look_at_energy(OutcomeLook *look, const WorldDef *def, World *world)
+static void look_at_energy(OutcomeLook *look, const WorldDef *def, double mass, World *world)
 {
     WorldGauge gauge;
-    WorldSums sums;
     bool known = false;
     world_gauge_ask(world);
     for (int tries = 0; !known && tries < 1000; tries++) /* a GPU's answer comes when it comes */
         known = world_gauge(world, &gauge);
     if (!known || !gauge.total_known)
         return;
-    world_sums(world, &sums);
     look->energy = gauge.kinetic_energy + gauge.potential_energy + gauge.compression_energy;
-    look->scale = scale_of(def, sums.mass, &gauge);
+    look->scale = scale_of(def, mass, &gauge);
 }
 
 static bool is_beyond(const WorldDef *def, const WorldInfo *info, const SolidPose pose[], const float x[3])
@@ -60,20 +58,24 @@ static bool is_beyond(const WorldDef *def, const WorldInfo *info, const SolidPos
     return beyond;
 }
 
-/* Of every `stride`-th particle whether it lies on another, and as many of all. */
+/* Of every `stride`-th particle whether it lies on another, and as many of all; `mass`, kg, in 2D of a
+   metre's depth. */
 static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldInfo *info, size_t stride,
-                           World *world)
+                           double *mass, World *world)
 {
     Cloud cloud = {0};
     SolidPose pose[SOLIDS_MAX];
     double pressed = 0;
+    *mass = 0;
     for (int i = 0; i < def->solid_count; i++)
         solid_pose_at(&def->solids[i], info->time, &pose[i]);
     const bool ok =
         cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, stride, &look->close);
     for (size_t i = 0; ok && i < cloud.count; i++) {
+        const double density = def->fluids[cloud.fluid[i]].density;
         look->beyond += is_beyond(def, info, pose, cloud.position + 4 * i);
-        pressed += fmax((double)cloud.density[i] / def->fluids[cloud.fluid[i]].density - 1, 0);
+        pressed += fmax((double)cloud.density[i] / density - 1, 0);
+        *mass += density * pow(def->spacing, def->dimensions);
     }
     look->close = look->close * stride < look->count ? look->close * stride : look->count;
     look->pressed = cloud.count > 0 ? pressed / (double)cloud.count : 0;
@@ -93,23 +95,29 @@ static OutcomeLook look_from(const WorldInfo *info)
     return look;
 }
 
-bool outcome_glance(OutcomeLook *look, const WorldDef *def, World *world)
+static bool look_with(OutcomeLook *look, const WorldDef *def, bool moved, size_t most, World *world)
 {
-    enum { LOOKED_AT = 2000 };
     WorldInfo info;
+    double mass;
     world_info(world, &info);
     *look = look_from(&info);
-    return look_at_places(look, def, &info, 1 + info.count / LOOKED_AT, world);
+    if (!look_at_places(look, def, &info, 1 + info.count / most, &mass, world))
+        return false;
+    if (!moved && is_left_alone(def))
+        look_at_energy(look, def, mass, world);
+    return true;
+}
+
+bool outcome_glance(OutcomeLook *look, const WorldDef *def, bool moved, World *world)
+{
+    static const size_t LOOKED_AT = 2000;
+    return look_with(look, def, moved, LOOKED_AT, world);
 }
 
 bool outcome_look(OutcomeHistory *history, const WorldDef *def, bool moved, World *world)
 {
-    WorldInfo info;
-    world_info(world, &info);
-    OutcomeLook look = look_from(&info);
-    if (!moved && is_left_alone(def))
-        look_at_energy(&look, def, world);
-    if (!look_at_places(&look, def, &info, 1, world))
+    OutcomeLook look;
+    if (!look_with(&look, def, moved, SIZE_MAX, world))
         return false;
     history->count += history->count < OUTCOME_LOOKS_MAX;
     history->look[history->count - 1] = look;

@@ -11,8 +11,9 @@
 bool outcome_look(OutcomeHistory *history, const WorldDef *def, bool moved, World *world);
 
 /* A look at the places alone, for whoever looks often: of all particles, but whether they lie on others of
-   some two thousand. Some third of a step's time. False when memory is short. */
-bool outcome_glance(OutcomeLook *look, const WorldDef *def, World *world);
+   some two thousand; and, where nothing `moved` the box, at its energy. Some third of a step's time. False
+   when memory is short. */
+bool outcome_glance(OutcomeLook *look, const WorldDef *def, bool moved, World *world);
 
 /* Takes what ended the run, if something did. */
 void outcome_end(OutcomeHistory *history, const World *world);

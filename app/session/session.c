@@ -42,6 +42,7 @@ int session_open(Session *session, const Args *args, bool draws, Error *error)
     if (args->device &&
         !(session->hand = hand_replay_open(args->device, args->mapping, &session->scene, error)))
         return EXIT_USAGE;
+    session->watch.closed = !session->hand;
     return settings.goes_on && scene_has_tables(&session->scene)
                ? start_again(session, args, draws, error)
                : session_start(session, args->gpu, draws, error);

@@ -312,6 +312,34 @@ static void each_kind_is_told_once(void **state)
     assert_false(look_now(&clumped) || look_now(&calm_def));
 }
 
+/* Against the least of the whole run, however slowly it grows; of a run that others act on nothing is known.
+ */
+static void energy_is_followed_where_nothing_else_acts(void **state)
+{
+    (void)state;
+    WorldDef lifted = calm_def;
+    watch.closed = true;
+    assert_false(look_now(&calm_def));
+    assert_true(watch.start.energy > 0);
+    const double energy = watch.start.energy;
+    assert_true(energy > 0.2 * 500 * 9.81 * 0.25 && energy < 5 * 500 * 9.81 * 0.25); /* of 500 kg */
+    watch.start.energy = energy - 0.5 * OUTCOME_GAIN * 500 * 9.81 * 0.25;
+    assert_false(look_now(&calm_def));
+    watch.start.energy = energy - 3 * OUTCOME_GAIN * 500 * 9.81 * 0.25;
+    assert_true(look_now(&calm_def) && strstr(said, "noisy: energy grows without work done: "));
+    assert_non_null(strstr(said, "; use shorter steps"));
+    assert_false(look_now(&calm_def));
+    assert_true(fluid_watch_outcome(&watch, &(WorldTrouble){.count = 0}, &outcome));
+    assert_int_equal(outcome.kind, OUTCOME_NOISY);
+    watch = (FluidWatch){.closed = false};
+    assert_false(look_now(&calm_def));
+    assert_true(isnan(watch.start.energy));
+    watch = (FluidWatch){.closed = true};
+    lifted.motion_count = 1;
+    assert_false(look_now(&lifted));
+    assert_true(isnan(watch.start.energy));
+}
+
 /* Of a scene's start it is normal; of a run that goes on it is not. */
 static void what_starts_close_is_no_clump(void **state)
 {
@@ -372,6 +400,7 @@ int main(void)
         cmocka_unit_test(a_world_that_ends_says_of_what),
         WATCHED(looks_come_at_their_steps),
         WATCHED(each_kind_is_told_once),
+        WATCHED(energy_is_followed_where_nothing_else_acts),
         WATCHED(what_starts_close_is_no_clump),
         WATCHED(advice_fits_the_kernel),
         WATCHED(the_worst_stays_but_for_the_end),
