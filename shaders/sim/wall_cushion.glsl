@@ -1,8 +1,8 @@
 // What keeps fluid that gravity draws to a wall from lying on it: walls_cushion of sim/box/wall_cushion.c.
 #include "shaders/sim/box/wall_cushion_part.h"
 
-// The acceleration of a particle at x that feels g, over a step dt.
-vec3 cushion_at(vec3 x, vec3 g, float dt)
+// The acceleration of a particle at x that feels g, over a step dt; pressure: over that of a layer.
+vec3 cushion_at(vec3 x, vec3 g, float dt, float pressure)
 {
     vec3 low = x + vec3(half_size.x, 0.0, half_size.z), high = 2.0 * half_size - low;
     float reach = CUSHION_REACH * spacing, most = dt > 0.0 ? CUSHION_TURN / (dt * dt) : 0.0;
@@ -13,5 +13,5 @@ vec3 cushion_at(vec3 x, vec3 g, float dt)
 #endif
     if (dimensions == 2)
         push.z = 0.0;
-    return push;
+    return clamp(pressure / CUSHION_FADE, 0.0, 1.0) * push;
 }

@@ -98,18 +98,20 @@ void cpu_force_end(const CpuRange *range)
 
 void cpu_cushion(const CpuRange *range)
 {
-    const Walls *walls = &range->cpu->constants->walls;
+    const Constants *s = range->cpu->constants;
+    const Walls *walls = &s->walls;
     const CpuParticles *p = &range->cpu->now;
     const WallsFar far = walls_far(walls, CUSHION_REACH * walls->spacing);
     for (size_t i = range->begin; i < range->end; i++) {
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
         if (!walls_near(&far, x))
             continue;
-        float g[3], a[3] = {p->ax[i], p->ay[i], p->az[i]};
+        float g[3], a[3] = {0};
         apparent_gravity_at(range->input->apparent, x, g);
         walls_cushion(walls, range->input->dt, g, x, a);
-        p->ax[i] = a[0];
-        p->ay[i] = a[1];
-        p->az[i] = a[2];
+        const float share = cushion_share(p->pressure[i], s->density[p->fluid[i]] * s->spacing, g);
+        p->ax[i] += share * a[0];
+        p->ay[i] += share * a[1];
+        p->az[i] += share * a[2];
     }
 }

@@ -95,7 +95,6 @@ static void others_body(const CpuRange *range)
         for (size_t i = range->begin; i < range->end; i++)
             p->ax[i] = p->ay[i] = p->az[i] = 0;
     cpu_force_end(range);
-    cpu_cushion(range);
     for (size_t i = range->begin; i < range->end; i++) {
         p->own[OTHER][i] = p->ax[i];
         p->own[OTHER + 1][i] = p->ay[i];

@@ -248,7 +248,7 @@ static void leave_corners(int dimensions, double support, int side, int layers, 
 static void what_is_in_a_corner_comes_out(void **state)
 {
     (void)state;
-    leave_corners(3, 2.1, 4, 6, 500); /* the splash of 1 s has its pressure yet at 300 */
+    leave_corners(3, 2.1, 4, 6, 300);
     leave_corners(2, 3, 6, 10, 600);
 }
 

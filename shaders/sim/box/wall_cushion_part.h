@@ -8,6 +8,9 @@
 /* At the wall itself, over the pull into it: what lies on a wall alone rests at 0.24 spacings. */
 #define CUSHION_PUSH 5.0f
 
+/* Over how much of a layer's pressure it fades in. */
+#define CUSHION_FADE 0.25f
+
 /* (omega dt)^2 of its spring, at most: no step is too long for it. */
 #define CUSHION_TURN 0.5f
 
