@@ -118,7 +118,7 @@ const Case case_rolling = {
     .time = 5,
     .every = 0.02,
     .metrics = {{"surface at the side", "", .tolerance = 0.075, .coarse = 0.09},
-                {"centre of mass", "", .tolerance = 0.06, .coarse = 0.05}},
+                {"centre of mass", "", .tolerance = 0.06, .coarse = 0.06}},
     .plot = {.x = "time, s",
              .y = "surface at the side, centre of mass, m",
              .found = {"surface", "centre"},

@@ -49,7 +49,7 @@ const Case case_sloshing = {
     .help = "linear sloshing, forced by the moving box: its natural frequency",
     .scene = "scenes/cases/sloshing.yaml",
     .methods = {{.name = "wcsph"},
-                {.name = "mueller", .tolerance = {0.06}, .coarse = {0.15}},
+                {.name = "mueller", .tolerance = {0.06}, .coarse = {0.17}},
                 {.name = "dfsph", .tolerance = {0.06}, .coarse = {0.12}},
                 {.name = "pbf",
                  .left_out =

@@ -82,7 +82,9 @@ bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char word
     world_info(world, &info);
     if (world_on_gpu(def) || info.within_frame || info.step < watch->next)
         return false;
-    watch->next = info.step + FLUID_WATCH_STEPS;
+    watch->next = info.step + (info.step < FLUID_WATCH_STEPS   ? FLUID_WATCH_STEPS
+                               : info.step < FLUID_WATCH_LATER ? info.step
+                                                               : FLUID_WATCH_LATER);
     if (!outcome_glance(&look, def, !watch->closed, world))
         return false; /* no memory: the next look may have it */
     if (!watch->looked)

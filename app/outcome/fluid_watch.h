@@ -6,8 +6,9 @@
 
 #include "app/outcome/outcome.h"
 
-/* A look takes a third of a step's time; so many steps from one to the next make it less than a hundredth. */
-enum { FLUID_WATCH_STEPS = 50, FLUID_WATCH_WORDS = OUTCOME_WORDS + 192 };
+/* Steps from one look to the next: as many as there have been, between these two. Most runs that fail do so
+   early; later on a look, which takes up to two thirds of a step, makes less than a hundredth. */
+enum { FLUID_WATCH_STEPS = 50, FLUID_WATCH_LATER = 200, FLUID_WATCH_WORDS = OUTCOME_WORDS + 192 };
 
 /* Zero-initialise it but for `closed` and `resumed`; again where the scene begins anew. */
 typedef struct FluidWatch {

@@ -20,7 +20,7 @@ void main()
     scalar = vec2(0.0);
     dvec3 from_corner = dvec3(place) - plane_corner;
     float away = float(dot(from_corner, plane_normal)), left = 1.0 - away * away;
-    if (is_nan(vec4(place, volume)) || !(left > 0.0) || !(volume > 0.0) || volume > 1e30)
+    if (is_nan(vec4(place, volume)) || left <= 0.0 || volume <= 0.0 || volume > 1e30)
         return;
     dvec2 centre = dvec2(dot(from_corner, plane_along), dot(from_corner, plane_up));
     bool known = !is_nan(value) && abs(value) < 1e30;

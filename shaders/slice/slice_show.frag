@@ -18,7 +18,7 @@ void main()
     float mean = sum.r / max(sum.g, 1e-30);
     float value = shown == SLICE_FIELD ? field : shown == SLICE_RAW ? sum.r : mean;
     float level = (value - range_low) * range_scale * float(isolines + 1u), wide = fwidth(level);
-    if (!(field > 0.0) || field < cut)
+    if (field <= 0.0 || field < cut)
         discard;
     color = texelFetch(colormap, ivec2(clamp((value - range_low) * range_scale, 0.0, 1.0) * 255.0 + 0.5, 0), 0);
     float nearest = round(level);

@@ -95,6 +95,7 @@ static const struct {
      "an emitter (fluids[].emit)", false},
     {"view.splat.ior=2", "view.kind=splat", "view.kind: splat", false},
     {"view.volume.look=water", "view.kind=volume", "view.kind: volume", false},
+    {"view.slice.cut=0.5", "view.kind=slice", "view.kind: slice", false},
 };
 enum { OWNED = sizeof owned / sizeof *owned };
 

@@ -23,7 +23,7 @@ class ChartViews(command.CommandTest):
         self.assertIn(f"renderer: {figures['renderer']}\n", first.stdout)
         self.assertEqual((figures['size'], figures['supersampled'], figures['time']), ([64, 64], 8, 0.05))
         runs = {(run['view'], run['settings']): run for run in figures['runs']}
-        self.assertEqual({view for view, _ in runs}, {'spheres', 'splat', 'volume'})
+        self.assertEqual({view for view, _ in runs}, {'spheres', 'splat', 'volume', 'slice'})
         for run in figures['runs']:
             self.assertTrue(0 < run['error'] < 0.5 and 0 <= run['structure'] < 1 and run['ms'] > 0, run)
         for view in ('spheres', 'splat', 'volume'):
