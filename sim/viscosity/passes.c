@@ -17,18 +17,29 @@ static float inertia_of(const CpuRange *range, size_t i)
 
 /* --- begin --- */
 
-/* Velocities that go on as in the step before; those of solids stay. */
+/* What the velocity changes by where friction is that of the step before. */
+static void change_before(const CpuRange *range, size_t i, float d[3])
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float *g = range->input->gravity, dt = range->input->dt;
+    d[0] = dt * (p->ax[i] + g[0] + p->own[BEFORE][i]);
+    d[1] = dt * (p->ay[i] + g[1] + p->own[BEFORE + 1][i]);
+    d[2] = dt * (p->az[i] + g[2] + p->own[BEFORE + 2][i]);
+}
+
+/* Velocities with that change; those of solids stay. */
 static void pack_begin(const CpuRange *range)
 {
     Cpu *cpu = range->cpu;
     const CpuParticles p = cpu->now;
-    float *const *before = p.own + BEFORE;
     for (size_t i = range->begin; i < range->end; i++) {
         const bool solid = p.fluid[i] >= FLUIDS_MAX;
         const float mu = p.viscosity ? p.viscosity[i] : cpu->constants->viscosity[0],
-                    volume = solid ? -p.volume[i] : p.volume[i], dt = solid ? 0 : range->input->dt;
-        const float v[3] = {p.vx[i] + dt * before[0][i], p.vy[i] + dt * before[1][i],
-                            p.vz[i] + dt * before[2][i]};
+                    volume = solid ? -p.volume[i] : p.volume[i];
+        float d[3] = {0};
+        if (!solid)
+            change_before(range, i, d);
+        const float v[3] = {p.vx[i] + d[0], p.vy[i] + d[1], p.vz[i] + d[2]};
         p.term[MISS][i] = mu;
         memcpy(cpu->place[i], (float[]){p.x[i], p.y[i], p.z[i], mu}, 16);
         memcpy(cpu->motion[i], (float[]){v[0], v[1], v[2], volume}, 16);
@@ -80,13 +91,13 @@ static float length(const float v[3])
 static void begin_one(const CpuRange *range, size_t i)
 {
     const CpuParticles *p = &range->cpu->now;
-    float *const *t = p->term, *const *before = p->own + BEFORE;
+    float *const *t = p->term;
     const float *g = range->input->gravity, dt = range->input->dt,
                 m = range->cpu->constants->mass[p->fluid[i]], mu = t[MISS][i];
     const float v[3] = {p->vx[i], p->vy[i], p->vz[i]},
-                a[3] = {p->ax[i] + g[0], p->ay[i] + g[1], p->az[i] + g[2]},
-                d[3] = {dt * before[0][i], dt * before[1][i], dt * before[2][i]};
-    float force[3] = {t[RESIDUAL][i], t[RESIDUAL + 1][i], t[RESIDUAL + 2][i]}, held[3] = {0}, z[3];
+                a[3] = {p->ax[i] + g[0], p->ay[i] + g[1], p->az[i] + g[2]};
+    float d[3], force[3] = {t[RESIDUAL][i], t[RESIDUAL + 1][i], t[RESIDUAL + 2][i]}, held[3] = {0}, z[3];
+    change_before(range, i, d);
     t[INERTIA][i] = inertia_of(range, i) + held_by_walls(range, i, mu, v, force);
     if (t[HELD])
         times(t + HELD, i, d, held);
@@ -134,7 +145,7 @@ const Pass viscosity_begin = {
     .stage = STAGE_SOLVE,
     .cpu = &begin,
     .shader = "viscosity/begin",
-    .reads = "position velocity fluid volume viscosity acceleration acceleration_before",
+    .reads = "position velocity fluid volume viscosity acceleration friction_before",
     .writes = "velocity_change residual direction along product inverse held inertia miss scale",
     .mirrors = true,
 };
@@ -216,8 +227,9 @@ static void end_body(const CpuRange *range)
     float *const a[3] = {p->ax, p->ay, p->az}, *const *before = p->own + BEFORE;
     for (int k = 0; k < 3; k++)
         for (size_t i = range->begin; i < range->end && rate > 0; i++) {
-            before[k][i] = rate * p->term[CHANGE + k][i];
-            a[k][i] = before[k][i] - g[k];
+            const float change = rate * p->term[CHANGE + k][i];
+            before[k][i] = change - (a[k][i] + g[k]);
+            a[k][i] = change - g[k];
         }
 }
 
@@ -228,8 +240,8 @@ const Pass viscosity_end = {
     .stage = STAGE_SOLVE,
     .cpu = &end,
     .shader = "viscosity/end",
-    .reads = "velocity_change",
-    .writes = "acceleration acceleration_before",
+    .reads = "velocity_change acceleration",
+    .writes = "acceleration friction_before",
 };
 
 static bool is_implicit(const Constants *constants)
@@ -254,7 +266,7 @@ static bool by_solids(const Constants *constants)
     }
 
 const ColumnDef viscosity_columns[] = {
-    {"acceleration_before", "m/s2", .at = COLUMN_OWN(BEFORE), 3, COLUMN_FLOAT,
+    {"friction_before", "m/s2", .at = COLUMN_OWN(BEFORE), 3, COLUMN_FLOAT,
      .flags = COLUMN_SAVED | COLUMN_SORTED, .needed = is_named},
     TERM("velocity_change", "m/s", CHANGE, 3),
     TERM("residual", "N", RESIDUAL, 3),

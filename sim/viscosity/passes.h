@@ -20,15 +20,16 @@
 
    Conjugate gradients with one product an iteration (A. T. Chronopoulos, C. W. Gear, "s-step iterative
    methods for symmetric linear systems", 1989), preconditioned by the blocks D_i of 3 x 3. They begin with
-   the accelerations of the step before, which are a part of the saved state: the sums of the right side are
-   then those of the residual, with v + d for v, and cost nothing more. Fluid that falls, creeps or is shaken
-   needs few iterations so, or none. */
+   the friction of the step before, which is a part of the saved state, and with all else as it is now: the
+   sums of the right side are then those of the residual, with v + d for v, and cost nothing more. Fluid that
+   falls or creeps needs few iterations so. There is one at least: friction that is out of date in a corner of
+   the fluid, and little beside the speed of the rest, would go on pushing. */
 #ifndef SLOSH_VISCOSITY_PASSES_H
 #define SLOSH_VISCOSITY_PASSES_H
 
 #include "sim/cpu/pass.h"
 
-/* Of what goes on from step to step: d / dt, m/s2: 3. */
+/* Of what goes on from step to step: what friction adds to the acceleration, m/s2: 3. */
 enum { BEFORE = COLUMNS_KEPT };
 
 /* Where its other columns stand among those of terms. */

@@ -46,6 +46,7 @@ static void solve(const Substep *step)
                                  .power = column_at(POWER),
                                  .curvature = column_at(CURVATURE),
                                  .tolerance = own->tolerance,
+                                 .few = 1, /* where a particle has more left than 0 */
                                  .most = own->most,
                                  .begun = true};
     substep_run(step, &viscosity_begin, step->dt);

@@ -70,6 +70,13 @@ static void a_second_at_1e5_pascal_seconds_stands(void **state)
         ball_check_long_step(fixture_method_names[m], "compute");
 }
 
+static void what_is_thrown_falls(void **state)
+{
+    (void)state;
+    for (int m = 0; m < 4; m++)
+        ball_check_thrown(fixture_method_names[m], "compute");
+}
+
 static void save_load_step_is_step(void **state)
 {
     (void)state;
@@ -100,6 +107,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(a_second_at_1e5_pascal_seconds_stands, no_gl_errors),
+        cmocka_unit_test_teardown(what_is_thrown_falls, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(a_viscosity_may_come_later, no_gl_errors),
     };

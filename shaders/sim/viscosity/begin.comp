@@ -16,11 +16,11 @@ layout(location = PASS_DT_AT) uniform float dt;
 
 #define ENDLESS 1e18 // m in a step of no time: nothing changes
 
-// What the velocity changes by where it goes on as in the step before: where the iterations begin.
+// What the velocity changes by where friction is that of the step before: where the iterations begin.
 vec3 change_before(uint j)
 {
-    uint at = OWN_viscosity_acceleration_before + j;
-    return dt * vec3(own[at], own[OWN_STRIDE + at], own[2u * OWN_STRIDE + at]);
+    uint at = OWN_viscosity_friction_before + j;
+    return dt * (acceleration[j].xyz + kick_gravity + vec3(own[at], own[OWN_STRIDE + at], own[2u * OWN_STRIDE + at]));
 }
 
 // Explicit friction, with that change; the sums of all blocks, and of those of solids twice: xx yy zz, xy yz zx.

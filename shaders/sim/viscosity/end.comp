@@ -12,8 +12,8 @@ void main()
     uint i = invocation();
     if (i >= particle_count() || dt <= 0.0)
         return;
-    vec3 a = column_of(SCRATCH_viscosity_velocity_change, i) / dt;
+    vec3 a = column_of(SCRATCH_viscosity_velocity_change, i) / dt, friction = a - (acceleration[i].xyz + kick_gravity);
     for (uint k = 0u; k < 3u; k++)
-        own[OWN_viscosity_acceleration_before + k * OWN_STRIDE + i] = a[k];
+        own[OWN_viscosity_friction_before + k * OWN_STRIDE + i] = friction[k];
     acceleration[i].xyz = a - kick_gravity;
 }
