@@ -96,7 +96,7 @@ static bool read_keys(SliceWanted *wanted, const Tree *tree, const Node *root, E
         if (!read_key(wanted, tree, node, error))
             return false;
     const double *normal = wanted->normal;
-    return normal[0] != 0 || normal[1] != 0 || normal[2] != 0 ||
+    return normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] > 0 ||
            error_set(error, "--slice: a normal of length 0 is across no plane; [0, 0, 1] looks along z");
 }
 

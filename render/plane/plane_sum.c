@@ -8,17 +8,20 @@
 #include <math.h>
 #include <stdio.h>
 
-static bool follow_kernel(PlaneSum *sum, const PlaneJob *job, Error *error)
+bool plane_sum_prepare(PlaneSum *sum, int kernel, Error *error)
 {
     static const char *const stages[] = {"render/plane_sum.vert", "render/plane_sum.frag", NULL};
     char defines[64];
-    if (sum->program && sum->kernel == job->kernel)
+    if (sum->program && sum->kernel == kernel)
         return true;
+    snprintf(defines, sizeof defines, "#define KERNEL %d\n", kernel);
+    const unsigned program = program_create("slice sum", stages, defines, error);
+    if (!program)
+        return false;
     glDeleteProgram(sum->program);
-    snprintf(defines, sizeof defines, "#define KERNEL %d\n", job->kernel);
-    sum->program = program_create("slice sum", stages, defines, error);
-    sum->kernel = job->kernel;
-    return sum->program != 0;
+    sum->program = program;
+    sum->kernel = kernel;
+    return true;
 }
 
 static bool follow_samples(PlaneSum *sum, const int samples[2], Error *error)
@@ -30,6 +33,7 @@ static bool follow_samples(PlaneSum *sum, const int samples[2], Error *error)
     if (samples[0] > most || samples[1] > most)
         return error_set(error, "a slice of %d x %d samples; this driver draws %d at most along a side",
                          samples[0], samples[1], most);
+    sum->samples[0] = sum->samples[1] = 0;
     glDeleteTextures(1, &sum->sums);
     glCreateTextures(GL_TEXTURE_2D, 1, &sum->sums);
     glObjectLabel(GL_TEXTURE, sum->sums, -1, "slice sums");
@@ -99,7 +103,7 @@ static void draw(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *part
 bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles, Error *error)
 {
     create(sum);
-    if (!follow_kernel(sum, job, error) || !follow_samples(sum, job->samples, error))
+    if (!plane_sum_prepare(sum, job->kernel, error) || !follow_samples(sum, job->samples, error))
         return false;
     draw(sum, job, particles);
     return true;

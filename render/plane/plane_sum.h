@@ -25,12 +25,15 @@ typedef struct PlaneJob {
 typedef struct PlaneSum {
     unsigned program, uniforms, framebuffer;
     unsigned
-        sums; /* texture, RGBA32F: of V W s, of V W, the latter of particles whose scalar is no number, and
-                 0; rows from the bottom up. Particles without a place or a volume count for nothing */
-    int kernel, dimensions; /* that the program is for */
-    int samples[2];         /* of the texture */
+        sums;   /* texture, RGBA32F: of V W s, of V W, the latter of particles whose scalar is no number, and
+                   0; rows from the bottom up. Particles without a place or a volume count for nothing */
+    int kernel; /* that the program is for */
+    int samples[2]; /* of the texture */
     QuadIndices quads;
 } PlaneSum;
+
+/* Makes its shaders for a kernel of plane_kernels; false when one does not compile: the last ones stay. */
+bool plane_sum_prepare(PlaneSum *sum, int kernel, Error *error);
 
 /* False when a shader does not compile or the driver has no such texture; plane_sum_destroy is needed in
    either case. The texture is this one's, up to the next run. The scalar must be among the attributes. */

@@ -33,7 +33,7 @@ static bool check(const Subject *subject, const char **key, Error *error)
 {
     const double *normal = slice_def(subject->def)->normal;
     *key = "view.slice.normal";
-    return normal[0] != 0 || normal[1] != 0 || normal[2] != 0 ||
+    return normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] > 0 ||
            error_set(error, "a normal of length 0 is across no plane; [0, 0, 1] looks along z");
 }
 
@@ -50,7 +50,8 @@ static void *create(const Subject *subject, Error *error)
     if (!view->colormap)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", subject->def->colormap);
     view->program = view->colormap ? program_create("slice show", stages, NULL, error) : 0;
-    if (view->program)
+    const int kernel = plane_kernel_of(slice_def(subject->def)->kernel, subject->world);
+    if (view->program && plane_sum_prepare(&view->sum, kernel, error))
         return view;
     destroy(view);
     return NULL;
@@ -116,13 +117,19 @@ static void set_filter(unsigned texture, GLint filter)
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, filter);
 }
 
-/* A flat slice has nothing behind it; its samples are pixels. */
-static void begin_flat(const SliceView *view, const PlaneJob *job, const Frame *frame)
+/* A flat slice has nothing behind it. */
+static void clear_flat(const Frame *frame)
 {
     const double *back = frame->def->background;
     const GLfloat color[4] = {(GLfloat)back[0], (GLfloat)back[1], (GLfloat)back[2], 1};
+    glDisable(GL_SCISSOR_TEST);
     glClearNamedFramebufferfv(frame->target->framebuffer, GL_COLOR, 0, color);
     glClearNamedFramebufferfv(frame->target->framebuffer, GL_DEPTH, 0, (float[1]){0});
+}
+
+/* Its samples are pixels. */
+static void begin_flat(const SliceView *view, const PlaneJob *job, const Frame *frame)
+{
     glDisable(GL_DEPTH_TEST);
     glViewport(((int)flat_width(frame) - job->samples[0]) / 2, (frame->height - job->samples[1]) / 2,
                job->samples[0], job->samples[1]);
@@ -178,8 +185,12 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     GL_STAGE(frame->timer, STAGE_BLEND)
     made = make_job(particles, frame, &job) && plane_sum_run(&view->sum, &job, particles, &error);
     GL_STAGE(frame->timer, STAGE_SHADE)
-    if (made) /* else the plane misses the box, or memory that was there is not there now */
-        show_sums(view, &job, frame);
+    {
+        if (slice_def(frame->def)->show == SLICE_FLAT)
+            clear_flat(frame);
+        if (made) /* else the plane misses the box, or memory that was there is not there now */
+            show_sums(view, &job, frame);
+    }
 }
 
 /* The field is 1 in a fluid at rest, more where it is compressed. */

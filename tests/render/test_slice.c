@@ -6,6 +6,7 @@
 #include "render/plane/plane_kernel.h"
 #include "render/plane/plane_sum.h"
 #include "render/slice/slice_def.h"
+#include "sim/gl/program.h"
 #include "sim/kernel/kernel.h"
 #include "sim/world/method.h"
 
@@ -379,10 +380,30 @@ static void a_plane_beside_the_fluid_is_empty(void **state)
         slice_def(&def)->point[1] = heights[k];
         memcpy(slice_def(&def)->normal, (double[3]){0, 1, 0}, sizeof(double[3]));
         picture_of(&scene, &def, rgb);
-        for (int i = 0; k == 0 && i < WIDE * HIGH; i++)
+        for (int i = 0; i < WIDE * HIGH; i++)
             assert_memory_equal(&rgb[3 * i], rgb, 3);
     }
     free_scene(&scene);
+}
+
+/* Rather than an empty picture. */
+static void a_broken_shader_is_said(void **state)
+{
+    (void)state;
+    Error error = {0};
+    ViewDef def = flat_view();
+    char folder[] = "/tmp/slosh-shaders-XXXXXX", command[512];
+    assert_non_null(mkdtemp(folder));
+    snprintf(command, sizeof command,
+             "cp -r '%s/shaders/.' '%s' && echo broken >> '%s/render/plane_sum.frag'", SLOSH_SOURCE_DIR,
+             folder, folder);
+    assert_int_equal(system(command), 0);
+    program_set_directory(folder);
+    assert_null(renderer_create(&def, NULL, WIDE, HIGH, &error));
+    program_set_directory(NULL);
+    assert_non_null(strstr(error.message, "plane_sum.frag"));
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    assert_int_equal(system(command), 0);
 }
 
 int main(void)
@@ -399,6 +420,7 @@ int main(void)
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
         cmocka_unit_test_teardown(small_particles_are_not_lost, no_gl_errors),
         cmocka_unit_test_teardown(a_plane_beside_the_fluid_is_empty, no_gl_errors),
+        cmocka_unit_test(a_broken_shader_is_said),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

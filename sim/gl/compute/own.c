@@ -41,7 +41,7 @@ bool compute_scratch_fit(Compute *c)
 static void add_kept(const Constants *s, const ColumnDef *columns, const Term *of, ComputeOwn *own)
 {
     for (; columns && columns->name; columns++)
-        if (kept(columns) && (!of || columns->needed(s))) {
+        if (kept(columns) && (!of || !columns->needed || columns->needed(s))) {
             own->of[own->rows.count] = of;
             own->rows.row[own->rows.count++] = columns;
             for (int k = 0; k < columns->components; k++)
