@@ -106,9 +106,10 @@ void cpu_cushion(const CpuRange *range)
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
         if (!walls_near(&far, x))
             continue;
+        const float v[3] = {p->vx[i], p->vy[i], p->vz[i]};
         float g[3], a[3] = {0};
         apparent_gravity_at(range->input->apparent, x, g);
-        walls_cushion(walls, range->input->dt, g, x, a);
+        walls_cushion(walls, range->input->dt, g, x, v, a);
         const float share = cushion_share(p->pressure[i], s->density[p->fluid[i]] * s->spacing, g);
         p->ax[i] += share * a[0];
         p->ay[i] += share * a[1];

@@ -113,23 +113,29 @@ static void a_film_lies_above_its_floor(void **state)
     does_not_touch(&def, 0.6 * spacing, 0, 1);
 }
 
-/* Whatever a fall has put into it: a watch over energy takes it for no trouble. */
-static void one_particle_falls_and_lies(void **state)
+/* Whatever a fall has put into them: a watch over energy takes it for no trouble. Four feel each other, so
+   that their pressures change while they lie on the cushion. */
+static void few_particles_fall_and_lie(void **state)
 {
     (void)state;
-    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
-        WorldDef def = tank(methods[m], 1, 1, 0);
-        static const float at[] = {0.1F, 0.3F, 0};
-        def.initial = &(InitialState){.count = 1, .position = at};
-        def.retries = 3;
-        World *world = fixture_world(&def);
-        fixture_step(world, (int)(2 / def.dt));
-        State s = fixture_read(world);
-        printf("%s: one particle stands %.3f m off the floor\n", methods[m], (double)s.position[1]);
-        assert_true(s.position[1] >= 0 && s.position[1] < 0.06F);
-        fixture_free(&s);
-        world_destroy(world);
-    }
+    static const float at[] = {0.1F, 0.3F, 0, 0.15F, 0.3F, 0, 0.1F, 0.35F, 0, 0.15F, 0.35F, 0};
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+        for (size_t count = 1; count <= 4; count += 3) {
+            WorldDef def = tank(methods[m], 1, 1, 0);
+            def.initial = &(InitialState){.count = count, .position = at};
+            def.retries = 3;
+            World *world = fixture_world(&def);
+            fixture_step(world, (int)(2 / def.dt));
+            State s = fixture_read(world);
+            double highest = 0;
+            for (size_t i = 0; i < s.count; i++)
+                highest = fmax(highest, (double)s.position[4 * i + 1]);
+            printf("%s: of %zu particles the highest stands %.3f m off the floor\n", methods[m], count,
+                   highest);
+            assert_true(highest < (count == 1 ? 0.06 : 0.12));
+            fixture_free(&s);
+            world_destroy(world);
+        }
 }
 
 /* 0.05 m spacings: within 0.015 m of what gravity draws to, and no step is too long for it. */
@@ -142,16 +148,18 @@ static void it_holds_where_gravity_draws(void **state)
     for (int step = 0; step <= 20; step++) {
         const float d = 0.1F * (float)step * reach, share = CUSHION_PUSH * fmaxf(1 - d / reach, 0);
         float low[3] = {0}, high[3] = {0}, still[3] = {0};
-        walls_cushion(&walls, 1e-4F, g, (float[]){-0.5F + d, d, -0.5F + d}, low);
-        walls_cushion(&walls, 1e-4F, g, (float[]){0.5F - d, 1 - d, 0.5F - d}, high);
-        walls_cushion(&walls, 0, g, (float[]){-0.5F + d, d, -0.5F + d}, still);
+        static const float rest[3], leaves[3] = {0, 1, 0};
+        walls_cushion(&walls, 1e-4F, g, (float[]){-0.5F + d, d, -0.5F + d}, rest, low);
+        walls_cushion(&walls, 1e-4F, g, (float[]){0.5F - d, 1 - d, 0.5F - d}, rest, high);
+        walls_cushion(&walls, 0, g, (float[]){-0.5F + d, d, -0.5F + d}, rest, still);
+        walls_cushion(&walls, 1e-4F, g, (float[]){0, d, 0}, leaves, still);
         assert_true(low[0] == 0 && high[0] == 0 && still[1] == 0); /* periodic; a step of 0 */
         assert_true(low[2] == 0 && high[1] == 0);                  /* gravity draws away */
         assert_true(fabsf(low[1] - 10 * share) < 1e-3F && fabsf(high[2] + 3 * share) < 1e-3F);
         for (int power = 0; power < 11; power++) { /* of what is at rest: it stands within the reach yet */
             const float dt = 1e-3F * (float)(1 << power);
             float a[3] = {0};
-            walls_cushion(&walls, dt, g, (float[]){0, d, 0}, a);
+            walls_cushion(&walls, dt, g, (float[]){0, d, 0}, rest, a);
             assert_true(a[1] * dt * dt <= 0.51F * fmaxf(reach - d, 0) + 1e-7F);
         }
     }
@@ -162,7 +170,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_holds_where_gravity_draws),
         cmocka_unit_test(a_wedge_at_a_wall_does_not_touch_it),
-        cmocka_unit_test(one_particle_falls_and_lies),
+        cmocka_unit_test(few_particles_fall_and_lie),
         cmocka_unit_test(a_film_lies_above_its_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

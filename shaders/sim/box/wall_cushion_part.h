@@ -8,6 +8,9 @@
 /* At the wall itself, over the pull into it: what lies on a wall alone rests at 0.24 spacings. */
 #define CUSHION_PUSH 5.0f
 
+/* Where what leaves the wall has so much of sqrt(|g_n| spacing) for its speed it is pushed no more. */
+#define CUSHION_LEAVES 0.1f
+
 /* Over how much of a layer's pressure it fades in. */
 #define CUSHION_FADE 0.25f
 

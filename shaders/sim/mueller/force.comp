@@ -74,7 +74,7 @@ void main()
     ivec3 at = cell_of(x);
     Fluid fluid = fluids[FLUID_OF(i)];
     vec3 force = neighbours_force(i, x, at) + images_force(i, x, at);
-    vec3 g = felt_at(x), held = lift_at(x, g, fluid.density, pressure[i].x) + cushion_at(x, g, dt, pressure[i].x / max(fluid.density * spacing * length(g), 1e-20));
+    vec3 g = felt_at(x), held = lift_at(x, g, fluid.density, pressure[i].x) + cushion_at(x, velocity[i].xyz, g, dt, pressure[i].x / max(fluid.density * spacing * length(g), 1e-20));
     acceleration[i] = vec4(force / fluid.mass + held, 0.0);
 }
 #endif

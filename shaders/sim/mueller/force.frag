@@ -74,6 +74,6 @@ void main()
 #endif
     meet_neighbours(self, here);
     vec3 g = felt_origin - cross(felt_alpha, here) - cross(felt_omega, cross(felt_omega, here));
-    vec3 held = lift_at(here, g, fluid.density, known.y) + cushion_at(here, g, dt, known.y / max(fluid.density * spacing * length(g), 1e-20));
+    vec3 held = lift_at(here, g, fluid.density, known.y) + cushion_at(here, of_particle(velocity, self).xyz, g, dt, known.y / max(fluid.density * spacing * length(g), 1e-20));
     acceleration = vec4(force / fluid.mass + held, 0.0);
 }

@@ -238,7 +238,7 @@ void main()
 #endif
 #endif
     force += curvature_force(i, x, at);
-    acceleration[i] = vec4(force / fluid.mass + cushion_at(x, felt_at(x), dt, self_side.pressure * inverse_layer), 0.0);
+    acceleration[i] = vec4(force / fluid.mass + cushion_at(x, velocity[i].xyz, felt_at(x), dt, self_side.pressure * inverse_layer), 0.0);
     even_write(i);
 }
 #endif
