@@ -72,6 +72,7 @@ bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSetti
         return false;
     const WorldDef *def = &scene->world;
     row->spacing = def->spacing * job->coarsening;
+    const bool follows = settings->all.particles > 0; /* the step went with the spacing, in this load alone */
     settings->all.particles = 0;
     ok = add(settings, error, "particles.spacing=%.9g", row->spacing);
     if (def->step_mode == STEP_CFL) {
@@ -84,7 +85,8 @@ bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSetti
     } else {
         const int substeps = (int)ceil(def->substeps * (1 << job->fineness) / job->coarsening - 1e-6);
         snprintf(row->step, NAME_SIZE, "%.3g ms", 1000 * def->dt / substeps);
-        ok = ok && add(settings, error, "solver.step.substeps=%d", substeps);
+        ok = ok && add(settings, error, "solver.step.substeps=%d", substeps) &&
+             (!follows || add(settings, error, "solver.step.dt=%.9g", def->dt));
     }
     return ok &&
            (job->jitter == 0 || add(settings, error, "particles.jitter=%.9g", def->jitter + job->jitter));

@@ -1,0 +1,65 @@
+/* Settings of a chart's runs: what a row says is what its scene has. */
+#include "tests/sim/fixture.h"
+
+#include "app/lab/chart_run.h"
+#include "sim/gl/backends.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static Scene scene, own;
+static ChartRow row;
+static Error error;
+
+/* The run of dam_break, whose steps are fixed, with these settings. */
+static void prepare(const ChartJob *job, SceneSettings *settings)
+{
+    static const char path[] = SLOSH_SOURCE_DIR "/scenes/dam_break.yaml";
+    const ChartSubject subject = {.scene = path, .time = 1, .settings = settings};
+    if (!scene_load(path, settings, &own, NULL, &error) ||
+        !chart_prepare(&subject, job, &scene, &row, &error))
+        fail_msg("%s", error.message);
+}
+
+static double step_of(const Scene *of)
+{
+    return of->world.dt / of->world.substeps;
+}
+
+/* --particles takes the step along; a coarser spacing, and a finer step, then change that one. */
+static void a_fixed_step_goes_with_the_particles(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const ChartJob job = {
+            .method = "wcsph", .backend = "cpu", .coarsening = i & 1 ? 2 : 1, .fineness = i >> 1};
+        SceneSettings settings = {.particles = 300};
+        prepare(&job, &settings);
+        const double said = strtod(row.step, NULL) / 1000;
+        assert_true(fabs(step_of(&scene) / said - 1) < 0.01);
+        const double wanted = own.world.substeps * (1 << job.fineness) / job.coarsening;
+        assert_true(fabs(step_of(&scene) - own.world.dt / ceil(wanted - 1e-6)) < 1e-8);
+    }
+}
+
+/* A step that was chosen stays. */
+static void a_chosen_step_stays(void **state)
+{
+    (void)state;
+    const ChartJob job = {.method = "wcsph", .backend = "cpu", .coarsening = 1};
+    SceneSettings settings = {.particles = 300};
+    settings.said[settings.count] = "--set solver.step.dt=0.011";
+    settings.set[settings.count++] = "solver.step.dt=0.011";
+    prepare(&job, &settings);
+    assert_true(fabs(scene.world.dt - 0.011) < 1e-9);
+}
+
+int main(void)
+{
+    backends_add();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_fixed_step_goes_with_the_particles),
+        cmocka_unit_test(a_chosen_step_stays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
