@@ -107,7 +107,7 @@ bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scen
         return false;
     snprintf(row->method, NAME_SIZE, "%s", scene->world.method);
     snprintf(row->backend, NAME_SIZE, "%s", scene->world.backend);
-    snprintf(rest, sizeof rest, "%s %d %.9g", SLOSH_VERSION, (int)job->role, subject->time);
+    snprintf(rest, sizeof rest, "%d %.9g", (int)job->role, subject->time);
     const char *name = subject->of ? subject->of->name : "";
     row->key = run_key_text(run_key_text(row->key, rest), name);
     return run_key_scene(scene, false, &row->key, error);

@@ -1,7 +1,10 @@
+#define _GNU_SOURCE /* dl_iterate_phdr */
 #include "app/lab/run_key.h"
 
 #include "app/scene/keys.h"
 
+#include <elf.h>
+#include <link.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,6 +46,57 @@ static uint64_t hash_tables(uint64_t h, const WorldDef *def)
     return h;
 }
 
+/* The program's own build id (elf(5): the note NT_GNU_BUILD_ID), which the linker makes of all that it links.
+ */
+typedef struct BuildId {
+    const char *bytes; /* NULL: it has none */
+    size_t size;
+} BuildId;
+
+static size_t padded(size_t size)
+{
+    return (size + 3) & ~(size_t)3;
+}
+
+static void find_in_notes(const char *at, size_t left, BuildId *id)
+{
+    ElfW(Nhdr) note;
+    while (left >= sizeof note) {
+        memcpy(&note, at, sizeof note);
+        const size_t name = padded(note.n_namesz), size = sizeof note + name + padded(note.n_descsz);
+        if (size > left)
+            return;
+        if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == sizeof "GNU" &&
+            memcmp(at + sizeof note, "GNU", sizeof "GNU") == 0)
+            *id = (BuildId){at + sizeof note + name, note.n_descsz};
+        at += size;
+        left -= size;
+    }
+}
+
+/* Of the first object, which is the program. */
+static int find_build_id(struct dl_phdr_info *object, size_t size, void *id)
+{
+    (void)size;
+    for (int i = 0; i < object->dlpi_phnum; i++)
+        if (object->dlpi_phdr[i].p_type == PT_NOTE)
+            find_in_notes((const char *)(object->dlpi_addr + object->dlpi_phdr[i].p_vaddr),
+                          object->dlpi_phdr[i].p_memsz, id);
+    return 1;
+}
+
+static bool hash_build(uint64_t *key, Error *error)
+{
+    BuildId id = {NULL, 0};
+    dl_iterate_phdr(find_build_id, &id);
+    if (!id.bytes)
+        return error_set(error,
+                         "this program was linked without --build-id: it cannot tell its own runs from "
+                         "those of another build");
+    *key = hash(*key, id.bytes, id.size);
+    return true;
+}
+
 uint64_t run_key_text(uint64_t key, const char *text)
 {
     return hash(key, text, strlen(text));
@@ -50,6 +104,8 @@ uint64_t run_key_text(uint64_t key, const char *text)
 
 bool run_key_scene(const Scene *scene, bool looks, uint64_t *key, Error *error)
 {
+    if (!hash_build(key, error))
+        return false;
     char *text = scene_print_text(scene);
     for (const char *line = text; line && *line;) {
         const size_t size = strcspn(line, "\n");

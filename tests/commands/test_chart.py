@@ -47,6 +47,21 @@ class Chart(command.CommandTest):
         # the other sound has runs of its own; another title is the same flow
         self.assertEqual(len(self.text('out.csv').splitlines()), 1 + 2 * 10)
 
+    def test_another_build_runs_again(self):
+        """The same program but for its build id: a note, of which only that number is changed here."""
+        with open(command.PROGRAM, 'rb') as file:
+            program = bytearray(file.read())
+        note = program.index(b'\x03\0\0\0GNU\0', program.index(b'\x14\0\0\0\x03\0\0\0GNU\0')) + 8
+        program[note] ^= 1
+        self.write('other', bytes(program))
+        os.chmod(self.path('other'), 0o755)
+        self.write('tank.yaml', command.SCENE)
+        for name, runs in ((command.PROGRAM, 1), (self.path('other'), 2), (command.PROGRAM, 2)):
+            done = subprocess.run([name, 'chart', 'tank.yaml', '-o', 'out.svg', '--quiet', *SMALL, '--time', '0.01'],
+                                  cwd=self.folder, capture_output=True, text=True, timeout=120, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(self.text('out.csv').splitlines()), 1 + runs * 10)
+
     def test_a_table_that_changed_runs_again(self):
         self.write('tank.yaml', command.SCENE.replace('0.5, 0.5]}\nsolver', '0.5, 0.5]}\n        below: heights.csv\n    velocity_table: flow.csv\nsolver'))
         heights, flow = 'x (m),height (m)\n-0.5,{}\n0.5,0.5\n', 'x (m),vx (m/s)\n-0.5,{}\n0.5,0\n'
