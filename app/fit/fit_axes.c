@@ -48,9 +48,11 @@ __attribute__((format(printf, 2, 3))) static void add(FitJob *job, const char *f
 /* With the scene's own spacing and step. */
 static void start_job(const FitAxes *axes, const char *method, const char *preset, FitJob *job)
 {
-    *job = (FitJob){
-        .job = {
-            .role = CHART_POINT, .method = method, .backend = axes->scene->world.backend, .coarsening = 1}};
+    *job = (FitJob){.job = {.role = CHART_POINT,
+                            .method = method,
+                            .backend = axes->scene->world.backend,
+                            .coarsening = 1,
+                            .step_unnamed = true}};
     if (preset)
         add(job, "solver.preset=%s", preset);
 }
@@ -103,9 +105,10 @@ bool fit_axes_job(const FitAxes *axes, const FitPoint *point, FitJob *job)
     static ChartRow row;
     const int *at = point->at, method = at[FIT_METHOD];
     start_job(axes, axes->method[method], axes->preset[at[FIT_PRESET]], job);
-    const bool read = load(axes, job, &scene, &row);
+    if (!load(axes, job, &scene, &row))
+        return true; /* chart_prepare says why */
     if (at[FIT_SUPPORT] > 0) {
-        if (read && is_own(&scene, "particles.support", supports[at[FIT_SUPPORT]]))
+        if (is_own(&scene, "particles.support", supports[at[FIT_SUPPORT]]))
             return false;
         add(job, "particles.support=%s", supports[at[FIT_SUPPORT]]);
     }
@@ -113,7 +116,7 @@ bool fit_axes_job(const FitAxes *axes, const FitPoint *point, FitJob *job)
         const char *value = terms[t].value[at[FIT_TERM + t]];
         if (!value)
             continue;
-        if (!axes->effect[method][t] || (read && is_own(&scene, terms[t].path, value)))
+        if (!axes->effect[method][t] || is_own(&scene, terms[t].path, value))
             return false;
         add(job, "%s=%s", terms[t].path, value);
     }

@@ -75,12 +75,6 @@ bool fit_plan_make(const Args *args, FitPlan *plan, Error *error)
     return plan->axes.axis[FIT_METHOD].values > 0 || error_set(error, "slosh fit: no method can run it here");
 }
 
-int fit_threads(const FitPlan *plan)
-{
-    const int asked = *world_threads(&plan->scene.world);
-    return asked > 0 ? asked : world_processors();
-}
-
 const ChartRow *fit_plan_row(const FitPlan *plan, int i)
 {
     return &plan->runs.used.row[plan->ladder.tries[i].figures.row];

@@ -24,9 +24,6 @@ typedef struct FitPlan {
 /* False with what is wrong with the command line or the scene. */
 bool fit_plan_make(const Args *args, FitPlan *plan, Error *error);
 
-/* Of the CPU, that costs were measured with. */
-int fit_threads(const FitPlan *plan);
-
 /* The row of a try that was run. */
 const ChartRow *fit_plan_row(const FitPlan *plan, int i);
 

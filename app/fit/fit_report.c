@@ -141,8 +141,8 @@ bool fit_write_json(const FitPlan *plan, const char *failure, const char *path, 
     json_t *all = json_pack("{s:s, s:s, s:o, s:o, s:s, s:i, s:o, s:s, s:o, s:o, s:s*}", "fit",
                             plan->args->scenes[0], "error_of", plan->error_of, "goal", goal_json(plan),
                             "floor", number_json(plan->runs.floor), "processor", bench_processor(), "threads",
-                            fit_threads(plan), "best", best ? best : json_null(), "output", plan->output,
-                            "runs", runs, "pruned", pruned, "error", failure);
+                            fit_threads(&plan->scene), "best", best ? best : json_null(), "output",
+                            plan->output, "runs", runs, "pruned", pruned, "error", failure);
     const bool written = json_file_write(all, path, error);
     json_decref(all);
     return written;

@@ -1,6 +1,8 @@
 #include "app/fit/fit_runs.h"
 
 #include "app/base/interrupt.h"
+#include "app/lab/bench.h"
+#include "app/lab/run_key.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -82,11 +84,28 @@ static bool run(FitRuns *runs, const ChartJob *job, ChartRow *row)
     return ok;
 }
 
+int fit_threads(const Scene *scene)
+{
+    const int asked = *world_threads(&scene->world);
+    return asked > 0 ? asked : world_processors();
+}
+
+/* What one machine took for a run is none of another's business. */
+static bool prepare(const FitRuns *runs, const ChartJob *job, ChartRow *row, Error *error)
+{
+    static Scene scene;
+    char machine[256];
+    if (!chart_prepare(&runs->axes->subject, job, &scene, row, error))
+        return false;
+    snprintf(machine, sizeof machine, "%d %s", fit_threads(&scene), bench_processor());
+    row->key = run_key_text(row->key, machine);
+    return true;
+}
+
 /* The row of the job, by an older run where there is one. */
 static bool row_of(FitRuns *runs, const ChartJob *job, ChartRow *row)
 {
-    static Scene scene;
-    if (!chart_prepare(&runs->axes->subject, job, &scene, row, &runs->error))
+    if (!prepare(runs, job, row, &runs->error))
         return false;
     const ChartRow *old = chart_rows_find(&runs->kept, row->key);
     const bool there = old && old->outcome.kind != OUTCOME_NONE; /* what failed by no fault of a fluid */
@@ -97,6 +116,11 @@ static bool row_of(FitRuns *runs, const ChartJob *job, ChartRow *row)
     runs->there += there;
     runs->made += !there;
     chart_rows_add(&runs->used, row, &runs->used);
+    if (!chart_rows_find(&runs->used, row->key))
+        return error_set(&runs->error,
+                         "more than %d runs, which is all there is room for; fix some keys by --set, or "
+                         "--method, and search the rest",
+                         CHART_ROWS_MAX);
     if (there)
         return true;
     chart_rows_add(&runs->kept, row, &runs->used);
@@ -159,21 +183,31 @@ static double work(void *of, const FitPoint *point)
     return fit_axes_work(((const FitRuns *)of)->axes, point);
 }
 
+/* Each reason once. */
+static void say_left_out(FitRuns *runs, const char *why)
+{
+    const uint64_t reason = run_key_text(RUN_KEY, why);
+    for (int i = 0; i < runs->left_count; i++)
+        if (runs->left_out[i] == reason)
+            return;
+    if (runs->left_count < FIT_REASONS)
+        runs->left_out[runs->left_count++] = reason;
+    if (!runs->quiet)
+        fprintf(stderr, "left out: %s\n", why);
+}
+
 /* Another setting may be the same scene: one that names what was so already. */
 static bool exists(void *of, const FitPoint *point)
 {
-    static Scene scene;
     static ChartRow row;
     FitRuns *runs = of;
     FitJob job;
     Error why;
     if (!fit_axes_job(runs->axes, point, &job))
         return false;
-    if (chart_prepare(&runs->axes->subject, &job.job, &scene, &row, &why))
+    if (prepare(runs, &job.job, &row, &why))
         return !chart_rows_find(&runs->used, row.key);
-    if (strcmp(why.message, runs->left_out.message) != 0 && !runs->quiet)
-        fprintf(stderr, "left out: %s\n", why.message);
-    runs->left_out = why;
+    say_left_out(runs, why.message);
     return false;
 }
 

@@ -4,6 +4,8 @@
 
 #include "app/fit/fit_axes.h"
 
+enum { FIT_REASONS = 64 };
+
 typedef struct FitRuns {
     const FitAxes *axes;
     const char *csv; /* where they are kept */
@@ -13,9 +15,13 @@ typedef struct FitRuns {
     int there, made;    /* runs that were in the file already, and others */
     ChartRow reference; /* of a scene: what all are compared with */
     double floor;       /* how far runs are apart that differ by a millionth of a spacing; NaN: they broke */
-    Error left_out;     /* why the last setting was, that could not be made */
-    Error error;        /* why a run could not be made; "" where a signal came */
+    int left_count;     /* reasons why settings could not be made, that were said: */
+    uint64_t left_out[FIT_REASONS];
+    Error error; /* why a run could not be made; "" where a signal came */
 } FitRuns;
+
+/* Of the CPU, that costs are measured with. */
+int fit_threads(const Scene *scene);
 
 /* Reads what is kept. False with the reason. */
 bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *runs, Error *error);

@@ -153,7 +153,8 @@ static void print_best(const FitPlan *plan, FILE *file)
             "# It is against the finest run of the scene, half its spacing and half its step, over %g s.\n",
             plan->subject.time);
     fprintf(file, "# Cost: %.3g s of computing a simulated second, without pictures, on %s, %d thread%s.\n",
-            best->figures.cost, bench_processor(), fit_threads(plan), fit_threads(plan) == 1 ? "" : "s");
+            best->figures.cost, bench_processor(), fit_threads(&plan->scene),
+            fit_threads(&plan->scene) == 1 ? "" : "s");
     if (own && own != best && isfinite(own->figures.cost))
         fprintf(file, "# The scene as it was: %.3g %% at %.3g s, %.3g times as much.\n",
                 100 * own->figures.error, own->figures.cost, own->figures.cost / best->figures.cost);

@@ -39,6 +39,8 @@ static bool add_swept(ChartSettings *job, const ChartJob *of, ChartRow *row, Err
                              SCENE_SETTINGS_MAX);
         job->all.said[job->all.count] = of->set[i];
         job->all.set[job->all.count++] = setting;
+        if (of->step_unnamed && strncmp(setting, "solver.step.", strlen("solver.step.")) == 0)
+            continue;
         while (name > setting && name[-1] != '.')
             name--;
         used += (size_t)snprintf(row->swept + used, CHART_SWEPT - used, "%s%s", used > 0 ? " " : "", name);

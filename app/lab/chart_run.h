@@ -17,6 +17,7 @@ typedef struct ChartJob {
     double jitter;     /* spacings, besides the scene's own */
     int set_count;
     const char *set[CHART_SWEEPS]; /* "--sweep key=value" of other keys */
+    bool step_unnamed;             /* row's swept leaves out what row's step says after the job's scaling */
 } ChartJob;
 
 enum { CHART_TEXTS = 6, CHART_TEXT_SIZE = 96 };

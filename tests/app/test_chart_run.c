@@ -54,12 +54,32 @@ static void a_chosen_step_stays(void **state)
     assert_true(fabs(scene.world.dt - 0.011) < 1e-9);
 }
 
+/* A row's name has each swept value, or leaves to its step what the step says once the spacing changed it. */
+static void a_step_has_one_name(void **state)
+{
+    (void)state;
+    ChartJob job = {.method = "wcsph",
+                    .backend = "cpu",
+                    .coarsening = 0.5,
+                    .set_count = 2,
+                    .set = {"--sweep solver.step.substeps=3", "--sweep solver.kernel=cubic"}};
+    SceneSettings settings = {0};
+    prepare(&job, &settings);
+    assert_string_equal(row.swept, "substeps=3 kernel=cubic");
+    assert_string_equal(row.step, "2 ms"); /* 12 ms in six */
+    job.step_unnamed = true;
+    prepare(&job, &settings);
+    assert_string_equal(row.swept, "kernel=cubic");
+    assert_int_equal(scene.world.substeps, 6);
+}
+
 int main(void)
 {
     backends_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_fixed_step_goes_with_the_particles),
         cmocka_unit_test(a_chosen_step_stays),
+        cmocka_unit_test(a_step_has_one_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

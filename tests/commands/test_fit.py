@@ -48,6 +48,17 @@ class Fit(FitTest):
         # another error goes on with them
         self.assertRegex(self.fit('scene.yaml', '--error', '25', *FEW).stderr, r'\d+ of \d+ runs were in')
 
+    def test_times_are_of_one_machine(self):
+        """Here: of so many processors."""
+        words = [word for word in FEW if word not in ('--threads', '1')]
+        words = ['scene.yaml', '--error', '30', *words, '--time', '0.05']
+        self.assertEqual(self.fit(*words).returncode, 0)
+        if len(os.sched_getaffinity(0)) > 1:
+            alone = subprocess.run(['taskset', '-c', str(min(os.sched_getaffinity(0))), command.PROGRAM, 'fit', *words],
+                                   cwd=self.folder, capture_output=True, text=True, timeout=200, check=False)
+            self.assertNotIn('were in scene_fit.csv already', alone.stderr)
+        self.assertRegex(self.fit(*words).stderr, 'were in scene_fit.csv already')
+
     def test_the_scene_runs_and_is_the_one_that_was_found(self):
         self.write('tank.yaml', command.SCENE + 'metrics: [height]\nview: {color_by: speed}\n')
         found, _ = self.figures('tank.yaml', '--error', '20', '-o', 'new.yaml', '--time', '0.1', '--method', 'wcsph', '--threads', '1')
