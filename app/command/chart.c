@@ -95,7 +95,10 @@ static void keep_errors(ChartRows *kept, const ChartRows *rows)
 static bool check_rows(const ChartPlan *plan, const ChartRows *rows, Error *error)
 {
     int known = 0;
-    if (!plan->subject.of && !chart_rows_reference(rows))
+    const ChartRow *reference = chart_rows_reference(rows);
+    if (reference && !chart_changes(rows, reference))
+        return error_set(error, CHART_NO_CHANGE);
+    if (!plan->subject.of && !reference)
         return error_set(error, "the finest run, which all are compared with, broke: no error is known; use "
                                 "a smaller step or a larger spacing");
     for (int i = 0; i < rows->count; i++)

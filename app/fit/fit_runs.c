@@ -144,6 +144,13 @@ static double apart(const FitRuns *runs, const ChartRow *a, const ChartRow *b)
     return runs->axes->subject.of ? fabs(a->error - b->error) : chart_distance(&runs->used, a, b);
 }
 
+/* Of a run that did not break. */
+static bool check_changes(FitRuns *runs, const ChartRow *row)
+{
+    return runs->axes->subject.of || !isfinite(row->seconds) || chart_changes(&runs->used, row) ||
+           error_set(&runs->error, CHART_NO_CHANGE);
+}
+
 bool fit_runs_floor(FitRuns *runs)
 {
     static ChartRow row[REPEATS];
@@ -158,7 +165,7 @@ bool fit_runs_floor(FitRuns *runs)
         for (int k = 0; k < i; k++)
             runs->floor = fmax(runs->floor, apart(runs, &row[i], &row[k])); /* fmax passes over NaN */
     }
-    return true;
+    return check_changes(runs, &row[0]);
 }
 
 bool fit_runs_reference(FitRuns *runs)
@@ -169,11 +176,12 @@ bool fit_runs_reference(FitRuns *runs)
     reference_job(runs->axes, &job);
     if (!row_of(runs, &job.job, &runs->reference))
         return false;
-    return isfinite(runs->reference.seconds) ||
-           error_set(&runs->error,
-                     "the finest run, which all are compared with, broke (%s): no error is "
-                     "known; use a smaller step or a larger spacing",
-                     runs->reference.outcome.words);
+    if (!isfinite(runs->reference.seconds))
+        return error_set(&runs->error,
+                         "the finest run, which all are compared with, broke (%s): no error is "
+                         "known; use a smaller step or a larger spacing",
+                         runs->reference.outcome.words);
+    return check_changes(runs, &runs->reference);
 }
 
 /* ---- what the search asks for ---- */

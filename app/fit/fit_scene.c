@@ -2,6 +2,7 @@
 
 #include "app/base/output.h"
 #include "app/base/path.h"
+#include "app/fit/fit_seal.h"
 #include "app/lab/bench.h"
 #include "app/scene/advise.h"
 #include "app/scene/keys.h"
@@ -16,23 +17,47 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Its first words: what begins with them may be replaced. */
+/* Its first words. */
 static const char OURS[] = "# Written by slosh fit";
+
+/* The whole file, of a size that scenes may have; "" where there is none; NULL: `error` says why. */
+static char *read_text(const char *path, size_t *size, Error *error)
+{
+    char *text = calloc(1, SCENE_BYTES_MAX + 1);
+    FILE *file = fopen(path, "r");
+    bool read = file || errno == ENOENT;
+    *size = text && file ? fread(text, 1, SCENE_BYTES_MAX, file) : 0;
+    if (!read || (file && ferror(file)))
+        read = error_set(error, "%s: is there, but cannot be read (%s); name another with -o", path,
+                         strerror(errno));
+    else if (!text)
+        error_set(error, "%s: no memory to read it", path);
+    if (file)
+        fclose(file);
+    if (read)
+        return text;
+    free(text);
+    return NULL;
+}
 
 bool fit_scene_check(const char *path, Error *error)
 {
-    char head[sizeof OURS] = "";
-    FILE *file = fopen(path, "r");
-    const bool read = file && fread(head, 1, sizeof OURS - 1, file) > 0;
-    if (file)
-        fclose(file);
-    if (read && strcmp(head, OURS) != 0)
-        return error_set(
+    size_t size;
+    char *text = read_text(path, &size, error);
+    bool ok = text != NULL;
+    if (ok && size > 0 && strncmp(text, OURS, strlen(OURS)) != 0)
+        ok = error_set(
             error,
-            "%s: is there already, and slosh fit did not write it; name another with -o, or move "
-            "that file",
+            "%s: is there already, and slosh fit did not write it; name another with -o, or move that file",
             path);
-    return output_check(path, error);
+    else if (ok && size > 0 && !fit_is_sealed(text, size))
+        ok = error_set(
+            error,
+            "%s: was changed since slosh fit wrote it; name another with -o, or move that file to keep "
+            "the changes",
+            path);
+    free(text);
+    return ok && output_check(path, error);
 }
 
 /* ---- the tree ---- */
@@ -199,15 +224,42 @@ static void print_head(const FitPlan *plan, FILE *file)
 
 /* ---- the file ---- */
 
-static bool write_tree(const FitPlan *plan, const Tree *tree, Error *error)
+static char *print_body(const Tree *tree)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&text, &size);
+    if (file)
+        tree_print(tree, file);
+    const bool whole = file && !ferror(file);
+    if (file && fclose(file) == 0 && whole)
+        return text;
+    free(text);
+    return NULL;
+}
+
+static char *print_text(const FitPlan *plan, const Tree *tree)
+{
+    char *head = NULL, *body = print_body(tree), *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&head, &size);
+    if (file)
+        print_head(plan, file);
+    if (file && fclose(file) == 0 && head && body)
+        text = fit_seal(head, body);
+    free(head);
+    free(body);
+    return text;
+}
+
+static bool write_text(const FitPlan *plan, const char *text, Error *error)
 {
     Output output = {.path = ""};
     if (!output_begin(&output, plan->output, error))
         return false;
     FILE *file = fopen(output.temp, "w");
     if (file) {
-        print_head(plan, file);
-        tree_print(tree, file);
+        fputs(text, file);
         const bool whole = !ferror(file);
         if (fclose(file) == 0 && whole)
             return output_commit(&output, error);
@@ -232,7 +284,10 @@ static bool write_chosen(const FitPlan *plan, Tree *tree, Error *error)
     if (solver)
         drop_unused(solver, "solver", &plan->scene, &scene);
     keep_tables(tree, tree->root, plan->output);
-    return write_tree(plan, tree, error);
+    char *text = print_text(plan, tree);
+    const bool ok = text ? write_text(plan, text, error) : error_set(error, "no memory for the scene");
+    free(text);
+    return ok;
 }
 
 bool fit_scene_write(const FitPlan *plan, Error *error)

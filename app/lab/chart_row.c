@@ -3,6 +3,7 @@
 #include "app/lab/row_text.h"
 #include "app/metric/curve.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -124,7 +125,10 @@ bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *e
     FILE *file = fopen(path, "r");
     rows->count = 0;
     if (!file)
-        return true;
+        return errno == ENOENT || error_set(error,
+                                            "%s: is there, but cannot be read (%s); give the chart "
+                                            "another name",
+                                            path, strerror(errno));
     const bool empty = getline(&head, &size, file) <= 0;
     const bool ours = empty || strncmp(head, OURS, sizeof OURS - 1) == 0;
     const bool same = !empty && strcmp(head, HEAD) == 0;
@@ -271,7 +275,12 @@ double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow
     }
     if (row->quantities < first || reference->quantities < first)
         return (double)NAN;
-    return compared > 0 ? sum / compared : 0;
+    return sum / compared; /* NaN of none */
+}
+
+bool chart_changes(const ChartRows *rows, const ChartRow *row)
+{
+    return !isnan(chart_distance(rows, row, row));
 }
 
 static bool is_floor(const ChartRow *row)

@@ -50,7 +50,7 @@ typedef struct ChartRows {
 
 /* The sound rows of an older run; none where there is no such file, or it is empty. Each other row, or
    that the file is of another version, is told to `warnings` (NULL: to nobody). False with the reason where
-   the file is no chart's: it is not to be replaced.
+   the file is no chart's, or cannot be read: it is not to be replaced.
  */
 bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error);
 
@@ -72,8 +72,15 @@ const ChartRow *chart_rows_reference(const ChartRows *rows);
 
 /* How far a row is from the reference: the mean over the metrics of rms over time over the metric's range in
    `reference`; times at which either has none are left out, and a metric that does not change in the
-   reference. NaN where a metric was at no time in both, or a row has not the numbers of these metrics. */
+   reference. NaN where no metric changes in the reference, a metric was at no time in both, or a row has not
+   the numbers of these metrics. */
 double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference);
+
+/* Whether distances from that row are known: a metric changes in it. What to say where none does. */
+#define CHART_NO_CHANGE                                                                                      \
+    "no metric changes in the run that all are compared with: no error is known; name others (metrics: of "  \
+    "the scene)"
+bool chart_changes(const ChartRows *rows, const ChartRow *row);
 
 /* Fills the errors of the points from the one reference among them; the spread of the floor's, the greatest
    distance of two of them, or NaN. */

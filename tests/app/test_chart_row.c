@@ -64,6 +64,11 @@ static void what_does_not_change_is_left_out(void **state)
     for (int t = 0; t < CHART_TIMES; t++)
         row->series[t][0] = reference->series[t][0] = 0;
     assert_true(fabs(chart_distance(&rows, row, reference) - 0.25) < 1e-12);
+    assert_true(chart_changes(&rows, reference));
+    for (int t = 0; t < CHART_TIMES; t++) /* nothing does: no distance is known */
+        reference->series[t][3] = 5;
+    assert_true(isnan(chart_distance(&rows, row, reference)));
+    assert_false(chart_changes(&rows, reference));
     row->quantities = 0; /* of other metrics, or cut */
     assert_true(isnan(chart_distance(&rows, row, reference)));
 }
@@ -328,6 +333,17 @@ static void another_s_file_is_kept(void **state)
     free(said);
 }
 
+/* What cannot be read may be the user's: here a link to itself. */
+static void an_unreadable_file_is_kept(void **state)
+{
+    (void)state;
+    assert_int_equal(unlink(path), 0);
+    assert_true(chart_rows_read(&again, path, NULL, &error)); /* none */
+    assert_int_equal(symlink(path, path), 0);
+    assert_false(chart_rows_read(&again, path, NULL, &error));
+    assert_non_null(strstr(error.message, "cannot be read"));
+}
+
 /* Two charts under one name: neither loses what the other has written. A full file gives up its oldest. */
 static void others_rows_stay(void **state)
 {
@@ -399,6 +415,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(half_a_row_is_none, make_file, remove_file),
         cmocka_unit_test_setup_teardown(an_impossible_row_is_left_out, make_file, remove_file),
         cmocka_unit_test_setup_teardown(another_s_file_is_kept, make_file, remove_file),
+        cmocka_unit_test_setup_teardown(an_unreadable_file_is_kept, make_file, remove_file),
         cmocka_unit_test_setup_teardown(others_rows_stay, make_file, remove_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -158,6 +158,34 @@ class Trouble(FitTest):
             self.assertEqual(self.text(name), content)
             os.remove(self.path(name))
 
+    def test_a_scene_that_was_edited_is_kept(self):
+        words = ['scene.yaml', '--error', '30', *FEW, '--time', '0.05']
+        self.assertEqual(self.fit(*words).returncode, 0)
+        self.assertEqual(self.fit(*words).returncode, 0)  # fit's own may be replaced
+        own = self.text('scene_fit.yaml')
+        for mine in (own.replace('density: 1000', 'density: 1001'), own.replace('# Tried', '# I tried'), own + '# mine\n',
+                     own.replace('sum is ', 'sum is 0', 1), own[:-1]):
+            self.assertNotEqual(mine, own)
+            self.write('scene_fit.yaml', mine)
+            done = self.fit(*words)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn('scene_fit.yaml: was changed since slosh fit wrote it; name another with -o', done.stderr)
+            self.assertEqual(self.text('scene_fit.yaml'), mine)
+
+    def test_what_cannot_be_read_is_kept(self):
+        for name in ('scene_fit.yaml', 'scene_fit.csv'):
+            os.symlink(name, self.path(name))
+            done = self.fit('scene.yaml', '--error', '20', *FEW)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, f'^{name}: is .*Too many levels of symbolic links')
+            os.remove(self.path(name))
+
+    def test_nothing_changes(self):
+        still = command.SCENE[:command.SCENE.index('motion')] + 'metrics: [potential_energy]\ngravity: [0, 0, 0]\n'
+        self.write('still.yaml', still)
+        self.refused(1, 'no metric changes in the run that all are compared with', 'still.yaml', '--error', '5', *FEW)
+        self.assertEqual(self.entries(), ['still.yaml', 'still_fit.csv'])
+
     def test_stopped_anywhere_it_goes_on(self):
         words = ['fit', 'scene.yaml', '--error', '10', *FEW, '--time', '0.4']
         for end in (signal.SIGINT, signal.SIGKILL, signal.SIGINT, signal.SIGKILL):
