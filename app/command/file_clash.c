@@ -5,6 +5,7 @@
 #include "app/base/json_file.h"
 #include "app/base/path.h"
 #include "app/device/mapping.h"
+#include "app/fit/fit_plan.h"
 #include "app/output/export.h"
 #include "app/output/pictures.h"
 #include "app/recording/recording.h"
@@ -84,6 +85,19 @@ static void add_chart(Files *files, const char *output)
         add_beside(files, "the figures of -o", output, strlen(dot), ".csv", NULL);
 }
 
+/* Files that have a name without -o, too. */
+static void add_fit(Files *files, const Args *args)
+{
+    char output[1024];
+    if (args->output) {
+        add_chart(files, args->output);
+        return;
+    }
+    fit_default_output(args->scenes[0], output);
+    add(files, FILE_REPLACED, "the scene of slosh fit,", output, NULL);
+    add_beside(files, "the table of slosh fit,", output, strlen(".yaml"), ".csv", NULL);
+}
+
 static void add_probes(Files *files, const char *output)
 {
     const char *dot = strrchr(output, '.');
@@ -99,9 +113,10 @@ static void add_outputs(Files *files, const Args *args)
         add_render(files, output);
     else if (output && args->command == COMMAND_EXPORT)
         add_export(files, output);
-    else if (output && (args->command == COMMAND_CHART || args->command == COMMAND_STABILITY ||
-                        args->command == COMMAND_FIT))
+    else if (output && (args->command == COMMAND_CHART || args->command == COMMAND_STABILITY))
         add_chart(files, output);
+    else if (args->command == COMMAND_FIT && args->scene_count > 0)
+        add_fit(files, args);
     else
         add(files, FILE_REPLACED, "-o", output, args->command == COMMAND_VALIDATE ? "*.svg" : NULL);
     if (args->json && !json_is_stream(args->json))

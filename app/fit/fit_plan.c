@@ -22,8 +22,7 @@ static bool take_goal(const Args *args, FitPlan *plan, Error *error)
     return true;
 }
 
-/* NAME_fit.yaml in the present folder. */
-static void default_output(const char *scene, char output[1024])
+void fit_default_output(const char *scene, char output[1024])
 {
     const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene, *dot = strrchr(name, '.');
     snprintf(output, 1024, "%.*s_fit.yaml", dot && dot > name ? (int)(dot - name) : (int)strlen(name), name);
@@ -38,7 +37,7 @@ static bool name_outputs(const Args *args, FitPlan *plan, Error *error)
     if (args->output)
         snprintf(plan->output, sizeof plan->output, "%s", args->output);
     else
-        default_output(args->scenes[0], plan->output);
+        fit_default_output(args->scenes[0], plan->output);
     snprintf(plan->csv, sizeof plan->csv, "%s", plan->output);
     char *dot = strrchr(plan->csv, '.');
     if (!dot || strcasecmp(dot, ".yaml") != 0)

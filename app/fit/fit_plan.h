@@ -21,6 +21,9 @@ typedef struct FitPlan {
     FitLadder ladder;
 } FitPlan;
 
+/* Of --output where none is named: NAME_fit.yaml in the present folder. */
+void fit_default_output(const char *scene, char output[1024]);
+
 /* False with what is wrong with the command line or the scene. */
 bool fit_plan_make(const Args *args, FitPlan *plan, Error *error);
 

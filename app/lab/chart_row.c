@@ -275,7 +275,7 @@ double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow
     }
     if (row->quantities < first || reference->quantities < first)
         return (double)NAN;
-    return sum / compared; /* NaN of none */
+    return compared > 0 ? sum / compared : (double)NAN;
 }
 
 bool chart_changes(const ChartRows *rows, const ChartRow *row)

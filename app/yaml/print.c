@@ -27,6 +27,8 @@ static void print_scalar(const Node *node, FILE *file)
             fputs("\\t", file);
         else if (*at == '\r')
             fputs("\\r", file);
+        else if ((unsigned char)*at < 0x20 || *at == 0x7f)
+            fprintf(file, "\\x%02X", (unsigned)*at);
         else
             fprintf(file, "%s%c", *at == '"' || *at == '\\' ? "\\" : "", *at);
     fputc('"', file);

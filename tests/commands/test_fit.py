@@ -81,6 +81,12 @@ class Fit(FitTest):
         self.assertEqual([line for line in info('new.yaml') if not line.startswith(keys)],
                          [line for line in asked if not line.startswith(keys)])
 
+    def test_letters_that_no_file_may_have(self):
+        self.write('odd.yaml', command.SCENE.replace('A small tank', r'"a\e[31m \x7F \"tank\""'))
+        self.assertEqual(self.fit('odd.yaml', '--error', '30', *FEW, '--time', '0.05').returncode, 0)
+        self.assertIn(r'title: "a\x1B[31m \x7F \"tank\""', self.text('odd_fit.yaml'))
+        self.assertEqual(self.slosh('run', 'odd_fit.yaml', '-o', 'a.h5part', '--time', '0.02', '--quiet')[0], 0)
+
     def test_a_case(self):
         found, _ = self.figures('free_fall', '--error', '5', '--method', 'wcsph', '--threads', '1')
         self.assertEqual(found['error_of'], 'way of the centre')
@@ -115,6 +121,8 @@ class Trouble(FitTest):
         self.refused(2, 'no_such', 'no_such', '--error', '5')
         self.refused(2, 'leave --time out', 'free_fall', '--error', '5', '--time', '1')
         self.refused(2, 'would replace the scene', 'scene.yaml', '--error', '5', '-o', 'scene.yaml')
+        for name in ('scene_fit.csv', 'scene_fit.yaml', './scene_fit.csv'):  # fit's own, without -o
+            self.refused(2, 'would replace each other', 'scene.yaml', '--error', '5', '--json', name)
         self.refused(1, 'no/a.yaml', 'scene.yaml', '--error', '5', '-o', 'no/a.yaml', *FEW)
         self.assertEqual(self.entries(), [])
 
