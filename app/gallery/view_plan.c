@@ -91,6 +91,20 @@ static bool add_job(ViewPlan *plan, const ViewJob *job, Error *error)
     return true;
 }
 
+/* Whether a job of the view that is there sets the same. */
+static bool have_job(const ViewPlan *plan, const ViewJob *job)
+{
+    for (int i = 0; i < plan->count; i++) {
+        const ViewJob *other = &plan->jobs[i];
+        bool same = other->kind == job->kind && !other->reference && other->set_count == job->set_count;
+        for (int k = 0; same && k < job->set_count; k++)
+            same = strcmp(other->set[k], job->set[k]) == 0;
+        if (same)
+            return true;
+    }
+    return false;
+}
+
 /* All keys at one end; whether that differs from the scene as it is. */
 static bool all_at(ViewJob *job, const Scene *scene, bool finest)
 {
@@ -133,9 +147,9 @@ static bool plan_view(ViewPlan *plan, const ViewKind *kind, Error *error)
     bool ok = add_job(plan, &reference, error) && add_job(plan, &job, error);
     for (const ViewGrade *grade = kind->grades; ok && grade && grade->path; grade++)
         ok = plan_grade(plan, kind, grade, &scene, error);
-    if (ok && all_at(&coarse, &scene, false))
+    if (ok && all_at(&coarse, &scene, false) && !have_job(plan, &coarse)) /* of one grade: its own run */
         ok = add_job(plan, &coarse, error);
-    if (ok && all_at(&fine, &scene, true))
+    if (ok && all_at(&fine, &scene, true) && !have_job(plan, &fine))
         ok = add_job(plan, &fine, error);
     return ok;
 }

@@ -1,6 +1,6 @@
 /* What `slosh chart --views` draws: of each view the scene's own settings, each grade of each of its keys
-   (ViewKind.grades), all keys at their coarsest, all at their finest; and its reference, the finest too and
-   supersampled. */
+   (ViewKind.grades), all keys at their coarsest, all at their finest (but where one grade does that); and its
+   reference, the finest too and supersampled. */
 #ifndef SLOSH_VIEW_PLAN_H
 #define SLOSH_VIEW_PLAN_H
 

@@ -145,6 +145,20 @@ static void each_view_has_its_grades(void **state)
         assert_null(strstr(fine->set[i], "method")); /* all of them give the same picture */
 }
 
+/* The ends of a view with one grade are runs of that grade. */
+static void no_picture_is_planned_twice(void **state)
+{
+    (void)state;
+    static ViewPlan plan;
+    plan_of("view.kind=slice", &plan);
+    assert_non_null(job_named(&plan, "slice", "samples=64"));
+    assert_null(job_named(&plan, "slice", "all coarsest"));
+    assert_null(job_named(&plan, "slice", "all finest"));
+    plan_of("view.slice.samples=48", &plan); /* an end of its own */
+    assert_null(job_named(&plan, "slice", "all coarsest"));
+    assert_non_null(job_named(&plan, "slice", "samples=1024"));
+}
+
 /* What the scene has finer than any grade, or of its own kind, is the reference's. */
 static void a_reference_is_no_coarser_than_the_scene(void **state)
 {
@@ -250,6 +264,7 @@ int main(void)
         cmocka_unit_test(errors_are_what_they_say),
         cmocka_unit_test(structure_sees_what_moved),
         cmocka_unit_test(each_view_has_its_grades),
+        cmocka_unit_test(no_picture_is_planned_twice),
         cmocka_unit_test(a_reference_is_no_coarser_than_the_scene),
         cmocka_unit_test(one_view_by_name),
         cmocka_unit_test(grades_can_be_set),
