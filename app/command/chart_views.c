@@ -10,6 +10,8 @@
 #include "app/lab/chart.h"
 #include "app/lab/run_key.h"
 
+#include "sim/gl/shader_source.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -33,6 +35,7 @@ typedef struct Gallery {
     Scene scene;       /* it was made from */
     LinearPicture reference;
     int reference_of; /* the job it is of; -1: none */
+    bool told;        /* --json has been written, or cannot be */
 } Gallery;
 
 static bool name_csv(Gallery *gallery, Error *error)
@@ -60,6 +63,19 @@ static bool gallery_check(Gallery *gallery, Error *error)
     return name_csv(gallery, error) && view_plan_make(args, &gallery->plan, error);
 }
 
+/* With what the shaders of --shaders say, each with all that it includes. */
+static uint64_t shaders_key(const char *directory, uint64_t key)
+{
+    for (const EmbeddedShader *shader = embedded_shaders; directory && shader->path; shader++) {
+        ShaderSource source = {0};
+        Error none;
+        if (shader_source_load(&source, shader->path, NULL, &none))
+            key = run_key_text(run_key_text(key, shader->path), source.text);
+        shader_source_free(&source);
+    }
+    return key;
+}
+
 /* Rows of the plan, with the figures of those that are kept. */
 static bool make_rows(Gallery *gallery, Error *error)
 {
@@ -68,13 +84,14 @@ static bool make_rows(Gallery *gallery, Error *error)
     const Args *args = gallery->args;
     snprintf(more, sizeof more, "%s %.9g %d %d %d %s", SLOSH_VERSION, gallery->time, gallery->width,
              gallery->height, gallery->factor, headless_renderer(gallery->context));
+    const uint64_t common = shaders_key(args->shaders, run_key_text(RUN_KEY, more));
     for (int i = 0; i < gallery->plan.count; i++) {
         const ViewJob *job = &gallery->plan.jobs[i];
         ViewRow *row = &gallery->rows.row[gallery->rows.count++];
         *row = (ViewRow){.ms = (double)NAN, .error = (double)NAN, .structure = (double)NAN};
         snprintf(row->view, sizeof row->view, "%s", job->kind->name);
         memcpy(row->settings, job->name, sizeof row->settings);
-        row->key = run_key_text(RUN_KEY, more);
+        row->key = common;
         if (!view_job_scene(&gallery->plan, job, &scene, error) ||
             !run_key_scene(&scene, true, &row->key, error))
             return false;
@@ -208,6 +225,7 @@ static bool finish(Gallery *gallery, Error *error)
     bool ok = gallery->there > 0 || error_set(error, "no picture could be drawn: no error is known");
     ok = ok && view_rows_draw(&gallery->rows, &words, args->output, error);
     Error no_json;
+    gallery->told = true;
     if (args->json &&
         !view_rows_write_json(&gallery->rows, &facts, ok ? NULL : error->message, args->json, &no_json)) {
         *error = ok ? no_json : *error;
@@ -239,6 +257,15 @@ static bool gallery_open(Gallery *gallery, Error *error)
     return true;
 }
 
+/* What failed, or was stopped, before there were figures of all. */
+static void write_failure(const Gallery *gallery, const Error *error)
+{
+    const Args *args = gallery->args;
+    Error no_json;
+    if (args->json && !gallery->told && json_file_check(args->json, &no_json))
+        failure_json_write(failure_json("chart", "scene", args->scenes[0], args->output, error), args->json);
+}
+
 int chart_views(const Args *args)
 {
     static Gallery gallery;
@@ -253,10 +280,12 @@ int chart_views(const Args *args)
     linear_picture_free(&gallery.reference);
     world_destroy(gallery.world);
     if (interrupted())
-        fprintf(stderr, "stopped after %d of %d pictures; the same command goes on\n", gallery.there,
-                gallery.wanted);
-    else if (!ok)
+        error_set(&error, "stopped after %d of %d pictures; the same command goes on", gallery.there,
+                  gallery.wanted);
+    if (interrupted() || !ok) {
         fprintf(stderr, "%s\n", error.message);
+        write_failure(&gallery, &error);
+    }
     headless_destroy(gallery.context);
     return interrupted() ? EXIT_INTERRUPTED : ok ? 0 : EXIT_FAILED;
 }

@@ -47,7 +47,8 @@ bool view_rows_read(ViewRows *rows, const char *path, FILE *warnings, Error *err
     FILE *file = fopen(path, "r");
     rows->count = 0;
     if (!file)
-        return true;
+        return errno == ENOENT ||
+               error_set(error, "%s: cannot be read: %s; it is not replaced", path, strerror(errno));
     const bool empty = getline(&line, &size, file) <= 0;
     const bool ours = empty || strncmp(line, OURS, sizeof OURS - 1) == 0;
     const bool same = !empty && strcmp(line, HEAD) == 0;

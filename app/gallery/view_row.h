@@ -27,7 +27,7 @@ typedef struct ViewRows {
 } ViewRows;
 
 /* The rows of an older run; none where there is no such file. A line that is no row is told to `warnings` and
-   left out. False where another program wrote the file. */
+   left out. False where another program wrote the file, or it cannot be read: it is not to be replaced. */
 bool view_rows_read(ViewRows *rows, const char *path, FILE *warnings, Error *error);
 
 /* Adds a row, in place of the one with its key or, where there is no room, of the oldest. */

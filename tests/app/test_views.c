@@ -237,6 +237,22 @@ static void rows_come_back(void **state)
     unlink(path);
 }
 
+/* Only one that is not there is empty: what cannot be read is not to be replaced. */
+static void an_unreadable_table_is_refused(void **state)
+{
+    (void)state;
+    static ViewRows rows;
+    char path[] = "/tmp/slosh-views-XXXXXX";
+    Error error;
+    close(mkstemp(path));
+    unlink(path);
+    assert_true(view_rows_read(&rows, path, NULL, &error));
+    assert_int_equal(symlink(path, path), 0);
+    assert_false(view_rows_read(&rows, path, NULL, &error));
+    assert_non_null(strstr(error.message, "cannot be read: Too many levels of symbolic links"));
+    unlink(path);
+}
+
 static void the_front_is_each_views_own(void **state)
 {
     (void)state;
@@ -269,6 +285,7 @@ int main(void)
         cmocka_unit_test(one_view_by_name),
         cmocka_unit_test(grades_can_be_set),
         cmocka_unit_test(rows_come_back),
+        cmocka_unit_test(an_unreadable_table_is_refused),
         cmocka_unit_test(the_front_is_each_views_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

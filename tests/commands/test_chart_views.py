@@ -1,11 +1,14 @@
 """slosh chart --views: pictures against a reference picture; none of them is drawn twice."""
 import json
+import os
+import shutil
 import signal
 import subprocess
 
 import command
 import svg_labels
 
+SHADERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'shaders')
 SMALL = ['--views', '--size', '64x64', '--time', '0.05']
 
 
@@ -81,14 +84,27 @@ class ChartViews(command.CommandTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn('no chart of views wrote it', done.stderr)
         self.assertEqual(self.read('out.csv'), b'day,rain\n')
+        self.assertEqual(self.run_it('--json', 'out.json').returncode, 1)
+        self.assertIn('no chart of views wrote it', json.loads(self.read('out.json'))['error'])
+
+    def test_other_shaders_are_another_picture(self):
+        shutil.copytree(SHADERS, self.path('shaders'))
+        for rows in (1, 1, 2):
+            if rows == 2:
+                with open(self.path('shaders/spheres/spheres.frag'), 'a', encoding='utf-8') as shader:
+                    shader.write('// other words\n')
+            done = self.run_it('--quiet', '--set', 'view.kind=spheres', '--shaders', 'shaders')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(self.read('out.csv').decode().splitlines()), 1 + rows)
 
     def test_interrupt_keeps_whole_rows(self):
-        process = self.start('chart', 'scene.yaml', '-o', 'out.svg', '--quiet', *SMALL)
+        process = self.start('chart', 'scene.yaml', '-o', 'out.svg', '--quiet', '--json', 'out.json', *SMALL)
         self.wait_for(lambda: 'out.csv' in self.entries(), process)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(60), 130)
         self.assertIn('the same command goes on', process.stderr.read())
-        self.assertEqual(self.entries(), ['out.csv'])
+        self.assertEqual(self.entries(), ['out.csv', 'out.json'])
+        self.assertIn('the same command goes on', json.loads(self.read('out.json'))['error'])
         for row in self.read('out.csv').decode().splitlines()[1:]:
             self.assertEqual(len(row.split(',')), 7)
 
