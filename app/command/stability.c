@@ -46,12 +46,13 @@ static bool say_findings(const StableMap *map, Error *error)
     if (searched == 0)
         return error_set(error, "no cell could be searched: %.300s", map->found[0].why);
     if (never == searched)
-        fprintf(stderr,
-                "no step holds in any cell: what is wrong is not the step; the table says what it is\n");
+        fprintf(
+            stderr,
+            "no step holds in any cell, whatever the axes are: what is wrong is not the step; the table says what it is\n");
     else if (always == searched)
         fprintf(
             stderr,
-            "every step that was tried holds, up to an eighth of --time: a longer one would find a limit\n");
+            "every step that was tried holds, up to an eighth of --time, whatever the axes are: a longer one would find a limit\n");
     else if (idle >= 0)
         fprintf(stderr, "--axis %s changes nothing: all cells along it have the same step\n",
                 plan->axis[idle].key);
@@ -66,7 +67,7 @@ static bool finish(const StablePlan *plan, const StableRows *rows, bool *told, E
         return false;
     if (!args->quiet)
         stable_print(&map, stdout);
-    bool ok = stable_draw(&map, args->output, error) && say_findings(&map, error);
+    bool ok = say_findings(&map, error) && stable_draw(&map, args->output, error);
     if (args->json) {
         Error none;
         *told = true;
@@ -81,24 +82,21 @@ static bool finish(const StablePlan *plan, const StableRows *rows, bool *told, E
 
 static int stability(const StablePlan *plan, StableRows *rows)
 {
-    Error error = {{0}};
+    Error error = {{0}}, none;
     bool told = false;
     bool ok = check_outputs(plan, rows, &error);
     if (ok)
         say_plan(plan, rows);
     ok = ok && stable_run(plan, rows, &error) && finish(plan, rows, &told, &error);
-    if (interrupted()) {
-        fprintf(stderr, "stopped after %zu trials; the same command goes on\n", rows->count);
-        return EXIT_INTERRUPTED;
-    }
-    if (ok)
+    if (interrupted())
+        error_set(&error, "stopped after %zu trials; the same command goes on", rows->count);
+    else if (ok)
         return 0;
     fprintf(stderr, "%s\n", error.message);
-    Error none;
     if (plan->args->json && !told && json_file_check(plan->args->json, &none))
         failure_json_write(failure_json("stability", "scene", plan->scene_name, plan->args->output, &error),
                            plan->args->json);
-    return EXIT_FAILED;
+    return interrupted() ? EXIT_INTERRUPTED : EXIT_FAILED;
 }
 
 int cmd_stability(const Args *args)

@@ -119,6 +119,15 @@ void stable_range(const StablePlan *plan, const Scene *scene, int *first, int *m
     *first = *first < *most ? *first : *most;
 }
 
+/* Whether a series before it is of the same. */
+static bool is_there(const StablePlan *plan, const StableSeries *series)
+{
+    for (const StableSeries *other = plan->series; other < series; other++)
+        if (strcmp(other->method, series->method) == 0 && strcmp(other->backend, series->backend) == 0)
+            return true;
+    return false;
+}
+
 /* Methods times backends; what cannot be is left out. */
 static bool find_series(StablePlan *plan, Error *error)
 {
@@ -135,6 +144,9 @@ static bool find_series(StablePlan *plan, Error *error)
         StableSeries *series = &plan->series[plan->series_count];
         snprintf(series->method, NAME_SIZE, "%s", methods[i % m]);
         snprintf(series->backend, NAME_SIZE, "%s", backends[i / m]);
+        if (is_there(plan, series))
+            return error_set(error, "slosh stability: --sweep has method %s on %s twice; name it once",
+                             series->method, series->backend);
         if (!begin(plan, &settings, error))
             return false;
         add_series(series, &settings);
@@ -212,6 +224,13 @@ static bool find_axes(StablePlan *plan, Error *error)
     if (plan->axis_count == 2 && strcmp(plan->axis[0].key, plan->axis[1].key) == 0)
         return error_set(error, "slosh stability: --axis %s stands there twice; name another key",
                          plan->axis[0].key);
+    for (int a = 0; a < plan->axis_count; a++)
+        if (args->settings.particles > 0 && strcmp(plan->axis[a].key, "particles.spacing") == 0)
+            return error_set(error,
+                             "slosh stability: --particles %zu is a spacing of %.4g m, and the axis is the "
+                             "spacing; %s",
+                             args->settings.particles, plan->scene.world.spacing,
+                             args->axis_count > 0 ? "leave --particles out" : "name another --axis");
     for (int a = 0; a < plan->axis_count; a++)
         if (!find_effect(plan, a, error) || !check_ends(plan, a, error))
             return false;

@@ -34,7 +34,7 @@ typedef struct StableCell {
 
 /* False with what is wrong with the command line or the scene. Methods and backends are those that the
    command line names, else the scene's own. Of an axis that a method does not read standard error says so;
-   that no method reads one is an error. */
+   that no method reads one is an error, and --particles with the spacing as an axis. */
 bool stable_plan_make(const Args *args, StablePlan *plan, Error *error);
 
 /* Cells along an axis; 1 where there is none. */

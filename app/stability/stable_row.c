@@ -3,6 +3,7 @@
 #include "app/lab/row_text.h"
 #include "app/stability/stable_search.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -135,7 +136,8 @@ bool stable_rows_read(StableRows *rows, const char *path, FILE *warnings, Error 
     FILE *file = fopen(path, "r");
     rows->count = 0;
     if (!file)
-        return true;
+        return errno == ENOENT ||
+               error_set(error, "%s: cannot be read: %s; it is not replaced", path, strerror(errno));
     const bool empty = getline(&head, &size, file) <= 0;
     bool ok = empty || strncmp(head, OURS, sizeof OURS - 1) == 0;
     if (!ok)
@@ -150,6 +152,19 @@ bool stable_rows_read(StableRows *rows, const char *path, FILE *warnings, Error 
                 "%s: is of another version of slosh; its rows are left out, its trials made again\n", path);
     free(head);
     fclose(file);
+    return ok;
+}
+
+bool stable_rows_merge(StableRows *rows, const char *path, Error *error)
+{
+    StableRows others = {.count = 0};
+    bool ok = stable_rows_read(&others, path, NULL, error);
+    for (size_t i = 0; ok && i < others.count; i++) {
+        const StableRow *other = &others.row[i], *own = stable_rows_find(rows, other->key);
+        if (!own || (own->finder == FOUND_BY_LOOK && other->finder != FOUND_BY_LOOK))
+            ok = stable_rows_add(rows, other) || error_set(error, "%s: no memory for its rows", path);
+    }
+    stable_rows_free(&others);
     return ok;
 }
 

@@ -50,9 +50,13 @@ const StableRow *stable_rows_find(const StableRows *rows, uint64_t key);
 bool stable_rows_add(StableRows *rows, const StableRow *row);
 
 /* The sound rows of the file; none where there is no such file, or it is empty. Each other row, or that the
-   file is of another version, is told to `warnings`. False with the reason where the file is no such table:
-   it is not to be replaced. */
+   file is of another version, is told to `warnings` (NULL: to nobody). False with the reason where the file
+   is no such table, or cannot be read: it is not to be replaced. */
 bool stable_rows_read(StableRows *rows, const char *path, FILE *warnings, Error *error);
+
+/* Adds the rows that the file has got since it was read, from another map under the same name; of one trial
+   that a look ended and another that went on, the other. False as stable_rows_read. */
+bool stable_rows_merge(StableRows *rows, const char *path, Error *error);
 
 /* Writes all rows, whole or not at all, in the order of method, backend, place and step: the same rows are
    the same file. */

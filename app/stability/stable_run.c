@@ -183,7 +183,8 @@ static bool keep(Crew *crew, bool now, Error *error)
     if (!crew->dirty || (!now && wall_ms() < crew->wrote_ms + EVERY_MS))
         return true;
     crew->dirty = false;
-    const bool ok = stable_rows_write(crew->rows, crew->plan->csv, error);
+    const bool ok = stable_rows_merge(crew->rows, crew->plan->csv, error) &&
+                    stable_rows_write(crew->rows, crew->plan->csv, error);
     crew->wrote_ms = wall_ms();
     return ok;
 }

@@ -116,11 +116,13 @@ class Stability(command.CommandTest):
         for number, code in ((signal.SIGKILL, -9), (signal.SIGINT, 130)):
             for name in self.outputs() - {'whole.csv', 'whole.svg'}:
                 os.remove(self.path(name))
-            process = self.start('stability', 'tank.yaml', '-o', 'out.svg', '--quiet', *SMALL, *words)
+            process = self.start('stability', 'tank.yaml', '-o', 'out.svg', '--quiet', '--json', 'out.json', *SMALL, *words)
             self.wait_for(lambda: 'out.csv' in self.entries(), process)
             process.send_signal(number)
             self.assertEqual(process.wait(60), code)
             self.wait_for_nobody()
+            if number == signal.SIGINT:
+                self.assertIn('the same command goes on', json.loads(self.read('out.json'))['error'])
             kept = self.text('out.csv').splitlines()
             self.assertTrue(1 < len(kept) < len(self.text('whole.csv').splitlines()))
             names = [{line.split(',')[0] for line in lines} for lines in (kept, self.text('whole.csv').splitlines())]
@@ -146,6 +148,30 @@ class Stability(command.CommandTest):
         self.assertEqual(done.returncode, 1)
         self.assertIn('no slosh stability wrote it', done.stderr)
         self.assertEqual(self.text('out.csv'), 'key,role,method,backend,\n')
+
+    def test_two_maps_of_one_name_keep_each_others_trials(self):
+        words = [*BOTH, '--time', '10', '--threads', '1']
+        self.assertEqual(self.run_it(*SOUND, '--sweep', 'method=wcsph').returncode, 0)
+        theirs = self.text('out.csv').splitlines()
+        os.remove(self.path('out.csv'))
+        process = self.start('stability', 'tank.yaml', '-o', 'out.svg', '--quiet', *SMALL, *words)
+        self.wait_for(lambda: 'out.csv' in self.entries(), process)
+        process.send_signal(signal.SIGSTOP)
+        own = self.text('out.csv').splitlines()
+        self.write('out.csv', '\n'.join(own + theirs[1:]) + '\n')
+        process.send_signal(signal.SIGCONT)
+        self.assertEqual(process.wait(60), 0, process.stderr.read())
+        rows = self.text('out.csv').splitlines()
+        self.assertGreater(len(rows), len(own) + len(theirs) - 1)
+        self.assertLess(set(theirs), set(rows))
+
+    def test_a_map_of_nothing_replaces_no_map(self):
+        self.assertEqual(self.run_it(*SOUND).returncode, 0)
+        drawn = self.text('out.svg')
+        done = self.run_it(*SOUND, '--backend', 'compute', '--gpu', '15')
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn('no cell could be searched', done.stderr)
+        self.assertEqual(self.text('out.svg'), drawn)
 
     def test_an_axis_that_changes_nothing(self):
         done = self.run_it('--axis', 'solver.delta_sph=0:0.1:2')
@@ -187,6 +213,8 @@ class Stability(command.CommandTest):
                 ([*SOUND, *SOUND], 2, 'stands there twice'),
                 ([*BOTH, '--axis', 'particles.spacing=0.1:0.2'], 2, '2 axes at most'),
                 (['--sweep', 'particles.spacing=0.1,0.2'], 2, 'use --axis for particles.spacing'),
+                (['--axis', 'particles.spacing=0.05:0.1:2', '--particles', '60'], 2, 'the axis is the spacing; leave --particles out'),
+                ([*SOUND, '--sweep', 'method=mueller,mueller'], 2, 'method mueller on cpu twice'),
                 (['--time', '0'], 2, '--time must be more than 0'),
                 (['--json', 'no/such.json'], 1, 'no/such.json')):
             done = self.run_it(*words)
