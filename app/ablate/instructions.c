@@ -1,12 +1,15 @@
 #include "app/ablate/instructions.h"
 
 #include "app/base/interrupt.h"
+#include "app/base/output_pending.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <spawn.h>
+#include <poll.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,23 +38,34 @@ static void add_two(Line *line, const char *option, const char *value)
     add(line, value);
 }
 
-/* Runs it to its end, with what it says thrown away. */
-static bool run(Line *line, Error *error)
+/* Becomes the program of the line, which ends with this process, however that ends. */
+_Noreturn static void become(const Line *line, pid_t parent)
 {
-    posix_spawn_file_actions_t actions;
-    pid_t process;
-    int status = 0;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    extern char **environ;
-    const int failed =
-        posix_spawnp(&process, line->word[0], &actions, NULL, (char *const *)line->word, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failed)
-        return error_set(error, "valgrind cannot be started: %s", strerror(failed));
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR)
-        continue;
+    const int nowhere = open("/dev/null", O_WRONLY);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    if (getppid() == parent)
+        execvp(line->word[0], (char *const *)line->word);
+    _exit(127);
+}
+
+/* Runs it to its end, or until a signal comes, with what it says thrown away. */
+static bool run(const Line *line, Error *error)
+{
+    enum { LOOK_MS = 20 };
+    int status = -1;
+    fflush(NULL);
+    const pid_t parent = getpid(), process = fork();
+    if (process < 0)
+        return error_set(error, "valgrind cannot be started: %s", strerror(errno));
+    if (process == 0)
+        become(line, parent);
+    while (waitpid(process, &status, WNOHANG) == 0) {
+        if (interrupted())
+            kill(process, SIGKILL);
+        poll(NULL, 0, LOOK_MS);
+    }
     return (WIFEXITED(status) && WEXITSTATUS(status) == 0) ||
            error_set(error, interrupted() ? "stopped" : "the run under valgrind failed");
 }
@@ -97,10 +111,12 @@ bool instructions_count(const char *scene, const SceneSettings *settings, const 
     snprintf(profile, sizeof profile, "%s/counts", folder);
     snprintf(json, sizeof json, "%s/bench.json", folder);
     snprintf(out, sizeof out, "--callgrind-out-file=%s", profile);
-    snprintf(few, sizeof few, "%zu", particles);
+    output_pending_add(folder); /* a second signal removes it, too */
+    snprintf(few, sizeof few, "%zu", particles > 0 ? particles : settings->particles);
     setenv("OMP_WAIT_POLICY", "passive", 0); /* the program need not start itself anew for it */
     add_two(&line, "valgrind", "--tool=callgrind");
     add_two(&line, "--toggle-collect=world_substep", out);
+    add(&line, "--vgdb=no"); /* whose pipes would stay where it is killed */
     add_two(&line, self, "bench");
     add_two(&line, scene, "--quiet");
     add_two(&line, "--json", json);
@@ -109,13 +125,12 @@ bool instructions_count(const char *scene, const SceneSettings *settings, const 
         add_two(&line, "--set", settings->set[i]);
     if (more)
         add_two(&line, "--set", more);
-    if (particles > 0)
+    if (particles > 0 || settings->particles > 0)
         add_two(&line, "--particles", few);
     add_two(&line, "--set", "solver.threads=1");
     add_two(&line, "--set", "view.kind=none");
     const bool ok = run(&line, error) && read_count(profile, json, per_step, error);
-    unlink(profile);
-    unlink(json);
-    rmdir(folder);
+    output_remove_folder(folder);
+    output_pending_forget(folder);
     return ok;
 }

@@ -7,9 +7,9 @@
 /* Whether valgrind is there. */
 bool instructions_can(void);
 
-/* Counts those of the first steps of the scene with one more setting (NULL: none) and at most that many
-   particles, on one thread: a step's, in the mean. Runs this program anew under valgrind, which is some fifty
-   times slower. False with the reason. */
+/* Counts those of the first steps of the scene with one more setting (NULL: none) and that many particles (0:
+   as many as the settings say), on one thread: a step's, in the mean. Runs this program anew under valgrind,
+   which is some fifty times slower; a signal ends it. False with the reason. */
 bool instructions_count(const char *scene, const SceneSettings *settings, const char *more, size_t particles,
                         double *per_step, Error *error);
 

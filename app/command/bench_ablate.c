@@ -7,8 +7,33 @@
 #include "app/session/headless.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static const double DEFAULT_TIME = 2; /* s */
+
+static bool names_view(const SceneSettings *settings)
+{
+    bool named = false;
+    for (int i = 0; i < settings->count; i++)
+        named |= settings->said[i] && strncmp(settings->said[i], "--view ", strlen("--view ")) == 0;
+    return named;
+}
+
+/* An option that would have no effect, or NULL. */
+static const char *has_no_place(const Args *args)
+{
+    return args->table                   ? "--table"
+           : args->play                  ? "--play"
+           : args->micro                 ? "--micro"
+           : args->device                ? "--device"
+           : args->sweep_count > 0       ? "--sweep"
+           : args->frames > 0            ? "--frames"
+           : args->clock                 ? "--clock"
+           : args->size_given            ? "--size"
+           : args->seconds_given         ? "--seconds"
+           : names_view(&args->settings) ? "--view"
+                                         : NULL;
+}
 
 /* All scenes are read before the first runs. */
 static bool scenes_check(const Plan *plan, bool *context, Error *error)
@@ -16,9 +41,9 @@ static bool scenes_check(const Plan *plan, bool *context, Error *error)
     static Scene scene;
     const Args *args = plan->args;
     *context = false;
-    if (args->table || args->play || args->micro || args->device || args->sweep_count > 0 || args->frames > 0)
-        return error_set(error, "slosh bench: --ablate stands alone; leave --table, --play, --micro, "
-                                "--device, --sweep and --frames out");
+    const char *other = has_no_place(args);
+    if (other)
+        return error_set(error, "slosh bench: --ablate stands alone; leave %s out", other);
     if (args->time_given && !(args->time > 0))
         return error_set(error, "slosh bench: --ablate needs a --time of more than 0");
     for (size_t i = 0; i < plan_cases(plan); i++) {

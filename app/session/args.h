@@ -90,13 +90,14 @@ typedef struct Args {
     const char *slice; /* export: "{point: ..., normal: ...}"; NULL: no slice, and none of the next three */
     const char *scalar, *kernel; /* NULL: not given */
     bool raw;
-    bool full, coarse;         /* validate: finer or coarser than its default set */
-    const char *table;         /* bench: NAME, or NULL */
-    bool play;                 /* bench: the live window */
-    bool micro;                /* bench: each pass alone */
-    bool views;                /* chart: pictures instead of runs */
-    bool ablate;               /* bench: the scene without each of its terms */
-    double seconds;            /* of either; more than 0; default 20 */
+    bool full, coarse; /* validate: finer or coarser than its default set */
+    const char *table; /* bench: NAME, or NULL */
+    bool play;         /* bench: the live window */
+    bool micro;        /* bench: each pass alone */
+    bool views;        /* chart: pictures instead of runs */
+    bool ablate;       /* bench: the scene without each of its terms */
+    bool seconds_given;
+    double seconds;            /* of play or micro; more than 0; default 20 */
     const char *record;        /* FILE, or NULL; of devices: raw reports */
     const char *device;        /* "file:PATH", or NULL: what is plugged in */
     bool watch;                /* devices: live values */

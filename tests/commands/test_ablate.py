@@ -1,5 +1,6 @@
 """slosh bench --ablate: what each term of a scene costs, and what changes without it."""
 import json
+import os
 import shutil
 import signal
 import subprocess
@@ -47,6 +48,44 @@ class Ablate(command.CommandTest):
         self.assertGreater(by_name['solver.delta_sph']['saves_instructions'], 0.05)
         self.assertLess(abs(by_name['box.slip']['saves_instructions']), 0.01)
 
+    def test_what_is_counted_is_what_is_timed(self):
+        self.write('tank.yaml', SCENE)
+        counted = {}
+        for words in ((), ('--particles', '30')):
+            done = self.run_it('tank.yaml', '--time', '0.02', '--threads', '1', '--quiet', *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            counted[words] = self.rows()[0]['instructions_step']
+        self.assertLess(counted['--particles', '30'], 0.5 * counted[()])  # 120 without
+
+    def test_interrupt_ends_valgrind(self):
+        """It is told of by the process alone, as kill does it; nothing of its own is left."""
+        self.write('tank.yaml', SCENE.replace('spacing: 0.05', 'spacing: 0.01'))
+        process = subprocess.Popen([command.PROGRAM, 'bench', 'tank.yaml', '--ablate', '--time', '0.0005', '--quiet'], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=command.obey_interrupts)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        children = f'/proc/{process.pid}/task/{process.pid}/children'
+
+        def valgrind():
+            with open(children, encoding='utf-8') as file:
+                for child in file.read().split():
+                    with open(f'/proc/{child}/cmdline', encoding='utf-8') as line:
+                        words = line.read().split('\0')
+                    folders = [os.path.dirname(word.split('=', 1)[1]) for word in words if word.startswith('--callgrind-out-file=')]
+                    if folders:
+                        return child, folders[0]
+            return None
+
+        self.wait_for(valgrind, process)
+        child, folder = valgrind()
+        self.assertTrue(os.path.isdir(folder))
+        os.kill(int(child), signal.SIGSTOP)  # it would take for ever
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(30), 130)
+        self.assertFalse(os.path.exists(f'/proc/{child}'))
+        self.assertFalse(os.path.exists(folder))
+
     def test_a_term_without_which_the_run_breaks(self):
         # thick fluid by explicit friction at that step: the solver that iterates is needed
         self.write('tank.yaml', SCENE.replace('fluids: [{', 'fluids: [{viscosity: 20000, ').replace('method: wcsph, delta_sph: 0.1', 'viscosity: implicit'))
@@ -67,7 +106,8 @@ class Ablate(command.CommandTest):
         self.assertEqual([row['terms'] for row in self.rows()], [0])
 
     def test_what_stands_alone(self):
-        for words in (['--sweep', 'method=mueller,wcsph'], ['--frames', '5'], ['--micro'], ['--play'], ['--time', '0']):
+        for words in (['--sweep', 'method=mueller,wcsph'], ['--frames', '5'], ['--micro'], ['--play'], ['--time', '0'],
+                      ['--clock', 'finish'], ['--size', '64x64'], ['--seconds', '20'], ['--view', 'splat']):
             done = self.run_it('scene.yaml', *words)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn('--ablate', done.stderr)
