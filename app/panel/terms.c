@@ -19,7 +19,8 @@ static bool is_on(const Scene *scene, const SceneTerm *term)
 /* A value that is too long to be set again, as a table is, cannot be switched. */
 static bool can_switch(const SceneTerm *term)
 {
-    return term->key->flags & KEY_LIVE && strlen(term->value) < TERM_SIZE - 1;
+    return term->key->flags & KEY_LIVE && strlen(term->value) < TERM_SIZE - 1 &&
+           strlen(term->path) + strlen("=") + strlen(term->value) < PANEL_SETTING_SIZE;
 }
 
 /* "solver.artificial_viscosity", 0.05 as "solver artificial viscosity 0.05", which wraps. */
@@ -41,7 +42,7 @@ static void draw_switch(Ui *ui, const SceneTerm *term, bool on, PanelEvents *eve
     key_help_text(term->key, help, sizeof help);
     const UiField field = {.id = id, .label = label, .help = help};
     if (ui_checkbox(ui, &field, &on) && events->setting_count < PANEL_SETTINGS_MAX)
-        snprintf(events->settings[events->setting_count++], PANEL_SETTING_SIZE, "%.40s=%.50s", term->path,
+        snprintf(events->settings[events->setting_count++], PANEL_SETTING_SIZE, "%s=%s", term->path,
                  on ? term->value : term->key->off);
 }
 

@@ -552,6 +552,28 @@ static void test_terms_have_switches(void **state)
     session_close(&session, desk);
 }
 
+/* A value is set again whole, however long it is, or has no switch. */
+static void test_a_long_term_comes_back(void **state)
+{
+    (void)state;
+    static const char table[] = "fluids[1].viscosity=[[0, 0.11], [1, 0.12], [2, 0.13], [3, 0.14], [4, 0.15]]";
+    Session session;
+    Desk *desk = session_open(&session, "two_oils", 400, TALL, 13);
+    panel_destroy(session.panel);
+    session.panel = panel_create();
+    assert_true(scene_set_live(&session.scene, table, NULL, NULL));
+    desk_frames(desk, 30);
+    desk_click_at(desk, "Terms", 0.3F);
+    for (int twice = 0; twice < 2; twice++) {
+        desk_frames(desk, 30);
+        desk_click_at(desk, "term fluids[1].viscosity", 0.1F);
+    }
+    assert_string_equal(session.last, table);
+    assert_int_equal(session.settings, 2);
+    assert_int_equal(session.refused, 0);
+    session_close(&session, desk);
+}
+
 static void test_small_windows_scroll(void **state)
 {
     (void)state;
@@ -605,6 +627,7 @@ int main(void)
         cmocka_unit_test_teardown(test_probes_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),
         cmocka_unit_test_teardown(test_terms_have_switches, no_gl_errors),
+        cmocka_unit_test_teardown(test_a_long_term_comes_back, no_gl_errors),
         cmocka_unit_test_teardown(test_small_windows_scroll, no_gl_errors),
         cmocka_unit_test_teardown(test_help_lists_every_row, no_gl_errors),
     };
