@@ -1,6 +1,7 @@
 #include "app/session/args_table.h"
 
 #include "app/base/path.h"
+#include "app/command/export_parts.h"
 #include "app/hand/play_commands.h"
 #include "app/lab/bench_table.h"
 #include "app/scene/keys.h"
@@ -40,13 +41,14 @@ const CommandRow command_rows[] = {
     {COMMAND_STABILITY, "stability", "SCENE -o OUT.svg|.png [OPTIONS]",
      "where methods hold and how they fail: the largest step over two keys of a scene", 1, 1,
      "OUT.svg or OUT.png", 0, 0},
-    {COMMAND_FIT, "fit", "SCENE|CASE --error PERCENT [OPTIONS]",
+    {COMMAND_FIT, "fit", "SCENE|CASE --error PERCENT|--frame-ms MS ...",
      "the cheapest settings within an error, or with --frame-ms the most accurate in real time", 1, 1, NULL,
      0, 0},
     {COMMAND_REPLAY, "replay", "FILE [OPTIONS]",
      "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
     {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply|.csv|.vti ...",
-     "writes snapshots in the formats of other programs", 1, 1, "OUT.pvd, OUT.vtp or OUT.ply", 256, 192},
+     "writes snapshots in the formats of other programs", 1, 1,
+     "OUT.pvd, OUT.vtp, OUT.ply, or of a slice OUT.csv or OUT.vti", 256, 192},
     {COMMAND_DEVICES, "devices", "[--watch] [--record FILE] [OPTIONS]",
      "motion devices: which there are, what they say, and how to open them", 0, 0, NULL, 0, 0},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
@@ -106,12 +108,12 @@ const OptionRow option_rows[] = {
     {"--slice", "{point: [X, Y, Z], normal: [X, Y, Z]}", EXPORT, OPTION_TEXT, AT(slice),
      .help = "a scalar on that plane, in the box's frame, as OUT.vti or OUT.csv; m"},
     {"--scalar", "NAME", EXPORT, OPTION_TEXT, AT(scalar),
-     .help = "of the slice: speed, velocity_x, velocity_y, velocity_z, density, pressure, compression or fluid (pressure)"},
+     .help = "of the slice (pressure)", .names = export_scalar_choice},
     {"--kernel", "NAME", EXPORT, OPTION_TEXT, AT(kernel),
-     .help = "of the slice: cubic, wendland_c2, quintic, poly6, spiky or cusp (that of the file's method)"},
+     .help = "of the slice (that of the file's method)", .names = export_kernel_choice},
     {"--raw", NULL, EXPORT, OPTION_FLAG, AT(raw), .help = "of the slice: sums of V W s, not their mean over sums of V W"},
     {"--size", "WxH", EXPORT, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
-     .help = "of the slice: samples along and up (256x192)"},
+     .help = "of the slice: samples along and up"},
     {"--every", "S", RUN | REPLAY, OPTION_NUMBER, AT(every), .max = 1e6, .flags = OPTION_OPEN_LOW,
      .help = "seconds from snapshot to snapshot (1/30)"},
     {"--interpolate", NULL, RENDER, OPTION_FLAG, AT(interpolate),

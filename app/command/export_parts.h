@@ -15,6 +15,10 @@ bool export_choose(const Args *args, SnapshotReader *reader, size_t *index, Erro
 /* False where an option or the output's name is of a slice, and --slice is not there. */
 bool export_needs_slice(const Args *args, Error *error);
 
+/* What --scalar and --kernel take; NULL after the last. */
+const char *export_scalar_choice(int index);
+const char *export_kernel_choice(int index);
+
 /* With --slice; returns the exit code. */
 int export_slice(const Args *args);
 

@@ -49,28 +49,46 @@ bool export_needs_slice(const Args *args, Error *error)
 
 /* ---- the command line ---- */
 
+const char *export_scalar_choice(int index)
+{
+    return slice_scalars[index].name;
+}
+
+/* The first is the solver's own, which is no shape. */
+const char *export_kernel_choice(int index)
+{
+    return plane_kernels[1 + index].name;
+}
+
+/* Which of the names it is; what to take where it is none of them. */
+static bool find_name(const char *option, const char *name, const char *(*names)(int), int *found,
+                      Error *error)
+{
+    char list[256] = "";
+    size_t used = 0;
+    Suggestion near = suggest_for(name);
+    for (*found = 0; names(*found); ++*found) {
+        if (strcmp(names(*found), name) == 0)
+            return true;
+        suggest_offer(&near, names(*found));
+        const char *before = *found == 0 ? "" : names(*found + 1) ? ", " : " or ";
+        if (used < sizeof list)
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", before, names(*found));
+    }
+    return error_set(error, "%s %.60s is not known%s%s; take %s", option, name,
+                     near.best ? "; did you mean " : "", near.best ? near.best : "", list);
+}
+
 static bool find_scalar(const char *name, int *scalar, Error *error)
 {
-    Suggestion suggestion = suggest_for(name);
-    for (*scalar = 0; slice_scalars[*scalar].name; ++*scalar)
-        if (strcmp(slice_scalars[*scalar].name, name) == 0)
-            return true;
-        else
-            suggest_offer(&suggestion, slice_scalars[*scalar].name);
-    return error_set(
-        error,
-        "--scalar %.60s is not known%s%s; take speed, velocity_x, velocity_y, velocity_z, density, "
-        "pressure, compression or fluid",
-        name, suggestion.best ? "; did you mean " : "", suggestion.best ? suggestion.best : "");
+    return find_name("--scalar", name, export_scalar_choice, scalar, error);
 }
 
 static bool find_kernel(const char *name, int *kernel, Error *error)
 {
-    for (*kernel = 1; plane_kernels[*kernel].name; ++*kernel)
-        if (strcmp(plane_kernels[*kernel].name, name) == 0)
-            return true;
-    return error_set(
-        error, "--kernel %.60s is not known; take cubic, wendland_c2, quintic, poly6, spiky or cusp", name);
+    const bool found = find_name("--kernel", name, export_kernel_choice, kernel, error);
+    ++*kernel;
+    return found;
 }
 
 /* The file's own kernel, where it says one. */
@@ -121,9 +139,11 @@ static bool write_table(const SliceExport *export, const SliceTable *table, Erro
         return false;
     FILE *file = fopen(output.temp, "wb");
     bool written = file && (export->csv ? slice_table_csv : slice_table_vti)(file, table);
-    const int reason = errno;
-    if (file && fclose(file) != 0)
+    int reason = errno;
+    if (file && fclose(file) != 0) {
+        reason = written ? errno : reason;
         written = false;
+    }
     if (written)
         return output_commit(&output, error);
     output_discard(&output);

@@ -135,7 +135,7 @@ class Slice(CommandTest):
                 (2, 'must be {point:', ('a.csv', '--slice', '[1]')),
                 (2, 'a normal of length 0', ('a.csv', '--slice', '{normal: [0, 0, 0]}')),
                 (2, 'did you mean pressure', ('a.csv', *plane, '--scalar', 'presure')),
-                (2, 'take cubic', ('a.csv', *plane, '--kernel', 'cubical')),
+                (2, 'did you mean cubic; take cubic, wendland_c2, quintic, poly6, spiky or cusp', ('a.csv', *plane, '--kernel', 'cubical')),
                 (2, 'use .vti or .csv', ('a.ply', *plane)),
                 (2, 'makes no sense with --slice', ('a.csv', *plane, '--surface')),
                 (2, 'add --slice', ('a.csv',)),
