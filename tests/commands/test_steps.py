@@ -86,7 +86,7 @@ class Steps(CommandTest):
         self.assertGreater(json.loads(self.read('a.json'))['troubles'], 0)
 
     def test_the_same_trouble_is_told_once(self):
-        said = self.go('--set', 'solver.step={dt: 0.04, substeps: 1}', '--time', '30', '--every', '10')
+        said = self.go('--set', 'solver.step={dt: 0.03, substeps: 1}', '--time', '30', '--every', '10')
         troubles = json.loads(self.read('a.json'))['troubles']
         self.assertGreater(troubles, 2)
         told = re.findall(r'1/[248] of the step', said)
