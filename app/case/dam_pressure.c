@@ -49,8 +49,10 @@ static void judge_wall(CaseRun *run, int wall, double to_t, double to_p)
     for (size_t i = 0; i < column->count; i++)
         curve_add(&raw, column->at[i][0] * to_t, column->at[i][1] * to_p);
     run->figures[wall] = figure_scaled(miss_of(&raw, &run->expected[wall], WINDOW[wall]), 0, 1);
-    for (double at = WINDOW[wall]; at < run->info.time * to_t; at += 0.5 * WINDOW[wall])
+    for (int k = 2; 0.5 * k * WINDOW[wall] < run->info.time * to_t; k++) {
+        const double at = 0.5 * k * WINDOW[wall];
         curve_add(&run->found[wall], at, mean_about(&raw, at, WINDOW[wall]));
+    }
     curve_free(&raw);
 }
 
