@@ -141,10 +141,16 @@ static void add_eyes(Sensors *s, int i, const WorldDef *def)
     }
 }
 
-/* Cells as wide as the largest ball, or wider where there would be too many. */
+/* Cells as wide as the largest ball, or wider where there would be too many; one where there is no ball. */
 static void lay_grid(Sensors *s)
 {
     double high[3], widest = 0, cells;
+    if (s->eye_count == 0) {
+        for (int k = 0; k < 3; k++)
+            s->cells[k] = 1;
+        s->cells_a_metre = 1;
+        return;
+    }
     for (int k = 0; k < 3; k++) {
         s->low[k] = INFINITY;
         high[k] = -INFINITY;
