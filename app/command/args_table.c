@@ -48,7 +48,7 @@ const CommandRow command_rows[] = {
      "a recorded session again, and whether it gives the same bits", 1, 1, NULL, 1280, 720},
     {COMMAND_EXPORT, "export", "IN.h5part -o OUT.pvd|.vtp|.ply|.csv|.vti ...",
      "writes snapshots in the formats of other programs", 1, 1,
-     "OUT.pvd, OUT.vtp, OUT.ply, or of a slice OUT.csv or OUT.vti", 256, 192},
+     "OUT.pvd, OUT.vtp, OUT.ply, or of a slice OUT.csv, OUT.vti or OUT.pvd", 256, 192},
     {COMMAND_DEVICES, "devices", "[--watch] [--record FILE] [OPTIONS]",
      "motion devices: which there are, what they say, and how to open them", 0, 0, NULL, 0, 0},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",

@@ -1,8 +1,10 @@
+#include "app/base/interrupt.h"
 #include "app/base/json_file.h"
 #include "app/base/output.h"
 #include "app/base/suggest.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
+#include "app/output/series.h"
 #include "app/output/slice_table.h"
 #include "app/output/snapshot_sift.h"
 #include "app/session/headless.h"
@@ -14,6 +16,11 @@
 #include <string.h>
 #include <strings.h>
 
+typedef enum SliceForm { SLICE_CSV, SLICE_VTI, SLICE_PVD } SliceForm;
+
+/* By the end of the output's name; the last is all snapshots, each a .vti. */
+static const char *const forms[] = {[SLICE_CSV] = ".csv", [SLICE_VTI] = ".vti", [SLICE_PVD] = ".pvd"};
+
 /* What is to be done. */
 typedef struct SliceExport {
     const Args *args;
@@ -22,7 +29,12 @@ typedef struct SliceExport {
     SnapshotFlaws flaws;
     SliceWanted wanted;
     size_t index; /* of the snapshot */
-    bool csv;     /* else VTK's image data */
+    SliceForm form;
+    SliceMaker maker;
+    SliceTable table; /* of the last one */
+    size_t slices;    /* written; */
+    size_t empty;     /* of these, all empty */
+    bool interrupted; /* by a signal, before the last one */
 } SliceExport;
 
 static bool ends_in(const char *path, const char *extension)
@@ -119,9 +131,13 @@ static bool understand(SliceExport *export, Error *error)
     const Args *args = export->args;
     export->wanted =
         (SliceWanted){.normal = {0, 0, 1}, .samples = {args->width, args->height}, .raw = args->raw};
-    export->csv = ends_in(args->output, ".csv");
-    if (!export->csv && !ends_in(args->output, ".vti"))
-        return error_set(error, "cannot tell the format of a slice from '%s'; use .vti or .csv",
+    while (export->form <= SLICE_PVD && !ends_in(args->output, forms[export->form]))
+        export->form++;
+    if (export->form > SLICE_PVD)
+        return error_set(error, "cannot tell the format of a slice from '%s'; use .vti, .csv or .pvd",
+                         args->output);
+    if (export->form == SLICE_PVD && args->time_given)
+        return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vti or a FILE.csv",
                          args->output);
     return refuse_others(args, error) && slice_wanted_read(&export->wanted, args->slice, error) &&
            find_scalar(args->scalar ? args->scalar : "pressure", &export->wanted.scalar, error) &&
@@ -130,79 +146,139 @@ static bool understand(SliceExport *export, Error *error)
            export_choose(args, export->reader, &export->index, error);
 }
 
-/* ---- the file ---- */
+/* ---- files ---- */
 
-static bool write_table(const SliceExport *export, const SliceTable *table, Error *error)
+static bool write_table(const SliceExport *export, const char *name, Error *error)
 {
-    Output output = {0};
-    if (!output_begin(&output, export->args->output, error))
-        return false;
-    FILE *file = fopen(output.temp, "wb");
-    bool written = file && (export->csv ? slice_table_csv : slice_table_vti)(file, table);
+    FILE *file = fopen(name, "wb");
+    bool written =
+        file && (export->form == SLICE_CSV ? slice_table_csv : slice_table_vti)(file, &export->table);
     int reason = errno;
     if (file && fclose(file) != 0) {
         reason = written ? errno : reason;
         written = false;
     }
-    if (written)
-        return output_commit(&output, error);
-    output_discard(&output);
-    return error_set(error, "%s: cannot be written: %s", export->args->output, strerror(reason));
+    return written || error_set(error, "%s: cannot be written: %s", export->args->output, strerror(reason));
 }
 
-static bool make_table(SliceExport *export, SliceTable *table, Error *error)
+static bool make_table(SliceExport *export, size_t index, Error *error)
 {
     SnapshotStep step;
-    if (!snapshot_read_step(export->reader, export->index, &step, error))
+    slice_table_free(&export->table);
+    if (!snapshot_read_step(export->reader, index, &step, error))
         return false;
-    export->flaws = snapshot_flaws(export->reader, false);
-    const bool made = (snapshot_sift(&export->flaws, export->index, &step) ||
-                       error_set(error, "out of memory for a snapshot")) &&
-                      slice_table_make(&export->wanted, &export->scene, &step, table, error);
+    const bool made =
+        (snapshot_sift(&export->flaws, index, &step) || error_set(error, "out of memory for a snapshot")) &&
+        slice_table_make(&export->maker, &export->wanted, &export->scene, &step, &export->table, error);
     snapshot_step_free(&step);
     return made;
 }
 
+static size_t samples_of(const SliceExport *export)
+{
+    return (size_t) export->wanted.samples[0] * (size_t) export->wanted.samples[1];
+}
+
+static bool write_slice(void *user, size_t index, const char *name, double *time, Error *error)
+{
+    SliceExport *export = user;
+    if (!make_table(export, index, error) || !write_table(export, name, error))
+        return false;
+    *time = export->table.time;
+    export->slices++;
+    export->empty += export->table.empty == samples_of(export);
+    return true;
+}
+
+static bool write_one(SliceExport *export, Error *error)
+{
+    Output output = {0};
+    double time;
+    if (!output_begin(&output, export->args->output, error))
+        return false;
+    if (write_slice(export, export->index, output.temp, &time, error))
+        return output_commit(&output, error);
+    output_discard(&output);
+    return false;
+}
+
+static bool write_all(SliceExport *export, Error *error)
+{
+    const SeriesJob job = {.path = export->args->output,
+                           .extension = forms[SLICE_VTI],
+                           .count = snapshot_count_steps(export->reader),
+                           .write = write_slice,
+                           .user = export};
+    Progress progress;
+    size_t written = 0;
+    progress_begin(&progress, stderr, "export", export->args->quiet);
+    const bool done = series_write(&job, &progress, &written, error);
+    progress_end(&progress);
+    export->interrupted = done && written < job.count;
+    return done;
+}
+
 /* ---- what is said ---- */
 
-static void report(const SliceExport *export, const SliceTable *table)
+static void warn(const SliceExport *export)
 {
     const Args *args = export->args;
     const SliceWanted *wanted = &export->wanted;
-    const size_t all = (size_t)wanted->samples[0] * (size_t)wanted->samples[1];
+    const SliceTable *table = &export->table;
     const double across =
         hypot(table->plane.size[0] / wanted->samples[0], table->plane.size[1] / wanted->samples[1]);
-    snapshot_flaws_print(&export->flaws, args->scenes[0], stderr);
-    if (table->empty == all)
+    if (export->empty == export->slices)
         fprintf(stderr, "%s: warning: no particle is within a support radius of the plane: all is empty\n",
                 args->output);
-    else if (2 * export->scene.support_radius < across)
+    else if (export->empty > 0)
+        fprintf(stderr, "%s: warning: %zu of %zu slices are empty: no particle is within a support radius\n",
+                args->output, export->empty, export->slices);
+    if (2 * export->scene.support_radius < across)
         fprintf(stderr,
                 "%s: warning: samples are %.3g m apart and particles reach %.3g m: some lie between samples; "
                 "use a larger --size\n",
                 args->output, across, export->scene.support_radius);
-    if (args->quiet)
-        return;
-    fprintf(stderr, "%s: %d x %d samples of %s%s%s%s, %s, kernel %s, t = %.4g s; %zu are empty\n",
-            args->output, wanted->samples[0], wanted->samples[1], slice_scalars[wanted->scalar].name,
-            *slice_scalars[wanted->scalar].unit ? " (" : "", slice_scalars[wanted->scalar].unit,
-            *slice_scalars[wanted->scalar].unit ? ")" : "", wanted->raw ? "sums" : "means",
-            plane_kernels[wanted->kernel].name, table->time, table->empty);
 }
 
-static bool write_json(const SliceExport *export, const SliceTable *table, Error *error)
+static void report(const SliceExport *export)
 {
     const Args *args = export->args;
+    const SliceWanted *wanted = &export->wanted;
+    const SliceScalar *scalar = &slice_scalars[wanted->scalar];
+    if (export->interrupted)
+        fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->table.time, args->output);
+    snapshot_flaws_print(&export->flaws, args->scenes[0], stderr);
+    warn(export);
+    if (args->quiet)
+        return;
+    fprintf(stderr, "%s: ", args->output);
+    if (export->form == SLICE_PVD)
+        fprintf(stderr, "%zu slice%s of ", export->slices, plural(export->slices));
+    fprintf(stderr, "%d x %d samples of %s%s%s%s, %s, kernel %s, %s = %.4g s", wanted->samples[0],
+            wanted->samples[1], scalar->name, *scalar->unit ? " (" : "", scalar->unit,
+            *scalar->unit ? ")" : "", wanted->raw ? "sums" : "means", plane_kernels[wanted->kernel].name,
+            export->form == SLICE_PVD ? "up to t" : "t", export->table.time);
+    if (export->form == SLICE_PVD)
+        fprintf(stderr, "\n");
+    else
+        fprintf(stderr, "; %zu are empty\n", export->table.empty);
+}
+
+static bool write_json(const SliceExport *export, Error *error)
+{
+    const Args *args = export->args;
+    const SliceTable *table = &export->table;
     const SliceWanted *wanted = &export->wanted;
     if (!args->json)
         return true;
     json_t *json = json_pack(
-        "{s:s, s:s, s:s, s:f, s:{s:[f,f,f], s:[f,f,f], s:[i,i], s:s, s:s, s:b, s:I}}", "command", "export",
-        "input", args->scenes[0], "output", args->output, "simulated_seconds", table->time, "slice", "point",
-        wanted->point[0], wanted->point[1], wanted->point[2], "normal", table->plane.normal[0],
-        table->plane.normal[1], table->plane.normal[2], "samples", wanted->samples[0], wanted->samples[1],
-        "scalar", slice_scalars[wanted->scalar].name, "kernel", plane_kernels[wanted->kernel].name, "raw",
-        wanted->raw, "empty", (json_int_t)table->empty);
+        "{s:s, s:s, s:s, s:I, s:b, s:f, s:{s:[f,f,f], s:[f,f,f], s:[i,i], s:s, s:s, s:b, s:I}}", "command",
+        "export", "input", args->scenes[0], "output", args->output, "snapshots", (json_int_t) export->slices,
+        "stopped", export->interrupted, "simulated_seconds", table->time, "slice", "point", wanted->point[0],
+        wanted->point[1], wanted->point[2], "normal", table->plane.normal[0], table->plane.normal[1],
+        table->plane.normal[2], "samples", wanted->samples[0], wanted->samples[1], "scalar",
+        slice_scalars[wanted->scalar].name, "kernel", plane_kernels[wanted->kernel].name, "raw", wanted->raw,
+        "empty", (json_int_t)table->empty);
     const bool written = json_file_write(json, args->json, error);
     json_decref(json);
     return written;
@@ -210,18 +286,20 @@ static bool write_json(const SliceExport *export, const SliceTable *table, Error
 
 static bool run(SliceExport *export, Error *error)
 {
-    SliceTable table = {0};
     const Args *args = export->args;
     if (args->json && !json_file_check(args->json, error))
         return false;
     Headless *context = headless_create(HEADLESS_GPU_AUTO, error);
     if (context && !args->quiet)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
-    bool done = context && make_table(export, &table, error) && write_table(export, &table, error);
+    export->flaws = snapshot_flaws(export->reader, false);
+    bool done = context && (export->form == SLICE_PVD ? write_all : write_one)(export, error);
     if (done)
-        report(export, &table);
-    done = done && write_json(export, &table, error);
-    slice_table_free(&table);
+        report(export);
+    done = done && write_json(export, error);
+    slice_table_free(&export->table);
+    if (context)
+        slice_maker_destroy(&export->maker);
     headless_destroy(context);
     return done;
 }
@@ -237,5 +315,5 @@ int export_slice(const Args *args)
         failure_json_write(failure_json("export", "input", args->scenes[0], args->output, &error),
                            args->json);
     snapshot_reader_close(export.reader);
-    return done ? 0 : understood ? EXIT_FAILED : EXIT_USAGE;
+    return !understood ? EXIT_USAGE : !done ? EXIT_FAILED : export.interrupted ? EXIT_INTERRUPTED : 0;
 }

@@ -1,9 +1,7 @@
 #include "app/output/export.h"
 
-#include "app/base/interrupt.h"
 #include "app/base/output.h"
-#include "app/base/output_folder.h"
-#include "app/output/export_index.h"
+#include "app/output/series.h"
 #include "app/output/vtp.h"
 
 #include <errno.h>
@@ -198,74 +196,23 @@ bool export_one(Export *export, size_t index, Error *error)
 
 /* ---- a series ---- */
 
-/* An index and its folder in the making. */
-typedef struct Series {
-    Output index;
-    OutputFolder folder;
-    double *times; /* of each snapshot, s */
-} Series;
-
-static const char *file_extension(const Export *export)
+static bool write_one_of_all(void *user, size_t index, const char *name, double *time, Error *error)
 {
-    return is_ply(export) ? ".ply" : ".vtp";
-}
-
-/* The folder is called as the index without its extension. */
-static bool begin_series(Series *series, const Export *export, Error *error)
-{
-    char folder[sizeof series->folder.path];
-    const size_t count = snapshot_count_steps(export->reader);
-    if (!output_begin(&series->index, export->path, error))
-        return false;
-    const size_t length = strlen(export->path) - strlen(kinds[export->kind].name) - 1;
-    snprintf(folder, sizeof folder, "%.*s", (int)length, export->path);
-    series->times = calloc(count, sizeof *series->times);
-    if (!series->times)
-        return error_set(error, "%s: out of memory for %zu snapshots", export->path, count);
-    return output_folder_begin(&series->folder, folder, file_extension(export), error);
-}
-
-static bool add_snapshot(Series *series, Export *export, Error *error)
-{
-    char name[1088], path[sizeof series->folder.temp + sizeof name];
-    export_index_name(series->folder.path, export->snapshots, file_extension(export), name, sizeof name);
-    snprintf(path, sizeof path, "%s/%s", series->folder.temp, name);
-    if (!write_snapshot(export, export->snapshots, path, error))
-        return false;
-    series->times[export->snapshots - 1] = export->time;
-    return true;
-}
-
-static bool add_all(Series *series, Export *export, Progress *progress, Error *error)
-{
-    const size_t count = snapshot_count_steps(export->reader);
-    while (export->snapshots < count && !export->interrupted) {
-        if (!add_snapshot(series, export, error))
-            return false;
-        progress_update(progress, (double)export->snapshots / (double)count);
-        export->interrupted = interrupted() && export->snapshots < count;
-    }
-    return true;
-}
-
-static bool write_index(const Series *series, const Export *export, Error *error)
-{
-    FILE *file = open_file(export, series->index.temp, error);
-    if (!file)
-        return false;
-    const bool written = (is_ply(export) ? export_index_series : export_index_pvd)(
-        file, series->folder.path, file_extension(export), export->snapshots, series->times);
-    return close_file(export, file, written, error);
+    Export *export = user;
+    const bool written = write_snapshot(export, index, name, error);
+    *time = export->time;
+    return written;
 }
 
 bool export_series(Export *export, Progress *progress, Error *error)
 {
-    Series series = {.times = NULL};
-    const bool written = begin_series(&series, export, error) && add_all(&series, export, progress, error) &&
-                         write_index(&series, export, error) && output_folder_commit(&series.folder, error) &&
-                         output_commit(&series.index, error);
-    output_folder_discard(&series.folder);
-    output_discard(&series.index);
-    free(series.times);
-    return written;
+    const SeriesJob job = {.path = export->path,
+                           .extension = is_ply(export) ? ".ply" : ".vtp",
+                           .count = snapshot_count_steps(export->reader),
+                           .write = write_one_of_all,
+                           .user = export};
+    size_t written = 0;
+    const bool done = series_write(&job, progress, &written, error);
+    export->interrupted = done && written < job.count;
+    return done;
 }

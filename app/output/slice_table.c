@@ -2,9 +2,7 @@
 
 #include "app/scene/value.h"
 #include "app/yaml/yaml.h"
-#include "render/particles/upload.h"
 #include "render/plane/plane_kernel.h"
-#include "render/plane/plane_sum.h"
 #include "sim/base/key_rows.h"
 
 #include <math.h>
@@ -147,21 +145,37 @@ static ParticleBuffers state_of(const SnapshotScene *scene, const SnapshotStep *
     return state;
 }
 
-static bool sum_up(const PlaneJob *job, const Arrays *arrays, const ParticleBuffers *state, float *sums,
-                   Error *error)
+/* For at least so many particles; those of a series may become more. */
+static bool follow_count(SliceMaker *maker, size_t count, Scalar scalar, Error *error)
+{
+    if (maker->upload && count <= maker->capacity)
+        return true;
+    upload_destroy(maker->upload);
+    maker->capacity = count + count / 2 + 1;
+    maker->upload = upload_create(maker->capacity, PARTICLE_SCALAR(scalar), error);
+    return maker->upload != NULL;
+}
+
+static bool sum_up(SliceMaker *maker, const PlaneJob *job, const Arrays *arrays, const ParticleBuffers *state,
+                   float *sums, Error *error)
 {
     ParticleArrays particles = {.position = arrays->position};
     particles.scalar[job->scalar] = arrays->scalar;
     ParticleBuffers buffers;
-    PlaneSum sum = {0};
-    Upload *upload = upload_create(state->count > 0 ? state->count : 1, PARTICLE_SCALAR(job->scalar), error);
-    const bool made = upload && upload_arrays(upload, &particles, state, error) &&
-                      upload_take(upload, &buffers) && plane_sum_run(&sum, job, &buffers, error);
+    const bool made = follow_count(maker, state->count, job->scalar, error) &&
+                      upload_arrays(maker->upload, &particles, state, error) &&
+                      upload_take(maker->upload, &buffers) &&
+                      plane_sum_run(&maker->sum, job, &buffers, error);
     if (made)
-        plane_sum_read(&sum, sums);
-    plane_sum_destroy(&sum);
-    upload_destroy(upload);
+        plane_sum_read(&maker->sum, sums);
     return made;
+}
+
+void slice_maker_destroy(SliceMaker *maker)
+{
+    plane_sum_destroy(&maker->sum);
+    upload_destroy(maker->upload);
+    *maker = (SliceMaker){0};
 }
 
 static bool allocate(SliceTable *table, float **sums, Error *error)
@@ -186,7 +200,8 @@ static void fill_table(SliceTable *table, const float *sums)
     }
 }
 
-static bool make(SliceTable *table, const SnapshotScene *scene, const SnapshotStep *step, Error *error)
+static bool make(SliceMaker *maker, SliceTable *table, const SnapshotScene *scene, const SnapshotStep *step,
+                 Error *error)
 {
     const SliceWanted *wanted = &table->wanted;
     const PlaneJob job = {.plane = table->plane,
@@ -201,7 +216,7 @@ static bool make(SliceTable *table, const SnapshotScene *scene, const SnapshotSt
     const bool made = allocate(table, &sums, error) &&
                       (fill_arrays(&arrays, &slice_scalars[wanted->scalar], scene, step) ||
                        error_set(error, "out of memory for the particles")) &&
-                      sum_up(&job, &arrays, &state, sums, error);
+                      sum_up(maker, &job, &arrays, &state, sums, error);
     if (made)
         fill_table(table, sums);
     free(arrays.position);
@@ -210,8 +225,8 @@ static bool make(SliceTable *table, const SnapshotScene *scene, const SnapshotSt
     return made;
 }
 
-bool slice_table_make(const SliceWanted *wanted, const SnapshotScene *scene, const SnapshotStep *step,
-                      SliceTable *table, Error *error)
+bool slice_table_make(SliceMaker *maker, const SliceWanted *wanted, const SnapshotScene *scene,
+                      const SnapshotStep *step, SliceTable *table, Error *error)
 {
     *table = (SliceTable){.wanted = *wanted, .time = step->time};
     if (!plane_make(scene->box_size, wanted->point, wanted->normal, &table->plane))
@@ -220,7 +235,7 @@ bool slice_table_make(const SliceWanted *wanted, const SnapshotScene *scene, con
                          "%.4g m",
                          -scene->box_size[0] / 2, scene->box_size[0] / 2, scene->box_size[1],
                          -scene->box_size[2] / 2, scene->box_size[2] / 2);
-    if (make(table, scene, step, error))
+    if (make(maker, table, scene, step, error))
         return true;
     slice_table_free(table);
     return false;

@@ -3,7 +3,8 @@
 #define SLOSH_SLICE_TABLE_H
 
 #include "app/output/snapshot.h"
-#include "render/plane/plane.h"
+#include "render/particles/upload.h"
+#include "render/plane/plane_sum.h"
 
 #include <stdio.h>
 
@@ -36,11 +37,20 @@ extern const SliceScalar slice_scalars[]; /* ended by a NULL name */
    right. */
 bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error);
 
+/* What one slice leaves to the next: programs and buffers. Zero-initialise it. */
+typedef struct SliceMaker {
+    PlaneSum sum;
+    Upload *upload;
+    size_t capacity; /* particles of `upload` */
+} SliceMaker;
+
+void slice_maker_destroy(SliceMaker *maker);
+
 /* Makes it in the current OpenGL 4.5 context, with V = mass / density, the mass being that of a spacing^3 at
-   rest. False where the plane misses the box, memory is short, or the driver has no such texture: nothing to
-   free then. */
-bool slice_table_make(const SliceWanted *wanted, const SnapshotScene *scene, const SnapshotStep *step,
-                      SliceTable *table, Error *error);
+   rest. False where the plane misses the box, memory is short, or the driver has no such texture: nothing of
+   the table to free then. */
+bool slice_table_make(SliceMaker *maker, const SliceWanted *wanted, const SnapshotScene *scene,
+                      const SnapshotStep *step, SliceTable *table, Error *error);
 void slice_table_free(SliceTable *table);
 
 /* The columns x, y, z (m, box's frame) and value, which is empty where nothing is. False when the stream

@@ -2,6 +2,7 @@
 they belong."""
 import csv
 import json
+import os
 import shutil
 import subprocess
 
@@ -113,6 +114,21 @@ class Slice(CommandTest):
             self.assertEqual(seen['time'], file['Step#2'].attrs['TimeValue'])
         self.assertTrue(((numpy.array(seen['field']) > 0) == ~numpy.isnan(values)).all())
 
+    def test_a_series_has_each_snapshot_as_it_is_alone(self):
+        self.run_scene('--time', '0.3')
+        said = self.export('a.pvd', '{}', '--size', '24x16', '--json', 'a.json')
+        self.assertIn('4 slices of 24 x 16 samples', said)
+        self.assertEqual(sorted(os.listdir(self.path('a'))), [f'a-{k:04d}.vti' for k in range(4)])
+        self.assertEqual(json.loads(self.read('a.json'))['snapshots'], 4)
+        for k, time in enumerate(('0', '0.1', '0.2', '0.3')):
+            self.export('one.vti', '{}', '--size', '24x16', '--time', time)
+            self.assertEqual(self.read('one.vti'), self.read(f'a/a-{k:04d}.vti'))
+        index = self.read('a.pvd').decode()
+        self.assertEqual(index.count('file="a/a-000'), 4)
+        code, said = self.slosh('export', 'a.h5part', '-o', 'a.pvd', '--slice', '{}', '--time', '0.1')
+        self.assertEqual(code, 2)
+        self.assertIn('--time makes no sense for all snapshots', said)
+
     def test_json_says_what_was_done(self):
         self.run_scene('--time', '0.1')
         self.export('a.vti', '{}', '--json', 'a.json', '--size', '16x8')
@@ -136,7 +152,7 @@ class Slice(CommandTest):
                 (2, 'a normal of length 0', ('a.csv', '--slice', '{normal: [0, 0, 0]}')),
                 (2, 'did you mean pressure', ('a.csv', *plane, '--scalar', 'presure')),
                 (2, 'did you mean cubic; take cubic, wendland_c2, quintic, poly6, spiky or cusp', ('a.csv', *plane, '--kernel', 'cubical')),
-                (2, 'use .vti or .csv', ('a.ply', *plane)),
+                (2, 'use .vti, .csv or .pvd', ('a.ply', *plane)),
                 (2, 'makes no sense with --slice', ('a.csv', *plane, '--surface')),
                 (2, 'add --slice', ('a.csv',)),
                 (2, 'add --slice', ('a.ply', '--raw')),
