@@ -58,8 +58,9 @@ static void destroy_context(ImGuiContext *context)
     ImGui::DestroyContext(context);
 }
 
-// Latin-1; superscripts; dashes and the ellipsis; arrows.
-static const ImWchar glyphs[] = {0x20, 0xFF, 0x2010, 0x2026, 0x2070, 0x207F, 0x2190, 0x2193, 0};
+// Latin-1; superscripts; dashes and the ellipsis; arrows; the triangles of play and back.
+static const ImWchar glyphs[] = {0x20,   0xFF,   0x2010, 0x2026, 0x2070, 0x207F, 0x2190,
+                                 0x2193, 0x25B6, 0x25B6, 0x25C0, 0x25C0, 0};
 
 // `config`: how the letters are made.
 static ImFont *add_font(const char *file, float pixels, const ImFontConfig *config, Error *error)
@@ -872,4 +873,25 @@ bool ui_mouse_in(const Ui *ui, const float rect[4], float *x)
 {
     *x = ui->input.mouse[0];
     return *x >= rect[0] && *x < rect[2] && ui->input.mouse[1] >= rect[1] && ui->input.mouse[1] < rect[3];
+}
+
+static float share_of(float value, float from, float to)
+{
+    return std::clamp((value - from) / std::max(to - from, 1.0F), 0.0F, 1.0F);
+}
+
+UiGrip ui_grip(Ui *ui, const UiField *field, const float rect[4])
+{
+    Current current(ui->context);
+    const ImRect box(rect[0], rect[1], rect[2], rect[3]);
+    const ImGuiID id = ImGui::GetCurrentWindow()->GetID(field->id);
+    UiGrip grip = {};
+    if (ImGui::ItemAdd(box, id))
+        grip.pressed =
+            ImGui::ButtonBehavior(box, id, &grip.hovered, &grip.held, ImGuiButtonFlags_PressedOnClick);
+    grip.x = share_of(ImGui::GetMousePos().x, box.Min.x, box.Max.x);
+    grip.y = share_of(ImGui::GetMousePos().y, box.Min.y, box.Max.y);
+    tip(ui, field->help);
+    watch(ui, field->id, box, 0);
+    return grip;
 }

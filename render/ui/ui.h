@@ -122,6 +122,16 @@ void ui_words(Ui *ui, float x, float y, uint32_t rgba,
 float ui_words_width(const Ui *ui, const char *text);
 bool ui_mouse_in(const Ui *ui, const float rect[4], float *x); /* whether the mouse is there; and where */
 
+/* A part of an area that can be pressed and dragged; what it looks like is the caller's. `field` needs no
+   label. `x` and `y`: where the mouse is in it, shares of its width and height, 0 .. 1 also beyond its
+   edges. */
+typedef struct UiGrip {
+    bool hovered, pressed; /* the mouse rests on it; its left button went down on it just now */
+    bool held;             /* that button is down since then, wherever the mouse is now */
+    float x, y;
+} UiGrip;
+UiGrip ui_grip(Ui *ui, const UiField *field, const float rect[4]);
+
 /* For tests: is called for each text and widget of a frame with its id (a text: itself), its place, and the
    width that its text needs in that place. NULL ends it. */
 typedef void UiWatcher(void *user, const char *id, const float rect[4], float needed);

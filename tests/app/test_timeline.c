@@ -1,0 +1,129 @@
+/* The time line: its bar gives the time under the mouse for as long as it is held, its buttons their
+   commands, and nothing is cut off. */
+#include "tests/render/ui_fixture.h"
+
+#include "app/hand/play_commands.h"
+#include "app/panel/timeline.h"
+
+typedef struct Line {
+    TimelineData data;
+    float left;
+    TimelineEvents last; /* of the last frame that was built */
+    int command;         /* the last one */
+    int wishes;
+} Line;
+
+static void draw_line(void *user, Desk *desk)
+{
+    Line *line = user;
+    timeline_draw(desk->ui, desk->target.width, desk->target.height, line->left, &line->data, &line->last);
+    line->wishes += line->last.wants_time;
+    if (line->last.command != PLAY_NONE)
+        line->command = line->last.command;
+}
+
+static Desk *open_line(Line *line, int width, float pixels)
+{
+    Desk *desk = calloc(1, sizeof *desk);
+    assert_non_null(desk);
+    desk_open(desk, width, 300, pixels);
+    *line = (Line){.data = {.from = 2, .to = 12, .now = 4.5, .grows = true}, .command = PLAY_NONE};
+    desk->draw = draw_line;
+    desk->user = line;
+    desk_frames(desk, 10);
+    return desk;
+}
+
+static void close_line(Desk *desk)
+{
+    desk_close(desk);
+    free(desk);
+}
+
+static void the_bar_gives_the_time_under_the_mouse(void **state)
+{
+    (void)state;
+    Line line;
+    Desk *desk = open_line(&line, 800, 13);
+    const Seen bar = *desk_find(desk, "time");
+    const float y = (bar.rect[1] + bar.rect[3]) / 2, wide = bar.rect[2] - bar.rect[0];
+    assert_true(wide > 300);
+    desk_move(desk, bar.rect[0] + 0.25F * wide, y); /* whole pixels count */
+    assert_int_equal(line.wishes, 0);               /* resting there asks for nothing */
+    desk_press(desk, true);
+    assert_true(line.last.wants_time);
+    assert_true(fabs(line.last.time - 4.5) < 10 / wide);
+    desk_move(desk, bar.rect[0] + 0.75F * wide, y - 200); /* held, though far above */
+    assert_true(line.last.wants_time && fabs(line.last.time - 9.5) < 10 / wide);
+    desk_move(desk, 0, y);
+    assert_true(line.last.wants_time && line.last.time == 2);
+    desk_move(desk, 5000, y);
+    assert_true(line.last.wants_time && line.last.time == 12);
+    desk_press(desk, false);
+    assert_false(line.last.wants_time);
+    const int wishes = line.wishes;
+    desk_move(desk, bar.rect[0] + 0.5F * wide, y);
+    assert_int_equal(line.wishes, wishes);
+    assert_int_equal(line.command, PLAY_NONE);
+    close_line(desk);
+}
+
+static void buttons_give_their_commands(void **state)
+{
+    (void)state;
+    static const PlayCommand commands[] = {PLAY_PAUSE, PLAY_STEP};
+    Line line;
+    Desk *desk = open_line(&line, 800, 13);
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        desk_click_at(desk, play_command_rows[commands[i]].name, 0.5F);
+        assert_int_equal(line.command, commands[i]);
+    }
+    assert_int_equal(line.wishes, 0);
+    close_line(desk);
+}
+
+/* From the narrowest window that has a bar to a wide one, beside a panel too. */
+static void all_stands_in_the_window(void **state)
+{
+    (void)state;
+    static const int widths[] = {300, 500, 1280, 3000};
+    for (int i = 0; i < 8; i++) {
+        Line line;
+        const int width = widths[i / 2];
+        Desk *desk = open_line(&line, width, i % 2 ? 26 : 13);
+        line.left = i % 2 && width > 1000 ? 400 : 0;
+        line.data = (TimelineData){.from = 1234.56, .to = 2345.67, .now = 5000, .name = "a_file.h5part"};
+        desk->input.changed = true;
+        desk_frames(desk, 5);
+        for (int k = 0; k < desk->seen_count; k++) {
+            const Seen *seen = &desk->seen[k];
+            if (seen->rect[0] < line.left || seen->rect[3] > 300 || seen->rect[1] < 300 - 4 * 26 ||
+                seen->needed > seen->rect[2] - seen->rect[0] + 1)
+                fail_msg("%s is cut off in %d pixels", seen->id, width);
+        }
+        assert_non_null(desk_find(desk, "time"));
+        close_line(desk);
+    }
+}
+
+/* Nothing but one state: the bar is all done, and gives that time. */
+static void a_stretch_without_length_works(void **state)
+{
+    (void)state;
+    Line line;
+    Desk *desk = open_line(&line, 800, 13);
+    line.data.from = line.data.to = line.data.now = 3;
+    desk_click_at(desk, "time", 0.3F);
+    assert_true(line.wishes > 0 && line.last.time == 3);
+    close_line(desk);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(the_bar_gives_the_time_under_the_mouse, no_gl_errors),
+        cmocka_unit_test_teardown(buttons_give_their_commands, no_gl_errors),
+        cmocka_unit_test_teardown(all_stands_in_the_window, no_gl_errors),
+        cmocka_unit_test_teardown(a_stretch_without_length_works, no_gl_errors)};
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
