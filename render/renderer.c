@@ -1,5 +1,7 @@
 #include "render/renderer.h"
 
+#include "render/derived/derived.h"
+#include "render/derived/ranges.h"
 #include "render/frame/backdrop.h"
 #include "render/frame/edges.h"
 #include "render/frame/legend.h"
@@ -22,8 +24,11 @@ struct Renderer {
     WorldDef world;
     bool plain;
     double covered_left; /* part of the width */
+    double range[2];     /* of the last picture */
     Target target;
     unsigned uniforms;
+    Derived derived;
+    Ranges ranges; /* nothing before the first picture that asks for one */
     Shadow shadow;
     Backdrop backdrop;
     Edges edges;
@@ -81,6 +86,38 @@ static void drop_unused_solids(Renderer *renderer)
     shadow_follow_solids(&renderer->shadow, false, &none);
 }
 
+/* A range that follows the state is of a scalar, not of the fluids' own colours. */
+static bool follows_state(const ViewDef *def)
+{
+    return def->range_auto && def->color_by != SCALAR_FLUID;
+}
+
+/* What a picture by that def reads of the particles: who draws adds here what it reads. */
+static ParticleWants wants_of(const ViewDef *def)
+{
+    return (ParticleWants){.scalars = SCALAR_BIT(def->color_by),
+                           .attributes = follows_state(def) ? PARTICLE_RANGES : 0};
+}
+
+unsigned renderer_attributes(const ViewDef *def)
+{
+    const ParticleWants all = {UINT32_MAX, UINT32_MAX, 0}, wants = def ? wants_of(def) : all;
+    return wants_attributes(&wants);
+}
+
+static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
+{
+    const ParticleWants wants = wants_of(def);
+    if (!derived_follow(&renderer->derived, &wants, error))
+        return false;
+    if (!follows_state(def) || renderer->ranges.find)
+        return true;
+    if (ranges_create(&renderer->ranges, error))
+        return true;
+    ranges_destroy(&renderer->ranges);
+    return false;
+}
+
 static bool create_parts(Renderer *renderer, int width, int height, Error *error)
 {
     const ViewDef *def = &renderer->def;
@@ -89,7 +126,8 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
         !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
-    return follow_legend(renderer, def, height, error) && follow_solids(renderer, &renderer->world, error) &&
+    return follow_derived(renderer, def, error) && follow_legend(renderer, def, height, error) &&
+           follow_solids(renderer, &renderer->world, error) &&
            (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL);
 }
 
@@ -133,6 +171,8 @@ void renderer_destroy(Renderer *renderer)
     solids_destroy(renderer->solids);
     backdrop_destroy(&renderer->backdrop);
     shadow_destroy(&renderer->shadow);
+    ranges_destroy(&renderer->ranges);
+    derived_destroy(&renderer->derived);
     glDeleteBuffers(1, &renderer->uniforms);
     target_destroy(&renderer->target);
     free(renderer);
@@ -155,7 +195,8 @@ static bool follow_view(Renderer *renderer, const Subject *subject, Error *error
 bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *world, Error *error)
 {
     const Subject subject = {def, world ? world : &unknown};
-    const bool followed = follow_legend(renderer, def, renderer->target.height, error) &&
+    const bool followed = follow_derived(renderer, def, error) &&
+                          follow_legend(renderer, def, renderer->target.height, error) &&
                           follow_solids(renderer, subject.world, error) &&
                           follow_view(renderer, &subject, error);
     if (followed) {
@@ -207,9 +248,29 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
     text_end(renderer->text);
 }
 
-static void draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer, ViewCounts *counts)
+/* The state with what is derived from it. */
+static void derive(Renderer *renderer, ParticleBuffers *particles)
+{
+    const ViewDef *def = &renderer->def;
+    const ParticleWants wants = wants_of(def);
+    DerivedSpace space = {.flat = frame_slab(particles) > 0};
+    const int shown = def->color_by;
+    memcpy(space.periodic, renderer->world.periodic, sizeof space.periodic);
+    derived_fill(&renderer->derived, &wants, &space, particles);
+    if (shown < SCALAR_STATE_COUNT)
+        particles->range[shown] =
+            (ScalarRange){particles->scalar_min[shown], particles->scalar_max[shown], 0, 0};
+    else if (follows_state(def))
+        particles->range[shown] = ranges_find(&renderer->ranges, &particles->scalar[shown], particles->count);
+}
+
+static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
 {
     Frame frame;
+    ParticleBuffers with = *state;
+    const ParticleBuffers *particles = &with;
+    GL_STAGE(timer, STAGE_SCALARS)
+    derive(renderer, &with);
     const ViewKind *kind = renderer->view ? view_kind(renderer->view) : NULL;
     const Target *target = &renderer->target;
     const Subject subject = subject_of(renderer);
@@ -217,6 +278,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *
         legend_width_pixels(&renderer->def, &renderer->world, target->height) / target->width;
     frame_make(&frame, &subject, particles, target, view_radii(kind, &renderer->def, particles),
                (Covered){renderer->covered_left, legend});
+    memcpy(renderer->range, frame.range, sizeof frame.range);
     frame.timer = timer;
     frame.counts = counts;
     frame.plain = renderer->plain;
@@ -268,6 +330,11 @@ void renderer_present(const Renderer *renderer)
 void renderer_read_depth(const Renderer *renderer, float *depth)
 {
     target_read_depth(&renderer->target, depth);
+}
+
+void renderer_range(const Renderer *renderer, double range[2])
+{
+    memcpy(range, renderer->range, sizeof renderer->range);
 }
 
 void renderer_set_covered(Renderer *renderer, double left)

@@ -20,6 +20,10 @@ typedef struct Renderer Renderer;
  */
 ViewDef view_def_default(void);
 
+/* PARTICLE_*: what a state must have for a picture by that def; NULL: for any picture. Ranges, for which a
+   backend on the GPU is waited for, only where it shows one that follows the state. */
+unsigned renderer_attributes(const ViewDef *def);
+
 /* Copies def and world; a world of NULL: nothing is known of it. NULL on failure: an unknown view or
    colormap, a size that the driver does not take, no font. A def of kind "none" draws backdrop, solids, edges
    and legend only. */
@@ -47,6 +51,9 @@ void renderer_present(const Renderer *renderer);
 
 /* width * height reversed depths (1 at the near plane, 0 where nothing is), rows from the bottom up. */
 void renderer_read_depth(const Renderer *renderer, float *depth);
+
+/* The range of colours of the last picture, in the scalar's unit. */
+void renderer_range(const Renderer *renderer, double range[2]);
 
 /* From the next picture on an automatic camera leaves that part of the width, 0 .. 1, free on the left. */
 void renderer_set_covered(Renderer *renderer, double left);

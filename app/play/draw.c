@@ -4,13 +4,14 @@
 
 static void draw_overlay(Play *play)
 {
-    const OverlayFacts facts = {.width = play->picture.width,
-                                .height = play->picture.height,
-                                .renderer = window_renderer(play->window),
-                                .meter = &play->meter,
-                                .gl_times = play->picture.timer ? &play->picture.gl_times : NULL,
-                                .movie = play->files.video != NULL};
+    OverlayFacts facts = {.width = play->picture.width,
+                          .height = play->picture.height,
+                          .renderer = window_renderer(play->window),
+                          .meter = &play->meter,
+                          .gl_times = play->picture.timer ? &play->picture.gl_times : NULL,
+                          .movie = play->files.video != NULL};
     const double began = meter_thread_cpu_ms();
+    renderer_range(play->picture.renderer, facts.range);
     play->picture.dirty |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
     if (play->overlay.panel || play->overlay.help)
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);

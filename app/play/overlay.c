@@ -102,7 +102,6 @@ static void collect_stages(const Model *model, const OverlayFacts *facts, PanelD
 static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, float pictures[METER_HISTORY],
                     PanelData *data)
 {
-    const ViewDef *view = &model->open.scene.view;
     const SimulatorStatus *status = &model->status;
     const ParticleBuffers *particles = &model->particles;
     find_warnings(overlay, model, facts);
@@ -138,8 +137,7 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
     for (int k = 0; k < SOLVES_MAX; k++)
         data->iterations += status->solves[k].iterations;
     collect_stages(model, facts, data);
-    data->scalar_range[0] = view->range_auto ? particles->scalar_min[view->color_by] : view->range[0];
-    data->scalar_range[1] = view->range_auto ? particles->scalar_max[view->color_by] : view->range[1];
+    memcpy(data->scalar_range, facts->range, sizeof facts->range);
 }
 
 double overlay_covered_left(const Overlay *overlay, int width)

@@ -31,6 +31,7 @@ typedef struct Overlay {
 /* What it shows beside the model. */
 typedef struct OverlayFacts {
     int width, height; /* of the picture */
+    double range[2];   /* of its colours */
     const char *renderer;
     const PlayMeter *meter;
     const StageTimes *gl_times; /* NULL: the stages of a picture cannot be timed */

@@ -2,8 +2,7 @@
 
 #include "app/base/path.h"
 #include "app/scene/advise.h"
-#include "app/session/studio.h"
-#include "sim/base/scalar.h"
+#include "render/renderer.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
 
@@ -55,12 +54,10 @@ void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh)
 
 static bool make_upload(PlayScene *open, Error *error)
 {
-    unsigned attributes = PARTICLE_FLUID;
-    for (int s = 0; s < SCALAR_COUNT; s++)
-        attributes |= particle_attributes_for((Scalar)s);
     const WorldDef *def = &open->scene.world;
     if (!open->upload && !world_on_gpu(def))
-        open->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)), attributes, error);
+        open->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)),
+                                     renderer_attributes(NULL), error);
     return open->upload || world_on_gpu(def);
 }
 
@@ -88,7 +85,7 @@ bool play_scene_take(PlayScene *open, ParticleBuffers *out)
     const ViewDef *view = &open->scene.view;
     if (!simulator_here(open->simulator))
         return upload_take(open->upload, out);
-    return simulator_share(open->simulator, studio_attributes(view), out);
+    return simulator_share(open->simulator, renderer_attributes(view), out);
 }
 
 bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error)

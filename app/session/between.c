@@ -11,7 +11,7 @@ void still_free(Still *still)
     free(a->velocity);
     free(a->fluid);
     free(a->id);
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         free(a->scalar[s]);
     *still = (Still){.room = 0};
 }
@@ -27,7 +27,7 @@ bool still_reserve(Still *still, size_t count, unsigned attributes)
     a->fluid = malloc((count + 1) * sizeof *a->fluid);
     a->id = malloc((count + 1) * sizeof *a->id);
     bool ok = a->position && a->velocity && a->fluid && a->id;
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         if (attributes & PARTICLE_SCALAR(s)) {
             a->scalar[s] = malloc((count + 1) * sizeof *a->scalar[s]);
             ok = ok && a->scalar[s];
@@ -73,7 +73,7 @@ static size_t take(const Still *still, size_t i, Still *out)
     memcpy(out->arrays.velocity + 4 * at, still->arrays.velocity + 4 * i, 4 * sizeof(float));
     out->arrays.fluid[at] = still->arrays.fluid[i];
     out->arrays.id[at] = still->arrays.id[i];
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         if (out->arrays.scalar[s])
             out->arrays.scalar[s][at] = still->arrays.scalar[s][i];
     return at;
@@ -106,7 +106,7 @@ static void blend_particle(const Still *before, size_t i, const Blend *blend, co
         v[k] = (float)((1 - s) * (double)v0[k] + s * (double)v[k]);
     }
     x[3] = (float)((1 - s) * (double)x0[3] + s * (double)x[3]);
-    for (int c = 0; c < SCALAR_COUNT; c++)
+    for (int c = 0; c < SCALAR_STATE_COUNT; c++)
         if (out->arrays.scalar[c])
             out->arrays.scalar[c][at] = (float)((1 - s) * (double)before->arrays.scalar[c][i] +
                                                 s * (double)out->arrays.scalar[c][at]);

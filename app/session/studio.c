@@ -1,17 +1,11 @@
 #include "app/session/studio.h"
 
-unsigned studio_attributes(const ViewDef *view)
-{
-    const bool ranges = view->range_auto && view->color_by != SCALAR_FLUID;
-    return particle_attributes_for(view->color_by) | (ranges ? PARTICLE_RANGES : 0);
-}
-
 bool studio_open(Studio *studio, const ViewDef *view, const WorldDef *def, const World *world, int width,
                  int height, Error *error)
 {
     WorldInfo info;
     *studio = (Studio){.renderer = renderer_create(view, def, width, height, error),
-                       .attributes = studio_attributes(view)};
+                       .attributes = renderer_attributes(view)};
     if (!studio->renderer || world_shares(world))
         return studio->renderer;
     world_info(world, &info);

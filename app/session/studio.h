@@ -14,10 +14,6 @@ typedef struct Studio {
     unsigned attributes; /* that the view reads */
 } Studio;
 
-/* What a picture of that view needs of a state. Ranges, for which a backend on the GPU is waited for, only
-   where it shows one that follows the state. */
-unsigned studio_attributes(const ViewDef *view);
-
 /* For worlds like that one; needs a current context. On failure call studio_close as well. */
 bool studio_open(Studio *studio, const ViewDef *view, const WorldDef *def, const World *world, int width,
                  int height, Error *error);

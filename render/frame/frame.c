@@ -14,8 +14,9 @@ static const float LIGHT_RADIUS = 0.035F;
 static void make_range(Frame *frame, const ParticleBuffers *particles)
 {
     const ViewDef *def = frame->def;
-    frame->range[0] = def->range_auto ? particles->scalar_min[def->color_by] : def->range[0];
-    frame->range[1] = def->range_auto ? particles->scalar_max[def->color_by] : def->range[1];
+    const ScalarRange *found = &particles->range[def->color_by];
+    frame->range[0] = def->range_auto ? found->low : def->range[0];
+    frame->range[1] = def->range_auto ? found->high : def->range[1];
     double least = 1e-6 * fmax(fabs(frame->range[0]), 1e-6); /* the same everywhere: any width will do */
     frame->shown = scalar_name(def->color_by);
     frame->shown_unit = scalar_unit(def->color_by);

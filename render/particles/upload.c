@@ -16,7 +16,7 @@ typedef struct Slot {
 
 /* Offsets in each slot, bytes; SIZE_MAX for what is not carried. */
 typedef struct Layout {
-    size_t position, velocity, fluid, id, scalar[SCALAR_COUNT];
+    size_t position, velocity, fluid, id, scalar[SCALAR_STATE_COUNT];
     size_t size;
 } Layout;
 
@@ -49,7 +49,7 @@ static Layout make_layout(size_t capacity, unsigned attributes)
     layout.velocity = place(&layout, capacity, 4 * sizeof(float), attributes & PARTICLE_VELOCITY);
     layout.fluid = place(&layout, capacity, sizeof(uint32_t), attributes & PARTICLE_FLUID);
     layout.id = place(&layout, capacity, sizeof(uint32_t), attributes & PARTICLE_ID);
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         layout.scalar[s] = place(&layout, capacity, sizeof(float), attributes & PARTICLE_SCALAR(s));
     return layout;
 }
@@ -132,7 +132,7 @@ static ParticleArrays slot_arrays(const Upload *upload, const Slot *slot)
                              .velocity = in_slot(slot, layout->velocity),
                              .fluid = in_slot(slot, layout->fluid),
                              .id = in_slot(slot, layout->id)};
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         arrays.scalar[s] = in_slot(slot, layout->scalar[s]);
     return arrays;
 }
@@ -162,7 +162,7 @@ static void describe(const Upload *upload, Slot *slot)
     out->velocity = attribute(slot, layout->velocity, 4 * sizeof(float));
     out->fluid = attribute(slot, layout->fluid, sizeof(uint32_t));
     out->id = attribute(slot, layout->id, sizeof(uint32_t));
-    for (int s = 0; s < SCALAR_COUNT; s++) {
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++) {
         out->scalar[s] = attribute(slot, layout->scalar[s], sizeof(float));
         out->scalar_min[s] = out->scalar_max[s] = 0;
         if (arrays.scalar[s])
@@ -211,7 +211,7 @@ bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleB
     copy(to.velocity, arrays->velocity, 4 * count * sizeof(float));
     copy(to.fluid, arrays->fluid, count * sizeof(uint32_t));
     copy(to.id, arrays->id, count * sizeof(uint32_t));
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         copy(to.scalar[s], arrays->scalar[s], count * sizeof(float));
     slot->state = *state;
     describe(upload, slot);
@@ -255,7 +255,7 @@ static void carry_over(Upload *upload)
     carry(upload, &state->velocity, state->count);
     carry(upload, &state->fluid, state->count);
     carry(upload, &state->id, state->count);
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         carry(upload, &state->scalar[s], state->count);
 }
 

@@ -2,11 +2,10 @@
 
 #include <stddef.h>
 
-const ScalarRow scalar_list[] = {
 #define X(NAME, name, unit) {name, unit},
-    SCALAR_LIST(X)
+const ScalarRow scalar_list[] = {SCALAR_LIST(X){NULL, NULL}};
+const ScalarRow vector_list[] = {VECTOR_LIST(X){NULL, NULL}};
 #undef X
-        {NULL, NULL}};
 
 const char *scalar_name(Scalar scalar)
 {

@@ -1,9 +1,10 @@
-/* The scalars that a view can show and a snapshot can hold: the one list of their names and units. */
+/* The scalars and vectors of particles that a picture can show, a slice can sum up and a snapshot can hold:
+   the one list of their names and units. */
 #ifndef SLOSH_SCALAR_H
 #define SLOSH_SCALAR_H
 
-/* X(ENUM, name, unit) */
-#define SCALAR_LIST(X)                                                                                       \
+/* Those of a state: each backend writes them. X(ENUM, name, unit) */
+#define STATE_SCALAR_LIST(X)                                                                                 \
     X(SPEED, "speed", "m/s")                                                                                 \
     X(DENSITY, "density", "kg/m3")                                                                           \
     X(PRESSURE, "pressure", "Pa")                                                                            \
@@ -11,12 +12,29 @@
     X(FLUID, "fluid", "")                                                                                    \
     X(ID, "id", "")
 
+/* Those that pictures derive from a state, of any backend or file: render/derived has a formula for each. */
+#define DERIVED_SCALAR_LIST(X)                                                                               \
+    X(VELOCITY_X, "velocity_x", "m/s")                                                                       \
+    X(VELOCITY_Y, "velocity_y", "m/s")                                                                       \
+    X(VELOCITY_Z, "velocity_z", "m/s")                                                                       \
+    X(KINETIC_ENERGY, "kinetic_energy", "J/m3")                                                              \
+    X(VORTICITY, "vorticity", "1/s")                                                                         \
+    X(DIVERGENCE, "divergence", "1/s")                                                                       \
+    X(NEIGHBOURS, "neighbours", "")
+
+#define SCALAR_LIST(X)                                                                                       \
+    STATE_SCALAR_LIST(X)                                                                                     \
+    DERIVED_SCALAR_LIST(X)
+
 typedef enum Scalar {
 #define X(NAME, name, unit) SCALAR_##NAME,
     SCALAR_LIST(X)
 #undef X
         SCALAR_COUNT
 } Scalar;
+
+/* The scalars of a state come first, so many of them. */
+enum { SCALAR_STATE_COUNT = SCALAR_ID + 1 };
 
 /* In the order of Scalar, ended by a NULL name. */
 typedef struct ScalarRow {
@@ -27,5 +45,22 @@ extern const ScalarRow scalar_list[];
 
 const char *scalar_name(Scalar scalar);
 const char *scalar_unit(Scalar scalar);
+
+/* Vectors, in the box's axes. All but the velocity are derived. X(ENUM, name, unit) */
+#define VECTOR_LIST(X)                                                                                       \
+    X(VELOCITY, "velocity", "m/s")                                                                           \
+    X(VORTICITY, "vorticity", "1/s")                                                                         \
+    X(PRESSURE_GRADIENT, "pressure_gradient", "Pa/m")                                                        \
+    X(BOX_VELOCITY, "box_velocity", "m/s")
+
+typedef enum Vector {
+#define X(NAME, name, unit) VECTOR_##NAME,
+    VECTOR_LIST(X)
+#undef X
+        VECTOR_COUNT
+} Vector;
+
+/* In the order of Vector, ended by a NULL name. */
+extern const ScalarRow vector_list[];
 
 #endif

@@ -4,11 +4,6 @@
 
 #include <string.h>
 
-unsigned particle_attributes_for(Scalar color_by)
-{
-    return color_by == SCALAR_FLUID ? PARTICLE_FLUID : PARTICLE_SCALAR(color_by);
-}
-
 void particle_buffers_describe(const WorldInfo *info, ParticleBuffers *out)
 {
     *out = (ParticleBuffers){.count = info->count,

@@ -14,15 +14,12 @@
 /* Which attributes are wanted; positions always are. RANGES: of the scalars wanted, which waits for the GPU.
  */
 enum {
-    PARTICLE_VELOCITY = 1U << SCALAR_COUNT,
-    PARTICLE_FLUID = 1U << (SCALAR_COUNT + 1),
-    PARTICLE_ID = 1U << (SCALAR_COUNT + 2),
-    PARTICLE_RANGES = 1U << (SCALAR_COUNT + 3)
+    PARTICLE_VELOCITY = 1U << SCALAR_STATE_COUNT,
+    PARTICLE_FLUID = 1U << (SCALAR_STATE_COUNT + 1),
+    PARTICLE_ID = 1U << (SCALAR_STATE_COUNT + 2),
+    PARTICLE_RANGES = 1U << (SCALAR_STATE_COUNT + 3)
 };
-#define PARTICLE_SCALAR(scalar) (1U << (scalar))
-
-/* What a picture coloured by that scalar needs. */
-unsigned particle_attributes_for(Scalar color_by);
+#define PARTICLE_SCALAR(scalar) (1U << (scalar)) /* of a state's own */
 
 /* Where an attribute lies: buffer 0 means that it is not there. */
 typedef struct ParticleAttribute {
@@ -31,21 +28,30 @@ typedef struct ParticleAttribute {
     size_t stride;   /* bytes */
 } ParticleAttribute;
 
+/* Of a scalar over all particles of a state, in its unit. */
+typedef struct ScalarRange {
+    double low, high;       /* the 1st and the 99th percentile; where they are one, as the ends: */
+    double least, greatest; /* of all that is a number */
+} ScalarRange;
+
 typedef struct ParticleBuffers {
     size_t count;
-    ParticleAttribute position;             /* vec4: x y z in the box's frame (m), volume (m3) */
-    ParticleAttribute velocity;             /* vec4: x y z in the box's frame (m/s); w is the owner's */
-    ParticleAttribute fluid;                /* uint */
-    ParticleAttribute id;                   /* uint */
-    ParticleAttribute scalar[SCALAR_COUNT]; /* float */
-    double scalar_min[SCALAR_COUNT];        /* of this state, where the attribute is there */
-    double scalar_max[SCALAR_COUNT];
-    double spacing;        /* m */
-    double support_radius; /* h, m */
-    double box_size[3];    /* m */
-    BoxState box;          /* pose of the same state */
-    double gravity[3];     /* in the box's frame, m/s2 */
-    double time;           /* s */
+    ParticleAttribute position; /* vec4: x y z in the box's frame (m), volume (m3) */
+    ParticleAttribute velocity; /* vec4: x y z in the box's frame (m/s); w is the owner's */
+    ParticleAttribute fluid;    /* uint */
+    ParticleAttribute id;       /* uint */
+    ParticleAttribute
+        scalar[SCALAR_COUNT]; /* float; the derived ones are there in pictures that ask for them */
+    ParticleAttribute vector[VECTOR_COUNT]; /* vec4: x y z in the box's axes; in pictures that ask for them */
+    double scalar_min[SCALAR_STATE_COUNT];  /* of this state, where the attribute is there */
+    double scalar_max[SCALAR_STATE_COUNT];
+    ScalarRange range[SCALAR_COUNT]; /* in pictures that ask for it */
+    double spacing;                  /* m */
+    double support_radius;           /* h, m */
+    double box_size[3];              /* m */
+    BoxState box;                    /* pose of the same state */
+    double gravity[3];               /* in the box's frame, m/s2 */
+    double time;                     /* s */
     uint64_t step;
 } ParticleBuffers;
 

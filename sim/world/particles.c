@@ -50,10 +50,9 @@ static float scalar_of(const ParticleColumns *p, const Constants *constants, Sca
         return (float)p->fluid[i];
     case SCALAR_ID:
         return (float)p->id[i];
-    case SCALAR_COUNT:
-        break;
+    default:
+        return 0;
     }
-    return 0;
 }
 
 void particles_read(const ParticleColumns *p, const Constants *constants, const uint32_t *at, size_t begin,
@@ -74,7 +73,7 @@ void particles_read(const ParticleColumns *p, const Constants *constants, const 
         if (out->id)
             out->id[k] = p->id[i];
     }
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         for (size_t k = begin; out->scalar[s] && k < end; k++)
             out->scalar[s][k] = scalar_of(p, constants, (Scalar)s, at ? at[k] : k);
     for (int c = 0; c < COLUMNS_OWN; c++)

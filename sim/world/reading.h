@@ -106,12 +106,12 @@ typedef struct EnergySums {
    p = c^2 (rho - rho0)), pressure and volume are those that the last substep used, at the middle of it (at
    time 0: those of the initial state); those that the particles carry, where they do, at its end. */
 typedef struct ParticleArrays {
-    float *position;             /* 4 a particle: x y z (box frame, m), volume 1 / number density (m3) */
-    float *velocity;             /* 4 a particle: x y z (box frame, m/s), 0 */
-    float *scalar[SCALAR_COUNT]; /* 1 a particle */
-    uint32_t *fluid;             /* index into WorldDef.fluids */
-    uint32_t *id;                /* place in the initial state */
-    float *own[COLUMNS_OWN];     /* 1 a particle: the method's own columns; on a GPU those that are kept */
+    float *position; /* 4 a particle: x y z (box frame, m), volume 1 / number density (m3) */
+    float *velocity; /* 4 a particle: x y z (box frame, m/s), 0 */
+    float *scalar[SCALAR_STATE_COUNT]; /* 1 a particle */
+    uint32_t *fluid;                   /* index into WorldDef.fluids */
+    uint32_t *id;                      /* place in the initial state */
+    float *own[COLUMNS_OWN]; /* 1 a particle: the method's own columns; on a GPU those that are kept */
 } ParticleArrays;
 
 #endif

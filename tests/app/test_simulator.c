@@ -41,7 +41,7 @@ static void rig_open(Rig *rig, const char *setting, bool paused)
     must(scene_parse("a.yaml", still, strlen(still), &settings, &rig->scene, NULL, &error));
     must(recording_create(&rig->recording, "a.yaml", still, strlen(still), &settings, &error));
     rig->upload = upload_create(seed_count(&rig->scene.world, rig->scene.world.spacing),
-                                particle_attributes_for(SCALAR_SPEED), &error);
+                                PARTICLE_SCALAR(SCALAR_SPEED), &error);
     const SimulatorSetup setup = {
         .scene = &rig->scene, .recording = &rig->recording, .upload = rig->upload, .paused = paused};
     rig->simulator = simulator_create(&setup, &error);

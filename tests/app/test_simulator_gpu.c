@@ -42,7 +42,7 @@ static void rig_open_text(Rig *rig, const char *text, bool paused)
     const SimulatorSetup setup = {.scene = &rig->scene, .recording = &rig->recording, .paused = paused};
     rig->simulator = simulator_create(&setup, &error);
     assert_non_null(rig->simulator);
-    rig->upload = upload_create(400, particle_attributes_for(SCALAR_SPEED), &error);
+    rig->upload = upload_create(400, PARTICLE_SCALAR(SCALAR_SPEED), &error);
 }
 
 static void rig_open(Rig *rig, bool paused)

@@ -489,7 +489,8 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
         views[count++] = v;                                                                                  \
     } while (0)
     VIEW("spheres", v.floor = true);
-    VIEW("spheres", v.color_by = SCALAR_FLUID);
+    for (int scalar = 0; scalar < SCALAR_COUNT; scalar++)
+        VIEW("spheres", v.color_by = (Scalar)scalar);
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape++) {
         VIEW("splat", splat_def(&v)->shape = (SplatShape)shape);
         VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->cull = true,
@@ -544,6 +545,8 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
 static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
 {
     int count = 0;
+    VIEW("spheres", v.color_by = SCALAR_VORTICITY);
+    VIEW("spheres", v.color_by = SCALAR_KINETIC_ENERGY);
     VIEW("splat", splat_def(&v)->cull = true, v.floor = true);
     VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = true);
     VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = false);
@@ -583,7 +586,7 @@ static void draw_views(const WorldDef *def, bool solids)
         ParticleBuffers particles;
         if (!renderer_set_def(renderer, &views[k], &shown, &error))
             fail_msg("%s %d: %s", views[k].kind, k, error.message);
-        world_share(world, particle_attributes_for(views[k].color_by) | PARTICLE_RANGES, &particles);
+        world_share(world, renderer_attributes(&views[k]), &particles);
         for (int frame = 0; frame < 2; frame++) /* nobody else's barriers in between */
             renderer_draw(renderer, &particles, NULL);
     }

@@ -37,12 +37,13 @@ GL = {"": "", "compute": "", "fragment": ""}
 RENDER = {
     "frame": "",
     "particles": "",
+    "derived": "particles",
     "plane": "particles",
     "ui": "frame",
 }
 VIEWS = own_folders("render", "ViewKind view")
 RENDER |= {name: "frame particles plane" for name in VIEWS}
-RENDER[""] = " ".join(["frame particles plane ui", *VIEWS])
+RENDER[""] = " ".join(["frame particles derived plane ui", *VIEWS])
 APP = {
     "base": "",
     "metric": "base",

@@ -1,13 +1,13 @@
 // What the views want to know of each particle besides place and velocity, and the range of it.
 #include "sim/constants.glsl"
-#include "sim/in_order.glsl"
+#include "common/in_order.glsl"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; }; // id, fluid
 layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; };
 layout(std430, binding = VALUES_BUFFER) writeonly buffer Values { uint word[]; };
 layout(std430, binding = RANGES_BUFFER) buffer Ranges { uint range[]; }; // least and greatest of each scalar, in the order of bits
-layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
+layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/base/scalar.h; SCALAR_STATE_COUNT: the fluid as a number; one more: the id
 shared uvec2 ends[64]; // least, greatest
 
 #ifdef CARRIES_DENSITY
@@ -39,7 +39,7 @@ void main()
     uvec2 found = uvec2(0xffffffffu, 0u);
     if (i < particle_count()) {
         float value = value_of(i);
-        word[i] = scalar == SCALAR_COUNT ? name[i].y : scalar > SCALAR_COUNT ? name[i].x : floatBitsToUint(value);
+        word[i] = scalar == SCALAR_STATE_COUNT ? name[i].y : scalar > SCALAR_STATE_COUNT ? name[i].x : floatBitsToUint(value);
         found = uvec2(in_order(value));
     }
     ends[lane] = found;
@@ -48,7 +48,7 @@ void main()
         if (lane < reach)
             ends[lane] = uvec2(min(ends[lane].x, ends[lane + reach].x), max(ends[lane].y, ends[lane + reach].y));
     }
-    if (lane > 0u || scalar >= SCALAR_COUNT)
+    if (lane > 0u || scalar >= SCALAR_STATE_COUNT)
         return;
     // As kick.comp asks.
     if (ends[0].x < range[2 * scalar])

@@ -1,6 +1,6 @@
 // Least and greatest of a scalar, as bits in their order: each texel of 8 x 8 of the texture before, like watch.frag.
 #include "sim/fragment/particles.glsl"
-#include "sim/in_order.glsl"
+#include "common/in_order.glsl"
 uniform usampler2D finer;
 layout(location = 0) out uvec4 range;
 

@@ -1,7 +1,7 @@
 // What the views want to know of each particle besides place and velocity: shaders/sim/compute/show.comp.
 #include "sim/fragment/own.glsl"
 uniform sampler2D fields;
-uniform int scalar; // sim/base/scalar.h; SCALAR_COUNT: the fluid as a number; one more: the id
+uniform int scalar; // sim/base/scalar.h; SCALAR_STATE_COUNT: the fluid as a number; one more: the id
 layout(location = 0) out uint word; // bits of a float, or a number
 
 float compression_of(int i) { return stiffness_scale * (1.0 / (of_particle(fields, i).x * rest_number_density) - 1.0); }
@@ -29,8 +29,8 @@ void main()
     int i = own_particle();
     if (i >= particle_count)
         discard;
-    if (scalar > SCALAR_COUNT)
+    if (scalar > SCALAR_STATE_COUNT)
         word = uint(of_particle(position, i).w);
     else
-        word = scalar == SCALAR_COUNT ? uint(of_particle(velocity, i).w) : floatBitsToUint(value_of(i));
+        word = scalar == SCALAR_STATE_COUNT ? uint(of_particle(velocity, i).w) : floatBitsToUint(value_of(i));
 }

@@ -90,7 +90,7 @@ static bool buffers_create(Compute *c, Error *error)
     const bool bounded = compute_boundary_create(c);
     return (bounded && !c->full && compute_iterate_fit(c) &&
             mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
-            mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_COUNT * sizeof(uint32_t))) ||
+            mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_STATE_COUNT * sizeof(uint32_t))) ||
            compute_no_memory(c, error);
 }
 

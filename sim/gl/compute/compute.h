@@ -22,7 +22,7 @@ enum {
 };
 
 /* What show.comp writes: a scalar by its number, the fluid, the id. */
-enum { COMPUTE_SHOW_FLUID = SCALAR_COUNT, COMPUTE_SHOW_ID, COMPUTE_SHOWN };
+enum { COMPUTE_SHOW_FLUID = SCALAR_STATE_COUNT, COMPUTE_SHOW_ID, COMPUTE_SHOWN };
 
 /* What moves when particles are sorted. */
 typedef struct ComputeParticles {

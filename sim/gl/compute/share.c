@@ -8,7 +8,7 @@
 
 #include <epoxy/gl.h>
 
-enum { RANGE_BYTES = 2 * SCALAR_COUNT * sizeof(uint32_t) };
+enum { RANGE_BYTES = 2 * SCALAR_STATE_COUNT * sizeof(uint32_t) };
 
 /* One of the scalars, or the fluid or the id: 4 bytes a particle. */
 static ParticleAttribute show(Compute *c, int what)
@@ -29,8 +29,8 @@ static ParticleAttribute show(Compute *c, int what)
 
 static void clear_ranges(const Compute *c)
 {
-    uint32_t none[2 * SCALAR_COUNT];
-    for (int s = 0; s < SCALAR_COUNT; s++) {
+    uint32_t none[2 * SCALAR_STATE_COUNT];
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++) {
         none[2 * s] = UINT32_MAX;
         none[2 * s + 1] = 0;
     }
@@ -41,7 +41,7 @@ static void read_ranges(Compute *c, unsigned attributes, ParticleBuffers *out)
 {
     mailbox_send(&c->ranges);
     const uint32_t *range = mailbox_wait(&c->ranges);
-    for (int s = 0; range && s < SCALAR_COUNT; s++) {
+    for (int s = 0; range && s < SCALAR_STATE_COUNT; s++) {
         if (!(attributes & PARTICLE_SCALAR(s)) || c->count == 0)
             continue;
         out->scalar_min[s] = (double)float_in_order(range[2 * s]);
@@ -57,7 +57,7 @@ void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
     if (attributes & PARTICLE_VELOCITY)
         out->velocity = (ParticleAttribute){c->now.velocity, 0, 16};
     clear_ranges(c);
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         if (attributes & PARTICLE_SCALAR(s))
             out->scalar[s] = show(c, s);
     if (attributes & PARTICLE_FLUID)

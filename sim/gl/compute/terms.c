@@ -47,8 +47,8 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
 #define X(NAME, name, unit)                                                                                  \
     used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define SCALAR_" #NAME " %d\n",        \
                              SCALAR_##NAME);
-    SCALAR_LIST(X)
-    X(COUNT, , )
+    STATE_SCALAR_LIST(X)
+    X(STATE_COUNT, , )
 #undef X
     for (size_t k = 0; k < sizeof terms / sizeof *terms; k++)
         if (terms[k].named)

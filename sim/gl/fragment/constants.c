@@ -46,8 +46,8 @@ static void put_float(Text *to, const char *name, float value)
 static void put_terms(Text *to, const Constants *s)
 {
 #define X(NAME, name, unit) put(to, "#define SCALAR_" #NAME " %d\n", SCALAR_##NAME);
-    SCALAR_LIST(X)
-    X(COUNT, , )
+    STATE_SCALAR_LIST(X)
+    X(STATE_COUNT, , )
 #undef X
     put(to, "#define FLUIDS %d\n", s->fluid_count);
     put(to, "%s%s", s->viscous ? "#define VISCOUS 1\n" : "",

@@ -134,9 +134,9 @@ typedef struct Fragment {
     unsigned marked[2]; /* position and velocity; 0 before the first `mark` */
     unsigned placed;    /* by `share`, like what follows: x y z, volume; 0 before the first */
     unsigned word;      /* uint: a scalar's bits, fluid or id */
-    unsigned shown_position, shown_velocity, shown[SCALAR_COUNT + 2]; /* buffers; 0 until asked for */
-    Mailbox ranges;                                                   /* uvec4 a scalar: see range.frag */
-    Mailbox gauge;                                                    /* 5 float: see gauge.frag */
+    unsigned shown_position, shown_velocity, shown[SCALAR_STATE_COUNT + 2]; /* buffers; 0 until asked for */
+    Mailbox ranges; /* uvec4 a scalar: see range.frag */
+    Mailbox gauge;  /* 5 float: see gauge.frag */
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
     GlState kept; /* of the caller's, while passes run */
     unsigned program[FRAGMENT_PASS_COUNT];

@@ -9,7 +9,7 @@
 enum { RANGE_BYTES = 16 };
 
 /* What SHOW is asked for besides scalars. */
-enum { SHOW_FLUID = SCALAR_COUNT, SHOW_ID };
+enum { SHOW_FLUID = SCALAR_STATE_COUNT, SHOW_ID };
 
 static ParticleAttribute pack(Fragment *f, unsigned *buffer, unsigned texture, GLenum format, size_t stride)
 {
@@ -55,7 +55,7 @@ static void read_ranges(Fragment *f, unsigned attributes, ParticleBuffers *out)
 {
     mailbox_send(&f->ranges);
     const uint32_t *range = mailbox_wait(&f->ranges);
-    for (int s = 0; range && s < SCALAR_COUNT; s++)
+    for (int s = 0; range && s < SCALAR_STATE_COUNT; s++)
         if (attributes & PARTICLE_SCALAR(s)) {
             out->scalar_min[s] = (double)float_in_order(range[4 * s]);
             out->scalar_max[s] = (double)float_in_order(range[4 * s + 1]);
@@ -64,7 +64,7 @@ static void read_ranges(Fragment *f, unsigned attributes, ParticleBuffers *out)
 
 static void share_scalars(Fragment *f, unsigned attributes, ParticleBuffers *out)
 {
-    for (int s = 0; s < SCALAR_COUNT; s++) {
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++) {
         if (!(attributes & PARTICLE_SCALAR(s)))
             continue;
         show(f, s);

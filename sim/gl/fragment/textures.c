@@ -104,7 +104,7 @@ static bool watch_create(Fragment *f)
     for (int k = 0; k < 2; k++)
         f->watch[k] = texture(f, "watch", GL_RGBA32UI, 2, 1);
     return mailbox_create(&f->watched, "watch", 8 * sizeof(uint32_t)) &&
-           mailbox_create(&f->ranges, "scalar ranges", 4 * SCALAR_COUNT * sizeof(uint32_t));
+           mailbox_create(&f->ranges, "scalar ranges", 4 * SCALAR_STATE_COUNT * sizeof(uint32_t));
 }
 
 static bool memory_sufficed(const Fragment *f, bool enough, Error *error)

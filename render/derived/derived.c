@@ -1,0 +1,235 @@
+#include "render/derived/derived.h"
+
+#include "render/particles/particle_bind.h"
+#include "render/particles/work.h"
+#include "shaders/derived/derived_bindings.h"
+#include "shaders/shared/bindings.h"
+#include "sim/box/box_motion.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+
+_Static_assert(SCALAR_COUNT <= 32 && VECTOR_COUNT <= 32, "a bit for each in ParticleWants");
+
+/* A formula of shaders/derived/derived.comp, over: `place` and `velocity` of the particle; `carried`, its
+   scalar `carries`; with `near_too` and the velocity or the scalar read, `gradient` and `slope` of them;
+   `near`, how many others are within the support radius; frame_velocity and frame_turn, of the box, in its
+   axes. */
+typedef struct Recipe {
+    const char *value;   /* NULL: the state has it */
+    unsigned attributes; /* PARTICLE_VELOCITY, or 0 */
+    int carries;         /* a Scalar of the state, or NOTHING */
+    bool near_too;       /* needs neighbours */
+} Recipe;
+
+enum { NOTHING = -1 };
+
+static const Recipe scalar_recipes[SCALAR_COUNT] = {
+    [SCALAR_VELOCITY_X] = {"velocity.x", PARTICLE_VELOCITY, NOTHING, false},
+    [SCALAR_VELOCITY_Y] = {"velocity.y", PARTICLE_VELOCITY, NOTHING, false},
+    [SCALAR_VELOCITY_Z] = {"velocity.z", PARTICLE_VELOCITY, NOTHING, false},
+    /* of a volume, that particles of different size may be compared, and slices show a field */
+    [SCALAR_KINETIC_ENERGY] = {"0.5 * carried * dot(velocity, velocity)", PARTICLE_VELOCITY, SCALAR_DENSITY,
+                               false},
+    [SCALAR_VORTICITY] = {"two_dimensions != 0u ? curl(gradient).z : length(curl(gradient))",
+                          PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_DIVERGENCE] = {"gradient[0].x + gradient[1].y + gradient[2].z", PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_NEIGHBOURS] = {"near", 0, NOTHING, true},
+};
+
+static const Recipe vector_recipes[VECTOR_COUNT] = {
+    [VECTOR_VORTICITY] = {"vec4(curl(gradient), 0.0)", PARTICLE_VELOCITY, NOTHING, true},
+    [VECTOR_PRESSURE_GRADIENT] = {"vec4(slope, 0.0)", 0, SCALAR_PRESSURE, true},
+    [VECTOR_BOX_VELOCITY] = {"vec4(frame_velocity + cross(frame_turn, place), 0.0)", 0, NOTHING, false},
+};
+
+/* ---- what is read ---- */
+
+static unsigned reads(const Recipe *recipe)
+{
+    return recipe->attributes | (recipe->carries == NOTHING ? 0 : PARTICLE_SCALAR(recipe->carries));
+}
+
+unsigned wants_attributes(const ParticleWants *wants)
+{
+    unsigned attributes = wants->attributes;
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if (wants->scalars & SCALAR_BIT(s))
+            attributes |= s == SCALAR_FLUID        ? PARTICLE_FLUID
+                          : s < SCALAR_STATE_COUNT ? PARTICLE_SCALAR(s)
+                                                   : reads(&scalar_recipes[s]);
+    for (int v = 0; v < VECTOR_COUNT; v++)
+        if (wants->vectors & VECTOR_BIT(v))
+            attributes |= v == VECTOR_VELOCITY ? PARTICLE_VELOCITY : reads(&vector_recipes[v]);
+    return attributes;
+}
+
+static bool has(const Recipe *recipe, const ParticleBuffers *particles)
+{
+    return (!(recipe->attributes & PARTICLE_VELOCITY) || particles->velocity.buffer) &&
+           (recipe->carries == NOTHING || particles->scalar[recipe->carries].buffer);
+}
+
+/* ---- programs ---- */
+
+static bool follow(Derived *derived, unsigned *program, const Recipe *recipe, const char *name,
+                   const char *type, Error *error)
+{
+    static const char *const stages[] = {"derived/derived.comp", NULL};
+    char defines[256], label[64];
+    if (*program || !recipe->value)
+        return true;
+    if (recipe->near_too && !derived->sorts) {
+        if (!neighbourhood_create(&derived->neighbourhood, error)) {
+            neighbourhood_destroy(&derived->neighbourhood);
+            return false;
+        }
+        derived->sorts = true;
+    }
+    snprintf(label, sizeof label, "derived %s", name);
+    snprintf(defines, sizeof defines, "#define VALUE_TYPE %s\n#define VALUE %s\n%s%s%s", type, recipe->value,
+             recipe->near_too ? "#define NEAR 1\n" : "",
+             recipe->attributes & PARTICLE_VELOCITY ? "#define VELOCITIES 1\n" : "",
+             recipe->carries == NOTHING ? "" : "#define CARRIED 1\n");
+    *program = program_create(label, stages, defines, error);
+    return *program != 0;
+}
+
+bool derived_follow(Derived *derived, const ParticleWants *wants, Error *error)
+{
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if ((wants->scalars & SCALAR_BIT(s)) &&
+            !follow(derived, &derived->scalar_program[s], &scalar_recipes[s], scalar_list[s].name, "float",
+                    error))
+            return false;
+    for (int v = 0; v < VECTOR_COUNT; v++)
+        if ((wants->vectors & VECTOR_BIT(v)) &&
+            !follow(derived, &derived->vector_program[v], &vector_recipes[v], vector_list[v].name, "vec4",
+                    error))
+            return false;
+    return true;
+}
+
+void derived_destroy(Derived *derived)
+{
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        glDeleteProgram(derived->scalar_program[s]);
+    for (int v = 0; v < VECTOR_COUNT; v++)
+        glDeleteProgram(derived->vector_program[v]);
+    glDeleteBuffers(SCALAR_COUNT, derived->scalar_buffer);
+    glDeleteBuffers(VECTOR_COUNT, derived->vector_buffer);
+    neighbourhood_destroy(&derived->neighbourhood);
+    *derived = (Derived){0};
+}
+
+/* ---- the pass ---- */
+
+/* |W'(r)| / r = moment_scale (1 - r/h)^3 for Wendland's C2 kernel n (1 - q)^4 (1 + 4 q) / h^d. */
+static float moment_scale(double h, bool flat)
+{
+    static const double pi = 3.14159265358979323846;
+    return (float)(flat ? 20 * 7 / pi / pow(h, 4) : 20 * 21 / (2 * pi) / pow(h, 5));
+}
+
+static void set_frame(unsigned program, const BoxState *box)
+{
+    double velocity[3], turn[3];
+    quat_rotate_inverse(box->orientation, box->velocity, velocity);
+    quat_rotate_inverse(box->orientation, box->angular_velocity, turn);
+    glProgramUniform3f(program, FRAME_VELOCITY_AT, (float)velocity[0], (float)velocity[1],
+                       (float)velocity[2]);
+    glProgramUniform3f(program, FRAME_TURN_AT, (float)turn[0], (float)turn[1], (float)turn[2]);
+}
+
+static void set_space(unsigned program, const DerivedSpace *space, const ParticleBuffers *particles)
+{
+    float period[3];
+    for (int k = 0; k < 3; k++)
+        period[k] = space->periodic[k] ? (float)particles->box_size[k] : 0;
+    glProgramUniform1f(program, KERNEL_REACH_AT, (float)particles->support_radius);
+    glProgramUniform1f(program, MOMENT_SCALE_AT, moment_scale(particles->support_radius, space->flat));
+    glProgramUniform1ui(program, TWO_DIMENSIONS_AT, space->flat);
+    glProgramUniform3f(program, PERIOD_AT, period[0], period[1], period[2]);
+    set_frame(program, &particles->box);
+}
+
+static void bind(unsigned program, const Recipe *recipe, const ParticleBuffers *particles, unsigned to)
+{
+    const ParticleAttribute *velocity = &particles->velocity;
+    particle_bind(program, particles, recipe->carries == NOTHING ? SCALAR_SPEED : (Scalar)recipe->carries);
+    if (recipe->attributes & PARTICLE_VELOCITY)
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, VELOCITIES_STORAGE, velocity->buffer,
+                          (GLintptr)velocity->offset, (GLsizeiptr)(particles->count * velocity->stride));
+    glProgramUniform1ui(program, VELOCITY_STRIDE_AT, (GLuint)(velocity->stride / 4));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, DERIVED_STORAGE, to);
+}
+
+static void run(const Derived *derived, unsigned program, const Recipe *recipe, size_t count)
+{
+    if (recipe->near_too) {
+        neighbourhood_run(&derived->neighbourhood, program);
+        return;
+    }
+    glUseProgram(program);
+    glUniform1ui(GRID_PARTICLES_AT, (GLuint)count);
+    work_run(count);
+}
+
+static void reserve(unsigned *buffer, size_t *capacity, size_t count, size_t stride, const char *label)
+{
+    if (count <= *capacity)
+        return;
+    *capacity = work_capacity(*capacity, count);
+    work_buffer_remake(buffer, *capacity * stride, label);
+}
+
+/* What a fill has done so far, and for whom. */
+typedef struct Making {
+    Derived *derived;
+    const DerivedSpace *space;
+    const ParticleBuffers *particles;
+    bool sorted;
+} Making;
+
+static ParticleAttribute make(Making *making, const Recipe *recipe, unsigned program, unsigned buffer,
+                              size_t stride)
+{
+    Derived *derived = making->derived;
+    if (recipe->near_too && !making->sorted)
+        neighbourhood_build(&derived->neighbourhood, making->particles);
+    making->sorted = making->sorted || recipe->near_too;
+    set_space(program, making->space, making->particles);
+    bind(program, recipe, making->particles, buffer);
+    run(derived, program, recipe, making->particles->count);
+    return (ParticleAttribute){buffer, 0, stride};
+}
+
+static bool due(bool wanted, unsigned program, const Recipe *recipe, const ParticleBuffers *particles)
+{
+    return wanted && program && particles->count > 0 && has(recipe, particles);
+}
+
+void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
+                  ParticleBuffers *particles)
+{
+    Making making = {derived, space, particles, false};
+    const size_t count = particles->count;
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        const unsigned program = derived->scalar_program[s];
+        if (!due(wants->scalars & SCALAR_BIT(s), program, &scalar_recipes[s], particles))
+            continue;
+        reserve(&derived->scalar_buffer[s], &derived->scalar_capacity[s], count, 4, scalar_list[s].name);
+        particles->scalar[s] = make(&making, &scalar_recipes[s], program, derived->scalar_buffer[s], 4);
+    }
+    if (wants->vectors & VECTOR_BIT(VECTOR_VELOCITY))
+        particles->vector[VECTOR_VELOCITY] = particles->velocity;
+    for (int v = 0; v < VECTOR_COUNT; v++) {
+        const unsigned program = derived->vector_program[v];
+        if (!due(wants->vectors & VECTOR_BIT(v), program, &vector_recipes[v], particles))
+            continue;
+        reserve(&derived->vector_buffer[v], &derived->vector_capacity[v], count, 16, vector_list[v].name);
+        particles->vector[v] = make(&making, &vector_recipes[v], program, derived->vector_buffer[v], 16);
+    }
+}

@@ -1,0 +1,67 @@
+/* Scalars and vectors of particles that no backend writes: computed on the GPU from what every state has, be
+   it of a backend or of a file, when a picture asks for them. What is not asked for costs nothing.
+
+   How a pass gets one: whoever draws says in ParticleWants which it reads (the renderer collects them); when
+   it draws, `particles->scalar[SCALAR_VORTICITY]` is a buffer of floats,
+   `particles->vector[VECTOR_VORTICITY]` one of vec4 whose x y z are the vector in the box's axes (w is
+   anyone's), in the order of the other attributes. Buffer 0: it was not asked for, or the state lacks what it
+   is made of. By name: scalar_list and vector_list (sim/base/scalar.h), as CHOICE_OF with KEY_INDEX reads
+   them.
+
+   Gradients: grad s = M^-1 sum_j w_j (s_j - s_i) d_j, M = sum_j w_j d_j d_j, d_j = x_j - x_i, w_j = V_j
+   |W'(r)| / r with Wendland's C2 kernel of the support radius: the sum of Monaghan 2005 (Rep. Prog. Phys. 68,
+   eq. 2.17) with the matrix of Randles and Libersky 1996 and of Bonet and Lok 1999, so that linear fields are
+   exact, at walls and free surfaces too. The kernel is the same for all methods, that their pictures may be
+   compared. Where M is near singular (spray, sheets) it is widened, and what neighbours do not tell goes to
+   0. A neighbour that is no number is left out. Neighbours across periodic sides count. Velocities are those
+   in the box's frame.
+
+   Needs a current OpenGL 4.5 core context. */
+#ifndef SLOSH_DERIVED_H
+#define SLOSH_DERIVED_H
+
+#include "render/particles/neighbourhood.h"
+#include "sim/base/error.h"
+#include "sim/gl/particle_buffers.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* What is read of a state's particles, but for positions. */
+typedef struct ParticleWants {
+    uint32_t scalars;    /* SCALAR_BIT, the state's own among them */
+    uint32_t vectors;    /* VECTOR_BIT */
+    unsigned attributes; /* PARTICLE_VELOCITY, PARTICLE_FLUID, PARTICLE_ID, PARTICLE_RANGES */
+} ParticleWants;
+
+#define SCALAR_BIT(scalar) (UINT32_C(1) << (scalar))
+#define VECTOR_BIT(vector) (UINT32_C(1) << (vector))
+
+/* PARTICLE_*: what a state must have for it. */
+unsigned wants_attributes(const ParticleWants *wants);
+
+/* Where the particles are. */
+typedef struct DerivedSpace {
+    bool flat; /* two dimensions: volumes are areas, and the vorticity has a sign */
+    bool periodic[3];
+} DerivedSpace;
+
+/* Zero-initialise it. */
+typedef struct Derived {
+    unsigned scalar_program[SCALAR_COUNT], vector_program[VECTOR_COUNT]; /* 0 until wanted */
+    unsigned scalar_buffer[SCALAR_COUNT], vector_buffer[VECTOR_COUNT];
+    size_t scalar_capacity[SCALAR_COUNT], vector_capacity[VECTOR_COUNT]; /* particles */
+    bool sorts;                                                          /* `neighbourhood` is there */
+    Neighbourhood neighbourhood;
+} Derived;
+
+/* Makes the programs for what is wanted and not there yet. False when a shader does not compile. */
+bool derived_follow(Derived *derived, const ParticleWants *wants, Error *error);
+void derived_destroy(Derived *derived);
+
+/* Computes all that is wanted and derived from the rest of `particles`, and writes there where it stands: up
+   to the next call. */
+void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
+                  ParticleBuffers *particles);
+
+#endif

@@ -1,0 +1,88 @@
+#include "render/derived/ranges.h"
+
+#include "render/particles/work.h"
+#include "shaders/derived/derived_bindings.h"
+#include "shaders/shared/bindings.h"
+#include "sim/gl/float_bits.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <stdint.h>
+
+enum { RANKS = 4, BINS = RANKS * 2048, DIGITS = 3 };
+
+/* Block Found of shaders/derived/ranks.glsl. */
+typedef struct Found {
+    uint32_t known, found[RANKS], left[RANKS];
+} Found;
+
+static unsigned compile(const char *file, Error *error)
+{
+    return program_create(file, (const char *const[]){file, NULL}, NULL, error);
+}
+
+bool ranges_create(Ranges *ranges, Error *error)
+{
+    *ranges = (Ranges){.count = compile("derived/ranks_count.comp", error)};
+    ranges->find = ranges->count ? compile("derived/ranks_find.comp", error) : 0;
+    if (!ranges->find)
+        return false;
+    work_buffer_remake(&ranges->bins, BINS * sizeof(uint32_t), "rank bins");
+    glClearNamedBufferData(ranges->bins, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    return mailbox_create(&ranges->found, "ranks found", sizeof(Found)) ||
+           error_set(error, "the GPU has no memory for the range of a scalar");
+}
+
+void ranges_destroy(Ranges *ranges)
+{
+    glDeleteProgram(ranges->count);
+    glDeleteProgram(ranges->find);
+    glDeleteBuffers(1, &ranges->bins);
+    mailbox_destroy(&ranges->found);
+    *ranges = (Ranges){0};
+}
+
+static void bind(const Ranges *ranges, const ParticleAttribute *values, size_t count)
+{
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, SCALARS_STORAGE, values->buffer, (GLintptr)values->offset,
+                      (GLsizeiptr)(count * values->stride));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, RANKS_FOUND_STORAGE, ranges->found.buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, RANK_BINS_STORAGE, ranges->bins);
+    glProgramUniform1ui(ranges->count, SCALAR_STRIDE_AT, (GLuint)(values->stride / 4));
+    glProgramUniform1ui(ranges->count, GRID_PARTICLES_AT, (GLuint)count);
+}
+
+static void run(const Ranges *ranges, GLuint digit, size_t count)
+{
+    glUseProgram(ranges->count);
+    glUniform1ui(DIGIT_AT, digit);
+    work_run(count);
+    glUseProgram(ranges->find);
+    glUniform1ui(DIGIT_AT, digit);
+    work_dispatch(1);
+}
+
+/* Where 98 of 100 are the same, the ends are those of all. */
+static ScalarRange range_of(const Found *found)
+{
+    double at[RANKS];
+    for (int r = 0; r < RANKS; r++)
+        at[r] = (double)float_in_order(found->found[r]);
+    if (at[1] < at[2])
+        return (ScalarRange){at[1], at[2], at[0], at[3]};
+    return (ScalarRange){at[0], at[3], at[0], at[3]};
+}
+
+ScalarRange ranges_find(Ranges *ranges, const ParticleAttribute *values, size_t count)
+{
+    static const ScalarRange none;
+    if (count == 0 || !values->buffer)
+        return none;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    bind(ranges, values, count);
+    for (GLuint digit = 0; digit < DIGITS; digit++)
+        run(ranges, digit, count);
+    mailbox_send(&ranges->found);
+    const Found *found = mailbox_wait(&ranges->found);
+    return found && found->known > 0 ? range_of(found) : none;
+}

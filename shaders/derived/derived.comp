@@ -1,0 +1,144 @@
+// A scalar or a vector of each particle from what its state has: VALUE is the formula, of type VALUE_TYPE;
+// render/derived/derived.c has the list and says what the names in a formula are. With NEAR its neighbours count.
+#include "common/particles.glsl"
+#include "common/neighbourhood_grid.glsl"
+#include "shaders/derived/derived_bindings.h"
+#ifdef NEAR
+#include "common/neighbourhood.glsl"
+#endif
+layout(std430, binding = DERIVED_STORAGE) writeonly buffer Derived { VALUE_TYPE derived[]; };
+layout(location = VELOCITY_STRIDE_AT) uniform uint velocity_stride;
+layout(location = KERNEL_REACH_AT) uniform float reach;          // h, m
+layout(location = MOMENT_SCALE_AT) uniform float moment_scale;   // 20 n / h^(d + 2)
+layout(location = TWO_DIMENSIONS_AT) uniform uint two_dimensions;
+layout(location = PERIOD_AT) uniform vec3 period;                // of periodic sides, m; 0: there are walls
+layout(location = FRAME_VELOCITY_AT) uniform vec3 frame_velocity; // of the box's origin, in the box's axes, m/s
+layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // of the box, in its axes, rad/s
+
+// What is not read has no block.
+#ifdef VELOCITIES
+layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { float velocity_words[]; };
+vec3 velocity_of(uint i)
+{
+    uint at = i * velocity_stride;
+    return vec3(velocity_words[at], velocity_words[at + 1u], velocity_words[at + 2u]);
+}
+#else
+vec3 velocity_of(uint i) { return vec3(0.0); }
+#endif
+
+#ifdef CARRIED
+#include "common/particle_scalars.glsl"
+float carried_of(uint i) { return scalar_words[i * scalar_stride]; }
+#else
+float carried_of(uint i) { return 0.0; }
+#endif
+
+#ifdef NEAR
+// Sums over neighbours at d, with what they have more of than the particle itself.
+struct Sums {
+    float count;
+    mat3 moment;   // sum w d d
+    mat3 velocity; // sum w (v_j - v) d: a column an axis of d
+    vec3 carried;  // sum w (s_j - s) d
+};
+
+float volume_of(uint j)
+{
+    return position_words[j * position_stride + 3u];
+}
+
+void add_neighbour(inout Sums sums, uint i, uint j, vec3 d)
+{
+    float t = 1.0 - length(d) / reach;
+    if (t <= 0.0)
+        return;
+    sums.count += 1.0;
+#if defined VELOCITIES || defined CARRIED
+    float w = moment_scale * volume_of(j) * t * t * t;
+    vec4 more = vec4(velocity_of(j), carried_of(j));
+    if (is_nan(more) || is_nan(vec4(w))) // spoils itself only
+        return;
+    sums.moment += outerProduct(w * d, d);
+    sums.velocity += outerProduct(more.xyz - velocity_of(i), w * d);
+    sums.carried += w * (more.w - carried_of(i)) * d;
+#endif
+}
+
+void add_neighbours(inout Sums sums, uint i, vec3 x, bool image)
+{
+    uvec3 at = cell_at(x);
+    for (uint row = 0u; row < 9u; row++) {
+        uvec2 range = row_of(at, row);
+        for (uint k = range.x; k < range.y; k++) {
+            uvec4 other = texelFetch(sorted_texels, int(k));
+            if (other.w != i || image)
+                add_neighbour(sums, i, other.w, uintBitsToFloat(other.xyz) - x);
+        }
+    }
+}
+
+// Across periodic sides they are near the particle's images.
+Sums sums_of(uint i, vec3 x)
+{
+    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0));
+    vec3 from_low = x - grid_corner;
+    ivec3 first = -ivec3(greaterThan(from_low, period - reach)) * ivec3(greaterThan(period, vec3(0.0)));
+    ivec3 last = ivec3(lessThan(from_low, vec3(reach))) * ivec3(greaterThan(period, vec3(0.0)));
+    for (int a = first.x; a <= last.x; a++)
+        for (int b = first.y; b <= last.y; b++)
+            for (int c = first.z; c <= last.z; c++)
+                add_neighbours(sums, i, x + period * vec3(a, b, c), a != 0 || b != 0 || c != 0);
+    return sums;
+}
+
+// The inverse of the moments, which makes linear fields exact. Where neighbours do not span space (a drop's, a sheet's) the
+// moments are widened: gradients across it go to 0 and do not blow up. `span` is a bound of the least eigenvalue, which is 1 inside a
+// lattice and 0.14 at least at its corners, with support radii of 2 to 4 spacings.
+const float spanned = 0.07, widened = 0.1;
+
+mat3 adjugate(mat3 m) // of a symmetric one
+{
+    return mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+}
+
+mat3 correction(mat3 moment)
+{
+    if (two_dimensions != 0u)
+        moment[2] = vec3(0.0, 0.0, 1.0);
+    mat3 other = adjugate(moment);
+    float size = dot(other[0], other[0]) + dot(other[1], other[1]) + dot(other[2], other[2]);
+    float span = dot(moment[0], other[0]) * inversesqrt(max(size, 1e-30));
+    moment += mat3(widened * clamp(1.0 - span / spanned, 0.0, 1.0));
+    other = adjugate(moment);
+    return other / dot(moment[0], other[0]);
+}
+
+vec3 curl(mat3 gradient) // gradient[b][a] = d v_a / d x_b
+{
+    return vec3(gradient[1].z - gradient[2].y, gradient[2].x - gradient[0].z, gradient[0].y - gradient[1].x);
+}
+#endif
+
+void main()
+{
+    uint at = invocation();
+    if (at >= grid_particles)
+        return;
+#ifdef NEAR
+    uint i = number_of(at);
+    vec3 place = place_of(at);
+    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0));
+    if (in_grid(at))
+        sums = sums_of(i, place);
+    float near = sums.count;
+    mat3 correct = correction(sums.moment), gradient = sums.velocity * correct;
+    vec3 slope = correct * sums.carried;
+#else
+    uint i = at;
+    vec3 place = particle_position(i);
+#endif
+    vec3 velocity = velocity_of(i);
+    float carried = carried_of(i);
+    derived[i] = VALUE;
+}

@@ -1,0 +1,23 @@
+/* The numbers by which C hands to the shaders of derived scalars and vectors what only they read; those of
+   shaders/shared/bindings.h besides. */
+#ifndef SLOSH_DERIVED_BINDINGS_H
+#define SLOSH_DERIVED_BINDINGS_H
+
+/* Storage buffers */
+#define VELOCITIES_STORAGE 3
+#define DERIVED_STORAGE    9
+/* of ranges */
+#define RANKS_FOUND_STORAGE 4
+#define RANK_BINS_STORAGE   5
+
+/* Locations of uniforms */
+#define VELOCITY_STRIDE_AT 16
+#define KERNEL_REACH_AT    17
+#define MOMENT_SCALE_AT    18
+#define TWO_DIMENSIONS_AT  19
+#define PERIOD_AT          20
+#define FRAME_VELOCITY_AT  21
+#define FRAME_TURN_AT      22
+#define DIGIT_AT           23
+
+#endif

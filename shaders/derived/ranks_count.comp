@@ -1,0 +1,25 @@
+// One invocation a particle. What is no number, or not finite, does not count.
+#include "common/particle_scalars.glsl"
+#include "common/neighbourhood_grid.glsl"
+#include "common/in_order.glsl"
+#include "derived/ranks.glsl"
+layout(location = SCALAR_STRIDE_AT) uniform uint scalar_stride; // words
+
+void main()
+{
+    uint i = invocation();
+    if (i >= grid_particles)
+        return;
+    float value = scalar_words[i * scalar_stride];
+    if ((floatBitsToUint(value) & 0x7f800000u) == 0x7f800000u)
+        return;
+    uint key = in_order(value) >> digit_shift(), place = key & (digit == 2u ? 1023u : 2047u);
+    if (digit == 0u) {
+        atomicAdd(bins[place], 1u);
+        return;
+    }
+    uint higher = key >> (digit == 2u ? 10u : 11u);
+    for (uint r = 0u; r < 4u; r++)
+        if (higher == found[r] && (r == 0u || found[r - 1u] != higher))
+            atomicAdd(bins[r * digit_bins + place], 1u);
+}

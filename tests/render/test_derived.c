@@ -1,0 +1,415 @@
+/* Derived scalars and vectors: linear fields on a lattice, scattered particles against sums over all in
+   double precision, two dimensions, periodic sides, what is no number; and nothing at all. */
+#include "tests/render/fixture.h"
+
+#include "render/derived/derived.h"
+
+enum { ALL = 6000 };
+
+/* What a test says of its particles, and what comes back. */
+typedef struct Cloud {
+    ParticleBuffers state;
+    DerivedSpace space;
+    float position[4 * ALL], velocity[4 * ALL], density[ALL], pressure[ALL];
+    float scalar[SCALAR_COUNT][ALL], vector[VECTOR_COUNT][4 * ALL];
+} Cloud;
+
+static void add(Cloud *cloud, double x, double y, double z, double volume)
+{
+    const size_t i = cloud->state.count++;
+    assert_true(i < ALL);
+    memcpy(cloud->position + 4 * i, (float[4]){(float)x, (float)y, (float)z, (float)volume}, 16);
+    cloud->density[i] = 1000, cloud->pressure[i] = 0;
+}
+
+/* A box of that many places each way, filled; one layer: two dimensions. */
+static Cloud *lattice(int nx, int ny, int nz, double spacing, double support)
+{
+    Cloud *cloud = calloc(1, sizeof *cloud);
+    assert_non_null(cloud);
+    cloud->state = (ParticleBuffers){.spacing = spacing,
+                                     .support_radius = support * spacing,
+                                     .box_size = {nx * spacing, ny * spacing, nz * spacing},
+                                     .box = {.orientation = {0, 0, 0, 1}}};
+    cloud->space.flat = nz == 1;
+    for (int i = 0; i < nx * ny * nz; i++)
+        add(cloud, (i % nx + 0.5 - 0.5 * nx) * spacing, (i / nx % ny + 0.5) * spacing,
+            (i / nx / ny + 0.5 - 0.5 * nz) * spacing, pow(spacing, nz == 1 ? 2 : 3));
+    return cloud;
+}
+
+static double number(unsigned *seed)
+{
+    *seed = *seed * 1664525 + 1013904223;
+    return (double)(*seed >> 8) / (1 << 24);
+}
+
+/* Particles anywhere in a box, with any velocities, densities and pressures. */
+static Cloud *scattered(int count, double spacing, bool flat)
+{
+    const int side = flat ? (int)sqrt(count) : (int)cbrt(count);
+    Cloud *cloud = lattice(side, side, flat ? 1 : side, spacing, 2.1);
+    unsigned seed = 7;
+    for (size_t i = 0; i < cloud->state.count; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double low = k == 1 ? 0 : -0.5 * cloud->state.box_size[k];
+            if (!flat || k < 2)
+                cloud->position[4 * i + (size_t)k] = (float)(low + number(&seed) * cloud->state.box_size[k]);
+            cloud->velocity[4 * i + (size_t)k] = flat && k == 2 ? 0 : (float)(2 * number(&seed) - 1);
+        }
+        cloud->position[4 * i + 3] *= (float)(0.8 + 0.4 * number(&seed));
+        cloud->density[i] = (float)(900 + 200 * number(&seed));
+        cloud->pressure[i] = (float)(1000 * number(&seed) - 200);
+    }
+    return cloud;
+}
+
+/* v = turn x r + expansion r + (3, -2, 1) */
+static void set_linear(Cloud *cloud, const double turn[3], double expansion)
+{
+    for (size_t i = 0; i < cloud->state.count; i++) {
+        const float *x = cloud->position + 4 * i;
+        const double r[3] = {x[0], x[1], x[2]}, base[3] = {3, -2, 1};
+        double turned[3];
+        cross_product(turn, r, turned);
+        for (int k = 0; k < 3; k++)
+            cloud->velocity[4 * i + (size_t)k] =
+                (float)((cloud->space.flat && k == 2 ? 0 : base[k] + expansion * r[k]) + turned[k]);
+    }
+}
+
+static void read_back(const ParticleAttribute *from, size_t count, float *to)
+{
+    if (from->buffer)
+        glGetNamedBufferSubData(from->buffer, (GLintptr)from->offset, (GLsizeiptr)(count * from->stride), to);
+}
+
+/* Everything that there is. */
+static void derive(Cloud *cloud)
+{
+    const ParticleWants wants = {(UINT32_C(1) << SCALAR_COUNT) - 1, (UINT32_C(1) << VECTOR_COUNT) - 1, 0};
+    const size_t count = cloud->state.count;
+    Error error = {0};
+    ParticleBuffers particles;
+    Derived derived = {0};
+    ParticleArrays arrays = {.position = cloud->position, .velocity = cloud->velocity};
+    arrays.scalar[SCALAR_DENSITY] = cloud->density;
+    arrays.scalar[SCALAR_PRESSURE] = cloud->pressure;
+    assert_int_equal(wants_attributes(&wants), PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1 -
+                                                   PARTICLE_SCALAR(SCALAR_FLUID) + PARTICLE_VELOCITY +
+                                                   PARTICLE_FLUID);
+    Upload *upload = upload_create(
+        count, PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_DENSITY) | PARTICLE_SCALAR(SCALAR_PRESSURE),
+        &error);
+    assert_true(upload && upload_arrays(upload, &arrays, &cloud->state, &error));
+    assert_true(upload_take(upload, &particles));
+    if (!derived_follow(&derived, &wants, &error))
+        fail_msg("%s", error.message);
+    for (int run = 0; run < 2; run++)
+        derived_fill(&derived, &wants, &cloud->space, &particles);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    for (int s = SCALAR_STATE_COUNT; s < SCALAR_COUNT; s++) {
+        assert_true(particles.scalar[s].buffer || count == 0);
+        read_back(&particles.scalar[s], count, cloud->scalar[s]);
+    }
+    for (int v = 0; v < VECTOR_COUNT; v++) {
+        assert_true(particles.vector[v].buffer || count == 0);
+        read_back(&particles.vector[v], count, cloud->vector[v]);
+    }
+    derived_destroy(&derived);
+    upload_destroy(upload);
+}
+
+/* The worst difference from `wanted`; NaN counts. */
+static double off(const float *values, size_t stride, size_t count, double wanted)
+{
+    double worst = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!(fabs((double)values[stride * i] - wanted) <= worst))
+            worst = fabs((double)values[stride * i] - wanted);
+    return worst;
+}
+
+/* At walls, edges and corners as inside. */
+static void a_rigid_rotation_has_twice_its_rate(void **state)
+{
+    (void)state;
+    const double turn[3] = {1.5, -2, 0.7}, size = sqrt(1.5 * 1.5 + 4 + 0.49);
+    Cloud *cloud = lattice(14, 11, 9, 0.05, 2.1);
+    set_linear(cloud, turn, 0);
+    derive(cloud);
+    const size_t count = cloud->state.count;
+    assert_true(off(cloud->scalar[SCALAR_VORTICITY], 1, count, 2 * size) < 1e-4);
+    assert_true(off(cloud->scalar[SCALAR_DIVERGENCE], 1, count, 0) < 1e-4);
+    for (int k = 0; k < 3; k++)
+        assert_true(off(cloud->vector[VECTOR_VORTICITY] + k, 4, count, 2 * turn[k]) < 1e-4);
+    free(cloud);
+}
+
+static void an_expansion_has_no_vorticity(void **state)
+{
+    (void)state;
+    const double still[3] = {0};
+    Cloud *cloud = lattice(10, 10, 10, 0.02, 2.6);
+    set_linear(cloud, still, 0.8);
+    derive(cloud);
+    assert_true(off(cloud->scalar[SCALAR_DIVERGENCE], 1, cloud->state.count, 2.4) < 1e-4);
+    assert_true(off(cloud->scalar[SCALAR_VORTICITY], 1, cloud->state.count, 0) < 1e-4);
+    free(cloud);
+}
+
+static void in_two_dimensions_the_vorticity_has_a_sign(void **state)
+{
+    (void)state;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const double turn[3] = {0, 0, 3 * sign};
+        Cloud *cloud = lattice(25, 18, 1, 0.04, 2.6);
+        set_linear(cloud, turn, 0.5);
+        derive(cloud);
+        assert_true(off(cloud->scalar[SCALAR_VORTICITY], 1, cloud->state.count, 6 * sign) < 1e-4);
+        assert_true(off(cloud->scalar[SCALAR_DIVERGENCE], 1, cloud->state.count, 1) < 1e-4);
+        free(cloud);
+    }
+}
+
+static void a_linear_pressure_has_its_gradient(void **state)
+{
+    (void)state;
+    const double slope[3] = {120, -9810, 40};
+    Cloud *cloud = lattice(9, 12, 8, 0.05, 2.1);
+    for (size_t i = 0; i < cloud->state.count; i++)
+        for (int k = 0; k < 3; k++)
+            cloud->pressure[i] += (float)(slope[k] * (double)cloud->position[4 * i + (size_t)k]);
+    derive(cloud);
+    for (int k = 0; k < 3; k++)
+        assert_true(off(cloud->vector[VECTOR_PRESSURE_GRADIENT] + k, 4, cloud->state.count, slope[k]) < 0.1);
+    free(cloud);
+}
+
+/* ---- against sums over all ---- */
+
+/* The inverse by cofactors. */
+static void invert(double m[3][3], double out[3][3], double *determinant)
+{
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            const int a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
+            out[b][a] = m[a1][b1] * m[a2][b2] - m[a1][b2] * m[a2][b1];
+        }
+    *determinant = m[0][0] * out[0][0] + m[0][1] * out[1][0] + m[0][2] * out[2][0];
+    for (int a = 0; a < 9; a++)
+        out[a / 3][a % 3] /= *determinant;
+}
+
+/* Of particle i by the definition; d across periodic sides by the nearest image. */
+typedef struct Reference {
+    double curl[3], divergence, slope[3], neighbours;
+} Reference;
+
+static double apart(const Cloud *cloud, size_t i, size_t j, double d[3])
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        const double size = cloud->state.box_size[k];
+        d[k] = (double)cloud->position[4 * j + (size_t)k] - (double)cloud->position[4 * i + (size_t)k];
+        if (cloud->space.periodic[k])
+            d[k] -= size * round(d[k] / size);
+        square += d[k] * d[k];
+    }
+    return sqrt(square);
+}
+
+static Reference reference(const Cloud *cloud, size_t i)
+{
+    const double h = cloud->state.support_radius, flat = cloud->space.flat;
+    const double scale = flat ? 140 / M_PI / pow(h, 4) : 210 / M_PI / pow(h, 5);
+    double moment[3][3] = {{0}}, own[3][3], sums[4][3] = {{0}}, gradient[4][3] = {{0}}, determinant;
+    Reference out = {{0}, 0, {0}, 0};
+    for (size_t j = 0; j < cloud->state.count; j++) {
+        double d[3];
+        const double r = apart(cloud, i, j, d);
+        if (j == i || !(r < h))
+            continue;
+        out.neighbours++;
+        const double w = scale * (double)cloud->position[4 * j + 3] * pow(1 - r / h, 3);
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) {
+                moment[a][b] += w * d[a] * d[b];
+                sums[a][b] += w *
+                              ((double)cloud->velocity[4 * j + (size_t)a] -
+                               (double)cloud->velocity[4 * i + (size_t)a]) *
+                              d[b];
+            }
+        for (int b = 0; b < 3; b++)
+            sums[3][b] += w * ((double)cloud->pressure[j] - (double)cloud->pressure[i]) * d[b];
+    }
+    if (cloud->space.flat)
+        moment[2][2] = 1;
+    invert(moment, own, &determinant);
+    double size = 0;
+    for (int a = 0; a < 9; a++)
+        size += own[a / 3][a % 3] * own[a / 3][a % 3];
+    for (int k = 0; k < 3; k++)
+        moment[k][k] += 0.1 * fmin(fmax(1 - 1 / (0.07 * sqrt(size)), 0), 1);
+    invert(moment, own, &determinant);
+    for (int a = 0; a < 4; a++)
+        for (int b = 0; b < 3; b++)
+            for (int c = 0; c < 3; c++)
+                gradient[a][b] += sums[a][c] * own[c][b];
+    for (int k = 0; k < 3; k++) {
+        const int one = (k + 1) % 3, two = (k + 2) % 3;
+        out.curl[k] = gradient[two][one] - gradient[one][two];
+        out.divergence += gradient[k][k];
+        out.slope[k] = gradient[3][k];
+    }
+    return out;
+}
+
+/* Returns the least neighbours of a particle. */
+static double compare(const Cloud *cloud)
+{
+    double worst = 0, most = 0, few = INFINITY;
+    for (size_t i = 0; i < cloud->state.count; i++) {
+        const Reference r = reference(cloud, i);
+        assert_true((double)cloud->scalar[SCALAR_NEIGHBOURS][i] == r.neighbours);
+        const double size = sqrt(r.curl[0] * r.curl[0] + r.curl[1] * r.curl[1] + r.curl[2] * r.curl[2]);
+        const double curl = cloud->space.flat ? r.curl[2] : size;
+        most = fmax(most, size);
+        few = fmin(few, r.neighbours);
+        worst = fmax(worst, fabs((double)cloud->scalar[SCALAR_VORTICITY][i] - curl));
+        worst = fmax(worst, fabs((double)cloud->scalar[SCALAR_DIVERGENCE][i] - r.divergence));
+        for (int k = 0; k < 3; k++) {
+            const size_t at = 4 * i + (size_t)k;
+            worst = fmax(worst, fabs((double)cloud->vector[VECTOR_VORTICITY][at] - r.curl[k]));
+            worst = fmax(worst, fabs((double)cloud->vector[VECTOR_PRESSURE_GRADIENT][at] - r.slope[k]) / 600);
+        }
+    }
+    printf("worst %.3g of %.3g 1/s, %g neighbours at least\n", worst, most, few);
+    assert_true(worst < 1e-5 * most);
+    return few;
+}
+
+static void scattered_particles_are_as_summed_over_all(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        Cloud *cloud = scattered(dimensions == 2 ? 2000 : 4000, 0.03, dimensions == 2);
+        derive(cloud);
+        assert_true(compare(cloud) < 9); /* those at corners too */
+        free(cloud);
+    }
+}
+
+/* A box that is no whole number of cells wide. */
+static void neighbours_across_periodic_sides_count(void **state)
+{
+    (void)state;
+    for (int axes = 1; axes < 8; axes++) {
+        Cloud *cloud = scattered(1000, 0.03, false);
+        for (int k = 0; k < 3; k++)
+            cloud->space.periodic[k] = axes >> k & 1;
+        derive(cloud);
+        compare(cloud);
+        free(cloud);
+    }
+}
+
+static void what_needs_no_neighbours_is_of_each_particle(void **state)
+{
+    (void)state;
+    Cloud *cloud = scattered(1000, 0.03, false);
+    BoxState *box = &cloud->state.box;
+    *box = (BoxState){
+        .orientation = {0.5, -0.5, 0.5, 0.5}, .velocity = {1, 2, -3}, .angular_velocity = {2, 0.3, -1}};
+    derive(cloud);
+    for (size_t i = 0; i < cloud->state.count; i++) {
+        const float *v = cloud->velocity + 4 * i, *x = cloud->position + 4 * i;
+        const double at[3] = {x[0], x[1], x[2]};
+        double arm[3], moved[3], in_box[3], energy = 0;
+        for (int k = 0; k < 3; k++) {
+            assert_true(cloud->scalar[SCALAR_VELOCITY_X + k][i] == v[k]);
+            assert_true(cloud->vector[VECTOR_VELOCITY][4 * i + (size_t)k] == v[k]);
+            energy += 0.5 * (double)cloud->density[i] * (double)(v[k] * v[k]);
+        }
+        assert_true(fabs((double)cloud->scalar[SCALAR_KINETIC_ENERGY][i] - energy) <= 1e-6 * energy);
+        quat_rotate(box->orientation, at, arm);
+        cross_product(box->angular_velocity, arm, moved);
+        for (int k = 0; k < 3; k++)
+            moved[k] += box->velocity[k];
+        quat_rotate_inverse(box->orientation, moved, in_box);
+        for (int k = 0; k < 3; k++)
+            assert_true(fabs((double)cloud->vector[VECTOR_BOX_VELOCITY][4 * i + (size_t)k] - in_box[k]) <
+                        1e-5);
+    }
+    free(cloud);
+}
+
+/* ---- what is no number, and nothing ---- */
+
+/* A velocity that is none spoils its own particle's alone; a place that is none has no neighbours. */
+static void no_number_does_not_spread(void **state)
+{
+    (void)state;
+    const double turn[3] = {0, 1, 0};
+    Cloud *cloud = lattice(9, 9, 9, 0.05, 2.1);
+    const size_t middle = 4 * 81 + 4 * 9 + 4, other = 81 + 9 + 1, count = cloud->state.count;
+    set_linear(cloud, turn, 0);
+    cloud->velocity[4 * middle] = NAN;
+    cloud->position[4 * other + 1] = NAN;
+    derive(cloud);
+    assert_true(isnan(cloud->scalar[SCALAR_VORTICITY][middle]));
+    assert_true(isnan(cloud->scalar[SCALAR_VELOCITY_X][middle]));
+    assert_true(cloud->scalar[SCALAR_NEIGHBOURS][middle] == 32);
+    assert_true(cloud->scalar[SCALAR_NEIGHBOURS][other] == 0);
+    for (size_t i = 0; i < count; i++)
+        if (i != middle && i != other)
+            assert_true(fabs((double)cloud->scalar[SCALAR_VORTICITY][i] - 2) < 1e-4);
+    free(cloud);
+}
+
+/* Spray and a sheet: a gradient that neighbours do not tell is bounded, and 0 for a particle alone. */
+static void few_neighbours_blow_nothing_up(void **state)
+{
+    (void)state;
+    Cloud *cloud = lattice(20, 1, 20, 0.05, 2.1);
+    unsigned seed = 3;
+    cloud->state.box_size[1] = 1;
+    for (size_t i = 0; i < cloud->state.count; i++) {
+        cloud->position[4 * i + 1] = (float)(0.5 + 1e-4 * number(&seed));
+        for (int k = 0; k < 3; k++)
+            cloud->velocity[4 * i + (size_t)k] = (float)(2 * number(&seed) - 1);
+    }
+    add(cloud, 0, 0.2, 0, 1e-4);
+    derive(cloud);
+    const size_t alone = cloud->state.count - 1;
+    assert_true(cloud->scalar[SCALAR_VORTICITY][alone] == 0 && cloud->scalar[SCALAR_NEIGHBOURS][alone] == 0);
+    for (size_t i = 0; i < alone; i++)
+        assert_true(cloud->scalar[SCALAR_VORTICITY][i] < 2 / 0.05F); /* differences over a spacing */
+    free(cloud);
+}
+
+static void no_particles_have_none(void **state)
+{
+    (void)state;
+    Cloud *cloud = lattice(3, 3, 3, 0.05, 2.1);
+    cloud->state.count = 0;
+    derive(cloud);
+    free(cloud);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(a_rigid_rotation_has_twice_its_rate, no_gl_errors),
+        cmocka_unit_test_teardown(an_expansion_has_no_vorticity, no_gl_errors),
+        cmocka_unit_test_teardown(in_two_dimensions_the_vorticity_has_a_sign, no_gl_errors),
+        cmocka_unit_test_teardown(a_linear_pressure_has_its_gradient, no_gl_errors),
+        cmocka_unit_test_teardown(scattered_particles_are_as_summed_over_all, no_gl_errors),
+        cmocka_unit_test_teardown(neighbours_across_periodic_sides_count, no_gl_errors),
+        cmocka_unit_test_teardown(what_needs_no_neighbours_is_of_each_particle, no_gl_errors),
+        cmocka_unit_test_teardown(no_number_does_not_spread, no_gl_errors),
+        cmocka_unit_test_teardown(few_neighbours_blow_nothing_up, no_gl_errors),
+        cmocka_unit_test_teardown(no_particles_have_none, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
