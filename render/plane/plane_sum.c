@@ -3,6 +3,7 @@
 #include "render/plane/plane_kernel.h"
 #include "shaders/shared/plane_block.h"
 #include "sim/gl/program.h"
+#include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -82,11 +83,6 @@ static void fill(PlaneSum *sum, const PlaneJob *job)
 
 static void draw(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles)
 {
-    static const GLfloat none[4] = {0};
-    glClearNamedFramebufferfv(sum->framebuffer, GL_COLOR, 0, none);
-    fill(sum, job);
-    if (!(job->plane.size[0] > 0 && job->plane.size[1] > 0 && job->support > 0))
-        return;
     glBindFramebuffer(GL_FRAMEBUFFER, sum->framebuffer);
     glViewport(0, 0, job->samples[0], job->samples[1]);
     glDisable(GL_DEPTH_TEST);
@@ -100,12 +96,36 @@ static void draw(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *part
     glDisable(GL_BLEND);
 }
 
+/* The CPU's sums become the texture. */
+static bool add_rows(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles, Error *error)
+{
+    if (!plane_rows_run(&sum->rows, job, particles, error))
+        return false;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTextureSubImage2D(sum->sums, 0, 0, 0, job->samples[0], job->samples[1], GL_RGBA, GL_FLOAT,
+                        sum->rows.out);
+    return true;
+}
+
+static bool by_rows(const PlaneJob *job)
+{
+    return job->by == PLANE_ROWS || (job->by == PLANE_AUTO && gl_renderer_is_software());
+}
+
 bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles, Error *error)
 {
+    static const GLfloat none[4] = {0};
+    const bool some =
+        job->plane.size[0] > 0 && job->plane.size[1] > 0 && job->support > 0 && particles->count > 0;
     create(sum);
     if (!plane_sum_prepare(sum, job->kernel, error) || !follow_samples(sum, job->samples, error))
         return false;
-    draw(sum, job, particles);
+    fill(sum, job); /* which what shows the sums reads too */
+    if (some && by_rows(job))
+        return add_rows(sum, job, particles, error);
+    glClearNamedFramebufferfv(sum->framebuffer, GL_COLOR, 0, none);
+    if (some)
+        draw(sum, job, particles);
     return true;
 }
 
@@ -116,6 +136,7 @@ void plane_sum_destroy(PlaneSum *sum)
     glDeleteTextures(1, &sum->sums);
     glDeleteBuffers(1, &sum->uniforms);
     quad_indices_destroy(&sum->quads);
+    plane_rows_free(&sum->rows);
     *sum = (PlaneSum){0};
 }
 

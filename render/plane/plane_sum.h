@@ -1,25 +1,17 @@
-/* The sums of a slice: at each sample of a raster on a plane those of all particles within a support radius,
-   each drawn once as a quad and blended into 32-bit floats. After "Visualisation and analysis of SPH data"
-   (paper 004, section on slices).
+/* The sums of a slice: at each sample of a raster on a plane those of all particles within a support radius.
+   Each is drawn once as a quad and blended into 32-bit floats, after "Visualisation and analysis of SPH data"
+   (paper 004, section on slices); on a software driver the CPU sums (render/plane/plane_rows.h), as PlaneBy
+   says.
 
    Needs a current OpenGL 4.5 core context. */
 #ifndef SLOSH_PLANE_SUM_H
 #define SLOSH_PLANE_SUM_H
 
 #include "render/particles/particle_bind.h"
-#include "render/plane/plane.h"
+#include "render/plane/plane_job.h"
+#include "render/plane/plane_rows.h"
 #include "sim/base/error.h"
 #include "sim/gl/particle_buffers.h"
-
-/* What is summed, and where. */
-typedef struct PlaneJob {
-    Plane plane;
-    int samples[2]; /* along and up; each at the centre of its part of the rectangle */
-    int kernel;     /* of plane_kernels, at least 1 */
-    int dimensions; /* 2: particles have areas, and kernels are the plane's */
-    double support; /* radius h of the kernel, m */
-    Scalar scalar;
-} PlaneJob;
 
 /* Zero-initialise it. */
 typedef struct PlaneSum {
@@ -30,6 +22,7 @@ typedef struct PlaneSum {
     int kernel; /* that the program is for */
     int samples[2]; /* of the texture */
     QuadIndices quads;
+    PlaneRows rows;
 } PlaneSum;
 
 /* Makes its shaders for a kernel of plane_kernels; false when one does not compile: the last ones stay. */

@@ -145,9 +145,11 @@ typedef struct Viewed {
     double level;
     bool fluid; /* as the colour, which has no range */
     int crossings;
+    bool software; /* crossings on a software driver only */
 } Viewed;
 
-/* Bounds that follow the fluid make textures, whose size this side must know; `slabs` sums on the CPU. */
+/* Bounds that follow the fluid make textures, whose size this side must know; `slabs` sums on the CPU, and so
+   does `slice` on a software driver. */
 static const Viewed views[] = {
     {.kind = "none"},
     {.kind = "spheres"},
@@ -161,6 +163,8 @@ static const Viewed views[] = {
      .show = VOLUME_SLICE,
      .crossings = 1},
     {.kind = "volume", .method = VOLUME_SLABS, .crossings = 2},
+    {.kind = "slice", .crossings = 2, .software = true},
+    {.kind = "slice", .fluid = true, .crossings = 1, .software = true},
 };
 
 static ViewDef view_of(const Viewed *viewed)
@@ -193,10 +197,10 @@ static void count_frames(const char *backend, const Viewed *viewed, Studio *stud
     }
     counting(false);
     const int wanted = (1 + !viewed->fluid) * FRAMES;
-    if (crossings != FRAMES * viewed->crossings || waits != wanted || queries)
+    const int reads = viewed->software && !gl_renderer_is_software() ? 0 : FRAMES * viewed->crossings;
+    if (crossings != reads || waits != wanted || queries)
         fail_msg("%s, view %td, %s: %d reads, %d waits, %d queries in %d frames; %d and %d are known",
-                 backend, viewed - views, viewed->kind, crossings, waits, queries, FRAMES,
-                 FRAMES * viewed->crossings, wanted);
+                 backend, viewed - views, viewed->kind, crossings, waits, queries, FRAMES, reads, wanted);
 }
 
 static void no_particle_crosses_in_a_frame(void **state)

@@ -157,8 +157,9 @@ static void brute_sums(const SliceScene *scene, const double at[3], double sums[
 }
 
 /* The worst of all samples, as shares of the greatest sums. */
-static double worst_sample(SliceScene *scene)
+static double worst_sample_by(SliceScene *scene, PlaneBy by)
 {
+    scene->job.by = by;
     double worst = 0, range[3] = {1e-30, 1e-30, 1e-30};
     float *sums = sums_of(scene);
     for (int pass = 0; pass < 2; pass++)
@@ -176,6 +177,14 @@ static double worst_sample(SliceScene *scene)
             }
     free(sums);
     return worst;
+}
+
+/* On the GPU and on the CPU. */
+static double worst_sample(SliceScene *scene)
+{
+    const double quads = worst_sample_by(scene, PLANE_QUADS), rows = worst_sample_by(scene, PLANE_ROWS);
+    print_message("%g by quads, %g by rows\n", quads, rows);
+    return fmax(quads, rows);
 }
 
 static void free_scene(SliceScene *scene)
@@ -212,6 +221,19 @@ static void small_and_large_particles(void **state)
             fail_msg("a support of %g samples: %g of the range off", supports[i], worst);
         free_scene(&scene);
     }
+}
+
+/* Discs across hundreds of samples, which the CPU adds piece by piece. */
+static void discs_of_several_pieces(void **state)
+{
+    (void)state;
+    SliceScene scene = wild_scene(0.1, (double[3]){0, 0.3, 0}, (double[3]){0.1, 0.2, 1});
+    scene.job.samples[0] = 1203, scene.job.samples[1] = 19;
+    scene.job.support = 0.6;
+    const double worst = worst_sample(&scene);
+    if (!(worst < 4e-6))
+        fail_msg("%g of the range off", worst);
+    free_scene(&scene);
 }
 
 /* In the middle of a lattice the mean of a constant is that constant, and of a linear field the field. */
@@ -415,6 +437,7 @@ int main(void)
         cmocka_unit_test(a_plane_may_miss_the_box),
         cmocka_unit_test_teardown(each_sample_is_the_sum_over_all_particles, no_gl_errors),
         cmocka_unit_test_teardown(small_and_large_particles, no_gl_errors),
+        cmocka_unit_test_teardown(discs_of_several_pieces, no_gl_errors),
         cmocka_unit_test_teardown(a_lattice_keeps_constants_and_slopes, no_gl_errors),
         cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
