@@ -53,6 +53,7 @@ typedef struct SnapshotStep {
         int place;     /* in ParticleColumns.own */
         float *values;
     } own[COLUMNS_OWN];
+    unsigned lacks; /* bit k: the file has no k-th field of SNAPSHOT_FIELDS; only of snapshot_read_shown */
 } SnapshotStep;
 
 /* Arrays for `count` particles, not initialised; false, and nothing to free, when memory is short. */
@@ -111,6 +112,16 @@ typedef struct SnapshotReader SnapshotReader;
 /* NULL with the reason: no such file, not HDF5. */
 SnapshotReader *snapshot_open(const char *path, Error *error);
 
+/* The same for who shows a file and does not go on with it: steps are counted by their names, which takes
+   milliseconds for thousands of them; one that is not whole is found at the end of the file, or when it is
+   read. */
+SnapshotReader *snapshot_open_shown(const char *path, Error *error);
+
+/* For a reader of snapshot_open_shown: opens the file again where it has changed, since it may have grown.
+   False with the reason: it is gone or another one now, or this is a moment between two writes; then no step
+   can be read until a later call succeeds. */
+bool snapshot_follow(SnapshotReader *reader, Error *error);
+
 /* Whole steps; what a killed program left half-written at the end does not count. */
 size_t snapshot_count_steps(const SnapshotReader *reader);
 
@@ -140,12 +151,20 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
 /* The name of the kernel that its method sums with, as its settings say; false where they do not. */
 bool snapshot_kernel(const SnapshotReader *reader, char name[NAME_SIZE]);
 
-/* The volume of particle i, 1 / number density, m3: what the views have of it (ParticleArrays.position). At
-   most 20 spacings^3; not finite where the density is not or the fluid is unknown. */
+/* The volume of particle i, 1 / number density, m3 (of two dimensions m2): what the views have of it
+   (ParticleArrays.position). At most 20 spacings^3; not finite where the density is not or the fluid is
+   unknown. */
 double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, size_t i);
 
 /* Reads step `index` into new arrays, that the caller frees. */
 bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
+
+/* The same for who shows it: the file may lack velocities, density, pressure, compression, fluid and id,
+   which step->lacks says; these are 0 then. */
+bool snapshot_read_shown(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
+
+/* Whether it lacks that field. */
+bool snapshot_step_lacks(const SnapshotStep *step, const char *name);
 
 /* Reads into that step the columns of snapshot_step_own. False, and the step is empty, where the file lacks
    one. */

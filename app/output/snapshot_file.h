@@ -50,6 +50,10 @@ static inline void snapshot_group_name(size_t index, char name[32])
    no locks still work. -1 on failure; the caller closes it. */
 hid_t snapshot_access(void);
 
+/* How many groups Step#0, Step#1, ... the file has without a gap, by their names alone; false when it cannot
+   be read. */
+bool snapshot_count_names(hid_t file, size_t *steps);
+
 /* A Snapshot that appends to a file that has so many whole steps, and takes over its lock, which is
    then no longer the caller's. NULL with the reason. */
 Snapshot *snapshot_continue(const char *path, const ColumnRows *saved, size_t steps, OutputLock *lock,

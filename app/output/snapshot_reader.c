@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { SUPPORT_MOST = 10 }; /* spacings: a lattice is summed up within it; scenes have 1.5 to 4 */
@@ -17,6 +18,7 @@ struct SnapshotReader {
     char path[1024];
     hid_t file;
     size_t steps;
+    struct stat was; /* the file when it was opened */
 };
 
 static bool read_values(hid_t at, const char *name, hid_t type, size_t count, void *values)
@@ -36,7 +38,7 @@ static hid_t open_step(hid_t file, size_t index)
 {
     char name[32];
     snapshot_group_name(index, name);
-    return H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
+    return file >= 0 && H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Gopen2(file, name, H5P_DEFAULT) : -1;
 }
 
 static bool step_is_complete(hid_t file, size_t index)
@@ -50,34 +52,100 @@ static bool step_is_complete(hid_t file, size_t index)
     return whole;
 }
 
-SnapshotReader *snapshot_open(const char *path, Error *error)
+/* -1 with the reason. */
+static hid_t open_file(const char *path, struct stat *was, Error *error)
+{
+    hdf5_listen();
+    if (access(path, R_OK) != 0 || stat(path, was) != 0) {
+        error_set(error, "%s: cannot be read: %s", path, strerror(errno));
+        return -1;
+    }
+    const hid_t access = snapshot_access(), file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    if (file < 0)
+        hdf5_fail(error, path, "is no file of snapshots");
+    H5Pclose(access);
+    return file;
+}
+
+static SnapshotReader *reader_create(const char *path, Error *error)
 {
     SnapshotReader *reader = calloc(1, sizeof *reader);
-    if (!reader || access(path, R_OK) != 0) {
-        error_set(error, "%s: cannot be read: %s", path, strerror(reader ? errno : ENOMEM));
-        free(reader);
+    if (!reader) {
+        error_set(error, "%s: out of memory", path);
         return NULL;
     }
-    hdf5_listen();
     snprintf(reader->path, sizeof reader->path, "%s", path);
-    hid_t access = snapshot_access();
-    reader->file = H5Fopen(path, H5F_ACC_RDONLY, access);
-    if (reader->file < 0) {
-        hdf5_fail(error, path, "is no file of snapshots");
-        free(reader);
-        reader = NULL;
-    }
-    H5Pclose(access);
+    reader->file = open_file(path, &reader->was, error);
+    if (reader->file >= 0)
+        return reader;
+    free(reader);
+    return NULL;
+}
+
+SnapshotReader *snapshot_open(const char *path, Error *error)
+{
+    SnapshotReader *reader = reader_create(path, error);
     while (reader && step_is_complete(reader->file, reader->steps))
         reader->steps++;
     return reader;
+}
+
+/* A step that is half-written is at the end; a file of another program has no marks at all. */
+static bool count_shown(hid_t file, const char *path, size_t *steps, Error *error)
+{
+    if (!snapshot_count_names(file, steps))
+        return hdf5_fail(error, path, "cannot be read");
+    if (*steps > 0 && !step_is_complete(file, 0))
+        *steps = 0;
+    while (*steps > 0 && !step_is_complete(file, *steps - 1))
+        --*steps;
+    return true;
+}
+
+SnapshotReader *snapshot_open_shown(const char *path, Error *error)
+{
+    SnapshotReader *reader = reader_create(path, error);
+    if (!reader || count_shown(reader->file, path, &reader->steps, error))
+        return reader;
+    snapshot_reader_close(reader);
+    return NULL;
+}
+
+static bool is_unchanged(const struct stat *was, const struct stat *now)
+{
+    return now->st_size == was->st_size && now->st_mtim.tv_sec == was->st_mtim.tv_sec &&
+           now->st_mtim.tv_nsec == was->st_mtim.tv_nsec;
+}
+
+static void close_file(SnapshotReader *reader)
+{
+    if (reader->file >= 0)
+        H5Fclose(reader->file);
+    reader->file = -1;
+}
+
+bool snapshot_follow(SnapshotReader *reader, Error *error)
+{
+    struct stat now;
+    if (stat(reader->path, &now) != 0)
+        return error_set(error, "%s: cannot be read: %s", reader->path, strerror(errno));
+    if (now.st_ino != reader->was.st_ino || now.st_dev != reader->was.st_dev)
+        return error_set(error, "%s: is another file now; open it anew", reader->path);
+    if (reader->file >= 0 && is_unchanged(&reader->was, &now))
+        return true;
+    close_file(reader); /* while it is open HDF5 goes on with what it knows of it */
+    reader->file = open_file(reader->path, &reader->was, error);
+    if (reader->file >= 0 && count_shown(reader->file, reader->path, &reader->steps, error))
+        return true;
+    close_file(reader);
+    return false;
 }
 
 void snapshot_reader_close(SnapshotReader *reader)
 {
     if (!reader)
         return;
-    H5Fclose(reader->file);
+    close_file(reader);
     free(reader);
 }
 
@@ -153,20 +221,6 @@ static bool setting_word(const char *settings, const char *key, char word[NAME_S
     return at && sscanf(at + strlen(key), "%31s", word) == 1;
 }
 
-/* As sim/kernel/lattice.h calibrates a density that is summed up; particles may carry it instead. */
-static double read_stiffness_scale(const SnapshotReader *reader, const SnapshotScene *scene)
-{
-    Lattice lattice = {.stiffness_scale = 1};
-    char name[NAME_SIZE] = "", *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
-    const Method *method = setting_word(settings, "\nsolver.method = ", name) ? method_find(name) : NULL;
-    if (!(method && method->carries_density) && setting_word(settings, "\nsolver.density_kernel = ", name) &&
-        density_kernel_find(name))
-        lattice_calibrate(scene->dimensions, scene->spacing, scene->support_radius, density_kernel_find(name),
-                          density_kernel_find(name), &lattice);
-    free(settings);
-    return lattice.stiffness_scale;
-}
-
 /* Puts the file's choices into the method's own settings. */
 static void choose_as_said(const char *settings, const Method *method, WorldDef *def)
 {
@@ -178,20 +232,40 @@ static void choose_as_said(const char *settings, const Method *method, WorldDef 
     }
 }
 
-bool snapshot_kernel(const SnapshotReader *reader, char name[NAME_SIZE])
+/* The kernels of the file's method; all NULL where it does not say. */
+static MethodKernels read_kernels(const SnapshotReader *reader, const Method **method)
 {
     char own[NAME_SIZE] = "", *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
-    const Method *method = setting_word(settings, "\nsolver.method = ", own) ? method_find(own) : NULL;
     WorldDef def = world_def_default();
-    const Kernel *kernel = NULL;
-    if (method) {
+    MethodKernels kernels = {NULL};
+    *method = setting_word(settings, "\nsolver.method = ", own) ? method_find(own) : NULL;
+    if (*method) {
         memcpy(def.method, own, sizeof own);
-        choose_as_said(settings, method, &def);
-        kernel = method_kernels(&def).density;
+        choose_as_said(settings, *method, &def);
+        kernels = method_kernels(&def);
     }
+    free(settings);
+    return kernels;
+}
+
+/* As sim/world/constants.c calibrates a density that is summed up; particles may carry it instead. */
+static double read_stiffness_scale(const SnapshotReader *reader, const SnapshotScene *scene)
+{
+    Lattice lattice = {.stiffness_scale = 1};
+    const Method *method;
+    const MethodKernels kernels = read_kernels(reader, &method);
+    if (method && !method->carries_density && kernels.density)
+        lattice_calibrate(scene->dimensions, scene->spacing, scene->support_radius, kernels.density,
+                          kernels.slope, &lattice);
+    return lattice.stiffness_scale;
+}
+
+bool snapshot_kernel(const SnapshotReader *reader, char name[NAME_SIZE])
+{
+    const Method *method;
+    const Kernel *kernel = read_kernels(reader, &method).density;
     if (kernel)
         snprintf(name, NAME_SIZE, "%s", kernel->name);
-    free(settings);
     return kernel != NULL;
 }
 
@@ -298,9 +372,19 @@ static bool read_restart(hid_t group, WorldNumbers *restart)
     return false;
 }
 
-/* The name of the first attribute or dataset that is not as it must be, or NULL. */
-static const char *read_group(hid_t group, SnapshotStep *step)
+/* Whether a field that cannot be read may be left out: files of before have no compression; what is shown may
+   lack more, but not have it at another length. */
+static bool may_lack(hid_t group, const char *name, const SnapshotStep *step, bool shown)
 {
+    if (!shown)
+        return step->restart.version == 0 && strcmp(name, SNAPSHOT_COMPRESSION) == 0;
+    return strlen(name) > strlen("x") && H5Lexists(group, name, H5P_DEFAULT) <= 0;
+}
+
+/* The name of the first attribute or dataset that is not as it must be, or NULL. */
+static const char *read_group(hid_t group, SnapshotStep *step, bool shown)
+{
+    unsigned field = 0;
 #define X(name, count, values)                                                                               \
     if (!read_values(group, name, H5T_NATIVE_DOUBLE, count, values))                                         \
         return name;
@@ -312,29 +396,55 @@ static const char *read_group(hid_t group, SnapshotStep *step)
         return SNAPSHOT_STEP_NUMBER;
     if (H5Lexists(group, SNAPSHOT_COMPRESSION, H5P_DEFAULT) <= 0)
         step->restart.version = 0; /* of a slosh before it had that field */
-#define X(name, type, field)                                                                                 \
-    if (!read_field(group, name, SNAPSHOT_TYPE(step->field), step->count, step->field) &&                    \
-        (step->restart.version != 0 || strcmp(name, SNAPSHOT_COMPRESSION) != 0))                             \
-        return name;
+#define X(name, type, field_of)                                                                              \
+    if (!read_field(group, name, SNAPSHOT_TYPE(step->field_of), step->count, step->field_of)) {              \
+        if (!may_lack(group, name, step, shown))                                                             \
+            return name;                                                                                     \
+        step->lacks |= shown ? 1U << field : 0;                                                              \
+    }                                                                                                        \
+    field++;
     SNAPSHOT_FIELDS(X)
 #undef X
     return NULL;
 }
 
-bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error)
+bool snapshot_step_lacks(const SnapshotStep *step, const char *name)
+{
+    unsigned field = 0, lacks = 0;
+#define X(own, type, field_of)                                                                               \
+    lacks |= strcmp(own, name) == 0 ? step->lacks & 1U << field : 0;                                         \
+    field++;
+    SNAPSHOT_FIELDS(X)
+#undef X
+    return lacks != 0;
+}
+
+/* A damaged file may say any number. */
+static bool fits_memory(size_t count)
+{
+    size_t bytes = 0;
+#define X(name, type, field) bytes += sizeof(type);
+    SNAPSHOT_FIELDS(X)
+#undef X
+    return (double)count * (double)bytes <= (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+}
+
+static bool read_step(SnapshotReader *reader, size_t index, bool shown, SnapshotStep *step, Error *error)
 {
     size_t count = 0;
     *step = (SnapshotStep){0};
     if (index >= reader->steps)
         return error_set(error, "%s: has no step %zu; it has %zu whole step%s", reader->path, index,
                          reader->steps, plural(reader->steps));
+    if (shown && !step_is_complete(reader->file, index))
+        return error_set(error, "%s: Step#%zu is not whole", reader->path, index);
     hid_t group = open_step(reader->file, index);
     const char *missing = group >= 0 && field_length(group, "x", &count) ? NULL : "x";
-    if (!missing && !snapshot_step_allocate(step, count)) {
+    if (!missing && (!fits_memory(count) || !snapshot_step_allocate(step, count))) {
         H5Gclose(group);
-        return error_set(error, "%s: out of memory for %zu particles", reader->path, count);
+        return error_set(error, "%s: Step#%zu: out of memory for %zu particles", reader->path, index, count);
     }
-    missing = missing ? missing : read_group(group, step);
+    missing = missing ? missing : read_group(group, step, shown);
     if (group >= 0)
         H5Gclose(group);
     if (!missing)
@@ -342,6 +452,16 @@ bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step
     snapshot_step_free(step);
     return error_set(error, "%s: Step#%zu: '%s' is missing or of another length", reader->path, index,
                      missing);
+}
+
+bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error)
+{
+    return read_step(reader, index, false, step, error);
+}
+
+bool snapshot_read_shown(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error)
+{
+    return read_step(reader, index, true, step, error);
 }
 
 bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *saved, SnapshotStep *step,

@@ -73,7 +73,7 @@ bool snapshot_sift(SnapshotFlaws *flaws, size_t index, SnapshotStep *step)
             move(step, i, kept++);
     }
     step->count = kept;
-    if (!count_ids(step, &found[FLAW_ID]))
+    if (!flaws->shown && !count_ids(step, &found[FLAW_ID]))
         return false;
     for (int flaw = 0; flaw < FLAW_COUNT; flaw++) {
         if (found[flaw] > 0 && flaws->of[flaw].snapshots++ == 0)
@@ -110,10 +110,12 @@ void snapshot_flaws_print(const SnapshotFlaws *flaws, const char *path, FILE *fi
             fprintf(file, "in %zu snapshots, the first of them ", snapshots);
         else
             fputs("of ", file);
-        const char *kept =
-            particles == 1 ? "exported as it is in the file" : "exported as they are in the file";
-        fprintf(file, "Step#%zu%s %s %s; %s\n", flaws->of[flaw].first, snapshots > 1 ? "," : "",
-                particles == 1 ? "has" : "have", words[flaw],
-                is_left_out(flaws, (Flaw)flaw) ? "left out" : kept);
+        const char *verb = flaws->shown ? "shown" : "exported";
+        fprintf(file, "Step#%zu%s %s %s; ", flaws->of[flaw].first, snapshots > 1 ? "," : "",
+                particles == 1 ? "has" : "have", words[flaw]);
+        if (is_left_out(flaws, (Flaw)flaw))
+            fputs("left out\n", file);
+        else
+            fprintf(file, "%s as %s in the file\n", verb, particles == 1 ? "it is" : "they are");
     }
 }

@@ -23,6 +23,7 @@ typedef struct SnapshotFlaws {
                         box */
     size_t fluids;
     bool strict; /* particles with the three in the middle are left out too */
+    bool shown;  /* not exported: ids are not compared, which would take longer than all else */
     struct {
         size_t particles, snapshots, first; /* the first snapshot with such particles */
     } of[FLAW_COUNT];

@@ -58,6 +58,6 @@ double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, siz
 {
     const bool known = step->fluid[i] >= 0 && (size_t)step->fluid[i] < scene->fluid_count;
     const double relative = known ? step->density[i] / scene->density[step->fluid[i]] : NAN;
-    const double number = 1 + (relative - 1) / scene->stiffness_scale, s = scene->spacing;
-    return s * s * s / (number < 0.05 ? 0.05 : number);
+    const double number = 1 + (relative - 1) / scene->stiffness_scale;
+    return pow(scene->spacing, scene->dimensions) / (number < 0.05 ? 0.05 : number);
 }

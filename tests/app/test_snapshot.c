@@ -177,7 +177,8 @@ static void a_world_is_written_as_it_is(void **state)
 static void volumes_are_those_of_the_solver(void **state)
 {
     (void)state;
-    static const char *const cases[][2] = {{"mueller", "spiky"}, {"mueller", "poly6"}, {"wcsph", "spiky"}};
+    static const char *const cases[][2] = {
+        {"mueller", "spiky"}, {"mueller", "poly6"}, {"wcsph", "spiky"}, {"dfsph", "spiky"}, {"pbf", "spiky"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Scene scene = small_scene();
         Error error = {{0}};
