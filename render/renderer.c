@@ -11,6 +11,7 @@
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #ifdef __GLIBC__
@@ -23,8 +24,9 @@ struct Renderer {
     ViewDef def;
     WorldDef world;
     bool plain;
-    double covered_left; /* part of the width */
-    double range[2];     /* of the last picture */
+    Covered covered;
+    Title title;
+    double range[2]; /* of the last picture */
     Target target;
     unsigned uniforms;
     Derived derived;
@@ -49,11 +51,11 @@ static Subject subject_of(const Renderer *renderer)
     return (Subject){&renderer->def, &renderer->world};
 }
 
-/* Letters for a picture that high, or none where the def wants no legend. */
-static bool follow_legend(Renderer *renderer, const ViewDef *def, int height, Error *error)
+/* Letters for a picture that high, or none where neither legend nor title wants some. */
+static bool follow_letters(Renderer *renderer, bool wanted, int height, Error *error)
 {
     const float pixels = legend_text_pixels(height);
-    if (!def->legend || (renderer->text && text_height(renderer->text) == pixels))
+    if (!wanted || (renderer->text && text_height(renderer->text) == pixels))
         return true;
     Text *text = text_create(pixels, error);
     if (!text)
@@ -126,7 +128,7 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
         !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
-    return follow_derived(renderer, def, error) && follow_legend(renderer, def, height, error) &&
+    return follow_derived(renderer, def, error) && follow_letters(renderer, def->legend, height, error) &&
            follow_solids(renderer, &renderer->world, error) &&
            (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL);
 }
@@ -195,8 +197,9 @@ static bool follow_view(Renderer *renderer, const Subject *subject, Error *error
 bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *world, Error *error)
 {
     const Subject subject = {def, world ? world : &unknown};
+    const bool letters = def->legend || *renderer->title.words;
     const bool followed = follow_derived(renderer, def, error) &&
-                          follow_legend(renderer, def, renderer->target.height, error) &&
+                          follow_letters(renderer, letters, renderer->target.height, error) &&
                           follow_solids(renderer, subject.world, error) &&
                           follow_view(renderer, &subject, error);
     if (followed) {
@@ -214,7 +217,7 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error)
         return true;
     if (!target_create(&target, width, height, error))
         return false;
-    if (!follow_legend(renderer, &renderer->def, height, error)) {
+    if (!follow_letters(renderer, renderer->def.legend || *renderer->title.words, height, error)) {
         target_destroy(&target);
         return false;
     }
@@ -241,10 +244,12 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may not have done so */
     if (renderer->def.box && !frame->flat)
         edges_draw(&renderer->edges, frame);
-    if (!renderer->def.legend)
+    if (!renderer->def.legend && !*renderer->title.words)
         return;
     text_begin(renderer->text, frame->width, frame->height);
-    legend_draw(renderer->text, frame, particles->time);
+    if (renderer->def.legend)
+        legend_draw(renderer->text, frame, particles->time);
+    title_draw(renderer->text, &renderer->title, frame);
     text_end(renderer->text);
 }
 
@@ -277,14 +282,14 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     const double legend =
         legend_width_pixels(&renderer->def, &renderer->world, target->height) / target->width;
     frame_make(&frame, &subject, particles, target, view_radii(kind, &renderer->def, particles),
-               (Covered){renderer->covered_left, legend});
-    memcpy(renderer->range, frame.range, sizeof frame.range);
+               (Covered){renderer->covered.left, fmax(renderer->covered.right, legend)});
     frame.timer = timer;
     frame.counts = counts;
     frame.plain = renderer->plain;
     frame.floor_light = renderer->shadow.floor_map;
     if (renderer->view)
         view_show(renderer->view, &renderer->def, &frame);
+    memcpy(renderer->range, frame.range, sizeof renderer->range);
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
     if (renderer->view)
         view_prepare(renderer->view, particles, &frame);
@@ -322,9 +327,9 @@ void renderer_read(const Renderer *renderer, uint8_t *rgb)
     target_read(&renderer->target, rgb);
 }
 
-void renderer_present(const Renderer *renderer)
+void renderer_present(const Renderer *renderer, int x, int y)
 {
-    target_present(&renderer->target);
+    target_present(&renderer->target, x, y);
 }
 
 void renderer_read_depth(const Renderer *renderer, float *depth)
@@ -332,14 +337,22 @@ void renderer_read_depth(const Renderer *renderer, float *depth)
     target_read_depth(&renderer->target, depth);
 }
 
+void renderer_set_covered(Renderer *renderer, Covered covered)
+{
+    renderer->covered = covered;
+}
+
+bool renderer_set_title(Renderer *renderer, const Title *title, Error *error)
+{
+    if (!follow_letters(renderer, renderer->def.legend || *title->words, renderer->target.height, error))
+        return false;
+    renderer->title = *title;
+    return true;
+}
+
 void renderer_range(const Renderer *renderer, double range[2])
 {
     memcpy(range, renderer->range, sizeof renderer->range);
-}
-
-void renderer_set_covered(Renderer *renderer, double left)
-{
-    renderer->covered_left = left;
 }
 
 void renderer_set_plain(Renderer *renderer, bool plain)

@@ -5,7 +5,9 @@
 #ifndef SLOSH_RENDERER_H
 #define SLOSH_RENDERER_H
 
+#include "render/frame/camera.h"
 #include "render/frame/counts.h"
+#include "render/frame/title.h"
 #include "render/frame/view_def.h"
 #include "sim/base/error.h"
 #include "sim/gl/particle_buffers.h"
@@ -45,18 +47,22 @@ void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCo
 /* The picture: 3 * width * height bytes of sRGB, rows from the top down. Waits for the drawing. */
 void renderer_read(const Renderer *renderer, uint8_t *rgb);
 
-/* Copies the picture into the default framebuffer, its lower left corner at 0, 0; leaves that one bound, with
-   its viewport as large as the picture. */
-void renderer_present(const Renderer *renderer);
+/* Copies the picture into the default framebuffer, its lower left corner at x, y (pixels from the left and
+   from below); leaves that one bound, its viewport where the picture is. */
+void renderer_present(const Renderer *renderer, int x, int y);
 
 /* width * height reversed depths (1 at the near plane, 0 where nothing is), rows from the bottom up. */
 void renderer_read_depth(const Renderer *renderer, float *depth);
 
-/* The range of colours of the last picture, in the scalar's unit. */
-void renderer_range(const Renderer *renderer, double range[2]);
+/* From the next picture on an automatic camera leaves these parts of the width, 0 .. 1, free; on the right at
+   least what the legend takes, whatever `covered` says. */
+void renderer_set_covered(Renderer *renderer, Covered covered);
 
-/* From the next picture on an automatic camera leaves that part of the width, 0 .. 1, free on the left. */
-void renderer_set_covered(Renderer *renderer, double left);
+/* From the next picture on. On failure (no font) all stays as it was. */
+bool renderer_set_title(Renderer *renderer, const Title *title, Error *error);
+
+/* What the colours of the last picture went from and to, in the unit of what it showed. */
+void renderer_range(const Renderer *renderer, double range[2]);
 
 /* Colours exactly as the colormap has them, without light and shadow. */
 void renderer_set_plain(Renderer *renderer, bool plain);

@@ -104,14 +104,14 @@ bool picture_reload(Picture *picture, const Scene *scene, Error *error)
 
 void picture_draw(Picture *picture, const ParticleBuffers *particles, double covered_left)
 {
-    renderer_set_covered(picture->renderer, covered_left);
+    renderer_set_covered(picture->renderer, (Covered){.left = covered_left});
     renderer_draw(picture->renderer, particles, picture->timer);
     gl_timer_frame(picture->timer, &picture->gl_times);
 }
 
 void picture_present(Picture *picture)
 {
-    renderer_present(picture->renderer);
+    renderer_present(picture->renderer, 0, 0);
 }
 
 void picture_clear(const Picture *picture, const ViewDef *view)

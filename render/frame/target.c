@@ -78,14 +78,14 @@ void target_read(const Target *target, uint8_t *rgb)
     flip_rows(rgb, 3 * (size_t)target->width, (size_t)target->height);
 }
 
-void target_present(const Target *target)
+void target_present(const Target *target, int x, int y)
 {
     glDisable(GL_FRAMEBUFFER_SRGB); /* encoded once is enough */
     glDisable(GL_SCISSOR_TEST);
-    glBlitNamedFramebuffer(target->framebuffer, 0, 0, 0, target->width, target->height, 0, 0, target->width,
-                           target->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitNamedFramebuffer(target->framebuffer, 0, 0, 0, target->width, target->height, x, y,
+                           x + target->width, y + target->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, target->width, target->height);
+    glViewport(x, y, target->width, target->height);
 }
 
 void target_read_depth(const Target *target, float *depth)

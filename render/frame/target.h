@@ -27,8 +27,9 @@ void target_begin(const Target *target);
 /* 3 * width * height bytes, rows from the top down; waits for the drawing. */
 void target_read(const Target *target, uint8_t *rgb);
 
-/* Copies the colour as it is into the default framebuffer, and leaves that one bound. */
-void target_present(const Target *target);
+/* Copies the colour as it is into the default framebuffer, its lower left corner at x, y, and leaves that one
+   bound. */
+void target_present(const Target *target, int x, int y);
 
 /* width * height depths, rows from the bottom up; for tests and for picking. */
 void target_read_depth(const Target *target, float *depth);

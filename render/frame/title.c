@@ -1,0 +1,54 @@
+#include "render/frame/title.h"
+
+#include "render/frame/legend.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* In letters' heights: around the words, and between the lines. */
+static const float AROUND = 0.55F, BETWEEN = 0.35F;
+
+/* The longest beginning of `words` that is at most so wide. */
+static void cut(Text *text, float width, const char *words, char out[TITLE_SIZE])
+{
+    size_t length = strlen(words);
+    snprintf(out, TITLE_SIZE, "%s", words);
+    while (length > 0 && text_width(text, 1, out) > width) {
+        length--;
+        while (length > 0 && ((unsigned char)words[length] & 0xC0) == 0x80) /* within a letter of UTF-8 */
+            length--;
+        snprintf(out, TITLE_SIZE, "%.*s...", (int)fmin((double)length, TITLE_SIZE - 4), words);
+    }
+}
+
+/* From the top of the picture to the bottom of the title, letters' heights. */
+static float bottom_em(const Title *title)
+{
+    return 2 + 2 * AROUND + (*title->figures ? BETWEEN + 1 : 0);
+}
+
+int title_rows(const Title *title, int height)
+{
+    return *title->words ? (int)ceilf(bottom_em(title) * legend_text_pixels(height)) : 0;
+}
+
+void title_draw(Text *text, const Title *title, const Frame *frame)
+{
+    const double *back = frame->def->background;
+    const bool light = 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2] > 0.18;
+    const uint32_t ink = light ? 0x1c222aff : 0xf2f4f6ff, faint = light ? 0x1c222ab0 : 0xf2f4f6b0,
+                   panel = light ? 0xffffffa0 : 0x10141880;
+    const float em = text_height(text), around = AROUND * em, x = em + around;
+    const float legend = (float)legend_width_pixels(frame->def, frame->world, frame->height);
+    const float room = (float)frame->width - legend - 2 * em - 2 * around;
+    char words[TITLE_SIZE], figures[TITLE_SIZE];
+    if (!*title->words || room <= 0)
+        return;
+    cut(text, room, title->words, words);
+    cut(text, room, title->figures, figures);
+    const float width = fmaxf(text_width(text, 1, words), text_width(text, 1, figures));
+    text_rectangle(text, em, em, x + width + around, bottom_em(title) * em, 0.5F * em, panel);
+    text_draw(text, x, em + around, 1, ink, TEXT_LEFT, words);
+    text_draw(text, x, em + around + (1 + BETWEEN) * em, 1, faint, TEXT_LEFT, figures);
+}

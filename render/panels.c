@@ -1,0 +1,266 @@
+#include "render/panels.h"
+
+#include "render/frame/legend.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One of them. */
+typedef struct Panel {
+    Renderer *renderer;
+    ViewDef def;
+    WorldDef world;
+} Panel;
+
+struct Panels {
+    int count, width, height;
+    double covered_left; /* part of the width */
+    PanelPlace places[PANELS_MAX];
+    Panel panels[PANELS_MAX];
+};
+
+/* Two equal parts of a length; the line between has the odd pixel. */
+static void halve(int from, int length, int begin[2], int size[2])
+{
+    size[0] = size[1] = (length - PANELS_LINE) / 2;
+    begin[0] = from;
+    begin[1] = from + length - size[1];
+}
+
+bool panels_place(int count, int width, int height, PanelPlace places[PANELS_MAX])
+{
+    int x[2], y[2], w[2], h[2];
+    halve(0, width, x, w);
+    halve(0, height, y, h);
+    places[0] = (PanelPlace){0, 0, width, height};
+    for (int i = 0; count > 1 && i < count; i++) {
+        const int column = count == 2 ? i : count == 3 ? i > 0 : i % 2;
+        const int row = count == 3 ? i > 1 : i / 2;
+        const bool whole = count == 2 || (count == 3 && i == 0);
+        places[i] = (PanelPlace){x[column], whole ? 0 : y[row], w[column], whole ? height : h[row]};
+    }
+    for (int i = 0; i < count; i++)
+        if (places[i].width < 1 || places[i].height < 1)
+            return false;
+    return true;
+}
+
+int panels_at(const PanelPlace places[], int count, double x, double y)
+{
+    int nearest = 0;
+    double least = INFINITY;
+    for (int i = 0; i < count; i++) {
+        const PanelPlace *at = &places[i];
+        const double dx = fmax(fmax(at->x - x, x - (at->x + at->width)), 0);
+        const double dy = fmax(fmax(at->y - y, y - (at->y + at->height)), 0);
+        if (dx + dy < least) {
+            least = dx + dy;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+/* One panel has what covers the picture in it; several lie beside that. */
+static bool place(int count, int width, int height, double covered_left, PanelPlace places[PANELS_MAX],
+                  Error *error)
+{
+    const int beside = count > 1 ? (int)lround(covered_left * width) : 0;
+    if (!panels_place(count, width - beside, height, places))
+        return error_set(error, "a picture of %d x %d pixels has no room for %d panels; make it larger",
+                         width - beside, height, count);
+    for (int i = 0; i < count; i++)
+        places[i].x += beside;
+    return true;
+}
+
+Panels *panels_create(const Subject subjects[], int count, int width, int height, Error *error)
+{
+    Panels *panels = calloc(1, sizeof *panels);
+    if (!panels) {
+        error_set(error, "out of memory for %d pictures", count);
+        return NULL;
+    }
+    *panels = (Panels){.count = count, .width = width, .height = height};
+    bool made = place(count, width, height, 0, panels->places, error);
+    for (int i = 0; made && i < count; i++) {
+        Panel *panel = &panels->panels[i];
+        panel->def = *subjects[i].def;
+        panel->world = *subjects[i].world;
+        panel->renderer = renderer_create(&panel->def, &panel->world, panels->places[i].width,
+                                          panels->places[i].height, error);
+        made = panel->renderer != NULL;
+    }
+    if (made)
+        return panels;
+    panels_destroy(panels);
+    return NULL;
+}
+
+void panels_destroy(Panels *panels)
+{
+    for (int i = 0; panels && i < panels->count; i++)
+        renderer_destroy(panels->panels[i].renderer);
+    free(panels);
+}
+
+int panels_count(const Panels *panels)
+{
+    return panels->count;
+}
+
+const PanelPlace *panels_places(const Panels *panels)
+{
+    return panels->places;
+}
+
+bool panels_set_def(Panels *panels, int index, const ViewDef *def, const WorldDef *world, Error *error)
+{
+    Panel *panel = &panels->panels[index];
+    if (!renderer_set_def(panel->renderer, def, world, error))
+        return false;
+    panel->def = *def;
+    panel->world = *world;
+    return true;
+}
+
+bool panels_set_title(Panels *panels, int index, const Title *title, Error *error)
+{
+    return renderer_set_title(panels->panels[index].renderer, title, error);
+}
+
+/* All or none. */
+static bool lay_out(Panels *panels, int width, int height, double covered_left, Error *error)
+{
+    PanelPlace places[PANELS_MAX];
+    Error none;
+    if (!place(panels->count, width, height, covered_left, places, error))
+        return false;
+    for (int i = 0; i < panels->count; i++) {
+        if (renderer_resize(panels->panels[i].renderer, places[i].width, places[i].height, error))
+            continue;
+        while (i-- > 0) /* what they had a moment ago */
+            renderer_resize(panels->panels[i].renderer, panels->places[i].width, panels->places[i].height,
+                            &none);
+        return false;
+    }
+    memcpy(panels->places, places, sizeof places);
+    panels->width = width;
+    panels->height = height;
+    panels->covered_left = covered_left;
+    return true;
+}
+
+bool panels_resize(Panels *panels, int width, int height, Error *error)
+{
+    return (width == panels->width && height == panels->height) ||
+           lay_out(panels, width, height, panels->covered_left, error);
+}
+
+bool panels_set_covered(Panels *panels, double left, Error *error)
+{
+    return left == panels->covered_left || lay_out(panels, panels->width, panels->height, left, error);
+}
+
+static double legend_part(const Panels *panels, int index)
+{
+    const Panel *panel = &panels->panels[index];
+    const PanelPlace *at = &panels->places[index];
+    return legend_width_pixels(&panel->def, &panel->world, at->height) / at->width;
+}
+
+static void cover(Panels *panels)
+{
+    Covered covered = {.left = panels->count > 1 ? 0 : panels->covered_left};
+    for (int i = 0; i < panels->count; i++)
+        covered.right = fmax(covered.right, legend_part(panels, i));
+    for (int i = 0; i < panels->count; i++)
+        renderer_set_covered(panels->panels[i].renderer, covered);
+}
+
+/* Whether the panel's colours go from the least to the greatest of what that scalar is in the state. */
+static bool follows(const Panel *panel, Scalar scalar, const ParticleBuffers *state)
+{
+    return panel->def.range_auto && panel->def.color_by == scalar && scalar != SCALAR_FLUID &&
+           state->scalar[scalar].buffer;
+}
+
+/* The state, with the range of all panels that show the same. */
+static ParticleBuffers with_joint_range(const Panels *panels, int index,
+                                        const ParticleBuffers *const states[])
+{
+    ParticleBuffers state = *states[index];
+    const Scalar shown = panels->panels[index].def.color_by;
+    for (int i = 0; i < panels->count && follows(&panels->panels[index], shown, &state); i++) {
+        if (!follows(&panels->panels[i], shown, states[i]))
+            continue;
+        state.scalar_min[shown] = fmin(state.scalar_min[shown], states[i]->scalar_min[shown]);
+        state.scalar_max[shown] = fmax(state.scalar_max[shown], states[i]->scalar_max[shown]);
+    }
+    return state;
+}
+
+void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer)
+{
+    cover(panels);
+    for (int i = 0; i < panels->count; i++) {
+        const ParticleBuffers state = with_joint_range(panels, i, states);
+        renderer_draw(panels->panels[i].renderer, &state, timer);
+    }
+}
+
+void panels_range(const Panels *panels, int index, double range[2])
+{
+    renderer_range(panels->panels[index].renderer, range);
+}
+
+/* Of the line between panels, sRGB: dark on bright backgrounds. */
+static const uint8_t *line_color(const Panels *panels)
+{
+    static const uint8_t dark[3] = {0x1c, 0x22, 0x2a}, bright[3] = {0xf2, 0xf4, 0xf6};
+    const double *back = panels->panels[0].def.background;
+    return 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2] > 0.18 ? dark : bright;
+}
+
+bool panels_read(const Panels *panels, uint8_t *rgb, Error *error)
+{
+    const size_t width = (size_t)panels->width, height = (size_t)panels->height;
+    const uint8_t *line = line_color(panels);
+    if (panels->count == 1) {
+        renderer_read(panels->panels[0].renderer, rgb);
+        return true;
+    }
+    uint8_t *one = malloc(3 * width * height); /* each panel is smaller */
+    if (!one)
+        return error_set(error, "out of memory for a picture of %d x %d", panels->width, panels->height);
+    for (size_t i = 0; i < width * height; i++)
+        memcpy(rgb + 3 * i, line, 3);
+    for (int i = 0; i < panels->count; i++) {
+        const PanelPlace *at = &panels->places[i];
+        const size_t row = 3 * (size_t)at->width;
+        renderer_read(panels->panels[i].renderer, one);
+        for (size_t y = 0; y < (size_t)at->height; y++)
+            memcpy(rgb + 3 * (((size_t)at->y + y) * width + (size_t)at->x), one + y * row, row);
+    }
+    free(one);
+    return true;
+}
+
+void panels_present(const Panels *panels)
+{
+    const uint8_t *line = line_color(panels);
+    if (panels->count > 1) {
+        const GLfloat color[4] = {line[0] / 255.0F, line[1] / 255.0F, line[2] / 255.0F, 1};
+        glDisable(GL_FRAMEBUFFER_SRGB); /* encoded once is enough */
+        glDisable(GL_SCISSOR_TEST);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glClearBufferfv(GL_COLOR, 0, color);
+    }
+    for (int i = 0; i < panels->count; i++) {
+        const PanelPlace *at = &panels->places[i];
+        renderer_present(panels->panels[i].renderer, at->x, panels->height - at->y - at->height);
+    }
+    glViewport(0, 0, panels->width, panels->height);
+}

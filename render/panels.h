@@ -1,0 +1,56 @@
+/* Several pictures in one, each drawn by a renderer of its own into its panel: bit for bit what that renderer
+   draws alone at the panel's size. One panel is the whole picture.
+
+   Needs a current OpenGL 4.5 core context, and belongs to its thread. */
+#ifndef SLOSH_PANELS_H
+#define SLOSH_PANELS_H
+
+#include "render/frame/title.h"
+#include "render/renderer.h"
+
+enum { PANELS_MAX = 4, PANELS_LINE = 2 /* pixels at least between two panels */ };
+
+/* Pixels, from the left and the top of the picture. */
+typedef struct PanelPlace {
+    int x, y, width, height;
+} PanelPlace;
+
+/* Two lie side by side; three are one at the left and two at the right; four are two by two. Panels of two
+   and of four are equally large. False where the picture is too small for so many. */
+bool panels_place(int count, int width, int height, PanelPlace places[PANELS_MAX]);
+
+/* The panel at that place, or the nearest one. */
+int panels_at(const PanelPlace places[], int count, double x, double y);
+
+typedef struct Panels Panels;
+
+/* 1 to PANELS_MAX subjects, of which defs and worlds are copied. NULL on failure: as of renderer_create, or a
+   picture too small. */
+Panels *panels_create(const Subject subjects[], int count, int width, int height, Error *error);
+void panels_destroy(Panels *panels); /* NULL is allowed */
+
+int panels_count(const Panels *panels);
+const PanelPlace *panels_places(const Panels *panels);
+
+/* From the next picture on. On failure all stays as it was, as of renderer_set_def and renderer_resize. */
+bool panels_set_def(Panels *panels, int index, const ViewDef *def, const WorldDef *world, Error *error);
+bool panels_resize(Panels *panels, int width, int height, Error *error);
+bool panels_set_title(Panels *panels, int index, const Title *title, Error *error);
+
+/* That part of the picture's width, 0 .. 1, is covered on the left: several panels lie beside it, a single
+   one leaves it free as renderer_set_covered does. */
+bool panels_set_covered(Panels *panels, double left, Error *error);
+
+/* Draws a state in each panel. Panels whose range follows the state and that show the same scalar have one
+   range for all of them, from the least of their states to the greatest, so that a colour means the same.
+   Automatic cameras leave the widest legend its place, so that boxes that are alike lie alike. */
+void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer);
+
+/* The range of a panel in the last picture, in the unit of its scalar. */
+void panels_range(const Panels *panels, int index, double range[2]);
+
+/* The whole picture as renderer_read and renderer_present have one, with a thin line between panels. */
+bool panels_read(const Panels *panels, uint8_t *rgb, Error *error);
+void panels_present(const Panels *panels);
+
+#endif

@@ -1,0 +1,234 @@
+/* Panels: where they lie; each the bits of a renderer alone; one range for one scalar; titles. */
+#include "tests/render/fixture.h"
+
+#include "render/panels.h"
+
+enum { WIDTH = 401, HEIGHT = 301 };
+
+static void places_share_the_picture(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{640, 480}, {641, 481}, {7, 5}, {4, 4}};
+    PanelPlace p[PANELS_MAX];
+    for (int s = 0; s < 4; s++)
+        for (int count = 1; count <= PANELS_MAX; count++) {
+            const int width = sizes[s][0], height = sizes[s][1];
+            int pixels = 0;
+            assert_true(panels_place(count, width, height, p));
+            for (int i = 0; i < count; i++) {
+                assert_true(p[i].x >= 0 && p[i].y >= 0 && p[i].width > 0 && p[i].height > 0);
+                assert_true(p[i].x + p[i].width <= width && p[i].y + p[i].height <= height);
+                pixels += p[i].width * p[i].height;
+                assert_int_equal(panels_at(p, count, p[i].x + 0.5, p[i].y + 0.5), i);
+                for (int k = 0; k < i; k++) {
+                    assert_true(p[k].x + p[k].width + PANELS_LINE <= p[i].x ||
+                                p[k].y + p[k].height + PANELS_LINE <= p[i].y);
+                    assert_true(count == 3 || (p[k].width == p[i].width && p[k].height == p[i].height));
+                }
+            }
+            assert_true(count > 1 ? pixels < width * height : pixels == width * height);
+        }
+    assert_false(panels_place(2, 3, 100, p)); /* a line and one column of pixels */
+    assert_true(panels_place(2, 4, 1, p));
+    assert_false(panels_place(4, 100, 3, p));
+    assert_int_equal(panels_at(p, 2, -1e6, 1e6), 0);
+}
+
+/* Two states, the second faster. */
+typedef struct Stand {
+    Particles *particles[2];
+    Upload *uploads[2];
+    ParticleBuffers states[2];
+} Stand;
+
+static Stand stand_create(void)
+{
+    Stand stand;
+    for (int i = 0; i < 2; i++) {
+        stand.particles[i] = particles_wave(0.1);
+        for (size_t k = 0; i == 1 && k < stand.particles[i]->count; k++)
+            stand.particles[i]->speed[k] *= 3;
+        const ParticleBuffers box = box_state(stand.particles[i]->count, 0.1);
+        stand.uploads[i] = upload_particles(stand.particles[i], &box, &stand.states[i]);
+    }
+    return stand;
+}
+
+static void stand_destroy(Stand *stand)
+{
+    for (int i = 0; i < 2; i++) {
+        upload_destroy(stand->uploads[i]);
+        free(stand->particles[i]);
+    }
+}
+
+/* What a renderer alone draws of that state in that place, against the panel; from row `from` on. */
+static void assert_panel(const uint8_t *rgb, int width, const PanelPlace *at, const ViewDef *def,
+                         const WorldDef *world, const ParticleBuffers *particles, int from)
+{
+    static uint8_t alone[3 * WIDTH * HEIGHT];
+    Error error = {0};
+    Renderer *renderer = renderer_create(def, world, at->width, at->height, &error);
+    assert_non_null(renderer);
+    renderer_draw(renderer, particles, NULL);
+    renderer_read(renderer, alone);
+    renderer_destroy(renderer);
+    for (int y = from; y < at->height; y++)
+        assert_memory_equal(rgb + 3 * ((at->y + y) * width + at->x), alone + 3 * y * at->width,
+                            3 * (size_t)at->width);
+}
+
+static void panels_are_pictures_of_their_own(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDTH * HEIGHT];
+    static const char *const kinds[] = {"spheres", "slice", "volume", "splat"};
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef defs[PANELS_MAX];
+    Subject subjects[PANELS_MAX];
+    const ParticleBuffers *states[PANELS_MAX];
+    for (int i = 0; i < PANELS_MAX; i++) {
+        defs[i] = view_def_default();
+        text_set(defs[i].kind, kinds[i]);
+        defs[i].range_auto = i == 3;
+        defs[i].range[1] = 5;
+        subjects[i] = (Subject){&defs[i], &world};
+        states[i] = &stand.states[i % 2];
+    }
+    for (int count = 1; count <= PANELS_MAX; count++) {
+        Panels *panels = panels_create(subjects, count, 90, 90, &error);
+        assert_non_null(panels);
+        panels_draw(panels, states, NULL); /* what one picture leaves is no matter to the next one */
+        assert_true(panels_resize(panels, WIDTH, HEIGHT, &error));
+        panels_draw(panels, states, NULL);
+        assert_true(panels_read(panels, rgb, &error));
+        for (int i = 0; i < count; i++)
+            assert_panel(rgb, WIDTH, &panels_places(panels)[i], &defs[i], &world, states[i], 0);
+        assert_false(panels_resize(panels, 1 << 20, 4, &error));
+        panels_draw(panels, states, NULL);
+        assert_true(panels_read(panels, rgb, &error));
+        assert_panel(rgb, WIDTH, &panels_places(panels)[0], &defs[0], &world, states[0], 0);
+        panels_destroy(panels);
+    }
+    assert_null(panels_create(subjects, 4, 3, 300, &error));
+    assert_non_null(strstr(error.message, "3 x 300 pixels has no room for 4 panels"));
+    stand_destroy(&stand);
+}
+
+static void a_scalar_has_one_range(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDTH * HEIGHT];
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef def = view_def_default(), by_fluid = def;
+    by_fluid.color_by = SCALAR_FLUID;
+    const Subject subjects[] = {{&def, &world}, {&def, &world}, {&by_fluid, &world}};
+    const ParticleBuffers *states[] = {&stand.states[0], &stand.states[1], &stand.states[0]};
+    Panels *panels = panels_create(subjects, 2, WIDTH, HEIGHT, &error);
+    double ranges[2][2];
+    panels_draw(panels, states, NULL);
+    for (int i = 0; i < 2; i++)
+        panels_range(panels, i, ranges[i]);
+    assert_memory_equal(ranges[0], ranges[1], sizeof ranges[0]);
+    assert_true(ranges[0][0] == stand.states[0].scalar_min[SCALAR_SPEED]);
+    assert_true(ranges[0][1] == stand.states[1].scalar_max[SCALAR_SPEED]);
+    ViewDef fixed = def;
+    fixed.range_auto = false;
+    memcpy(fixed.range, ranges[0], sizeof fixed.range);
+    assert_true(panels_read(panels, rgb, &error));
+    for (int i = 0; i < 2; i++)
+        assert_panel(rgb, WIDTH, &panels_places(panels)[i], &fixed, &world, states[i], 0);
+    assert_true(panels_set_def(panels, 1, &fixed, &world, &error)); /* then the other one is alone */
+    panels_draw(panels, states, NULL);
+    panels_range(panels, 0, ranges[0]);
+    assert_true(ranges[0][1] == stand.states[0].scalar_max[SCALAR_SPEED]);
+    panels_destroy(panels);
+    panels = panels_create(subjects + 1, 2, WIDTH, HEIGHT, &error);
+    panels_draw(panels, states + 1, NULL); /* fluids have no range */
+    panels_range(panels, 0, ranges[0]);
+    assert_true(ranges[0][1] == stand.states[1].scalar_max[SCALAR_SPEED]);
+    panels_destroy(panels);
+    stand_destroy(&stand);
+}
+
+/* The places of boxes that are alike are so too, though one legend is wide and the other narrow. */
+static void cameras_are_the_same(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDTH * HEIGHT];
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef def = view_def_default(), none = def;
+    text_set(def.kind, "none");
+    text_set(none.kind, "none");
+    none.legend = false;
+    const Subject subjects[] = {{&none, &world}, {&def, &world}};
+    const ParticleBuffers *states[] = {&stand.states[0], &stand.states[0]};
+    Panels *panels = panels_create(subjects, 2, WIDTH, HEIGHT, &error);
+    panels_draw(panels, states, NULL);
+    assert_true(panels_read(panels, rgb, &error));
+    const PanelPlace *p = panels_places(panels);
+    for (int y = 0; y < HEIGHT - 25; y++) /* but the time; the legend is on the right */
+        assert_memory_equal(rgb + 3 * (y * WIDTH + p[0].x), rgb + 3 * (y * WIDTH + p[1].x),
+                            3 * (size_t)(p[0].width / 2));
+    panels_destroy(panels);
+    stand_destroy(&stand);
+}
+
+static void a_title_covers_its_rows_alone(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDTH * HEIGHT], bare[3 * WIDTH * HEIGHT];
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef def = view_def_default();
+    def.legend = false;
+    def.range_auto = false;
+    def.range[1] = 5;
+    const Subject subjects[] = {{&def, &world}, {&def, &world}};
+    const ParticleBuffers *states[] = {&stand.states[0], &stand.states[1]};
+    Panels *panels = panels_create(subjects, 2, WIDTH, HEIGHT, &error);
+    const PanelPlace *p = panels_places(panels);
+    panels_draw(panels, states, NULL);
+    assert_true(panels_read(panels, bare, &error));
+    Title title = {"a", "b"};
+    const int rows = title_rows(&title, HEIGHT);
+    memset(title.words, 'W', TITLE_SIZE - 1); /* as wide as it can be */
+    assert_true(panels_set_title(panels, 0, &title, &error));
+    panels_draw(panels, states, NULL);
+    assert_true(panels_read(panels, rgb, &error));
+    assert_true(rows > 20 && rows < HEIGHT / 4);
+    assert_memory_not_equal(rgb, bare, 3 * (size_t)(WIDTH * rows));
+    for (int y = 0; y < rows; y++) { /* it ends before the panel does, and is that panel's alone */
+        const size_t at = 3 * (size_t)(y * WIDTH + p[0].width - 8);
+        assert_memory_equal(rgb + at, bare + at, 3 * (size_t)(WIDTH - p[0].width + 8));
+    }
+    assert_memory_equal(rgb + 3 * WIDTH * rows, bare + 3 * WIDTH * rows,
+                        3 * (size_t)(WIDTH * (HEIGHT - rows)));
+    title.words[0] = 0;
+    assert_int_equal(title_rows(&title, HEIGHT), 0);
+    assert_true(panels_set_title(panels, 0, &title, &error));
+    panels_draw(panels, states, NULL);
+    assert_true(panels_read(panels, rgb, &error));
+    assert_memory_equal(rgb, bare, sizeof rgb);
+    panels_destroy(panels);
+    stand_destroy(&stand);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(places_share_the_picture),
+        cmocka_unit_test_teardown(panels_are_pictures_of_their_own, no_gl_errors),
+        cmocka_unit_test_teardown(a_scalar_has_one_range, no_gl_errors),
+        cmocka_unit_test_teardown(cameras_are_the_same, no_gl_errors),
+        cmocka_unit_test_teardown(a_title_covers_its_rows_alone, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
