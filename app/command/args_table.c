@@ -139,6 +139,8 @@ const OptionRow option_rows[] = {
      .help = "GPU stages by GL timer queries, or by glFinish and the CPU's clock"},
     {"--sweep", "KEY=A,B,...", BENCH, OPTION_SWEEP, AT(sweeps),
      .help = "measure with each value: particles, backend, method, view, threads or any scene key; repeat for a product"},
+    {"--compare", "KEY=A,B,...", RENDER, OPTION_SWEEP, AT(sweeps),
+     .help = "two or four settings side by side in one picture: particles, backend, method, view or any scene key; twice with two values each for all four"},
     {"--set", "PATH=VALUE", ALL, OPTION_SETTING, AT(settings),
      .help = "any key of the scene, such as solver.step.dt=0.01; repeat for more"},
     {"--particles", "N", ALL, OPTION_PARTICLES, AT(settings.particles), .min = 1, .max = 2147483647,

@@ -1,6 +1,7 @@
 #include "app/command/bench_plan.h"
 
 #include "app/lab/chart.h"
+#include "app/session/sweep.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,7 +82,6 @@ bool plan_make(const Args *args, Plan *plan, Error *error)
     *plan = (Plan){.args = args,
                    .scenes = args->scenes,
                    .scene_count = (size_t)args->scene_count,
-                   .combinations = 1,
                    .settings = args->settings,
                    .sweep_count = args->sweep_count};
     memcpy(plan->sweeps, args->sweeps, sizeof plan->sweeps);
@@ -96,33 +96,26 @@ bool plan_make(const Args *args, Plan *plan, Error *error)
     if (args->micro && !plan_micro(plan, error))
         return false;
     for (int i = 0; i < plan->sweep_count; i++)
-        plan->combinations *= (size_t)plan->sweeps[i].count;
+        if (plan->sweeps[i].count < 1)
+            return error_set(error, "the sweep of %s has no values", plan->sweeps[i].key);
+    plan->combinations = sweeps_combinations(plan->sweeps, plan->sweep_count);
     return true;
 }
 
 /* Words for the swept settings of one case: what messages call them, with the setting itself behind. */
-typedef char SweptTexts[ARGS_SWEEPS_MAX][512];
+typedef char SweptTexts[ARGS_SWEEPS_MAX][SWEEP_SAID];
 
 static bool case_settings(const Plan *plan, size_t combination, SweptTexts texts, SceneSettings *settings,
                           Error *error)
 {
     *settings = plan->settings;
     for (int i = plan->sweep_count - 1; i >= 0; i--) {
-        const Sweep *sweep = &plan->sweeps[i];
-        if (sweep->count < 1)
-            return error_set(error, "the sweep of %s has no values", sweep->key);
-        const char *value = sweep->values[combination % (size_t)sweep->count];
-        combination /= (size_t)sweep->count;
-        if (strcmp(sweep->key, "particles") == 0) {
-            settings->particles = strtoul(value, NULL, 10);
-            continue;
-        }
-        if (settings->count == SCENE_SETTINGS_MAX)
-            return error_set(error, "more than %d settings; write them into the scene file",
-                             SCENE_SETTINGS_MAX);
-        snprintf(texts[i], sizeof texts[i], "--sweep %s=%s", sweep->key, value);
-        settings->said[settings->count] = plan->table ? plan->narrowed[i] : texts[i];
-        settings->set[settings->count++] = texts[i] + strlen("--sweep ");
+        const int before = settings->count;
+        if (!sweep_set(plan->sweeps[i].key, sweeps_value(plan->sweeps, plan->sweep_count, i, combination),
+                       "--sweep", texts[i], settings, error))
+            return false;
+        if (plan->table && settings->count > before)
+            settings->said[before] = plan->narrowed[i];
     }
     return true;
 }
@@ -134,14 +127,7 @@ size_t plan_cases(const Plan *plan)
 
 void plan_case_name(const Plan *plan, size_t index, char *name, size_t size)
 {
-    size_t used = 0, behind = plan->combinations;
-    snprintf(name, size, "%s", "");
-    for (int i = 0; i < plan->sweep_count && used < size; i++) {
-        const Sweep *sweep = &plan->sweeps[i];
-        behind /= (size_t)sweep->count;
-        used += (size_t)snprintf(name + used, size - used, "%s%s=%s", i ? ", " : "", sweep->key,
-                                 sweep->values[index / behind % (size_t)sweep->count]);
-    }
+    sweeps_name(plan->sweeps, plan->sweep_count, index % plan->combinations, "=", name, size);
 }
 
 bool plan_case_load(const Plan *plan, size_t index, bool tell, Scene *scene, Error *error)

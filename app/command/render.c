@@ -2,88 +2,34 @@
 #include "app/base/json_file.h"
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
+#include "app/command/render_plan.h"
+#include "app/command/render_report.h"
 #include "app/output/pictures.h"
-#include "app/session/between.h"
-#include "app/session/session.h"
-#include "app/session/studio.h"
-#include "sim/gl/debug.h"
+#include "app/session/shoot.h"
+#include "sim/base/stage.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
-
-/* A studio and the last picture. */
-typedef struct Shoot {
-    Studio studio;
-    bool interpolates;
-    Upload *upload;               /* of what is between two states; NULL: none is asked for */
-    Still before, after, between; /* the state before the last step, and so on */
-    Image image;
-    uint64_t drawn_step; /* of the state in `image` */
-    bool drawn;
-} Shoot;
-
-static bool shoot_open(Shoot *shoot, const Session *session, const Args *args, Error *error)
-{
-    if (!studio_open(&shoot->studio, &session->scene.view, &session->scene.world, session->world, args->width,
-                     args->height, error))
-        return false;
-    shoot->interpolates = args->interpolate && session->scene.world.step_mode == STEP_FIXED;
-    if (shoot->interpolates &&
-        !(shoot->upload = upload_create(2 * session->info.capacity, shoot->studio.attributes, error)))
-        return false;
-    return image_create(&shoot->image, args->width, args->height) ||
-           error_set(error, "out of memory for a picture of %d x %d", args->width, args->height);
-}
-
-static void shoot_close(Shoot *shoot)
-{
-    image_destroy(&shoot->image);
-    still_free(&shoot->before);
-    still_free(&shoot->after);
-    still_free(&shoot->between);
-    upload_destroy(shoot->upload);
-    studio_close(&shoot->studio);
-}
-
-static bool draw_between(Shoot *shoot, Session *session, double time, Error *error)
-{
-    const unsigned attributes = shoot->studio.attributes;
-    ParticleBuffers particles;
-    if (!still_read(&shoot->after, session->world, attributes) ||
-        !still_reserve(&shoot->between, shoot->before.state.count + shoot->after.state.count, attributes) ||
-        !between_states(&shoot->before, &shoot->after, session->scene.world.periodic, time, &shoot->between))
-        return error_set(error, "out of memory for a picture between two states");
-    if (!upload_arrays(shoot->upload, &shoot->between.arrays, &shoot->between.state, error) ||
-        !upload_take(shoot->upload, &particles))
-        return false;
-    renderer_draw(shoot->studio.renderer, &particles, NULL);
-    renderer_read(shoot->studio.renderer, shoot->image.rgb);
-    shoot->drawn = false;
-    return true;
-}
-
-/* A state that serves two pictures is drawn once. */
-static bool shoot_draw(Shoot *shoot, Session *session, double time, Error *error)
-{
-    if (shoot->interpolates && shoot->before.state.count > 0 &&
-        session->info.time > time + 1e-6 * session->scene.world.dt)
-        return draw_between(shoot, session, time, error);
-    if (shoot->drawn && shoot->drawn_step == session->info.step)
-        return true;
-    if (!studio_draw(&shoot->studio, session->world, NULL, NULL, error))
-        return false;
-    renderer_read(shoot->studio.renderer, shoot->image.rgb);
-    shoot->drawn = true;
-    shoot->drawn_step = session->info.step;
-    return true;
-}
+#include <stdlib.h>
+#include <string.h>
 
 /* When the pictures are taken: `count` of them, `interval` seconds apart from `first` on. */
 typedef struct Schedule {
     double first, interval;
     size_t count;
 } Schedule;
+
+/* All of one call. */
+typedef struct Render {
+    const Args *args;
+    RenderPlan plan;
+    Session sessions[PANELS_MAX]; /* of each world; the first has the context */
+    Shoot shoot;
+    Pictures *pictures;
+    Schedule schedule;
+    Progress progress;
+    RenderFigures figures;
+} Render;
 
 static Schedule make_schedule(const Args *args, PicturesKind kind)
 {
@@ -93,63 +39,96 @@ static Schedule make_schedule(const Args *args, PicturesKind kind)
     return (Schedule){0, 1 / args->fps, (size_t)count};
 }
 
-/* Work done by now: by simulated time, since the solver takes most of it. */
-static double fraction_done(const Session *session, const Schedule *schedule, size_t pictures)
+static void make_panel(const Render *render, int index, ShootPanel *panel)
 {
-    double last = schedule->first + schedule->interval * (double)(schedule->count - 1);
-    return last > 0 ? session->info.time / last : (double)pictures / (double)schedule->count;
+    const RenderPlan *plan = &render->plan;
+    *panel =
+        (ShootPanel){.session = &render->sessions[plan->world_of[index]], .view = &plan->scenes[index].view};
+    render_plan_title(plan, render->sessions, index, &panel->title);
 }
 
-static bool advance(Session *session, Shoot *shoot, double time, const Schedule *schedule, size_t pictures,
-                    Progress *progress, Error *error)
+static bool open_shoot(Render *render, Error *error)
 {
+    ShootPanel panels[PANELS_MAX];
+    const RenderPlan *plan = &render->plan;
+    for (int i = 0; i < plan->panel_count; i++)
+        make_panel(render, i, &panels[i]);
+    return shoot_open(&render->shoot, panels, plan->panel_count, render->args->interpolate,
+                      render->args->width, render->args->height, error);
+}
+
+/* Work done by now: by simulated time, since the solver takes most of it. */
+static double fraction_done(const Render *render)
+{
+    const Schedule *schedule = &render->schedule;
+    const double last = schedule->first + schedule->interval * (double)(schedule->count - 1);
+    double simulated = 0;
+    for (int i = 0; i < render->plan.world_count; i++)
+        simulated += render->sessions[i].info.time / render->plan.world_count;
+    return last > 0 ? simulated / last : (double)render->figures.pictures / (double)schedule->count;
+}
+
+/* False, with the session's name before the reason. */
+static bool blame(const Session *session, Error *error)
+{
+    const Error reason = *error;
+    return error_set(error, "%s%s", session->prefix, reason.message);
+}
+
+static bool advance(Render *render, int world, double time, Error *error)
+{
+    Session *session = &render->sessions[world];
+    const bool interpolates = shoot_interpolates(&render->shoot, session);
     world_stop_at(session->world, time);
     while (!session_reached(session, time) && !interrupted()) {
         const bool last = session->info.time + 1.001 * session->scene.world.dt >= time;
-        if (shoot->interpolates && last &&
-            !still_read(&shoot->before, session->world, shoot->studio.attributes))
-            return error_set(error, "out of memory for a picture between two states");
-        if (!session_step(session, error))
-            return false;
-        progress_update(progress, fraction_done(session, schedule, pictures));
+        const double began = wall_ms();
+        if ((interpolates && last && !shoot_keep(&render->shoot, session, error)) ||
+            !session_step(session, error))
+            return blame(session, error);
+        render->figures.step_seconds[world] += 1e-3 * (wall_ms() - began);
+        progress_update(&render->progress, fraction_done(render));
     }
     return true;
 }
 
-/* Each picture is of the first state at or after its time. After a signal only a file that has none yet gets
-   one more. Returns how many there are, 0 on failure. */
-static size_t take_pictures(Session *session, Shoot *shoot, Pictures *pictures, const Schedule *schedule,
-                            Progress *progress, Error *error)
+static bool take_picture(Render *render, double time, Error *error)
 {
-    size_t taken = 0;
-    while (taken < schedule->count) {
-        double time = schedule->first + schedule->interval * (double)taken;
-        if (!advance(session, shoot, time, schedule, taken, progress, error))
-            return 0;
-        if (interrupted() && taken > 0)
-            break;
-        if (!shoot_draw(shoot, session, time, error) || !pictures_add(pictures, &shoot->image, error))
-            return 0;
-        taken++;
-        progress_update(progress, fraction_done(session, schedule, taken));
+    const RenderPlan *plan = &render->plan;
+    Shoot *shoot = &render->shoot;
+    ShootPanel panel = {.session = NULL};
+    for (int i = 0; i < plan->panel_count; i++) {
+        make_panel(render, i, &panel);
+        if (!shoot_set_title(shoot, i, &panel.title, error))
+            return false;
     }
-    return taken;
+    if (!shoot_draw(shoot, time, error) || !pictures_add(render->pictures, &shoot->image, error))
+        return false;
+    for (int i = 0; i < plan->panel_count; i++)
+        for (int k = 0; k < i; k++)
+            render->figures.differ[i][k] |= !shoot_same(shoot, i, k, &panel.title);
+    render->figures.pictures++;
+    render->figures.apart = fmax(render->figures.apart, shoot_spread(shoot));
+    progress_update(&render->progress, fraction_done(render));
+    return true;
 }
 
-static int report(const Session *session, const Args *args, const Schedule *schedule, size_t taken,
-                  Error *error)
+/* Each picture is of the first state of each world at or after its time. After a signal only a file that has
+   none yet gets one more. */
+static bool take_pictures(Render *render, Error *error)
 {
-    bool late = schedule->count == 1 && !session_reached(session, schedule->first);
-    Summary summary = {.command = "render",
-                       .product = "pictures",
-                       .products = taken,
-                       .renderer = headless_renderer(session->context),
-                       .stopped = taken < schedule->count || late};
-    session_report(session, args, &summary);
-    if (session_write_json(session, args, &summary, error))
-        return summary.stopped ? EXIT_INTERRUPTED : 0;
-    fprintf(stderr, "%s\n", error->message);
-    return EXIT_FAILED;
+    const Schedule *schedule = &render->schedule;
+    while (render->figures.pictures < schedule->count) {
+        const double time = schedule->first + schedule->interval * (double)render->figures.pictures;
+        for (int i = 0; i < render->plan.world_count; i++)
+            if (!advance(render, i, time, error))
+                return false;
+        if (interrupted() && render->figures.pictures > 0)
+            break;
+        if (!take_picture(render, time, error))
+            return false;
+    }
+    return true;
 }
 
 /* Frames of two runs in one folder would make a strange film. */
@@ -161,36 +140,60 @@ static void warn_of_older(const Pictures *pictures, size_t taken)
 }
 
 /* What there is of pictures is of no use. */
-static int fail(const Session *session, const Args *args, const Error *error)
+static int fail(const Render *render, const Error *error)
 {
+    const Session *first = &render->sessions[0];
     const Summary summary = {.command = "render",
                              .product = "pictures",
-                             .renderer = session->context ? headless_renderer(session->context) : NULL};
-    return session_fail(session, args, &summary, error);
+                             .renderer = first->context ? headless_renderer(first->context) : NULL};
+    return session_fail(first, render->args, &summary, error);
 }
 
-static int render(Session *session, const Args *args, PicturesKind kind, Pictures *pictures, Error *error)
+static int report(Render *render, Error *error)
 {
-    Shoot shoot = {.drawn = false};
-    Progress progress;
-    Schedule schedule = make_schedule(args, kind);
-    size_t taken = 0;
-    if (args->interpolate && session->scene.world.step_mode == STEP_CFL)
-        fprintf(stderr, "--interpolate has no effect: in mode cfl states fall on the pictures' times\n");
-    if (schedule.count > 1 && !args->interpolate)
-        session_tell_uneven(session, "pictures", schedule.interval);
-    if (shoot_open(&shoot, session, args, error)) {
-        progress_begin(&progress, stderr, "render", args->quiet);
-        taken = take_pictures(session, &shoot, pictures, &schedule, &progress, error);
-        progress_end(&progress);
+    RenderFigures *figures = &render->figures;
+    const Schedule *schedule = &render->schedule;
+    figures->stopped = figures->pictures < schedule->count;
+    for (int i = 0; schedule->count == 1 && i < render->plan.world_count; i++)
+        figures->stopped |= !session_reached(&render->sessions[i], schedule->first);
+    render_report(&render->plan, render->sessions, figures);
+    if (render_write_json(&render->plan, render->sessions, &render->shoot, figures, error))
+        return figures->stopped ? EXIT_INTERRUPTED : 0;
+    fprintf(stderr, "%s\n", error->message);
+    return EXIT_FAILED;
+}
+
+/* What of the schedule will not be as one may expect. */
+static void tell_times(const Render *render)
+{
+    for (int i = 0; i < render->plan.world_count; i++) {
+        const Session *session = &render->sessions[i];
+        if (render->args->interpolate && session->scene.world.step_mode == STEP_CFL)
+            fprintf(stderr, "%s--interpolate has no effect: in mode cfl states fall on the pictures' times\n",
+                    session->prefix);
+        if (render->schedule.count > 1 && !render->args->interpolate)
+            session_tell_uneven(session, "pictures", render->schedule.interval);
     }
-    warn_of_older(pictures, taken);
-    if (taken == 0)
-        pictures_discard(pictures);
-    else if (!pictures_finish(pictures, error))
-        taken = 0;
-    const int code = taken > 0 ? report(session, args, &schedule, taken, error) : fail(session, args, error);
-    shoot_close(&shoot);
+}
+
+static int shoot_all(Render *render, PicturesKind kind, Error *error)
+{
+    bool taken = false;
+    render->schedule = make_schedule(render->args, kind);
+    tell_times(render);
+    if (open_shoot(render, error)) {
+        progress_begin(&render->progress, stderr, "render", render->args->quiet);
+        taken = take_pictures(render, error);
+        progress_end(&render->progress);
+    }
+    const size_t count = taken ? render->figures.pictures : 0;
+    warn_of_older(render->pictures, count);
+    if (!taken)
+        pictures_discard(render->pictures);
+    else
+        taken = pictures_finish(render->pictures, error);
+    const int code = taken ? report(render, error) : fail(render, error);
+    shoot_close(&render->shoot);
     return code;
 }
 
@@ -205,23 +208,53 @@ static bool understand(const Args *args, PicturesKind *kind, Error *error)
                      args->output);
 }
 
+/* A world each, in the context of the first. */
+static int open_sessions(Render *render, Error *error)
+{
+    RenderPlan *plan = &render->plan;
+    for (int i = 0; i < plan->world_count; i++) {
+        const int code =
+            session_open_scene(&render->sessions[i], render->args, &plan->scenes[plan->panel_of[i]],
+                               plan->worlds[i], i > 0 ? render->sessions[0].context : NULL, error);
+        if (code == 0)
+            continue;
+        blame(&render->sessions[i], error);
+        return code;
+    }
+    return 0;
+}
+
+static int open_all(Render *render, PicturesKind *kind, Error *error)
+{
+    const Args *args = render->args;
+    if (!understand(args, kind, error) || !render_plan_make(args, &render->plan, error))
+        return EXIT_USAGE;
+    return open_sessions(render, error);
+}
+
 int cmd_render(const Args *args)
 {
-    Session session = {.world = NULL};
+    Render *render = calloc(1, sizeof *render);
     Error error = {{0}};
     PicturesKind kind;
-    Pictures *pictures = NULL;
     interrupt_install();
-    int code = understand(args, &kind, &error) ? session_open(&session, args, true, &error) : EXIT_USAGE;
+    if (!render) {
+        fprintf(stderr, "no memory for the scene\n");
+        return EXIT_FAILED;
+    }
+    render->args = args;
+    int code = open_all(render, &kind, &error);
     if (code == EXIT_USAGE || (code == 0 && args->json && !json_file_check(args->json, &error))) {
         fprintf(stderr, "%s\n", error.message);
         code = code == 0 ? EXIT_FAILED : code;
-    } else if (code != 0 ||
-               !(pictures = pictures_create(args->output, args->width, args->height, args->fps, &error))) {
-        code = fail(&session, args, &error);
+    } else if (code != 0 || !(render->pictures = pictures_create(args->output, args->width, args->height,
+                                                                 args->fps, &error))) {
+        code = fail(render, &error);
     } else {
-        code = render(&session, args, kind, pictures, &error);
+        code = shoot_all(render, kind, &error);
     }
-    session_close(&session);
+    for (int i = PANELS_MAX; i-- > 0;)
+        session_close(&render->sessions[i]);
+    free(render);
     return code;
 }

@@ -246,8 +246,7 @@ int cmd_run(const Args *args)
     Session session = {.world = NULL};
     Error error = {{0}};
     interrupt_install();
-    int code =
-        snapshot_series_name(args->output, &error) ? session_open(&session, args, false, &error) : EXIT_USAGE;
+    int code = snapshot_series_name(args->output, &error) ? session_open(&session, args, &error) : EXIT_USAGE;
     if (code == 0)
         code = run(&session, args, &error);
     else if (code == EXIT_FAILED)

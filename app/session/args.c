@@ -150,14 +150,14 @@ static size_t value_length(const char *text)
     return length;
 }
 
-static bool parse_sweep(const Parser *parser, const char *text)
+static bool parse_sweep(const Parser *parser, const OptionRow *option, const char *text)
 {
     Args *args = parser->args;
     const char *equals = strchr(text, '=');
     if (!equals || equals == text || !equals[1])
-        return fail(parser, "--sweep takes KEY=A,B,... such as threads=1,2, not '%.60s'", text);
+        return fail(parser, "%s takes KEY=A,B,... such as threads=1,2, not '%.60s'", option->name, text);
     if (args->sweep_count == ARGS_SWEEPS_MAX)
-        return fail(parser, "more than %d times --sweep; use fewer", ARGS_SWEEPS_MAX);
+        return fail(parser, "more than %d times %s; use fewer", ARGS_SWEEPS_MAX, option->name);
     Sweep *sweep = &args->sweeps[args->sweep_count++];
     const char *name = keep(args, text, (size_t)(equals - text));
     sweep->key = name ? sweep_key(name) : NULL;
@@ -166,13 +166,14 @@ static bool parse_sweep(const Parser *parser, const char *text)
         const size_t length = value_length(at);
         const char *value = keep(args, at, length);
         if (!name || !value || sweep->count == ARGS_SWEEP_VALUES_MAX)
-            return fail(parser, "--sweep %.60s: too long; use fewer values", text);
+            return fail(parser, "%s %.60s: too long; use fewer values", option->name, text);
         double count;
         if (strcmp(name, "particles") == 0 &&
             !(number_parse(value, &count) && count >= 1 && count < 0x1p31 && count == floor(count)))
-            return fail(parser, "--sweep particles takes whole numbers from 1 on, not '%.60s'", value);
+            return fail(parser, "%s particles takes whole numbers from 1 on, not '%.60s'", option->name,
+                        value);
         if (length == 0)
-            return fail(parser, "--sweep %.60s: a value is empty; write KEY=A,B,...", text);
+            return fail(parser, "%s %.60s: a value is empty; write KEY=A,B,...", option->name, text);
         sweep->values[sweep->count++] = value;
     }
     return true;
@@ -224,7 +225,7 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
     case OPTION_SETTING:
         return parse_setting(parser, option, text);
     case OPTION_SWEEP:
-        return parse_sweep(parser, text);
+        return parse_sweep(parser, option, text);
     case OPTION_AXIS:
         return parse_axis(parser, text);
     case OPTION_DEVICE:

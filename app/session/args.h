@@ -49,8 +49,8 @@ typedef enum ColorChoice {
     COLOR_CHOICE_PRESSURE
 } ColorChoice;
 
-/* --sweep KEY=a,b,c: `key` is "particles" or the path of a scene key (backend, method, view and threads are
-   written out: solver.backend, ...). */
+/* --sweep KEY=a,b,c of bench, --compare KEY=a,b of render: `key` is "particles" or the path of a scene key
+   (backend, method, view and threads are written out: solver.backend, ...). */
 typedef struct Sweep {
     const char *key;
     int count;

@@ -17,19 +17,19 @@
 static const double ROUNDING = 1e-6;
 
 /* A run that goes on from its file: its tables may be gone, and its world begins as the file does. */
-static int start_again(Session *session, const Args *args, bool draws, Error *error)
+static int start_again(Session *session, const Args *args, Error *error)
 {
     SnapshotFirst first = {.position = NULL};
     if (!snapshot_first(args->output, &first, error))
         return EXIT_USAGE;
     session->scene.world.initial = &first.initial;
-    const int code = session_start(session, args->gpu, draws, error);
+    const int code = session_start(session, args->gpu, false, error);
     session->scene.world.initial = NULL;
     snapshot_first_free(&first);
     return code;
 }
 
-int session_open(Session *session, const Args *args, bool draws, Error *error)
+int session_open(Session *session, const Args *args, Error *error)
 {
     Notes notes;
     SceneSettings settings = args->settings;
@@ -44,8 +44,20 @@ int session_open(Session *session, const Args *args, bool draws, Error *error)
         return EXIT_USAGE;
     session->watch.closed = !session->hand;
     return settings.goes_on && scene_has_tables(&session->scene)
-               ? start_again(session, args, draws, error)
-               : session_start(session, args->gpu, draws, error);
+               ? start_again(session, args, error)
+               : session_start(session, args->gpu, false, error);
+}
+
+int session_open_scene(Session *session, const Args *args, const Scene *scene, const char *name,
+                       Headless *context, Error *error)
+{
+    *session = (Session){.began_ms = wall_ms(), .scene = *scene, .context = context, .borrows = context};
+    snprintf(session->prefix, sizeof session->prefix, "%s%s", name, *name ? ": " : "");
+    if (args->device &&
+        !(session->hand = hand_replay_open(args->device, args->mapping, &session->scene, error)))
+        return EXIT_USAGE;
+    session->watch.closed = !session->hand;
+    return session_start(session, args->gpu, true, error);
 }
 
 int session_start(Session *session, int gpu, bool draws, Error *error)
@@ -53,7 +65,7 @@ int session_start(Session *session, int gpu, bool draws, Error *error)
     const bool on_gpu = world_on_gpu(&session->scene.world);
     if (!world_can(&session->scene.world, error))
         return EXIT_USAGE;
-    if (on_gpu || draws) {
+    if ((on_gpu || draws) && !session->context) {
         session->context = headless_create(gpu, error);
         if (!session->context)
             return EXIT_FAILED;
@@ -69,7 +81,8 @@ int session_start(Session *session, int gpu, bool draws, Error *error)
 void session_close(Session *session)
 {
     world_destroy(session->world);
-    headless_destroy(session->context);
+    if (!session->borrows)
+        headless_destroy(session->context);
     hand_replay_close(session->hand);
     session->hand = NULL;
     session->world = NULL;
@@ -86,10 +99,15 @@ void session_tell_uneven(const Session *session, const char *what, double interv
     const double dt = session->scene.world.dt, frames = fmax(1, round(interval / dt));
     if (session->scene.world.step_mode == STEP_FIXED && fabs(interval / dt - frames) > ROUNDING * frames)
         fprintf(stderr,
-                "%s are at uneven times: a frame of %.4g s does not divide the %.4g s between them; "
+                "%s%s are at uneven times: a frame of %.4g s does not divide the %.4g s between them; "
                 "--set solver.step.dt=%.6g, --set solver.step.mode=cfl%s makes them even\n",
-                what, dt, interval, interval / frames,
+                session->prefix, what, dt, interval, interval / frames,
                 strcmp(what, "pictures") == 0 ? " or --interpolate" : "");
+}
+
+static void tell(const Session *session, const char *words)
+{
+    fprintf(stderr, "%s%s\n", session->prefix, words);
 }
 
 /* After a step: what is there now, and what the sentinel did. */
@@ -98,15 +116,15 @@ static void look(Session *session)
     char words[256];
     world_info(session->world, &session->info);
     if (session_trouble_is_new(&session->told_trouble, &session->info.trouble))
-        fprintf(stderr, "%s\n", session_trouble_text(&session->info.trouble, words));
+        tell(session, session_trouble_text(&session->info.trouble, words));
     if (session->info.full && !session->told_full)
-        fprintf(stderr, "%s\n", session_full_text(&session->info, words));
+        tell(session, session_full_text(&session->info, words));
     session->told_full |= session->info.full;
     if (session->info.lost && !session->told_lost)
-        fprintf(stderr, "%s\n", session_lost_text(&session->info, words));
+        tell(session, session_lost_text(&session->info, words));
     session->told_lost |= session->info.lost > 0;
     if (session->info.unlisted && !session->told_unlisted)
-        fprintf(stderr, "%s\n", session_unlisted_text(&session->info, words));
+        tell(session, session_unlisted_text(&session->info, words));
     session->told_unlisted |= session->info.unlisted > 0;
 }
 
@@ -166,7 +184,7 @@ bool session_substep(Session *session, Error *error)
     const bool stepped = world_substep(session->world, NULL, error);
     look(session);
     if (stepped && fluid_watch(&session->watch, &session->scene.world, session->world, words))
-        fprintf(stderr, "%s\n", words);
+        tell(session, words);
     return stepped;
 }
 
@@ -188,7 +206,6 @@ void session_report(const Session *session, const Args *args, const Summary *sum
 {
     const WorldInfo *info = &session->info;
     const double wall = wall_seconds(session);
-    char words[SOLVED_WORDS], bounds[LIMITS_WORDS];
     if (summary->stopped)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", info->time, args->output);
     if (!args->quiet)
@@ -196,16 +213,23 @@ void session_report(const Session *session, const Args *args, const Summary *sum
                 info->count, plural(info->count), info->time, wall, info->time / wall, args->output,
                 summary->products, (int)strlen(summary->product) - (summary->products == 1),
                 summary->product);
-    if (info->trouble.count > 0)
-        fprintf(stderr, "the step was halved %u time%s in all after trouble\n", info->trouble.count,
-                plural(info->trouble.count));
-    if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
-        fprintf(stderr, "steps bounded by %s\n", limits_text(info->limited, bounds));
-    if (!args->quiet && info->solved.steps > 0)
-        fprintf(stderr, "%s\n", solved_text(&info->solved, words));
+    session_report_steps(session, args);
     if (!args->quiet && summary->compression)
         fprintf(stderr, "snapshots are pressed by %.3g %% in the mean, %.3g %% at the 99.9th percentile\n",
                 100 * summary->compression->mean, 100 * summary->compression->p999);
+}
+
+void session_report_steps(const Session *session, const Args *args)
+{
+    const WorldInfo *info = &session->info;
+    char words[SOLVED_WORDS], bounds[LIMITS_WORDS];
+    if (info->trouble.count > 0)
+        fprintf(stderr, "%sthe step was halved %u time%s in all after trouble\n", session->prefix,
+                info->trouble.count, plural(info->trouble.count));
+    if (!args->quiet && session->scene.world.step_mode == STEP_CFL)
+        fprintf(stderr, "%ssteps bounded by %s\n", session->prefix, limits_text(info->limited, bounds));
+    if (!args->quiet && info->solved.steps > 0)
+        tell(session, solved_text(&info->solved, words));
 }
 
 static json_t *compression_json(const CompressionFigures *pressed)
@@ -213,7 +237,7 @@ static json_t *compression_json(const CompressionFigures *pressed)
     return json_pack("{s:f, s:f, s:f}", "mean", pressed->mean, "p999", pressed->p999, "max", pressed->most);
 }
 
-static json_t *summary_json(const Session *session, const Args *args, const Summary *summary)
+json_t *session_json(const Session *session, const Args *args, const Summary *summary)
 {
     const WorldInfo *info = &session->info;
     const WorldDef *def = &session->scene.world;
@@ -253,7 +277,7 @@ bool session_write_json(const Session *session, const Args *args, const Summary 
 {
     if (!args->json)
         return true;
-    json_t *json = summary_json(session, args, summary);
+    json_t *json = session_json(session, args, summary);
     const bool written = json_file_write(json, args->json, error);
     json_decref(json);
     return written;
@@ -262,7 +286,7 @@ bool session_write_json(const Session *session, const Args *args, const Summary 
 int session_fail(const Session *session, const Args *args, const Summary *summary, const Error *error)
 {
     fprintf(stderr, "%s\n", error->message);
-    json_t *json = session->world ? summary_json(session, args, summary) : NULL;
+    json_t *json = session->world ? session_json(session, args, summary) : NULL;
     if (json)
         json_object_set_new(json, "error", json_string(error->message));
     else /* no world, or one with numbers that are none */

@@ -12,6 +12,7 @@
 #include "sim/base/error.h"
 #include "sim/world/world.h"
 
+#include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -23,7 +24,9 @@ typedef struct TroubleTold {
 
 typedef struct Session {
     Scene scene;
+    char prefix[160];  /* of its messages among those of others, "particles 2000: "; "": none */
     Headless *context; /* current; NULL where neither solver nor pictures need one */
+    bool borrows;      /* the context is another session's, which closes it */
     World *world;
     HandReplay *hand; /* of --device: moves the box before each step; NULL: none */
     WorldInfo info;   /* of the present state */
@@ -36,11 +39,16 @@ typedef struct Session {
 } Session;
 
 /* Loads the only scene of the command line and the recording of --device, says on standard error what
-   --particles did to dt, makes the world, and a context where its backend needs one or the command `draws`.
+   --particles did to dt, makes the world, and a context where its backend needs one; nothing is drawn.
    Creates no file. With --resume the world begins as its file does, where tables would say how (app/scene/
    tables.h): they may be gone. 0 or the exit code: EXIT_USAGE where the command line or the scene is wrong,
    EXIT_FAILED where the GPU can't. */
-int session_open(Session *session, const Args *args, bool draws, Error *error);
+int session_open(Session *session, const Args *args, Error *error);
+
+/* The same for a scene that is loaded, and draws. Several sessions in one process have one context: the first
+   one makes it (NULL) and is to be closed last. `name`: of this one among them, or "". */
+int session_open_scene(Session *session, const Args *args, const Scene *scene, const char *name,
+                       Headless *context, Error *error);
 
 /* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create;
    `draws`: a context is needed whatever the backend. */
@@ -89,6 +97,12 @@ typedef struct Summary {
 
 /* The closing line, unless quiet, and the line about a signal. */
 void session_report(const Session *session, const Args *args, const Summary *summary);
+
+/* Of it what is of the steps alone, with the session's name before each line. */
+void session_report_steps(const Session *session, const Args *args);
+
+/* What session_write_json writes. NULL: no memory. */
+json_t *session_json(const Session *session, const Args *args, const Summary *summary);
 
 /* Writes --json FILE, if asked for. */
 bool session_write_json(const Session *session, const Args *args, const Summary *summary, Error *error);

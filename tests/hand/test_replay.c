@@ -207,7 +207,7 @@ static void open_session(Session *session, const char *threads)
     char *argv[] = {"slosh",    "run",       "a.yaml",    "-o",           "a.h5part",
                     "--device", "file:tilt", "--threads", (char *)threads};
     if (!args_parse((int)(sizeof argv / sizeof *argv), argv, &args, &error) ||
-        session_open(session, &args, false, &error) != 0)
+        session_open(session, &args, &error) != 0)
         fail_msg("%s", error.message);
 }
 

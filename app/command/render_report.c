@@ -1,0 +1,143 @@
+#include "app/command/render_report.h"
+
+#include "app/base/json_file.h"
+#include "sim/base/stage.h"
+
+#include <math.h>
+
+static Summary summary_of(const Session sessions[], const RenderFigures *figures, int world)
+{
+    return (Summary){.command = "render",
+                     .product = "pictures",
+                     .products = figures->pictures,
+                     .renderer = headless_renderer(sessions[0].context),
+                     .step_seconds = figures->step_seconds[world],
+                     .stopped = figures->stopped};
+}
+
+/* What people would take for a mistake, if it were not said. */
+static void tell_same(const RenderPlan *plan, const RenderFigures *figures)
+{
+    for (int a = 0; a < plan->panel_count; a++)
+        for (int b = 0; b < a; b++)
+            if (!figures->differ[a][b])
+                fprintf(stderr, "%s and %s are the same in every picture: it makes no difference here\n",
+                        plan->names[b], plan->names[a]);
+}
+
+/* Whether panels of several worlds have one range that follows their states. */
+static bool shares_range(const RenderPlan *plan, int panel)
+{
+    bool shares = false;
+    const ViewDef *own = &plan->scenes[panel].view;
+    for (int i = 0; i < plan->panel_count; i++) {
+        const ViewDef *view = &plan->scenes[i].view;
+        shares |=
+            plan->world_of[i] != plan->world_of[panel] && view->range_auto && view->color_by == own->color_by;
+    }
+    return shares && own->range_auto && own->color_by != SCALAR_FLUID;
+}
+
+static void tell_range(const RenderPlan *plan)
+{
+    bool shares = false;
+    for (int i = 0; i < plan->panel_count; i++)
+        shares |= shares_range(plan, i);
+    if (shares)
+        fprintf(stderr, "view.range auto: one range for all panels of a scalar, of all their particles in "
+                        "each picture\n");
+}
+
+/* Where fixed steps of different lengths meet. */
+static void tell_apart(const RenderPlan *plan, const RenderFigures *figures)
+{
+    if (figures->apart > 1e-6 * plan->scenes[0].world.dt)
+        fprintf(stderr,
+                "panels show their first states at or after a picture's time, up to %.3g s apart; "
+                "--interpolate shows all at that very time\n",
+                figures->apart);
+}
+
+static void tell_world(const Session *session, double step_seconds, const Args *args)
+{
+    const WorldInfo *info = &session->info;
+    fprintf(stderr, "%s%zu particle%s, %.3g s simulated in %.3g s of steps (%.3g times real time)\n",
+            session->prefix, info->count, plural(info->count), info->time, step_seconds,
+            info->time / fmax(step_seconds, 1e-6));
+    session_report_steps(session, args);
+}
+
+static void report_several(const RenderPlan *plan, const Session sessions[], const RenderFigures *figures)
+{
+    const Args *args = plan->args;
+    const Session *first = &sessions[0];
+    if (figures->stopped)
+        fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", first->info.time, args->output);
+    for (int i = 0; !args->quiet && i < plan->world_count; i++)
+        tell_world(&sessions[i], figures->step_seconds[i], args);
+    if (!args->quiet)
+        tell_range(plan);
+    tell_apart(plan, figures);
+    tell_same(plan, figures);
+    if (!args->quiet)
+        fprintf(stderr, "%d panels, %.3g s simulated in %.3g s: %s, %zu picture%s\n", plan->panel_count,
+                first->info.time, 1e-3 * (wall_ms() - first->began_ms), args->output, figures->pictures,
+                plural(figures->pictures));
+}
+
+void render_report(const RenderPlan *plan, const Session sessions[], const RenderFigures *figures)
+{
+    const Summary summary = summary_of(sessions, figures, 0);
+    if (plan->panel_count > 1)
+        report_several(plan, sessions, figures);
+    else
+        session_report(&sessions[0], plan->args, &summary);
+}
+
+static json_t *panel_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
+                          const RenderFigures *figures, int panel)
+{
+    const int world = plan->world_of[panel];
+    const ViewDef *view = &plan->scenes[panel].view;
+    const PanelPlace *at = &panels_places(shoot->panels)[panel];
+    const Summary summary = summary_of(sessions, figures, world);
+    double range[2];
+    panels_range(shoot->panels, panel, range);
+    json_t *run = session_json(&sessions[world], plan->args, &summary);
+    json_t *json = json_pack("{s:s, s:[i,i,i,i], s:s, s:s, s:i, s:f, s:o}", "setting", plan->names[panel],
+                             "place", at->x, at->y, at->width, at->height, "view", view->kind, "scalar",
+                             scalar_name(view->color_by), "world", world, "time",
+                             shoot->sources[shoot->source_of[panel]].state.time, "run", run);
+    if (json && view->color_by != SCALAR_FLUID)
+        json_object_set_new(json, "range", json_pack("[f,f]", range[0], range[1]));
+    return json;
+}
+
+static json_t *several_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
+                            const RenderFigures *figures)
+{
+    const Args *args = plan->args;
+    json_t *panels = json_array();
+    for (int i = 0; i < plan->panel_count; i++)
+        json_array_append_new(panels, panel_json(plan, sessions, shoot, figures, i));
+    return json_pack("{s:s, s:s, s:s, s:I, s:f, s:f, s:b, s:s, s:o}", "command", "render", "scene",
+                     plan->scenes[0].path, "output", args->output, "pictures", (json_int_t)figures->pictures,
+                     "simulated_seconds", sessions[0].info.time, "wall_seconds",
+                     1e-3 * (wall_ms() - sessions[0].began_ms), "stopped", figures->stopped, "renderer",
+                     headless_renderer(sessions[0].context), "panels", panels);
+}
+
+bool render_write_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
+                       const RenderFigures *figures, Error *error)
+{
+    const Args *args = plan->args;
+    const Summary summary = summary_of(sessions, figures, 0);
+    if (!args->json)
+        return true;
+    if (plan->panel_count == 1)
+        return session_write_json(&sessions[0], args, &summary, error);
+    json_t *json = several_json(plan, sessions, shoot, figures);
+    const bool written = json_file_write(json, args->json, error);
+    json_decref(json);
+    return written;
+}

@@ -1,0 +1,63 @@
+/* Pictures of one session or of several at a time, each in the panels that show it. */
+#ifndef SLOSH_SHOOT_H
+#define SLOSH_SHOOT_H
+
+#include "app/output/image.h"
+#include "app/session/between.h"
+#include "app/session/session.h"
+#include "render/panels.h"
+#include "render/particles/upload.h"
+
+/* What a panel shows, and how; `session` and `view` outlive the shoot. */
+typedef struct ShootPanel {
+    const Session *session;
+    const ViewDef *view;
+    Title title; /* zeroed: none */
+} ShootPanel;
+
+/* One of the sessions: its state on the GPU, for all panels that show it. */
+typedef struct ShootSource {
+    const Session *session;
+    unsigned attributes; /* that its views read */
+    Upload *upload;      /* NULL: the world has its particles on the GPU */
+    bool interpolates;
+    Upload *upload_between;       /* of what is between two states; NULL: none is asked for */
+    Still before, after, between; /* the state before the last step, and so on */
+    ParticleBuffers state;        /* in the last picture */
+    bool is_between, taken;       /* that state is between two; there is one */
+} ShootSource;
+
+typedef struct Shoot {
+    Panels *panels;
+    int source_count;
+    ShootSource sources[PANELS_MAX];
+    int source_of[PANELS_MAX]; /* of each panel */
+    Image image;               /* the last picture */
+} Shoot;
+
+/* For `count` panels, 1 to PANELS_MAX, in a picture of that size; in the current context. `interpolates`:
+   pictures of the states between two of a fixed step (app/session/between.h). On failure call shoot_close as
+   well. */
+bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpolates, int width, int height,
+                Error *error);
+void shoot_close(Shoot *shoot); /* a zeroed one is allowed */
+
+/* To be called before each step of a session that may be the last one before the time of a picture. */
+bool shoot_keep(Shoot *shoot, const Session *session, Error *error);
+
+/* Whether pictures of the session are interpolated. */
+bool shoot_interpolates(const Shoot *shoot, const Session *session);
+
+/* The picture at `time` (s), into shoot->image. What has not changed since the last one is not drawn anew. */
+bool shoot_draw(Shoot *shoot, double time, Error *error);
+
+/* From the earliest to the latest state of the last picture, s. */
+double shoot_spread(const Shoot *shoot);
+
+/* Whether two panels of the last picture are the same, whatever their titles are. */
+bool shoot_same(const Shoot *shoot, int a, int b, const Title *title);
+
+/* What stands in the panel's corner from the next picture on. */
+bool shoot_set_title(Shoot *shoot, int panel, const Title *title, Error *error);
+
+#endif

@@ -1,0 +1,164 @@
+"""`render --compare`: panels are the pictures of their settings, with one range, at one time; what is wrong starts nothing."""
+import json
+import signal
+import subprocess
+
+import numpy
+
+import command
+from command import CommandTest, video_frames
+
+TITLE = 90  # rows of pixels that a title may cover in these pictures
+
+
+class CompareTest(CommandTest):
+    def picture(self, name):
+        said = subprocess.run(['ffprobe', '-v', 'error', '-show_entries', 'stream=width,height', '-of', 'csv=p=0', name],
+                              cwd=self.folder, capture_output=True, text=True, check=True).stdout
+        width, height = map(int, said.split(','))
+        raw = subprocess.run(['ffmpeg', '-v', 'error', '-i', name, '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-'],
+                             cwd=self.folder, capture_output=True, check=True).stdout
+        return numpy.frombuffer(raw, dtype='u1').reshape(height, width, 3)
+
+    def compare(self, *arguments, output='out.png', time='0.1', size='401x300'):
+        """What it said, and its JSON."""
+        code, said = self.slosh('render', 'scene.yaml', '-o', output, '--time', time, '--size', size, '--json', 'out.json',
+                                *arguments)
+        self.assertEqual(code, 0, said)
+        return said, json.loads(self.read('out.json'))
+
+    def assert_panel(self, whole, panel, *arguments, time='0.1'):
+        """The panel of a picture is what render alone draws at its size, below the title."""
+        x, y, width, height = panel['place']
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'one.png', '--time', time, '--size', f'{width}x{height}',
+                                '--quiet', *arguments)
+        self.assertEqual(code, 0, said)
+        part = whole[y:y + height, x:x + width]
+        numpy.testing.assert_array_equal(part[TITLE:], self.picture('one.png')[TITLE:])
+        self.assertTrue((part[:TITLE] != self.picture('one.png')[:TITLE]).any(), 'there is a title')
+
+
+class Panels(CompareTest):
+    def test_two_worlds_are_each_as_alone(self):
+        said, result = self.compare('--compare', 'particles=300,1000')
+        whole = self.picture('out.png')
+        self.assertEqual(whole.shape, (300, 401, 3))
+        one, two = result['panels']
+        self.assertEqual((one['place'], two['place']), ([0, 0, 199, 300], [202, 0, 199, 300]))
+        self.assertEqual([p['setting'] for p in result['panels']], ['particles 300', 'particles 1000'])
+        self.assertEqual(one['range'], two['range'])
+        scale = f'view.range=[{one["range"][0]:.9g}, {one["range"][1]:.9g}]'
+        for panel, count in (one, '300'), (two, '1000'):
+            self.assert_panel(whole, panel, '--particles', count, '--set', scale)
+        self.assertEqual(len(numpy.unique(whole[:, 199:202].reshape(-1, 3), axis=0)), 1, 'the line between')
+        self.assertIn('view.range auto: one range for all panels of a scalar', said)
+        self.assertRegex(said, r'particles 300: --particles 300: a spacing of ')
+        self.assertRegex(said, r'particles 1000: \d+ particles, 0\.1\d* s simulated in .* s of steps')
+        self.assertRegex(said, r'2 panels, .*: out\.png, 1 picture\n')
+
+    def test_four_views_share_a_world(self):
+        said, result = self.compare('--compare', 'view=spheres,splat,volume,slice', size='501x401')
+        whole = self.picture('out.png')
+        self.assertEqual([p['world'] for p in result['panels']], [0, 0, 0, 0])
+        self.assertEqual(said.count('of steps'), 1, said)
+        for panel in result['panels']:
+            self.assertEqual(panel['place'][2:], [249, 199])
+            self.assert_panel(whole, panel, '--view', panel['view'])
+
+    def test_two_keys_are_a_table(self):
+        _, result = self.compare('--compare', 'method=mueller,dfsph', '--compare', 'view.colormap=viridis,gray')
+        self.assertEqual([p['setting'] for p in result['panels']],
+                         [f'solver.method {m}, view.colormap {c}' for m in ('mueller', 'dfsph') for c in ('viridis', 'gray')])
+        self.assertEqual([p['world'] for p in result['panels']], [0, 0, 1, 1])
+        self.assertEqual([p['run']['method'] for p in result['panels']], ['mueller', 'mueller', 'dfsph', 'dfsph'])
+        scale = 'view.range=[{:.9g}, {:.9g}]'.format(*result['panels'][0]['range'])
+        self.assert_panel(self.picture('out.png'), result['panels'][3], '--method', 'dfsph', '--set', 'view.colormap=gray',
+                          '--set', scale)
+
+    def test_worlds_on_a_gpu_take_turns(self):
+        """Each binds all that it reads."""
+        _, result = self.compare('--compare', 'backend=cpu,compute,fragment,compute', '--set', 'view.range=[0, 2]',
+                                 size='301x301', time='0.04')
+        whole = self.picture('out.png')
+        for panel in result['panels']:
+            self.assert_panel(whole, panel, '--backend', panel['run']['backend'], '--set', 'view.range=[0, 2]', time='0.04')
+
+    def test_pictures_of_one_time(self):
+        steps = ['--compare', 'solver.step.dt=0.004,0.006', '--fps', '50']
+        said, result = self.compare(*steps, output='film.mp4', time='0.2')
+        self.assertEqual((video_frames(self.path('film.mp4')), result['pictures']), (10, 10))
+        self.assertRegex(said, r"panels show their first states at or after a picture's time, up to 0\.004 s apart; --interp")
+        self.assertEqual(said.count('pictures are at uneven times'), 1, said)
+        self.assertIn('solver.step.dt 0.006: pictures are at uneven times', said)
+        said, result = self.compare(*steps, '--interpolate', output='frames', time='0.2')
+        self.assertEqual([p['time'] for p in result['panels']], [0.18, 0.18])
+        self.assertNotIn('apart', said)
+        x, y, width, height = result['panels'][1]['place']
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'one', '--time', '0.2', '--fps', '50', '--interpolate', '--size',
+                                f'{width}x{height}', '--set', 'solver.step.dt=0.006', '--set', 'view.color_by=fluid')
+        self.assertEqual(code, 0, said)
+        self.compare(*steps, '--interpolate', '--set', 'view.color_by=fluid', output='frames', time='0.2')
+        numpy.testing.assert_array_equal(self.picture('frames/frame_00004.png')[y:y + height, x:x + width][TITLE:],
+                                         self.picture('one/frame_00004.png')[TITLE:])
+
+
+class Words(CompareTest):
+    def refused(self, said, *arguments, code=2):
+        done = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--time', '0', *arguments)
+        self.assertEqual(done[0], code, done[1])
+        self.assertIn(said, done[1])
+        self.assertNotIn('renderer:', done[1], 'nothing has started')
+        self.assertEqual(self.entries(), [])
+
+    def test_what_is_wrong_starts_nothing(self):
+        self.refused('--compare shows two or four settings side by side, not 3', '--compare', 'particles=1,2,3')
+        self.refused('--compare shows two or four settings side by side, not 1', '--compare', 'particles=1')
+        self.refused('not 8; name two or four values of a key', *3 * ['--compare', 'threads=1,2'])
+        self.refused("--compare particles takes whole numbers from 1 on, not 'x'", '--compare', 'particles=1,x')
+        self.refused('--compare takes KEY=A,B,... such as threads=1,2', '--compare', 'particles')
+        self.refused("--compare solver.method=sph: solver.method cannot be 'sph'", '--compare', 'method=mueller,sph')
+        self.refused("--compare view.kind=nothing", '--compare', 'view=spheres,nothing')
+        self.refused("--compare nosuch=1: unknown key 'nosuch'", '--compare', 'nosuch=1,2')
+        # A setting that fits alone, and not the rest of the scene.
+        self.refused('with box.size [0.5, 1, 1]: ', '--compare', 'box.size=[1, 1, 1],[0.5, 1, 1]')
+        self.refused('with particles 2000000000: ', '--compare', 'particles=1000,2000000000')
+
+    def test_too_small_a_picture(self):
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--time', '0', '--size', '3x300', '--compare',
+                                'view=spheres,splat')
+        self.assertEqual((code, self.entries()), (1, []), said)
+        self.assertIn('a picture of 3 x 300 pixels has no room for 2 panels; make it larger', said)
+
+    def test_what_makes_no_difference_is_said(self):
+        said, _ = self.compare('--compare', 'threads=1,2', '--quiet')
+        self.assertIn('solver.threads 1 and solver.threads 2 are the same in every picture: it makes no difference here', said)
+        said, _ = self.compare('--compare', 'gravity=[0, -9, 0],[0, -10, 0]', '--quiet')
+        self.assertNotIn('the same in every picture', said)
+
+    def test_notes_name_their_panel(self):
+        said, _ = self.compare('--compare', 'method=mueller,dfsph', '--quiet')
+        self.assertRegex(said, r'^solver\.method dfsph: scene.yaml:14:3: solver\.sound_speed has no effect')
+        self.assertNotIn('solver.method mueller: ', said)
+
+    def test_trouble_names_its_panel(self):
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--time', '1', '--json', 'out.json', '--compare',
+                                'solver.step.dt=0.004,0.2')
+        self.assertEqual((code, self.entries()), (1, ['out.json']), said)
+        self.assertRegex(said, r'^--compare solver\.step\.dt=0\.2: the step of 100 ms is too long')
+        self.assertRegex(said, r'\nsolver\.step\.dt 0\.2: t = .* s: .*back to')
+        self.assertRegex(said, r'\nsolver\.step\.dt 0\.2: the simulation blew up at')
+        self.assertRegex(json.loads(self.read('out.json'))['error'], r'^solver\.step\.dt 0\.2: the simulation blew up')
+
+    def test_stopped_by_a_signal(self):
+        process = self.start('render', 'scene.yaml', '-o', 'frames', '--time', '100', '--size', '64x64', '--quiet', '--compare',
+                             'particles=200,300', '--json', 'out.json')
+        self.wait_for(lambda: 'frames' in self.entries(), process)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130, said)
+        self.assertRegex(said, r'stopped at t = .* s; frames is whole')
+        self.assertTrue(json.loads(self.read('out.json'))['stopped'])
+
+
+if __name__ == '__main__':
+    command.main('Panels', 'Words')
