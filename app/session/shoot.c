@@ -45,7 +45,7 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
     *shoot = (Shoot){.panels = NULL};
     for (int i = 0; i < count; i++) {
         shoot->source_of[i] = source_find(shoot, panels[i].session);
-        shoot->sources[shoot->source_of[i]].attributes |= studio_attributes(panels[i].view);
+        shoot->sources[shoot->source_of[i]].attributes |= renderer_attributes(panels[i].view);
         subjects[i] = (Subject){panels[i].view, &panels[i].session->scene.world};
     }
     for (int i = 0; i < shoot->source_count; i++)
