@@ -211,6 +211,11 @@ void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer 
     }
 }
 
+void panels_take(Panels *panels, int index, const ParticleBuffers *state)
+{
+    renderer_take(panels->panels[index].renderer, state, NULL);
+}
+
 void panels_range(const Panels *panels, int index, double range[2])
 {
     renderer_range(panels->panels[index].renderer, range);

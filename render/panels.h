@@ -46,6 +46,9 @@ bool panels_set_covered(Panels *panels, double left, Error *error);
    Automatic cameras leave the widest legend its place, so that boxes that are alike lie alike. */
 void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer);
 
+/* Shows a state that is not drawn to the overlays of a panel that follow particles from state to state. */
+void panels_take(Panels *panels, int index, const ParticleBuffers *state);
+
 /* The range of a panel in the last picture, in the unit of its scalar. */
 void panels_range(const Panels *panels, int index, double range[2]);
 

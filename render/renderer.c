@@ -5,6 +5,7 @@
 #include "render/frame/backdrop.h"
 #include "render/frame/edges.h"
 #include "render/frame/legend.h"
+#include "render/frame/overlay.h"
 #include "render/frame/shadow.h"
 #include "render/frame/solids.h"
 #include "render/frame/view.h"
@@ -37,12 +38,14 @@ struct Renderer {
     Text *text;     /* NULL before the first legend */
     Solids *solids; /* NULL without */
     View *view;     /* NULL for "none" */
+    Overlays overlays;
 };
 
 ViewDef view_def_default(void)
 {
     ViewDef def = view_def_shared();
     views_default(&def);
+    overlays_default(&def);
     return def;
 }
 
@@ -98,12 +101,14 @@ static bool follows_state(const ViewDef *def)
 static ParticleWants wants_of(const ViewDef *def)
 {
     return (ParticleWants){.scalars = SCALAR_BIT(def->color_by),
-                           .attributes = follows_state(def) ? PARTICLE_RANGES : 0};
+                           .attributes =
+                               overlays_attributes(def) | (follows_state(def) ? PARTICLE_RANGES : 0)};
 }
 
 unsigned renderer_attributes(const ViewDef *def)
 {
-    const ParticleWants all = {UINT32_MAX, UINT32_MAX, 0}, wants = def ? wants_of(def) : all;
+    const ParticleWants all = {UINT32_MAX, UINT32_MAX, overlays_attributes(NULL)},
+                        wants = def ? wants_of(def) : all;
     return wants_attributes(&wants);
 }
 
@@ -130,7 +135,8 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
     renderer->uniforms = frame_uniforms_create();
     return follow_derived(renderer, def, error) && follow_letters(renderer, def->legend, height, error) &&
            follow_solids(renderer, &renderer->world, error) &&
-           (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL);
+           (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL) &&
+           overlays_follow(&renderer->overlays, &subject, error);
 }
 
 /* A software driver takes half a kilobyte a particle for each picture and frees it: blocks of 64 KB, which
@@ -167,6 +173,7 @@ void renderer_destroy(Renderer *renderer)
 {
     if (!renderer)
         return;
+    overlays_destroy(&renderer->overlays);
     view_destroy(renderer->view);
     text_destroy(renderer->text);
     edges_destroy(&renderer->edges);
@@ -201,10 +208,15 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *wo
     const bool followed = follow_derived(renderer, def, error) &&
                           follow_letters(renderer, letters, renderer->target.height, error) &&
                           follow_solids(renderer, subject.world, error) &&
+                          overlays_follow(&renderer->overlays, &subject, error) &&
                           follow_view(renderer, &subject, error);
     if (followed) {
         renderer->def = *def;
         renderer->world = *subject.world;
+    } else {
+        const Subject old = subject_of(renderer);
+        Error none;
+        overlays_follow(&renderer->overlays, &old, &none);
     }
     drop_unused_solids(renderer);
     return followed;
@@ -239,7 +251,7 @@ static void draw_shadow(Renderer *renderer, const ParticleBuffers *particles, co
     shadow_end(&renderer->shadow, frame);
 }
 
-static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may not have done so */
     if (renderer->def.box && !frame->flat)
@@ -247,8 +259,10 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
     if (!renderer->def.legend && !*renderer->title.words)
         return;
     text_begin(renderer->text, frame->width, frame->height);
-    if (renderer->def.legend)
+    if (renderer->def.legend) {
         legend_draw(renderer->text, frame, particles->time);
+        overlays_legend(&renderer->overlays, renderer->text, frame);
+    }
     title_draw(renderer->text, &renderer->title, frame);
     text_end(renderer->text);
 }
@@ -291,6 +305,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
         view_show(renderer->view, &renderer->def, &frame);
     memcpy(renderer->range, frame.range, sizeof renderer->range);
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
+    overlays_take(&renderer->overlays, particles, &subject, timer);
     if (renderer->view)
         view_prepare(renderer->view, particles, &frame);
     GL_STAGE(timer, STAGE_SHADOW)
@@ -307,8 +322,20 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
         }
     if (renderer->view)
         view_draw(renderer->view, particles, &frame);
+    if (!frame.flat)
+        overlays_draw(&renderer->overlays, particles, &frame);
     GL_STAGE(timer, STAGE_OVERLAY)
-    draw_overlays(renderer, particles, &frame);
+    draw_edges_and_text(renderer, particles, &frame);
+}
+
+void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
+{
+    const Subject subject = subject_of(renderer);
+    ParticleBuffers with = *state;
+    const ParticleBuffers *particles = &with;
+    GL_STAGE(timer, STAGE_SCALARS)
+    derive(renderer, &with);
+    overlays_take(&renderer->overlays, particles, &subject, timer);
 }
 
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)

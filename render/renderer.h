@@ -1,5 +1,5 @@
-/* One picture, from particles to pixels: shadow, backdrop, solids, view, edges, legend. The entry for all
-   commands.
+/* One picture, from particles to pixels: shadow, backdrop, solids, view, overlays, edges, legend. The entry
+   for all commands.
 
    Needs a current OpenGL 4.5 core context, and belongs to its thread. */
 #ifndef SLOSH_RENDERER_H
@@ -41,7 +41,11 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
  */
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
 
-/* The same, and what the view says of its passes: waits for them. `counts` is all 0 where it says nothing. */
+/* Shows a state that is not drawn to those overlays that follow particles from state to state. */
+void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer);
+
+/* The same as renderer_draw, and what the view says of its passes: waits for them. `counts` is all 0 where it
+ * says nothing. */
 void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts);
 
 /* The picture: 3 * width * height bytes of sRGB, rows from the top down. Waits for the drawing. */

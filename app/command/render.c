@@ -81,6 +81,8 @@ static bool advance(Render *render, int world, double time, Error *error)
     const bool interpolates = shoot_interpolates(&render->shoot, session);
     world_stop_at(session->world, time);
     while (!session_reached(session, time) && !interrupted()) {
+        if (!shoot_watch(&render->shoot, session, time, error))
+            return blame(session, error);
         const bool last = session->info.time + 1.001 * session->scene.world.dt >= time;
         const double began = wall_ms();
         if ((interpolates && last && !shoot_keep(&render->shoot, session, error)) ||

@@ -3,6 +3,7 @@
 
 #include "app/metric/metric_list.h"
 #include "app/scene/preset.h"
+#include "render/frame/overlay.h"
 #include "render/frame/view.h"
 #include "render/renderer.h"
 #include "sim/base/key_rows.h"
@@ -13,6 +14,7 @@
 #include <assert.h>
 #include <pthread.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 static const KeyOwner chart = {
@@ -125,6 +127,19 @@ static void add_views(void)
     }
 }
 
+/* The own settings of each overlay. */
+static void add_overlays(void)
+{
+    static KeyOwner owners[OVERLAY_KINDS_MAX];
+    static char shows[OVERLAY_KINDS_MAX][NAME_SIZE + 16];
+    for (int i = 0; overlay_list[i]; i++) {
+        snprintf(shows[i], sizeof shows[i], "view.%s.show", overlay_list[i]->name);
+        owners[i] = (KeyOwner){.key = shows[i], .value = "true"};
+        add_rows(overlay_list[i]->keys, offsetof(Scene, view.of_overlay) + (size_t)i * sizeof(ViewOwn),
+                 &owners[i]);
+    }
+}
+
 /* All groups, in the order in which people see them: rows, where the struct that they fill stands in a Scene,
    and the owner of rows that name none (NULL: whatever the scene is, they are read). */
 static void table_make(void)
@@ -150,6 +165,7 @@ static void table_make(void)
     add_rows(probe_keys, offsetof(Scene, probes), NULL);
     add_rows(view_keys, view, NULL);
     add_views();
+    add_overlays();
     add_rows(view_frame_keys, view, NULL);
 }
 
@@ -163,9 +179,12 @@ const Key *scene_keys(int *count)
 
 const KeyOwner *key_owner(const Key *key)
 {
-    while (key && !key->owner)
-        key = mapping_of(key);
-    return key ? key->owner : NULL;
+    const Key *row = key;
+    while (row && !row->owner)
+        row = mapping_of(row);
+    const KeyOwner *owner = row ? row->owner : NULL;
+    const bool decides = owner && owner->key && strcmp(owner->key, key->path) == 0;
+    return decides ? NULL : owner; /* what brings an owner into use is always read */
 }
 
 void scene_default(Scene *scene)

@@ -1,6 +1,6 @@
 #include "app/session/shoot.h"
 
-#include "app/session/studio.h"
+#include "render/frame/overlay.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,9 +11,20 @@ static int source_find(Shoot *shoot, const Session *session)
     int at = 0;
     while (at < shoot->source_count && shoot->sources[at].session != session)
         at++;
-    shoot->source_count += at == shoot->source_count;
-    shoot->sources[at].session = session;
+    if (at == shoot->source_count) {
+        shoot->source_count++;
+        shoot->sources[at] = (ShootSource){.session = session, .every = INFINITY, .watched = -INFINITY};
+    }
     return at;
+}
+
+/* What a panel reads of its source. */
+static void source_serve(ShootSource *source, const ViewDef *view)
+{
+    double before;
+    source->attributes |= renderer_attributes(view);
+    source->every = fmin(source->every, overlays_every(view, &before));
+    source->before_picture = fmax(source->before_picture, before);
 }
 
 static bool source_open(ShootSource *source, bool interpolates, Error *error)
@@ -45,7 +56,7 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
     *shoot = (Shoot){.panels = NULL};
     for (int i = 0; i < count; i++) {
         shoot->source_of[i] = source_find(shoot, panels[i].session);
-        shoot->sources[shoot->source_of[i]].attributes |= renderer_attributes(panels[i].view);
+        source_serve(&shoot->sources[shoot->source_of[i]], panels[i].view);
         subjects[i] = (Subject){panels[i].view, &panels[i].session->scene.world};
     }
     for (int i = 0; i < shoot->source_count; i++)
@@ -110,6 +121,23 @@ static bool take_present(ShootSource *source, Error *error)
     return true;
 }
 
+bool shoot_watch(Shoot *shoot, const Session *session, double time, Error *error)
+{
+    ShootSource *source = source_of(shoot, session);
+    const double now = session->info.time;
+    if (isinf(source->every) || now < time - source->before_picture ||
+        now < source->watched + 0.999 * source->every)
+        return true;
+    if (!take_present(source, error))
+        return false;
+    source->watched = now;
+    source->taken = false; /* it was not drawn */
+    for (int i = 0; i < panels_count(shoot->panels); i++)
+        if (&shoot->sources[shoot->source_of[i]] == source)
+            panels_take(shoot->panels, i, &source->state);
+    return true;
+}
+
 /* The state of a picture at that time. `fresh`: it is another one than in the picture before. */
 static bool take(ShootSource *source, double time, bool *fresh, Error *error)
 {
@@ -121,6 +149,7 @@ static bool take(ShootSource *source, double time, bool *fresh, Error *error)
     if (!(between ? take_between(source, time, error) : take_present(source, error)))
         return false;
     *fresh = source->taken = true;
+    source->watched = between ? source->watched : session->info.time;
     source->is_between = between;
     return true;
 }

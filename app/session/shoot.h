@@ -25,6 +25,9 @@ typedef struct ShootSource {
     Still before, after, between; /* the state before the last step, and so on */
     ParticleBuffers state;        /* in the last picture */
     bool is_between, taken;       /* that state is between two; there is one */
+    double every, before_picture; /* how far apart states may be that overlays see, and how long before a
+                                     picture, s */
+    double watched;               /* the time of the last one, s */
 } ShootSource;
 
 typedef struct Shoot {
@@ -44,6 +47,10 @@ void shoot_close(Shoot *shoot); /* a zeroed one is allowed */
 
 /* To be called before each step of a session that may be the last one before the time of a picture. */
 bool shoot_keep(Shoot *shoot, const Session *session, Error *error);
+
+/* To be called before each step: overlays that follow particles see states between pictures too
+   (OverlayKind.every); `time` (s) is that of the next picture. */
+bool shoot_watch(Shoot *shoot, const Session *session, double time, Error *error);
 
 /* Whether pictures of the session are interpolated. */
 bool shoot_interpolates(const Shoot *shoot, const Session *session);

@@ -151,12 +151,18 @@ static void draw_fluids(Text *text, const Frame *frame)
     }
 }
 
+void legend_line(Text *text, const Frame *frame, float x, float y, const char *line)
+{
+    const Layout layout = make_layout(text, frame, 0, 0);
+    text_draw(text, x, y, 1, layout.faint, TEXT_LEFT, line);
+}
+
 void legend_draw(Text *text, const Frame *frame, double time)
 {
-    Layout layout = make_layout(text, frame, 0, 0);
+    const float em = text_height(text);
     char label[40];
     snprintf(label, sizeof label, "%.2f s", time);
-    text_draw(text, layout.em, (float)frame->height - 2 * layout.em, 1, layout.faint, TEXT_LEFT, label);
+    legend_line(text, frame, em, (float)frame->height - 2 * em, label);
     if (!frame->by_fluid)
         draw_scalar(text, frame);
     else if (frame->world->fluid_count > 0)

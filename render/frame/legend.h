@@ -14,6 +14,9 @@ void legend_unit(const char *unit, char out[32]);
 
 void legend_draw(Text *text, const Frame *frame, double time);
 
+/* A line of words at that place, pixels from the left and the top, in the legend's faint ink. */
+void legend_line(Text *text, const Frame *frame, float x, float y, const char *line);
+
 /* The height of the letters for a picture that high, pixels. */
 float legend_text_pixels(int height);
 

@@ -14,9 +14,10 @@ typedef struct CameraDef {
     double fov_deg; /* vertical field of view, degrees */
 } CameraDef;
 
-enum { VIEW_KINDS_MAX = 8, VIEW_OWN_SIZE = 256 };
+enum { VIEW_KINDS_MAX = 8, OVERLAY_KINDS_MAX = 4, VIEW_OWN_SIZE = 256 };
 
-/* Room for a view's own settings, a struct that only the view knows: see view_own in render/frame/view.h. */
+/* Room for the own settings of a view or an overlay, a struct that only its owner knows: see view_own in
+   render/frame/view.h, overlay_own in render/frame/overlay.h. */
 typedef struct ViewOwn {
     _Alignas(8) unsigned char bytes[VIEW_OWN_SIZE];
 } ViewOwn;
@@ -35,6 +36,9 @@ typedef struct ViewDef {
     bool camera_auto;                /* the camera shows the whole box; else `camera` */
     CameraDef camera;
     double background[3]; /* linear RGB 0..1, at the horizon */
+
+    /* The same as of_view of each overlay of its list. */
+    ViewOwn of_overlay[OVERLAY_KINDS_MAX];
 } ViewDef;
 
 /* What there is to be shown, and how. */
@@ -43,7 +47,7 @@ typedef struct Subject {
     const WorldDef *world; /* all 0 where it is not known */
 } Subject;
 
-/* Defaults of all that views share; kind and own settings: views_default. */
+/* Defaults of all that views share; kind and own settings: views_default, overlays_default. */
 ViewDef view_def_shared(void);
 
 #endif

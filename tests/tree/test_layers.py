@@ -13,7 +13,7 @@ FILES_MAX = 40  # in a folder
 
 
 def own_folders(floor, what):
-    """The methods or the views of the program: each is a folder, in which a .c file defines it."""
+    """The methods, views or overlays of the program: each is a folder, in which a .c file defines it."""
     return sorted({path.parent.name for path in (ROOT / floor).glob("*/*.c")
                    if re.search(rf"^const {what}_{path.parent.name} =", path.read_text(), re.M)})
 
@@ -42,8 +42,9 @@ RENDER = {
     "ui": "frame",
 }
 VIEWS = own_folders("render", "ViewKind view")
-RENDER |= {name: "frame particles plane" for name in VIEWS}
-RENDER[""] = " ".join(["frame particles derived plane ui", *VIEWS])
+OVERLAYS = own_folders("render", "OverlayKind overlay")
+RENDER |= {name: "frame particles plane" for name in [*VIEWS, *OVERLAYS]}
+RENDER[""] = " ".join(["frame particles derived plane ui", *VIEWS, *OVERLAYS])
 APP = {
     "base": "",
     "metric": "base",
@@ -79,6 +80,9 @@ METHOD_LISTS = ["sim/world/method.c", "app/scene/preset.c", "app/command/info.c"
 
 # What names views beside their folders and app/case: lists.
 VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]
+
+# What names overlays beside their folders: the list.
+OVERLAY_LISTS = ["render/overlays.c"]
 
 
 
@@ -200,6 +204,16 @@ class Layers(unittest.TestCase):
                 word = (rf'\b(view_{view}|{view}_(def|keys|usual))\b|\bview\.{view}\b|"render/{view}/|'
                         rf'\b(view|kind)\b.*"{view}"')
                 found += [f"{name}: {match.group()}" for match in re.finditer(word, path.read_text())]
+        self.assertEqual(found, [])
+
+    def test_an_overlay_is_named_in_its_folder_and_in_the_list(self):
+        self.assertGreaterEqual(set(OVERLAYS), {"trails"})
+        found = []
+        for path in sources():
+            name = str(path.relative_to(ROOT))
+            for overlay in set(OVERLAYS) - {path.parent.name}:
+                word = rf'\b(overlay_{overlay}|{overlay}_(def|keys|usual))\b|\bview\.{overlay}\b|"render/{overlay}/'
+                found += [name for match in re.finditer(word, path.read_text()) if name not in OVERLAY_LISTS]
         self.assertEqual(found, [])
 
     def test_a_method_is_named_in_its_folder_and_in_lists(self):

@@ -1,0 +1,124 @@
+#include "render/frame/overlay.h"
+
+#include "render/frame/legend.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+void *overlay_own(const ViewDef *def, const OverlayKind *kind)
+{
+    for (int i = 0; overlay_list[i]; i++)
+        if (overlay_list[i] == kind)
+            return (void *)def->of_overlay[i].bytes;
+    return NULL;
+}
+
+static bool shown(const ViewDef *def, int index)
+{
+    return ((const OverlayShow *)(const void *)def->of_overlay[index].bytes)->show;
+}
+
+void overlays_default(ViewDef *def)
+{
+    for (int i = 0; overlay_list[i]; i++) {
+        assert(i < OVERLAY_KINDS_MAX && overlay_list[i]->def_size <= VIEW_OWN_SIZE);
+        memcpy(def->of_overlay[i].bytes, overlay_list[i]->def, overlay_list[i]->def_size);
+    }
+}
+
+unsigned overlays_attributes(const ViewDef *def)
+{
+    unsigned attributes = 0;
+    for (int i = 0; overlay_list[i]; i++)
+        if (!def || shown(def, i))
+            attributes |= overlay_list[i]->attributes;
+    return attributes;
+}
+
+double overlays_every(const ViewDef *def, double *before)
+{
+    double least = INFINITY;
+    *before = 0;
+    for (int i = 0; overlay_list[i]; i++) {
+        double own = 0;
+        if (!shown(def, i) || !overlay_list[i]->every)
+            continue;
+        least = fmin(least, overlay_list[i]->every(def, &own));
+        *before = fmax(*before, own);
+    }
+    return least;
+}
+
+/* What is shown now and was not. */
+static bool make(const Overlays *overlays, const Subject *subject, void *made[], Error *error)
+{
+    for (int i = 0; overlay_list[i]; i++)
+        if (shown(subject->def, i) && !overlays->state[i] &&
+            !(made[i] = overlay_list[i]->create(subject, error)))
+            return false;
+    return true;
+}
+
+bool overlays_follow(Overlays *overlays, const Subject *subject, Error *error)
+{
+    void *made[OVERLAY_KINDS_MAX] = {NULL};
+    const bool ok = make(overlays, subject, made, error);
+    for (int i = 0; overlay_list[i]; i++) {
+        void **state = &overlays->state[i], *gone = ok ? NULL : made[i];
+        if (ok && made[i]) {
+            *state = made[i];
+            overlays->taken[i] = false;
+        } else if (ok && *state && !shown(subject->def, i)) {
+            gone = *state;
+            *state = NULL;
+        }
+        if (gone)
+            overlay_list[i]->destroy(gone);
+    }
+    return ok;
+}
+
+void overlays_destroy(Overlays *overlays)
+{
+    for (int i = 0; overlay_list[i]; i++)
+        if (overlays->state[i])
+            overlay_list[i]->destroy(overlays->state[i]);
+    *overlays = (Overlays){0};
+}
+
+void overlays_take(Overlays *overlays, const ParticleBuffers *particles, const Subject *subject,
+                   GlTimer *timer)
+{
+    const bool same = overlays->step == particles->step && overlays->time == particles->time &&
+                      overlays->count == particles->count;
+    for (int i = 0; overlay_list[i]; i++) {
+        if (!overlays->state[i] || !overlay_list[i]->take || (same && overlays->taken[i]))
+            continue;
+        overlay_list[i]->take(overlays->state[i], particles, subject, timer);
+        overlays->taken[i] = true;
+    }
+    overlays->step = particles->step;
+    overlays->time = particles->time;
+    overlays->count = particles->count;
+}
+
+void overlays_draw(const Overlays *overlays, const ParticleBuffers *particles, const Frame *frame)
+{
+    for (int i = 0; overlay_list[i]; i++)
+        if (overlays->state[i])
+            overlay_list[i]->draw(overlays->state[i], particles, frame);
+}
+
+void overlays_legend(const Overlays *overlays, Text *text, const Frame *frame)
+{
+    const float em = text_height(text);
+    int lines = 0;
+    for (int i = 0; overlay_list[i]; i++) {
+        char line[160] = "";
+        if (overlays->state[i] && overlay_list[i]->legend)
+            overlay_list[i]->legend(overlays->state[i], frame, line, sizeof line);
+        if (*line)
+            legend_line(text, frame, em, (float)frame->height - (3.6F + 1.6F * (float)lines++) * em, line);
+    }
+}

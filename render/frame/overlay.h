@@ -1,0 +1,75 @@
+/* Overlays: what is drawn into the picture beside any view. One folder an overlay, one list of them:
+   render/overlays.c. One that is not shown has no state, no attribute of the particles and no stage. */
+#ifndef SLOSH_RENDER_OVERLAY_H
+#define SLOSH_RENDER_OVERLAY_H
+
+#include "render/frame/frame.h"
+#include "render/frame/text.h"
+#include "sim/base/error.h"
+#include "sim/base/key.h"
+#include "sim/base/room.h"
+#include "sim/gl/particle_buffers.h"
+
+/* What the struct of an overlay's own settings begins with: its key "view.NAME.show". */
+typedef struct IN_A_ROOM OverlayShow {
+    bool show;
+} OverlayShow;
+
+typedef struct OverlayKind {
+    const char *name, *help;
+    const Key *keys;     /* of its own settings, ended by a row without a path */
+    const void *def;     /* the struct of these settings with its defaults; it begins as OverlayShow */
+    size_t def_size;     /* bytes; at most VIEW_OWN_SIZE */
+    unsigned attributes; /* of the particles that it reads besides those of the view, PARTICLE_* */
+    /* How far apart the states may be that it sees, s, and for how long before a picture it must see them, s;
+       NULL: that of the picture is enough. */
+    double (*every)(const ViewDef *def, double *before);
+    void *(*create)(const Subject *subject, Error *error); /* the state behind it, or NULL with the reason */
+    void (*destroy)(void *state);
+    /* Each state that is to be drawn or lies between pictures, once, before it is drawn; NULL: it keeps none.
+     */
+    void (*take)(void *state, const ParticleBuffers *particles, const Subject *subject, GlTimer *timer);
+    /* Draws colour into frame->target behind the view, within its own stages of frame->timer, and tests
+       against the depth there. */
+    void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* A line for the legend: what the overlay shows and at which scale; NULL: none. */
+    void (*legend)(void *state, const Frame *frame, char *line, size_t size);
+} OverlayKind;
+
+extern const OverlayKind *const overlay_list[]; /* ended by NULL */
+
+/* The overlays of a picture. Zero-initialise it. */
+typedef struct Overlays {
+    void *state[OVERLAY_KINDS_MAX]; /* NULL: not shown */
+    uint64_t step;                  /* of the state taken last */
+    double time;
+    size_t count;
+    bool taken[OVERLAY_KINDS_MAX];
+} Overlays;
+
+/* The settings of one of the list in a def; not const, as memchr's result is not. */
+void *overlay_own(const ViewDef *def, const OverlayKind *kind);
+
+/* Fills in the defaults of all overlays' settings. */
+void overlays_default(ViewDef *def);
+
+/* What those shown read of the particles; of a def of NULL what any may read. */
+unsigned overlays_attributes(const ViewDef *def);
+
+/* The least of what those shown say by OverlayKind.every, and the longest time before a picture; INFINITY
+   where the states of pictures are enough. */
+double overlays_every(const ViewDef *def, double *before);
+
+/* Makes those that the def shows, and gives up the others. On failure all stays as it was. */
+bool overlays_follow(Overlays *overlays, const Subject *subject, Error *error);
+void overlays_destroy(Overlays *overlays);
+
+/* Shows them a state, once. */
+void overlays_take(Overlays *overlays, const ParticleBuffers *particles, const Subject *subject,
+                   GlTimer *timer);
+void overlays_draw(const Overlays *overlays, const ParticleBuffers *particles, const Frame *frame);
+
+/* Their lines, from the lower left corner up, above that of the time. */
+void overlays_legend(const Overlays *overlays, Text *text, const Frame *frame);
+
+#endif

@@ -1,0 +1,41 @@
+/* The picture of all trails, kept from picture to picture while camera and box stand still: for each pixel
+   the newest line there, with its time, scalar and depth. Only what a new state adds is drawn then, however
+   long the trails are; how they fade, and what hides them, is found anew for each picture. What is newest is
+   never hidden by what has faded.
+
+   Needs a current OpenGL 4.5 core context. */
+#ifndef SLOSH_TRAIL_LINES_H
+#define SLOSH_TRAIL_LINES_H
+
+#include "render/frame/frame.h"
+#include "render/particles/particle_bind.h"
+#include "render/trails/trail_store.h"
+
+/* All that the kept picture depends on, besides the columns. */
+typedef struct TrailLook {
+    float box_to_eye[16], tangent[2], near_plane, half_width, wrap[3];
+    int width, height;
+    Scalar scalar;
+    uint64_t drops;  /* of the ring */
+    unsigned places; /* the store's buffer */
+} TrailLook;
+
+/* Zero-initialise it. */
+typedef struct TrailLines {
+    unsigned lines, head, show; /* programs */
+    unsigned screen;            /* vertex array without attributes */
+    unsigned colormap, kept, framebuffer;
+    char colormap_name[NAME_SIZE];
+    QuadIndices quads;
+    TrailLook look; /* of the kept picture */
+    uint64_t drawn; /* columns before this one are in it */
+} TrailLines;
+
+/* False when a shader does not compile; trail_lines_destroy is needed in either case. */
+bool trail_lines_create(TrailLines *lines, Error *error);
+void trail_lines_destroy(TrailLines *lines);
+
+/* Into frame->target. */
+void trail_lines_draw(TrailLines *lines, const TrailStore *store, const Frame *frame);
+
+#endif

@@ -1,0 +1,224 @@
+#include "render/trails/trail_store.h"
+
+#include "render/particles/particle_bind.h"
+#include "render/particles/work.h"
+#include "shaders/trails/trails_bindings.h"
+#include "sim/gl/debug.h"
+#include "sim/gl/program.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <string.h>
+
+enum {
+    SLOTS_LEAST = 1024,    /* so that a tap that begins to run does not make all anew at each picture */
+    POINTS_MOST = 8 << 20, /* of all trails: 160 MB */
+    POINT_BYTES = 4 * sizeof(float)
+};
+
+bool trail_store_create(TrailStore *store, const Subject *subject, Error *error)
+{
+    static const char *const claim[] = {"trails/trails_claim.comp", NULL};
+    static const char *const take[] = {"trails/trails_take.comp", NULL};
+    const WorldDef *world = subject->world;
+    const size_t seeds = world->spacing > 0 ? seed_count(world, world->spacing) : 0;
+    store->capacity = world->spacing > 0 ? flow_capacity(world, seeds) : 0;
+    store->flows = store->capacity > seeds || store->capacity == 0;
+    store->claim = program_create("trails claim", claim, NULL, error);
+    store->take = store->claim ? program_create("trails take", take, NULL, error) : 0;
+    return store->take != 0;
+}
+
+static void drop_buffers(TrailStore *store)
+{
+    glDeleteBuffers(1, &store->places);
+    glDeleteBuffers(1, &store->owners);
+    glDeleteBuffers(1, &store->seen);
+    glDeleteBuffers(1, &store->claims);
+    store->places = store->owners = store->seen = store->claims = 0;
+    store->slots = 0;
+    trail_ring_destroy(&store->ring);
+}
+
+void trail_store_destroy(TrailStore *store)
+{
+    drop_buffers(store);
+    glDeleteProgram(store->claim);
+    glDeleteProgram(store->take);
+    *store = (TrailStore){0};
+}
+
+static void clear(unsigned buffer, size_t first, size_t count, uint32_t value)
+{
+    glClearNamedBufferSubData(buffer, GL_R32UI, (GLintptr)(first * sizeof value),
+                              (GLsizeiptr)(count * sizeof value), GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
+}
+
+/* How many trails there are, and every how many ids. */
+static void count_slots(TrailStore *store, const TrailsDef *def, int points)
+{
+    const size_t most = (size_t)fmin(TRAILS_MOST, floor(POINTS_MOST / (double)(points + 1)));
+    const size_t wanted = (store->capacity + (size_t)def->stride - 1) / (size_t)def->stride;
+    store->stride = wanted > most ? (int)((store->capacity + most - 1) / most) : def->stride;
+    store->slots = (int)(wanted > most ? most : wanted > SLOTS_LEAST ? wanted : SLOTS_LEAST);
+    if (def->listed_count > 0)
+        store->slots = def->listed_count;
+}
+
+static bool make_buffers(TrailStore *store)
+{
+    const size_t slots = (size_t)store->slots, points = slots * (size_t)store->ring.room;
+    gl_debug_errors(); /* what is asked below is of these buffers */
+    work_buffer_remake(&store->places, points * POINT_BYTES, "trails' points");
+    work_buffer_remake(&store->owners, points * sizeof(uint32_t), "trails' owners");
+    work_buffer_remake(&store->seen, slots * sizeof(uint32_t), "trails seen");
+    work_buffer_remake(&store->claims, slots * sizeof(uint32_t), "trails claimed");
+    return gl_errors_take(GL_OUT_OF_MEMORY) == 0;
+}
+
+/* Whether there is room for that state by those settings; else all begins anew. */
+static bool has_room(const TrailStore *store, const TrailsDef *def, size_t count)
+{
+    const TrailsDef *was = &store->def;
+    return store->slots > 0 && count <= store->capacity && def->stride == was->stride &&
+           trails_points(def) + 1 == store->ring.room && def->listed_count == was->listed_count &&
+           memcmp(def->listed, was->listed, sizeof def->listed) == 0;
+}
+
+static void make_room(TrailStore *store, const TrailsDef *def, size_t count)
+{
+    const int points = trails_points(def);
+    if (has_room(store, def, count))
+        return;
+    drop_buffers(store);
+    if (count > store->capacity)
+        store->capacity = work_capacity(store->capacity, count);
+    count_slots(store, def, points);
+    if (!trail_ring_create(&store->ring, def->length, trails_every(def), points) || !make_buffers(store))
+        drop_buffers(store);
+    else
+        clear(store->seen, 0, (size_t)store->slots, 0);
+}
+
+unsigned trail_store_column(const TrailStore *store, uint64_t number)
+{
+    return (unsigned)(number % (uint64_t)store->ring.room) * (unsigned)store->slots;
+}
+
+static bool same3(const double a[3], const double b[3])
+{
+    return memcmp(a, b, sizeof(double[3])) == 0;
+}
+
+/* Another choice of particles begins now; another box is another fluid. */
+static void follow_choice(TrailStore *store, const TrailsDef *def, const ParticleBuffers *particles)
+{
+    const TrailsDef *was = &store->def;
+    const bool other = !same3(particles->box_size, store->box_size) || particles->spacing != store->spacing;
+    if (other || !same3(def->region_min, was->region_min) || !same3(def->region_max, was->region_max) ||
+        !same3(def->plane_point, was->plane_point) || !same3(def->plane_normal, was->plane_normal))
+        clear(store->seen, 0, (size_t)store->slots, 0);
+    if (other)
+        trail_ring_clear(&store->ring);
+    memcpy(store->box_size, particles->box_size, sizeof store->box_size);
+    store->spacing = particles->spacing;
+    store->ring.length = def->length;
+    store->ring.every = trails_every(def);
+    store->def = *def;
+}
+
+/* After a step back the choice is that of the time: what crossed the plane later has not done so yet. */
+static void go_back(const TrailStore *store)
+{
+    const TrailRing *ring = &store->ring;
+    const GLsizeiptr bytes = (GLsizeiptr)((size_t)store->slots * sizeof(uint32_t));
+    if (ring->head == ring->begin)
+        clear(store->seen, 0, (size_t)store->slots, 0);
+    else
+        glCopyNamedBufferSubData(store->owners, store->seen,
+                                 (GLintptr)(sizeof(uint32_t) * trail_store_column(store, ring->head - 1)), 0,
+                                 bytes);
+}
+
+static void bind_ids(const TrailStore *store, GLuint program, const ParticleBuffers *particles)
+{
+    const TrailsDef *def = &store->def;
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, TRAIL_IDS_STORAGE, particles->id.buffer,
+                      (GLintptr)particles->id.offset, (GLsizeiptr)(particles->count * particles->id.stride));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TRAIL_CLAIMS_STORAGE, store->claims);
+    glProgramUniform1ui(program, TRAIL_COUNT_AT, (GLuint)particles->count);
+    glProgramUniform1ui(program, TRAIL_ID_STRIDE_AT, (GLuint)(particles->id.stride / 4));
+    glProgramUniform1ui(program, TRAIL_EVERY_AT, (GLuint)store->stride);
+    glProgramUniform1ui(program, TRAIL_SLOTS_AT, (GLuint)store->slots);
+    glProgramUniform1ui(program, TRAIL_LISTED_AT, (GLuint)def->listed_count);
+    glProgramUniform1uiv(program, TRAIL_LIST_AT, TRAIL_LISTED_IDS, def->listed);
+}
+
+void trail_store_bind(const TrailStore *store)
+{
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TRAIL_PLACES_STORAGE, store->places);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TRAIL_OWNERS_STORAGE, store->owners);
+}
+
+static bool claim(const TrailStore *store, const ParticleBuffers *particles)
+{
+    if (!store->flows || store->def.listed_count > 0)
+        return false;
+    clear(store->claims, 0, (size_t)store->slots, UINT32_MAX);
+    glUseProgram(store->claim);
+    bind_ids(store, store->claim, particles);
+    work_run(particles->count);
+    return true;
+}
+
+static void set3(GLuint program, GLint location, const double v[3])
+{
+    glProgramUniform3f(program, location, (GLfloat)v[0], (GLfloat)v[1], (GLfloat)v[2]);
+}
+
+static void set_choice(const TrailStore *store, GLuint program)
+{
+    const TrailsDef *def = &store->def;
+    const double *normal = def->plane_normal, *point = def->plane_point;
+    set3(program, TRAIL_LEAST_AT, def->region_min);
+    set3(program, TRAIL_GREATEST_AT, def->region_max);
+    glProgramUniform4f(program, TRAIL_PLANE_AT, (GLfloat)normal[0], (GLfloat)normal[1], (GLfloat)normal[2],
+                       (GLfloat)(normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2]));
+}
+
+static void run_take(const TrailStore *store, const ParticleBuffers *particles, Scalar scalar, bool claimed)
+{
+    const TrailRing *ring = &store->ring;
+    const bool joins = trail_ring_joins(ring, ring->head);
+    glUseProgram(store->take);
+    particle_bind(store->take, particles, scalar);
+    bind_ids(store, store->take, particles);
+    trail_store_bind(store);
+    set_choice(store, store->take);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TRAIL_SEEN_STORAGE, store->seen);
+    glUniform1ui(TRAIL_COLUMN_AT, trail_store_column(store, ring->head));
+    glUniform1ui(TRAIL_BEFORE_AT, joins ? trail_store_column(store, ring->head - 1) : TRAIL_NO_COLUMN);
+    glUniform1ui(TRAIL_CLAIMS_AT, claimed);
+    glUniform1ui(TRAIL_IS_FLUID_AT, scalar == SCALAR_FLUID);
+    work_run(particles->count);
+}
+
+void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const ViewDef *view)
+{
+    const TrailsDef *def = trails_def(view);
+    const Scalar scalar = view->color_by;
+    make_room(store, def, particles->count);
+    if (store->slots == 0 || (particles->count > 0 && !particles->id.buffer))
+        return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    follow_choice(store, def, particles);
+    const bool back = store->ring.end > store->ring.begin && particles->time < store->ring.now;
+    trail_ring_take(&store->ring, particles->time, scalar);
+    if (back)
+        go_back(store);
+    clear(store->owners, trail_store_column(store, store->ring.head), (size_t)store->slots, 0);
+    if (particles->count > 0)
+        run_take(store, particles, scalar, claim(store, particles));
+}

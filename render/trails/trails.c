@@ -1,0 +1,80 @@
+#include "render/trails/trails_def.h"
+
+#include "render/trails/trail_lines.h"
+#include "render/trails/trail_store.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct Trails {
+    TrailStore store;
+    TrailLines lines;
+} Trails;
+
+static void destroy(void *state)
+{
+    Trails *trails = state;
+    trail_store_destroy(&trails->store);
+    trail_lines_destroy(&trails->lines);
+    free(trails);
+}
+
+static void *create(const Subject *subject, Error *error)
+{
+    Trails *trails = calloc(1, sizeof *trails);
+    if (!trails) {
+        error_set(error, "out of memory for trails");
+        return NULL;
+    }
+    if (trail_store_create(&trails->store, subject, error) && trail_lines_create(&trails->lines, error))
+        return trails;
+    destroy(trails);
+    return NULL;
+}
+
+static double every(const ViewDef *def, double *before)
+{
+    *before = trails_def(def)->length;
+    return trails_every(trails_def(def));
+}
+
+static void take(void *state, const ParticleBuffers *particles, const Subject *subject, GlTimer *timer)
+{
+    Trails *trails = state;
+    GL_STAGE(timer, STAGE_OVERLAY)
+    trail_store_take(&trails->store, particles, subject->def);
+}
+
+static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    Trails *trails = state;
+    (void)particles;
+    GL_STAGE(frame->timer, STAGE_OVERLAY)
+    trail_lines_draw(&trails->lines, &trails->store, frame);
+}
+
+/* What is not as the keys say. */
+static void legend(void *state, const Frame *frame, char *line, size_t size)
+{
+    const TrailStore *store = &((const Trails *)state)->store;
+    if (store->slots == 0 && store->capacity > 0)
+        snprintf(line, size, "trails: the GPU has no memory for them");
+    else if (store->slots > 0 && store->stride > trails_def(frame->def)->stride)
+        snprintf(line, size, "trails of every %dth particle: more than %d have no room", store->stride,
+                 store->slots);
+}
+
+const OverlayKind overlay_trails = {
+    .name = "trails",
+    .help = "paths of particles, faded with age",
+    .keys = trails_keys,
+    .def = &trails_usual,
+    .def_size = sizeof trails_usual,
+    .attributes = PARTICLE_ID,
+    .every = every,
+    .create = create,
+    .destroy = destroy,
+    .take = take,
+    .draw = draw,
+    .legend = legend,
+};

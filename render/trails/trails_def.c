@@ -1,0 +1,44 @@
+#include "render/trails/trails_def.h"
+
+#include "sim/base/key_rows.h"
+
+#include <math.h>
+
+/* A trail of a second through 200 points: at 2 m/s in a box of a metre, a point each few pixels. */
+const TrailsDef trails_usual = {.stride = 10, .length = 1, .width = 1.5};
+
+#define AT(field) offsetof(TrailsDef, field)
+
+/* clang-format off */
+const Key trails_keys[] = {
+    MAPPING("view.trails", "of the overlay trails: the paths of particles, beside any view"),
+    BOOLEAN("view.trails.show", L, AT(show), "draw them"),
+    INTEGER("view.trails.stride", L, 1, 1000000, AT(stride), "every so many particles, by their ids, has one; more than 20,000 at once there are not"),
+    NUMBER("view.trails.length", L | O, "s", 0, 1000, AT(length), "from the particle back; older parts have faded"),
+    NUMBER("view.trails.every", L, "s", 0, 1000, AT(every), "between two points, at least; 0: 200 in a trail"),
+    NUMBER("view.trails.width", L | O, "pixels", 0, 50, AT(width), "of the lines"),
+    NUMBER("view.trails.through", L, "", 0, 1, AT(through), "how much shows of what fluid and solids hide"),
+    VEC3("view.trails.region_min", L, "m", -1e6, 1e6, AT(region_min), "the least corner of a box: only particles have one that are in there when they are let in or these keys change; equal corners: all"),
+    VEC3("view.trails.region_max", L, "m", -1e6, 1e6, AT(region_max), "its greatest corner"),
+    VEC3("view.trails.plane_point", L, "m", -1e6, 1e6, AT(plane_point), "of a plane: only particles have one that cross it, from there on"),
+    VEC3("view.trails.plane_normal", L, "", -1e6, 1e6, AT(plane_normal), "across this plane; of length 0: all have one"),
+    KEYS_END,
+};
+/* clang-format on */
+
+TrailsDef *trails_def(const ViewDef *def)
+{
+    return overlay_own(def, &overlay_trails);
+}
+
+double trails_every(const TrailsDef *def)
+{
+    enum { USUAL_POINTS = 200 };
+    const double least = def->length / (TRAILS_POINTS_MAX - 2);
+    return fmax(def->every > 0 ? def->every : def->length / USUAL_POINTS, least);
+}
+
+int trails_points(const TrailsDef *def)
+{
+    return (int)fmin(ceil(def->length / trails_every(def)), TRAILS_POINTS_MAX - 2) + 2;
+}

@@ -1,0 +1,34 @@
+/* The overlay trails' own settings: their keys, names and defaults. */
+#ifndef SLOSH_TRAILS_DEF_H
+#define SLOSH_TRAILS_DEF_H
+
+#include "render/frame/overlay.h"
+
+enum { TRAILS_LISTED_MAX = 16, TRAILS_MOST = 20000, TRAILS_POINTS_MAX = 1000 };
+
+typedef struct IN_A_ROOM TrailsDef {
+    bool show;                              /* as OverlayShow */
+    int stride;                             /* every so many ids has a trail */
+    double length;                          /* s */
+    double every;                           /* s between points; 0: length / 200 */
+    double width;                           /* pixels */
+    double through;                         /* how much of what is hidden shows, 0 .. 1 */
+    double region_min[3], region_max[3];    /* m, box's frame: only what starts in there; equal: wherever */
+    double plane_point[3], plane_normal[3]; /* only what has crossed that plane; a normal of 0: all */
+    int listed_count;                       /* of `listed`; 0: by stride */
+    uint32_t listed[TRAILS_LISTED_MAX];     /* ids */
+} TrailsDef;
+
+extern const OverlayKind overlay_trails;
+
+/* Those of that def; not const, as memchr's result is not. */
+TrailsDef *trails_def(const ViewDef *def);
+
+/* Seconds between two points, and how many points a trail may have. */
+double trails_every(const TrailsDef *def);
+int trails_points(const TrailsDef *def);
+
+extern const TrailsDef trails_usual; /* the defaults */
+extern const Key trails_keys[];      /* ended by a row without a path */
+
+#endif

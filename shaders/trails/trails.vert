@@ -1,0 +1,72 @@
+// A piece of each trail, from the column before to this one: four vertices a trail. A piece begins across the direction in
+// which the trail comes, and ends across its own: pieces share these edges, so that no pixel is covered twice or left out.
+#include "common/frame.glsl"
+#include "shaders/trails/trails_bindings.h"
+
+layout(std430, binding = TRAIL_PLACES_STORAGE) readonly buffer Places { vec4 places[]; };
+layout(std430, binding = TRAIL_OWNERS_STORAGE) readonly buffer Owners { uint owners[]; };
+layout(location = TRAIL_COLUMN_AT) uniform uint column; // where it begins
+layout(location = TRAIL_BEFORE_AT) uniform uint before;
+layout(location = TRAIL_EARLIER_AT) uniform uint earlier; // or TRAIL_NO_COLUMN
+layout(location = TRAIL_WRAP_AT) uniform vec3 wrap;       // a longer way leads through a periodic side, m
+layout(location = TRAIL_TIMES_AT) uniform vec2 times;     // of the column before and of this one
+layout(location = TRAIL_KNOWN_AT) uniform uint known;     // 0: their scalars are not those that are shown
+layout(location = HALF_WIDTH_AT) uniform float half_width;
+layout(location = 0) noperspective out float across; // pixels from the line's middle
+layout(location = 1) noperspective out vec2 stamp;   // time and scalar
+
+// Whether a line leads from one to the other.
+bool joined(uint from, uint to)
+{
+    bool one = owners[from] != 0u && owners[from] >> 1u == owners[to] >> 1u && (owners[to] & 1u) != 0u;
+    return one && all(lessThanEqual(abs(places[to].xyz - places[from].xyz), wrap));
+}
+
+vec3 eye_of(uint at)
+{
+    return (box_to_eye * vec4(places[at].xyz, 1.0)).xyz;
+}
+
+// The share of the way to the other end at which this end is before the eye.
+float cut(float own, float other)
+{
+    float clear = -2.0 * near_plane;
+    return own <= clear ? 0.0 : (own - clear) / (own - other);
+}
+
+vec2 pixels_of(vec3 at)
+{
+    return at.xy / (-at.z * view_tangent) * 0.5 * picture_size;
+}
+
+vec2 across_of(vec2 along)
+{
+    return vec2(-along.y, along.x) / max(length(along), 1e-9);
+}
+
+void main()
+{
+    uint slot = uint(gl_VertexID) >> 2, a = before + slot, b = column + slot;
+    across = 0.0;
+    stamp = vec2(0.0);
+    gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
+    if (!joined(a, b))
+        return;
+    vec3 from = eye_of(a), to = eye_of(b);
+    if (max(from.z, to.z) > -2.0 * near_plane && min(from.z, to.z) > -2.0 * near_plane)
+        return;
+    float start = cut(from.z, to.z), stop = 1.0 - cut(to.z, from.z);
+    vec3 first = mix(from, to, start), last = mix(from, to, stop);
+    vec2 along = pixels_of(last) - pixels_of(first), side = across_of(along);
+    if ((gl_VertexID & 1) == 0 && earlier != TRAIL_NO_COLUMN && start == 0.0 && joined(earlier + slot, a)) {
+        vec3 came_from = eye_of(earlier + slot);
+        vec2 came = pixels_of(first) - pixels_of(came_from);
+        side = came_from.z < -2.0 * near_plane && dot(came, along) > 0.0 ? across_of(came) : side;
+    }
+    float share = (gl_VertexID & 1) == 0 ? start : stop;
+    vec3 here = mix(from, to, share);
+    across = ((gl_VertexID & 2) == 0 ? -1.0 : 1.0) * (half_width + 0.5);
+    stamp = vec2(mix(times.x, times.y, share), mix(places[a].w, places[b].w, share));
+    stamp.y = known != 0u ? stamp.y : uintBitsToFloat(0x7fc00000u);
+    gl_Position = vec4(here.xy / view_tangent + side * across * 2.0 * pixel_size * -here.z, near_plane, -here.z);
+}

@@ -1,0 +1,387 @@
+/* Overlay `trails`: which points it keeps of which particles, through all that may happen to time and
+   particles. */
+#include "tests/render/trails_fixture.h"
+
+#include "render/frame/overlay.h"
+
+typedef struct Point {
+    float x, y, z, value;
+} Point;
+
+static TrailStore make_store(const ViewDef *def, const WorldDef *world)
+{
+    static const WorldDef unknown;
+    Error error = {0};
+    TrailStore store = {0};
+    const Subject subject = {def, world ? world : &unknown};
+    if (!trail_store_create(&store, &subject, &error))
+        fail_msg("%s", error.message);
+    return store;
+}
+
+/* The slot's point of a column; false where nobody is seen there. */
+static bool point_of(const TrailStore *store, uint64_t column, unsigned slot, Point *point)
+{
+    const size_t at = trail_store_column(store, column) + slot;
+    uint32_t owner;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(store->owners, (GLintptr)(at * sizeof owner), sizeof owner, &owner);
+    glGetNamedBufferSubData(store->places, (GLintptr)(at * sizeof *point), sizeof *point, point);
+    return owner & 1;
+}
+
+static uint32_t id_of(const TrailStore *store, uint64_t column, unsigned slot)
+{
+    uint32_t owner;
+    const size_t at = trail_store_column(store, column) + slot;
+    glGetNamedBufferSubData(store->owners, (GLintptr)(at * sizeof owner), sizeof owner, &owner);
+    return owner / 2 - 1;
+}
+
+/* `count` particles on circles about the box's middle, in an order that changes from state to state. */
+static void turn(Movers *movers, int count, double time)
+{
+    const int shift = (int)(time * 1000) % count;
+    movers_clear(movers);
+    for (int k = 0; k < count; k++) {
+        const int id = (k * 7 + shift) % count;
+        const double radius = 0.1 + 0.3 * id / count, angle = 2 * time + id;
+        movers_add(movers, (uint32_t)id, radius * cos(angle), 0.5 + radius * sin(angle), 0.001 * id, time);
+    }
+}
+
+static void take_turn(TrailStore *store, Movers *movers, const ViewDef *def, int count, double time)
+{
+    turn(movers, count, time);
+    const ParticleBuffers particles = movers_upload(movers, time);
+    trail_store_take(store, &particles, def);
+}
+
+/* The worst distance of all points kept from their circles, m. */
+static double worst_of_turn(const TrailStore *store, int count)
+{
+    double worst = 0;
+    for (uint64_t k = store->ring.begin; k < store->ring.end; k++)
+        for (int id = 0; id < count; id++) {
+            Point point;
+            const double time = trail_ring_at(&store->ring, k)->time;
+            const double radius = 0.1 + 0.3 * id / count, angle = 2 * time + id;
+            assert_true(point_of(store, k, (unsigned)id, &point));
+            assert_int_equal(id_of(store, k, (unsigned)id), id);
+            worst = fmax(worst, fabs(point.x - radius * cos(angle)));
+            worst = fmax(worst, fabs(point.y - 0.5 - radius * sin(angle)));
+            worst = fmax(worst, fabs(point.value - time));
+        }
+    return worst;
+}
+
+static void particles_are_found_in_any_order(void **state)
+{
+    (void)state;
+    enum { COUNT = 300 };
+    const ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    for (int i = 0; i <= 250; i++)
+        take_turn(&store, movers, &def, COUNT, 0.008 * i);
+    const double worst = worst_of_turn(&store, COUNT);
+    if (!(worst < 2e-7))
+        fail_msg("%g m off", worst);
+    /* a second in steps of 8 ms, and one point that is older, up to which the trail fades */
+    assert_in_range(store.ring.end - store.ring.begin, 126, 127);
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+static void points_are_no_closer_than_asked_for(void **state)
+{
+    (void)state;
+    ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    trails_def(&def)->every = 0.05;
+    TrailStore store = make_store(&def, NULL);
+    for (int i = 0; i <= 150; i++) {
+        take_turn(&store, movers, &def, 10, 0.01 * i);
+        assert_true(trail_ring_at(&store.ring, store.ring.head)->time == 0.01 * i);
+        Point point;
+        assert_true(point_of(&store, store.ring.head, 3, &point));
+        assert_true(fabs(point.value - 0.01 * i) < 1e-6);
+    }
+    for (uint64_t k = store.ring.begin + 1; k < store.ring.end; k++)
+        assert_true(fabs(trail_ring_at(&store.ring, k)->time - trail_ring_at(&store.ring, k - 1)->time -
+                         0.05) < 1e-9);
+    assert_true(worst_of_turn(&store, 10) < 2e-7);
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+/* Step back: what is newer than the present state goes, and the rest goes on. */
+static void time_may_go_back(void **state)
+{
+    (void)state;
+    const ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    for (int i = 0; i <= 50; i++)
+        take_turn(&store, movers, &def, 20, 0.01 * i);
+    for (int i = 49; i >= 30; i--) {
+        take_turn(&store, movers, &def, 20, 0.01 * i);
+        assert_true(trail_ring_at(&store.ring, store.ring.end - 1)->time <= 0.01 * i);
+        assert_int_equal(store.ring.end - store.ring.begin, i + 1);
+        assert_false(trail_ring_at(&store.ring, store.ring.end - 1)->broken);
+    }
+    for (int i = 31; i <= 60; i++)
+        take_turn(&store, movers, &def, 20, 0.01 * i);
+    assert_int_equal(store.ring.end - store.ring.begin, 61);
+    assert_true(worst_of_turn(&store, 20) < 2e-7);
+    for (uint64_t k = store.ring.begin + 1; k < store.ring.end; k++)
+        assert_true(trail_ring_joins(&store.ring, k));
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+/* The scene from its start. */
+static void a_reset_empties_them(void **state)
+{
+    (void)state;
+    const ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    for (int i = 0; i <= 50; i++)
+        take_turn(&store, movers, &def, 20, 0.01 * i);
+    take_turn(&store, movers, &def, 20, 0);
+    assert_int_equal(store.ring.end - store.ring.begin, 1);
+    assert_false(trail_ring_joins(&store.ring, store.ring.end - 1));
+    movers->state.box_size[0] = 1; /* another scene, whose time is later */
+    take_turn(&store, movers, &def, 20, 0.3);
+    assert_int_equal(store.ring.end - store.ring.begin, 1);
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+static void a_jump_is_no_path(void **state)
+{
+    (void)state;
+    const ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    for (int i = 0; i <= 20; i++)
+        take_turn(&store, movers, &def, 20, 0.01 * i);
+    take_turn(&store, movers, &def, 20, 0.26); /* the window stood still for a moment */
+    assert_true(trail_ring_joins(&store.ring, store.ring.head));
+    take_turn(&store, movers, &def, 20, 0.27);
+    take_turn(&store, movers, &def, 20, 0.8);
+    assert_false(trail_ring_joins(&store.ring, store.ring.head));
+    take_turn(&store, movers, &def, 20, 0.81);
+    assert_true(trail_ring_joins(&store.ring, store.ring.head));
+    take_turn(&store, movers, &def, 20, 7);
+    assert_false(trail_ring_joins(&store.ring, store.ring.head));
+    /* a film that plays fast */
+    for (int i = 1; i <= 3; i++)
+        take_turn(&store, movers, &def, 20, 7 + 0.4 * i);
+    assert_true(trail_ring_joins(&store.ring, store.ring.head));
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+/* Ids that come by an emitter and go by a drain: each keeps its trail, nobody gets another's. */
+static void particles_come_and_go(void **state)
+{
+    (void)state;
+    enum { ALIVE = 1500, STATES = 60, STEP = 100 }; /* more ids in all than there are slots */
+    const ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    for (int i = 0; i < STATES; i++) {
+        movers_clear(movers);
+        for (int k = ALIVE - 1; k >= 0; k--)
+            movers_add(movers, (uint32_t)(i * STEP + k), 0.0001 * (i * STEP + k), 0.5, 0, 0);
+        const ParticleBuffers particles = movers_upload(movers, 0.01 * i);
+        trail_store_take(&store, &particles, &def);
+        int seen = 0;
+        for (unsigned slot = 0; slot < (unsigned)store.slots; slot++) {
+            Point point;
+            if (!point_of(&store, store.ring.head, slot, &point))
+                continue;
+            const uint32_t id = id_of(&store, store.ring.head, slot);
+            assert_in_range(id, i * STEP, i * STEP + ALIVE - 1);
+            assert_true(fabs(point.x - 0.0001 * id) < 1e-6);
+            seen++;
+        }
+        assert_int_equal(seen, ALIVE);
+    }
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+/* Where two want one trail the older has it until it is gone. */
+static void the_older_keeps_its_trail(void **state)
+{
+    (void)state;
+    const ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    for (int i = 0; i < 8; i++) {
+        const bool both = i >= 2, old = i < 5;
+        movers_clear(movers);
+        if (both)
+            movers_add(movers, 5 + 1024 * 3, 0.7, 0.5, 0, 0);
+        if (old)
+            movers_add(movers, 5, 0.2, 0.5, 0, 0);
+        const ParticleBuffers particles = movers_upload(movers, 0.01 * i);
+        trail_store_take(&store, &particles, &def);
+        assert_int_equal(store.slots, 1024);
+        assert_int_equal(id_of(&store, store.ring.head, 5), old ? 5 : 5 + 1024 * 3);
+    }
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+static int seen_in_head(const TrailStore *store)
+{
+    int seen = 0;
+    Point point;
+    for (unsigned slot = 0; slot < (unsigned)store->slots; slot++)
+        seen += point_of(store, store->ring.head, slot, &point);
+    return seen;
+}
+
+static void some_are_chosen(void **state)
+{
+    (void)state;
+    ViewDef def = trails_view();
+    TrailsDef *own = trails_def(&def);
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    own->stride = 7;
+    take_turn(&store, movers, &def, 300, 0);
+    assert_int_equal(seen_in_head(&store), 43);
+    own->stride = 1;
+    own->region_min[0] = -2, own->region_min[1] = 0.5, own->region_min[2] = -1;
+    own->region_max[0] = 2, own->region_max[1] = 2, own->region_max[2] = 1;
+    take_turn(&store, movers, &def, 300, 0.01);
+    int above = 0;
+    for (size_t i = 0; i < movers->count; i++)
+        above += movers->position[4 * i + 1] >= 0.5F;
+    assert_in_range(above, 100, 200);
+    assert_int_equal(seen_in_head(&store), above);
+    take_turn(&store, movers, &def, 300, 0.8); /* chosen once: half of these are below now */
+    assert_int_equal(seen_in_head(&store), above);
+    own->listed_count = 3;
+    own->listed[0] = 250, own->listed[1] = 4, own->listed[2] = 5000;
+    memset(own->region_min, 0, sizeof own->region_min);
+    memset(own->region_max, 0, sizeof own->region_max);
+    take_turn(&store, movers, &def, 300, 0.81);
+    assert_int_equal(store.slots, 3);
+    assert_int_equal(seen_in_head(&store), 2);
+    assert_int_equal(id_of(&store, store.ring.head, 0), 250);
+    assert_int_equal(id_of(&store, store.ring.head, 1), 4);
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+/* Ten that rise through a plane one after another; going back before that they have not crossed it. */
+static void those_that_cross_a_plane_are_chosen(void **state)
+{
+    (void)state;
+    ViewDef def = trails_view();
+    TrailsDef *own = trails_def(&def);
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    own->plane_point[1] = 0.5;
+    own->plane_normal[1] = 3;
+    static const int states[] = {0, 1, 2, 3, 4, 5, 6, 5, 4, 3, 2, 1, 2, 3};
+    for (size_t i = 0; i < sizeof states / sizeof *states; i++) {
+        movers_clear(movers);
+        for (int k = 0; k < 10; k++) /* number k crosses on its way to state k + 1 */
+            movers_add(movers, (uint32_t)k, 0.1 * k, 0.5 + 0.01 * (states[i] - k - 0.5), 0, 0);
+        const ParticleBuffers particles = movers_upload(movers, 0.01 * states[i]);
+        trail_store_take(&store, &particles, &def);
+        if (seen_in_head(&store) != states[i])
+            fail_msg("state %d: %d have crossed", states[i], seen_in_head(&store));
+    }
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+static void there_are_so_many_at_most(void **state)
+{
+    (void)state;
+    ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    store.capacity = 300000;
+    take_turn(&store, movers, &def, 300, 0);
+    assert_int_equal(store.stride, 15);
+    assert_int_equal(store.slots, TRAILS_MOST);
+    trails_def(&def)->every = 0.001;
+    take_turn(&store, movers, &def, 300, 0.01);
+    assert_true((double)store.slots * store.ring.room <= 8 << 20);
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+static void what_is_nowhere_has_no_point(void **state)
+{
+    (void)state;
+    const ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    movers_add(movers, 0, 0.1, 0.1, 0, 0);
+    movers_add(movers, 1, NAN, 0.1, 0, 0);
+    movers_add(movers, 2, 0.1, INFINITY, 0, 0);
+    const ParticleBuffers particles = movers_upload(movers, 0);
+    trail_store_take(&store, &particles, &def);
+    assert_int_equal(seen_in_head(&store), 1);
+    movers_clear(movers);
+    const ParticleBuffers none = movers_upload(movers, 0.01);
+    trail_store_take(&store, &none, &def);
+    assert_int_equal(seen_in_head(&store), 0);
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
+/* No attribute, no state between pictures, no object of GL: numbers of buffers tell. */
+static void hidden_ones_cost_nothing(void **state)
+{
+    (void)state;
+    Error error = {0};
+    ViewDef def = trails_view();
+    double before;
+    assert_int_equal(overlays_attributes(&def), PARTICLE_ID);
+    assert_true(overlays_every(&def, &before) == 0.005 && before == 1);
+    trails_def(&def)->show = false;
+    assert_int_equal(overlays_attributes(&def), 0);
+    assert_true(isinf(overlays_every(&def, &before)) && before == 0);
+    const WorldDef world = {0};
+    const Subject subject = {&def, &world};
+    Overlays overlays = {0};
+    for (int shown = 1; shown >= 0; shown--) {
+        trails_def(&def)->show = shown;
+        assert_true(overlays_follow(&overlays, &subject, &error));
+        for (int i = 0; i < OVERLAY_KINDS_MAX; i++)
+            assert_true((overlays.state[i] != NULL) == (shown && overlay_list[0] && i == 0));
+    }
+    overlays_destroy(&overlays);
+}
+
+#define TEST(name) cmocka_unit_test_teardown(name, no_gl_errors)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(particles_are_found_in_any_order),
+        TEST(points_are_no_closer_than_asked_for),
+        TEST(time_may_go_back),
+        TEST(a_reset_empties_them),
+        TEST(a_jump_is_no_path),
+        TEST(particles_come_and_go),
+        TEST(the_older_keeps_its_trail),
+        TEST(some_are_chosen),
+        TEST(those_that_cross_a_plane_are_chosen),
+        TEST(there_are_so_many_at_most),
+        TEST(what_is_nowhere_has_no_point),
+        TEST(hidden_ones_cost_nothing),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
