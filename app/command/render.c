@@ -2,9 +2,11 @@
 #include "app/base/json_file.h"
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
+#include "app/command/render_file.h"
 #include "app/command/render_plan.h"
 #include "app/command/render_report.h"
 #include "app/output/pictures.h"
+#include "app/playback/recorded.h"
 #include "app/session/shoot.h"
 #include "sim/base/stage.h"
 
@@ -236,6 +238,8 @@ static int open_all(Render *render, PicturesKind *kind, Error *error)
 
 int cmd_render(const Args *args)
 {
+    if (recorded_is_file(args->scenes[0]))
+        return render_file(args);
     Render *render = calloc(1, sizeof *render);
     Error error = {{0}};
     PicturesKind kind;

@@ -64,7 +64,7 @@ static int dimensions_of(const Tree *tree)
  * tables. */
 static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, Error *error)
 {
-    const bool needs_tables = !settings->goes_on || settings->particles > 0;
+    const bool needs_tables = !settings->recorded && (!settings->goes_on || settings->particles > 0);
     tree->dimensions = dimensions_of(tree);
     if (!scene_read(tree, out, error))
         return false;
@@ -94,6 +94,33 @@ static void fit_spacing(const Tree *tree, Scene *scene, Notes *notes)
             asked, fits);
 }
 
+/* Of the command line's settings alone: what a recorded run's file says is not the user's doing. */
+static void advise_settings(const SceneSettings *settings, const Scene *scene, Notes *notes)
+{
+    for (int i = 0; i < settings->count; i++) {
+        char path[128];
+        snprintf(path, sizeof path, "%.*s", (int)strcspn(settings->set[i], "="), settings->set[i]);
+        scene_unused(scene, path, notes);
+    }
+}
+
+static bool choose_spacing(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
+{
+    if (settings->particles > 0 && !scene_set_particles(tree, out, settings, notes, error))
+        return false;
+    fit_spacing(tree, out, notes);
+    return true;
+}
+
+static void set_defaults(const Tree *tree, Scene *out)
+{
+    if (out->world.dimensions == 2)
+        out->world.box_size[2] = out->world.spacing;
+    solids_default(out);
+    snprintf(out->path, sizeof out->path, "%s", tree->path);
+    title_default(out);
+}
+
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     char scalar[NAME_SIZE];
@@ -101,18 +128,18 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
     if (!apply_settings(tree, settings, error) || !read_scene(tree, settings, out, error))
         return false;
     out->purpose = settings->purpose;
-    scene_advise_unused(tree, out, notes);
+    if (settings->recorded)
+        advise_settings(settings, out, notes);
+    else
+        scene_advise_unused(tree, out, notes);
     range_of_scalar(tree, scalar, &out->view);
-    if (settings->particles > 0 && !scene_set_particles(tree, out, settings, notes, error))
+    if (!settings->recorded && !choose_spacing(tree, settings, out, notes, error))
         return false;
-    fit_spacing(tree, out, notes);
-    if (out->world.dimensions == 2)
-        out->world.box_size[2] = out->world.spacing;
-    solids_default(out);
+    set_defaults(tree, out);
+    if (settings->recorded)
+        return true;
     if (!scene_check_count(tree, out, error))
         return false;
-    snprintf(out->path, sizeof out->path, "%s", tree->path);
-    title_default(out);
     scene_advise(tree, out, notes);
     return true;
 }

@@ -51,8 +51,10 @@ typedef struct SceneSettings {
         *said[SCENE_SETTINGS_MAX]; /* what messages call it: "--backend cuda"; NULL: --set and the setting */
     size_t particles;              /* --particles; 0: the scene's own spacing */
     ScenePurpose purpose;
-    bool goes_on; /* of a run that has begun: the tables of its start may be gone; they are read for
-                     `particles` alone */
+    bool goes_on;  /* of a run that has begun: the tables of its start may be gone; they are read for
+                      `particles` alone */
+    bool recorded; /* of a recorded run, which nothing simulates: what it began with is not looked at, and of
+                      the settings alone it is said what has no effect */
 } SceneSettings;
 
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what

@@ -59,6 +59,7 @@ APP = {
     "held": "base scene hand device",
     "output": "base yaml scene",
     "session": "base metric probe outcome scene recording hand held output",
+    "playback": "base yaml scene output session",
     "case": "base metric probe scene",
     "lab": "base metric probe outcome scene held session case",
     "stability": "base outcome scene session lab",
@@ -67,8 +68,8 @@ APP = {
     "gallery": "base scene session lab",
     "window": "",
     "panel": "probe scene term hand held session",
-    "play": "base scene recording hand device held output session lab window panel",
-    "command": "base metric probe outcome yaml scene recording hand device held output session case lab stability fit ablate gallery play",
+    "play": "base scene recording hand device held output session playback lab window panel",
+    "command": "base metric probe outcome yaml scene recording hand device held output session playback case lab stability fit ablate gallery play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]

@@ -1,0 +1,9 @@
+#ifndef SLOSH_RENDER_FILE_H
+#define SLOSH_RENDER_FILE_H
+
+#include "app/session/args.h"
+
+/* `slosh render FILE.h5part`: pictures of a recorded run. Returns the exit code. */
+int render_file(const Args *args);
+
+#endif

@@ -1,0 +1,252 @@
+#include "app/playback/recorded.h"
+
+#include "app/playback/recorded_scene.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+bool recorded_is_file(const char *path)
+{
+    static const char ending[] = ".h5part";
+    const size_t length = strlen(path), end = strlen(ending);
+    return length > end && strcasecmp(path + length - end, ending) == 0;
+}
+
+/* ---- what the file has ---- */
+
+/* X(field of a step, what it is the only source of) */
+#define SOURCES(X)                                                                                           \
+    X("velocity_0", PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED))                                       \
+    X("velocity_1", PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED))                                       \
+    X("velocity_2", PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED))                                       \
+    X("density", PARTICLE_SCALAR(SCALAR_DENSITY))                                                            \
+    X("pressure", PARTICLE_SCALAR(SCALAR_PRESSURE))                                                          \
+    X("compression", PARTICLE_SCALAR(SCALAR_COMPRESSION))                                                    \
+    X("fluid", PARTICLE_FLUID | PARTICLE_SCALAR(SCALAR_FLUID))                                               \
+    X("id", PARTICLE_ID | PARTICLE_SCALAR(SCALAR_ID))
+
+static unsigned attributes_of(const SnapshotStep *step)
+{
+    unsigned has = ~0U;
+#define X(name, source) has &= snapshot_step_lacks(step, name) ? ~(source) : ~0U;
+    SOURCES(X)
+#undef X
+    return has;
+}
+
+static void tell_lacks(const char *path, const SnapshotStep *step, Notes *notes)
+{
+    char words[256] = "";
+#define X(name, source)                                                                                      \
+    if (snapshot_step_lacks(step, name))                                                                     \
+        snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", *words ? ", " : "", name);
+    SOURCES(X)
+#undef X
+    if (*words)
+        notes_add(notes, "%.160s: has no %s; what follows from that cannot be shown%s", path, words,
+                  snapshot_step_lacks(step, "density") ? ", and particles have the volume of fluid at rest"
+                                                       : "");
+}
+
+static bool look_at_first(Recorded *recorded, Notes *notes, Error *error)
+{
+    SnapshotStep step;
+    if (!snapshot_read_shown(recorded->reader, 0, &step, error))
+        return false;
+    recorded->attributes = attributes_of(&step);
+    recorded->first = step.time;
+    tell_lacks(recorded->path, &step, notes);
+    snapshot_step_free(&step);
+    return true;
+}
+
+bool recorded_has(const Recorded *recorded, Scalar scalar, Error *error)
+{
+    char known[128] = "";
+    if (recorded->attributes & PARTICLE_SCALAR(scalar))
+        return true;
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if (recorded->attributes & PARTICLE_SCALAR(s))
+            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "",
+                     scalar_name((Scalar)s));
+    return error_set(error, "%s: has no %s to colour by; view.color_by may be %s", recorded->path,
+                     scalar_name(scalar), *known ? known : "nothing, and a view none");
+}
+
+/* ---- the file ---- */
+
+static bool no_step(const SnapshotReader *reader, const char *path, Error *error)
+{
+    char words[256];
+    const bool gap = snapshot_gap(reader, words);
+    return error_set(error, "%s: %s; shown is what slosh run has written whole, from Step#0 on", path,
+                     gap ? words : "has no whole step");
+}
+
+static void tell_gap(const SnapshotReader *reader, const char *path, Notes *notes)
+{
+    char words[256];
+    if (snapshot_gap(reader, words))
+        notes_add(notes, "%.100s: %s; only the %zu before it are shown", path, words,
+                  snapshot_count_steps(reader));
+}
+
+static bool count(Recorded *recorded, Error *error)
+{
+    recorded->steps = snapshot_count_steps(recorded->reader);
+    return recorded->steps > 0 &&
+           snapshot_read_time(recorded->reader, recorded->steps - 1, &recorded->last, error);
+}
+
+static bool understand(Recorded *recorded, const SceneSettings *settings, Notes *notes, Error *error)
+{
+    if (snapshot_count_steps(recorded->reader) == 0)
+        return no_step(recorded->reader, recorded->path, error);
+    if (!recorded_scene(recorded->reader, recorded->path, settings, &recorded->numbers, &recorded->scene,
+                        notes, error))
+        return false;
+    recorded->flaws = snapshot_flaws(recorded->reader, true);
+    recorded->flaws.shown = true;
+    tell_gap(recorded->reader, recorded->path, notes);
+    return count(recorded, error) && look_at_first(recorded, notes, error);
+}
+
+bool recorded_open(const char *path, const SceneSettings *settings, Recorded *out, Notes *notes, Error *error)
+{
+    *out = (Recorded){.reader = snapshot_open_shown(path, error)};
+    if (!out->reader)
+        return false;
+    snprintf(out->path, sizeof out->path, "%s", path);
+    if (understand(out, settings, notes, error))
+        return true;
+    recorded_close(out);
+    return false;
+}
+
+void recorded_close(Recorded *recorded)
+{
+    snapshot_reader_close(recorded->reader);
+    recorded->reader = NULL;
+}
+
+bool recorded_follow(Recorded *recorded, Error *error)
+{
+    return snapshot_follow(recorded->reader, error) && count(recorded, error);
+}
+
+/* ---- times ---- */
+
+bool recorded_time(Recorded *recorded, size_t index, double *time, Error *error)
+{
+    return snapshot_read_time(recorded->reader, index, time, error);
+}
+
+bool recorded_find(Recorded *recorded, double time, size_t *index, Error *error)
+{
+    const double latest = time + 1e-9 * fmax(fabs(time), 1);
+    size_t low = 0, high = recorded->steps; /* the step is one of low .. high - 1 */
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        double at;
+        if (!recorded_time(recorded, middle, &at, error))
+            return false;
+        if (at <= latest)
+            low = middle;
+        else
+            high = middle;
+    }
+    *index = low;
+    return true;
+}
+
+/* ---- states ---- */
+
+static void describe(const Recorded *recorded, const SnapshotStep *step, ParticleBuffers *out)
+{
+    *out = (ParticleBuffers){.count = step->count,
+                             .spacing = recorded->numbers.spacing,
+                             .support_radius = recorded->numbers.support_radius,
+                             .box = step->box,
+                             .time = step->time,
+                             .step = step->step};
+    memcpy(out->box_size, recorded->numbers.box_size, sizeof out->box_size);
+    memcpy(out->gravity, step->gravity, sizeof out->gravity);
+}
+
+static double volume_of(const Recorded *recorded, const SnapshotStep *step, size_t i)
+{
+    const double s = recorded->numbers.spacing;
+    return snapshot_step_lacks(step, "density") ? s * s * s : snapshot_volume(&recorded->numbers, step, i);
+}
+
+static float scalar_of(const SnapshotStep *step, Scalar scalar, size_t i)
+{
+    const float *const *v = (const float *const *)step->velocity;
+    switch (scalar) {
+    case SCALAR_SPEED: /* as sim/world/particles.c has it, to the bit */
+        return sqrtf(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
+    case SCALAR_DENSITY:
+        return step->density[i];
+    case SCALAR_PRESSURE:
+        return step->pressure[i];
+    case SCALAR_COMPRESSION:
+        return step->compression[i];
+    case SCALAR_FLUID:
+        return (float)step->fluid[i];
+    case SCALAR_ID:
+        return (float)(uint32_t)step->id[i];
+    case SCALAR_COUNT:
+        break;
+    }
+    return 0;
+}
+
+static void fill(const Recorded *recorded, const SnapshotStep *step, const ParticleArrays *to)
+{
+    for (size_t i = 0; i < step->count; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            to->position[4 * i + k] = step->position[k][i];
+            to->velocity[4 * i + k] = step->velocity[k][i];
+        }
+        to->position[4 * i + 3] = (float)volume_of(recorded, step, i);
+        to->velocity[4 * i + 3] = 0;
+        to->fluid[i] = (uint32_t)step->fluid[i];
+        to->id[i] = (uint32_t)step->id[i];
+    }
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        for (size_t i = 0; to->scalar[s] && i < step->count; i++)
+            to->scalar[s][i] = scalar_of(step, (Scalar)s, i);
+}
+
+/* A field that only some steps lack would be 0 in these. */
+static bool is_like_first(const Recorded *recorded, const SnapshotStep *step, size_t index, Error *error)
+{
+    return (recorded->attributes & ~attributes_of(step)) == 0 ||
+           error_set(error, "%s: Step#%zu lacks what Step#0 has", recorded->path, index);
+}
+
+static bool take(Recorded *recorded, size_t index, unsigned attributes, SnapshotStep *step, Still *out,
+                 Error *error)
+{
+    if (!is_like_first(recorded, step, index, error))
+        return false;
+    for (size_t i = 0; snapshot_step_lacks(step, "density") && i < step->count; i++)
+        step->density[i] = (float)recorded->numbers.density[0]; /* no flaw of the particle's */
+    if (!snapshot_sift(&recorded->flaws, index, step) ||
+        !still_reserve(out, step->count, attributes & recorded->attributes))
+        return error_set(error, "%s: out of memory for %zu particles", recorded->path, step->count);
+    describe(recorded, step, &out->state);
+    fill(recorded, step, &out->arrays);
+    return true;
+}
+
+bool recorded_read(Recorded *recorded, size_t index, unsigned attributes, Still *out, Error *error)
+{
+    SnapshotStep step;
+    if (!snapshot_read_shown(recorded->reader, index, &step, error))
+        return false;
+    const bool taken = take(recorded, index, attributes, &step, out, error);
+    snapshot_step_free(&step);
+    return taken;
+}

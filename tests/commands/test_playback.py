@@ -1,0 +1,212 @@
+"""`slosh render FILE.h5part`: the pictures of the run that wrote it, and what is no such file."""
+import json
+import os
+import time
+
+import h5py
+import numpy
+
+import command
+from command import CommandTest, video_frames
+
+SIZE = ['--size', '160x120']
+QUIET = [*SIZE, '--quiet']
+
+
+class PlaybackTest(CommandTest):
+    def run_(self, *more, scene='scene.yaml', name='a.h5part'):
+        code, said = self.slosh('run', scene, '-o', name, '--quiet', *more)
+        self.assertEqual(code, 0, said)
+
+    def render(self, source, output, *more, code=0):
+        done, said = self.slosh('render', source, '-o', output, *QUIET, *more)
+        self.assertEqual(done, code, said)
+        return said
+
+    def assert_same_picture(self, of_file, of_scene):
+        self.assertEqual(self.read(of_file), self.read(of_scene))
+
+
+class Pictures(PlaybackTest):
+    def compare(self, scene, at, *views):
+        self.run_('--time', at, '--every', at, scene=scene)
+        for view in views:
+            self.render('a.h5part', 'file.png', '--view', view)
+            self.render(scene, 'scene.png', '--view', view, '--time', at)
+            self.assert_same_picture('file.png', 'scene.png')
+
+    def test_every_view(self):
+        self.compare('scene.yaml', '0.2', 'none', 'spheres', 'splat', 'volume', 'slice')
+
+    def test_two_dimensions(self):
+        """Volumes of particles are areas there."""
+        self.write('flat.yaml', 'box: {size: [1, 0.6]}\nparticles: {spacing: 0.02}\nsolver: {method: wcsph}\n'
+                                'fluids: [{fill: [{block: {min: [-0.5, 0], max: [0, 0.4]}}]}]\n')
+        self.compare('flat.yaml', '0.1', 'spheres', 'volume', 'slice')
+
+    def test_solids_that_move(self):
+        self.write('paddle.yaml', command.SCENE.replace('solver:\n', 'solids:\n  - box: {centre: [0.1, 0.7, 0], size: '
+                   '[0.1, 0.3, 0.2]}\n    color: [0.1, 0.6, 0.3]\n    motion: [{rock: {axis: [0, 0, 1], angle: 30, '
+                   'frequency: 2}}]\nsolver:\n') + 'view: {range: [0, 0.7], camera: {from: [2, 2, 1], to: [0, 0.3, 0]}}\n')
+        self.compare('paddle.yaml', '0.12', 'spheres', 'splat')
+
+    def test_emitters(self):
+        jet = '    emit: [{disk: {centre: [0, 0.9, 0], direction: [0, -1, 0], radius: 0.2}, speed: 2}]\n'
+        self.write('jet.yaml', command.SCENE.replace('    fill:', jet + '    fill:', 1))
+        self.compare('jet.yaml', '0.2', 'spheres')
+
+    def test_settings_of_the_view(self):
+        more = ['--set', 'view.color_by=density', '--set', 'view.range=[990, 1010]', '--set', 'view.legend=false']
+        self.run_('--time', '0.1', '--every', '0.1')
+        self.render('a.h5part', 'file.png', *more)
+        self.render('scene.yaml', 'scene.png', '--time', '0.1', *more)
+        self.assert_same_picture('file.png', 'scene.png')
+
+
+class Times(PlaybackTest):
+    def test_a_picture(self):
+        """The last step, or the newest at or before --time."""
+        self.run_('--time', '0.1', '--every', '0.02')
+        self.render('a.h5part', 'last.png')
+        for at, shown in (('0.05', 0.04), ('0.04', 0.04), ('0.0399', 0.02), ('0', 0), ('0.1', 0.1)):
+            found = json.loads(self.slosh('render', 'a.h5part', '-o', 'a.png', *QUIET, '--time', at,
+                                          '--json', 'a.json') and self.read('a.json'))
+            self.assertAlmostEqual(found['simulated_seconds'], shown)
+        self.assertEqual(self.read('a.png'), self.read('last.png'))
+        self.assertEqual(self.render('a.h5part', 'b.png', '--time', '0.2', code=2),
+                         'a.h5part: ends at 0.1 s, before --time 0.2\n')
+        self.assertNotIn('b.png', self.entries())
+
+    def test_a_video(self):
+        """As long as the file; each picture of the newest step."""
+        self.run_('--time', '0.4', '--every', '0.1')
+        code, said = self.slosh('render', 'a.h5part', '-o', 'a.mp4', *SIZE, '--fps', '20')
+        self.assertEqual(code, 0, said)
+        self.assertEqual(video_frames(self.path('a.mp4')), 8)
+        self.assertRegex(said, r'^renderer: \S')
+        self.assertIn('render: 100 %', said)
+        self.assertIn('a.mp4: 8 pictures up to t = 0.3 s, 500 particles, from a.h5part\n', said)
+        self.render('a.h5part', 'frames', '--fps', '20', '--json', 'a.json')
+        files = [self.read(f'frames/{name}') for name in sorted(os.listdir(self.path('frames')))]
+        self.assertEqual(len(files), 8)
+        for k in range(0, 8, 2):
+            self.assertEqual(files[k], files[k + 1])
+            self.assertNotIn(files[k], files[k + 2:])
+        found = json.loads(self.read('a.json'))
+        for key in ('wall_seconds', 'first_picture_seconds', 'renderer'):
+            del found[key]
+        self.assertAlmostEqual(found.pop('simulated_seconds'), 0.3)
+        self.assertEqual(found, {'command': 'render', 'input': 'a.h5part', 'output': 'frames', 'pictures': 8,
+                                 'particles': 500, 'snapshots': 5, 'stopped': False})
+        self.render('a.h5part', 'few', '--fps', '20', '--time', '0.2')
+        self.assertEqual(len(os.listdir(self.path('few'))), 4)
+        self.render('a.h5part', 'three', '--frames', '3')
+        self.assertEqual(len(os.listdir(self.path('three'))), 3)
+
+    def test_thousands_of_steps(self):
+        """The first picture of a file comes as soon as that of a short one: 0.4 s on two busy cores, most of it the
+        driver's."""
+        self.run_('--time', '0')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            for k in range(1, 5000):
+                file.copy(file['Step#0'], file, f'Step#{k}')
+                file[f'Step#{k}'].attrs['TimeValue'] = 0.01 * k
+        began = time.monotonic()
+        self.render('a.h5part', 'a.png', '--time', '20', '--json', 'a.json')
+        whole = time.monotonic() - began
+        found = json.loads(self.read('a.json'))
+        self.assertEqual((found['snapshots'], found['simulated_seconds']), (5000, 20))
+        self.assertLess(found['first_picture_seconds'], 1)
+        self.assertLess(whole, 2)
+
+
+class Refused(PlaybackTest):
+    def refused(self, words, *more, source='a.h5part'):
+        before = self.entries()
+        said = self.render(source, 'a.png', *more, code=2)
+        self.assertIn(words, said)
+        self.assertEqual(self.entries(), before)
+
+    def test_options(self):
+        self.run_('--time', '0')
+        for option in (['--backend', 'cpu'], ['--method', 'pbf'], ['--threads', '1'], ['--set', 'solver.step.dt=0.1'],
+                       ['--particles', '100'], ['--interpolate'], ['--device', 'file:a'], ['--set', 'fluids[0].density=2']):
+            self.refused(f"{' '.join(option[:2])} makes no sense for a.h5part: ".replace(' file:a', ''), *option)
+        self.refused('--frames makes no sense for one picture, a.png', '--frames', '3')
+        self.refused('--set view.radius=-1: ', '--set', 'view.radius=-1')
+        self.refused('-o a.h5part would replace the scene a.h5part', '-o', 'a.h5part')
+
+    def test_files(self):
+        self.write('text.h5part', 'no snapshots')
+        self.write('empty.h5part', '')
+        os.mkdir(self.path('folder.h5part'))
+        with h5py.File(self.path('other.h5part'), 'w') as file:
+            file['image'] = numpy.zeros(4)
+        with h5py.File(self.path('foreign.h5part'), 'w') as file:  # H5Part of another program
+            for k in range(3):
+                for name in 'xyz':
+                    file[f'Step#{k}/{name}'] = numpy.random.random(9)
+        self.refused('missing.h5part: cannot be read: No such file', source='missing.h5part')
+        for name in ('text', 'empty', 'folder'):
+            self.refused(f'{name}.h5part: is no file of snapshots', source=f'{name}.h5part')
+        self.refused('other.h5part: has no whole step; shown is what slosh run has written whole, from Step#0 on',
+                     source='other.h5part')
+        self.refused("foreign.h5part: Step#0 is missing or not whole, but there are 2 behind it, such as 'Step#1'; shown is "
+                     'what slosh run has written whole', source='foreign.h5part')
+        self.run_('--time', '0.1')
+        content = self.read('a.h5part')
+        self.write('half.h5part', content[:len(content) // 2])
+        self.refused('half.h5part: is no file of snapshots', source='half.h5part')
+
+    def test_a_scalar_that_the_file_lacks(self):
+        self.run_('--time', '0')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#0']['pressure']
+        self.assertIn('a.h5part: has no pressure; what follows from that cannot be shown\n',
+                      self.render('a.h5part', 'a.png'))
+        self.refused('a.h5part: has no pressure to colour by; view.color_by may be speed, density, compression',
+                     '--set', 'view.color_by=pressure')
+
+    def test_a_step_that_cannot_be_read(self):
+        self.run_('--time', '0.1', '--every', '0.02')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#3']['y']
+        said = self.render('a.h5part', 'a.mp4', '--json', 'a.json', code=1)
+        self.assertIn("a.h5part: Step#3: 'y' is missing or of another length\n", said)
+        self.assertEqual(json.loads(self.read('a.json'))['input'], 'a.h5part')
+        self.assertEqual(self.entries(), ['a.h5part', 'a.json'])
+
+
+class Odd(PlaybackTest):
+    def test_no_particles(self):
+        self.run_('--time', '0')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            step = file['Step#0']
+            for name in list(step):
+                kind = step[name].dtype
+                del step[name]
+                step.create_dataset(name, (0,), dtype=kind)
+        for view in ('spheres', 'splat', 'volume', 'slice'):
+            self.render('a.h5part', 'a.png', '--view', view)
+
+    def test_spoilt_particles(self):
+        self.run_('--time', '0')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            file['Step#0']['x'][:3] = numpy.nan
+            file['Step#0']['fluid'][5] = 99
+        said = self.render('a.h5part', 'a.png')
+        self.assertIn('a.h5part: warning: 3 particles of Step#0 have a position that is not finite', said)
+        self.assertIn('a.h5part: warning: 1 particle of Step#0 has a fluid that the file does not know; left out', said)
+
+    def test_while_it_is_being_written(self):
+        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000', '--every', '0.004', '--quiet')
+        self.wait_for(lambda: os.path.exists(self.path('a.h5part')), process)
+        for _ in range(5):
+            code, said = self.slosh('render', 'a.h5part', '-o', 'a.png', *QUIET)
+            if code != 0:  # a moment between two writes: said, and nothing done
+                self.assertIn(code, (1, 2))
+                self.assertIn('a.h5part', said)
+
+
+if __name__ == '__main__':
+    command.main()

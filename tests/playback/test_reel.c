@@ -1,0 +1,237 @@
+/* A recorded file on its way to the pictures: what is asked for is shown, ahead of the view and in bounded
+ * memory. */
+#include "tests/playback/recorded_fixture.h"
+
+#include "app/playback/reel.h"
+#include "app/session/headless.h"
+#include "sim/base/stage.h"
+
+#include <epoxy/gl.h>
+#include <hdf5.h>
+
+enum { STEPS = 60 };
+
+static Headless *context;
+static Error error;
+
+static int begin(void **state)
+{
+    (void)state;
+    context = headless_create(HEADLESS_GPU_AUTO, &error);
+    return context ? 0 : -1;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    headless_destroy(context);
+    return 0;
+}
+
+/* Steps 0.1 s apart, of 1 + k particles. */
+static Reel *open_reel(size_t bytes)
+{
+    size_t counts[STEPS];
+    Recorded recorded;
+    for (size_t k = 0; k < STEPS; k++)
+        counts[k] = 1 + k;
+    write_file("a.h5part", counts, STEPS, 0.1);
+    open_recorded(&recorded, "a.h5part", NULL);
+    Reel *reel = reel_create(&(ReelSetup){.recorded = &recorded, .attributes = ~0U, .bytes = bytes}, &error);
+    must(reel, &error);
+    assert_null(recorded.reader); /* taken over */
+    return reel;
+}
+
+/* That step is on the GPU. */
+static void assert_shown(Reel *reel, size_t index, const ReelStatus *status)
+{
+    ParticleBuffers particles;
+    assert_true(status->answered && !status->failed);
+    assert_int_equal(status->index, index);
+    assert_true(fabs(status->time - 0.1 * (double)index) < 1e-9);
+    assert_true(reel_take(reel, &particles));
+    assert_int_equal(particles.count, index + 1);
+    assert_true(fabs(particles.time - 0.1 * (double)index) < 1e-9);
+    float place[4];
+    glGetNamedBufferSubData(particles.position.buffer,
+                            (GLintptr)(particles.position.offset + index * particles.position.stride),
+                            sizeof place, place);
+    const double wanted = 0.9 * (double)(index + 1) / (double)(index + 2) - 0.45;
+    assert_true(fabs((double)place[0] - wanted) < 1e-6);
+}
+
+static void assert_seek(Reel *reel, double time, double lead, size_t index)
+{
+    ReelStatus status;
+    reel_seek(reel, time, lead);
+    must(reel_wait(reel, &status, &error), &error);
+    assert_shown(reel, index, &status);
+}
+
+/* Forwards, backwards, and anywhere; steps grow, so that the room on the GPU must. */
+static void what_is_asked_for_is_shown(void **state)
+{
+    (void)state;
+    Reel *reel = open_reel(1U << 20);
+    for (size_t k = 0; k < STEPS; k++)
+        assert_seek(reel, 0.1 * (double)k, 0.1, k);
+    for (size_t k = STEPS; k-- > 0;)
+        assert_seek(reel, 0.1 * (double)k + 0.05, -0.1, k);
+    for (size_t k = 0; k < 200; k++)
+        assert_seek(reel, 0.1 * (double)(k * 7919 % STEPS), 0, k * 7919 % STEPS);
+    assert_seek(reel, -5, 0, 0);
+    assert_seek(reel, 1e9, 0, STEPS - 1);
+    reel_destroy(reel);
+}
+
+static void neighbours_are_known(void **state)
+{
+    (void)state;
+    ReelStatus status;
+    Reel *reel = open_reel(1U << 20);
+    assert_false(reel_fresh(reel));
+    reel_seek(reel, 0, 0);
+    must(reel_wait(reel, &status, &error), &error);
+    assert_true(reel_fresh(reel));
+    assert_true(status.steps == STEPS && status.first == 0 && fabs(status.last - 5.9) < 1e-9);
+    assert_true(status.before == 0 && fabs(status.after - 0.1) < 1e-9);
+    for (size_t k = 1; k < STEPS; k++) { /* a step on */
+        reel_seek(reel, status.after, 0);
+        must(reel_wait(reel, &status, &error), &error);
+        assert_shown(reel, k, &status);
+        assert_true(fabs(status.before - 0.1 * (double)(k - 1)) < 1e-9);
+    }
+    assert_true(status.after == status.time);
+    reel_destroy(reel);
+}
+
+static bool has_read(Reel *reel, size_t count, ReelStatus *status)
+{
+    const double until = wall_ms() + 20000;
+    do {
+        must(reel_status(reel, status, &error), &error);
+        usleep(1000);
+    } while (status->read < count && wall_ms() < until);
+    return status->read >= count;
+}
+
+static void steps_are_read_ahead(void **state)
+{
+    (void)state;
+    ReelStatus status;
+    Reel *reel = open_reel(1U << 20);
+    assert_seek(reel, 0, 0.1, 0);
+    assert_true(has_read(reel, 1 + REEL_KEPT_MOST - 2, &status));
+    assert_int_equal(status.found, 0);
+    for (size_t k = 1; k < REEL_KEPT_MOST - 2; k++)
+        assert_seek(reel, 0.1 * (double)k, 0.1, k);
+    must(reel_status(reel, &status, &error), &error);
+    assert_int_equal(status.found, REEL_KEPT_MOST - 3); /* none was waited for */
+    usleep(100000);
+    must(reel_status(reel, &status, &error), &error);
+    const size_t read = status.read;
+    assert_true(read <= 2 * REEL_KEPT_MOST); /* and none twice */
+    usleep(100000);
+    must(reel_status(reel, &status, &error), &error);
+    assert_int_equal(status.read, read); /* it stops */
+    reel_destroy(reel);
+}
+
+/* With strides that change what is kept: no step is read again and again. */
+static void reading_ahead_comes_to_an_end(void **state)
+{
+    (void)state;
+    ReelStatus status;
+    Reel *reel = open_reel(1U << 20);
+    static const double leads[] = {0.1, 0.5, -0.3, 0.2, -0.1, 1.1};
+    for (size_t k = 0; k < sizeof leads / sizeof *leads; k++) {
+        assert_seek(reel, 3, leads[k], 30);
+        usleep(150000);
+        must(reel_status(reel, &status, &error), &error);
+        const size_t read = status.read;
+        usleep(50000);
+        must(reel_status(reel, &status, &error), &error);
+        assert_int_equal(status.read, read);
+    }
+    reel_destroy(reel);
+}
+
+/* The memory bounds what is kept, whatever the file's size. */
+static void few_steps_are_kept(void **state)
+{
+    (void)state;
+    ReelStatus status;
+    Reel *reel = open_reel(0);
+    for (size_t k = 0; k < STEPS; k++)
+        assert_seek(reel, 0.1 * (double)k, 0.1, k);
+    must(reel_status(reel, &status, &error), &error);
+    assert_int_equal(status.kept, REEL_KEPT_LEAST);
+    reel_destroy(reel);
+    reel = open_reel(64U << 10); /* fewer as they grow */
+    assert_seek(reel, 0, 0, 0);
+    must(reel_status(reel, &status, &error), &error);
+    const size_t many = status.kept;
+    assert_seek(reel, 5.9, 0, STEPS - 1);
+    must(reel_status(reel, &status, &error), &error);
+    assert_true(status.kept < many && status.kept >= REEL_KEPT_LEAST);
+    reel_destroy(reel);
+}
+
+static void a_step_that_cannot_be_read(void **state)
+{
+    (void)state;
+    ReelStatus status;
+    Recorded recorded;
+    write_file("a.h5part", (const size_t[]){1, 2, 3}, 3, 0.1);
+    const hid_t file = H5Fopen("a.h5part", H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Ldelete(file, "Step#1/y", H5P_DEFAULT) >= 0);
+    H5Fclose(file);
+    open_recorded(&recorded, "a.h5part", NULL);
+    Reel *reel = reel_create(&(ReelSetup){.recorded = &recorded, .attributes = ~0U}, &error);
+    assert_seek(reel, 0, 0.1, 0);
+    reel_seek(reel, 0.1, 0.1);
+    assert_false(reel_wait(reel, &status, &error));
+    assert_string_equal(error.message, "a.h5part: Step#1: 'y' is missing or of another length");
+    assert_true(status.failed && status.index == 0); /* what is shown stays */
+    assert_seek(reel, 0.2, 0.1, 2);
+    reel_destroy(reel);
+}
+
+/* Also while it is asked for steps all the time. */
+static void a_file_that_grows_is_followed(void **state)
+{
+    (void)state;
+    ReelStatus status;
+    Recorded recorded;
+    const Scene scene = tank_scene(NULL);
+    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    must(file, &error);
+    append(file, 1, 0);
+    open_recorded(&recorded, "a.h5part", NULL);
+    Reel *reel = reel_create(&(ReelSetup){.recorded = &recorded, .attributes = ~0U}, &error);
+    assert_seek(reel, 10, 0, 0);
+    for (size_t k = 1; k < 4; k++) {
+        append(file, 1 + k, 0.1 * (double)k);
+        const double until = wall_ms() + 20000;
+        do {
+            reel_seek(reel, k == 2 ? 10 + wall_ms() : 10, 0);
+            must(reel_wait(reel, &status, &error), &error);
+            usleep(1000);
+        } while (status.index < k && wall_ms() < until);
+        assert_shown(reel, k, &status);
+    }
+    snapshot_close(file);
+    reel_destroy(reel);
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, folder_setup, folder_teardown)
+    const struct CMUnitTest tests[] = {
+        TEST(what_is_asked_for_is_shown),    TEST(neighbours_are_known), TEST(steps_are_read_ahead),
+        TEST(reading_ahead_comes_to_an_end), TEST(few_steps_are_kept),   TEST(a_step_that_cannot_be_read),
+        TEST(a_file_that_grows_is_followed),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
