@@ -128,6 +128,8 @@ const OptionRow option_rows[] = {
     {"--size", "WxH", PLAY | RENDER | BENCH, OPTION_SIZE, AT(width), .min = 1, .max = 16384,
      .help = "pixels"},
     {"--record", "FILE", PLAY, OPTION_TEXT, AT(record), .help = "write the session there at the end, for slosh replay"},
+    {"--past", "MIB", PLAY, OPTION_NUMBER, AT(past), .max = 1e6,
+     .help = "memory for states of the past, to step back to (256); 0: none are kept"},
     {"--record", "FILE", DEVICES, OPTION_TEXT, AT(record), .help = "write all raw reports there, with their times, for --device file:FILE; until Ctrl-C"},
     {"--play", NULL, BENCH, OPTION_FLAG, AT(play), .help = "measure the live window, the box shaken by a script"},
     {"--seconds", "S", BENCH, OPTION_NUMBER, AT(seconds), .max = 1e5, .flags = OPTION_OPEN_LOW,

@@ -211,6 +211,7 @@ static int bench_play(const Args *args, Error *error)
                                  .settings = &args->settings,
                                  .width = args->width,
                                  .height = args->height,
+                                 .past_bytes = (size_t)(args->past * 1048576),
                                  .shake_seconds = args->seconds,
                                  .quiet = args->quiet};
         code = play(&setup, &figures[done]);

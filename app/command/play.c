@@ -24,6 +24,7 @@ int cmd_play(const Args *args)
                              .width = args->width,
                              .height = args->height,
                              .record = args->record,
+                             .past_bytes = (size_t)(args->past * 1048576),
                              .mapping = &mapping,
                              .device = args->device,
                              .quiet = args->quiet};

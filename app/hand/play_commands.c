@@ -24,7 +24,32 @@ const PlayCommandRow play_command_rows[] = {
      .name = "step",
      .help = "one frame further, then pause",
      .keys = {KEY(PERIOD), KEY(N)},
+     .gamepad = "D-pad right",
      .flags = PLAY_BUTTON | PLAY_REPEATS},
+    {.command = PLAY_STEP_BACK,
+     .name = "step-back",
+     .help = "one frame back, then pause",
+     .keys = {KEY(COMMA)},
+     .gamepad = "D-pad left",
+     .flags = PLAY_REPEATS},
+    {.command = PLAY_BACK,
+     .name = "back",
+     .help = "a second back",
+     .keys = {{GLFW_KEY_COMMA, SHIFT}},
+     .flags = PLAY_REPEATS},
+    {.command = PLAY_AHEAD,
+     .name = "ahead",
+     .help = "a second ahead, as far as it was simulated",
+     .keys = {{GLFW_KEY_PERIOD, SHIFT}},
+     .flags = PLAY_REPEATS},
+    {.command = PLAY_NEWEST,
+     .name = "newest",
+     .help = "from the past to the newest state",
+     .keys = {KEY(END)}},
+    {.command = PLAY_TIMELINE,
+     .name = "timeline",
+     .help = "show the time line always, or only while paused or near the mouse",
+     .keys = {KEY(T)}},
     {.command = PLAY_RESET,
      .name = "reset",
      .help = "back to the start of the scene",
@@ -155,8 +180,8 @@ static const struct {
     const char *name;   /* for people */
     const char *labels; /* one of these on the key */
 } signs[] = {
-    {GLFW_KEY_MINUS, "-", "-"},        {GLFW_KEY_EQUAL, "+", "=+"},        {GLFW_KEY_PERIOD, ".", "."},
-    {GLFW_KEY_LEFT_BRACKET, "[", "["}, {GLFW_KEY_RIGHT_BRACKET, "]", "]"},
+    {GLFW_KEY_MINUS, "-", "-"}, {GLFW_KEY_EQUAL, "+", "=+"},       {GLFW_KEY_PERIOD, ".", "."},
+    {GLFW_KEY_COMMA, ",", ","}, {GLFW_KEY_LEFT_BRACKET, "[", "["}, {GLFW_KEY_RIGHT_BRACKET, "]", "]"},
 };
 enum { SIGN_COUNT = sizeof signs / sizeof signs[0] };
 
@@ -168,6 +193,7 @@ static const struct {
     {GLFW_KEY_PAUSE, "Pause"},
     {GLFW_KEY_TAB, "Tab"},
     {GLFW_KEY_HOME, "Home"},
+    {GLFW_KEY_END, "End"},
     {GLFW_KEY_ESCAPE, "Escape"},
     {GLFW_KEY_BACKSPACE, "Backspace"},
     {GLFW_KEY_KP_SUBTRACT, "keypad -"},
@@ -177,8 +203,11 @@ static const struct {
 static const struct {
     int button;
     const char *name;
-} gamepad_buttons[] = {
-    {GLFW_GAMEPAD_BUTTON_A, "A"}, {GLFW_GAMEPAD_BUTTON_Y, "Y"}, {GLFW_GAMEPAD_BUTTON_START, "Start"}};
+} gamepad_buttons[] = {{GLFW_GAMEPAD_BUTTON_A, "A"},
+                       {GLFW_GAMEPAD_BUTTON_Y, "Y"},
+                       {GLFW_GAMEPAD_BUTTON_START, "Start"},
+                       {GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "D-pad left"},
+                       {GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, "D-pad right"}};
 
 static int sign_of_key(int key)
 {

@@ -12,6 +12,11 @@ typedef enum PlayCommand {
     /* done once by a press of a key, a gamepad's button or the panel's button */
     PLAY_PAUSE,
     PLAY_STEP,
+    PLAY_STEP_BACK,
+    PLAY_BACK,
+    PLAY_AHEAD,
+    PLAY_NEWEST,
+    PLAY_TIMELINE,
     PLAY_RESET,
     PLAY_SLOWER,
     PLAY_FASTER,

@@ -111,6 +111,13 @@ void hand_post_let_go(HandPost *post, const BoxTarget *now)
     pthread_mutex_unlock(&post->lock);
 }
 
+void hand_post_follow(HandPost *post, const BoxTarget *target)
+{
+    pthread_mutex_lock(&post->lock);
+    held_devices_follow(&post->held, target);
+    pthread_mutex_unlock(&post->lock);
+}
+
 bool hand_post_claims(HandPost *post, uint16_t vendor, uint16_t product)
 {
     bool claims = false;

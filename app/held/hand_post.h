@@ -56,6 +56,10 @@ void hand_post_neutral(HandPost *post); /* the devices' present poses become the
 /* hand_let_go, of what the window's keys and drags hold: devices go on. */
 void hand_post_let_go(HandPost *post, const BoxTarget *now);
 
+/* The box is at another time, and the hand holds it as it was wanted there: nothing is sent until something
+   moves it. */
+void hand_post_follow(HandPost *post, const BoxTarget *target);
+
 /* Whether such a device is in use here: the window's gamepad of that kind is the same one. */
 bool hand_post_claims(HandPost *post, uint16_t vendor, uint16_t product);
 

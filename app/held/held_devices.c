@@ -94,6 +94,15 @@ void held_devices_let_go(HeldDevices *held, const BoxTarget *now)
     hand_let_go(&held->hand, now, &still, held->box_size);
 }
 
+void held_devices_follow(HeldDevices *held, const BoxTarget *target)
+{
+    if (held->box_size[0] > 0)
+        held_devices_let_go(held, target);
+    else
+        held->hand.held = *target;
+    held->hand.told = *target;
+}
+
 static HeldDevice *find(HeldDevices *held, int number)
 {
     for (int i = 0; i < HELD_DEVICES_MAX; i++)

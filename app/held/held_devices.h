@@ -65,6 +65,9 @@ void held_devices_home(HeldDevices *held);    /* that too, and the box goes home
 /* hand_let_go of all but the devices, which go on. */
 void held_devices_let_go(HeldDevices *held, const BoxTarget *now);
 
+/* The same, and that it is there is no news. */
+void held_devices_follow(HeldDevices *held, const BoxTarget *target);
+
 /* Whether it moves the box. */
 bool held_device_in_use(const HeldDevice *device);
 

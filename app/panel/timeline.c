@@ -16,7 +16,8 @@ typedef struct TimelineButton {
     const char *sign;
 } TimelineButton;
 
-static const TimelineButton buttons[] = {{PLAY_PAUSE, "▶"}, {PLAY_STEP, "|▶"}};
+static const TimelineButton buttons[] = {
+    {PLAY_PAUSE, "▶"}, {PLAY_STEP_BACK, "◀|"}, {PLAY_STEP, "|▶"}, {PLAY_NEWEST, "▶▶|"}};
 enum { BUTTONS = sizeof buttons / sizeof *buttons };
 
 float timeline_height(const Ui *ui)
@@ -43,13 +44,15 @@ static bool draw_button(Ui *ui, const TimelineButton *button, const float rect[4
     return grip.pressed;
 }
 
-/* From the left on; returns where they end. */
+/* From the left on, as many as leave room for a bar; returns where they end. */
 static float draw_buttons(Ui *ui, const float area[4], const TimelineData *data, TimelineEvents *events)
 {
     const float em = ui_pixels(ui);
     float x = area[0];
     for (int i = 0; i < BUTTONS; i++) {
         const float wide = fmaxf(ui_words_width(ui, buttons[i].sign) + 0.8F * em, BUTTON_EM * em);
+        if (i > 0 && x + wide > area[2] - 4 * em)
+            break;
         const float rect[4] = {floorf(x), area[1], floorf(x + wide), area[3]};
         if (draw_button(ui, &buttons[i], rect, data->playing))
             events->command = buttons[i].command;

@@ -23,7 +23,7 @@ typedef struct TimelineEvents {
     bool wants_time; /* the mouse holds the bar: `time` is to be shown. Said in each picture for as long as it
                         is held, moved or not; the newest wish counts */
     double time;     /* s, from .. to */
-    int command;     /* of the button pressed: PLAY_PAUSE, PLAY_STEP, ...; PLAY_NONE: none was */
+    int command; /* of the button pressed: PLAY_PAUSE, PLAY_STEP_BACK, PLAY_STEP, PLAY_NEWEST; PLAY_NONE */
 } TimelineEvents;
 
 /* How high it stands over the lower edge, with its margin, pixels. */

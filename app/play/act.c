@@ -4,6 +4,7 @@
 #include "render/frame/colormap.h"
 #include "sim/base/scalar.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -89,6 +90,21 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_STEP:
         model_step(model, held);
+        break;
+    case PLAY_STEP_BACK:
+        model_step_back(model, held);
+        break;
+    case PLAY_BACK:
+        model_go_by(model, -1);
+        break;
+    case PLAY_AHEAD:
+        model_go_by(model, 1);
+        break;
+    case PLAY_NEWEST:
+        model_go_to(model, INFINITY);
+        break;
+    case PLAY_TIMELINE:
+        play->overlay.timeline = !play->overlay.timeline;
         break;
     case PLAY_RESET:
         model_reset(model);
@@ -204,6 +220,10 @@ static void act(Play *play, const Ask *ask)
         break;
     case ASK_LET_GO:
         model_let_go(&play->model);
+        break;
+    case ASK_TIME:
+        model_pause(&play->model, true);
+        model_go_to(&play->model, ask->amount[0]);
         break;
     case ASK_GRAB:
         grab_camera(play);

@@ -14,6 +14,7 @@ typedef enum AskKind {
     ASK_OPEN,    /* text: the file of a scene */
     ASK_TUNE,    /* device, amount: gain and dead zone */
     ASK_LET_GO,  /* the box stops where it is: what moved it is gone */
+    ASK_TIME,    /* amount: s, simulated: to be shown, and to rest there */
     ASK_GRAB,    /* the camera goes into the hand, as it stands */
     ASK_TURN,    /* amount: radians to the right and up, of a camera in the hand */
     ASK_PAN,     /* amount: heights of the picture to the right and up */

@@ -13,7 +13,7 @@ static void draw_overlay(Play *play)
     const double began = meter_thread_cpu_ms();
     renderer_range(play->picture.renderer, facts.range);
     play->picture.dirty |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
-    if (play->overlay.panel || play->overlay.help)
+    if (overlay_shown(&play->overlay, &play->model))
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);
 }
 
@@ -63,7 +63,7 @@ void draw_picture(Play *play)
         draw_fluid(play);
     else
         picture_clear(picture, &play->model.open.scene.view);
-    picture_words(picture, words_of(play));
+    picture_words(picture, words_of(play), overlay_covered_below(&play->overlay, &play->model));
     picture_close(picture);
     do
         events_follow_hand(play);

@@ -11,14 +11,15 @@ static bool too_early(const Play *play, WindowEventKind kind)
 
 static bool overlay_has(const Play *play, const WindowEvent *event)
 {
-    return play->model.has_particles && play->input.drag == PLAY_NONE && overlay_takes(&play->overlay, event);
+    return play->model.has_particles && play->input.drag == PLAY_NONE &&
+           overlay_takes(&play->overlay, &play->model, event);
 }
 
 static void take_event(Play *play, const WindowEvent *event)
 {
     const bool redraw = event->kind == WINDOW_RESIZE || event->kind == WINDOW_EXPOSE;
     overlay_event(&play->overlay, event);
-    play->picture.dirty |= redraw || play->overlay.panel || play->overlay.help;
+    play->picture.dirty |= redraw || overlay_shown(&play->overlay, &play->model);
     if (!too_early(play, event->kind) && !overlay_has(play, event))
         input_take(&play->input, event, play->picture.height, &play->asks);
 }

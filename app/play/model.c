@@ -12,6 +12,19 @@
 
 static const double LEAVE_MS = 200, SAVE_MS = 5000;
 
+/* The simulation is at another time, or did again what was done there: the panel shows the settings of then,
+   and the hand holds the box where it was, from where it goes on. */
+static void follow_travels(Model *model)
+{
+    const SimulatorPast *past = &model->status.past;
+    if (past->travels == model->travels)
+        return;
+    model->travels = past->travels;
+    simulator_settings(model->open.simulator, &model->open.scene.world);
+    play_scene_advise(&model->open, NULL, NULL);
+    hand_post_follow(model->post, &past->target);
+}
+
 void model_listen(Model *model)
 {
     SimulatorStatus *status = &model->status;
@@ -20,6 +33,7 @@ void model_listen(Model *model)
         model->messages = status->messages;
         notice_error(model->notice, status->message);
     }
+    follow_travels(model);
     if (status->saves == model->saves)
         return;
     model->saves = status->saves;
@@ -47,7 +61,7 @@ static void adopt(Model *model, const PlayScene *opened)
     model->file_scene = opened->scene;
     model->has_particles = false;
     hand_post_open(model->post, send_target, model->open.simulator);
-    model->saves = model->messages = 0;
+    model->saves = model->messages = model->travels = 0;
     model->scenes_opened++;
     simulator_set_speed(model->open.simulator, model->speed);
 }
@@ -127,8 +141,10 @@ bool model_open(Model *model, const char *scene, const SceneSettings *settings, 
     if (!model_leave(model, 0))
         return error_set(error, "the scene before the present one is still ending; try again in a moment");
     const bool read = play_scene_read(&opened, scene, settings, &notes, error);
+    const SimulatorSetup how = {
+        .wake = window_wake, .timer = model->timer, .paused = model->paused, .past_bytes = model->past_bytes};
     share_processors(&opened.scene.world);
-    if (!read || !play_scene_start(&opened, window_wake, model->timer, model->paused, error)) {
+    if (!read || !play_scene_start(&opened, &how, error)) {
         play_scene_close(&opened, SAVE_MS);
         return false;
     }
@@ -178,6 +194,22 @@ void model_step(Model *model, bool held)
 {
     model->paused = true;
     simulator_single_step(model->open.simulator, held);
+}
+
+void model_step_back(Model *model, bool held)
+{
+    model->paused = true;
+    simulator_step_back(model->open.simulator, held);
+}
+
+void model_go_by(Model *model, double seconds)
+{
+    simulator_go_by(model->open.simulator, seconds);
+}
+
+void model_go_to(Model *model, double time)
+{
+    simulator_go_to(model->open.simulator, time);
 }
 
 void model_set_speed(Model *model, double factor)

@@ -15,6 +15,7 @@ typedef struct Model {
     HandPost *post;     /* given: sends the box where the hand wants it */
     Notice *notice;     /* given */
     const char *record; /* given: no session goes without a trace; or NULL */
+    size_t past_bytes;  /* given: as of SimulatorSetup */
     double speed;       /* given: simulated seconds in a second */
 
     PlayScene open;
@@ -27,6 +28,7 @@ typedef struct Model {
     double simulated_s; /* of the scenes before, less what was simulated before the first picture */
     size_t scenes_opened;
     unsigned saves, messages; /* that were told */
+    unsigned travels;         /* SimulatorPast.travels that were followed */
 } Model;
 
 /* A file as a scene, with settings of its own or NULL; the scene before ends. On failure that one stays. */
@@ -50,6 +52,10 @@ void model_take(Model *model);
 
 void model_pause(Model *model, bool paused);
 void model_step(Model *model, bool held); /* one frame, then a pause; `held`: as of simulator_single_step */
+void model_step_back(Model *model, bool held); /* the same, one frame back */
+void model_go_by(Model *model,
+                 double seconds);            /* on or back, as far as it goes; time runs or rests as it did */
+void model_go_to(Model *model, double time); /* as of simulator_go_to */
 void model_reset(Model *model);
 void model_set_speed(Model *model, double factor); /* so many times the present one, within bounds */
 

@@ -33,9 +33,29 @@ void overlay_event(Overlay *overlay, const WindowEvent *event)
         memcpy(overlay->mouse, (float[]){(float)event->x, (float)event->y}, sizeof overlay->mouse);
 }
 
-bool overlay_takes(const Overlay *overlay, const WindowEvent *event)
+/* While paused, where the mouse is near the lower edge, or always. */
+static bool shows_timeline(const Overlay *overlay, const Model *model)
 {
-    if (!overlay->panel && !overlay->help)
+    static const float NEAR = 1.5F; /* of its height */
+    const float up = (float)overlay->height - overlay->mouse[1];
+    const bool near = up >= 0 && up < NEAR * timeline_height(overlay->ui);
+    return model->has_particles && model->status.past.kept &&
+           (overlay->timeline || model->paused || overlay->scrubs || near);
+}
+
+bool overlay_shown(const Overlay *overlay, const Model *model)
+{
+    return overlay->panel || overlay->help || shows_timeline(overlay, model);
+}
+
+float overlay_covered_below(const Overlay *overlay, const Model *model)
+{
+    return shows_timeline(overlay, model) ? timeline_height(overlay->ui) : 0;
+}
+
+bool overlay_takes(const Overlay *overlay, const Model *model, const WindowEvent *event)
+{
+    if (!overlay_shown(overlay, model))
         return false;
     switch (event->kind) {
     case WINDOW_BUTTON:
@@ -175,6 +195,26 @@ static void queue_events(const PanelEvents *events, AskQueue *asks)
         ask_command(asks, (PlayCommand)events->command);
 }
 
+static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFacts *facts, AskQueue *asks)
+{
+    const SimulatorPast *past = &model->status.past;
+    const TimelineData data = {.from = past->from,
+                               .to = past->to,
+                               .now = model->particles.time,
+                               .playing = !model->paused,
+                               .grows = true};
+    TimelineEvents events;
+    const float left = overlay->panel ? panel_width(overlay->ui, facts->width) : 0;
+    timeline_draw(overlay->ui, facts->width, facts->height, left < 0.6F * (float)facts->width ? left : 0,
+                  &data, &events);
+    if (events.wants_time && (!overlay->scrubs || events.time != overlay->wished))
+        ask_add(asks, &(Ask){.kind = ASK_TIME, .amount = {events.time}});
+    overlay->scrubs = events.wants_time;
+    overlay->wished = events.time;
+    if (events.command != PLAY_NONE)
+        ask_command(asks, (PlayCommand)events.command);
+}
+
 /* The widgets, when any of them has changed. */
 static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
@@ -191,13 +231,17 @@ static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *fac
     if (overlay->help)
         panel_help_draw(overlay->ui, facts->width, facts->height);
     queue_events(&events, asks);
+    if (shows_timeline(overlay, model))
+        draw_timeline(overlay, model, facts, asks);
     overlay->input.now.changed = false;
 }
 
 bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
     const double now = wall_ms();
-    const int shown = overlay->panel + 2 * overlay->help;
+    const bool timeline = shows_timeline(overlay, model);
+    const int shown = overlay->panel + 2 * overlay->help + 4 * timeline;
+    overlay->height = facts->height;
     simulator_watch(model->open.simulator, overlay->panel && overlay->watches,
                     overlay->panel && overlay->watches_probes);
     if (!shown) {
@@ -207,6 +251,8 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
     follow_devices(overlay, model->post, now);
     overlay->input.now.dt = 1e-3 * fmin(now - overlay->drawn_ms, 1000);
     overlay->input.now.changed |= shown != overlay->shown;
+    overlay->input.now.changed |= timeline && model->paused && model->particles.time != overlay->time;
+    overlay->time = model->particles.time;
     overlay->drawn_ms = now;
     overlay->shown = shown;
     widget_input_next(&overlay->input);

@@ -1,8 +1,10 @@
-/* What lies over the picture: the panel and the list of keys. What the user asks for there is queued. */
+/* What lies over the picture: the panel, the list of keys and the time line. What the user asks for there is
+ * queued. */
 #ifndef SLOSH_PLAY_OVERLAY_H
 #define SLOSH_PLAY_OVERLAY_H
 
 #include "app/panel/panel.h"
+#include "app/panel/timeline.h"
 #include "app/play/ask.h"
 #include "app/play/meter.h"
 #include "app/play/model.h"
@@ -11,10 +13,15 @@
 
 typedef struct Overlay {
     bool panel, help; /* shown */
+    bool timeline;    /* always shown, not only while paused or near the mouse */
     Ui *ui;
     Panel *widgets;
     WidgetInput input;
     float mouse[2];  /* where the last event had it */
+    int height;      /* of the picture drawn last */
+    bool scrubs;     /* the mouse holds the time line, */
+    double wished;   /* at this time, s */
+    double time;     /* s: of the state drawn last */
     double drawn_ms; /* wall time of the last drawing */
     int shown;       /* what was drawn then */
     bool watches;    /* with the gauges, */
@@ -45,10 +52,16 @@ void overlay_set_letters(Overlay *overlay, float letters); /* where they cannot 
 
 /* Tells the widgets of an event; whether one is theirs alone, while nothing is dragged. */
 void overlay_event(Overlay *overlay, const WindowEvent *event);
-bool overlay_takes(const Overlay *overlay, const WindowEvent *event);
+bool overlay_takes(const Overlay *overlay, const Model *model, const WindowEvent *event);
 
 /* Draws what is shown. Whether the next picture is to show more of what was done. */
 bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks);
+
+/* Whether anything is. */
+bool overlay_shown(const Overlay *overlay, const Model *model);
+
+/* How high the time line stands over the lower edge, pixels; 0: it is not shown. */
+float overlay_covered_below(const Overlay *overlay, const Model *model);
 
 /* How much of the width the panel takes from the box, 0 .. 1: one that leaves less than half takes nothing.
  */

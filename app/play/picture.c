@@ -125,13 +125,13 @@ void picture_clear(const Picture *picture, const ViewDef *view)
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void picture_words(const Picture *picture, const char *words)
+void picture_words(const Picture *picture, const char *words, float below)
 {
     Text *text = picture->text;
     if (!words)
         return;
     const float em = text_height(text), width = text_width(text, 1, words);
-    const float middle = 0.5F * (float)picture->width, top = (float)picture->height - 4 * em;
+    const float middle = 0.5F * (float)picture->width, top = (float)picture->height - below - 4 * em;
     text_begin(text, picture->width, picture->height);
     text_rectangle(text, middle - 0.5F * width - em, top - 0.5F * em, middle + 0.5F * width + em,
                    top + 1.5F * em, 0.4F * em, 0x10141ac0);

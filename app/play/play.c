@@ -62,6 +62,7 @@ static bool start(Session *session, Error *error)
                           .post = play->post,
                           .notice = &play->notice,
                           .record = setup->record,
+                          .past_bytes = setup->past_bytes,
                           .speed = 1};
     const float letters = picture_letters(play->window);
     play->overlay.panel = (float)play->picture.width > 60 * letters; /* beside the fluid, not over it */

@@ -11,6 +11,7 @@ typedef struct PlaySetup {
     const SceneSettings *settings; /* of that scene; others open as their files have them */
     int width, height;             /* of the window, in screen coordinates */
     const char *record;            /* the session is written there at the end; or NULL */
+    size_t past_bytes;             /* memory for states to step back to; 0: none */
     const Mapping *mapping;        /* of motion devices; NULL: they are left alone */
     const char *device;            /* --device, or NULL: what is plugged in */
     double shake_seconds;          /* more than 0: the box is shaken by a script for so long, then all ends */

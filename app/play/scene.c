@@ -61,16 +61,14 @@ static bool make_upload(PlayScene *open, Error *error)
     return open->upload || world_on_gpu(def);
 }
 
-bool play_scene_start(PlayScene *open, void (*wake)(void), GlTimer *timer, bool paused, Error *error)
+bool play_scene_start(PlayScene *open, const SimulatorSetup *how, Error *error)
 {
     if (!make_upload(open, error))
         return false;
-    const SimulatorSetup setup = {.scene = &open->scene,
-                                  .recording = &open->recording,
-                                  .upload = open->upload,
-                                  .timer = timer,
-                                  .wake = wake,
-                                  .paused = paused};
+    SimulatorSetup setup = *how;
+    setup.scene = &open->scene;
+    setup.recording = &open->recording;
+    setup.upload = open->upload;
     open->simulator = simulator_create(&setup, error);
     return open->simulator != NULL;
 }

@@ -25,8 +25,8 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
    read); what was not there before goes into `fresh` (may be NULL). */
 void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh);
 
-/* Begins to simulate it; needs the context. `timer` as of SimulatorSetup. */
-bool play_scene_start(PlayScene *open, void (*wake)(void), GlTimer *timer, bool paused, Error *error);
+/* Begins to simulate it; needs the context. `how`: all but the scene, its recording and its upload. */
+bool play_scene_start(PlayScene *open, const SimulatorSetup *how, Error *error);
 
 /* Whether there is a state that was not taken yet; the newest one, with what its view reads of it. */
 bool play_scene_fresh(PlayScene *open);

@@ -438,6 +438,7 @@ bool args_parse(int argc, char *const argv[], Args *args, Error *error)
     args->every = 1.0 / 30;
     args->fps = 30;
     args->seconds = 20;
+    args->past = 256; /* a minute and more of 8,000 particles (docs/window.md) */
     args->gpu = -1;
     Parser parser = {.argc = argc, .at = 1, .argv = argv, .args = args, .error = error};
     if (!parse_command(&parser))

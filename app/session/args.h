@@ -99,6 +99,7 @@ typedef struct Args {
     bool seconds_given;
     double seconds;            /* of play or micro; more than 0; default 20 */
     const char *record;        /* FILE, or NULL; of devices: raw reports */
+    double past;               /* MiB of states to step back to; default 256 */
     const char *device;        /* "file:PATH", or NULL: what is plugged in */
     bool watch;                /* devices: live values */
     const char *mapping;       /* FILE, or NULL: the user's own, or what is built in */

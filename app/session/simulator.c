@@ -1,5 +1,6 @@
 #include "app/session/simulator_state.h"
 
+#include <math.h>
 #include <stdio.h>
 
 bool simulator_here(const Simulator *simulator)
@@ -53,6 +54,48 @@ void simulator_single_step(Simulator *simulator, bool held)
     change_end(simulator);
 }
 
+static void wish_time(Simulator *simulator, double time)
+{
+    simulator->wish = (Wish){.pending = true, .time = time};
+    simulator->singles = 0;
+}
+
+void simulator_go_to(Simulator *simulator, double time)
+{
+    change_begin(simulator);
+    wish_time(simulator, time);
+    change_end(simulator);
+}
+
+void simulator_go_by(Simulator *simulator, double seconds)
+{
+    change_begin(simulator);
+    const Wish *wish = &simulator->wish;
+    const SimulatorPast *past = &simulator->status.past;
+    const double from = wish->pending && !wish->by_frames ? wish->time : simulator->status.time;
+    wish_time(simulator, fmin(fmax(from, past->from), past->to) + seconds);
+    change_end(simulator);
+}
+
+void simulator_step_back(Simulator *simulator, bool held)
+{
+    change_begin(simulator);
+    Wish *wish = &simulator->wish;
+    simulator->paused = true;
+    simulator->singles = 0;
+    if (!wish->pending || !wish->by_frames)
+        *wish = (Wish){.pending = true, .by_frames = true};
+    wish->frames += !held || wish->frames == 0;
+    change_end(simulator);
+}
+
+void simulator_settings(Simulator *simulator, WorldDef *def)
+{
+    pthread_mutex_lock(&simulator->lock);
+    *def = simulator->settings;
+    pthread_mutex_unlock(&simulator->lock);
+}
+
 void simulator_set_speed(Simulator *simulator, double speed)
 {
     change_begin(simulator);
@@ -72,6 +115,7 @@ void simulator_reset(Simulator *simulator)
     change_begin(simulator);
     simulator->reset = true;
     simulator->singles = 0;
+    simulator->wish = (Wish){.pending = false};
     command_queue_drop_poses(&simulator->queue);
     change_end(simulator);
 }

@@ -35,6 +35,7 @@ typedef struct SimulatorSetup {
     GlTimer *timer;     /* for the stages there, which are not in SimulatorStatus then; may be NULL */
     void (*wake)(void); /* called on the solver's thread after each new state; may be NULL */
     bool paused;
+    size_t past_bytes; /* memory for states to step back to (app/session/past.h); 0: nothing is kept */
 } SimulatorSetup;
 
 /* Starts the thread, which makes the world. NULL when there is no memory or no thread. */
@@ -68,6 +69,18 @@ void simulator_pause(Simulator *simulator, bool paused);
 /* One frame more, then paused; each call counts, also while a reset or a frame lasts. `held`: the key comes
    again by itself, and counts only when no such frame waits. */
 void simulator_single_step(Simulator *simulator, bool held);
+
+/* To another time, of those that are kept (SimulatorStatus.past): the place at that time or the last one
+   before it, as far as it goes; INFINITY is the newest one. The newest wish counts. From there time runs on
+   as it did, with the commands that were given then, and the same bits; the first new command cuts off what
+   came after, and says so. Commands that wait apply before the jump, poses are forgotten. */
+void simulator_go_to(Simulator *simulator, double time);
+
+/* So many seconds on or back from where it is, or from where it is to go. */
+void simulator_go_by(Simulator *simulator, double seconds);
+
+/* One frame back, then paused; `held` as of simulator_single_step. */
+void simulator_step_back(Simulator *simulator, bool held);
 void simulator_set_speed(Simulator *simulator,
                          double speed); /* simulated seconds in a second, in real time */
 void simulator_set_realtime(Simulator *simulator, bool realtime);
@@ -109,6 +122,20 @@ typedef struct ProbeSample {
     float value[PROBES_SHOWN];
 } ProbeSample;
 
+/* Where the simulation is in its past. */
+typedef struct SimulatorPast {
+    bool kept;           /* there is one: SimulatorSetup.past_bytes */
+    bool behind;         /* the present state is not the newest one */
+    double from, to;     /* s: what simulator_go_to reaches */
+    unsigned travels;    /* counts jumps, and recorded commands that were obeyed again: settings and hand are
+                            then what they were (simulator_settings) */
+    BoxTarget target;    /* of the hand, where it travelled to */
+    size_t bytes;        /* of the states, */
+    size_t states;       /* and how many */
+    unsigned jumps;      /* counts simulator_go_to and the like that are done; */
+    double last_jump_ms; /* wall time of the last one */
+} SimulatorPast;
+
 typedef struct SimulatorStatus {
     bool ready;  /* the world is there */
     bool failed; /* it stopped, or could not be made: `message` says why; a reset starts it anew */
@@ -138,6 +165,7 @@ typedef struct SimulatorStatus {
     GaugeSample gauges[SIMULATOR_GAUGES];
     int probe_count; /* the same of `probes` */
     ProbeSample probes[SIMULATOR_GAUGES];
+    SimulatorPast past;
     bool saving;             /* a simulator_save is not done yet */
     unsigned saves;          /* counts simulator_save that ended */
     bool saved;              /* whether the last one succeeded */
@@ -145,5 +173,8 @@ typedef struct SimulatorStatus {
 } SimulatorStatus;
 
 void simulator_status(Simulator *simulator, SimulatorStatus *status);
+
+/* The world's settings as they were where the simulation last travelled to. */
+void simulator_settings(Simulator *simulator, WorldDef *def);
 
 #endif

@@ -31,9 +31,14 @@ static void keep(Simulator *simulator)
         status->gauge_count++;
 }
 
+/* One that was asked for before the simulation went back is of no use. */
 static void take(Simulator *simulator)
 {
+    WorldInfo info;
     if (!world_gauge(simulator->world, &simulator->gauge.gauge))
+        return;
+    world_info(simulator->world, &info);
+    if (simulator->gauge.gauge.time > info.time)
         return;
     pthread_mutex_lock(&simulator->lock);
     keep(simulator);
@@ -60,6 +65,21 @@ void simulator_gauge_begin(Simulator *simulator)
 {
     pthread_mutex_lock(&simulator->lock);
     simulator->status.gauge_count = simulator->gauge_next = 0;
+    pthread_mutex_unlock(&simulator->lock);
+    simulator->gauge_ms = 0;
+    simulator_gauge(simulator);
+}
+
+void simulator_gauge_back(Simulator *simulator, double time)
+{
+    SimulatorStatus *status = &simulator->status;
+    const int size = SIMULATOR_GAUGES;
+    pthread_mutex_lock(&simulator->lock);
+    while (status->gauge_count > 0 &&
+           status->gauges[(simulator->gauge_next + size - 1) % size].gauge.time > time) {
+        simulator->gauge_next = (simulator->gauge_next + size - 1) % size;
+        status->gauge_count--;
+    }
     pthread_mutex_unlock(&simulator->lock);
     simulator->gauge_ms = 0;
     simulator_gauge(simulator);

@@ -80,6 +80,25 @@ void simulator_probes(Simulator *simulator)
     pthread_mutex_unlock(&simulator->lock);
 }
 
+/* Means over time begin anew, for they were of what is to come. */
+void simulator_probes_back(Simulator *simulator, double time)
+{
+    SimulatorStatus *status = &simulator->status;
+    const int size = SIMULATOR_GAUGES;
+    pthread_mutex_lock(&simulator->lock);
+    while (status->probe_count > 0 && status->probes[(simulator->probe_next + size - 1) % size].time > time) {
+        simulator->probe_next = (simulator->probe_next + size - 1) % size;
+        status->probe_count--;
+    }
+    pthread_mutex_unlock(&simulator->lock);
+    if (!simulator->probes)
+        return;
+    probes_destroy(simulator->probes);
+    simulator->probes = probes_create(&simulator->scene.probes, &simulator->scene.world);
+    simulator->probes_ms = 0;
+    simulator_probes(simulator);
+}
+
 void simulator_probes_status(const Simulator *simulator, SimulatorStatus *status)
 {
     const int count = status->probe_count, first = simulator->probe_next - count + SIMULATOR_GAUGES;

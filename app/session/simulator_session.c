@@ -8,7 +8,7 @@
 
 static const double PACE_MS = 1000; /* the real-time factor is of this long */
 
-static void tell(Simulator *simulator, bool failed, const char *message)
+void simulator_tell(Simulator *simulator, bool failed, const char *message)
 {
     pthread_mutex_lock(&simulator->lock);
     SimulatorStatus *status = &simulator->status;
@@ -34,6 +34,7 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     status->hand = info->hand;
     status->particles = info->count;
     status->lost = info->lost;
+    simulator_past_status(simulator, info);
     simulator->obeyed[simulator->obeyed_next] = (Obeyed){info->step, simulator->taken};
     simulator->obeyed_next = (simulator->obeyed_next + 1) % OBEYED_MAX;
 }
@@ -68,10 +69,11 @@ void simulator_make_world(Simulator *simulator)
     simulator->watch = (FluidWatch){0};
     simulator->told_full = simulator->told_lost = simulator->told_unlisted = false;
     simulator->world = world_create(&simulator->start.world, &error);
+    simulator_past_begin(simulator);
     simulator_gauge_begin(simulator);
     simulator_probes_begin(simulator);
     if (!simulator->world || !simulator_publish(simulator, &error))
-        tell(simulator, true, error.message);
+        simulator_tell(simulator, true, error.message);
     awaken(simulator);
 }
 
@@ -79,10 +81,12 @@ void simulator_obey(Simulator *simulator, const SimCommand *command)
 {
     Error error = {{0}};
     if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error)) {
-        tell(simulator, false, error.message);
+        simulator_tell(simulator, false, error.message);
     } else if (!simulator->recording_lost && !recording_add(&simulator->recording, command)) {
         simulator->recording_lost = true;
-        tell(simulator, false, "this session has become too long to be saved; a reset begins a new one");
+        simulator_past_begin(simulator);
+        simulator_tell(simulator, false,
+                       "this session has become too long to be saved; a reset begins a new one");
     }
 }
 
@@ -90,6 +94,7 @@ void simulator_obey(Simulator *simulator, const SimCommand *command)
 void simulator_restart(Simulator *simulator, Work *work)
 {
     Recording before = simulator->recording;
+    const size_t obeyed = simulator->behind ? simulator->next : before.count;
     Error error = {{0}};
     pthread_mutex_lock(&simulator->lock);
     simulator->status.failed = false;
@@ -101,7 +106,7 @@ void simulator_restart(Simulator *simulator, Work *work)
                                                   before.size, &before.settings, &error);
     static const CommandQueue none;
     work->commands = none;
-    for (size_t i = 0; i < before.count; i++)
+    for (size_t i = 0; i < obeyed; i++)
         if (before.commands[i].kind == SIM_SET)
             command_queue_add(&work->commands, &before.commands[i]);
     for (int i = 0; i < work->commands.count && simulator->world; i++) {
@@ -115,14 +120,19 @@ void simulator_save_session(Simulator *simulator, const char *path)
 {
     Error error = {{0}};
     bool ok = false;
+    double saved_s = 0;
     WorldInfo info;
     if (!simulator->world) {
         error_set(&error, "%s: there is no session to save", path);
     } else if (simulator->recording_lost) {
         error_set(&error, "%s: the session was too long to be kept", path);
     } else {
+        Newest end = simulator->newest;
         world_info(simulator->world, &info);
-        ok = recording_write(&simulator->recording, info.step, world_hash(simulator->world), path, &error);
+        if (!simulator->behind)
+            end = (Newest){info.step, world_hash(simulator->world), info.time};
+        saved_s = end.time;
+        ok = recording_write(&simulator->recording, end.step, end.hash, path, &error);
     }
     pthread_mutex_lock(&simulator->lock);
     SimulatorStatus *status = &simulator->status;
@@ -131,7 +141,7 @@ void simulator_save_session(Simulator *simulator, const char *path)
     status->saved = ok;
     if (ok)
         snprintf(status->save_message, sizeof status->save_message, "%.900s: the session, %.4g s", path,
-                 info.time);
+                 saved_s);
     else
         snprintf(status->save_message, sizeof status->save_message, "%s", error.message);
     pthread_mutex_unlock(&simulator->lock);
@@ -179,6 +189,9 @@ static bool obey_all(Simulator *simulator, Work *work)
     work->commands = simulator->queue;
     simulator->queue.count = 0;
     pthread_mutex_unlock(&simulator->lock);
+    if (work->commands.count > 0)
+        simulator_cut(simulator);
+    simulator_obey_recorded(simulator);
     world_info(simulator->world, &info);
     for (int i = 0; i < work->commands.count; i++) {
         work->commands.commands[i].step = info.step;
@@ -193,22 +206,23 @@ static void tell_news(Simulator *simulator, const WorldInfo *info)
 {
     char words[256];
     if (info->full && !simulator->told_full)
-        tell(simulator, false, session_full_text(info, words));
+        simulator_tell(simulator, false, session_full_text(info, words));
     simulator->told_full |= info->full;
     if (info->lost && !simulator->told_lost)
-        tell(simulator, false, session_lost_text(info, words));
+        simulator_tell(simulator, false, session_lost_text(info, words));
     simulator->told_lost |= info->lost > 0;
     if (info->unlisted && !simulator->told_unlisted)
-        tell(simulator, false, session_unlisted_text(info, words));
+        simulator_tell(simulator, false, session_unlisted_text(info, words));
     simulator->told_unlisted |= info->unlisted > 0;
     if (session_trouble_is_new(&simulator->told_trouble, &info->trouble))
-        tell(simulator, false, session_trouble_text(&info->trouble, words));
+        simulator_tell(simulator, false, session_trouble_text(&info->trouble, words));
 }
 
 void simulator_frame_begin(Simulator *simulator)
 {
     WorldInfo info;
     world_info(simulator->world, &info);
+    simulator_past_keep(simulator);
     simulator->frame = (FrameInHand){.begun = true, .from_s = info.time};
     if (simulator->here && simulator->timer)
         simulator->frame.clock = gl_timer_stage_clock(simulator->timer);
@@ -219,8 +233,9 @@ void simulator_frame_end(Simulator *simulator)
     WorldInfo info;
     world_info(simulator->world, &info);
     const FrameInHand *frame = &simulator->frame;
-    count_frame(simulator, frame->spent_ms, info.time - frame->from_s, &frame->clock);
     simulator->frame.begun = false;
+    simulator_past_mark(simulator, &info, frame->spent_ms);
+    count_frame(simulator, frame->spent_ms, info.time - frame->from_s, &frame->clock);
     simulator_gauge(simulator);
     simulator_probes(simulator);
     awaken(simulator);
@@ -231,7 +246,7 @@ static void watch_fluid(Simulator *simulator)
 {
     char words[FLUID_WATCH_WORDS];
     if (fluid_watch(&simulator->watch, &simulator->scene.world, simulator->world, words))
-        tell(simulator, false, words);
+        simulator_tell(simulator, false, words);
 }
 
 /* One step of the frame in hand. On a GPU without a clock of its own nothing is measured: what the CPU sees
@@ -261,5 +276,5 @@ void simulator_frame_step(Simulator *simulator)
     if (!ok || !info.within_frame)
         simulator_frame_end(simulator);
     if (!ok)
-        tell(simulator, true, error.message);
+        simulator_tell(simulator, true, error.message);
 }

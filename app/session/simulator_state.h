@@ -1,10 +1,12 @@
 /* Inside a simulator: for the files that make one up. simulator.c takes what is asked for, simulator_work.c
-   decides what is due and on which thread it is done, simulator_session.c does it. */
+   decides what is due and on which thread it is done, simulator_session.c does it, simulator_past.c goes back
+   and forth in time. */
 #ifndef SLOSH_SIMULATOR_STATE_H
 #define SLOSH_SIMULATOR_STATE_H
 
 #include "app/outcome/fluid_watch.h"
 #include "app/recording/sim_command.h"
+#include "app/session/past.h"
 #include "app/session/session.h"
 #include "app/session/simulator.h"
 #include "sim/world/world.h"
@@ -35,9 +37,23 @@ typedef struct Obeyed {
     uint64_t step, commands;
 } Obeyed;
 
+/* A time to go to. */
+typedef struct Wish {
+    bool pending, by_frames;
+    double time; /* s */
+    int frames;  /* back from where it is */
+} Wish;
+
+/* The newest state, while the simulation is behind it. */
+typedef struct Newest {
+    uint64_t step, hash;
+    double time;
+} Newest;
+
 /* What the solver's thread is to do next. */
 typedef struct Work {
-    bool reset, save, frame;
+    bool reset, save, frame, travel;
+    Wish wish;
     char save_path[1024];
     CommandQueue commands;
 } Work;
@@ -54,7 +70,9 @@ struct Simulator {
     bool save_later;   /* a reset was asked for before it */
     char save_path[1024];
     CommandQueue queue;
-    uint64_t sent;     /* commands */
+    uint64_t sent; /* commands */
+    Wish wish;
+    WorldDef settings; /* where it travelled to */
     double last_due;   /* wall time at which the last frame was to begin, ms */
     double frame_time; /* simulated by the last frame, s */
     SimulatorStatus status;
@@ -84,6 +102,12 @@ struct Simulator {
     bool told_unlisted;
     FluidWatch watch;
     bool recording_lost; /* no memory for all of its commands */
+    Past *past;          /* NULL: none is kept */
+    uint64_t at;         /* place in it of the present frame's begin */
+    bool behind;         /* there are later places: time follows the recording, */
+    size_t next;         /* whose command this is the next one then */
+    Newest newest;       /* then */
+    bool told_short, told_other;
     Upload *upload;
     void (*wake)(void);
     uint64_t taken; /* commands */
@@ -100,6 +124,7 @@ void command_queue_drop_poses(CommandQueue *queue);
 /* simulator_session.c: of the thread that steps. */
 bool simulator_publish(Simulator *simulator, Error *error); /* describes the state, then shows it */
 void simulator_make_world(Simulator *simulator);            /* at the scene's start, or a message */
+void simulator_tell(Simulator *simulator, bool failed, const char *message);
 void simulator_obey(Simulator *simulator, const SimCommand *command);
 void simulator_restart(Simulator *simulator, Work *work);
 void simulator_save_session(Simulator *simulator, const char *path);
@@ -107,15 +132,33 @@ void simulator_frame_begin(Simulator *simulator);
 void simulator_frame_step(Simulator *simulator); /* may end the frame */
 void simulator_frame_end(Simulator *simulator);
 
+/* simulator_past.c: of the thread that steps. Where a new world begins, or goes on with another backend; at
+   the begin of a frame, and at its end. */
+void simulator_past_begin(Simulator *simulator);
+void simulator_past_keep(Simulator *simulator);
+void simulator_past_mark(Simulator *simulator, const WorldInfo *info, double frame_ms);
+void simulator_past_status(Simulator *simulator, const WorldInfo *info); /* with the lock held */
+
+/* Goes to work->wish, between two frames. */
+void simulator_travel(Simulator *simulator, Work *work);
+
+/* Behind the newest state: the recorded commands that apply at the present step. */
+void simulator_obey_recorded(Simulator *simulator);
+
+/* The user acts: what comes after the present state will not be. */
+void simulator_cut(Simulator *simulator);
+
 /* simulator_gauge.c: after a frame, and where a new world begins. */
 void simulator_gauge(Simulator *simulator);
 void simulator_gauge_begin(Simulator *simulator);
+void simulator_gauge_back(Simulator *simulator, double time); /* forgets what is of a later time */
 void simulator_gauge_status(const Simulator *simulator, SimulatorStatus *status); /* with the lock held */
 
 /* simulator_probes.c: after a frame; where a new world begins, with the scene's probes; at the end. */
 void simulator_probes(Simulator *simulator);
 void simulator_probes_begin(Simulator *simulator);
 void simulator_probes_end(Simulator *simulator);
+void simulator_probes_back(Simulator *simulator, double time); /* forgets what is of a later time */
 void simulator_probes_status(const Simulator *simulator, SimulatorStatus *status); /* with the lock held */
 
 #endif

@@ -52,11 +52,27 @@ static void take_save(Simulator *simulator, Work *work)
     memcpy(work->save_path, simulator->save_path, sizeof work->save_path);
 }
 
+/* With the settings that wait, which were asked for before it. Where no step can follow they wait on. */
+static void take_wish(Simulator *simulator, Work *work)
+{
+    command_queue_drop_poses(&simulator->queue);
+    work->travel = true;
+    work->wish = simulator->wish;
+    work->commands.count = 0;
+    if (!simulator->status.failed) {
+        work->commands = simulator->queue;
+        simulator->queue.count = 0;
+        simulator->taken = simulator->sent;
+    }
+    simulator->wish = (Wish){.pending = false};
+    simulator->idle = true; /* time runs on from there */
+}
+
 /* With the lock held: one thing to do, in the order in which it was asked for; a save is done even at the
    end. False when there is nothing: until then, wall time, ms. */
 static bool find_work(Simulator *simulator, Work *work, double *until)
 {
-    work->reset = work->save = work->frame = false;
+    work->reset = work->save = work->frame = work->travel = false;
     *until = 0;
     if (simulator->save && !(simulator->save_later && simulator->reset)) {
         take_save(simulator, work);
@@ -65,11 +81,13 @@ static bool find_work(Simulator *simulator, Work *work, double *until)
     } else if (simulator->reset) {
         work->reset = true;
         simulator->reset = false;
+    } else if (simulator->wish.pending && simulator->status.ready) {
+        take_wish(simulator, work);
     } else if (frame_due(simulator, until)) {
         work->frame = true;
         simulator->singles -= simulator->singles > 0;
     }
-    return work->save || work->reset || work->frame;
+    return work->save || work->reset || work->travel || work->frame;
 }
 
 /* Waits for it; false at the end. */
@@ -93,6 +111,8 @@ static void do_work(Simulator *simulator, Work *work)
         simulator_restart(simulator, work);
     if (work->save)
         simulator_save_session(simulator, work->save_path);
+    if (work->travel)
+        simulator_travel(simulator, work);
     if (work->frame)
         simulator_frame_begin(simulator);
 }
@@ -148,6 +168,7 @@ static void release(Simulator *simulator)
 {
     simulator_probes_end(simulator);
     world_destroy(simulator->world);
+    past_destroy(simulator->past);
     free(simulator->work);
     recording_destroy(&simulator->recording);
     pthread_cond_destroy(&simulator->changed);
@@ -178,7 +199,10 @@ Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
     pthread_mutex_init(&simulator->lock, NULL);
     simulator->timer = setup->timer;
     simulator->work = calloc(1, sizeof *simulator->work);
+    if (setup->past_bytes > 0)
+        simulator->past = past_create(setup->past_bytes);
     if ((simulator->work || error_set(error, "no memory for the commands")) &&
+        (simulator->past || setup->past_bytes == 0 || error_set(error, "no memory for the past")) &&
         recording_create(&simulator->recording, from->path, from->text, from->size, &from->settings, error) &&
         start(simulator, error))
         return simulator;
@@ -264,6 +288,7 @@ bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upl
                     Error *error)
 {
     WorldInfo info;
+    char before[NAME_SIZE];
     SimCommand now = *command;
     if (!end(simulator, MOVE_MS, false))
         return error_set(error, "the simulation does not answer; try again in a moment");
@@ -273,8 +298,14 @@ bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upl
     } else {
         world_info(simulator->world, &info);
         now.step = info.step;
+        snprintf(before, sizeof before, "%s", simulator->scene.world.backend);
+        simulator_cut(simulator);
         simulator_obey(simulator, &now);
         simulator->here = world_on_gpu(&simulator->scene.world);
+        if (strcmp(before, simulator->scene.world.backend) != 0) { /* no way back from there */
+            simulator_past_begin(simulator);
+            simulator_past_keep(simulator);
+        }
         simulator_publish(simulator, error);
     }
     snprintf(backend, NAME_SIZE, "%s", simulator->scene.world.backend);

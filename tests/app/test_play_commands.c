@@ -151,7 +151,8 @@ static void keys_in_words(void **state)
 {
     (void)state;
     check_text(PLAY_PAUSE, "Space, Pause or gamepad Start");
-    check_text(PLAY_STEP, ". or N");
+    check_text(PLAY_STEP, "., N or gamepad D-pad right");
+    check_text(PLAY_BACK, "Shift+,");
     check_text(PLAY_SLOWER, "- or keypad -");
     check_text(PLAY_FASTER, "+ or keypad +");
     check_text(PLAY_PREVIOUS_SCENE, "Shift+Tab or [");

@@ -19,7 +19,7 @@ VALUES = {
     '--set': 'gravity=[0, -5, 0]', '--particles': '100', '--backend': 'cpu', '--method': 'mueller', '--view': 'spheres',
     '--simd': 'baseline', '--threads': '1', '--gpu': '0', '--shaders': SHADERS, '--device': 'file:device.rec', '--mapping': 'mapping.yaml',
     '--json': 'out.json', '--quiet': None, '--clock': 'finish', '--sweep': 'threads=1', '--frame': 'world',
-    '--surface': None, '--level': '0.5', '--cell': '1', '--color-by': 'speed', '--record': 'out.rec', '--watch': None,
+    '--surface': None, '--level': '0.5', '--cell': '1', '--color-by': 'speed', '--record': 'out.rec', '--past': '64', '--watch': None,
     '--seconds': '1', '--coarse': None, '--error': '90', '--frame-ms': '33', '--full': None, '--interpolate': None, '--help': None,
     '--compare': 'view.colormap=viridis,gray'}
 

@@ -71,7 +71,7 @@ static void the_bar_gives_the_time_under_the_mouse(void **state)
 static void buttons_give_their_commands(void **state)
 {
     (void)state;
-    static const PlayCommand commands[] = {PLAY_PAUSE, PLAY_STEP};
+    static const PlayCommand commands[] = {PLAY_PAUSE, PLAY_STEP_BACK, PLAY_STEP, PLAY_NEWEST};
     Line line;
     Desk *desk = open_line(&line, 800, 13);
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {

@@ -1,0 +1,337 @@
+#include "app/session/past.h"
+
+#include "sim/world/method.h"
+#include "sim/world/world_state.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* States from one change to the next have the same settings. */
+typedef struct Settings {
+    size_t users;
+    Scene scene;
+} Settings;
+
+typedef struct Kept {
+    uint64_t place;
+    size_t next, bytes;
+    double work_ms; /* of the frames since the state before */
+    Settings *settings;
+    WorldState state;
+} Kept;
+
+struct Past {
+    size_t bytes_most, bytes; /* of states, settings and places */
+    bool dropped;
+    double work_ms;  /* of the frames since the last state */
+    uint64_t before; /* places that were forgotten */
+    size_t place_count, place_room;
+    PastPlace *places;
+    size_t count, room; /* of the states, oldest first */
+    Kept **kept;
+};
+
+/* Room for one more of `size` bytes; false without memory. */
+static bool grow(void **array, size_t count, size_t *room, size_t size)
+{
+    if (count < *room)
+        return true;
+    const size_t more = *room ? 2 * *room : 256;
+    void *grown = realloc(*array, more * size);
+    if (!grown)
+        return false;
+    *array = grown;
+    *room = more;
+    return true;
+}
+
+Past *past_create(size_t bytes_most)
+{
+    Past *past = calloc(1, sizeof *past);
+    if (!past)
+        return NULL;
+    past->bytes_most = bytes_most;
+    if (grow((void **)&past->places, 0, &past->place_room, sizeof *past->places))
+        return past;
+    free(past);
+    return NULL;
+}
+
+static void settings_release(Past *past, Settings *settings)
+{
+    if (!settings || --settings->users > 0)
+        return;
+    past->bytes -= sizeof *settings;
+    free(settings);
+}
+
+static void kept_free(Past *past, Kept *kept)
+{
+    if (!kept)
+        return;
+    past->bytes -= kept->bytes;
+    settings_release(past, kept->settings);
+    world_state_free(&kept->state);
+    free(kept);
+}
+
+static void forget_states(Past *past, size_t from)
+{
+    while (past->count > from)
+        kept_free(past, past->kept[--past->count]);
+}
+
+void past_destroy(Past *past)
+{
+    if (!past)
+        return;
+    forget_states(past, 0);
+    free(past->kept);
+    free(past->places);
+    free(past);
+}
+
+uint64_t past_last(const Past *past)
+{
+    return past->before + past->place_count - 1;
+}
+
+uint64_t past_first(const Past *past)
+{
+    return past->count > 0 ? past->kept[0]->place : past_last(past);
+}
+
+PastPlace past_place(const Past *past, uint64_t place)
+{
+    return past->places[place - past->before];
+}
+
+/* Those that can no longer be reached, once they are half of all. */
+static void forget_places(Past *past)
+{
+    const size_t gone = (size_t)(past_first(past) - past->before);
+    if (gone < 128 || 2 * gone < past->place_count)
+        return;
+    past->place_count -= gone;
+    past->before += gone;
+    past->bytes -= gone * sizeof *past->places;
+    memmove(past->places, past->places + gone, past->place_count * sizeof *past->places);
+}
+
+static void add_place(Past *past, const WorldInfo *info)
+{
+    if (!grow((void **)&past->places, past->place_count, &past->place_room, sizeof *past->places)) {
+        forget_states(past, 0); /* of all that is known, the present place remains */
+        past->bytes -= past->place_count * sizeof *past->places;
+        past->before += past->place_count;
+        past->place_count = 0;
+    }
+    past->places[past->place_count++] = (PastPlace){info->step, info->time};
+    past->bytes += sizeof *past->places;
+}
+
+void past_begin(Past *past, const WorldInfo *info)
+{
+    forget_states(past, 0);
+    past->bytes = past->place_count = 0;
+    past->before = 0;
+    past->work_ms = 0;
+    past->dropped = false;
+    add_place(past, info);
+}
+
+void past_mark(Past *past, const WorldInfo *info, double frame_ms)
+{
+    past->work_ms += frame_ms;
+    forget_places(past);
+    add_place(past, info);
+}
+
+static size_t bytes_of(const WorldState *state, const WorldDef *def)
+{
+    const ColumnRows rows = columns_saved(def);
+    size_t bytes = sizeof(Kept);
+    for (int r = 0; r < rows.count; r++)
+        bytes += (size_t)rows.row[r]->components * column_size(rows.row[r]) * (state->capacity + COLUMN_PAST);
+    return bytes;
+}
+
+static double reach(const Past *past)
+{
+    return past_place(past, past_last(past)).time - past_place(past, past_first(past)).time;
+}
+
+/* Takes the state out of the list. */
+static Kept *take_out(Past *past, size_t at)
+{
+    Kept *out = past->kept[at];
+    past->count--;
+    memmove(past->kept + at, past->kept + at + 1, (past->count - at) * sizeof(Kept *));
+    return out;
+}
+
+/* The first one without which a jump between its neighbours is shortest; 0: none may go. */
+static size_t find_needless(const Past *past)
+{
+    double least = reach(past) < PAST_WISH_S ? PAST_GAP_SHORT_MS : PAST_GAP_MOST_MS;
+    size_t needless = 0;
+    for (size_t i = 1; i + 1 < past->count; i++) {
+        const double gap = past->kept[i]->work_ms + past->kept[i + 1]->work_ms;
+        if (gap < least) {
+            least = gap;
+            needless = i;
+        }
+    }
+    return needless;
+}
+
+/* A state that may go, taken out; NULL: there is none. */
+static Kept *thin_out(Past *past)
+{
+    const size_t needless = find_needless(past);
+    if (past->count == 0)
+        return NULL;
+    if (needless > 0)
+        past->kept[needless + 1]->work_ms += past->kept[needless]->work_ms;
+    Kept *out = take_out(past, needless);
+    past->dropped |= needless == 0 && reach(past) < PAST_WISH_S;
+    return out;
+}
+
+/* Until so much more fits; gives one of the states for use again, or NULL. */
+static Kept *make_room(Past *past, size_t more)
+{
+    Kept *again = NULL;
+    while (past->bytes + more > past->bytes_most && past->count > 0) {
+        kept_free(past, again);
+        again = thin_out(past);
+        past->bytes -= again->bytes;
+        again->bytes = 0;
+    }
+    return again;
+}
+
+static Settings *settings_of(Past *past, const Scene *scene)
+{
+    Settings *last = past->count > 0 ? past->kept[past->count - 1]->settings : NULL;
+    if (last && memcmp(&last->scene, scene, sizeof *scene) == 0) {
+        last->users++;
+        return last;
+    }
+    Settings *settings = malloc(sizeof *settings);
+    if (!settings)
+        return NULL;
+    settings->users = 1;
+    memcpy(&settings->scene, scene, sizeof *scene); /* its padding too, for the comparison */
+    past->bytes += sizeof *settings;
+    return settings;
+}
+
+/* Fills `kept` with the present state. */
+static bool fill(Past *past, Kept *kept, World *world, const Scene *scene, size_t next)
+{
+    Error none;
+    settings_release(past, kept->settings);
+    kept->settings = NULL;
+    if (!grow((void **)&past->kept, past->count, &past->room, sizeof(Kept *)) ||
+        !world_save(world, &kept->state, &none) || !(kept->settings = settings_of(past, scene)))
+        return false;
+    kept->place = past_last(past);
+    kept->next = next;
+    kept->bytes = bytes_of(&kept->state, &scene->world);
+    kept->work_ms = past->work_ms;
+    past->bytes += kept->bytes;
+    return true;
+}
+
+static bool is_due(const Past *past, bool now)
+{
+    if (past->count > 0 && past->kept[past->count - 1]->place == past_last(past))
+        return false;
+    return now || past->count == 0 || past->work_ms >= PAST_GAP_MS;
+}
+
+void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool now)
+{
+    if (!is_due(past, now))
+        return;
+    const size_t as_before = past->count > 0 ? past->kept[past->count - 1]->bytes : 0;
+    Kept *kept = make_room(past, as_before + sizeof(Settings));
+    if (!kept)
+        kept = calloc(1, sizeof *kept);
+    if (!kept || !fill(past, kept, world, scene, next)) {
+        kept_free(past, kept);
+        return;
+    }
+    past->kept[past->count++] = kept;
+    past->work_ms = 0;
+    kept_free(past, make_room(past, 0)); /* one that is larger than the one before */
+}
+
+uint64_t past_find(const Past *past, double time)
+{
+    uint64_t low = past_first(past), high = past_last(past);
+    while (low < high) {
+        const uint64_t middle = low + (high - low + 1) / 2;
+        if (past_place(past, middle).time <= time)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    while (low > past_first(past) && !(past_place(past, low - 1).time < past_place(past, low).time))
+        low--;
+    return low;
+}
+
+/* The last state at or before the place. */
+static const Kept *kept_before(const Past *past, uint64_t place)
+{
+    size_t low = 0, high = past->count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (past->kept[middle]->place <= place)
+            low = middle;
+        else
+            high = middle;
+    }
+    return past->kept[low];
+}
+
+uint64_t past_before(const Past *past, uint64_t place)
+{
+    return past->count > 0 ? kept_before(past, place)->place : past_last(past);
+}
+
+bool past_load(const Past *past, uint64_t place, World *world, Scene *scene, size_t *next, Error *error)
+{
+    if (past->count == 0)
+        return error_set(error, "no state of the past is kept");
+    const Kept *kept = kept_before(past, place);
+    if (!world_load(world, &kept->state, error))
+        return false;
+    *scene = kept->settings->scene;
+    *next = kept->next;
+    return true;
+}
+
+void past_cut(Past *past, uint64_t place)
+{
+    size_t states = past->count;
+    while (states > 0 && past->kept[states - 1]->place > place)
+        states--;
+    forget_states(past, states);
+    const size_t left = (size_t)(place - past->before) + 1;
+    past->bytes -= (past->place_count - left) * sizeof *past->places;
+    past->place_count = left;
+    past->work_ms = PAST_GAP_MS; /* since the last state is not known */
+}
+
+PastFigures past_figures(const Past *past)
+{
+    return (PastFigures){.bytes = past->bytes,
+                         .bytes_most = past->bytes_most,
+                         .state_bytes = past->count > 0 ? past->kept[past->count - 1]->bytes : 0,
+                         .states = past->count,
+                         .dropped = past->dropped};
+}

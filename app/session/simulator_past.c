@@ -1,0 +1,314 @@
+/* Back and forth in time: what is kept of the past, and the way there. Behind the newest state time follows
+   the recording, until the user acts. */
+#include "app/scene/live.h"
+#include "app/session/session.h"
+#include "app/session/simulator_state.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void simulator_past_begin(Simulator *simulator)
+{
+    WorldInfo info;
+    simulator->behind = false;
+    simulator->at = 0;
+    simulator->told_short = simulator->told_other = false;
+    if (!simulator->past || !simulator->world)
+        return;
+    world_info(simulator->world, &info);
+    past_begin(simulator->past, &info);
+}
+
+/* Once: how far back it goes where memory ends it. */
+static void tell_short(Simulator *simulator)
+{
+    const Past *past = simulator->past;
+    const PastFigures figures = past_figures(past);
+    char words[256];
+    if (!figures.dropped || simulator->told_short)
+        return;
+    simulator->told_short = true;
+    snprintf(words, sizeof words,
+             "one can go back %.3g s: %.4g MiB hold %zu state%s of %.3g MiB; --past MIB gives more",
+             past_place(past, past_last(past)).time - past_place(past, past_first(past)).time,
+             (double)figures.bytes_most / 1048576, figures.states, figures.states == 1 ? "" : "s",
+             (double)figures.state_bytes / 1048576);
+    simulator_tell(simulator, false, words);
+}
+
+/* Whether the world stands at the begin of frame `at`. */
+static bool at_its_place(const Simulator *simulator)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    return past_place(simulator->past, simulator->at).step == info.step;
+}
+
+static void keep(Simulator *simulator, bool now)
+{
+    past_keep(simulator->past, simulator->world, &simulator->scene, simulator->recording.count, now);
+    tell_short(simulator);
+}
+
+void simulator_past_keep(Simulator *simulator)
+{
+    if (simulator->past && !simulator->recording_lost && !simulator->behind && at_its_place(simulator))
+        keep(simulator, false);
+}
+
+/* The last recorded commands, which were given where it ended: it is live again. */
+static void come_to_newest(Simulator *simulator)
+{
+    simulator_obey_recorded(simulator);
+    simulator->behind = false;
+}
+
+/* Behind the newest state frames end where they did. They do not on a backend that is not reproducible; then
+   the recording holds from here on. */
+static void follow(Simulator *simulator, const WorldInfo *info)
+{
+    simulator->at++;
+    if (past_place(simulator->past, simulator->at).step != info->step) {
+        simulator->at--;
+        simulator_cut(simulator);
+        past_mark(simulator->past, info, 0);
+        simulator->at++;
+    } else if (simulator->at == past_last(simulator->past)) {
+        come_to_newest(simulator);
+    }
+}
+
+void simulator_past_mark(Simulator *simulator, const WorldInfo *info, double frame_ms)
+{
+    if (!simulator->past || (info->within_frame && !info->trouble.ended))
+        return;
+    if (simulator->behind) {
+        follow(simulator, info);
+    } else {
+        past_mark(simulator->past, info, frame_ms);
+        simulator->at = past_last(simulator->past);
+    }
+    pthread_mutex_lock(&simulator->lock);
+    simulator_past_status(simulator, info);
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+void simulator_past_status(Simulator *simulator, const WorldInfo *info)
+{
+    const Past *past = simulator->past;
+    SimulatorPast *status = &simulator->status.past;
+    if (!past)
+        return;
+    const PastFigures figures = past_figures(past);
+    status->kept = true;
+    status->behind = simulator->behind;
+    status->from = figures.states > 0 ? past_place(past, past_first(past)).time : info->time;
+    status->to = simulator->behind ? simulator->newest.time : info->time;
+    status->bytes = figures.bytes;
+    status->states = figures.states;
+}
+
+/* Where the hand last wanted the box. */
+static BoxTarget target_at(const Simulator *simulator)
+{
+    const Recording *recording = &simulator->recording;
+    for (size_t i = simulator->behind ? simulator->next : recording->count; i > 0; i--)
+        if (recording->commands[i - 1].kind != SIM_SET)
+            return recording->commands[i - 1].target;
+    return (BoxTarget){.orientation = {0, 0, 0, 1}};
+}
+
+/* Settings and hand are what they were. */
+static void tell_travel(Simulator *simulator)
+{
+    const BoxTarget target = target_at(simulator);
+    pthread_mutex_lock(&simulator->lock);
+    simulator->settings = simulator->scene.world;
+    simulator->status.past.target = target;
+    simulator->status.past.travels++;
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+void simulator_obey_recorded(Simulator *simulator)
+{
+    const Recording *recording = &simulator->recording;
+    Error error = {{0}};
+    WorldInfo info;
+    const size_t from = simulator->next;
+    if (!simulator->behind)
+        return;
+    world_info(simulator->world, &info);
+    for (; simulator->next < recording->count; simulator->next++) {
+        const SimCommand *command = &recording->commands[simulator->next];
+        if (command->step > info.step)
+            break;
+        if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error))
+            simulator_tell(simulator, false, error.message); /* no memory */
+    }
+    if (simulator->next > from)
+        tell_travel(simulator);
+}
+
+void simulator_cut(Simulator *simulator)
+{
+    WorldInfo info;
+    char words[160];
+    if (!simulator->behind)
+        return;
+    world_info(simulator->world, &info);
+    snprintf(words, sizeof words,
+             "t = %.4g s: the session goes on from here; the %.3g s that came after are cut off", info.time,
+             simulator->newest.time - info.time);
+    simulator->behind = false;
+    simulator->recording.count = simulator->next;
+    past_cut(simulator->past, simulator->at);
+    simulator_tell(simulator, false, words);
+}
+
+/* Leaves the newest state: a save while behind it is still of all that was done. */
+static void leave(Simulator *simulator)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    if (!simulator->status.failed) /* else it is to fail again */
+        keep(simulator, true);
+    simulator->newest = (Newest){info.step, world_hash(simulator->world), info.time};
+    simulator->next = simulator->recording.count;
+    simulator->behind = true;
+}
+
+static bool load(Simulator *simulator, uint64_t place)
+{
+    Error error = {{0}};
+    if (!past_load(simulator->past, place, simulator->world, &simulator->scene, &simulator->next, &error)) {
+        simulator_tell(simulator, false, error.message);
+        return false;
+    }
+    simulator->at = past_before(simulator->past, place);
+    return true;
+}
+
+/* A frame again, that nobody sees. */
+static bool frame_again(Simulator *simulator)
+{
+    Error error = {{0}};
+    WorldInfo info;
+    bool ok = true;
+    do {
+        simulator_obey_recorded(simulator);
+        ok = world_substep(simulator->world, NULL, &error);
+        world_info(simulator->world, &info);
+    } while (ok && info.within_frame);
+    simulator_past_mark(simulator, &info, 0);
+    if (!ok)
+        simulator_tell(simulator, true, error.message);
+    return ok;
+}
+
+/* From the present state where it lies on the way, else from one that was kept. */
+static bool go(Simulator *simulator, uint64_t place)
+{
+    const uint64_t last = past_last(simulator->past), from = past_before(simulator->past, place);
+    if ((simulator->at > place || simulator->at < from) && !load(simulator, place))
+        return false;
+    if (simulator->at == last)
+        come_to_newest(simulator);
+    while (simulator->behind && simulator->at < place)
+        if (!frame_again(simulator))
+            return false;
+    return true;
+}
+
+static bool same_bits(const Simulator *simulator)
+{
+    const WorldDef *def = &simulator->scene.world;
+    return strcmp(def->backend, "compute") != 0 || def->reproducible;
+}
+
+/* Shown as any state is, but that no time has passed. */
+static void arrive(Simulator *simulator)
+{
+    Error error = {{0}};
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    pthread_mutex_lock(&simulator->lock);
+    simulator->status.time = info.time;
+    pthread_mutex_unlock(&simulator->lock);
+    tell_travel(simulator);
+    if (!simulator_publish(simulator, &error))
+        simulator_tell(simulator, true, error.message);
+    simulator_gauge_back(simulator, info.time);
+    simulator_probes_back(simulator, info.time);
+}
+
+static uint64_t place_of(const Simulator *simulator, const Wish *wish)
+{
+    const Past *past = simulator->past;
+    const uint64_t first = past_first(past), at = simulator->at, back = (uint64_t)wish->frames;
+    if (!wish->by_frames && isinf(wish->time) && wish->time > 0)
+        return past_last(past);
+    if (!wish->by_frames) /* times are told as fractions of a bar: a place this near is meant */
+        return past_find(past, wish->time + 1e-9);
+    return at > first + back ? at - back : first;
+}
+
+static void jump_done(Simulator *simulator, double began)
+{
+    pthread_mutex_lock(&simulator->lock);
+    simulator->status.past.jumps++;
+    simulator->status.past.last_jump_ms = wall_ms() - began;
+    pthread_mutex_unlock(&simulator->lock);
+}
+
+static void tell_none(Simulator *simulator, const char *words)
+{
+    if (!simulator->told_other)
+        simulator_tell(simulator, false, words);
+    simulator->told_other = true;
+}
+
+/* The settings that wait, which were asked for before; what is left of a frame. */
+static void finish_present(Simulator *simulator, Work *work)
+{
+    WorldInfo info;
+    if (work->commands.count > 0)
+        simulator_cut(simulator);
+    world_info(simulator->world, &info);
+    for (int i = 0; i < work->commands.count; i++) {
+        work->commands.commands[i].step = info.step;
+        simulator_obey(simulator, &work->commands.commands[i]);
+    }
+    if (!at_its_place(simulator))
+        frame_again(simulator);
+}
+
+void simulator_travel(Simulator *simulator, Work *work)
+{
+    const double began = wall_ms();
+    if (!simulator->world)
+        return;
+    if (!simulator->past || simulator->recording_lost) {
+        tell_none(simulator, simulator->past
+                                 ? "the session is too long to go back in; a reset begins a new one"
+                                 : "nothing is kept to go back to (--past 0)");
+        jump_done(simulator, began);
+        return;
+    }
+    finish_present(simulator, work);
+    if (!simulator->behind)
+        leave(simulator);
+    const uint64_t place = place_of(simulator, &work->wish);
+    if (!same_bits(simulator) && place < past_last(simulator->past))
+        tell_none(simulator,
+                  "what is simulated again differs in the last bits; solver.reproducible: true in the "
+                  "scene gives the same ones");
+    pthread_mutex_lock(&simulator->lock);
+    simulator->status.failed &= place == simulator->at; /* else that comes after, or again */
+    pthread_mutex_unlock(&simulator->lock);
+    go(simulator, place);
+    arrive(simulator);
+    jump_done(simulator, began);
+    if (simulator->wake)
+        simulator->wake();
+}

@@ -1,0 +1,186 @@
+/* A simulator with a past, on a thread or on the GPU, driven frame by frame; its world is looked at while
+   nothing is due. */
+#ifndef SLOSH_PAST_RIG_H
+#define SLOSH_PAST_RIG_H
+
+#include "tests/app/output_fixture.h"
+
+#include "app/session/headless.h"
+#include "app/session/recording_play.h"
+#include "app/session/simulator_state.h"
+#include "sim/gl/backends.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
+
+#include <math.h>
+
+static Headless *context;
+static Error error;
+
+typedef struct Rig {
+    Scene scene;
+    Recording recording;
+    Upload *upload;
+    Simulator *simulator;
+    SimulatorStatus status;
+    ParticleBuffers particles;
+} Rig;
+
+static inline void must(bool ok)
+{
+    if (!ok)
+        fail_msg("%s", error.message);
+}
+
+static inline void rig_open(Rig *rig, const char *text, size_t past_bytes)
+{
+    SceneSettings settings = {.count = 0};
+    *rig = (Rig){.upload = NULL};
+    must(scene_parse("a.yaml", text, strlen(text), &settings, &rig->scene, NULL, &error));
+    must(recording_create(&rig->recording, "a.yaml", text, strlen(text), &settings, &error));
+    const WorldDef *def = &rig->scene.world;
+    rig->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)),
+                                particle_attributes_for(SCALAR_SPEED), &error);
+    const SimulatorSetup setup = {.scene = &rig->scene,
+                                  .recording = &rig->recording,
+                                  .upload = rig->upload,
+                                  .paused = true,
+                                  .past_bytes = past_bytes};
+    rig->simulator = simulator_create(&setup, &error);
+    assert_non_null(rig->simulator);
+}
+
+static inline void rig_close(Rig *rig)
+{
+    assert_true(simulator_destroy(rig->simulator, 20000));
+    upload_destroy(rig->upload);
+    recording_destroy(&rig->recording);
+}
+
+/* One turn of the window's loop. */
+static inline void rig_turn(Rig *rig)
+{
+    simulator_work(rig->simulator, 5);
+    simulator_status(rig->simulator, &rig->status);
+    if (!simulator_here(rig->simulator) && upload_fresh(rig->upload))
+        assert_true(upload_take(rig->upload, &rig->particles));
+    usleep(100);
+}
+
+static inline void rig_ready(Rig *rig)
+{
+    const double until = wall_ms() + 20000;
+    do
+        rig_turn(rig);
+    while (!rig->status.ready && !rig->status.failed && wall_ms() < until);
+    assert_true(rig->status.ready || rig->status.failed);
+}
+
+/* One frame on, to its end. */
+static inline void rig_step(Rig *rig)
+{
+    const double until = wall_ms() + 20000;
+    rig_turn(rig);
+    const uint64_t frames = rig->status.frames;
+    simulator_single_step(rig->simulator, false);
+    do
+        rig_turn(rig);
+    while (rig->status.frames == frames && wall_ms() < until);
+    assert_true(rig->status.frames == frames + 1);
+}
+
+/* Waits for so many jumps in all. */
+static inline void rig_jumps(Rig *rig, unsigned jumps)
+{
+    const double until = wall_ms() + 20000;
+    do
+        rig_turn(rig);
+    while (rig->status.past.jumps < jumps && wall_ms() < until);
+    assert_int_equal(rig->status.past.jumps, jumps);
+}
+
+static inline void rig_go(Rig *rig, double time)
+{
+    rig_turn(rig);
+    const unsigned jumps = rig->status.past.jumps;
+    simulator_go_to(rig->simulator, time);
+    rig_jumps(rig, jumps + 1);
+}
+
+static inline void rig_back(Rig *rig)
+{
+    rig_turn(rig);
+    const unsigned jumps = rig->status.past.jumps;
+    simulator_step_back(rig->simulator, false);
+    rig_jumps(rig, jumps + 1);
+}
+
+static inline void rig_set(Rig *rig, const char *setting)
+{
+    SimCommand set = {.kind = SIM_SET};
+    snprintf(set.setting, sizeof set.setting, "%s", setting);
+    assert_true(simulator_send(rig->simulator, &set) > 0);
+}
+
+static inline void rig_target(Rig *rig, double x)
+{
+    const SimCommand target = {.kind = SIM_TARGET, .target = {{x, 0, 0}, {0, 0, 0, 1}}};
+    assert_true(simulator_send(rig->simulator, &target) > 0);
+}
+
+/* Of the present state, while nothing is due. */
+static inline uint64_t rig_hash(Rig *rig)
+{
+    rig_turn(rig);
+    return world_hash(rig->simulator->world);
+}
+
+static inline void rig_save(Rig *rig, const char *path)
+{
+    const double until = wall_ms() + 20000;
+    rig_turn(rig);
+    const unsigned saves = rig->status.saves;
+    assert_true(simulator_save(rig->simulator, path));
+    do
+        rig_turn(rig);
+    while (rig->status.saves == saves && wall_ms() < until);
+    if (!rig->status.saved)
+        fail_msg("%s", rig->status.save_message);
+}
+
+/* The recorded session, simulated again: its steps; the bits are those that were recorded. */
+static inline uint64_t replay(const char *path)
+{
+    static Session session;
+    Recording recording;
+    must(recording_read(path, &recording, &error));
+    assert_false(recording.cut);
+    const uint64_t steps = recording.steps;
+    RecordingPlay play = {.path = path, .recording = &recording};
+    headless_destroy(context); /* the session makes its own */
+    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, &session, &error) == 0);
+    while (recording_play_apply(&play, &session, &error) && !recording_play_ended(&play, &session))
+        must(session_substep(&session, &error));
+    if (world_hash(session.world) != recording.hash)
+        fail_msg("%s: other bits", path);
+    session_close(&session);
+    recording_destroy(&recording);
+    context = headless_create(HEADLESS_GPU_AUTO, &error);
+    assert_non_null(context);
+    return steps;
+}
+
+static inline int rig_setup(void **state)
+{
+    context = headless_create(HEADLESS_GPU_AUTO, &error);
+    backends_add();
+    return context && folder_setup(state) == 0 ? 0 : -1;
+}
+
+static inline int rig_teardown(void **state)
+{
+    headless_destroy(context);
+    return folder_teardown(state);
+}
+
+#endif

@@ -1,0 +1,192 @@
+/* The ring of states alone: its limit of memory, what goes first, and how far a jump is then. */
+#include "tests/app/output_fixture.h"
+
+#include "app/session/past.h"
+
+#include <math.h>
+
+static const char text[] = "box: {size: [1, 1, 1]}\n"
+                           "particles: {spacing: 0.1}\n"
+                           "fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0, 0.6, 0.5]}}]}]\n"
+                           "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 1}}\n";
+static const double DT = 0.01;
+
+typedef struct Bench {
+    Scene scene;
+    World *world;
+    Past *past;
+} Bench;
+
+static void bench_open(Bench *bench, size_t bytes)
+{
+    Error error = {{0}};
+    WorldInfo info;
+    SceneSettings none = {.count = 0};
+    assert_true(scene_parse("a.yaml", text, strlen(text), &none, &bench->scene, NULL, &error));
+    bench->world = world_create(&bench->scene.world, &error);
+    bench->past = past_create(bytes);
+    assert_non_null(bench->world);
+    assert_non_null(bench->past);
+    world_info(bench->world, &info);
+    past_begin(bench->past, &info);
+}
+
+static void bench_close(Bench *bench)
+{
+    past_destroy(bench->past);
+    world_destroy(bench->world);
+}
+
+/* So many frames, each of which took so long; their states are of no interest: the world's numbers count. */
+static void frames(Bench *bench, int count, double ms)
+{
+    WorldInfo info;
+    world_info(bench->world, &info);
+    for (int i = 0; i < count; i++) {
+        past_keep(bench->past, bench->world, &bench->scene, 0, false);
+        const PastFigures figures = past_figures(bench->past);
+        assert_true(figures.bytes <= figures.bytes_most);
+        const PastPlace last = past_place(bench->past, past_last(bench->past));
+        info.step = last.step + 1;
+        info.time = DT * (double)info.step;
+        past_mark(bench->past, &info, ms);
+    }
+}
+
+/* Frames that a jump takes at most. */
+static uint64_t longest_jump(const Past *past)
+{
+    uint64_t longest = 0;
+    for (uint64_t place = past_first(past); place < past_last(past); place++) {
+        const uint64_t jump = place - past_before(past, place);
+        longest = jump > longest ? jump : longest;
+    }
+    return longest;
+}
+
+static void states_are_kept_by_the_time_that_frames_take(void **state)
+{
+    (void)state;
+    Bench bench;
+    bench_open(&bench, 1 << 26);
+    frames(&bench, 1, 100); /* slow ones: each */
+    frames(&bench, 20, 100);
+    assert_int_equal(longest_jump(bench.past), 0);
+    frames(&bench, 1000, 10); /* fast ones: every fifth */
+    assert_int_equal(longest_jump(bench.past), (uint64_t)(PAST_GAP_MS / 10) - 1);
+    const PastFigures figures = past_figures(bench.past);
+    assert_true(figures.states > 200 && figures.states < 230 && !figures.dropped);
+    assert_int_equal(past_first(bench.past), 0);
+    bench_close(&bench);
+}
+
+/* When the memory is full it is first thinned out, and then the oldest go; jumps stay short. */
+static void it_thins_out_before_it_forgets(void **state)
+{
+    (void)state;
+    Bench bench;
+    bench_open(&bench, 4 << 20);
+    frames(&bench, 1500, 12);
+    const PastFigures figures = past_figures(bench.past);
+    assert_true(figures.state_bytes > 6000 && figures.state_bytes < 20000); /* of 300 particles */
+    frames(&bench, 20000, 12);
+    const Past *past = bench.past;
+    const double reach = past_place(past, past_last(past)).time - past_place(past, past_first(past)).time;
+    assert_true(past_first(past) > 0 && reach > PAST_WISH_S);
+    assert_true((double)longest_jump(past) * 12 < PAST_GAP_MOST_MS);
+    assert_false(past_figures(past).dropped); /* more than ten seconds are left */
+    bench_close(&bench);
+}
+
+/* Less than is wished for: jumps get longer, and then it is known that the past is short. */
+static void what_is_short_is_known(void **state)
+{
+    (void)state;
+    Bench bench;
+    bench_open(&bench, 300000);
+    frames(&bench, 100, 60);
+    assert_true(past_first(bench.past) == 0 && !past_figures(bench.past).dropped);
+    assert_true(longest_jump(bench.past) > 2);
+    frames(&bench, 1000, 60);
+    assert_true(past_first(bench.past) > 0 && past_figures(bench.past).dropped);
+    assert_true((double)longest_jump(bench.past) * 60 < PAST_GAP_SHORT_MS);
+    bench_close(&bench);
+}
+
+/* Less than one state: there is no past, and all else works. */
+static void a_state_may_be_too_large(void **state)
+{
+    (void)state;
+    Bench bench;
+    Error error = {{0}};
+    size_t next;
+    bench_open(&bench, 10000);
+    frames(&bench, 1000, 60);
+    assert_int_equal(past_figures(bench.past).states, 0);
+    assert_true(past_figures(bench.past).dropped);
+    assert_int_equal(past_first(bench.past), past_last(bench.past));
+    assert_int_equal(past_find(bench.past, 0), past_last(bench.past));
+    assert_false(past_load(bench.past, past_last(bench.past), bench.world, &bench.scene, &next, &error));
+    bench_close(&bench);
+}
+
+static void places_are_found_by_their_time(void **state)
+{
+    (void)state;
+    Bench bench;
+    bench_open(&bench, 1 << 24);
+    frames(&bench, 100, 60);
+    assert_int_equal(past_find(bench.past, -1), 0);
+    assert_int_equal(past_find(bench.past, 0.305), 30);
+    assert_int_equal(past_find(bench.past, past_place(bench.past, 77).time), 77);
+    assert_int_equal(past_find(bench.past, 1e9), 100);
+    past_cut(bench.past, 40);
+    assert_int_equal(past_last(bench.past), 40);
+    assert_int_equal(past_find(bench.past, 1e9), 40);
+    assert_int_equal(past_before(bench.past, 40), 40);
+    frames(&bench, 10, 60);
+    assert_true(past_last(bench.past) == 50 && past_place(bench.past, 50).step == 50);
+    bench_close(&bench);
+}
+
+/* The scene as it was set, and the number of commands, come back with the state. */
+static void settings_come_with_the_state(void **state)
+{
+    (void)state;
+    Bench bench;
+    Error error = {{0}};
+    size_t next = 99;
+    bench_open(&bench, 1 << 24);
+    past_keep(bench.past, bench.world, &bench.scene, 3, true);
+    const size_t one = past_figures(bench.past).bytes;
+    WorldInfo info;
+    world_info(bench.world, &info);
+    past_mark(bench.past, &info, 60);
+    past_keep(bench.past, bench.world, &bench.scene, 4, true); /* the same settings, once */
+    const size_t two = past_figures(bench.past).bytes;
+    assert_true(two - one < sizeof(Scene));
+    past_mark(bench.past, &info, 60);
+    bench.scene.world.gravity[1] = -3;
+    past_keep(bench.past, bench.world, &bench.scene, 5, true);
+    assert_true(past_figures(bench.past).bytes - two > sizeof(Scene));
+    assert_true(past_load(bench.past, 1, bench.world, &bench.scene, &next, &error));
+    assert_true(next == 4 && bench.scene.world.gravity[1] == -9.81);
+    assert_true(past_load(bench.past, 2, bench.world, &bench.scene, &next, &error));
+    assert_true(next == 5 && bench.scene.world.gravity[1] == -3);
+    past_begin(bench.past, &info);
+    assert_int_equal(past_figures(bench.past).bytes, sizeof(PastPlace));
+    bench_close(&bench);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(states_are_kept_by_the_time_that_frames_take),
+        cmocka_unit_test(it_thins_out_before_it_forgets),
+        cmocka_unit_test(what_is_short_is_known),
+        cmocka_unit_test(a_state_may_be_too_large),
+        cmocka_unit_test(places_are_found_by_their_time),
+        cmocka_unit_test(settings_come_with_the_state),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

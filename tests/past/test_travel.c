@@ -1,0 +1,467 @@
+/* Back and forth in time: each place has the bits of the straight run, and the recording stays one line. The
+   solver is on its thread or on the GPU; ThreadSanitizer watches. */
+#include "tests/past/past_rig.h"
+
+enum { MIB = 1 << 20, FRAMES = 24, JUMPS = 30 };
+
+#define BOX                                                                                                  \
+    "box: {size: [1, 1, 1]}\n"                                                                               \
+    "particles: {spacing: 0.1}\n"                                                                            \
+    "fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0, 0.6, 0.5]}}]}]\n"
+
+static const char plain[] = BOX "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n";
+
+static const struct {
+    const char *name, *text;
+} scenes[] = {
+    {"mueller", plain},
+    {"wcsph", BOX "solver: {method: wcsph, sound_speed: 20, threads: 2, step: {dt: 0.01, substeps: 5}}\n"},
+    {"dfsph", BOX "solver: {method: dfsph, threads: 2, step: {dt: 0.01, substeps: 2}}\n"},
+    {"pbf", BOX "solver: {method: pbf, threads: 1, step: {dt: 0.01, substeps: 2}}\n"},
+    {"cfl", BOX "solver: {sound_speed: 15, threads: 1, step: {mode: cfl, max_dt: 0.004}}\n"},
+    {"terms",
+     "box: {size: [1, 1, 1]}\n"
+     "particles: {spacing: 0.1}\n"
+     "fluids: [{viscosity: 20, surface_tension: 0.1, fill: [{block: {min: [-0.5, 0, -0.5], max: [0, 0.6, 0.5]}}]}]\n"
+
+     "solver: {method: wcsph, sound_speed: 20, threads: 2, viscosity: implicit, surface_tension: cohesion, step: {dt: 0.01, substeps: 10}}\n"},
+    {"emitters", "box: {size: [1, 1, 1]}\n"
+                 "particles: {spacing: 0.08, most: 900}\n"
+                 "fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.1, 0.5]}}],\n"
+                 "  emit: [{disk: {centre: [0, 0.6, 0], direction: [0, -1, 0], radius: 0.25}, speed: 2}]}]\n"
+                 "drains: [{block: {min: [-0.5, 0, -0.5], max: [-0.3, 0.05, 0.5]}}]\n"
+                 "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n"},
+    {"compute", BOX "solver: {backend: compute, reproducible: true, sound_speed: 15,\n"
+                    "  step: {dt: 0.01, substeps: 5}}\n"},
+    {"fragment", BOX "solver: {backend: fragment, sound_speed: 15, step: {dt: 0.01, substeps: 5}}\n"},
+};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+static uint32_t dice = 1;
+
+static int roll(int sides)
+{
+    dice = dice * 1664525u + 1013904223u;
+    return (int)((dice >> 8) % (uint32_t)sides);
+}
+
+/* A straight run with commands now and then: time and hash at each place. */
+typedef struct Straight {
+    double time[FRAMES + 1];
+    uint64_t hash[FRAMES + 1];
+    size_t particles[FRAMES + 1];
+} Straight;
+
+static void note(Rig *rig, Straight *run, int i)
+{
+    run->hash[i] = rig_hash(rig);
+    run->time[i] = rig->status.time;
+    run->particles[i] = rig->status.particles;
+}
+
+static void run_straight(Rig *rig, Straight *run)
+{
+    rig_ready(rig);
+    note(rig, run, 0);
+    for (int i = 1; i <= FRAMES; i++) {
+        if (i % 5 == 0)
+            rig_target(rig, 0.1 * roll(5));
+        if (i % 7 == 0)
+            rig_set(rig, roll(2) ? "gravity=[0, -5, 0]" : "gravity=[1, -9, 0]");
+        rig_step(rig);
+        note(rig, run, i);
+        assert_true(run->time[i] > run->time[i - 1]);
+    }
+}
+
+static void look(Rig *rig, const Straight *run, int i, const char *name)
+{
+    if (rig_hash(rig) != run->hash[i])
+        fail_msg("%s: other bits at place %d", name, i);
+    assert_true(rig->status.time == run->time[i]);
+    assert_int_equal(rig->status.particles, run->particles[i]);
+    assert_int_equal(rig->status.past.behind, i < FRAMES);
+}
+
+/* Jumps, steps back and on, at random. */
+static void wander(Rig *rig, const Straight *run, const char *name)
+{
+    int at = FRAMES;
+    for (int k = 0; k < JUMPS; k++) {
+        const int way = roll(4);
+        if (way == 0 && at > 0) {
+            rig_back(rig);
+            at--;
+        } else if (way == 1 && at < FRAMES) {
+            rig_step(rig);
+            at++;
+        } else {
+            at = roll(FRAMES + 1);
+            rig_go(rig, run->time[at] + (at < FRAMES ? 0.5 * (run->time[at + 1] - run->time[at]) : 1));
+        }
+        look(rig, run, at, name);
+    }
+}
+
+static void each_place_has_its_bits(void **state)
+{
+    (void)state;
+    for (int s = 0; s < SCENES; s++) {
+        Rig rig;
+        Straight run;
+        rig_open(&rig, scenes[s].text, 64 * MIB);
+        run_straight(&rig, &run);
+        rig_save(&rig, "before.rec");
+        wander(&rig, &run, scenes[s].name);
+        rig_save(&rig, "behind.rec"); /* wherever it is: of all that was done */
+        rig_go(&rig, INFINITY);
+        look(&rig, &run, FRAMES, scenes[s].name);
+        rig_save(&rig, "after.rec");
+        assert_int_equal(rig.status.messages, 0);
+        rig_close(&rig);
+        Recording saved[3];
+        must(recording_read("before.rec", &saved[0], &error) &&
+             recording_read("behind.rec", &saved[1], &error) &&
+             recording_read("after.rec", &saved[2], &error));
+        const uint64_t steps = saved[0].steps;
+        const size_t count = saved[0].count;
+        for (int i = 0; i < 3; i++) {
+            if (saved[i].hash != run.hash[FRAMES] || saved[i].steps != steps)
+                fail_msg("%s: save %d: %llu steps, %d", scenes[s].name, i, (unsigned long long)saved[i].steps,
+                         saved[i].hash == run.hash[FRAMES]);
+            assert_int_equal(saved[i].count, count);
+            recording_destroy(&saved[i]);
+        }
+        assert_true(replay("after.rec") > 0);
+    }
+}
+
+/* Emitters: there are fewer particles then. */
+static void emitters_take_back_what_they_sent(void **state)
+{
+    (void)state;
+    Rig rig;
+    Straight run;
+    rig_open(&rig, scenes[6].text, 64 * MIB);
+    run_straight(&rig, &run);
+    assert_true(run.particles[FRAMES] > run.particles[0] + 20);
+    rig_go(&rig, 0);
+    look(&rig, &run, 0, "emitters");
+    rig_close(&rig);
+}
+
+/* What the user does in the past: what came after is cut off, and the recording is of the new line. */
+static void a_command_in_the_past_cuts_the_rest_off(void **state)
+{
+    (void)state;
+    Rig rig;
+    Straight run;
+    rig_open(&rig, plain, 64 * MIB);
+    run_straight(&rig, &run);
+    rig_go(&rig, run.time[10]);
+    rig_target(&rig, -0.3);
+    look(&rig, &run, 10, "waiting"); /* it applies with the next step */
+    rig_step(&rig);
+    assert_true(rig.status.messages == 1 && strstr(rig.status.message, "cut off"));
+    assert_false(rig.status.past.behind);
+    assert_true(rig_hash(&rig) != run.hash[11] && rig.status.past.to == rig.status.time);
+    rig_step(&rig);
+    const uint64_t hash = rig_hash(&rig);
+    rig_go(&rig, run.time[3]);
+    look(&rig, &run, 3, "before the cut");
+    rig_go(&rig, run.time[FRAMES]); /* as far as it goes now */
+    assert_true(rig_hash(&rig) == hash && !rig.status.past.behind);
+    assert_int_equal(rig.status.messages, 1);
+    rig_save(&rig, "cut.rec");
+    rig_close(&rig);
+    assert_int_equal(replay("cut.rec"), 12 * 5);
+}
+
+/* Within a frame of the past too. */
+static void time_runs_on_in_the_past_as_it_did(void **state)
+{
+    (void)state;
+    Rig rig;
+    Straight run;
+    rig_open(&rig, plain, 64 * MIB);
+    run_straight(&rig, &run);
+    rig_go(&rig, run.time[5]);
+    simulator_pause(rig.simulator, false);
+    const double until = wall_ms() + 20000;
+    do
+        rig_turn(&rig);
+    while (rig.status.time < run.time[FRAMES] && wall_ms() < until);
+    simulator_pause(rig.simulator, true);
+    usleep(100000);
+    rig_turn(&rig);
+    assert_false(rig.status.past.behind);
+    assert_int_equal(rig.status.messages, 0);
+    for (int k = 0; k < 3; k++) { /* what it did beyond is kept as ever */
+        const double now = rig.status.time;
+        const uint64_t hash = rig_hash(&rig);
+        rig_go(&rig, run.time[7 + k]);
+        look(&rig, &run, 7 + k, "again");
+        rig_go(&rig, now);
+        assert_true(rig_hash(&rig) == hash && !rig.status.past.behind);
+    }
+    simulator_pause(rig.simulator, false);
+    rig_go(&rig, run.time[4]);
+    rig_target(&rig, 0.4); /* while it runs */
+    do
+        rig_turn(&rig);
+    while (rig.status.messages == 0 && wall_ms() < until);
+    simulator_pause(rig.simulator, true);
+    rig_save(&rig, "ran.rec");
+    rig_close(&rig);
+    assert_true(replay("ran.rec") > 0);
+}
+
+/* Presses add up; the past has a begin. */
+static void steps_back_add_up(void **state)
+{
+    (void)state;
+    Rig rig;
+    Straight run;
+    rig_open(&rig, plain, 64 * MIB);
+    run_straight(&rig, &run);
+    for (int i = 0; i < 4; i++)
+        simulator_step_back(rig.simulator, false);
+    const double until = wall_ms() + 20000;
+    do
+        rig_turn(&rig);
+    while (rig.status.time != run.time[FRAMES - 4] && wall_ms() < until);
+    rig_jumps(&rig, rig.status.past.jumps);
+    look(&rig, &run, FRAMES - 4, "four back");
+    simulator_go_by(rig.simulator, -1000);
+    do
+        rig_turn(&rig);
+    while (rig.status.time != 0 && wall_ms() < until);
+    rig_back(&rig);
+    look(&rig, &run, 0, "the begin");
+    assert_true(rig.status.past.from == 0 && rig.status.past.to == run.time[FRAMES]);
+    rig_close(&rig);
+}
+
+/* What waits: settings were given before the jump and apply there, poses are forgotten. */
+static void what_waits_applies_before_the_jump(void **state)
+{
+    (void)state;
+    Rig rig;
+    Straight run;
+    WorldDef def;
+    rig_open(&rig, plain, 64 * MIB);
+    run_straight(&rig, &run);
+    rig_set(&rig, "gravity=[0, -1, 0]");
+    rig_target(&rig, 0.5);
+    rig_go(&rig, run.time[2]);
+    look(&rig, &run, 2, "back");
+    simulator_settings(rig.simulator, &def);
+    assert_true(def.gravity[1] == -9.81);
+    rig_step(&rig);
+    look(&rig, &run, 3, "on"); /* nothing was cut */
+    rig_go(&rig, INFINITY);
+    simulator_settings(rig.simulator, &def);
+    assert_true(def.gravity[1] == -1 && def.gravity[0] == 0);
+    rig_step(&rig);
+    assert_true(rig.status.messages == 0);
+    rig_save(&rig, "waited.rec");
+    rig_close(&rig);
+    assert_int_equal(replay("waited.rec"), (FRAMES + 1) * 5);
+}
+
+/* Settings and hand are shown as they were. */
+static void settings_and_hand_are_what_they_were(void **state)
+{
+    (void)state;
+    Rig rig;
+    WorldDef def;
+    rig_open(&rig, plain, 64 * MIB);
+    rig_ready(&rig);
+    rig_step(&rig);
+    const double before = rig.status.time;
+    rig_target(&rig, 0.25);
+    rig_set(&rig, "gravity=[0, -2, 0]");
+    rig_step(&rig);
+    rig_step(&rig);
+    rig_go(&rig, before);
+    simulator_settings(rig.simulator, &def);
+    assert_true(def.gravity[1] == -9.81 && rig.status.past.target.position[0] == 0);
+    const unsigned travels = rig.status.past.travels;
+    rig_step(&rig); /* obeys them again */
+    simulator_settings(rig.simulator, &def);
+    assert_true(def.gravity[1] == -2 && rig.status.past.target.position[0] == 0.25);
+    assert_true(rig.status.past.travels > travels);
+    rig_close(&rig);
+}
+
+static void a_reset_keeps_what_was_set_until_then(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, plain, 64 * MIB);
+    rig_ready(&rig);
+    rig_set(&rig, "gravity=[0, -2, 0]");
+    rig_step(&rig);
+    const double before = rig.status.time;
+    rig_set(&rig, "gravity=[0, -3, 0]");
+    rig_step(&rig);
+    rig_go(&rig, before);
+    simulator_reset(rig.simulator);
+    const double until = wall_ms() + 20000;
+    do
+        rig_turn(&rig);
+    while (rig.status.step > 0 && wall_ms() < until);
+    rig_step(&rig);
+    assert_true(rig.status.past.from == 0 && rig.status.past.to == rig.status.time);
+    rig_save(&rig, "reset.rec");
+    rig_close(&rig);
+    Recording recording;
+    must(recording_read("reset.rec", &recording, &error));
+    assert_int_equal(recording.count, 1);
+    assert_string_equal(recording.commands[0].setting, "gravity=[0, -2, 0]");
+    recording_destroy(&recording);
+    assert_int_equal(replay("reset.rec"), 5);
+}
+
+/* Plots end at the present, and go on from there. */
+static void plots_are_cut_to_the_past(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig,
+             BOX "probes: [{name: a, point: {at: [-0.2, 0.1, 0]}, average: 0.05}]\n"
+                 "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n",
+             64 * MIB);
+    rig_ready(&rig);
+    simulator_watch(rig.simulator, true, true);
+    for (int i = 0; i < 4; i++) {
+        usleep(60000);
+        rig_step(&rig);
+    }
+    usleep(60000);
+    rig_turn(&rig);
+    assert_true(rig.status.gauge_count >= 4 && rig.status.probe_count >= 4);
+    rig_go(&rig, 0.02);
+    for (int i = 0; i < rig.status.gauge_count; i++)
+        assert_true(rig.status.gauges[i].gauge.time <= rig.status.time);
+    for (int i = 0; i < rig.status.probe_count; i++)
+        assert_true(rig.status.probes[i].time <= rig.status.time);
+    assert_true(rig.status.gauge_count >= 2 && rig.status.probe_count >= 2);
+    rig_close(&rig);
+}
+
+/* One that blew up is a state as any: one can go back from it, and comes to it again. */
+static void one_goes_back_from_a_failure(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, plain, 64 * MIB);
+    rig_ready(&rig);
+    for (int i = 0; i < 3; i++)
+        rig_step(&rig);
+    const uint64_t sound = rig_hash(&rig);
+    rig_set(&rig, "solver.step.dt=1");
+    for (int i = 0; i < 20 && !rig.status.failed; i++)
+        rig_step(&rig);
+    rig_turn(&rig);
+    assert_true(rig.status.failed);
+    const uint64_t broken = rig_hash(&rig);
+    rig_go(&rig, 0.03);
+    assert_true(!rig.status.failed && rig_hash(&rig) == sound);
+    rig_go(&rig, INFINITY);
+    assert_true(rig.status.failed && rig_hash(&rig) == broken);
+    rig_go(&rig, 0.03);
+    rig_set(&rig, "solver.step.dt=0.01");
+    rig_step(&rig);
+    rig_step(&rig);
+    assert_false(rig.status.failed);
+    rig_save(&rig, "mended.rec");
+    rig_close(&rig);
+    assert_int_equal(replay("mended.rec"), 25);
+}
+
+/* Without memory for it: said once, and all else goes on. */
+static void without_a_past_it_says_so(void **state)
+{
+    (void)state;
+    Rig rig;
+    rig_open(&rig, plain, 0);
+    rig_ready(&rig);
+    rig_step(&rig);
+    rig_back(&rig);
+    rig_back(&rig);
+    assert_true(rig.status.messages == 1 && strstr(rig.status.message, "--past"));
+    assert_true(rig.status.step == 5 && !rig.status.past.kept);
+    rig_close(&rig);
+}
+
+/* Memory is short: the limit holds, and what is left is as it was. */
+static void little_memory_holds_little(void **state)
+{
+    (void)state;
+    enum { LIMIT = 300000 };
+    Rig rig;
+    Straight run;
+    rig_open(&rig, BOX "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 1000}}\n", LIMIT);
+    run_straight(&rig, &run);
+    if (rig.status.past.bytes > LIMIT || rig.status.past.states < 2)
+        fail_msg("%zu states, %zu bytes", rig.status.past.states, rig.status.past.bytes);
+    for (int i = 0; i < FRAMES; i += 5) {
+        rig_go(&rig, run.time[i]);
+        const int reached = (int)round(rig.status.time / 0.01);
+        assert_true(reached == i || run.time[reached] == rig.status.past.from);
+        look(&rig, &run, reached, "what is left");
+    }
+    rig_close(&rig);
+}
+
+/* Another backend: the past begins there. */
+static void another_backend_begins_a_past(void **state)
+{
+    (void)state;
+    Rig rig;
+    Straight run;
+    char now[NAME_SIZE];
+    rig_open(&rig, plain, 64 * MIB);
+    run_straight(&rig, &run);
+    rig_go(&rig, run.time[10]);
+    SimCommand command = {.kind = SIM_SET, .setting = "solver.backend=compute"};
+    must(simulator_move(rig.simulator, &command, rig.upload, now, &error));
+    rig_turn(&rig);
+    assert_true(rig.status.messages == 1 && strstr(rig.status.message, "cut off"));
+    rig_step(&rig);
+    rig_step(&rig);
+    rig_go(&rig, 0);
+    assert_true(rig.status.time == run.time[10] && rig.status.past.from == run.time[10]);
+    assert_true(rig_hash(&rig) == run.hash[10]);
+    rig_go(&rig, INFINITY);
+    command = (SimCommand){.kind = SIM_SET, .setting = "solver.backend=cpu"};
+    must(simulator_move(rig.simulator, &command, rig.upload, now, &error));
+    rig_step(&rig);
+    rig_save(&rig, "moved.rec");
+    rig_close(&rig);
+    Recording recording;
+    must(recording_read("moved.rec", &recording, &error));
+    assert_int_equal(recording.steps, 13 * 5);
+    recording_destroy(&recording);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_place_has_its_bits),
+        cmocka_unit_test(emitters_take_back_what_they_sent),
+        cmocka_unit_test(a_command_in_the_past_cuts_the_rest_off),
+        cmocka_unit_test(time_runs_on_in_the_past_as_it_did),
+        cmocka_unit_test(steps_back_add_up),
+        cmocka_unit_test(what_waits_applies_before_the_jump),
+        cmocka_unit_test(settings_and_hand_are_what_they_were),
+        cmocka_unit_test(a_reset_keeps_what_was_set_until_then),
+        cmocka_unit_test(plots_are_cut_to_the_past),
+        cmocka_unit_test(one_goes_back_from_a_failure),
+        cmocka_unit_test(without_a_past_it_says_so),
+        cmocka_unit_test(little_memory_holds_little),
+        cmocka_unit_test(another_backend_begins_a_past),
+    };
+    return cmocka_run_group_tests_name("past.travel", tests, rig_setup, rig_teardown);
+}
