@@ -5,6 +5,7 @@
 
 #include "tests/app/output_fixture.h"
 
+#include "app/base/path.h"
 #include "app/session/headless.h"
 #include "app/session/recording_play.h"
 #include "app/session/simulator_state.h"

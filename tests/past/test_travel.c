@@ -446,8 +446,82 @@ static void another_backend_begins_a_past(void **state)
     recording_destroy(&recording);
 }
 
-int main(void)
+static int ascending(const void *a, const void *b)
 {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* What a copy of the state costs, ms. */
+static double time_of_a_state(Rig *rig)
+{
+    enum { COPIES = 50 };
+    WorldState state = {.count = 0};
+    double ms[COPIES];
+    for (int i = 0; i < COPIES; i++) {
+        const double began = wall_ms();
+        must(world_save(rig->simulator->world, &state, &error));
+        ms[i] = wall_ms() - began;
+    }
+    world_state_free(&state);
+    qsort(ms, COPIES, sizeof *ms, ascending);
+    return ms[COPIES / 2];
+}
+
+/* test_past_travel --time SCENE: so many seconds of it, then jumps; the figures of docs/window.md. */
+static void time_it(const char *scene)
+{
+    enum { TIMES = 41 };
+    static const double SECONDS = 12;
+    Rig rig;
+    double ms[TIMES];
+    size_t size;
+    char *file = scene_file_read(scene, &size, &error);
+    must(file != NULL);
+    rig_open(&rig, file, (size_t)256 * MIB);
+    rig_ready(&rig);
+    simulator_set_realtime(rig.simulator, false);
+    simulator_pause(rig.simulator, false);
+    const double began = wall_ms();
+    while (rig.status.time < SECONDS && !rig.status.failed)
+        rig_turn(&rig);
+    simulator_pause(rig.simulator, true);
+    usleep(500000);
+    rig_turn(&rig);
+    const double frame = (wall_ms() - began) / (double)rig.status.frames;
+    const SimulatorPast *past = &rig.status.past;
+    const double copy = time_of_a_state(&rig), end = past->to;
+    const double each = (double)rig.status.frames / (double)past->states;
+    printf("%zu particles, %.0f s: frames of %.1f ms, %zu states in %.1f MiB, one in %.1f frames\n",
+           rig.status.particles, end, frame, past->states, (double)past->bytes / MIB, each);
+    printf("a state is copied in %.3f ms: %.2f %% of the frames' time\n", copy, 100 * copy / (each * frame));
+    for (int i = 0; i < TIMES; i++) {
+        rig_go(&rig, i % 2 ? end - 10 + 0.1 * i / TIMES : INFINITY);
+        ms[i] = i % 2 ? past->last_jump_ms : 0;
+    }
+    qsort(ms, TIMES, sizeof *ms, ascending);
+    printf("10 s back: %.1f ms in the median, %.1f at most\n", ms[(TIMES + TIMES / 2) / 2 + 1],
+           ms[TIMES - 1]);
+    for (int i = 0; i < TIMES; i++) {
+        rig_go(&rig, end * (double)roll(1000) / 1000);
+        ms[i] = past->last_jump_ms;
+    }
+    qsort(ms, TIMES, sizeof *ms, ascending);
+    printf("anywhere: %.1f ms in the median, %.1f at most\n", ms[TIMES / 2], ms[TIMES - 1]);
+    rig_close(&rig);
+    free(file);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 3 && strcmp(argv[1], "--time") == 0) {
+        if (!(context = headless_create(HEADLESS_GPU_AUTO, &error)))
+            return 1;
+        backends_add();
+        time_it(argv[2]);
+        headless_destroy(context);
+        return 0;
+    }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_place_has_its_bits),
         cmocka_unit_test(emitters_take_back_what_they_sent),
