@@ -103,7 +103,7 @@ static bool open_all(FileRender *render, Recorded *recorded, Error *error)
 {
     const Args *args = render->args;
     const ReelSetup setup = {
-        .recorded = recorded, .attributes = studio_attributes(&render->scene.view), .bytes = KEPT_BYTES};
+        .recorded = recorded, .attributes = renderer_attributes(&render->scene.view), .bytes = KEPT_BYTES};
     render->drawn = SIZE_MAX;
     if (!(render->context = headless_create(args->gpu, error)))
         return false;
