@@ -1,6 +1,7 @@
 #include "app/playback/recorded.h"
 
 #include "app/playback/recorded_scene.h"
+#include "render/derived/derived.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,13 +62,20 @@ static bool look_at_first(Recorded *recorded, Notes *notes, Error *error)
     return true;
 }
 
+/* What a scalar follows from is there. */
+static bool has_scalar(const Recorded *recorded, int scalar)
+{
+    const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
+    return (wants_attributes(&wants) & ~recorded->attributes) == 0;
+}
+
 bool recorded_has(const Recorded *recorded, Scalar scalar, Error *error)
 {
-    char known[128] = "";
-    if (recorded->attributes & PARTICLE_SCALAR(scalar))
+    char known[256] = "";
+    if (has_scalar(recorded, scalar))
         return true;
     for (int s = 0; s < SCALAR_COUNT; s++)
-        if (recorded->attributes & PARTICLE_SCALAR(s))
+        if (has_scalar(recorded, s))
             snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "",
                      scalar_name((Scalar)s));
     return error_set(error, "%s: has no %s to colour by; view.color_by may be %s", recorded->path,
@@ -196,10 +204,9 @@ static float scalar_of(const SnapshotStep *step, Scalar scalar, size_t i)
         return (float)step->fluid[i];
     case SCALAR_ID:
         return (float)(uint32_t)step->id[i];
-    case SCALAR_COUNT:
-        break;
+    default:
+        return 0;
     }
-    return 0;
 }
 
 static void fill(const Recorded *recorded, const SnapshotStep *step, const ParticleArrays *to)
@@ -214,7 +221,7 @@ static void fill(const Recorded *recorded, const SnapshotStep *step, const Parti
         to->fluid[i] = (uint32_t)step->fluid[i];
         to->id[i] = (uint32_t)step->id[i];
     }
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         for (size_t i = 0; to->scalar[s] && i < step->count; i++)
             to->scalar[s][i] = scalar_of(step, (Scalar)s, i);
 }
