@@ -41,7 +41,7 @@ static inline void rig_open(Rig *rig, const char *text, size_t past_bytes)
     must(recording_create(&rig->recording, "a.yaml", text, strlen(text), &settings, &error));
     const WorldDef *def = &rig->scene.world;
     rig->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)),
-                                particle_attributes_for(SCALAR_SPEED), &error);
+                                PARTICLE_SCALAR(SCALAR_SPEED), &error);
     const SimulatorSetup setup = {.scene = &rig->scene,
                                   .recording = &rig->recording,
                                   .upload = rig->upload,
