@@ -100,9 +100,7 @@ static bool follows_state(const ViewDef *def)
 /* What a picture by that def reads of the particles: who draws adds here what it reads. */
 static ParticleWants wants_of(const ViewDef *def)
 {
-    return (ParticleWants){.scalars = SCALAR_BIT(def->color_by),
-                           .attributes =
-                               overlays_attributes(def) | (follows_state(def) ? PARTICLE_RANGES : 0)};
+    return (ParticleWants){.scalars = SCALAR_BIT(def->color_by), .attributes = overlays_attributes(def)};
 }
 
 unsigned renderer_attributes(const ViewDef *def)
@@ -267,6 +265,13 @@ static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *parti
     text_end(renderer->text);
 }
 
+/* Whether a picture by that def needs more than the state has. */
+static bool derives(const ViewDef *def)
+{
+    const ParticleWants wants = wants_of(def);
+    return follows_state(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT;
+}
+
 /* The state with what is derived from it. */
 static void derive(Renderer *renderer, ParticleBuffers *particles)
 {
@@ -276,10 +281,7 @@ static void derive(Renderer *renderer, ParticleBuffers *particles)
     const int shown = def->color_by;
     memcpy(space.periodic, renderer->world.periodic, sizeof space.periodic);
     derived_fill(&renderer->derived, &wants, &space, particles);
-    if (shown < SCALAR_STATE_COUNT)
-        particles->range[shown] =
-            (ScalarRange){particles->scalar_min[shown], particles->scalar_max[shown], 0, 0};
-    else if (follows_state(def))
+    if (follows_state(def))
         particles->range[shown] = ranges_find(&renderer->ranges, &particles->scalar[shown], particles->count);
 }
 
@@ -288,8 +290,11 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     Frame frame;
     ParticleBuffers with = *state;
     const ParticleBuffers *particles = &with;
-    GL_STAGE(timer, STAGE_SCALARS)
-    derive(renderer, &with);
+    if (derives(&renderer->def))
+        GL_STAGE(timer, STAGE_SCALARS)
+        {
+            derive(renderer, &with);
+        }
     const ViewKind *kind = renderer->view ? view_kind(renderer->view) : NULL;
     const Target *target = &renderer->target;
     const Subject subject = subject_of(renderer);

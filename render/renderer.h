@@ -22,8 +22,7 @@ typedef struct Renderer Renderer;
  */
 ViewDef view_def_default(void);
 
-/* PARTICLE_*: what a state must have for a picture by that def; NULL: for any picture. Ranges, for which a
-   backend on the GPU is waited for, only where it shows one that follows the state. */
+/* PARTICLE_*: what a state must have for a picture by that def; NULL: for any picture. */
 unsigned renderer_attributes(const ViewDef *def);
 
 /* Copies def and world; a world of NULL: nothing is known of it. NULL on failure: an unknown view or
@@ -65,7 +64,9 @@ void renderer_set_covered(Renderer *renderer, Covered covered);
 /* From the next picture on. On failure (no font) all stays as it was. */
 bool renderer_set_title(Renderer *renderer, const Title *title, Error *error);
 
-/* What the colours of the last picture went from and to, in the unit of what it showed. */
+/* What the colours of the last picture went from and to, in the unit of what it showed. A range that follows
+   the state (`auto`) is from the 1st to the 99th percentile, whatever the backend; for it the GPU is waited
+   for once a picture. */
 void renderer_range(const Renderer *renderer, double range[2]);
 
 /* Colours exactly as the colormap has them, without light and shadow. */

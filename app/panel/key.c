@@ -130,8 +130,9 @@ static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelE
 {
     const Key *key = row->key;
     const double *now = (const double *)((const char *)row->base + key->offset), *seen = row->range_now;
-    bool automatic = *((const bool *)row->base + key->aux);
-    char id[64];
+    const bool *is = (const bool *)row->base + key->aux;
+    bool automatic = is[0], symmetric = is[1];
+    char id[64], id_symmetric[64];
     snprintf(id, sizeof id, "%.40s.auto", row->path);
     const UiField follow = {.id = id, .label = "automatic range", .help = field->help};
     if (ui_checkbox(ui, &follow, &automatic)) {
@@ -141,6 +142,10 @@ static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelE
             emit(row, events, "[%.9g, %.9g]", seen[0], seen[1] > seen[0] ? seen[1] : seen[0] + 1);
         return;
     }
+    snprintf(id_symmetric, sizeof id_symmetric, "%.40s.symmetric", row->path);
+    const UiField about_0 = {.id = id_symmetric, .label = "symmetric about 0", .help = field->help};
+    if (automatic && ui_checkbox(ui, &about_0, &symmetric))
+        emit(row, events, symmetric ? "symmetric" : "auto");
     if (automatic)
         return;
     double ends[2] = {now[0], now[1]};

@@ -95,7 +95,7 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
         break;
     case KEY_RANGE:
         if (*((const bool *)base + key->aux))
-            snprintf(text, size, "auto");
+            snprintf(text, size, *((const bool *)base + key->aux + 1) ? "symmetric" : "auto");
         else
             snprintf(text, size, "[%.9g, %.9g]", ((const double *)field)[0], ((const double *)field)[1]);
         break;

@@ -277,11 +277,14 @@ static bool read_color(const Value *value)
     return true;
 }
 
-static bool read_range(const Value *value, bool *automatic)
+static bool read_range(const Value *value, bool automatic[2])
 {
     const Node *node = value->node;
-    *automatic = node->kind == NODE_SCALAR && node->text && strcmp(node->text, "auto") == 0;
-    return *automatic || read_numbers(value, 2, "auto or two numbers [low, high]", (double *)value->field);
+    const char *word = node->kind == NODE_SCALAR && node->text ? node->text : "";
+    automatic[1] = strcmp(word, "symmetric") == 0;
+    automatic[0] = automatic[1] || strcmp(word, "auto") == 0;
+    return automatic[0] ||
+           read_numbers(value, 2, "auto, symmetric or two numbers [low, high]", (double *)value->field);
 }
 
 bool value_read(const Tree *tree, const Key *key, const Node *node, const char *shown, char *base,

@@ -31,7 +31,7 @@
 typedef struct ParticleWants {
     uint32_t scalars;    /* SCALAR_BIT, the state's own among them */
     uint32_t vectors;    /* VECTOR_BIT */
-    unsigned attributes; /* PARTICLE_VELOCITY, PARTICLE_FLUID, PARTICLE_ID, PARTICLE_RANGES */
+    unsigned attributes; /* PARTICLE_VELOCITY, PARTICLE_FLUID, PARTICLE_ID */
 } ParticleWants;
 
 #define SCALAR_BIT(scalar) (UINT32_C(1) << (scalar))

@@ -62,12 +62,18 @@ static void run(const Ranges *ranges, GLuint digit, size_t count)
     work_dispatch(1);
 }
 
+/* From bits whose order is that of the numbers: in_order of ranks_count.comp. */
+static double number_of(uint32_t key)
+{
+    return (double)float_of_bits(key & 0x80000000U ? key & 0x7fffffffU : ~key);
+}
+
 /* Where 98 of 100 are the same, the ends are those of all. */
 static ScalarRange range_of(const Found *found)
 {
     double at[RANKS];
     for (int r = 0; r < RANKS; r++)
-        at[r] = (double)float_in_order(found->found[r]);
+        at[r] = number_of(found->found[r]);
     if (at[1] < at[2])
         return (ScalarRange){at[1], at[2], at[0], at[3]};
     return (ScalarRange){at[0], at[3], at[0], at[3]};

@@ -15,8 +15,11 @@ static void make_range(Frame *frame, const ParticleBuffers *particles)
 {
     const ViewDef *def = frame->def;
     const ScalarRange *found = &particles->range[def->color_by];
-    frame->range[0] = def->range_auto ? found->low : def->range[0];
-    frame->range[1] = def->range_auto ? found->high : def->range[1];
+    const double reach = fmax(fabs(found->low), fabs(found->high));
+    frame->range[0] = !def->range_auto ? def->range[0] : def->range_symmetric ? -reach : found->low;
+    frame->range[1] = !def->range_auto ? def->range[1] : def->range_symmetric ? reach : found->high;
+    frame->beyond[0] = def->range_auto && found->least < frame->range[0];
+    frame->beyond[1] = def->range_auto && found->greatest > frame->range[1];
     double least = 1e-6 * fmax(fabs(frame->range[0]), 1e-6); /* the same everywhere: any width will do */
     frame->shown = scalar_name(def->color_by);
     frame->shown_unit = scalar_unit(def->color_by);

@@ -45,6 +45,7 @@ typedef struct Frame {
     bool all_in_view;          /* every particle is wholly in the picture and before the near plane */
     unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor; 0: not known */
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
+    bool beyond[2];            /* an automatic range leaves some out, below and above it */
     const char *shown, *shown_unit; /* what that range is of, for the legend */
     bool by_fluid;                  /* coloured by the fluids' own colours */
     bool flat;                      /* the picture is no look into space: no edges of the box */

@@ -78,7 +78,9 @@ static uint32_t map_color(const uint8_t *rgb, int i)
     return (uint32_t)rgb[3 * i] << 24 | (uint32_t)rgb[3 * i + 1] << 16 | (uint32_t)rgb[3 * i + 2] << 8 | 255;
 }
 
-static void draw_bar(Text *text, const char *colormap, float x0, float y0, float x1, float y1)
+/* A bar, pointed where there is more beyond its end. */
+static void draw_bar(Text *text, const char *colormap, const bool beyond[2], float x0, float y0, float x1,
+                     float y1)
 {
     enum { PIECES = 51 }; /* 255 = 5 * 51 */
     uint8_t rgb[3 * COLORMAP_SIZE];
@@ -88,6 +90,11 @@ static void draw_bar(Text *text, const char *colormap, float x0, float y0, float
         float low = y1 + (y0 - y1) * (float)i / PIECES, high = y1 + (y0 - y1) * (float)(i + 1) / PIECES;
         text_gradient(text, x0, high, x1, low, map_color(rgb, 5 * i), map_color(rgb, 5 * (i + 1)));
     }
+    const float tip = 0.6F * (x1 - x0), x[3] = {x0, x1, 0.5F * (x0 + x1)};
+    if (beyond[0])
+        text_triangle(text, x, (const float[3]){y1, y1, y1 + tip}, map_color(rgb, 0));
+    if (beyond[1])
+        text_triangle(text, x, (const float[3]){y0, y0, y0 - tip}, map_color(rgb, 255));
 }
 
 static void draw_ticks(Text *text, const Layout *layout, const double range[2], float x, float y0, float y1)
@@ -118,7 +125,7 @@ static void draw_scalar(Text *text, const Frame *frame)
     snprintf(title, sizeof title, "%s%s%s", frame->shown, *unit ? ", " : "", unit);
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
     text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
-    draw_bar(text, frame->def->colormap, x, y0, x + 1.2F * em, y1);
+    draw_bar(text, frame->def->colormap, frame->beyond, x, y0, x + 1.2F * em, y1);
     draw_ticks(text, &layout, frame->range, x + 1.2F * em, y0, y1);
 }
 

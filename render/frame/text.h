@@ -38,6 +38,9 @@ void text_rectangle(Text *text, float x0, float y0, float x1, float y1, float ro
 /* From `low` at the lower edge to `high` at the upper one. */
 void text_gradient(Text *text, float x0, float y0, float x1, float y1, uint32_t low, uint32_t high);
 
+/* Filled, the corners in any order. */
+void text_triangle(Text *text, const float x[3], const float y[3], uint32_t rgba);
+
 #ifdef __cplusplus
 }
 #endif

@@ -27,6 +27,7 @@ typedef struct ViewDef {
     Scalar color_by;                 /* SCALAR_FLUID takes the fluids' own colours */
     char colormap[NAME_SIZE];        /* see colormap_list */
     bool range_auto;                 /* the range follows each state; else range[0] .. range[1] */
+    bool range_symmetric;            /* one that follows each state is as wide below 0 as above */
     double range[2];                 /* in the scalar's unit */
     double radius;                   /* of a particle, in spacings; 0: the view's default */
     ViewOwn of_view[VIEW_KINDS_MAX]; /* own settings of each view of the list, in its order */

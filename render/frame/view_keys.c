@@ -16,6 +16,9 @@ static const char *kind_name(int index)
     return index < views ? view_at(index)->name : index == views ? "none" : NULL;
 }
 
+_Static_assert(offsetof(ViewDef, range_symmetric) == offsetof(ViewDef, range_auto) + 1,
+               "bool[2] of KEY_RANGE");
+
 /* clang-format off */
 const Key view_keys[] = {
     MAPPING("view", "the picture", .flags = I),
@@ -23,7 +26,7 @@ const Key view_keys[] = {
     CHOICE_OF("view.color_by", L | KEY_INDEX, scalar_list, AT(color_by), "what the colour shows"),
     CHOICE_OF("view.colormap", L, colormap_list, AT(colormap), "the colours of a scalar"),
     {.path = "view.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(range),
-     .aux = AT(range_auto), .help = "auto, or [low, high] in the scalar's unit; auto where view.color_by is set to another scalar than the file's"},
+     .aux = AT(range_auto), .help = "auto: of 98 in 100 particles; symmetric: that, about 0; or [low, high] in the scalar's unit; auto where view.color_by is set to another scalar than the file's"},
     NUMBER("view.radius", L, "spacings", 0, 10, AT(radius), "of a particle; 0: the view's own"),
     KEYS_END,
 };

@@ -54,12 +54,9 @@ static Layout make_layout(size_t capacity, unsigned attributes)
     return layout;
 }
 
-/* Mapped for reading too: the range of the scalars is taken from what was written, and reads need cached
- * memory. */
 static bool slot_create(Slot *slot, size_t size)
 {
-    const GLbitfield access =
-        GL_MAP_WRITE_BIT | GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    const GLbitfield access = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     glCreateBuffers(1, &slot->buffer);
     glObjectLabel(GL_BUFFER, slot->buffer, -1, "particles");
     glNamedBufferStorage(slot->buffer, (GLsizeiptr)size, NULL, access | GL_CLIENT_STORAGE_BIT);
@@ -142,32 +139,16 @@ static ParticleAttribute attribute(const Slot *slot, size_t offset, size_t strid
     return offset == SIZE_MAX ? (ParticleAttribute){0} : (ParticleAttribute){slot->buffer, offset, stride};
 }
 
-static void find_range(const float *values, size_t count, double *min, double *max)
-{
-    float low = count ? values[0] : 0, high = low;
-    for (size_t i = 1; i < count; i++) {
-        low = values[i] < low ? values[i] : low;
-        high = values[i] > high ? values[i] : high;
-    }
-    *min = low;
-    *max = high;
-}
-
 static void describe(const Upload *upload, Slot *slot)
 {
     ParticleBuffers *out = &slot->state;
     const Layout *layout = &upload->layout;
-    ParticleArrays arrays = slot_arrays(upload, slot);
     out->position = attribute(slot, layout->position, 4 * sizeof(float));
     out->velocity = attribute(slot, layout->velocity, 4 * sizeof(float));
     out->fluid = attribute(slot, layout->fluid, sizeof(uint32_t));
     out->id = attribute(slot, layout->id, sizeof(uint32_t));
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++) {
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         out->scalar[s] = attribute(slot, layout->scalar[s], sizeof(float));
-        out->scalar_min[s] = out->scalar_max[s] = 0;
-        if (arrays.scalar[s])
-            find_range(arrays.scalar[s], out->count, &out->scalar_min[s], &out->scalar_max[s]);
-    }
 }
 
 static bool fits(const Upload *upload, size_t count, Error *error)

@@ -30,7 +30,7 @@ bool upload_set_copies(Upload *upload, bool copies, Error *error);
 bool upload_write(Upload *upload, World *world, Error *error);
 
 /* The same from plain arrays, for a fluid without a world. `state` gives count, spacing, box, time; its
-   attributes and ranges are not read. Arrays that the upload carries must be there. */
+   attributes are not read. Arrays that the upload carries must be there. */
 bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state, Error *error);
 
 /* Whether a state waits that upload_take has not handed out yet. */

@@ -204,6 +204,7 @@ static void show(const ViewDef *def, Frame *frame)
     frame->shown_unit = "";
     frame->range[0] = 0;
     frame->range[1] = 1.25;
+    frame->beyond[0] = frame->beyond[1] = false;
 }
 
 const ViewKind view_slice = {

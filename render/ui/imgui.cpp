@@ -174,6 +174,12 @@ void text_gradient(Text *text, float x0, float y0, float x1, float y1, uint32_t 
     text->list->AddRectFilledMultiColor(ImVec2(x0, y0), ImVec2(x1, y1), top, top, bottom, bottom);
 }
 
+void text_triangle(Text *text, const float x[3], const float y[3], uint32_t rgba)
+{
+    text->list->AddTriangleFilled(ImVec2(x[0], y[0]), ImVec2(x[1], y[1]), ImVec2(x[2], y[2]),
+                                  imgui_color(rgba));
+}
+
 struct Place {
     GLint x0, y0, x1, y1; // pixels, y upwards as OpenGL counts
 };

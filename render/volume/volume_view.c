@@ -146,6 +146,7 @@ static void show(const ViewDef *def, Frame *frame)
     frame->shown_unit = "";
     frame->range[0] = 0;
     frame->range[1] = steps ? 64 : 1.25;
+    frame->beyond[0] = frame->beyond[1] = false;
 }
 
 /* Which colours volume and shaders carry. */

@@ -1,9 +1,15 @@
 // One invocation a particle. What is no number, or not finite, does not count.
 #include "common/particle_scalars.glsl"
 #include "common/neighbourhood_grid.glsl"
-#include "common/in_order.glsl"
 #include "derived/ranks.glsl"
 layout(location = SCALAR_STRIDE_AT) uniform uint scalar_stride; // words
+
+// Bits whose order is that of the numbers.
+uint in_order(float value)
+{
+    uint bits = floatBitsToUint(value);
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
 
 void main()
 {

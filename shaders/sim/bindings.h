@@ -55,7 +55,6 @@
 #define LAYER_BUFFER  5
 #define MARKS_BUFFER  6
 #define VALUES_BUFFER 5
-#define RANGES_BUFFER 6
 #define PARTS_BUFFER  5
 #define SOLVE_BUFFER  6
 

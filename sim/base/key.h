@@ -22,7 +22,7 @@ typedef enum KeyType {
     KEY_NAMES,   /* some names of a list, each once: int[max], their places in it, and their count at `aux` */
     KEY_COLOR,   /* sRGB 0..1 in the file, linear in the struct: float[3] or double[3] */
     KEY_CURVE,   /* a number or rows [s, number]: double, and a TimeTable at `aux` */
-    KEY_RANGE    /* "auto" or [low, high]: double[2] and a bool */
+    KEY_RANGE    /* "auto", "symmetric" or [low, high]: double[2] and bool[2] */
 } KeyType;
 
 enum {
@@ -56,8 +56,8 @@ typedef struct Key {
     double min, max;  /* of each component; of a text, a list or names: its length; equal: not bounded */
     size_t offset;    /* of the field in the owner's struct or, under "[]", in the innermost list's element */
     size_t aux; /* offset of what goes with it: the count of a list or of names (int), a variant's kind (int),
-                   a range's "auto" (bool); a curve's TimeTable; a mapping's bool that is false once the
-                   mapping is there */
+                   a range's bool[2]: automatic, and then symmetric; a curve's TimeTable; a mapping's bool
+                   that is false once the mapping is there */
     size_t size; /* of a text's field, of a list's element: bytes */
     int variant; /* value of the kind */
     /* The names of a KEY_CHOICE or KEY_NAMES: an array of structs (or of pointers alone) that begin with the

@@ -12,10 +12,4 @@ static inline float float_of_bits(uint32_t bits)
     return value;
 }
 
-/* From bits in the order of the numbers: shaders/common/in_order.glsl. */
-static inline float float_in_order(uint32_t ordered)
-{
-    return float_of_bits(ordered & 0x80000000U ? ordered & 0x7fffffffU : ~ordered);
-}
-
 #endif

@@ -11,13 +11,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Which attributes are wanted; positions always are. RANGES: of the scalars wanted, which waits for the GPU.
- */
+/* Which attributes are wanted; positions always are. */
 enum {
     PARTICLE_VELOCITY = 1U << SCALAR_STATE_COUNT,
     PARTICLE_FLUID = 1U << (SCALAR_STATE_COUNT + 1),
-    PARTICLE_ID = 1U << (SCALAR_STATE_COUNT + 2),
-    PARTICLE_RANGES = 1U << (SCALAR_STATE_COUNT + 3)
+    PARTICLE_ID = 1U << (SCALAR_STATE_COUNT + 2)
 };
 #define PARTICLE_SCALAR(scalar) (1U << (scalar)) /* of a state's own */
 
@@ -43,15 +41,13 @@ typedef struct ParticleBuffers {
     ParticleAttribute
         scalar[SCALAR_COUNT]; /* float; the derived ones are there in pictures that ask for them */
     ParticleAttribute vector[VECTOR_COUNT]; /* vec4: x y z in the box's axes; in pictures that ask for them */
-    double scalar_min[SCALAR_STATE_COUNT];  /* of this state, where the attribute is there */
-    double scalar_max[SCALAR_STATE_COUNT];
-    ScalarRange range[SCALAR_COUNT]; /* in pictures that ask for it */
-    double spacing;                  /* m */
-    double support_radius;           /* h, m */
-    double box_size[3];              /* m */
-    BoxState box;                    /* pose of the same state */
-    double gravity[3];               /* in the box's frame, m/s2 */
-    double time;                     /* s */
+    ScalarRange range[SCALAR_COUNT];        /* in pictures that ask for it */
+    double spacing;                         /* m */
+    double support_radius;                  /* h, m */
+    double box_size[3];                     /* m */
+    BoxState box;                           /* pose of the same state */
+    double gravity[3];                      /* in the box's frame, m/s2 */
+    double time;                            /* s */
     uint64_t step;
 } ParticleBuffers;
 

@@ -388,7 +388,7 @@ static void live(const WorldDef *def)
     if (world->backend->feel)
         assert_true(world_feel(world, &error));
     fixture_step(world, 2);
-    world_share(world, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID | PARTICLE_RANGES, &shared);
+    world_share(world, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID, &shared);
     world->backend->gauge(world->state, still);
     fixture_step(world, 1);
     world_forces(world, &felt);

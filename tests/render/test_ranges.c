@@ -76,10 +76,83 @@ static void ranges_are_percentiles(void **state)
     ranges_destroy(&ranges);
 }
 
+/* ---- in a picture ---- */
+
+enum { WIDE = 320, HIGH = 240 };
+
+/* Draws particles whose speeds are 0 .. 1 but for `spike`, which two of a thousand have. */
+static uint8_t *picture_of(const char *range, double spike, double found[2])
+{
+    Error error = {0};
+    ViewDef def = view_def_default();
+    ParticleBuffers buffers, state = box_state(1000, 0.05);
+    Particles *particles = calloc(1, sizeof *particles);
+    uint8_t *rgb = calloc(1, (size_t)3 * WIDE * HIGH);
+    assert_true(particles && rgb);
+    for (int i = 0; i < 1000; i++)
+        particles_add(particles, 0.001 * i, 0.5, 0, i < 2 ? spike : i / 999.0, 0);
+    def.range_symmetric = strcmp(range, "symmetric") == 0;
+    def.range_auto = strcmp(range, "fixed") != 0;
+    def.range[1] = 2;
+    Upload *upload = upload_particles(particles, &state, &buffers);
+    Renderer *renderer = renderer_create(&def, NULL, WIDE, HIGH, &error);
+    if (!renderer)
+        fail_msg("%s", error.message);
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_range(renderer, found);
+    renderer_read(renderer, rgb);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    free(particles);
+    return rgb;
+}
+
+static void a_picture_has_the_range_of_most(void **state)
+{
+    (void)state;
+    double found[2];
+    free(picture_of("auto", 1e6, found));
+    assert_true(fabs(found[0] - 9 / 999.0 - 2 / 999.0) < 1e-6 && fabs(found[1] - 992 / 999.0) < 1e-6);
+    free(picture_of("symmetric", -1e6, found));
+    assert_true(fabs(found[1] - 989 / 999.0) < 2e-3 && found[0] == -found[1]);
+    free(picture_of("fixed", 1e6, found));
+    assert_true(found[0] == 0 && found[1] == 2);
+}
+
+/* Yellow of viridis above the bar, violet below it, in the legend's panel. */
+static int tips(const uint8_t *rgb, int from, int to)
+{
+    const int em = 11;
+    int found = 0;
+    for (int y = from * em / 10; y < to * em / 10; y++)
+        for (int x = WIDE - 9 * em; x < WIDE - em; x++) {
+            const uint8_t *at = rgb + 3 * (y * WIDE + x);
+            const bool yellow = at[0] > 230 && at[1] > 210 && at[2] < 90, violet = at[1] < 30 && at[2] > 60;
+            found += yellow || violet;
+        }
+    return found;
+}
+
+/* The bar is from 4 to 15 letters' heights below the top (render/frame/legend.c). */
+static void the_legend_says_that_some_are_beyond(void **state)
+{
+    (void)state;
+    double found[2];
+    static const char *const ranges[] = {"auto", "symmetric", "fixed"};
+    for (int k = 0; k < 3; k++) {
+        uint8_t *rgb = picture_of(ranges[k], 1e6, found);
+        const int above = tips(rgb, 32, 39), below = tips(rgb, 152, 158);
+        assert_true((above > 10) == (k < 2) && (below > 10) == (k == 0));
+        free(rgb);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(ranges_are_percentiles, no_gl_errors),
+        cmocka_unit_test_teardown(a_picture_has_the_range_of_most, no_gl_errors),
+        cmocka_unit_test_teardown(the_legend_says_that_some_are_beyond, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

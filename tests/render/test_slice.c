@@ -311,9 +311,10 @@ static void picture_of(SliceScene *scene, const ViewDef *def, uint8_t rgb[3 * WI
     Error error = {0};
     ParticleBuffers buffers;
     Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
-    buffers.scalar_min[SCALAR_SPEED] = 0;
-    buffers.scalar_max[SCALAR_SPEED] = 3;
-    Renderer *renderer = renderer_create(def, NULL, WIDE, HIGH, &error);
+    ViewDef fixed = *def;
+    fixed.range_auto = false;
+    fixed.range[0] = 0, fixed.range[1] = 3;
+    Renderer *renderer = renderer_create(&fixed, NULL, WIDE, HIGH, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     renderer_draw(renderer, &buffers, NULL);

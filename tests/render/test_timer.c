@@ -142,7 +142,7 @@ static bool has_stage(const char *view, Stage stage)
         named |= of_one_view[i].stage == stage;
         own |= of_one_view[i].stage == stage && strcmp(of_one_view[i].view, view) == 0;
     }
-    return stage_part(stage) == PART_RENDER && stage != STAGE_SCALARS && (own || !named);
+    return stage_part(stage) == PART_RENDER && (own || !named);
 }
 
 /* A whole picture: every pass has its stage, and between them nothing is lost. The best of some, since others

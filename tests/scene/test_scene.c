@@ -227,7 +227,8 @@ static void wrong_types_are_refused(void **state)
     assert_refused(
         LEAST "solver: {method: muller}\n",
         "scene.yaml:7:18: solver.method cannot be 'muller'; did you mean 'mueller'? it must be one of: mueller");
-    assert_refused(LEAST "view: {range: [1]}\n", "scene.yaml:7:15: view.range must be auto or two numbers");
+    assert_refused(LEAST "view: {range: [1]}\n",
+                   "scene.yaml:7:15: view.range must be auto, symmetric or two numbers");
 }
 
 static void numbers_must_be_finite_and_in_range(void **state)

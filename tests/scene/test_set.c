@@ -65,7 +65,11 @@ static void a_range_is_of_one_scalar(void **state)
     assert_false(range_is_auto("color_by: speed, range: [0, 2]", "view.colormap=plasma", NULL));
     assert_false(
         range_is_auto("color_by: speed, range: [0, 2]", "view.color_by=pressure", "view.range=[0, 9]"));
-    assert_true(scene.view.range[1] == 9);
+    assert_true(scene.view.range[1] == 9 && !scene.view.range_symmetric);
+    assert_true(range_is_auto("range: symmetric", "view.colormap=plasma", NULL));
+    assert_true(scene.view.range_symmetric);
+    assert_true(range_is_auto("range: symmetric", "view.range=auto", NULL));
+    assert_false(scene.view.range_symmetric);
 }
 
 static void later_settings_win(void **state)

@@ -38,7 +38,6 @@ static void compute_destroy(void *state)
     glDeleteBuffers(COMPUTE_BUFFERS, c->of_shaders);
     glDeleteBuffers(COMPUTE_SHOWN, c->shown);
     mailbox_destroy(&c->watch);
-    mailbox_destroy(&c->ranges);
     mailbox_destroy(&c->gauge);
     mailbox_destroy(&c->solve);
     mailbox_destroy(&c->parts);
@@ -89,8 +88,7 @@ static bool buffers_create(Compute *c, Error *error)
     compute_flow_create(c);
     const bool bounded = compute_boundary_create(c);
     return (bounded && !c->full && compute_iterate_fit(c) &&
-            mailbox_create(&c->watch, "watch", sizeof(WatchBlock)) &&
-            mailbox_create(&c->ranges, "scalar ranges", 2 * SCALAR_STATE_COUNT * sizeof(uint32_t))) ||
+            mailbox_create(&c->watch, "watch", sizeof(WatchBlock))) ||
            compute_no_memory(c, error);
 }
 

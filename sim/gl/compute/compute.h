@@ -130,7 +130,6 @@ typedef struct Compute {
     Mailbox solve;                        /* SolveBlock; none where nothing iterates */
     Mailbox parts;                        /* ExcessPart a group: iterate.c; none there */
     bool decided;                         /* the method's passes have as many work groups as it says */
-    Mailbox ranges;                       /* 2 uint a scalar: see show.comp */
     Mailbox gauge;                        /* GaugePart a group; none before the first `gauge` */
     size_t gauged;                        /* particles then */
     ComputeFelt felt;

@@ -3,12 +3,9 @@
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
-#include "sim/gl/float_bits.h"
 #include "sim/gl/particle_buffers.h"
 
 #include <epoxy/gl.h>
-
-enum { RANGE_BYTES = 2 * SCALAR_STATE_COUNT * sizeof(uint32_t) };
 
 /* One of the scalars, or the fluid or the id: 4 bytes a particle. */
 static ParticleAttribute show(Compute *c, int what)
@@ -20,33 +17,10 @@ static ParticleAttribute show(Compute *c, int what)
         return (ParticleAttribute){0};
     }
     BIND([POSITIONS_BUFFER] = c->now.position, [VELOCITIES_BUFFER] = c->now.velocity,
-         [NAMES_BUFFER] = c->now.name, [PRESSURES_BUFFER] = c->pressure, [VALUES_BUFFER] = c->shown[what],
-         [RANGES_BUFFER] = c->ranges.buffer);
+         [NAMES_BUFFER] = c->now.name, [PRESSURES_BUFFER] = c->pressure, [VALUES_BUFFER] = c->shown[what]);
     glProgramUniform1i(c->program[COMPUTE_SHOW], SHOWN_SCALAR_AT, what);
     compute_run(c, COMPUTE_SHOW, c->count);
     return (ParticleAttribute){c->shown[what], 0, 4};
-}
-
-static void clear_ranges(const Compute *c)
-{
-    uint32_t none[2 * SCALAR_STATE_COUNT];
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++) {
-        none[2 * s] = UINT32_MAX;
-        none[2 * s + 1] = 0;
-    }
-    glNamedBufferSubData(c->ranges.buffer, 0, RANGE_BYTES, none);
-}
-
-static void read_ranges(Compute *c, unsigned attributes, ParticleBuffers *out)
-{
-    mailbox_send(&c->ranges);
-    const uint32_t *range = mailbox_wait(&c->ranges);
-    for (int s = 0; range && s < SCALAR_STATE_COUNT; s++) {
-        if (!(attributes & PARTICLE_SCALAR(s)) || c->count == 0)
-            continue;
-        out->scalar_min[s] = (double)float_in_order(range[2 * s]);
-        out->scalar_max[s] = (double)float_in_order(range[2 * s + 1]);
-    }
 }
 
 void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
@@ -56,7 +30,6 @@ void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
     out->position = (ParticleAttribute){c->now.position, 0, 16};
     if (attributes & PARTICLE_VELOCITY)
         out->velocity = (ParticleAttribute){c->now.velocity, 0, 16};
-    clear_ranges(c);
     for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         if (attributes & PARTICLE_SCALAR(s))
             out->scalar[s] = show(c, s);
@@ -65,6 +38,4 @@ void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
     if (attributes & PARTICLE_ID)
         out->id = show(c, COMPUTE_SHOW_ID);
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    if (attributes & PARTICLE_RANGES)
-        read_ranges(c, attributes, out);
 }

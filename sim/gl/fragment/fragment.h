@@ -38,8 +38,6 @@ enum {
     X(WATCH_LAST, "fragment/screen.vert", "fragment/watch_last.frag", "")                                    \
     X(PLACE, "fragment/screen.vert", "fragment/place.frag", "")                                              \
     X(SHOW, "fragment/screen.vert", "fragment/show.frag", "")                                                \
-    X(RANGE_FIRST, "fragment/screen.vert", "fragment/range.frag", "#define FIRST 1\n")                       \
-    X(RANGE_MORE, "fragment/screen.vert", "fragment/range.frag", "")                                         \
     X(GAUGE_FIRST, "fragment/screen.vert", "fragment/gauge.frag", "#define FIRST 1\n")                       \
     X(GAUGE_MORE, "fragment/screen.vert", "fragment/gauge.frag", "")
 
@@ -135,8 +133,7 @@ typedef struct Fragment {
     unsigned placed;    /* by `share`, like what follows: x y z, volume; 0 before the first */
     unsigned word;      /* uint: a scalar's bits, fluid or id */
     unsigned shown_position, shown_velocity, shown[SCALAR_STATE_COUNT + 2]; /* buffers; 0 until asked for */
-    Mailbox ranges; /* uvec4 a scalar: see range.frag */
-    Mailbox gauge;  /* 5 float: see gauge.frag */
+    Mailbox gauge;                                                          /* 5 float: see gauge.frag */
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
     GlState kept; /* of the caller's, while passes run */
     unsigned program[FRAGMENT_PASS_COUNT];

@@ -1,12 +1,9 @@
 /* The particles for the views: a pass into a texture, from there into a pixel buffer, which is the vertex
    buffer; nothing leaves the GPU. */
-#include "sim/gl/float_bits.h"
 #include "sim/gl/fragment/fragment.h"
 #include "sim/gl/particle_buffers.h"
 
 #include <epoxy/gl.h>
-
-enum { RANGE_BYTES = 16 };
 
 /* What SHOW is asked for besides scalars. */
 enum { SHOW_FLUID = SCALAR_STATE_COUNT, SHOW_ID };
@@ -38,30 +35,6 @@ static void show(Fragment *f, int what)
     draw(f, FRAGMENT_SHOW, f->word);
 }
 
-/* Of the scalar that was shown last, into its place in the mailbox. */
-static void find_range(const Fragment *f, int scalar)
-{
-    unsigned finer = f->word;
-    for (int level = 0; level < f->levels; level++) {
-        fragment_sample(FRAGMENT_SAMPLE_FINER, finer);
-        finer = f->found[level];
-        fragment_draw(f, level == 0 ? FRAGMENT_RANGE_FIRST : FRAGMENT_RANGE_MORE, &finer, 1,
-                      f->level_size[level][0], f->level_size[level][1]);
-    }
-    fragment_pack(finer, GL_RGBA_INTEGER, f->ranges.buffer, (size_t)scalar * RANGE_BYTES, RANGE_BYTES);
-}
-
-static void read_ranges(Fragment *f, unsigned attributes, ParticleBuffers *out)
-{
-    mailbox_send(&f->ranges);
-    const uint32_t *range = mailbox_wait(&f->ranges);
-    for (int s = 0; range && s < SCALAR_STATE_COUNT; s++)
-        if (attributes & PARTICLE_SCALAR(s)) {
-            out->scalar_min[s] = (double)float_in_order(range[4 * s]);
-            out->scalar_max[s] = (double)float_in_order(range[4 * s + 1]);
-        }
-}
-
 static void share_scalars(Fragment *f, unsigned attributes, ParticleBuffers *out)
 {
     for (int s = 0; s < SCALAR_STATE_COUNT; s++) {
@@ -69,8 +42,6 @@ static void share_scalars(Fragment *f, unsigned attributes, ParticleBuffers *out
             continue;
         show(f, s);
         out->scalar[s] = pack(f, &f->shown[s], f->word, GL_RED_INTEGER, 4);
-        if (attributes & PARTICLE_RANGES)
-            find_range(f, s);
     }
 }
 
@@ -94,6 +65,4 @@ void fragment_share(void *state, unsigned attributes, ParticleBuffers *out)
         out->id = pack(f, &f->shown[SHOW_ID], f->word, GL_RED_INTEGER, 4);
     }
     gl_state_restore(&f->kept);
-    if (attributes & PARTICLE_RANGES)
-        read_ranges(f, attributes, out);
 }

@@ -103,8 +103,7 @@ static bool watch_create(Fragment *f)
     } while (width > 1 || height > 1);
     for (int k = 0; k < 2; k++)
         f->watch[k] = texture(f, "watch", GL_RGBA32UI, 2, 1);
-    return mailbox_create(&f->watched, "watch", 8 * sizeof(uint32_t)) &&
-           mailbox_create(&f->ranges, "scalar ranges", 4 * SCALAR_STATE_COUNT * sizeof(uint32_t));
+    return mailbox_create(&f->watched, "watch", 8 * sizeof(uint32_t));
 }
 
 static bool memory_sufficed(const Fragment *f, bool enough, Error *error)
@@ -180,6 +179,5 @@ void fragment_textures_destroy(Fragment *f)
     glDeleteBuffers(sizeof buffers / sizeof *buffers, buffers);
     glDeleteBuffers(sizeof f->shown / sizeof *f->shown, f->shown);
     mailbox_destroy(&f->watched);
-    mailbox_destroy(&f->ranges);
     mailbox_destroy(&f->gauge);
 }
