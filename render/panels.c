@@ -180,35 +180,33 @@ static void cover(Panels *panels)
         renderer_set_covered(panels->panels[i].renderer, covered);
 }
 
-/* Whether the panel's colours go from the least to the greatest of what that scalar is in the state. */
-static bool follows(const Panel *panel, Scalar scalar, const ParticleBuffers *state)
+/* The range of all panels that show the same scalar and follow their states, as the panel's own is one of
+   them. */
+static ScalarRange joint_range(const Panels *panels, int index, const ScalarRange *const ranges[])
 {
-    return panel->def.range_auto && panel->def.color_by == scalar && scalar != SCALAR_FLUID &&
-           state->scalar[scalar].buffer;
-}
-
-/* The state, with the range of all panels that show the same. */
-static ParticleBuffers with_joint_range(const Panels *panels, int index,
-                                        const ParticleBuffers *const states[])
-{
-    ParticleBuffers state = *states[index];
-    const Scalar shown = panels->panels[index].def.color_by;
-    for (int i = 0; i < panels->count && follows(&panels->panels[index], shown, &state); i++) {
-        if (!follows(&panels->panels[i], shown, states[i]))
-            continue;
-        state.scalar_min[shown] = fmin(state.scalar_min[shown], states[i]->scalar_min[shown]);
-        state.scalar_max[shown] = fmax(state.scalar_max[shown], states[i]->scalar_max[shown]);
-    }
-    return state;
+    ScalarRange joint = *ranges[index];
+    for (int i = 0; i < panels->count; i++)
+        if (ranges[i] && panels->panels[i].def.color_by == panels->panels[index].def.color_by) {
+            joint.low = fmin(joint.low, ranges[i]->low);
+            joint.high = fmax(joint.high, ranges[i]->high);
+            joint.least = fmin(joint.least, ranges[i]->least);
+            joint.greatest = fmax(joint.greatest, ranges[i]->greatest);
+        }
+    return joint;
 }
 
 void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer)
 {
+    const ScalarRange *ranges[PANELS_MAX] = {NULL};
+    ScalarRange joint[PANELS_MAX];
     cover(panels);
-    for (int i = 0; i < panels->count; i++) {
-        const ParticleBuffers state = with_joint_range(panels, i, states);
-        renderer_draw(panels->panels[i].renderer, &state, timer);
-    }
+    for (int i = 0; i < panels->count; i++)
+        ranges[i] = renderer_measure(panels->panels[i].renderer, states[i], timer);
+    for (int i = 0; i < panels->count; i++)
+        if (ranges[i])
+            joint[i] = joint_range(panels, i, ranges);
+    for (int i = 0; i < panels->count; i++)
+        renderer_draw_measured(panels->panels[i].renderer, ranges[i] ? &joint[i] : NULL, timer);
 }
 
 void panels_take(Panels *panels, int index, const ParticleBuffers *state)

@@ -30,6 +30,7 @@ struct Renderer {
     double range[2]; /* of the last picture */
     Target target;
     unsigned uniforms;
+    ParticleBuffers with; /* the state measured last, with what is derived from it */
     Derived derived;
     Ranges ranges; /* nothing before the first picture that asks for one */
     Shadow shadow;
@@ -285,16 +286,20 @@ static void derive(Renderer *renderer, ParticleBuffers *particles)
         particles->range[shown] = ranges_find(&renderer->ranges, &particles->scalar[shown], particles->count);
 }
 
-static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
+static void measure(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
 {
-    Frame frame;
-    ParticleBuffers with = *state;
-    const ParticleBuffers *particles = &with;
+    renderer->with = *state;
     if (derives(&renderer->def))
         GL_STAGE(timer, STAGE_SCALARS)
         {
-            derive(renderer, &with);
+            derive(renderer, &renderer->with);
         }
+}
+
+static void draw(Renderer *renderer, GlTimer *timer, ViewCounts *counts)
+{
+    Frame frame;
+    const ParticleBuffers *particles = &renderer->with;
     const ViewKind *kind = renderer->view ? view_kind(renderer->view) : NULL;
     const Target *target = &renderer->target;
     const Subject subject = subject_of(renderer);
@@ -336,22 +341,34 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
 void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
 {
     const Subject subject = subject_of(renderer);
-    ParticleBuffers with = *state;
-    const ParticleBuffers *particles = &with;
-    GL_STAGE(timer, STAGE_SCALARS)
-    derive(renderer, &with);
-    overlays_take(&renderer->overlays, particles, &subject, timer);
+    measure(renderer, state, timer);
+    overlays_take(&renderer->overlays, &renderer->with, &subject, timer);
 }
 
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)
 {
-    draw(renderer, particles, timer, NULL);
+    measure(renderer, particles, timer);
+    draw(renderer, timer, NULL);
+}
+
+const ScalarRange *renderer_measure(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)
+{
+    measure(renderer, particles, timer);
+    return follows_state(&renderer->def) ? &renderer->with.range[renderer->def.color_by] : NULL;
+}
+
+void renderer_draw_measured(Renderer *renderer, const ScalarRange *range, GlTimer *timer)
+{
+    if (range)
+        renderer->with.range[renderer->def.color_by] = *range;
+    draw(renderer, timer, NULL);
 }
 
 void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts)
 {
     *counts = (ViewCounts){0};
-    draw(renderer, particles, NULL, counts);
+    measure(renderer, particles, NULL);
+    draw(renderer, NULL, counts);
 }
 
 void renderer_read(const Renderer *renderer, uint8_t *rgb)

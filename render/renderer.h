@@ -40,6 +40,12 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
  */
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
 
+/* renderer_draw in two halves, for who has a say in the range. The first returns that of the scalar shown, or
+   NULL where it does not follow the state; the second takes another (NULL: that one). The particles must stay
+   as they are in between. */
+const ScalarRange *renderer_measure(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
+void renderer_draw_measured(Renderer *renderer, const ScalarRange *range, GlTimer *timer);
+
 /* Shows a state that is not drawn to those overlays that follow particles from state to state. */
 void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer);
 

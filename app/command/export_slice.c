@@ -63,7 +63,7 @@ bool export_needs_slice(const Args *args, Error *error)
 
 const char *export_scalar_choice(int index)
 {
-    return slice_scalars[index].name;
+    return scalar_list[index].name;
 }
 
 /* The first is the solver's own, which is no shape. */
@@ -91,9 +91,12 @@ static bool find_name(const char *option, const char *name, const char *(*names)
                      near.best ? "; did you mean " : "", near.best ? near.best : "", list);
 }
 
-static bool find_scalar(const char *name, int *scalar, Error *error)
+static bool find_scalar(const char *name, Scalar *scalar, Error *error)
 {
-    return find_name("--scalar", name, export_scalar_choice, scalar, error);
+    int found;
+    const bool known = find_name("--scalar", name, export_scalar_choice, &found, error);
+    *scalar = (Scalar)found;
+    return known;
 }
 
 static bool find_kernel(const char *name, int *kernel, Error *error)
@@ -244,7 +247,7 @@ static void report(const SliceExport *export)
 {
     const Args *args = export->args;
     const SliceWanted *wanted = &export->wanted;
-    const SliceScalar *scalar = &slice_scalars[wanted->scalar];
+    const ScalarRow *scalar = &scalar_list[wanted->scalar];
     if (export->interrupted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->table.time, args->output);
     snapshot_flaws_print(&export->flaws, args->scenes[0], stderr);
@@ -277,7 +280,7 @@ static bool write_json(const SliceExport *export, Error *error)
         "stopped", export->interrupted, "simulated_seconds", table->time, "slice", "point", wanted->point[0],
         wanted->point[1], wanted->point[2], "normal", table->plane.normal[0], table->plane.normal[1],
         table->plane.normal[2], "samples", wanted->samples[0], wanted->samples[1], "scalar",
-        slice_scalars[wanted->scalar].name, "kernel", plane_kernels[wanted->kernel].name, "raw", wanted->raw,
+        scalar_list[wanted->scalar].name, "kernel", plane_kernels[wanted->kernel].name, "raw", wanted->raw,
         "empty", (json_int_t)table->empty);
     const bool written = json_file_write(json, args->json, error);
     json_decref(json);

@@ -9,65 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- scalars ---- */
-
-static double velocity(const SnapshotStep *step, size_t i, int axis)
-{
-    return step->velocity[axis][i];
-}
-
-static double velocity_x(const SnapshotStep *step, size_t i)
-{
-    return velocity(step, i, 0);
-}
-
-static double velocity_y(const SnapshotStep *step, size_t i)
-{
-    return velocity(step, i, 1);
-}
-
-static double velocity_z(const SnapshotStep *step, size_t i)
-{
-    return velocity(step, i, 2);
-}
-
-static double speed(const SnapshotStep *step, size_t i)
-{
-    return hypot(hypot(velocity(step, i, 0), velocity(step, i, 1)), velocity(step, i, 2));
-}
-
-static double density(const SnapshotStep *step, size_t i)
-{
-    return step->density[i];
-}
-
-static double pressure(const SnapshotStep *step, size_t i)
-{
-    return step->pressure[i];
-}
-
-static double compression(const SnapshotStep *step, size_t i)
-{
-    return step->compression[i];
-}
-
-static double fluid(const SnapshotStep *step, size_t i)
-{
-    return step->fluid[i];
-}
-
-const SliceScalar slice_scalars[] = {
-    {"speed", "m/s", speed},
-    {"velocity_x", "m/s", velocity_x},
-    {"velocity_y", "m/s", velocity_y},
-    {"velocity_z", "m/s", velocity_z},
-    {"density", "kg/m3", density},
-    {"pressure", "Pa", pressure},
-    {"compression", "", compression},
-    {"fluid", "", fluid},
-    {0},
-};
-
 /* ---- what is wanted ---- */
 
 /* clang-format off */
@@ -110,28 +51,64 @@ bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error)
 
 /* ---- sums ---- */
 
-/* The particles as a view sees them. */
-typedef struct Arrays {
-    float *position, *scalar;
-} Arrays;
+static float state_scalar(const SnapshotStep *step, Scalar scalar, size_t i)
+{
+    float *const *v = step->velocity;
+    switch (scalar) {
+    case SCALAR_SPEED:
+        return hypotf(hypotf(v[0][i], v[1][i]), v[2][i]);
+    case SCALAR_DENSITY:
+        return step->density[i];
+    case SCALAR_PRESSURE:
+        return step->pressure[i];
+    case SCALAR_COMPRESSION:
+        return step->compression[i];
+    case SCALAR_FLUID:
+        return (float)step->fluid[i];
+    case SCALAR_ID:
+        return (float)step->id[i];
+    default:
+        return NAN;
+    }
+}
 
-static bool fill_arrays(Arrays *arrays, const SliceScalar *scalar, const SnapshotScene *scene,
-                        const SnapshotStep *step)
+/* The particles as a view sees them: x y z and volume, velocities, scalars of the state. */
+static void fill_arrays(const ParticleArrays *arrays, const SnapshotScene *scene, const SnapshotStep *step)
 {
     const double cell = pow(scene->spacing, scene->dimensions);
-    arrays->position = malloc((step->count + 1) * sizeof(float[4]));
-    arrays->scalar = malloc((step->count + 1) * sizeof(float));
-    if (!arrays->position || !arrays->scalar)
-        return false;
     for (size_t i = 0; i < step->count; i++) {
         const int of = step->fluid[i];
         const bool known = of >= 0 && (size_t)of < scene->fluid_count;
         for (int k = 0; k < 3; k++)
             arrays->position[4 * i + (size_t)k] = step->position[k][i];
         arrays->position[4 * i + 3] = known ? (float)(scene->density[of] * cell / step->density[i]) : 0;
-        arrays->scalar[i] = (float)scalar->of(step, i);
+        for (int k = 0; arrays->velocity && k < 3; k++)
+            arrays->velocity[4 * i + (size_t)k] = step->velocity[k][i];
     }
-    return true;
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
+        for (size_t i = 0; arrays->scalar[s] && i < step->count; i++)
+            arrays->scalar[s][i] = state_scalar(step, (Scalar)s, i);
+}
+
+static void free_arrays(ParticleArrays *arrays)
+{
+    free(arrays->position);
+    free(arrays->velocity);
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
+        free(arrays->scalar[s]);
+}
+
+/* `attributes`: PARTICLE_*. */
+static bool make_arrays(ParticleArrays *arrays, unsigned attributes, size_t count)
+{
+    const bool moves = attributes & PARTICLE_VELOCITY;
+    arrays->position = calloc(count + 1, sizeof(float[4]));
+    arrays->velocity = moves ? calloc(count + 1, sizeof(float[4])) : NULL;
+    bool made = arrays->position && (arrays->velocity || !moves);
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
+        if (attributes & PARTICLE_SCALAR(s))
+            made = (arrays->scalar[s] = calloc(count + 1, sizeof(float))) && made;
+    return made;
 }
 
 static ParticleBuffers state_of(const SnapshotScene *scene, const SnapshotStep *step)
@@ -145,26 +122,37 @@ static ParticleBuffers state_of(const SnapshotScene *scene, const SnapshotStep *
     return state;
 }
 
-/* For at least so many particles; those of a series may become more. */
-static bool follow_count(SliceMaker *maker, size_t count, Scalar scalar, Error *error)
+/* For at least so many particles; those of a series may become more. `attributes`: PARTICLE_*. */
+static bool follow_count(SliceMaker *maker, size_t count, unsigned attributes, Error *error)
 {
     if (maker->upload && count <= maker->capacity)
         return true;
     upload_destroy(maker->upload);
     maker->capacity = count + count / 2 + 1;
-    maker->upload = upload_create(maker->capacity, PARTICLE_SCALAR(scalar), error);
+    maker->upload = upload_create(maker->capacity, attributes, error);
     return maker->upload != NULL;
 }
 
-static bool sum_up(SliceMaker *maker, const PlaneJob *job, const Arrays *arrays, const ParticleBuffers *state,
-                   float *sums, Error *error)
+static bool derive(Derived *derived, const ParticleWants *wants, const SnapshotScene *scene,
+                   ParticleBuffers *buffers, Error *error)
 {
-    ParticleArrays particles = {.position = arrays->position};
-    particles.scalar[job->scalar] = arrays->scalar;
+    DerivedSpace space = {.flat = scene->dimensions == 2};
+    memcpy(space.periodic, scene->periodic, sizeof space.periodic);
+    if (!derived_follow(derived, wants, error))
+        return false;
+    derived_fill(derived, wants, &space, buffers);
+    return true;
+}
+
+static bool sum_up(SliceMaker *maker, const PlaneJob *job, const ParticleArrays *arrays, unsigned attributes,
+                   const SnapshotScene *scene, const ParticleBuffers *state, float *sums, Error *error)
+{
+    const ParticleWants wants = {.scalars = SCALAR_BIT(job->scalar)};
     ParticleBuffers buffers;
-    const bool made = follow_count(maker, state->count, job->scalar, error) &&
-                      upload_arrays(maker->upload, &particles, state, error) &&
+    const bool made = follow_count(maker, state->count, attributes, error) &&
+                      upload_arrays(maker->upload, arrays, state, error) &&
                       upload_take(maker->upload, &buffers) &&
+                      derive(&maker->derived, &wants, scene, &buffers, error) &&
                       plane_sum_run(&maker->sum, job, &buffers, error);
     if (made)
         plane_sum_read(&maker->sum, sums);
@@ -174,6 +162,7 @@ static bool sum_up(SliceMaker *maker, const PlaneJob *job, const Arrays *arrays,
 void slice_maker_destroy(SliceMaker *maker)
 {
     plane_sum_destroy(&maker->sum);
+    derived_destroy(&maker->derived);
     upload_destroy(maker->upload);
     *maker = (SliceMaker){0};
 }
@@ -209,18 +198,22 @@ static bool make(SliceMaker *maker, SliceTable *table, const SnapshotScene *scen
                           .kernel = wanted->kernel,
                           .dimensions = scene->dimensions,
                           .support = scene->support_radius,
-                          .scalar = SCALAR_SPEED}; /* the place of whichever scalar is wanted */
+                          .scalar = wanted->scalar};
+    const ParticleWants wants = {.scalars = SCALAR_BIT(wanted->scalar)};
+    const bool own = (int)wanted->scalar < SCALAR_STATE_COUNT;
+    const unsigned attributes = own ? PARTICLE_SCALAR(wanted->scalar) : wants_attributes(&wants);
     const ParticleBuffers state = state_of(scene, step);
-    Arrays arrays = {0};
+    ParticleArrays arrays = {0};
     float *sums = NULL;
-    const bool made = allocate(table, &sums, error) &&
-                      (fill_arrays(&arrays, &slice_scalars[wanted->scalar], scene, step) ||
-                       error_set(error, "out of memory for the particles")) &&
-                      sum_up(maker, &job, &arrays, &state, sums, error);
+    bool made = allocate(table, &sums, error) && (make_arrays(&arrays, attributes, step->count) ||
+                                                  error_set(error, "out of memory for the particles"));
+    if (made) {
+        fill_arrays(&arrays, scene, step);
+        made = sum_up(maker, &job, &arrays, attributes, scene, &state, sums, error);
+    }
     if (made)
         fill_table(table, sums);
-    free(arrays.position);
-    free(arrays.scalar);
+    free_arrays(&arrays);
     free(sums);
     return made;
 }

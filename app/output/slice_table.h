@@ -3,8 +3,10 @@
 #define SLOSH_SLICE_TABLE_H
 
 #include "app/output/snapshot.h"
+#include "render/derived/derived.h"
 #include "render/particles/upload.h"
 #include "render/plane/plane_sum.h"
+#include "sim/base/scalar.h"
 
 #include <stdio.h>
 
@@ -14,7 +16,7 @@ typedef struct SliceWanted {
     int samples[2];             /* along and up, over the part of the plane that is in the box */
     int kernel;                 /* of plane_kernels, at least 1; its support radius is the file's */
     bool raw;                   /* sum V W s; else over sum V W */
-    int scalar;                 /* of slice_scalars */
+    Scalar scalar;
 } SliceWanted;
 
 typedef struct SliceTable {
@@ -26,13 +28,6 @@ typedef struct SliceTable {
     size_t empty; /* samples that no particle reaches */
 } SliceTable;
 
-/* What a slice may show of a snapshot. */
-typedef struct SliceScalar {
-    const char *name, *unit;
-    double (*of)(const SnapshotStep *step, size_t i);
-} SliceScalar;
-extern const SliceScalar slice_scalars[]; /* ended by a NULL name */
-
 /* Reads "{point: [x, y, z], normal: [x, y, z]}", either of which may be left out; false with what would be
    right. */
 bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error);
@@ -40,6 +35,7 @@ bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error);
 /* What one slice leaves to the next: programs and buffers. Zero-initialise it. */
 typedef struct SliceMaker {
     PlaneSum sum;
+    Derived derived;
     Upload *upload;
     size_t capacity; /* particles of `upload` */
 } SliceMaker;

@@ -32,7 +32,7 @@ bool slice_table_csv(FILE *file, const SliceTable *table)
 static bool write_head(FILE *file, const SliceTable *table)
 {
     const Plane *plane = &table->plane;
-    const SliceScalar *scalar = &slice_scalars[table->wanted.scalar];
+    const ScalarRow *scalar = &scalar_list[table->wanted.scalar];
     const int *samples = table->wanted.samples;
     double corner[3];
     plane_sample(plane, samples, 0, 0, corner);

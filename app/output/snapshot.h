@@ -140,6 +140,7 @@ typedef struct SnapshotScene {
     int dimensions;
     double spacing, support_radius; /* m */
     double box_size[3];             /* m */
+    bool periodic[3];               /* the sides across this axis are one */
     size_t fluid_count;
     double density[FLUIDS_MAX]; /* of each fluid at rest, kg/m3 */
     double stiffness_scale;     /* relative change of density over that of number density */

@@ -269,6 +269,19 @@ bool snapshot_kernel(const SnapshotReader *reader, char name[NAME_SIZE])
     return kernel != NULL;
 }
 
+/* What the settings say of box.periodic: "[x, z]". */
+static void read_periodic(const SnapshotReader *reader, bool periodic[3])
+{
+    static const char key[] = "\nbox.periodic = ";
+    char *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
+    const char *at = settings ? strstr(settings, key) : NULL;
+    memset(periodic, false, 3 * sizeof *periodic);
+    for (const char *c = at ? at + strlen(key) : ""; *c && *c != '\n'; c++)
+        if (*c >= 'x' && *c <= 'z')
+            periodic[*c - 'x'] = true;
+    free(settings);
+}
+
 /* Numbers of a damaged file: other code takes them as they are. NaN is none of these. */
 static bool check_scene(const SnapshotReader *reader, const SnapshotScene *scene, Error *error)
 {
@@ -309,6 +322,7 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
     /* a box of two dimensions is a spacing deep: WorldDef */
     scene->dimensions = scene->box_size[2] > 1.001 * scene->spacing ? 3 : 2;
     scene->stiffness_scale = read_stiffness_scale(reader, scene);
+    read_periodic(reader, scene->periodic);
     return true;
 }
 

@@ -68,10 +68,10 @@ class Slice(CommandTest):
         weights = [volume * shape(numpy.linalg.norm(at - place, axis=1) / h) / h ** 3 for place in places]
         return numpy.array([[(w * value).sum(), w.sum()] for w in weights])
 
-    def compare(self, name, shape, scalar, raw):
+    def compare(self, name, shape, scalar, raw, step='Step#3'):
         places, values = self.rows(name)
         some = slice(None, None, 7)
-        sums = self.sums(places[some], shape, scalar)
+        sums = self.sums(places[some], shape, scalar, step)
         there = sums[:, 1] > 0
         numpy.testing.assert_array_equal(there, ~numpy.isnan(values[some]))
         self.assertGreater(there.sum(), 50)
@@ -87,6 +87,45 @@ class Slice(CommandTest):
         self.export('b.csv', '{point: [0.1, 0.5, 0], normal: [0.4, 1, 0]}', '--size', '40x40', '--kernel', 'cusp', '--raw',
                     '--scalar', 'velocity_y')
         self.compare('b.csv', cusp, lambda group: group['velocity_1'][:].astype(float), True)
+
+    def derived(self, name, periodic=()):
+        """A derived scalar of each particle by its definition: render/derived/derived.h. The box is 1 m wide."""
+        def value(group):
+            at, v = (numpy.stack([group[name][:] for name in names], 1).astype(float)
+                     for names in ('xyz', ('velocity_0', 'velocity_1', 'velocity_2')))
+            if name == 'kinetic_energy':
+                return group['density'][:] * (v ** 2).sum(1) / 2
+            with h5py.File(self.path('a.h5part')) as file:
+                h, rest = file.attrs['support_radius'], numpy.asarray(file.attrs['fluid_densities'])
+                volume = rest[group['fluid'][:]] * file.attrs['spacing'] ** 3 / group['density'][:]
+            d = at[None] - at[:, None]
+            for axis in periodic:
+                d[:, :, axis] -= numpy.round(d[:, :, axis])
+            q = numpy.linalg.norm(d, axis=2) / h
+            numpy.fill_diagonal(q, 1)
+            if name == 'neighbours':
+                return (q < 1).sum(1)
+            w = 210 / numpy.pi / h ** 5 * volume * numpy.maximum(1 - q, 0) ** 3
+            moment = numpy.einsum('ij,ija,ijb->iab', w, d, d)
+            span = 1 / numpy.linalg.norm(numpy.linalg.inv(moment), axis=(1, 2))
+            moment += 0.1 * numpy.clip(1 - span / 0.07, 0, 1)[:, None, None] * numpy.eye(3)
+            rate = numpy.einsum('ij,ija,ijb->iab', w, v[None] - v[:, None], d) @ numpy.linalg.inv(moment)
+            if name == 'divergence':
+                return numpy.trace(rate, axis1=1, axis2=2)
+            return numpy.linalg.norm([rate[:, (k + 2) % 3, (k + 1) % 3] - rate[:, (k + 1) % 3, (k + 2) % 3]
+                                      for k in range(3)], axis=0)
+        return value
+
+    def test_derived_scalars_are_in_files_too(self):
+        self.run_scene(*WILD)
+        for name in ('vorticity', 'divergence', 'neighbours', 'kinetic_energy'):
+            self.export('a.csv', TILTED, '--size', '61x47', '--kernel', 'cubic', '--scalar', name)
+            self.compare('a.csv', cubic, self.derived(name), False)
+
+    def test_neighbours_across_periodic_sides_count(self):
+        self.run_scene('--time', '0.1', '--set', 'motion=[]', '--set', 'box.periodic=[x, z]')
+        self.export('a.csv', TILTED, '--size', '61x47', '--kernel', 'cubic', '--scalar', 'neighbours')
+        self.compare('a.csv', cubic, self.derived('neighbours', (0, 2)), False, 'Step#1')
 
     def test_the_plane_is_where_it_was_asked_for(self):
         self.run_scene(*WILD)
