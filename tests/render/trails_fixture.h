@@ -61,8 +61,6 @@ static inline ParticleBuffers movers_upload(Movers *movers, double time)
     movers->state.step++;
     assert_true(upload_arrays(movers->upload, &arrays, &movers->state, &error));
     assert_true(upload_take(movers->upload, &out));
-    out.scalar_min[SCALAR_SPEED] = 0;
-    out.scalar_max[SCALAR_SPEED] = 1;
     return out;
 }
 
@@ -71,6 +69,8 @@ static inline ViewDef trails_view(void)
 {
     ViewDef def = bare_view();
     text_set(def.kind, "none");
+    def.range_auto = false;
+    def.range[0] = 0, def.range[1] = 1;
     trails_def(&def)->show = true;
     trails_def(&def)->stride = 1;
     return def;
