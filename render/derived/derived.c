@@ -74,27 +74,57 @@ static bool has(const Recipe *recipe, const ParticleBuffers *particles)
 
 /* ---- programs ---- */
 
-static bool follow(Derived *derived, unsigned *program, const Recipe *recipe, const char *name,
-                   const char *type, Error *error)
+static bool compile(unsigned *program, const char *file, const char *name, const char *defines, Error *error)
 {
-    static const char *const stages[] = {"derived/derived.comp", NULL};
-    char defines[256], label[64];
-    if (*program || !recipe->value)
+    char label[64];
+    if (*program)
         return true;
+    snprintf(label, sizeof label, "derived %s", name);
+    *program = program_create(label, (const char *const[]){file, NULL}, defines, error);
+    return *program != 0;
+}
+
+static const char *reads_defines(const Recipe *recipe)
+{
+    const bool moves = recipe->attributes & PARTICLE_VELOCITY, carries = recipe->carries != NOTHING;
+    return moves && carries ? "#define VELOCITIES 1\n#define CARRIED 1\n"
+           : moves          ? "#define VELOCITIES 1\n"
+           : carries        ? "#define CARRIED 1\n"
+                            : "";
+}
+
+/* Where a sum over neighbours finds what it reads of them: velocities or a scalar, not both. NULL: places
+ * only. */
+static DerivedPack *pack_of(Derived *derived, const Recipe *recipe)
+{
+    const bool moves = recipe->attributes & PARTICLE_VELOCITY;
+    return recipe->near_too && reads(recipe) ? &derived->pack[moves ? 0 : 1] : NULL;
+}
+
+static bool follow_near(Derived *derived, const Recipe *recipe, Error *error)
+{
+    DerivedPack *pack = pack_of(derived, recipe);
     if (recipe->near_too && !derived->sorts) {
-        if (!neighbourhood_create(&derived->neighbourhood, error)) {
+        derived->sorts = neighbourhood_create(&derived->neighbourhood, error);
+        if (!derived->sorts) {
             neighbourhood_destroy(&derived->neighbourhood);
             return false;
         }
-        derived->sorts = true;
     }
-    snprintf(label, sizeof label, "derived %s", name);
-    snprintf(defines, sizeof defines, "#define VALUE_TYPE %s\n#define VALUE %s\n%s%s%s", type, recipe->value,
-             recipe->near_too ? "#define NEAR 1\n" : "",
-             recipe->attributes & PARTICLE_VELOCITY ? "#define VELOCITIES 1\n" : "",
-             recipe->carries == NOTHING ? "" : "#define CARRIED 1\n");
-    *program = program_create(label, stages, defines, error);
-    return *program != 0;
+    return !pack ||
+           compile(&pack->program, "derived/derived_pack.comp", "pack", reads_defines(recipe), error);
+}
+
+static bool follow(Derived *derived, unsigned *program, const Recipe *recipe, const char *name,
+                   const char *type, Error *error)
+{
+    char defines[256];
+    if (!recipe->value)
+        return true;
+    snprintf(defines, sizeof defines, "#define VALUE_TYPE %s\n#define VALUE %s\n%s%s", type, recipe->value,
+             recipe->near_too ? "#define NEAR 1\n" : "", reads_defines(recipe));
+    return follow_near(derived, recipe, error) &&
+           compile(program, "derived/derived.comp", name, defines, error);
 }
 
 bool derived_follow(Derived *derived, const ParticleWants *wants, Error *error)
@@ -118,6 +148,11 @@ void derived_destroy(Derived *derived)
         glDeleteProgram(derived->scalar_program[s]);
     for (int v = 0; v < VECTOR_COUNT; v++)
         glDeleteProgram(derived->vector_program[v]);
+    for (int p = 0; p < 2; p++) {
+        glDeleteProgram(derived->pack[p].program);
+        glDeleteTextures(1, &derived->pack[p].texels);
+        glDeleteBuffers(1, &derived->pack[p].buffer);
+    }
     glDeleteBuffers(SCALAR_COUNT, derived->scalar_buffer);
     glDeleteBuffers(VECTOR_COUNT, derived->vector_buffer);
     neighbourhood_destroy(&derived->neighbourhood);
@@ -159,10 +194,11 @@ static void bind(unsigned program, const Recipe *recipe, const ParticleBuffers *
 {
     const ParticleAttribute *velocity = &particles->velocity;
     particle_bind(program, particles, recipe->carries == NOTHING ? SCALAR_SPEED : (Scalar)recipe->carries);
-    if (recipe->attributes & PARTICLE_VELOCITY)
+    if (recipe->attributes & PARTICLE_VELOCITY) {
         glBindBufferRange(GL_SHADER_STORAGE_BUFFER, VELOCITIES_STORAGE, velocity->buffer,
                           (GLintptr)velocity->offset, (GLsizeiptr)(particles->count * velocity->stride));
-    glProgramUniform1ui(program, VELOCITY_STRIDE_AT, (GLuint)(velocity->stride / 4));
+        glProgramUniform1ui(program, VELOCITY_STRIDE_AT, (GLuint)(velocity->stride / 4));
+    }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, DERIVED_STORAGE, to);
 }
 
@@ -191,18 +227,48 @@ typedef struct Making {
     const DerivedSpace *space;
     const ParticleBuffers *particles;
     bool sorted;
+    unsigned packed[2]; /* of each pack: what stands there, PARTICLE_*; 0: nothing yet */
 } Making;
+
+static void reserve_pack(DerivedPack *pack, size_t count)
+{
+    if (count <= pack->capacity)
+        return;
+    reserve(&pack->buffer, &pack->capacity, count, 16, "derived pack");
+    glDeleteTextures(1, &pack->texels);
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &pack->texels);
+    glTextureBuffer(pack->texels, GL_RGBA32F, pack->buffer);
+}
+
+/* Sorts the particles and what is read of neighbours, once for all that read the same. */
+static void prepare_near(Making *making, const Recipe *recipe)
+{
+    Derived *derived = making->derived;
+    DerivedPack *pack = pack_of(derived, recipe);
+    unsigned *packed = pack ? &making->packed[pack - derived->pack] : NULL;
+    if (!making->sorted)
+        neighbourhood_build(&derived->neighbourhood, making->particles);
+    making->sorted = true;
+    if (!pack)
+        return;
+    if (*packed != reads(recipe)) {
+        reserve_pack(pack, making->particles->count);
+        bind(pack->program, recipe, making->particles, pack->buffer);
+        neighbourhood_run(&derived->neighbourhood, pack->program);
+        *packed = reads(recipe);
+    }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    glBindTextureUnit(OTHERS_UNIT, pack->texels);
+}
 
 static ParticleAttribute make(Making *making, const Recipe *recipe, unsigned program, unsigned buffer,
                               size_t stride)
 {
-    Derived *derived = making->derived;
-    if (recipe->near_too && !making->sorted)
-        neighbourhood_build(&derived->neighbourhood, making->particles);
-    making->sorted = making->sorted || recipe->near_too;
+    if (recipe->near_too)
+        prepare_near(making, recipe);
     set_space(program, making->space, making->particles);
     bind(program, recipe, making->particles, buffer);
-    run(derived, program, recipe, making->particles->count);
+    run(making->derived, program, recipe, making->particles->count);
     return (ParticleAttribute){buffer, 0, stride};
 }
 
@@ -214,7 +280,7 @@ static bool due(bool wanted, unsigned program, const Recipe *recipe, const Parti
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles)
 {
-    Making making = {derived, space, particles, false};
+    Making making = {derived, space, particles, false, {0}};
     const size_t count = particles->count;
     for (int s = 0; s < SCALAR_COUNT; s++) {
         const unsigned program = derived->scalar_program[s];

@@ -46,6 +46,12 @@ typedef struct DerivedSpace {
     bool periodic[3];
 } DerivedSpace;
 
+/* What sums over neighbours read, as texels in the order of the neighbourhood's. */
+typedef struct DerivedPack {
+    unsigned program, buffer, texels;
+    size_t capacity; /* particles */
+} DerivedPack;
+
 /* Zero-initialise it. */
 typedef struct Derived {
     unsigned scalar_program[SCALAR_COUNT], vector_program[VECTOR_COUNT]; /* 0 until wanted */
@@ -53,6 +59,7 @@ typedef struct Derived {
     size_t scalar_capacity[SCALAR_COUNT], vector_capacity[VECTOR_COUNT]; /* particles */
     bool sorts;                                                          /* `neighbourhood` is there */
     Neighbourhood neighbourhood;
+    DerivedPack pack[2]; /* of velocities; of a scalar */
 } Derived;
 
 /* Makes the programs for what is wanted and not there yet. False when a shader does not compile. */

@@ -2,12 +2,11 @@
 // render/derived/derived.c has the list and says what the names in a formula are. With NEAR its neighbours count.
 #include "common/particles.glsl"
 #include "common/neighbourhood_grid.glsl"
-#include "shaders/derived/derived_bindings.h"
+#include "derived/derived_read.glsl"
 #ifdef NEAR
 #include "common/neighbourhood.glsl"
 #endif
 layout(std430, binding = DERIVED_STORAGE) writeonly buffer Derived { VALUE_TYPE derived[]; };
-layout(location = VELOCITY_STRIDE_AT) uniform uint velocity_stride;
 layout(location = KERNEL_REACH_AT) uniform float reach;          // h, m
 layout(location = MOMENT_SCALE_AT) uniform float moment_scale;   // 20 n / h^(d + 2)
 layout(location = TWO_DIMENSIONS_AT) uniform uint two_dimensions;
@@ -15,27 +14,10 @@ layout(location = PERIOD_AT) uniform vec3 period;                // of periodic 
 layout(location = FRAME_VELOCITY_AT) uniform vec3 frame_velocity; // of the box's origin, in the box's axes, m/s
 layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // of the box, in its axes, rad/s
 
-// What is not read has no block.
-#ifdef VELOCITIES
-layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { float velocity_words[]; };
-vec3 velocity_of(uint i)
-{
-    uint at = i * velocity_stride;
-    return vec3(velocity_words[at], velocity_words[at + 1u], velocity_words[at + 2u]);
-}
-#else
-vec3 velocity_of(uint i) { return vec3(0.0); }
-#endif
-
-#ifdef CARRIED
-#include "common/particle_scalars.glsl"
-float carried_of(uint i) { return scalar_words[i * scalar_stride]; }
-#else
-float carried_of(uint i) { return 0.0; }
-#endif
-
 #ifdef NEAR
-// Sums over neighbours at d, with what they have more of than the particle itself.
+layout(binding = OTHERS_UNIT) uniform samplerBuffer other_texels; // derived_pack.comp
+
+// Over neighbours at d, of what they have more of than the particle itself.
 struct Sums {
     float count;
     mat3 moment;   // sum w d d
@@ -43,29 +25,25 @@ struct Sums {
     vec3 carried;  // sum w (s_j - s) d
 };
 
-float volume_of(uint j)
-{
-    return position_words[j * position_stride + 3u];
-}
-
-void add_neighbour(inout Sums sums, uint i, uint j, vec3 d)
+void add_neighbour(inout Sums sums, vec4 own, int k, vec3 d)
 {
     float t = 1.0 - length(d) / reach;
     if (t <= 0.0)
         return;
     sums.count += 1.0;
 #if defined VELOCITIES || defined CARRIED
-    float w = moment_scale * volume_of(j) * t * t * t;
-    vec4 more = vec4(velocity_of(j), carried_of(j));
-    if (is_nan(more) || is_nan(vec4(w))) // spoils itself only
-        return;
-    sums.moment += outerProduct(w * d, d);
-    sums.velocity += outerProduct(more.xyz - velocity_of(i), w * d);
-    sums.carried += w * (more.w - carried_of(i)) * d;
+    vec4 other = texelFetch(other_texels, k);
+    vec3 wd = moment_scale * other.w * t * t * t * d;
+    sums.moment += outerProduct(wd, d);
+#ifdef VELOCITIES
+    sums.velocity += outerProduct(other.xyz - own.xyz, wd);
+#else
+    sums.carried += (other.x - own.x) * wd;
+#endif
 #endif
 }
 
-void add_neighbours(inout Sums sums, uint i, vec3 x, bool image)
+void add_neighbours(inout Sums sums, uint i, vec4 own, vec3 x, bool image)
 {
     uvec3 at = cell_at(x);
     for (uint row = 0u; row < 9u; row++) {
@@ -73,7 +51,7 @@ void add_neighbours(inout Sums sums, uint i, vec3 x, bool image)
         for (uint k = range.x; k < range.y; k++) {
             uvec4 other = texelFetch(sorted_texels, int(k));
             if (other.w != i || image)
-                add_neighbour(sums, i, other.w, uintBitsToFloat(other.xyz) - x);
+                add_neighbour(sums, own, int(k), uintBitsToFloat(other.xyz) - x);
         }
     }
 }
@@ -82,13 +60,14 @@ void add_neighbours(inout Sums sums, uint i, vec3 x, bool image)
 Sums sums_of(uint i, vec3 x)
 {
     Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0));
+    vec4 own = vec4(velocity_of(i) + vec3(carried_of(i), 0.0, 0.0), 0.0);
     vec3 from_low = x - grid_corner;
     ivec3 first = -ivec3(greaterThan(from_low, period - reach)) * ivec3(greaterThan(period, vec3(0.0)));
     ivec3 last = ivec3(lessThan(from_low, vec3(reach))) * ivec3(greaterThan(period, vec3(0.0)));
     for (int a = first.x; a <= last.x; a++)
         for (int b = first.y; b <= last.y; b++)
             for (int c = first.z; c <= last.z; c++)
-                add_neighbours(sums, i, x + period * vec3(a, b, c), a != 0 || b != 0 || c != 0);
+                add_neighbours(sums, i, own, x + period * vec3(a, b, c), a != 0 || b != 0 || c != 0);
     return sums;
 }
 

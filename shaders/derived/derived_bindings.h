@@ -10,6 +10,9 @@
 #define RANKS_FOUND_STORAGE 4
 #define RANK_BINS_STORAGE   5
 
+/* Texture units */
+#define OTHERS_UNIT 2
+
 /* Locations of uniforms */
 #define VELOCITY_STRIDE_AT 16
 #define KERNEL_REACH_AT    17
