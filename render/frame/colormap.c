@@ -3,6 +3,7 @@
 #include "render/frame/colormap.h"
 
 #include <epoxy/gl.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct Colormap {
@@ -88,4 +89,19 @@ unsigned colormap_texture(const char *name)
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
+}
+
+void colormap_follow(ColormapKept *kept, const char *name)
+{
+    if (kept->texture && strcmp(kept->name, name) == 0)
+        return;
+    colormap_drop(kept);
+    kept->texture = colormap_texture(name);
+    snprintf(kept->name, sizeof kept->name, "%s", name);
+}
+
+void colormap_drop(ColormapKept *kept)
+{
+    glDeleteTextures(1, &kept->texture);
+    *kept = (ColormapKept){0};
 }

@@ -16,4 +16,14 @@ bool colormap_fill(const char *name, uint8_t rgb[3 * COLORMAP_SIZE]);
  * deletes it. */
 unsigned colormap_texture(const char *name);
 
+/* Such a texture for who keeps one from picture to picture. Zero-initialise it. */
+typedef struct ColormapKept {
+    unsigned texture;
+    char name[32];
+} ColormapKept;
+
+/* Makes it that of another colormap, where it is not yet. */
+void colormap_follow(ColormapKept *kept, const char *name);
+void colormap_drop(ColormapKept *kept);
+
 #endif

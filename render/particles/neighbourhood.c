@@ -85,14 +85,14 @@ static void bind_buffers(const Neighbourhood *n)
                       (const unsigned[]){n->cell, n->rank, n->start, n->order, n->sorted});
 }
 
-static void run(const Neighbourhood *n, GLuint program)
+static void run(const Neighbourhood *n, GLuint program, size_t invocations)
 {
     glUseProgram(program);
     glUniform3uiv(GRID_SIZE_AT, 1, n->size);
     glUniform1ui(GRID_PARTICLES_AT, n->count);
     glUniform3fv(GRID_CORNER_AT, 1, n->corner);
     glUniform1f(GRID_SCALE_AT, n->scale);
-    work_run(n->count);
+    work_run(invocations);
 }
 
 static void bind_positions(const Neighbourhood *n, const ParticleBuffers *particles)
@@ -114,20 +114,25 @@ void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
     glClearNamedBufferData(n->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     bind_positions(n, particles);
     bind_buffers(n);
-    run(n, n->bin);
+    run(n, n->bin, n->count);
     prefix_sums_run(&n->sums, n->start, cells + 2);
-    run(n, n->place);
+    run(n, n->place, n->count);
     bind_positions(n, particles);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     glBindTextureUnit(ORDER_UNIT, n->order_texels);
-    run(n, n->sort);
+    run(n, n->sort, n->count);
 }
 
-void neighbourhood_run(const Neighbourhood *n, unsigned program)
+void neighbourhood_run_for(const Neighbourhood *n, unsigned program, size_t invocations)
 {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     glBindTextureUnit(SORTED_UNIT, n->texels);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, STARTS_STORAGE, n->start);
-    if (n->count > 0)
-        run(n, program);
+    if (n->count > 0 && invocations > 0)
+        run(n, program, invocations);
+}
+
+void neighbourhood_run(const Neighbourhood *n, unsigned program)
+{
+    neighbourhood_run_for(n, program, n->count);
 }

@@ -46,4 +46,7 @@ void neighbourhood_build(Neighbourhood *neighbourhood, const ParticleBuffers *pa
    and lets shaders read what it wrote. */
 void neighbourhood_run(const Neighbourhood *neighbourhood, unsigned program);
 
+/* The same with so many invocations, which are something else than particles. */
+void neighbourhood_run_for(const Neighbourhood *neighbourhood, unsigned program, size_t invocations);
+
 #endif

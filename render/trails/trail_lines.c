@@ -1,13 +1,11 @@
 #include "render/trails/trail_lines.h"
 
-#include "render/frame/colormap.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/trails/trails_bindings.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 bool trail_lines_create(TrailLines *lines, Error *error)
@@ -33,25 +31,15 @@ void trail_lines_destroy(TrailLines *lines)
     glDeleteProgram(lines->show);
     glDeleteVertexArrays(1, &lines->screen);
     glDeleteFramebuffers(1, &lines->framebuffer);
-    glDeleteTextures(1, &lines->colormap);
+    colormap_drop(&lines->colormap);
     glDeleteTextures(1, &lines->kept);
     quad_indices_destroy(&lines->quads);
     *lines = (TrailLines){0};
 }
 
-static void follow_colormap(TrailLines *lines, const char *name)
-{
-    if (lines->colormap && strcmp(lines->colormap_name, name) == 0)
-        return;
-    glDeleteTextures(1, &lines->colormap);
-    lines->colormap = colormap_texture(name);
-    snprintf(lines->colormap_name, sizeof lines->colormap_name, "%s", name);
-}
-
 static TrailLook look_of(const TrailStore *store, const Frame *frame)
 {
     TrailLook look;
-    memset(&look, 0, sizeof look); /* it is compared byte by byte */
     matrix_multiply(frame->camera.view, frame->box_to_world, look.box_to_eye);
     memcpy(look.tangent, frame->camera.tangent, sizeof look.tangent);
     look.near_plane = frame->camera.near_plane;
@@ -64,6 +52,22 @@ static TrailLook look_of(const TrailStore *store, const Frame *frame)
     look.drops = store->ring.drops;
     look.places = store->places;
     return look;
+}
+
+static bool same_numbers(const float *a, const float *b, int count)
+{
+    bool same = true;
+    for (int i = 0; i < count; i++)
+        same &= a[i] == b[i];
+    return same;
+}
+
+static bool same_look(const TrailLook *a, const TrailLook *b)
+{
+    return same_numbers(a->box_to_eye, b->box_to_eye, 16) && same_numbers(a->tangent, b->tangent, 2) &&
+           same_numbers(a->wrap, b->wrap, 3) && a->near_plane == b->near_plane &&
+           a->half_width == b->half_width && a->width == b->width && a->height == b->height &&
+           a->scalar == b->scalar && a->drops == b->drops && a->places == b->places;
 }
 
 static void follow_size(TrailLines *lines, const TrailLook *look)
@@ -117,7 +121,7 @@ static void keep(TrailLines *lines, const TrailStore *store, const TrailLook *lo
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glViewport(0, 0, look->width, look->height);
-    if (memcmp(look, &lines->look, sizeof *look) != 0) {
+    if (!same_look(look, &lines->look)) {
         lines->look = *look;
         lines->drawn = ring->begin;
         glClearNamedFramebufferfv(lines->framebuffer, GL_COLOR, 0, (float[4]){0});
@@ -151,7 +155,7 @@ static void show_all(TrailLines *lines, const TrailStore *store, const Frame *fr
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glBindTextureUnit(TRAIL_LINES_UNIT, lines->kept);
-    glBindTextureUnit(COLORMAP_UNIT, lines->colormap);
+    glBindTextureUnit(COLORMAP_UNIT, lines->colormap.texture);
     frame_cut_to_bounds(frame);
     show(lines, store, frame, all ? GL_ALWAYS : GL_GEQUAL, 1);
     if (through > 0 && !all)
@@ -166,7 +170,7 @@ void trail_lines_draw(TrailLines *lines, const TrailStore *store, const Frame *f
     if (store->slots == 0 || store->ring.end == store->ring.begin)
         return;
     const TrailLook look = look_of(store, frame);
-    follow_colormap(lines, frame->def->colormap);
+    colormap_follow(&lines->colormap, frame->def->colormap);
     follow_size(lines, &look);
     trail_store_bind(store);
     keep(lines, store, &look);

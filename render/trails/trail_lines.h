@@ -7,13 +7,15 @@
 #ifndef SLOSH_TRAIL_LINES_H
 #define SLOSH_TRAIL_LINES_H
 
+#include "render/frame/colormap.h"
 #include "render/frame/frame.h"
 #include "render/particles/particle_bind.h"
 #include "render/trails/trail_store.h"
 
 /* All that the kept picture depends on, besides the columns. */
 typedef struct TrailLook {
-    float box_to_eye[16], tangent[2], near_plane, half_width, wrap[3];
+    float box_to_eye[16];
+    float tangent[2], near_plane, half_width, wrap[3];
     int width, height;
     Scalar scalar;
     uint64_t drops;  /* of the ring */
@@ -24,8 +26,8 @@ typedef struct TrailLook {
 typedef struct TrailLines {
     unsigned lines, head, show; /* programs */
     unsigned screen;            /* vertex array without attributes */
-    unsigned colormap, kept, framebuffer;
-    char colormap_name[NAME_SIZE];
+    unsigned kept, framebuffer;
+    ColormapKept colormap;
     QuadIndices quads;
     TrailLook look; /* of the kept picture */
     uint64_t drawn; /* columns before this one are in it */

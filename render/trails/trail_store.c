@@ -109,7 +109,7 @@ unsigned trail_store_column(const TrailStore *store, uint64_t number)
 
 static bool same3(const double a[3], const double b[3])
 {
-    return memcmp(a, b, sizeof(double[3])) == 0;
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
 /* Another choice of particles begins now; another box is another fluid. */
@@ -205,15 +205,15 @@ static void run_take(const TrailStore *store, const ParticleBuffers *particles, 
     work_run(particles->count);
 }
 
-void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const ViewDef *view)
+void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const ViewDef *def)
 {
-    const TrailsDef *def = trails_def(view);
-    const Scalar scalar = view->color_by;
-    make_room(store, def, particles->count);
+    const TrailsDef *own = trails_def(def);
+    const Scalar scalar = def->color_by;
+    make_room(store, own, particles->count);
     if (store->slots == 0 || (particles->count > 0 && !particles->id.buffer))
         return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    follow_choice(store, def, particles);
+    follow_choice(store, own, particles);
     const bool back = store->ring.end > store->ring.begin && particles->time < store->ring.now;
     trail_ring_take(&store->ring, particles->time, scalar);
     if (back)

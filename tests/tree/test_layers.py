@@ -208,7 +208,7 @@ class Layers(unittest.TestCase):
         self.assertEqual(found, [])
 
     def test_an_overlay_is_named_in_its_folder_and_in_the_list(self):
-        self.assertGreaterEqual(set(OVERLAYS), {"trails"})
+        self.assertGreaterEqual(set(OVERLAYS), {"glyphs", "trails"})
         found = []
         for path in sources():
             name = str(path.relative_to(ROOT))

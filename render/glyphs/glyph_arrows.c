@@ -1,0 +1,231 @@
+#include "render/glyphs/glyph_arrows.h"
+
+#include "render/particles/work.h"
+#include "render/plane/plane.h"
+#include "render/plane/plane_kernel.h"
+#include "shaders/glyphs/glyphs_bindings.h"
+#include "shaders/shared/bindings.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum { COMMAND_WORDS = 5, SAMPLES_MOST = 1000000, USUAL_SAMPLES = 24 };
+
+bool glyph_arrows_create(GlyphArrows *arrows, Error *error)
+{
+    static const char *const particles[] = {"glyphs/glyphs_particles.comp", NULL};
+    static const char *const samples[] = {"glyphs/glyphs_samples.comp", NULL};
+    arrows->particles = program_create("glyphs of particles", particles, NULL, error);
+    arrows->samples = arrows->particles ? program_create("glyphs of samples", samples, NULL, error) : 0;
+    arrows->sorts = arrows->samples != 0;
+    return arrows->sorts && neighbourhood_create(&arrows->neighbourhood, error);
+}
+
+void glyph_arrows_destroy(GlyphArrows *arrows)
+{
+    glDeleteProgram(arrows->particles);
+    glDeleteProgram(arrows->samples);
+    if (arrows->sorts)
+        neighbourhood_destroy(&arrows->neighbourhood);
+    glDeleteBuffers(1, &arrows->arrows);
+    glDeleteBuffers(1, &arrows->command);
+    *arrows = (GlyphArrows){0};
+}
+
+static void reserve(GlyphArrows *arrows, size_t count)
+{
+    enum { ARROW_BYTES = 8 * sizeof(float) };
+    if (!arrows->command)
+        work_buffer_remake(&arrows->command, sizeof(uint32_t[COMMAND_WORDS + GLYPH_BINS]), "glyphs' command");
+    if (count <= arrows->capacity)
+        return;
+    arrows->capacity = work_capacity(arrows->capacity, count);
+    work_buffer_remake(&arrows->arrows, arrows->capacity * ARROW_BYTES, "glyphs");
+}
+
+/* No arrow yet: one instance of no index. */
+static void begin(const GlyphArrows *arrows)
+{
+    static const uint32_t none = 0, one = 1;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    glClearNamedBufferData(arrows->command, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
+    glClearNamedBufferSubData(arrows->command, GL_R32UI, sizeof one, sizeof one, GL_RED_INTEGER,
+                              GL_UNSIGNED_INT, &one);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_COMMAND_STORAGE, arrows->command);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, arrows->arrows);
+}
+
+static void bind(GLuint binding, const ParticleAttribute *attribute, const ParticleBuffers *particles)
+{
+    const ParticleAttribute *bound = attribute->buffer ? attribute : &particles->position;
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, bound->buffer, (GLintptr)bound->offset,
+                      (GLsizeiptr)(particles->count * bound->stride));
+}
+
+static void set_vector(GLuint program, const ParticleBuffers *particles, const Frame *frame)
+{
+    const GlyphVector *vector = &glyph_vectors[glyphs_def(frame->def)->vector];
+    const ParticleAttribute *words = vector->of ? vector->of(particles) : &particles->position;
+    const BoxState *box = &particles->box;
+    double velocity[3], turn[3];
+    quat_rotate_inverse(box->orientation, box->velocity, velocity);
+    quat_rotate_inverse(box->orientation, box->angular_velocity, turn);
+    particle_bind(program, particles, frame->def->color_by);
+    bind(GLYPH_VECTORS_STORAGE, words, particles);
+    glProgramUniform1ui(program, GLYPH_VECTOR_STRIDE_AT, (GLuint)(words->stride / 4));
+    glProgramUniform3f(program, GLYPH_BOX_VELOCITY_AT, (GLfloat)velocity[0], (GLfloat)velocity[1],
+                       (GLfloat)velocity[2]);
+    glProgramUniform3f(program, GLYPH_BOX_TURN_AT, (GLfloat)turn[0], (GLfloat)turn[1], (GLfloat)turn[2]);
+    glProgramUniform1ui(program, GLYPH_IS_BOX_AT, vector->of == NULL);
+    glProgramUniform1ui(program, GLYPH_IS_FLUID_AT, frame->def->color_by == SCALAR_FLUID);
+}
+
+static void of_particles(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame)
+{
+    const int stride = glyphs_def(frame->def)->stride;
+    const double dimensions = frame->slab > 0 ? 2 : 3;
+    arrows->apart = particles->spacing * pow(stride, 1 / dimensions);
+    arrows->most = particles->count;
+    reserve(arrows, arrows->most);
+    begin(arrows);
+    set_vector(arrows->particles, particles, frame);
+    bind(GLYPH_IDS_STORAGE, &particles->id, particles);
+    glUseProgram(arrows->particles);
+    glUniform1ui(GLYPH_COUNT_AT, (GLuint)particles->count);
+    glUniform1ui(GLYPH_ID_STRIDE_AT, (GLuint)(particles->id.stride / 4));
+    glUniform1ui(GLYPH_EVERY_AT, (GLuint)stride);
+    work_run(particles->count);
+}
+
+/* Where samples stand: a lattice with three steps, m. */
+typedef struct Samples {
+    double first[3], step[3][3];
+    int count[3];
+} Samples;
+
+/* Along `size` m from `corner` on, as many as fit, in the middle. */
+static void fit(Samples *samples, int axis, double size, double cell, const double way[3])
+{
+    samples->count[axis] = (int)fmax(floor(size / cell + 1e-6), 1);
+    const double begin = (size - cell * (samples->count[axis] - 1)) / 2;
+    for (int k = 0; k < 3; k++) {
+        samples->step[axis][k] = cell * way[k];
+        samples->first[k] += begin * way[k];
+    }
+}
+
+static void grid_samples(Samples *samples, const double box[3], double cell)
+{
+    static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    *samples = (Samples){.first = {-box[0] / 2, 0, -box[2] / 2}};
+    for (int k = 0; k < 3; k++)
+        fit(samples, k, box[k], cell, axes[k]);
+}
+
+static void plane_samples(Samples *samples, const Plane *plane, double cell)
+{
+    *samples = (Samples){.count = {0, 0, 1}};
+    memcpy(samples->first, plane->corner, sizeof samples->first);
+    fit(samples, 0, plane->size[0], cell, plane->along);
+    fit(samples, 1, plane->size[1], cell, plane->up);
+}
+
+/* False where there is none: a plane that misses the box. */
+static bool make_samples(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame,
+                         Samples *samples)
+{
+    const GlyphsDef *def = glyphs_def(frame->def);
+    const double *box = particles->box_size, longest = fmax(box[0], fmax(box[1], box[2]));
+    double cell = def->cell > 0 ? def->cell : longest / USUAL_SAMPLES, volume = 1;
+    Plane plane;
+    if (def->at == GLYPHS_PLANE && !plane_make(box, def->plane_point, def->plane_normal, &plane))
+        return false;
+    for (int k = 0; k < 3; k++)
+        volume *= fmax(box[k] / cell, 1);
+    arrows->coarser = volume > SAMPLES_MOST;
+    if (arrows->coarser)
+        cell *= cbrt(volume / SAMPLES_MOST) * 1.1;
+    arrows->apart = cell;
+    if (def->at == GLYPHS_PLANE)
+        plane_samples(samples, &plane, cell);
+    else
+        grid_samples(samples, box, cell);
+    return true;
+}
+
+static void set3(GLint location, const double v[3])
+{
+    glUniform3f(location, (GLfloat)v[0], (GLfloat)v[1], (GLfloat)v[2]);
+}
+
+static void set_samples(const Samples *samples, size_t count)
+{
+    set3(GLYPH_FIRST_AT, samples->first);
+    set3(GLYPH_ALONG_AT, samples->step[0]);
+    set3(GLYPH_UP_AT, samples->step[1]);
+    set3(GLYPH_DEEP_AT, samples->step[2]);
+    glUniform2ui(GLYPH_SAMPLES_AT, (GLuint)samples->count[0], (GLuint)samples->count[1]);
+    glUniform1ui(GLYPH_COUNT_AT, (GLuint)count);
+}
+
+static void of_samples(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame)
+{
+    Samples samples;
+    const int dimensions = frame->slab > 0 ? 2 : 3, kernel = plane_kernel_named("wendland_c2");
+    const double h = particles->support_radius;
+    if (!make_samples(arrows, particles, frame, &samples))
+        return;
+    arrows->most = (size_t)samples.count[0] * (size_t)samples.count[1] * (size_t)samples.count[2];
+    reserve(arrows, arrows->most);
+    neighbourhood_build(&arrows->neighbourhood, particles);
+    begin(arrows);
+    set_vector(arrows->samples, particles, frame);
+    glUseProgram(arrows->samples);
+    set_samples(&samples, arrows->most);
+    glUniform1f(GLYPH_SUPPORT_AT, (GLfloat)h);
+    glUniform1f(GLYPH_PEAK_AT, (GLfloat)(plane_kernels[kernel].norm[dimensions - 2] / pow(h, dimensions)));
+    neighbourhood_run_for(&arrows->neighbourhood, arrows->samples, arrows->most);
+}
+
+void glyph_arrows_make(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame)
+{
+    const GlyphsDef *def = glyphs_def(frame->def);
+    const GlyphVector *vector = &glyph_vectors[def->vector];
+    arrows->most = 0;
+    arrows->coarser = false;
+    if (particles->count == 0 || (vector->of && !vector->of(particles)->buffer))
+        return;
+    if (def->at == GLYPHS_PARTICLES && particles->id.buffer)
+        of_particles(arrows, particles, frame);
+    else if (def->at != GLYPHS_PARTICLES)
+        of_samples(arrows, particles, frame);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+static double round_up(double x)
+{
+    static const double rounds[] = {1, 1.5, 2, 3, 5, 7};
+    const double power = pow(10, floor(log10(x)));
+    for (size_t i = 0; i < sizeof rounds / sizeof *rounds; i++)
+        if (x <= 1.0001 * rounds[i] * power)
+            return rounds[i] * power;
+    return 10 * power;
+}
+
+double glyph_arrows_usual(const GlyphArrows *arrows)
+{
+    uint32_t bins[GLYPH_BINS];
+    uint64_t all = 0, below = 0;
+    int bin = 0;
+    if (arrows->most == 0)
+        return 0;
+    glGetNamedBufferSubData(arrows->command, sizeof(uint32_t[COMMAND_WORDS]), sizeof bins, bins);
+    for (int i = 0; i < GLYPH_BINS; i++)
+        all += bins[i];
+    for (; bin < GLYPH_BINS && 20 * below < 19 * all; bin++)
+        below += bins[bin];
+    return all > 0 ? round_up(exp2((bin - 0.5 * GLYPH_BINS) / GLYPH_OCTAVE_BINS)) : 0;
+}

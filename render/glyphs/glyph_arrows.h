@@ -1,0 +1,35 @@
+/* Which arrows there are: feet and vectors of the present state, on the GPU.
+
+   Needs a current OpenGL 4.5 core context. */
+#ifndef SLOSH_GLYPH_ARROWS_H
+#define SLOSH_GLYPH_ARROWS_H
+
+#include "render/glyphs/glyphs_def.h"
+#include "render/particles/neighbourhood.h"
+#include "render/particles/particle_bind.h"
+
+/* Zero-initialise it. */
+typedef struct GlyphArrows {
+    unsigned particles, samples; /* programs */
+    Neighbourhood neighbourhood;
+    bool sorts;       /* `neighbourhood` is there: means are asked for */
+    unsigned arrows;  /* buffer: foot and vector, two vec4 an arrow */
+    unsigned command; /* buffer: of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins */
+    size_t capacity;  /* arrows that there is room for */
+    size_t most;      /* that the last run may have made; 0: none */
+    double apart;     /* from one to the next, about, m */
+    bool coarser;     /* than was asked for: there would be too many */
+} GlyphArrows;
+
+/* False when a shader does not compile; glyph_arrows_destroy is needed in either case. */
+bool glyph_arrows_create(GlyphArrows *arrows, Error *error);
+void glyph_arrows_destroy(GlyphArrows *arrows);
+
+/* Those of that state. */
+void glyph_arrows_make(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame);
+
+/* Of all magnitudes above 0 nineteen of twenty are at most that, to a bin of an eighth of an octave, rounded
+   up to 1, 1.5, 2, 3, 5 or 7 times a power of ten; 0 where there are none. Waits for the GPU. */
+double glyph_arrows_usual(const GlyphArrows *arrows);
+
+#endif

@@ -1,0 +1,120 @@
+#include "render/glyphs/glyph_arrows.h"
+
+#include "render/frame/colormap.h"
+#include "shaders/glyphs/glyphs_bindings.h"
+#include "shaders/shared/bindings.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct Glyphs {
+    GlyphArrows arrows;
+    unsigned program;
+    ColormapKept colormap;
+    QuadIndices quads;
+    double unit, length; /* an arrow of `length` m stands for `unit`; 0: there are none */
+} Glyphs;
+
+static void destroy(void *state)
+{
+    Glyphs *glyphs = state;
+    glyph_arrows_destroy(&glyphs->arrows);
+    glDeleteProgram(glyphs->program);
+    colormap_drop(&glyphs->colormap);
+    quad_indices_destroy(&glyphs->quads);
+    free(glyphs);
+}
+
+static void *create(const Subject *subject, Error *error)
+{
+    Glyphs *glyphs = calloc(1, sizeof *glyphs);
+    (void)subject;
+    if (!glyphs) {
+        error_set(error, "out of memory for glyphs");
+        return NULL;
+    }
+    quad_indices_create(&glyphs->quads);
+    glyphs->program = program_create_pair("glyphs", "glyphs/glyphs.vert", "glyphs/glyphs.frag", error);
+    if (glyphs->program && glyph_arrows_create(&glyphs->arrows, error))
+        return glyphs;
+    destroy(glyphs);
+    return NULL;
+}
+
+/* An arrow of the usual length is half as long again as the way from one to the next. */
+static void make_scale(Glyphs *glyphs, const GlyphsDef *def)
+{
+    glyphs->length = 1.5 * glyphs->arrows.apart;
+    glyphs->unit = def->scale > 0 ? glyphs->length / def->scale : glyph_arrows_usual(&glyphs->arrows);
+}
+
+static void set_look(const Glyphs *glyphs, const Frame *frame)
+{
+    static const float tip_length = 0.3F, tip_radius = 0.09F, shaft_radius = 0.035F; /* of the usual length */
+    const GlyphsDef *def = glyphs_def(frame->def);
+    const float size = (float)glyphs->length;
+    const double lift = frame->slab > 0 ? frame->slab / 2 + (double)tip_radius * glyphs->length : 0;
+    glUseProgram(glyphs->program);
+    glUniform1f(GLYPH_SCALE_AT, (float)(glyphs->length / glyphs->unit));
+    glUniform3f(GLYPH_SIZE_AT, tip_length * size, tip_radius * size, shaft_radius * size);
+    glUniform1f(GLYPH_LIFT_AT, (float)lift);
+    glUniform1ui(GLYPH_IS_FLUID_AT, frame->def->color_by == SCALAR_FLUID);
+    glUniform4f(GLYPH_COLOR_AT, (float)def->color[0], (float)def->color[1], (float)def->color[2],
+                def->color_by == GLYPHS_PLAIN);
+}
+
+static void draw_arrows(Glyphs *glyphs, const Frame *frame)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    set_look(glyphs, frame);
+    glBindTextureUnit(COLORMAP_UNIT, glyphs->colormap.texture);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, glyphs->arrows.arrows);
+    quad_indices_draw_indirect(&glyphs->quads, glyphs->arrows.most, glyphs->arrows.command, 0);
+}
+
+static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    Glyphs *glyphs = state;
+    GL_STAGE(frame->timer, STAGE_OVERLAY)
+    {
+        glyph_arrows_make(&glyphs->arrows, particles, frame);
+        make_scale(glyphs, glyphs_def(frame->def));
+        colormap_follow(&glyphs->colormap, frame->def->colormap);
+        if (glyphs->arrows.most > 0 && glyphs->unit > 0)
+            draw_arrows(glyphs, frame);
+    }
+}
+
+static void legend(void *state, const Frame *frame, char *line, size_t size)
+{
+    const Glyphs *glyphs = state;
+    const GlyphVector *vector = &glyph_vectors[glyphs_def(frame->def)->vector];
+    if (glyphs->arrows.most == 0 || !(glyphs->unit > 0))
+        snprintf(line, size, "%s: no arrows", vector->name);
+    else
+        snprintf(line, size, "%s: an arrow of %.3g m is %.3g %s%s", vector->name, glyphs->length,
+                 glyphs->unit, vector->unit,
+                 glyphs->arrows.coarser ? "; coarser than view.glyphs.cell, which has too many" : "");
+}
+
+const OverlayKind overlay_glyphs = {
+    .name = "glyphs",
+    .help = "arrows of a vector",
+    .keys = glyphs_keys,
+    .def = &glyphs_usual,
+    .def_size = sizeof glyphs_usual,
+    .attributes = PARTICLE_ID | PARTICLE_VELOCITY,
+    .create = create,
+    .destroy = destroy,
+    .draw = draw,
+    .legend = legend,
+};

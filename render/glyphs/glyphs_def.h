@@ -1,0 +1,39 @@
+/* The overlay glyphs' own settings: their keys, names and defaults. */
+#ifndef SLOSH_GLYPHS_DEF_H
+#define SLOSH_GLYPHS_DEF_H
+
+#include "render/frame/overlay.h"
+
+typedef enum GlyphsAt { GLYPHS_PARTICLES, GLYPHS_GRID, GLYPHS_PLANE } GlyphsAt;
+typedef enum GlyphsColor { GLYPHS_BY_SCALAR, GLYPHS_PLAIN } GlyphsColor;
+
+typedef struct IN_A_ROOM GlyphsDef {
+    bool show;    /* as OverlayShow */
+    int vector;   /* of glyph_vectors */
+    GlyphsAt at;  /* where arrows stand */
+    int stride;   /* at particles: every so many ids */
+    double cell;  /* on a grid or a plane: from one to the next, m; 0: a 24th of the longest side */
+    double scale; /* m in a unit of the vector; 0: by the vectors themselves */
+    double plane_point[3], plane_normal[3]; /* box's frame; the point in m */
+    GlyphsColor color_by;
+    double color[3]; /* linear RGB */
+} GlyphsDef;
+
+/* A vector that arrows may show: a row is all that a new one takes. */
+typedef struct GlyphVector {
+    const char *name, *unit;
+    /* Where the state has it, vec4 a particle; NULL: it is the box's own motion. */
+    const ParticleAttribute *(*of)(const ParticleBuffers *particles);
+} GlyphVector;
+
+extern const GlyphVector glyph_vectors[]; /* ended by a NULL name */
+
+extern const OverlayKind overlay_glyphs;
+
+/* Those of that def; not const, as memchr's result is not. */
+GlyphsDef *glyphs_def(const ViewDef *def);
+
+extern const GlyphsDef glyphs_usual; /* the defaults */
+extern const Key glyphs_keys[];      /* ended by a row without a path */
+
+#endif

@@ -1,0 +1,31 @@
+// The arrows that are drawn, in any order: they are opaque. Wants common/nan.glsl.
+#include "shaders/glyphs/glyphs_bindings.h"
+
+struct Arrow {
+    vec4 foot;   // x y z in the box's frame, m; scalar
+    vec4 vector; // x y z in its unit; 0
+};
+
+// The first five words are those of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins.
+layout(std430, binding = GLYPH_COMMAND_STORAGE) buffer Command { uint command[5 + GLYPH_BINS]; };
+layout(std430, binding = GLYPH_ARROWS_STORAGE) writeonly buffer Arrows { Arrow arrows[]; };
+layout(location = GLYPH_BOX_VELOCITY_AT) uniform vec3 box_velocity; // of the box's origin, in its axes, m/s
+layout(location = GLYPH_BOX_TURN_AT) uniform vec3 box_turn;         // rad/s
+layout(location = GLYPH_IS_BOX_AT) uniform uint is_box;             // 1: the vector is the box's own motion
+
+vec3 motion_of_box(vec3 at)
+{
+    return box_velocity + cross(box_turn, at);
+}
+
+// What is no number, or no arrow at all, is none.
+void append(vec3 at, vec3 vector, float value)
+{
+    float square = dot(vector, vector);
+    if (is_nan(vec4(at, square)) || square > 1e30 || square <= 0.0 || any(greaterThan(abs(at), vec3(1e30))))
+        return;
+    uint place = atomicAdd(command[0], 6u) / 6u;
+    arrows[place] = Arrow(vec4(at, value), vec4(vector, 0.0));
+    float bin = 0.5 * log2(square) * float(GLYPH_OCTAVE_BINS) + float(GLYPH_BINS / 2);
+    atomicAdd(command[5u + uint(clamp(bin, 0.0, float(GLYPH_BINS - 1)))], 1u);
+}
