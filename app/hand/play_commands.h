@@ -33,6 +33,15 @@ typedef enum PlayCommand {
     PLAY_CAMERA_HOME,
     PLAY_BOX_HOME,
     PLAY_NEUTRAL,
+    PLAY_PLANE_BACK, /* from here in the order of ViewStep (render/frame/view.h) */
+    PLAY_PLANE_FORWARD,
+    PLAY_PLANE_LEFT,
+    PLAY_PLANE_RIGHT,
+    PLAY_PLANE_UP,
+    PLAY_PLANE_DOWN,
+    PLAY_PLANE_X,
+    PLAY_PLANE_Y,
+    PLAY_PLANE_Z,
     PLAY_QUIT, /* Escape closes the help first when it is open: the window's affair */
     /* done for as long as it lasts: drags, the wheel, sticks, and the keys of play_held_keys */
     PLAY_ORBIT,

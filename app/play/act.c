@@ -18,6 +18,7 @@ static void follow_scene(Play *play)
 {
     char title[192];
     input_begin(&play->input);
+    grip_begin(&play->grip);
     play->camera.held = false;
     meter_forget(&play->meter);
     play->picture.dirty = true;
@@ -78,6 +79,15 @@ static void quit_or_close(Play *play)
         play->overlay.help = false;
     else
         play->quit = true;
+}
+
+static void step_plane(Play *play, PlayCommand command)
+{
+    ViewSetting settings[VIEW_SETTINGS_MAX];
+    if (!play->model.has_particles)
+        return;
+    const ViewStep step = (ViewStep)(VIEW_STEP_BACK + (command - PLAY_PLANE_BACK));
+    ask_settings(&play->asks, settings, grip_step(&play->model, step, settings));
 }
 
 static void do_command(Play *play, PlayCommand command, bool held)
@@ -157,6 +167,17 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_QUIT:
         quit_or_close(play);
+        break;
+    case PLAY_PLANE_BACK:
+    case PLAY_PLANE_FORWARD:
+    case PLAY_PLANE_LEFT:
+    case PLAY_PLANE_RIGHT:
+    case PLAY_PLANE_UP:
+    case PLAY_PLANE_DOWN:
+    case PLAY_PLANE_X:
+    case PLAY_PLANE_Y:
+    case PLAY_PLANE_Z:
+        step_plane(play, command);
         break;
     default: /* what is done by drags, wheels and sticks: input.c */
         break;

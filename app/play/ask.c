@@ -1,5 +1,7 @@
 #include "app/play/ask.h"
 
+#include <stdio.h>
+
 static bool adds_up(AskKind kind)
 {
     return kind == ASK_TURN || kind == ASK_PAN || kind == ASK_ZOOM || kind == ASK_STEER;
@@ -29,6 +31,15 @@ int ask_lost(AskQueue *queue)
 void ask_command(AskQueue *queue, PlayCommand command)
 {
     ask_add(queue, &(Ask){.kind = ASK_COMMAND, .command = command});
+}
+
+void ask_settings(AskQueue *queue, const ViewSetting *settings, int count)
+{
+    for (int i = 0; i < count; i++) {
+        Ask ask = {.kind = ASK_SETTING};
+        snprintf(ask.text, sizeof ask.text, "%s", settings[i].text);
+        ask_add(queue, &ask);
+    }
 }
 
 bool ask_next(AskQueue *queue, Ask *ask)

@@ -5,6 +5,7 @@
 #define SLOSH_PLAY_ASK_H
 
 #include "app/hand/play_commands.h"
+#include "render/frame/view.h"
 
 #include <stdbool.h>
 
@@ -45,6 +46,7 @@ typedef struct AskQueue {
    a full queue is left out, and counted. */
 void ask_add(AskQueue *queue, const Ask *ask);
 void ask_command(AskQueue *queue, PlayCommand command);
+void ask_settings(AskQueue *queue, const ViewSetting *settings, int count);
 
 /* How many have found the queue full since the last call. */
 int ask_lost(AskQueue *queue);

@@ -2,16 +2,32 @@
 
 #include "render/frame/legend.h"
 
+static const double REACH = 0.8; /* of letters' height */
+
+static Covered covered(const Model *model, const CameraSight *sight)
+{
+    const Scene *scene = &model->open.scene;
+    return (Covered){sight->covered_left,
+                     legend_width_pixels(&scene->view, &scene->world, sight->height) / sight->width};
+}
+
+void camera_sight(const Model *model, const CameraSight *sight, double letters, Sight *out)
+{
+    const ParticleBuffers *particles = &model->particles;
+    *out = (Sight){
+        .box = particles->box, .width = sight->width, .height = sight->height, .reach = REACH * letters};
+    camera_make(&model->open.scene.view, particles->box_size, &particles->box,
+                (double)sight->width / sight->height, covered(model, sight), &out->camera);
+}
+
 Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight *sight)
 {
     const ViewDef *view = &model->open.scene.view;
     const ParticleBuffers *particles = &model->particles;
-    const Covered covered = {sight->covered_left,
-                             legend_width_pixels(view, &model->open.scene.world, sight->height) /
-                                 sight->width};
-    return camera->held && !view->camera_auto ? camera->orbit
-                                              : orbit_begin(view, particles->box_size, &particles->box,
-                                                            (double)sight->width / sight->height, covered);
+    return camera->held && !view->camera_auto
+               ? camera->orbit
+               : orbit_begin(view, particles->box_size, &particles->box, (double)sight->width / sight->height,
+                             covered(model, sight));
 }
 
 void camera_grab(PlayCamera *camera, const Model *model, const CameraSight *sight)

@@ -5,6 +5,7 @@
 
 #include "app/hand/orbit.h"
 #include "app/play/model.h"
+#include "render/frame/handle.h"
 
 /* Zero-initialise it. */
 typedef struct PlayCamera {
@@ -20,6 +21,9 @@ typedef struct CameraSight {
 
 /* The camera as it is now, automatic or in the hand. */
 Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight *sight);
+
+/* How the picture's state is seen; letters are so many pixels high. */
+void camera_sight(const Model *model, const CameraSight *sight, double letters, Sight *out);
 
 /* From now on it is in the hand. */
 void camera_grab(PlayCamera *camera, const Model *model, const CameraSight *sight);

@@ -17,6 +17,13 @@ static void draw_overlay(Play *play)
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);
 }
 
+/* What the mouse may take. */
+static void draw_grip(Play *play)
+{
+    const Sight look = play_look(play);
+    grip_draw(&play->grip, &play->model, &look, play->picture.text);
+}
+
 static void draw_fluid(Play *play)
 {
     Picture *picture = &play->picture;
@@ -25,6 +32,7 @@ static void draw_fluid(Play *play)
     events_follow_hand(play);
     picture_present(picture);
     files_take(&play->files, picture->renderer, picture->width, picture->height, &play->notice);
+    draw_grip(play);
     draw_overlay(play);
 }
 

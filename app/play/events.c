@@ -15,12 +15,26 @@ static bool overlay_has(const Play *play, const WindowEvent *event)
            overlay_takes(&play->overlay, &play->model, event);
 }
 
+/* Handles in the picture are found by the mouse unless something else has it. */
+static bool grip_has(Play *play, const WindowEvent *event, bool free)
+{
+    const int over = play->grip.over;
+    if (!play->model.has_particles || !picture_visible(&play->picture))
+        return false;
+    const Sight sight = play_look(play);
+    const bool has =
+        grip_event(&play->grip, &play->model, &sight, event, free && play->input.drag == PLAY_NONE);
+    play->picture.dirty |= play->grip.over != over;
+    return has;
+}
+
 static void take_event(Play *play, const WindowEvent *event)
 {
     const bool redraw = event->kind == WINDOW_RESIZE || event->kind == WINDOW_EXPOSE;
     overlay_event(&play->overlay, event);
     play->picture.dirty |= redraw || overlay_shown(&play->overlay, &play->model);
-    if (!too_early(play, event->kind) && !overlay_has(play, event))
+    const bool covered = overlay_has(play, event), gripped = grip_has(play, event, !covered);
+    if (!too_early(play, event->kind) && !covered && !gripped)
         input_take(&play->input, event, play->picture.height, &play->asks);
 }
 
@@ -46,6 +60,16 @@ static bool shaken_enough(const Play *play)
     return seconds > 0 && began > 0 && wall_ms() - began >= 1000 * seconds;
 }
 
+/* Where the mouse has taken a handle since the last picture. */
+static void drag_grip(Play *play)
+{
+    ViewSetting settings[VIEW_SETTINGS_MAX];
+    if (!play->grip.taken || !play->model.has_particles || !picture_visible(&play->picture))
+        return;
+    const Sight sight = play_look(play);
+    ask_settings(&play->asks, settings, grip_settings(&play->grip, &play->model, &sight, settings));
+}
+
 void events_take(Play *play)
 {
     WindowEvent event;
@@ -62,6 +86,7 @@ void events_take(Play *play)
         take_event(play, &event);
         act_all(play);
     }
+    drag_grip(play);
     if (play->model.has_particles)
         hands_look(play);
     act_all(play);

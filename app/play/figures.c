@@ -1,5 +1,6 @@
 #include "app/play/figures.h"
 
+#include "app/scene/json.h"
 #include "sim/base/scalar.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
@@ -52,6 +53,25 @@ static void add_view(const ViewDef *view, PlayFigures *figures)
     snprintf(figures->colormap, sizeof figures->colormap, "%s", view->colormap);
 }
 
+/* Keys of the view that is shown, which panel, keys and handles change. */
+static void add_view_settings(const Scene *scene, PlayFigures *figures)
+{
+    char path[NAME_SIZE + 8];
+    const char *key;
+    json_t *value, *all = scene_json(scene), *own = json_object();
+    snprintf(path, sizeof path, "view.%s.", scene->view.kind);
+    json_object_foreach(all, key, value)
+    {
+        if (strncmp(key, path, strlen(path)) == 0)
+            json_object_set(own, key, value);
+    }
+    const size_t size = sizeof figures->view_settings;
+    if (json_dumpb(own, figures->view_settings, size - 1, JSON_COMPACT) >= size)
+        snprintf(figures->view_settings, size, "{}");
+    json_decref(own);
+    json_decref(all);
+}
+
 static void add_meter(const PlayMeter *meter, PlayFigures *figures)
 {
     figures->pictures = meter->pictures;
@@ -92,6 +112,7 @@ void figures_of(const Play *play, PlayFigures *figures)
     snprintf(figures->renderer, sizeof figures->renderer, "%s", window_renderer(play->window));
     add_model(&play->model, figures);
     add_view(&play->model.open.scene.view, figures);
+    add_view_settings(&play->model.open.scene, figures);
     add_meter(&play->meter, figures);
     add_rates(&play->meter, figures);
 }

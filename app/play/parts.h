@@ -6,6 +6,7 @@
 #include "app/play/ask.h"
 #include "app/play/camera.h"
 #include "app/play/files.h"
+#include "app/play/grip.h"
 #include "app/play/input.h"
 #include "app/play/meter.h"
 #include "app/play/model.h"
@@ -22,6 +23,7 @@ typedef struct Play {
     AskQueue asks; /* done between two pictures */
     Model model;
     PlayCamera camera;
+    Grip grip;
     Picture picture;
     Overlay overlay;
     Files files;
@@ -37,6 +39,15 @@ static inline CameraSight play_sight(const Play *play)
 {
     const int width = play->picture.width;
     return (CameraSight){width, play->picture.height, overlay_covered_left(&play->overlay, width)};
+}
+
+/* How the newest state is seen; there must be one. */
+static inline Sight play_look(const Play *play)
+{
+    const CameraSight sight = play_sight(play);
+    Sight look;
+    camera_sight(&play->model, &sight, text_height(play->picture.text), &look);
+    return look;
 }
 
 /* events.c: once a loop, between two pictures: all that has come, each event done before the next one is

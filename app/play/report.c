@@ -43,8 +43,10 @@ static json_t *session_json(const PlayFigures *f)
         json_object_update(json, times), json_object_update(json, state), json_object_update(json, hands),
             json_object_update(json, devices);
     solved_json(json, &f->solved);
-    if (json)
+    if (json) {
         json_object_set_new(json, "limits", limits_json(f->limited));
+        json_object_set_new(json, "view_settings", json_loads(f->view_settings, 0, NULL));
+    }
     const bool whole = json && times && state && hands && devices;
     json_decref(times);
     json_decref(state);

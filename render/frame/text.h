@@ -35,6 +35,9 @@ float text_width(Text *text, float scale, const char *string);
 
 void text_rectangle(Text *text, float x0, float y0, float x1, float y1, float rounding, uint32_t rgba);
 
+void text_line(Text *text, float x0, float y0, float x1, float y1, float thick, uint32_t rgba);
+void text_disc(Text *text, float x, float y, float radius, uint32_t rgba);
+
 /* From `low` at the lower edge to `high` at the upper one. */
 void text_gradient(Text *text, float x0, float y0, float x1, float y1, uint32_t low, uint32_t high);
 

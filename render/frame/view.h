@@ -3,6 +3,7 @@
 #define SLOSH_VIEW_H
 
 #include "render/frame/frame.h"
+#include "render/frame/handle.h"
 #include "sim/base/error.h"
 #include "sim/base/key.h"
 #include "sim/gl/particle_buffers.h"
@@ -25,6 +26,26 @@ typedef struct ViewGrade {
     const char *where, *value;
     bool alike; /* all values ask for the same picture: the reference keeps the scene's */
 } ViewGrade;
+
+/* A live setting, "path=value". */
+typedef struct ViewSetting {
+    char text[96];
+} ViewSetting;
+
+enum { VIEW_SETTINGS_MAX = 4 };
+
+/* What keys do to a view that is of a plane. */
+typedef enum ViewStep {
+    VIEW_STEP_BACK, /* along the normal */
+    VIEW_STEP_FORWARD,
+    VIEW_STEP_LEFT, /* the normal turns in the plane of it and the horizon */
+    VIEW_STEP_RIGHT,
+    VIEW_STEP_UP,
+    VIEW_STEP_DOWN,
+    VIEW_STEP_X, /* across the box's axis */
+    VIEW_STEP_Y,
+    VIEW_STEP_Z
+} ViewStep;
 
 typedef struct ViewKind {
     const char *name, *help;
@@ -59,6 +80,15 @@ typedef struct ViewKind {
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* What of it the mouse may take in the window, at most HANDLES_MAX; how many. NULL: nothing. */
+    int (*handles)(const ViewDef *def, const ParticleBuffers *particles, Handle handles[HANDLES_MAX]);
+    /* The live settings, at most VIEW_SETTINGS_MAX, by which handle `index`, as it was when it was taken,
+       comes to `at`; how many. */
+    int (*drag)(const ViewDef *def, const ParticleBuffers *particles, int index, const Handle *taken,
+                const double at[3], ViewSetting settings[VIEW_SETTINGS_MAX]);
+    /* The same of a key's step; NULL: there is no plane. */
+    int (*step)(const ViewDef *def, const ParticleBuffers *particles, ViewStep step,
+                ViewSetting settings[VIEW_SETTINGS_MAX]);
 } ViewKind;
 
 extern const ViewKind *const view_list[]; /* ended by NULL; the first is the default */

@@ -14,6 +14,7 @@ const Key slice_keys[] = {
     MAPPING("view.slice", "of the view slice: a scalar on a plane through the fluid"),
     VEC3("view.slice.point", L, "m", -1e6, 1e6, AT(point), "that the plane goes through, in the box's frame; two dimensions have one plane only"),
     VEC3("view.slice.normal", L, "", -1e6, 1e6, AT(normal), "across the plane, of any length but 0"),
+    NUMBER("view.slice.play", L, "m/s", -1e3, 1e3, AT(play), "the plane goes along its normal, to and fro through the box, in simulated time; it begins at point"),
     CHOICE_OF("view.slice.show", L | KEY_INDEX, show_names, AT(show), "plane: where it is in the box; flat: filling the picture"),
     CHOICE_OF("view.slice.kernel", L | KEY_INDEX, plane_kernels, AT(kernel), "that sums are made with; its support radius is the solver's"),
     BOOLEAN("view.slice.raw", L, AT(raw), "sum V W s as it is; else over sum V W, the mean that is right near the surface too"),

@@ -13,6 +13,7 @@ typedef enum SliceShow {
 typedef struct IN_A_ROOM SliceDef {
     double point[3],
         normal[3]; /* of the plane, box's frame; the point in m, the normal of any length but 0 */
+    double play;   /* m/s of simulated time along the normal, to and fro through the box */
     SliceShow show;
     int kernel;   /* of plane_kernels; 0: the solver's */
     bool raw;     /* the sum as it is; else over that of the kernels */

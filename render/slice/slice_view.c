@@ -4,6 +4,7 @@
 #include "render/frame/legend.h"
 #include "render/plane/plane_kernel.h"
 #include "render/plane/plane_sum.h"
+#include "render/slice/slice_plane.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/slice/slice_bindings.h"
 #include "sim/gl/program.h"
@@ -57,15 +58,6 @@ static void *create(const Subject *subject, Error *error)
     return NULL;
 }
 
-/* A scene of two dimensions is a plane itself. */
-static bool make_plane(const ParticleBuffers *particles, const Frame *frame, Plane *plane)
-{
-    static const double origin[3], across[3] = {0, 0, 1};
-    const SliceDef *def = slice_def(frame->def);
-    const bool flat = frame->slab > 0;
-    return plane_make(particles->box_size, flat ? origin : def->point, flat ? across : def->normal, plane);
-}
-
 /* What the legend leaves of the picture's width, pixels. */
 static double flat_width(const Frame *frame)
 {
@@ -101,7 +93,7 @@ static bool make_job(const ParticleBuffers *particles, const Frame *frame, Plane
     *job = (PlaneJob){.kernel = plane_kernel_of(def->kernel, frame->world),
                       .dimensions = frame->slab > 0 ? 2 : 3,
                       .scalar = frame->def->color_by};
-    if (!make_plane(particles, frame, &job->plane))
+    if (!slice_plane(def, particles, &job->plane))
         return false;
     if (def->show == SLICE_FLAT)
         flat_samples(&job->plane, frame, job->samples);
@@ -220,4 +212,7 @@ const ViewKind view_slice = {
     .destroy = destroy,
     .show = show,
     .draw = draw,
+    .handles = slice_handles,
+    .drag = slice_drag,
+    .step = slice_step,
 };

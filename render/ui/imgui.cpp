@@ -168,6 +168,16 @@ void text_rectangle(Text *text, float x0, float y0, float x1, float y1, float ro
     text->list->AddRectFilled(ImVec2(x0, y0), ImVec2(x1, y1), imgui_color(rgba), rounding);
 }
 
+void text_line(Text *text, float x0, float y0, float x1, float y1, float thick, uint32_t rgba)
+{
+    text->list->AddLine(ImVec2(x0, y0), ImVec2(x1, y1), imgui_color(rgba), thick);
+}
+
+void text_disc(Text *text, float x, float y, float radius, uint32_t rgba)
+{
+    text->list->AddCircleFilled(ImVec2(x, y), radius, imgui_color(rgba));
+}
+
 void text_gradient(Text *text, float x0, float y0, float x1, float y1, uint32_t low, uint32_t high)
 {
     ImU32 top = imgui_color(high), bottom = imgui_color(low);

@@ -365,6 +365,25 @@ static void a_pixel_has_the_colour_of_its_value(void **state)
     free_scene(&scene);
 }
 
+/* Where play has brought the plane the picture is that of a plane which is there. */
+static void it_plays_in_pictures(void **state)
+{
+    (void)state;
+    uint8_t played[3 * WIDE * HIGH], placed[3 * WIDE * HIGH], begun[3 * WIDE * HIGH];
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    ViewDef def = flat_view();
+    slice_def(&def)->play = 0.25;
+    picture_of(&scene, &def, begun);
+    scene.state.time = 1;
+    picture_of(&scene, &def, played);
+    slice_def(&def)->play = 0;
+    slice_def(&def)->point[2] = 0.25;
+    picture_of(&scene, &def, placed);
+    assert_memory_equal(played, placed, sizeof placed);
+    assert_memory_not_equal(played, begun, sizeof begun);
+    free_scene(&scene);
+}
+
 /* Drops of a hundredth of a pixel. */
 static void small_particles_are_not_lost(void **state)
 {
@@ -442,6 +461,7 @@ int main(void)
         cmocka_unit_test_teardown(a_lattice_keeps_constants_and_slopes, no_gl_errors),
         cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
+        cmocka_unit_test_teardown(it_plays_in_pictures, no_gl_errors),
         cmocka_unit_test_teardown(small_particles_are_not_lost, no_gl_errors),
         cmocka_unit_test_teardown(a_plane_beside_the_fluid_is_empty, no_gl_errors),
         cmocka_unit_test(a_broken_shader_is_said),

@@ -1,0 +1,115 @@
+"""Handles in the window: what a view lets the mouse take, by real events under a virtual display."""
+import math
+
+import numpy
+
+import command
+from test_window import STILL, Window
+
+WIDTH, HEIGHT = 480, 360
+FOV = 40
+EYE, TO = numpy.array([1.5, 1.1, 2.6]), numpy.array([0, 0.4, 0])
+VIEW = f"""\
+view:
+  kind: slice
+  legend: false
+  camera: {{from: {list(EYE)}, to: {list(TO)}, fov: {FOV}}}
+  slice: {{point: [0, 0.3, 0], normal: [0.6, 0, 0.8]}}
+"""
+DIAGONAL = math.sqrt(3)  # of the box
+ARROW, RING = 0.22 * DIAGONAL, 0.09 * DIAGONAL
+
+
+def pixel(place):
+    """Where a place of a box that stands still is in the picture."""
+    back = (EYE - TO) / numpy.linalg.norm(EYE - TO)
+    right = numpy.cross([0, 1, 0], back)
+    right /= numpy.linalg.norm(right)
+    up = numpy.cross(back, right)
+    away = numpy.asarray(place, float) - EYE
+    scale = HEIGHT / 2 / math.tan(math.radians(FOV / 2)) / -(away @ back)
+    return round(WIDTH / 2 + scale * (away @ right)), round(HEIGHT / 2 - scale * (away @ up))
+
+
+class Handles(Window):
+    def setUp(self):
+        super().setUp()
+        self.write('slice.yaml', STILL + VIEW)
+        self.point, self.normal = numpy.array([0, 0.3, 0]), numpy.array([0.6, 0, 0.8])
+
+    def settings(self):
+        """What the view shows in the end; nothing but the view may have changed."""
+        out = self.quit()
+        self.assertEqual(out['box_position'], [0, 0, 0])
+        numpy.testing.assert_allclose(out['camera_from'], EYE)
+        own = {path.split('.')[-1]: setting['value'] for path, setting in out['view_settings'].items()}
+        return numpy.array(own['point']), numpy.array(own['normal']), own
+
+    def way(self, *places):
+        self.drag(1, [pixel(place) for place in places])
+
+    def test_the_dot_shifts_the_plane_along_its_normal(self):
+        self.open('slice.yaml')
+        self.way(*(self.point + by * self.normal for by in (0, 0.05, 0.12, 0.2)))
+        point, normal, _ = self.settings()
+        numpy.testing.assert_allclose(point, self.point + 0.2 * self.normal, atol=0.02)  # a pixel is 6 mm, and the normal looks at the eye
+        numpy.testing.assert_allclose(normal, self.normal)
+
+    def test_the_arrow_turns_the_plane(self):
+        end = self.point + ARROW * self.normal
+        wanted = numpy.array([0.8, 0.36, 0.48])
+        self.open('slice.yaml')
+        self.way(end, self.point + ARROW * (wanted + self.normal) / 2, self.point + ARROW * wanted)
+        point, normal, _ = self.settings()
+        numpy.testing.assert_allclose(point, self.point, atol=1e-9)
+        numpy.testing.assert_allclose(normal, wanted, atol=0.03)
+
+    def test_the_ring_shifts_the_handles_within_the_plane(self):
+        along = numpy.array([0.8, 0, -0.6])
+        grip = self.point + RING * along
+        self.open('slice.yaml')
+        self.way(grip, grip + [0, 0.05, 0], grip + [0, 0.15, 0])
+        point, normal, _ = self.settings()
+        numpy.testing.assert_allclose(point, self.point + [0, 0.15, 0], atol=0.015)
+        self.assertAlmostEqual((point - self.point) @ self.normal, 0, 5)
+
+    def test_beside_the_handles_the_camera_turns(self):
+        self.open('slice.yaml')
+        self.drag(1, [(20, 20), (50, 40), (90, 60)])
+        out = self.quit()
+        self.assertGreater(numpy.linalg.norm(out['camera_from'] - EYE), 0.1)
+        self.assertEqual(out['view_settings']['view.slice.point']['value'], [0, 0.3, 0])
+
+    def test_with_shift_the_box_moves_though_a_handle_is_there(self):
+        self.open('slice.yaml')
+        at = pixel(self.point)
+        self.drag(1, [at, (at[0] + 20, at[1]), (at[0] + 40, at[1])], 'shift')
+        out = self.quit()
+        self.assertNotEqual(out['box_position'], [0, 0, 0])
+        self.assertEqual(out['view_settings']['view.slice.point']['value'], [0, 0.3, 0])
+
+    def test_keys_move_and_turn_the_plane(self):
+        self.open('slice.yaml')
+        self.keys('k', 'k', 'j')
+        self.keys('z', 't')
+        point, normal, _ = self.settings()
+        extent = 0.6 + 0.8  # of the box along the normal
+        numpy.testing.assert_allclose(point, self.point + 0.02 * extent * self.normal, atol=1e-5)
+        numpy.testing.assert_allclose(normal, [-math.sin(math.pi / 36), 0, math.cos(math.pi / 36)], atol=1e-5)
+
+    def test_a_view_without_a_plane_says_so(self):
+        self.open('still.yaml')
+        self.keys('k')
+        self.quit()
+        self.assertIn('spheres shows no plane that could be moved; these do: slice', self.messages)
+
+    def test_a_plane_that_is_taken_stands_still(self):
+        self.open('slice.yaml', '--set', 'view.slice.play=0.05', '--set', 'view.slice.normal=[0, 1, 0]')
+        self.keys('k')
+        point, _, own = self.settings()
+        self.assertEqual(own['play'], 0)
+        self.assertGreater(point[1], 0.32)
+
+
+if __name__ == '__main__':
+    command.main()
