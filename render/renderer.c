@@ -330,8 +330,10 @@ static void draw(Renderer *renderer, GlTimer *timer, ViewCounts *counts)
         {
             solids_draw(renderer->solids, &frame);
         }
-    if (renderer->view)
+    if (renderer->view) {
         view_draw(renderer->view, particles, &frame);
+        frame.note = view_note(renderer->view);
+    }
     if (!frame.flat)
         overlays_draw(&renderer->overlays, particles, &frame);
     GL_STAGE(timer, STAGE_OVERLAY)
@@ -407,4 +409,14 @@ void renderer_range(const Renderer *renderer, double range[2])
 void renderer_set_plain(Renderer *renderer, bool plain)
 {
     renderer->plain = plain;
+}
+
+bool renderer_pick(const Renderer *renderer, const double pixel[2], double at[3])
+{
+    return renderer->view && view_pick(renderer->view, pixel, at);
+}
+
+int renderer_probe(Renderer *renderer, const double (*at)[3], int count, ViewProbe *out)
+{
+    return renderer->view ? view_probe(renderer->view, at, count, out) : 0;
 }

@@ -78,4 +78,10 @@ void renderer_range(const Renderer *renderer, double range[2]);
 /* Colours exactly as the colormap has them, without light and shadow. */
 void renderer_set_plain(Renderer *renderer, bool plain);
 
+/* The place that the last picture shows at a pixel from the left and the top, and what it shows at places:
+   pick and probe of ViewKind (render/frame/view.h). */
+struct ViewProbe;
+bool renderer_pick(const Renderer *renderer, const double pixel[2], double at[3]);
+int renderer_probe(Renderer *renderer, const double (*at)[3], int count, struct ViewProbe *out);
+
 #endif

@@ -42,6 +42,8 @@ typedef enum PlayCommand {
     PLAY_PLANE_X,
     PLAY_PLANE_Y,
     PLAY_PLANE_Z,
+    PLAY_PIN,
+    PLAY_UNPIN,
     PLAY_QUIT, /* Escape closes the help first when it is open: the window's affair */
     /* done for as long as it lasts: drags, the wheel, sticks, and the keys of play_held_keys */
     PLAY_ORBIT,

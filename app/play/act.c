@@ -19,6 +19,7 @@ static void follow_scene(Play *play)
     char title[192];
     input_begin(&play->input);
     grip_begin(&play->grip);
+    readout_begin(&play->readout);
     play->camera.held = false;
     meter_forget(&play->meter);
     play->picture.dirty = true;
@@ -167,6 +168,12 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_QUIT:
         quit_or_close(play);
+        break;
+    case PLAY_PIN:
+        readout_pin(&play->readout, play->picture.renderer, &play->notice);
+        break;
+    case PLAY_UNPIN:
+        play->readout.pin_count = 0;
         break;
     case PLAY_PLANE_BACK:
     case PLAY_PLANE_FORWARD:

@@ -17,11 +17,13 @@ static void draw_overlay(Play *play)
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);
 }
 
-/* What the mouse may take. */
-static void draw_grip(Play *play)
+/* What the mouse may take, and what is under it. */
+static void draw_marks(Play *play)
 {
     const Sight look = play_look(play);
     grip_draw(&play->grip, &play->model, &look, play->picture.text);
+    play->picture.dirty |=
+        readout_draw(&play->readout, play->picture.renderer, look.width, look.height, play->picture.text);
 }
 
 static void draw_fluid(Play *play)
@@ -32,7 +34,7 @@ static void draw_fluid(Play *play)
     events_follow_hand(play);
     picture_present(picture);
     files_take(&play->files, picture->renderer, picture->width, picture->height, &play->notice);
-    draw_grip(play);
+    draw_marks(play);
     draw_overlay(play);
 }
 

@@ -34,6 +34,8 @@ static void take_event(Play *play, const WindowEvent *event)
     overlay_event(&play->overlay, event);
     play->picture.dirty |= redraw || overlay_shown(&play->overlay, &play->model);
     const bool covered = overlay_has(play, event), gripped = grip_has(play, event, !covered);
+    play->picture.dirty |=
+        readout_event(&play->readout, play->picture.renderer, event, !covered && !play->grip.taken);
     if (!too_early(play, event->kind) && !covered && !gripped)
         input_take(&play->input, event, play->picture.height, &play->asks);
 }

@@ -53,6 +53,33 @@ static void add_view(const ViewDef *view, PlayFigures *figures)
     snprintf(figures->colormap, sizeof figures->colormap, "%s", view->colormap);
 }
 
+/* JSON as text; `none` where it does not fit. */
+static void write_json(json_t *json, const char *none, char *text, size_t size)
+{
+    const size_t length = json_dumpb(json, text, size - 1, JSON_COMPACT);
+    if (length == 0 || length >= size)
+        snprintf(text, size, "%s", none);
+    json_decref(json);
+}
+
+static void add_readout(const Readout *readout, PlayFigures *figures)
+{
+    static const char *const words[] = {[VIEW_PROBE_OFF] = "off",
+                                        [VIEW_PROBE_EMPTY] = "empty",
+                                        [VIEW_PROBE_NAN] = "nan",
+                                        [VIEW_PROBE_VALUE] = "value"};
+    json_t *all = json_array();
+    for (int i = 0; i < readout->found_count; i++) {
+        const ViewProbe *probe = &readout->found[i];
+        json_array_append_new(all, json_pack("{s:s, s:s, s:s, s:f, s:[f,f,f], s:b}", "what",
+                                             words[probe->what], "name", probe->name, "unit", probe->unit,
+                                             "value", probe->what == VIEW_PROBE_VALUE ? probe->value : 0,
+                                             "at", probe->at[0], probe->at[1], probe->at[2], "pinned",
+                                             i < readout->found_pins));
+    }
+    write_json(all, "[]", figures->readout, sizeof figures->readout);
+}
+
 /* Keys of the view that is shown, which panel, keys and handles change. */
 static void add_view_settings(const Scene *scene, PlayFigures *figures)
 {
@@ -65,10 +92,7 @@ static void add_view_settings(const Scene *scene, PlayFigures *figures)
         if (strncmp(key, path, strlen(path)) == 0)
             json_object_set(own, key, value);
     }
-    const size_t size = sizeof figures->view_settings;
-    if (json_dumpb(own, figures->view_settings, size - 1, JSON_COMPACT) >= size)
-        snprintf(figures->view_settings, size, "{}");
-    json_decref(own);
+    write_json(own, "{}", figures->view_settings, sizeof figures->view_settings);
     json_decref(all);
 }
 
@@ -113,6 +137,7 @@ void figures_of(const Play *play, PlayFigures *figures)
     add_model(&play->model, figures);
     add_view(&play->model.open.scene.view, figures);
     add_view_settings(&play->model.open.scene, figures);
+    add_readout(&play->readout, figures);
     add_meter(&play->meter, figures);
     add_rates(&play->meter, figures);
 }

@@ -13,6 +13,7 @@
 #include "app/play/notice.h"
 #include "app/play/overlay.h"
 #include "app/play/picture.h"
+#include "app/play/readout.h"
 #include "app/window/shake.h"
 #include "app/window/window.h"
 
@@ -24,6 +25,7 @@ typedef struct Play {
     Model model;
     PlayCamera camera;
     Grip grip;
+    Readout readout;
     Picture picture;
     Overlay overlay;
     Files files;

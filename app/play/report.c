@@ -46,6 +46,7 @@ static json_t *session_json(const PlayFigures *f)
     if (json) {
         json_object_set_new(json, "limits", limits_json(f->limited));
         json_object_set_new(json, "view_settings", json_loads(f->view_settings, 0, NULL));
+        json_object_set_new(json, "readout", json_loads(f->readout, 0, NULL));
     }
     const bool whole = json && times && state && hands && devices;
     json_decref(times);

@@ -16,6 +16,7 @@ typedef struct PlayFigures {
     char scene[1024], renderer[256];
     char view[NAME_SIZE], color_by[NAME_SIZE], colormap[NAME_SIZE], backend[NAME_SIZE], method[NAME_SIZE];
     char view_settings[4096]; /* JSON: the view's own keys as they are now, as of scene_json */
+    char readout[4096];       /* JSON: what the last picture said under the mouse and at pins */
     int width, height, threads, substeps;
     double dt;                          /* of a frame, s; of mode cfl, where each has its own, their mean */
     SolveFigures solved;                /* of the last scene, since its start */

@@ -47,6 +47,7 @@ typedef struct Frame {
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
     bool beyond[2];            /* an automatic range leaves some out, below and above it */
     const char *shown, *shown_unit; /* what that range is of, for the legend */
+    const char *note;               /* a line below the legend, static; NULL: none */
     bool by_fluid;                  /* coloured by the fluids' own colours */
     bool flat;                      /* the picture is no look into space: no edges of the box */
     bool plain;                     /* colours as they are, without light and shadow */

@@ -127,6 +127,8 @@ static void draw_scalar(Text *text, const Frame *frame)
     text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
     draw_bar(text, frame->def->colormap, frame->beyond, x, y0, x + 1.2F * em, y1);
     draw_ticks(text, &layout, frame->range, x + 1.2F * em, y0, y1);
+    if (frame->note)
+        text_draw(text, layout.right, layout.bottom + 0.6F * em, 1, layout.faint, TEXT_RIGHT, frame->note);
 }
 
 static float encode(float linear)

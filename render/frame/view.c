@@ -190,3 +190,18 @@ void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame)
 {
     view->kind->draw(view->state, particles, frame);
 }
+
+const char *view_note(const View *view)
+{
+    return view->kind->note ? view->kind->note(view->state) : NULL;
+}
+
+bool view_pick(const View *view, const double pixel[2], double at[3])
+{
+    return view->kind->pick && view->kind->pick(view->state, pixel, at);
+}
+
+int view_probe(View *view, const double (*at)[3], int count, ViewProbe *out)
+{
+    return view->kind->probe ? view->kind->probe(view->state, at, count, out) : 0;
+}

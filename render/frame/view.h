@@ -47,6 +47,23 @@ typedef enum ViewStep {
     VIEW_STEP_Z
 } ViewStep;
 
+/* What a picture shows at a place of the box. */
+typedef struct ViewProbe {
+    double at[3]; /* m, box's frame */
+    bool seen;    /* the place is before the eye: */
+    double pixel[2];
+    enum {
+        VIEW_PROBE_OFF,   /* the picture does not show that place */
+        VIEW_PROBE_EMPTY, /* there is no fluid */
+        VIEW_PROBE_NAN,   /* what is shown is no number there */
+        VIEW_PROBE_VALUE
+    } what;
+    double value;
+    const char *name, *unit; /* of the value; static */
+} ViewProbe;
+
+enum { VIEW_PROBES_MAX = 16 };
+
 typedef struct ViewKind {
     const char *name, *help;
     const Key *keys;         /* of its own settings, ended by a row without a path; NULL: it has none */
@@ -80,6 +97,8 @@ typedef struct ViewKind {
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* What the legend is to say of the picture that was drawn, static; NULL: nothing. May be NULL. */
+    const char *(*note)(const void *state);
     /* What of it the mouse may take in the window, at most HANDLES_MAX; how many. NULL: nothing. */
     int (*handles)(const ViewDef *def, const ParticleBuffers *particles, Handle handles[HANDLES_MAX]);
     /* The live settings, at most VIEW_SETTINGS_MAX, by which handle `index`, as it was when it was taken,
@@ -89,6 +108,12 @@ typedef struct ViewKind {
     /* The same of a key's step; NULL: there is no plane. */
     int (*step)(const ViewDef *def, const ParticleBuffers *particles, ViewStep step,
                 ViewSetting settings[VIEW_SETTINGS_MAX]);
+    /* The place that the last picture shows at a pixel; false: none whose value is known. NULL: there are
+     * none. */
+    bool (*pick)(const void *state, const double pixel[2], double at[3]);
+    /* What the last picture shows at at most VIEW_PROBES_MAX places; how many are known. Waits for nothing:
+       on a GPU they may be those of the picture before, with the places of then. */
+    int (*probe)(void *state, const double (*at)[3], int count, ViewProbe *out);
 } ViewKind;
 
 extern const ViewKind *const view_list[]; /* ended by NULL; the first is the default */
@@ -124,5 +149,8 @@ bool view_accepts(View *view, const Subject *subject, Error *error);
 void view_show(const View *view, const ViewDef *def, Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
+const char *view_note(const View *view);
+bool view_pick(const View *view, const double pixel[2], double at[3]);
+int view_probe(View *view, const double (*at)[3], int count, ViewProbe *out);
 
 #endif

@@ -92,8 +92,24 @@ static void draw(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *part
     glBlendFunc(GL_ONE, GL_ONE);
     glUseProgram(sum->program);
     particle_bind(sum->program, particles, job->scalar);
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, sum->query);
     quad_indices_draw(&sum->quads, particles->count);
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
     glDisable(GL_BLEND);
+}
+
+/* What the query of the run before has found, where that is known without waiting. */
+static void take_query(PlaneSum *sum)
+{
+    GLuint known = 0, any = 0;
+    if (!sum->query) {
+        glGenQueries(1, &sum->query);
+        return;
+    }
+    glGetQueryObjectuiv(sum->query, GL_QUERY_RESULT_AVAILABLE, &known);
+    if (known)
+        glGetQueryObjectuiv(sum->query, GL_QUERY_RESULT, &any);
+    sum->none = known && !any;
 }
 
 /* The CPU's sums become the texture. */
@@ -101,6 +117,7 @@ static bool add_rows(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *
 {
     if (!plane_rows_run(&sum->rows, job, particles, error))
         return false;
+    sum->none = sum->rows.count == 0;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTextureSubImage2D(sum->sums, 0, 0, 0, job->samples[0], job->samples[1], GL_RGBA, GL_FLOAT,
                         sum->rows.out);
@@ -121,11 +138,15 @@ bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *pa
     if (!plane_sum_prepare(sum, job->kernel, error) || !follow_samples(sum, job->samples, error))
         return false;
     fill(sum, job); /* which what shows the sums reads too */
-    if (some && by_rows(job))
+    sum->by_rows = some && by_rows(job);
+    if (sum->by_rows)
         return add_rows(sum, job, particles, error);
     glClearNamedFramebufferfv(sum->framebuffer, GL_COLOR, 0, none);
-    if (some)
-        draw(sum, job, particles);
+    sum->none = !some;
+    if (!some)
+        return true;
+    take_query(sum);
+    draw(sum, job, particles);
     return true;
 }
 
@@ -137,6 +158,7 @@ void plane_sum_destroy(PlaneSum *sum)
     glDeleteBuffers(1, &sum->uniforms);
     quad_indices_destroy(&sum->quads);
     plane_rows_free(&sum->rows);
+    glDeleteQueries(1, &sum->query);
     *sum = (PlaneSum){0};
 }
 

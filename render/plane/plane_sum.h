@@ -23,6 +23,9 @@ typedef struct PlaneSum {
     int samples[2]; /* of the texture */
     QuadIndices quads;
     PlaneRows rows;
+    bool by_rows;   /* the last run: rows.out has its sums too */
+    bool none;      /* no particle reaches the rectangle: of the last run, on a GPU of the one before */
+    unsigned query; /* of that, on a GPU */
 } PlaneSum;
 
 /* Makes its shaders for a kernel of plane_kernels; false when one does not compile: the last ones stay. */

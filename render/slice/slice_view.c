@@ -5,6 +5,7 @@
 #include "render/plane/plane_kernel.h"
 #include "render/plane/plane_sum.h"
 #include "render/slice/slice_plane.h"
+#include "render/slice/slice_probe.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/slice/slice_bindings.h"
 #include "sim/gl/program.h"
@@ -18,12 +19,14 @@ typedef struct SliceView {
     PlaneSum sum;
     unsigned program, vertex_array, colormap;
     bool has_scalar; /* that is shown */
+    SliceProbe probe;
 } SliceView;
 
 static void destroy(void *state)
 {
     SliceView *view = state;
     plane_sum_destroy(&view->sum);
+    plane_probe_destroy(&view->probe.probe);
     glDeleteProgram(view->program);
     glDeleteVertexArrays(1, &view->vertex_array);
     glDeleteTextures(1, &view->colormap);
@@ -119,12 +122,22 @@ static void clear_flat(const Frame *frame)
     glClearNamedFramebufferfv(frame->target->framebuffer, GL_DEPTH, 0, (float[1]){0});
 }
 
+/* Where a flat slice is in the picture: x, y from below, width, height. */
+static void flat_part(const PlaneJob *job, const Frame *frame, int part[4])
+{
+    part[0] = ((int)flat_width(frame) - job->samples[0]) / 2;
+    part[1] = (frame->height - job->samples[1]) / 2;
+    part[2] = job->samples[0];
+    part[3] = job->samples[1];
+}
+
 /* Its samples are pixels. */
 static void begin_flat(const SliceView *view, const PlaneJob *job, const Frame *frame)
 {
+    int part[4];
+    flat_part(job, frame, part);
     glDisable(GL_DEPTH_TEST);
-    glViewport(((int)flat_width(frame) - job->samples[0]) / 2, (frame->height - job->samples[1]) / 2,
-               job->samples[0], job->samples[1]);
+    glViewport(part[0], part[1], part[2], part[3]);
     set_filter(view->sum.sums, GL_NEAREST);
 }
 
@@ -166,6 +179,40 @@ static void show_sums(const SliceView *view, const PlaneJob *job, const Frame *f
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
+/* What probes of the picture need to know. */
+static void remember(SliceView *view, const PlaneJob *job, const ParticleBuffers *particles,
+                     const Frame *frame)
+{
+    const SliceDef *def = slice_def(frame->def);
+    SliceProbe *probe = &view->probe;
+    probe->job = *job;
+    probe->sight = (Sight){frame->camera, particles->box, frame->width, frame->height, 0};
+    probe->flat = def->show == SLICE_FLAT;
+    probe->shown = what_is_shown(view, frame);
+    probe->cut = def->cut;
+    probe->name = frame->shown;
+    probe->unit = frame->shown_unit;
+    flat_part(job, frame, probe->part);
+}
+
+static const char *note(const void *state)
+{
+    const SliceView *view = state;
+    return !view->probe.drawn ? "the plane misses the box" : view->sum.none ? "no fluid on the plane" : NULL;
+}
+
+static bool pick(const void *state, const double pixel[2], double at[3])
+{
+    const SliceView *view = state;
+    return slice_probe_pick(&view->probe, pixel, at);
+}
+
+static int probe(void *state, const double (*at)[3], int count, ViewProbe *out)
+{
+    SliceView *view = state;
+    return slice_probe_read(&view->probe, &view->sum, at, count, out);
+}
+
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SliceView *view = state;
@@ -176,6 +223,9 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
         frame->def->color_by != SCALAR_FLUID && particles->scalar[frame->def->color_by].buffer != 0;
     GL_STAGE(frame->timer, STAGE_BLEND)
     made = make_job(particles, frame, &job) && plane_sum_run(&view->sum, &job, particles, &error);
+    view->probe.drawn = made;
+    if (made)
+        remember(view, &job, particles, frame);
     GL_STAGE(frame->timer, STAGE_SHADE)
     {
         if (slice_def(frame->def)->show == SLICE_FLAT)
@@ -215,4 +265,7 @@ const ViewKind view_slice = {
     .handles = slice_handles,
     .drag = slice_drag,
     .step = slice_step,
+    .note = note,
+    .pick = pick,
+    .probe = probe,
 };

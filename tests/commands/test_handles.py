@@ -103,6 +103,42 @@ class Handles(Window):
         self.quit()
         self.assertIn('spheres shows no plane that could be moved; these do: slice', self.messages)
 
+    def test_the_value_under_the_mouse_and_at_pins(self):
+        first, second = [0.08, 0.2, -0.06], [-0.16, 0.15, 0.12]  # on the plane
+        self.open('slice.yaml', '--set', 'view.color_by=density', '--set', 'view.slice.normal=[0.6, 0, 0.8]')
+        self.keys('space')  # what is still is drawn anew for the mouse
+        for place in (first, second):
+            self.at(*pixel(place))
+            self.keys('m')
+        self.at(*pixel([0.2, 0.9, -0.15]))
+        self.shown(0.3)
+        out = self.quit()
+        self.assertEqual([probe['pinned'] for probe in out['readout']], [True, True, False])
+        self.assertEqual([probe['what'] for probe in out['readout']], ['value', 'value', 'empty'])
+        for probe, place in zip(out['readout'], (first, second, [0.2, 0.9, -0.15])):
+            self.assertEqual((probe['name'], probe['unit']), ('density', 'kg/m3'))
+            numpy.testing.assert_allclose(probe['at'], place, atol=0.01)
+        for probe in out['readout'][:2]:
+            self.assertAlmostEqual(probe['value'], 1000, delta=50)
+
+    def test_pins_are_of_the_plane_and_are_taken_away(self):
+        self.open('slice.yaml')
+        self.at(*pixel([0.08, 0.2, -0.06]))
+        self.keys('m', 'k')
+        self.at(5, 5)
+        self.keys('m')  # there is nothing
+        self.shown(0.2)
+        self.keys('space')
+        out = self.quit()
+        self.assertEqual([(probe['pinned'], probe['what']) for probe in out['readout']], [(True, 'off')])
+        self.assertIn('there is no value under the mouse', self.messages)
+        self.open('slice.yaml')
+        self.at(*pixel([0.08, 0.2, -0.06]))
+        self.keys('m', 'shift+m')
+        self.at(5, 5)
+        self.shown(0.2)
+        self.assertEqual(self.quit()['readout'], [])
+
     def test_a_plane_that_is_taken_stands_still(self):
         self.open('slice.yaml', '--set', 'view.slice.play=0.05', '--set', 'view.slice.normal=[0, 1, 0]')
         self.keys('k')

@@ -3,7 +3,9 @@
 #include "tests/render/fixture.h"
 
 #include "render/frame/colormap.h"
+#include "render/frame/view.h"
 #include "render/plane/plane_kernel.h"
+#include "render/plane/plane_probe.h"
 #include "render/plane/plane_sum.h"
 #include "render/slice/slice_def.h"
 #include "sim/gl/program.h"
@@ -384,6 +386,140 @@ static void it_plays_in_pictures(void **state)
     free_scene(&scene);
 }
 
+/* ---- probes ---- */
+
+/* What probes of a picture say is what all particles sum up to there. */
+static void check_probes(const ViewDef *def, SliceScene *scene)
+{
+    Error error = {0};
+    ParticleBuffers buffers;
+    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    Renderer *renderer = renderer_create(def, NULL, WIDE, HIGH, &error);
+    if (!renderer)
+        fail_msg("%s", error.message);
+    renderer_draw(renderer, &buffers, NULL);
+    int values = 0;
+    for (int i = 0; i < 300; i++) {
+        const double pixel[2] = {3.2 + 1.5 * (i % 60), 25.4 + 6.3 * (i / 60)};
+        double at[2][3] = {{0}}, place[3], sums[3];
+        ViewProbe found[2];
+        if (!renderer_pick(renderer, pixel, at[0]))
+            continue;
+        for (int k = 0; k < 3; k++)
+            at[1][k] = at[0][k] + scene->job.plane.normal[k] * 0.1; /* off the plane */
+        assert_int_equal(renderer_probe(renderer, (const double(*)[3])at, 2, found), 2);
+        assert_true(found[0].seen &&
+                    hypot(found[0].pixel[0] - pixel[0], found[0].pixel[1] - pixel[1]) < 0.01);
+        assert_int_equal(found[1].what, VIEW_PROBE_OFF);
+        for (int k = 0; k < 3; k++) /* the middle of its sample */
+            place[k] = found[0].at[k] - scene->job.plane.corner[k];
+        double share[2] = {0, 0};
+        for (int k = 0; k < 3; k++) {
+            share[0] += place[k] * scene->job.plane.along[k] / scene->job.plane.size[0];
+            share[1] += place[k] * scene->job.plane.up[k] / scene->job.plane.size[1];
+        }
+        plane_sample(&scene->job.plane, scene->job.samples, (int)(share[0] * scene->job.samples[0]),
+                     (int)(share[1] * scene->job.samples[1]), place);
+        brute_sums(scene, place, sums);
+        if (fabs(sums[1] - slice_def(def)->cut) < 1e-4)
+            continue;
+        assert_int_equal(found[0].what, sums[1] < slice_def(def)->cut ? VIEW_PROBE_EMPTY : VIEW_PROBE_VALUE);
+        if (found[0].what == VIEW_PROBE_EMPTY)
+            continue;
+        if (!(fabs(found[0].value - sums[0] / sums[1]) < 1e-5 * 3))
+            fail_msg("%g, wanted %g", found[0].value, sums[0] / sums[1]);
+        assert_string_equal(found[0].name, "speed");
+        assert_string_equal(found[0].unit, "m/s");
+        values++;
+    }
+    assert_true(values > 10);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+}
+
+static void probes_say_what_all_particles_sum_up_to(void **state)
+{
+    (void)state;
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    ViewDef def = flat_view();
+    scene.job.samples[0] = WIDE, scene.job.samples[1] = WIDE / 2;
+    check_probes(&def, &scene);
+    memcpy(slice_def(&def)->normal, (double[3]){0.4, 0.3, 1}, sizeof(double[3]));
+    memcpy(slice_def(&def)->point, (double[3]){0.1, 0.3, 0}, sizeof(double[3]));
+    plane_make(scene.state.box_size, slice_def(&def)->point, slice_def(&def)->normal, &scene.job.plane);
+    slice_def(&def)->show = SLICE_PLANE;
+    slice_def(&def)->samples = 200;
+    const double scale = 200 / fmax(scene.job.plane.size[0], scene.job.plane.size[1]);
+    for (int k = 0; k < 2; k++)
+        scene.job.samples[k] = (int)ceil(scene.job.plane.size[k] * scale - 1e-6);
+    check_probes(&def, &scene);
+    free_scene(&scene);
+}
+
+/* On a GPU what is asked for is there when the GPU has done it; nothing waits. */
+static void samples_of_the_gpu_come_later(void **state)
+{
+    (void)state;
+    Error error = {0};
+    PlaneSum sum = {0};
+    PlaneProbe probe = {0};
+    ParticleBuffers buffers;
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0.1, 0}, (double[3]){0, 0.1, 1});
+    Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
+    const PlaneProbes probes = {.count = 3, .sample = {{30, 8}, {-1, 4}, {63, 46}}, .at = {{1}, {2}, {3}}};
+    float all[4 * SAMPLES * SAMPLES];
+    scene.job.by = PLANE_QUADS;
+    assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
+    plane_probe_ask(&probe, &sum, &probes);
+    glFinish();
+    plane_probe_ask(&probe, &sum, &(PlaneProbes){.count = 0});
+    assert_int_equal(probe.probes.count, 3);
+    assert_true(probe.probes.at[2][0] == 3);
+    plane_sum_read(&sum, all);
+    assert_memory_equal(probe.sums[0], &all[4 * (8 * SAMPLES + 30)], sizeof(float[4]));
+    assert_memory_equal(probe.sums[2], &all[4 * (46 * SAMPLES + 63)], sizeof(float[4]));
+    assert_true(probe.sums[1][1] == 0 && probe.sums[0][1] > 0);
+    plane_probe_destroy(&probe);
+    plane_sum_destroy(&sum);
+    upload_destroy(upload);
+    free_scene(&scene);
+}
+
+/* The legend says that there is nothing to be seen; so it does of a plane beside the box. */
+static void a_plane_without_fluid_is_said(void **state)
+{
+    (void)state;
+    static const struct {
+        double height;
+        bool by_quads, none;
+    } cases[] = {{0.3, false, false}, {0.99, false, true}, {0.3, true, false}, {0.99, true, true}};
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, (double[3]){0, 1, 0});
+    Error error = {0};
+    ParticleBuffers buffers;
+    size_t kept = 0;
+    for (size_t i = 0; i < scene.particles->count; i++)
+        if (scene.particles->position[4 * i + 1] < 0.5F) {
+            memcpy(&scene.particles->position[4 * kept], &scene.particles->position[4 * i], sizeof(float[4]));
+            kept++;
+        }
+    scene.state.count = scene.particles->count = kept;
+    Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
+    for (int i = 0; i < 4; i++) {
+        PlaneSum sum = {0};
+        scene.job.by = cases[i].by_quads ? PLANE_QUADS : PLANE_ROWS;
+        plane_make(scene.state.box_size, (double[3]){0, cases[i].height, 0}, (double[3]){0, 1, 0},
+                   &scene.job.plane);
+        for (int run = 0; run < 2; run++) {
+            assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
+            glFinish();
+        }
+        assert_int_equal(sum.none, cases[i].none);
+        plane_sum_destroy(&sum);
+    }
+    upload_destroy(upload);
+    free_scene(&scene);
+}
+
 /* Drops of a hundredth of a pixel. */
 static void small_particles_are_not_lost(void **state)
 {
@@ -462,6 +598,9 @@ int main(void)
         cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
         cmocka_unit_test_teardown(it_plays_in_pictures, no_gl_errors),
+        cmocka_unit_test_teardown(probes_say_what_all_particles_sum_up_to, no_gl_errors),
+        cmocka_unit_test_teardown(samples_of_the_gpu_come_later, no_gl_errors),
+        cmocka_unit_test_teardown(a_plane_without_fluid_is_said, no_gl_errors),
         cmocka_unit_test_teardown(small_particles_are_not_lost, no_gl_errors),
         cmocka_unit_test_teardown(a_plane_beside_the_fluid_is_empty, no_gl_errors),
         cmocka_unit_test(a_broken_shader_is_said),
