@@ -17,11 +17,15 @@ static const double LEAVE_MS = 200, SAVE_MS = 5000;
 static void follow_travels(Model *model)
 {
     const SimulatorPast *past = &model->status.past;
+    WorldDef def;
     if (past->travels == model->travels)
         return;
     model->travels = past->travels;
-    simulator_settings(model->open.simulator, &model->open.scene.world);
-    play_scene_advise(&model->open, NULL, NULL);
+    simulator_settings(model->open.simulator, &def);
+    if (memcmp(&def, &model->open.scene.world, sizeof def) != 0) {
+        model->open.scene.world = def;
+        play_scene_advise(&model->open, NULL, NULL);
+    }
     hand_post_follow(model->post, &past->target);
 }
 

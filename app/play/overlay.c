@@ -33,14 +33,15 @@ void overlay_event(Overlay *overlay, const WindowEvent *event)
         memcpy(overlay->mouse, (float[]){(float)event->x, (float)event->y}, sizeof overlay->mouse);
 }
 
-/* While paused, where the mouse is near the lower edge, or always. */
+/* While paused or in the past, where the mouse is near the lower edge, or always. */
 static bool shows_timeline(const Overlay *overlay, const Model *model)
 {
     static const float NEAR = 1.5F; /* of its height */
     const float up = (float)overlay->height - overlay->mouse[1];
     const bool near = up >= 0 && up < NEAR * timeline_height(overlay->ui);
-    return model->has_particles && model->status.past.kept &&
-           (overlay->timeline || model->paused || overlay->scrubs || near);
+    const SimulatorPast *past = &model->status.past;
+    return model->has_particles && past->kept &&
+           (overlay->timeline || model->paused || past->behind || overlay->scrubs || near);
 }
 
 bool overlay_shown(const Overlay *overlay, const Model *model)

@@ -299,6 +299,85 @@ class Keys(Window):
         self.assertEqual((out['fullscreen'], out['size']), (True, [800, 600]))
 
 
+class Past(Window):
+    BAR = 331  # the middle of the time line's, pixels from the top
+
+    def play_and_pause(self):
+        """A second, in which the box is moved."""
+        self.open('still.yaml', '--record', 'a.rec')
+        self.xdo('keydown', 'Left')
+        self.shown(0.3)
+        self.xdo('keyup', 'Left')
+        self.shown(0.7)
+        self.keys('space')
+
+    def replayed(self):
+        code, said = self.slosh('replay', 'a.rec', '--json', 'replay.json')
+        self.assertEqual(code, 0, said)
+        return json.loads(self.read('replay.json'))
+
+    def test_steps_back(self):
+        """The state is that of then; what is saved is all that was done."""
+        self.play_and_pause()
+        self.keys('comma', 'comma', 'comma', 'period')
+        self.shown(0.3)
+        out = self.quit()
+        replayed = self.replayed()
+        self.assertEqual(out['paused'], True)
+        self.assertEqual(out['steps'], replayed['steps'] - 10)
+        self.assertAlmostEqual(out['time'], replayed['simulated_seconds'] - 0.02)
+        self.assertNotIn('cut off', self.messages)
+
+    def test_on_again(self):
+        """From half a second back time runs on as it did, and beyond."""
+        self.play_and_pause()
+        self.keys('shift+comma', 'space')
+        self.shown(2)
+        self.keys('space', 'shift+comma', 'shift+comma', 'End')
+        self.shown(0.3)
+        out = self.quit()
+        self.assertEqual(out['steps'], self.replayed()['steps'])
+        self.assertNotIn('cut off', self.messages)
+
+    def test_the_line_is_dragged(self):
+        """Left of its begin is the scene's start; the camera stays."""
+        self.play_and_pause()
+        self.drag(1, [(300, self.BAR), (250, self.BAR), (20, self.BAR - 40)])
+        self.shown(0.3)
+        out = self.quit()
+        self.assertEqual((out['steps'], out['paused'], out['camera_auto']), (0, True, True))
+        self.assertGreater(self.replayed()['steps'], 100)
+
+    def test_the_line_comes_to_the_mouse(self):
+        """Near the lower edge while time runs; a press on it pauses."""
+        self.open('still.yaml')
+        self.drag(1, [(300, self.BAR), (300, self.BAR)])  # not there yet: the mouse brings it
+        self.keys('t')
+        self.drag(1, [(300, 100), (320, 100)])  # above it: the camera's
+        out = self.quit()
+        self.assertEqual((out['paused'], out['camera_auto']), (True, False))
+
+    def test_what_is_done_in_the_past_cuts_the_rest_off(self):
+        self.play_and_pause()
+        self.drag(1, [(300, self.BAR), (250, self.BAR)])
+        self.xdo('keydown', 'Up')
+        self.shown(0.2)
+        self.keys('space')
+        self.shown(0.3)
+        self.xdo('keyup', 'Up')
+        self.keys('space')
+        self.quit()
+        self.assertEqual(self.messages.count('cut off'), 1, self.messages)
+        self.assertGreater(self.replayed()['commands'], 5)
+
+    def test_without_memory(self):
+        self.open('still.yaml', '--past', '0')
+        self.keys('space', 'comma', 'comma')
+        self.shown(0.3)
+        self.quit()
+        self.assertEqual(self.messages.count('--past'), 1, self.messages)
+
+
 class Mouse(Window):
     def test_camera(self):
         self.open('still.yaml', '--record', 'a.recording')

@@ -618,6 +618,40 @@ static void soon_from_the_bytes_on(void **state)
     assert_true(ms[PUSHES / 2] < 2);
 }
 
+/* The simulation is at another time: the box is where it was wanted then, which is no news, and goes on from
+   there; a device that turns it stays in the hand as it is. */
+static void at_another_time_it_goes_on_from_there(void **state)
+{
+    (void)state;
+    Room room = room_open();
+    room_begin(&room);
+    room.own.move_drag[0] = 0.1;
+    look(&room);
+    room.own.move_drag[0] = 0;
+    assert_true(room.sent.count == 1 && room.sent.last.position[0] == 0.1);
+    hand_post_follow(room.post, &(BoxTarget){{0.5, 0.2, 0}, {0, 0, 0, 1}});
+    look(&room);
+    look(&room);
+    assert_int_equal(room.sent.count, 1);
+    room.own.move_drag[1] = 0.1;
+    look(&room);
+    room.own.move_drag[1] = 0;
+    assert_int_equal(room.sent.count, 2);
+    check_vector(room.sent.last.position, 0.5, 0.3, 0, 1e-12, "position");
+
+    tell(&room, DEVICE_PLUGGED, PAD, "");
+    turn_pad(&room, 20);
+    check_tilt(&room, 20);
+    const uint64_t sent = room.sent.count;
+    hand_post_follow(room.post, &(BoxTarget){{0, 0, 0}, {0, 0, 0, 1}});
+    look(&room);
+    assert_int_equal(room.sent.count, sent); /* held as it is, the box is as it was */
+    turn_pad(&room, 10);
+    assert_true(room.sent.count > sent);
+    check_tilt(&room, 10);
+    room_close(&room);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -639,6 +673,7 @@ int main(void)
         cmocka_unit_test(a_drag_counts_once),
         cmocka_unit_test(a_new_scene_knows_no_older_commands),
         cmocka_unit_test(closed_it_sends_nothing),
+        cmocka_unit_test(at_another_time_it_goes_on_from_there),
         cmocka_unit_test(soon_though_the_window_draws),
         cmocka_unit_test(soon_from_the_bytes_on),
     };

@@ -129,6 +129,12 @@ static inline void rig_target(Rig *rig, double x)
     assert_true(simulator_send(rig->simulator, &target) > 0);
 }
 
+static inline void rig_carry(Rig *rig, double x)
+{
+    const SimCommand carry = {.kind = SIM_CARRY, .target = {{x, 0, 0}, {0, 0, 0, 1}}};
+    assert_true(simulator_send(rig->simulator, &carry) > 0);
+}
+
 /* Of the present state, while nothing is due. */
 static inline uint64_t rig_hash(Rig *rig)
 {

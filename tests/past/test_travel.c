@@ -66,6 +66,8 @@ static void run_straight(Rig *rig, Straight *run)
     for (int i = 1; i <= FRAMES; i++) {
         if (i % 5 == 0)
             rig_target(rig, 0.1 * roll(5));
+        if (i % 11 == 0)
+            rig_carry(rig, 0.05 * roll(5));
         if (i % 7 == 0)
             rig_set(rig, roll(2) ? "gravity=[0, -5, 0]" : "gravity=[1, -9, 0]");
         rig_step(rig);
