@@ -1,5 +1,6 @@
 #include "app/session/past.h"
 
+#include "sim/base/stage.h"
 #include "sim/world/method.h"
 #include "sim/world/world_state.h"
 
@@ -25,6 +26,8 @@ struct Past {
     size_t bytes_most, bytes; /* of states, settings and places */
     bool dropped;
     double work_ms;  /* of the frames since the last state */
+    int copies;      /* of states; */
+    double byte_ms;  /* the fastest of them took so long a byte */
     uint64_t before; /* places that were forgotten */
     size_t place_count, place_room;
     PastPlace *places;
@@ -228,10 +231,28 @@ static Settings *settings_of(Past *past, const Scene *scene)
     return settings;
 }
 
+/* A fiftieth of the frames' time goes into copies at most: those of a million particles take as long as some
+   frames on a GPU. What is else going on makes the first ones slow. */
+static bool is_time(const Past *past, size_t bytes)
+{
+    static const double FRAMES = 50;
+    static const int ENOUGH = 3;
+    const double copy = past->copies < ENOUGH ? 0 : past->byte_ms * (double)bytes;
+    return past->work_ms >= fmax(PAST_GAP_MS, FRAMES * copy);
+}
+
+static void count_copy(Past *past, double ms, size_t bytes)
+{
+    const double byte_ms = ms / (double)bytes;
+    past->byte_ms = past->copies == 0 ? byte_ms : fmin(past->byte_ms, byte_ms);
+    past->copies++;
+}
+
 /* Fills `kept` with the present state. */
 static bool fill(Past *past, Kept *kept, World *world, const Scene *scene, size_t next)
 {
     Error none;
+    const double began = wall_ms();
     settings_release(past, kept->settings);
     kept->settings = NULL;
     if (!grow((void **)&past->kept, past->count, &past->room, sizeof(Kept *)) ||
@@ -242,6 +263,7 @@ static bool fill(Past *past, Kept *kept, World *world, const Scene *scene, size_
     kept->bytes = bytes_of(&kept->state, &scene->world);
     kept->work_ms = past->work_ms;
     past->bytes += kept->bytes;
+    count_copy(past, wall_ms() - began, kept->bytes);
     return true;
 }
 
@@ -249,12 +271,12 @@ static bool is_due(const Past *past, bool now)
 {
     if (past->count > 0 && past->kept[past->count - 1]->place == past_last(past))
         return false;
-    return now || past->count == 0 || past->work_ms >= PAST_GAP_MS;
+    return now || past->count == 0 || is_time(past, past->kept[past->count - 1]->bytes);
 }
 
 void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool now)
 {
-    if (!is_due(past, now))
+    if (!is_due(past, now) || !world_sound(world)) /* waits, so that the copy's time is its own */
         return;
     const size_t as_before = past->count > 0 ? past->kept[past->count - 1]->bytes : 0;
     Kept *kept = make_room(past, as_before + sizeof(Settings));

@@ -4,8 +4,8 @@
    place step and time are known, of some the whole state (world_save: all that the next step reads), with the
    scene's settings and the number of commands that had been obeyed. A place between two states is reached by
    loading the one before and simulating on with the recorded commands, which gives the same bits; so a jump
-   takes at most as long as the frames from one state to the next did, and a state is kept every PAST_GAP_MS
-   of that.
+   takes at most as long as the frames from one state to the next did. A state is kept every PAST_GAP_MS of
+   that, or less often where copies of states would take more than a fiftieth of the time.
 
    When the memory is full, first every other state goes where a jump stays short, the oldest such one first;
    else the oldest state, and with it all places before the next one: where less than PAST_WISH_S is left,
