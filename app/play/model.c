@@ -12,6 +12,12 @@
 
 static const double LEAVE_MS = 200, SAVE_MS = 5000;
 
+/* Padding that differs costs advice that is not news. */
+static bool same_bytes(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
 /* The simulation is at another time, or did again what was done there: the panel shows the settings of then,
    and the hand holds the box where it was, from where it goes on. */
 static void follow_travels(Model *model)
@@ -22,7 +28,7 @@ static void follow_travels(Model *model)
         return;
     model->travels = past->travels;
     simulator_settings(model->open.simulator, &def);
-    if (memcmp(&def, &model->open.scene.world, sizeof def) != 0) {
+    if (!same_bytes(&def, &model->open.scene.world, sizeof def)) {
         model->open.scene.world = def;
         play_scene_advise(&model->open, NULL, NULL);
     }

@@ -215,10 +215,16 @@ static Kept *make_room(Past *past, size_t more)
     return again;
 }
 
+/* Padding that differs costs a copy. */
+static bool same_bytes(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
 static Settings *settings_of(Past *past, const Scene *scene)
 {
     Settings *last = past->count > 0 ? past->kept[past->count - 1]->settings : NULL;
-    if (last && memcmp(&last->scene, scene, sizeof *scene) == 0) {
+    if (last && same_bytes(&last->scene, scene, sizeof *scene)) {
         last->users++;
         return last;
     }

@@ -45,7 +45,9 @@ static void the_bar_gives_the_time_under_the_mouse(void **state)
     (void)state;
     Line line;
     Desk *desk = open_line(&line, 800, 13);
-    const Seen bar = *desk_find(desk, "time");
+    Seen bar = {.needed = 0};
+    if (desk_find(desk, "time"))
+        bar = *desk_find(desk, "time");
     const float y = (bar.rect[1] + bar.rect[3]) / 2, wide = bar.rect[2] - bar.rect[0];
     assert_true(wide > 300);
     desk_move(desk, bar.rect[0] + 0.25F * wide, y); /* whole pixels count */

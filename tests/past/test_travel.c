@@ -479,7 +479,10 @@ static void time_it(const char *scene)
     double ms[TIMES];
     size_t size;
     char *file = scene_file_read(scene, &size, &error);
-    must(file != NULL);
+    if (!file) {
+        fprintf(stderr, "%s\n", error.message);
+        return;
+    }
     rig_open(&rig, file, (size_t)256 * MIB);
     rig_ready(&rig);
     simulator_set_realtime(rig.simulator, false);

@@ -91,8 +91,10 @@ static inline void desk_click(Desk *desk, float x, float y)
 static inline void desk_click_at(Desk *desk, const char *id, float share)
 {
     const Seen *seen = desk_find(desk, id);
-    if (!seen)
+    if (!seen) {
         fail_msg("no widget %s", id);
+        return;
+    }
     const float x = seen->rect[0] + share * (seen->rect[2] - seen->rect[0]);
     desk_click(desk, x, (seen->rect[1] + seen->rect[3]) / 2);
 }
