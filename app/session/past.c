@@ -24,6 +24,7 @@ typedef struct Kept {
 
 struct Past {
     size_t bytes_most, bytes; /* of states, settings and places */
+    size_t state_bytes;       /* of the last one */
     bool dropped;
     double work_ms;  /* of the frames since the last state */
     int copies;      /* of states; */
@@ -151,12 +152,12 @@ void past_mark(Past *past, const WorldInfo *info, double frame_ms)
     add_place(past, info);
 }
 
-static size_t bytes_of(const WorldState *state, const WorldDef *def)
+static size_t bytes_of(size_t particles, const WorldDef *def)
 {
     const ColumnRows rows = columns_saved(def);
     size_t bytes = sizeof(Kept);
     for (int r = 0; r < rows.count; r++)
-        bytes += (size_t)rows.row[r]->components * column_size(rows.row[r]) * (state->capacity + COLUMN_PAST);
+        bytes += (size_t)rows.row[r]->components * column_size(rows.row[r]) * (particles + COLUMN_PAST);
     return bytes;
 }
 
@@ -266,7 +267,7 @@ static bool fill(Past *past, Kept *kept, World *world, const Scene *scene, size_
         return false;
     kept->place = past_last(past);
     kept->next = next;
-    kept->bytes = bytes_of(&kept->state, &scene->world);
+    kept->bytes = bytes_of(kept->state.capacity, &scene->world);
     kept->work_ms = past->work_ms;
     past->bytes += kept->bytes;
     count_copy(past, wall_ms() - began, kept->bytes);
@@ -284,8 +285,15 @@ void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool n
 {
     if (!is_due(past, now) || !world_sound(world)) /* waits, so that the copy's time is its own */
         return;
-    const size_t as_before = past->count > 0 ? past->kept[past->count - 1]->bytes : 0;
-    Kept *kept = make_room(past, as_before + sizeof(Settings));
+    WorldInfo info;
+    world_info(world, &info);
+    past->state_bytes = bytes_of(info.count, &scene->world);
+    const size_t needed = past->state_bytes + sizeof(Settings) + past->place_count * sizeof *past->places;
+    if (needed > past->bytes_most) { /* not even one */
+        past->dropped = true;
+        return;
+    }
+    Kept *kept = make_room(past, past->state_bytes + sizeof(Settings));
     if (!kept)
         kept = calloc(1, sizeof *kept);
     if (!kept || !fill(past, kept, world, scene, next)) {
@@ -307,9 +315,9 @@ uint64_t past_find(const Past *past, double time)
         else
             high = middle - 1;
     }
-    while (low > past_first(past) && !(past_place(past, low - 1).time < past_place(past, low).time))
-        low--;
-    return low;
+    const bool failed = low == past_last(past) && low > past_first(past) &&
+                        !(past_place(past, low - 1).time < past_place(past, low).time);
+    return low - failed;
 }
 
 /* The last state at or before the place. */
@@ -359,7 +367,7 @@ PastFigures past_figures(const Past *past)
 {
     return (PastFigures){.bytes = past->bytes,
                          .bytes_most = past->bytes_most,
-                         .state_bytes = past->count > 0 ? past->kept[past->count - 1]->bytes : 0,
+                         .state_bytes = past->state_bytes,
                          .states = past->count,
                          .dropped = past->dropped};
 }

@@ -57,8 +57,8 @@ uint64_t past_last(const Past *past);
 /* Step and time of a place from the first to the last. */
 PastPlace past_place(const Past *past, uint64_t place);
 
-/* The place at that time or the last one before it, of those that can be reached; of several at one time,
-   where the sentinel went back, the first. */
+/* The place at that time or the last one before it, of those that can be reached. Where the simulation failed
+   its last place is at the time that it went back to: found is the one before it. */
 uint64_t past_find(const Past *past, double time);
 
 /* Which place's state is loaded for `place`: its own, or the last one kept before it. */

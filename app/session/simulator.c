@@ -165,6 +165,7 @@ void simulator_status(Simulator *simulator, SimulatorStatus *status)
     status->ended = simulator->ended;
     status->saving = simulator->saving;
     status->realtime = simulator->realtime;
+    status->past.travelling |= simulator->wish.pending;
     status->speed = simulator->speed;
     const int count = status->history_count, next = simulator->history_next;
     for (int i = 0; i < count; i++)

@@ -132,8 +132,8 @@ typedef struct SimulatorPast {
     BoxTarget target;    /* of the hand, where it travelled to */
     size_t bytes;        /* of the states, */
     size_t states;       /* and how many */
-    unsigned jumps;      /* counts simulator_go_to and the like that are done; */
-    double last_jump_ms; /* wall time of the last one */
+    bool travelling;     /* simulator_go_to and the like are not done yet */
+    double last_jump_ms; /* wall time of the last of them */
 } SimulatorPast;
 
 typedef struct SimulatorStatus {

@@ -256,7 +256,7 @@ static uint64_t place_of(const Simulator *simulator, const Wish *wish)
 static void jump_done(Simulator *simulator, double began)
 {
     pthread_mutex_lock(&simulator->lock);
-    simulator->status.past.jumps++;
+    simulator->status.past.travelling = false;
     simulator->status.past.last_jump_ms = wall_ms() - began;
     pthread_mutex_unlock(&simulator->lock);
 }
@@ -286,8 +286,10 @@ static void finish_present(Simulator *simulator, Work *work)
 void simulator_travel(Simulator *simulator, Work *work)
 {
     const double began = wall_ms();
-    if (!simulator->world)
+    if (!simulator->world) {
+        jump_done(simulator, began);
         return;
+    }
     if (!simulator->past || simulator->recording_lost) {
         tell_none(simulator, simulator->past
                                  ? "the session is too long to go back in; a reset begins a new one"

@@ -83,6 +83,7 @@ void simulator_probes(Simulator *simulator)
 /* Means over time begin anew, for they were of what is to come. */
 void simulator_probes_back(Simulator *simulator, double time)
 {
+    Forces none;
     SimulatorStatus *status = &simulator->status;
     const int size = SIMULATOR_GAUGES;
     pthread_mutex_lock(&simulator->lock);
@@ -93,6 +94,8 @@ void simulator_probes_back(Simulator *simulator, double time)
     pthread_mutex_unlock(&simulator->lock);
     if (!simulator->probes)
         return;
+    if (simulator->feels)
+        world_forces(simulator->world, &none); /* of steps on the way there */
     probes_destroy(simulator->probes);
     simulator->probes = probes_create(&simulator->scene.probes, &simulator->scene.world);
     simulator->probes_ms = 0;

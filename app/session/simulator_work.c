@@ -56,7 +56,7 @@ static void take_save(Simulator *simulator, Work *work)
 static void take_wish(Simulator *simulator, Work *work)
 {
     command_queue_drop_poses(&simulator->queue);
-    work->travel = true;
+    work->travel = simulator->status.past.travelling = true;
     work->wish = simulator->wish;
     work->commands.count = 0;
     if (!simulator->status.failed) {

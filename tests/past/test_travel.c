@@ -138,6 +138,22 @@ static void each_place_has_its_bits(void **state)
     }
 }
 
+/* Frames that the sentinel did again with half the step. */
+static void trouble_is_gone_through_again(void **state)
+{
+    (void)state;
+    Rig rig;
+    Straight run;
+    rig_open(&rig, BOX "solver: {sound_speed: 15, threads: 1, step: {dt: 0.03, substeps: 2}}\n", 64 * MIB);
+    run_straight(&rig, &run);
+    assert_true(rig.status.messages > 0 && strstr(rig.status.message, "of the step"));
+    wander(&rig, &run, "trouble");
+    rig_go(&rig, INFINITY);
+    rig_save(&rig, "trouble.rec");
+    rig_close(&rig);
+    assert_true(replay("trouble.rec") > 2 * FRAMES);
+}
+
 /* Emitters: there are fewer particles then. */
 static void emitters_take_back_what_they_sent(void **state)
 {
@@ -228,16 +244,10 @@ static void steps_back_add_up(void **state)
     run_straight(&rig, &run);
     for (int i = 0; i < 4; i++)
         simulator_step_back(rig.simulator, false);
-    const double until = wall_ms() + 20000;
-    do
-        rig_turn(&rig);
-    while (rig.status.time != run.time[FRAMES - 4] && wall_ms() < until);
-    rig_jumps(&rig, rig.status.past.jumps);
+    rig_arrive(&rig);
     look(&rig, &run, FRAMES - 4, "four back");
     simulator_go_by(rig.simulator, -1000);
-    do
-        rig_turn(&rig);
-    while (rig.status.time != 0 && wall_ms() < until);
+    rig_arrive(&rig);
     rig_back(&rig);
     look(&rig, &run, 0, "the begin");
     assert_true(rig.status.past.from == 0 && rig.status.past.to == run.time[FRAMES]);
@@ -412,6 +422,7 @@ static void little_memory_holds_little(void **state)
         rig_go(&rig, run.time[i]);
         const int reached = (int)round(rig.status.time / 0.01);
         assert_true(reached == i || run.time[reached] == rig.status.past.from);
+        assert_int_equal(rig.status.messages, rig.status.past.from > 0); /* it is told */
         look(&rig, &run, reached, "what is left");
     }
     rig_close(&rig);
@@ -529,6 +540,7 @@ int main(int argc, char **argv)
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_place_has_its_bits),
+        cmocka_unit_test(trouble_is_gone_through_again),
         cmocka_unit_test(emitters_take_back_what_they_sent),
         cmocka_unit_test(a_command_in_the_past_cuts_the_rest_off),
         cmocka_unit_test(time_runs_on_in_the_past_as_it_did),
