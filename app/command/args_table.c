@@ -25,8 +25,9 @@ enum {
 };
 
 const CommandRow command_rows[] = {
-    {COMMAND_PLAY, "play", "[SCENE] [OPTIONS]",
-     "opens the window: the box in your hand; without a scene, box_slosh", 0, 1, NULL, 1280, 720},
+    {COMMAND_PLAY, "play", "[SCENE|IN.h5part] [OPTIONS]",
+     "opens the window: the box in your hand, or a recorded run; without a scene, box_slosh", 0, 1, NULL,
+     1280, 720},
     {COMMAND_RENDER, "render", "SCENE|IN.h5part -o OUT.png|OUT.mp4|FOLDER ...",
      "a scene, or a recorded run, as a picture, a video or a folder of pictures; needs no display", 1, 1,
      "OUT.png, OUT.mp4 or a folder", 1280, 720},

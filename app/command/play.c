@@ -4,6 +4,7 @@
 #include "app/command/cmd.h"
 #include "app/device/devices.h"
 #include "app/play/report.h"
+#include "app/playback/recorded.h"
 
 #include <stdio.h>
 
@@ -13,6 +14,26 @@ static int fail(const Error *error, int code)
 {
     fprintf(stderr, "%s\n", error->message);
     return code;
+}
+
+/* Whether the window can open it, before there is one. */
+static bool check_scene(const char *scene, const Args *args, Error *error)
+{
+    static Scene checked;
+    SceneSettings settings = args->settings;
+    return scene_load(scene, &settings, &checked, NULL, error);
+}
+
+static bool check_recorded(const char *file, const Args *args, Error *error)
+{
+    Recorded recorded;
+    const char *option = args->record ? "--record" : args->device ? "--device" : NULL;
+    if (option)
+        return error_set(error, "%s makes no sense for %s: nothing is simulated", option, file);
+    if (!recorded_open(file, &args->settings, &recorded, NULL, error))
+        return false;
+    recorded_close(&recorded);
+    return true;
 }
 
 int cmd_play(const Args *args)
@@ -29,10 +50,8 @@ int cmd_play(const Args *args)
                              .device = args->device,
                              .quiet = args->quiet};
     static PlayFigures figures;
-    static Scene checked;
-    SceneSettings settings = args->settings;
     Error error = {{0}};
-    if (!scene_load(scene, &settings, &checked, NULL, &error) ||
+    if (!(recorded_is_file(scene) ? check_recorded : check_scene)(scene, args, &error) ||
         !mapping_load(args->mapping, &mapping, &error) ||
         (args->device && !devices_check(args->device, &error)))
         return fail(&error, EXIT_USAGE);

@@ -17,6 +17,7 @@ typedef enum PlayCommand {
     PLAY_AHEAD,
     PLAY_NEWEST,
     PLAY_TIMELINE,
+    PLAY_LOOP,
     PLAY_RESET,
     PLAY_SLOWER,
     PLAY_FASTER,
@@ -59,8 +60,9 @@ typedef enum PlayCommand {
 } PlayCommand;
 
 enum {
-    PLAY_BUTTON = 1, /* has a button in the panel */
-    PLAY_REPEATS = 2 /* goes on while its key is held (GLFW_REPEAT) */
+    PLAY_BUTTON = 1,   /* has a button in the panel */
+    PLAY_REPEATS = 2,  /* goes on while its key is held (GLFW_REPEAT) */
+    PLAY_SIMULATED = 4 /* has no meaning where a recorded run is shown */
 };
 
 typedef struct PlayKey {

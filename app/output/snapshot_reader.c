@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { SUPPORT_MOST = 10 }; /* spacings: a lattice is summed up within it; scenes have 1.5 to 4 */
@@ -102,13 +103,32 @@ static bool count_shown(hid_t file, const char *path, size_t *steps, Error *erro
     return true;
 }
 
-SnapshotReader *snapshot_open_shown(const char *path, Error *error)
+static SnapshotReader *try_shown(const char *path, Error *error)
 {
     SnapshotReader *reader = reader_create(path, error);
     if (!reader || count_shown(reader->file, path, &reader->steps, error))
         return reader;
     snapshot_reader_close(reader);
     return NULL;
+}
+
+static bool was_just_written(const char *path)
+{
+    struct stat now;
+    return stat(path, &now) == 0 && S_ISREG(now.st_mode) && time(NULL) - now.st_mtim.tv_sec < 2;
+}
+
+/* Between two writes of a run that goes on there may be nothing to read, for a moment. */
+SnapshotReader *snapshot_open_shown(const char *path, Error *error)
+{
+    enum { TRIES = 20, PAUSE_NS = 10000000 };
+    SnapshotReader *reader = try_shown(path, error);
+    for (int k = 1; k < TRIES && (!reader || reader->steps == 0) && was_just_written(path); k++) {
+        snapshot_reader_close(reader);
+        nanosleep(&(struct timespec){.tv_nsec = PAUSE_NS}, NULL);
+        reader = try_shown(path, error);
+    }
+    return reader;
 }
 
 static bool is_unchanged(const struct stat *was, const struct stat *now)

@@ -93,14 +93,18 @@ static void draw_figures(Ui *ui, const PanelData *data)
     ui_row(ui, "time", text);
     if (data->paused)
         snprintf(text, sizeof text, "%.3g × real time when it runs", data->speed);
+    else if (data->recorded)
+        snprintf(text, sizeof text, "%.3g × real time, recorded", data->speed);
     else if (data->realtime)
         snprintf(text, sizeof text, "%.2f of %.3g × real time", data->real_time_factor, data->speed);
     else
         snprintf(text, sizeof text, "%.2f × real time, as it can", data->real_time_factor);
     ui_row(ui, "pace", text);
-    snprintf(text, sizeof text, "%.3g ms, bounded by %s", 1e3 * data->dt, step_limit_name(data->limit));
-    ui_row(ui, "time step", text);
-    draw_solved(ui, data);
+    if (!data->recorded) {
+        snprintf(text, sizeof text, "%.3g ms, bounded by %s", 1e3 * data->dt, step_limit_name(data->limit));
+        ui_row(ui, "time step", text);
+        draw_solved(ui, data);
+    }
     snprintf(text, sizeof text, "%.1f a second", data->pictures_per_second);
     ui_row(ui, "pictures", text);
 }
@@ -114,17 +118,17 @@ static void plain_words(const char *name, char text[32])
             *c = ' ';
 }
 
-static void draw_buttons(Ui *ui, bool paused, PanelEvents *events)
+static void draw_buttons(Ui *ui, const PanelData *data, PanelEvents *events)
 {
     for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
         char keys[64], help[160], label[32];
-        if (!(row->flags & PLAY_BUTTON))
+        if (!(row->flags & PLAY_BUTTON) || (data->recorded && row->flags & PLAY_SIMULATED))
             continue;
         play_command_keys_text(row, keys, sizeof keys);
         snprintf(help, sizeof help, "%s\n%s", row->help, keys);
         plain_words(row->name, label);
         const UiField field = {.id = row->name, .label = label, .help = help};
-        if (ui_button(ui, &field, row->command == PLAY_PAUSE && paused))
+        if (ui_button(ui, &field, row->command == PLAY_PAUSE && data->paused))
             events->command = row->command;
     }
     ui_gap(ui);
@@ -139,6 +143,15 @@ static void draw_end(Ui *ui, const PanelData *data)
     ui_faint(ui, text);
     snprintf(text, sizeof text, "this panel: %.2f ms a picture · hide it: %s", data->panel_ms, keys);
     ui_faint(ui, text);
+}
+
+/* What only a simulation has. */
+static void draw_simulation(Ui *ui, const PanelData *data, PanelEvents *events)
+{
+    panel_devices(ui, data, events);
+    panel_stages(ui, data);
+    events->watches = panel_gauges(ui, data);
+    events->watches_probes = panel_probes(ui, data);
 }
 
 void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *data, PanelEvents *events)
@@ -157,15 +170,14 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
             ui_warning(ui, data->warnings[i]);
         draw_figures(ui, data);
         ui_gap(ui);
-        draw_buttons(ui, data->paused, events);
-        panel_devices(ui, data, events);
-        panel_stages(ui, data);
-        events->watches = panel_gauges(ui, data);
-        events->watches_probes = panel_probes(ui, data);
+        draw_buttons(ui, data, events);
+        if (!data->recorded)
+            draw_simulation(ui, data, events);
         panel_history(ui, data);
         panel_colors(ui, data, &panel->start, events);
-        panel_terms(ui, data->scene, &panel->start, events);
-        panel_scene(ui, data->scene, &panel->start, events);
+        if (!data->recorded)
+            panel_terms(ui, data->scene, &panel->start, events);
+        panel_scene(ui, data, &panel->start, events);
         draw_end(ui, data);
     }
     ui_window_end(ui);

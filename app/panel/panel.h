@@ -19,6 +19,7 @@ typedef struct Panel Panel;
 
 typedef struct PanelData {
     const Scene *scene;           /* values as they stand */
+    bool recorded;                /* a recorded run is shown: nothing of a solver */
     double stage_ms[STAGE_COUNT]; /* of a frame of the solver, of a picture of the view */
     bool stage_ran[STAGE_COUNT];
     bool render_stages_known; /* false on a software renderer, where the stages of a picture cannot be timed

@@ -42,7 +42,7 @@ void panel_devices(Ui *ui, const PanelData *data, PanelEvents *events);
 /* scene.c: what colours mean; then every other live key, by the first part of its path. `start` is the
    scene as it was opened: a slider reaches from a tenth to ten times the value there. */
 void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);
-void panel_scene(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events);
+void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);
 
 /* terms.c: a switch for each term of the model that the scene had at its start (app/term/term.h). */
 void panel_terms(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events);

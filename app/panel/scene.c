@@ -114,15 +114,23 @@ static void draw_key(Ui *ui, const Key *key, const Scene *scene, const Scene *st
         events);
 }
 
-void panel_scene(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events)
+/* Of a recorded run the view's alone. */
+static bool is_shown(const Key *key, bool recorded)
 {
+    return (key->flags & KEY_LIVE) && !is_elsewhere(key) &&
+           (!recorded || strncmp(key->path, "view.", strlen("view.")) == 0);
+}
+
+void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events)
+{
+    const Scene *scene = data->scene;
     int count;
     const Key *keys = scene_keys(&count);
     char last[NAME_LENGTH] = "", group[NAME_LENGTH];
     bool open = false;
     for (int i = 0; i < count; i++) {
         const Key *list = key_list(&keys[i]);
-        if (!(keys[i].flags & KEY_LIVE) || is_elsewhere(&keys[i]))
+        if (!is_shown(&keys[i], data->recorded))
             continue;
         group_of(&keys[i], group);
         const bool first = strcmp(group, last) != 0;

@@ -23,6 +23,7 @@ static void follow_scene(Play *play)
     play->camera.held = false;
     meter_forget(&play->meter);
     play->picture.dirty = true;
+    play->overlay.timeline |= !play->model.open.source->simulates;
     snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
     window_title(play->window, title);
     if (play->picture.renderer)
@@ -53,9 +54,13 @@ static void open_neighbour(Play *play, int by)
 /* A range that the file gives belongs to the file's scalar. */
 static void next_scalar(Play *play)
 {
-    ViewDef *view = &play->model.open.scene.view;
+    PlayScene *open = &play->model.open;
+    ViewDef *view = &open->scene.view;
     const ViewDef *file = &play->model.file_scene.view;
-    view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
+    Error none;
+    do
+        view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
+    while (view->color_by != SCALAR_FLUID && !open->source->has(open, view->color_by, &none));
     view->range_auto = view->color_by == file->color_by ? file->range_auto : true;
     memcpy(view->range, file->range, sizeof view->range);
     view_changed(play);
@@ -91,10 +96,22 @@ static void step_plane(Play *play, PlayCommand command)
     ask_settings(&play->asks, settings, grip_step(&play->model, step, settings));
 }
 
+/* Said where nothing is simulated. */
+static bool lacks_simulation(Play *play, PlayCommand command)
+{
+    const PlayCommandRow *row = &play_command_rows[command];
+    if (!(row->flags & PLAY_SIMULATED) || play->model.open.source->simulates)
+        return false;
+    notice_tell(&play->notice, "%s: nothing is simulated, a recorded run is shown", row->name);
+    return true;
+}
+
 static void do_command(Play *play, PlayCommand command, bool held)
 {
     Model *model = &play->model;
     play->picture.dirty = true;
+    if (lacks_simulation(play, command))
+        return;
     switch (command) {
     case PLAY_PAUSE:
         model_pause(model, !model->paused);
@@ -116,6 +133,9 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_TIMELINE:
         play->overlay.timeline = !play->overlay.timeline;
+        break;
+    case PLAY_LOOP:
+        model_loop(model);
         break;
     case PLAY_RESET:
         model_reset(model);

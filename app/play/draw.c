@@ -57,7 +57,8 @@ static void count_picture(Play *play, double began)
         return;
     if (meter_begin(&play->meter, now))
         model->simulated_s = -model->status.simulated_s;
-    meter_picture(&play->meter, now, simulator_obeyed(model->open.simulator, model->particles.step));
+    meter_picture(&play->meter, now,
+                  model->open.simulator ? simulator_obeyed(model->open.simulator, model->particles.step) : 0);
 }
 
 void draw_picture(Play *play)

@@ -7,6 +7,7 @@
 #include "sim/world/world.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,7 +25,7 @@ static void follow_travels(Model *model)
 {
     const SimulatorPast *past = &model->status.past;
     WorldDef def;
-    if (past->travels == model->travels)
+    if (past->travels == model->travels) /* so of a recorded run always */
         return;
     model->travels = past->travels;
     simulator_settings(model->open.simulator, &def);
@@ -35,10 +36,20 @@ static void follow_travels(Model *model)
     hand_post_follow(model->post, &past->target);
 }
 
+/* Once: a box that stands still under the hand would look broken. */
+static void tell_fixed(Model *model)
+{
+    if (!atomic_exchange(&model->pulled, false) || model->told_fixed)
+        return;
+    model->told_fixed = true;
+    notice_tell(model->notice, "a recorded run: its box moves as it did");
+}
+
 void model_listen(Model *model)
 {
     SimulatorStatus *status = &model->status;
-    simulator_status(model->open.simulator, status);
+    model->open.source->status(&model->open, status);
+    tell_fixed(model);
     if (status->messages != model->messages) {
         model->messages = status->messages;
         notice_error(model->notice, status->message);
@@ -55,7 +66,7 @@ void model_listen(Model *model)
 
 void model_take(Model *model)
 {
-    model->has_particles = play_scene_take(&model->open, &model->particles);
+    model->has_particles = model->open.source->take(&model->open, &model->particles);
 }
 
 /* A HandSend. */
@@ -65,15 +76,32 @@ static uint64_t send_target(void *simulator, const BoxTarget *target)
     return simulator_send(simulator, &command);
 }
 
+/* The same where there is nothing to send it to. */
+static uint64_t send_nowhere(void *model, const BoxTarget *target)
+{
+    (void)target;
+    atomic_store(&((Model *)model)->pulled, true);
+    return 0;
+}
+
+static void post_open(Model *model)
+{
+    if (model->open.source->simulates)
+        hand_post_open(model->post, send_target, model->open.simulator);
+    else
+        hand_post_open(model->post, send_nowhere, model);
+}
+
 static void adopt(Model *model, const PlayScene *opened)
 {
     model->open = *opened;
     model->file_scene = opened->scene;
     model->has_particles = false;
-    hand_post_open(model->post, send_target, model->open.simulator);
+    post_open(model);
     model->saves = model->messages = model->travels = 0;
+    model->told_fixed = false;
     model->scenes_opened++;
-    simulator_set_speed(model->open.simulator, model->speed);
+    model->open.source->set_speed(&model->open, model->speed);
 }
 
 /* A software renderer keeps all processors busy by itself. A solver on as many threads waits at each of its
@@ -89,6 +117,8 @@ static void share_processors(WorldDef *def)
 bool model_save_now(Model *model, const char *path, Error *error)
 {
     const double until = wall_ms() + SAVE_MS;
+    if (!model->open.source->simulates)
+        return error_set(error, "%s: not written, since a recorded run is open, which has no session", path);
     for (bool asked = false;; window_wait(model->window, 0.01)) {
         model_listen(model);
         if (asked && !model->status.saving)
@@ -106,7 +136,8 @@ static void keep_session(Model *model)
     Error error = {{0}};
     char path[1024];
     file_name_new(path, "recording");
-    if (model->record && model->status.step > 0 && !model_save_now(model, path, &error))
+    const bool simulates = model->open.source->simulates;
+    if (simulates && model->record && model->status.step > 0 && !model_save_now(model, path, &error))
         notice_error(model->notice, error.message);
 }
 
@@ -119,13 +150,13 @@ bool model_leave(Model *model, double patience_ms)
 static void leave(Model *model)
 {
     const double until = wall_ms() + SAVE_MS;
-    if (!model->open.simulator)
+    if (!model->open.source)
         return;
     hand_post_close(model->post);
     keep_session(model);
     while (model->status.saving && !model->status.ended && wall_ms() < until) {
         window_wait(model->window, 0.01);
-        simulator_work(model->open.simulator, 0);
+        model->open.source->work(&model->open, 0);
         model_listen(model);
     }
     model->simulated_s += model->status.simulated_s;
@@ -133,7 +164,7 @@ static void leave(Model *model)
     if (play_scene_close(&model->open, LEAVE_MS))
         return;
     model->left = model->open;
-    model->open = (PlayScene){.upload = NULL};
+    model->open = (PlayScene){.source = NULL};
 }
 
 /* On the terminal each with its place in the file, in the picture the first of them; the panel has all. */
@@ -147,7 +178,7 @@ static void tell(Model *model, const Notes *notes)
 bool model_open(Model *model, const char *scene, const SceneSettings *settings, Error *error)
 {
     PlayScene opened;
-    Notes notes;
+    Notes notes = {.count = 0};
     if (!model_leave(model, 0))
         return error_set(error, "the scene before the present one is still ending; try again in a moment");
     const bool read = play_scene_read(&opened, scene, settings, &notes, error);
@@ -168,8 +199,8 @@ void model_reset(Model *model)
 {
     keep_session(model);
     hand_post_close(model->post); /* no report comes in between: it would move the box, and be forgotten */
-    simulator_reset(model->open.simulator);
-    hand_post_open(model->post, send_target, model->open.simulator);
+    model->open.source->reset(&model->open);
+    post_open(model);
 }
 
 bool model_open_neighbour(Model *model, int by)
@@ -197,42 +228,42 @@ bool model_close(Model *model, double patience_ms)
 void model_pause(Model *model, bool paused)
 {
     model->paused = paused;
-    simulator_pause(model->open.simulator, paused);
+    model->open.source->pause(&model->open, paused);
 }
 
 void model_step(Model *model, bool held)
 {
     model->paused = true;
-    simulator_single_step(model->open.simulator, held);
+    model->open.source->step(&model->open, 1, held);
 }
 
 void model_step_back(Model *model, bool held)
 {
     model->paused = true;
-    simulator_step_back(model->open.simulator, held);
+    model->open.source->step(&model->open, -1, held);
 }
 
 void model_go_by(Model *model, double seconds)
 {
-    simulator_go_by(model->open.simulator, seconds);
+    model->open.source->go_by(&model->open, seconds);
 }
 
 void model_go_to(Model *model, double time)
 {
-    simulator_go_to(model->open.simulator, time);
+    model->open.source->go_to(&model->open, time);
 }
 
 void model_set_speed(Model *model, double factor)
 {
     static const double slowest = 1.0 / 64, fastest = 64;
     model->speed = fmin(fmax(model->speed * factor, slowest), fastest);
-    simulator_set_speed(model->open.simulator, model->speed);
+    model->open.source->set_speed(&model->open, model->speed);
     notice_tell(model->notice, "speed %g", model->speed);
 }
 
 void model_let_go(Model *model)
 {
-    simulator_status(model->open.simulator, &model->status);
+    model->open.source->status(&model->open, &model->status);
     hand_post_let_go(model->post, &model->status.hand);
 }
 
@@ -263,10 +294,42 @@ static void move(Model *model, const SimCommand *command, const char *before)
     notice_error(model->notice, error.message);
 }
 
+void model_loop(Model *model)
+{
+    PlayerStatus status;
+    if (!model->open.player) {
+        notice_tell(model->notice, "a simulation has no end to begin anew at");
+        return;
+    }
+    player_status(model->open.player, &status);
+    player_set_loop(model->open.player, !status.loop);
+    notice_tell(model->notice, status.loop ? "stops at the end" : "begins anew at the end");
+}
+
+/* Of a recorded run: what a solver reads is as it was, and colours need what the file has. */
+static bool set_recorded(Model *model, const char *setting)
+{
+    Error error = {{0}};
+    bool concerns_world;
+    PlayScene *open = &model->open;
+    Scene changed = open->scene;
+    const bool ok =
+        scene_set_live(&changed, setting, &concerns_world, &error) &&
+        (!concerns_world || error_set(&error, "%s: a recorded run stays as it was simulated", setting)) &&
+        open->source->has(open, changed.view.color_by, &error);
+    if (ok)
+        open->scene = changed;
+    else
+        notice_error(model->notice, error.message);
+    return ok;
+}
+
 bool model_set(Model *model, const char *setting)
 {
     Error error = {{0}};
     bool concerns_world;
+    if (!model->open.source->simulates)
+        return set_recorded(model, setting);
     SimCommand command = {.kind = SIM_SET};
     char backend[NAME_SIZE];
     snprintf(backend, sizeof backend, "%s", model->open.scene.world.backend);

@@ -1,4 +1,5 @@
-/* What is simulated in the window: the scene that is open, its simulator, and the newest state of it. */
+/* What is shown in the window: the scene that is open, its source, simulator or recorded run, and the newest
+   state of it. */
 #ifndef SLOSH_PLAY_MODEL_H
 #define SLOSH_PLAY_MODEL_H
 
@@ -7,6 +8,8 @@
 #include "app/play/scene.h"
 #include "app/window/window.h"
 #include "sim/gl/timer.h"
+
+#include <stdatomic.h>
 
 /* To be zeroed but for what is given. */
 typedef struct Model {
@@ -29,6 +32,8 @@ typedef struct Model {
     size_t scenes_opened;
     unsigned saves, messages; /* that were told */
     unsigned travels;         /* SimulatorPast.travels that were followed */
+    atomic_bool pulled;       /* somebody would move the box of a recorded run; */
+    bool told_fixed;          /* it was told that none can */
 } Model;
 
 /* A file as a scene, with settings of its own or NULL; the scene before ends. On failure that one stays. */
@@ -56,6 +61,7 @@ void model_step_back(Model *model, bool held); /* the same, one frame back */
 void model_go_by(Model *model,
                  double seconds);            /* on or back, as far as it goes; time runs or rests as it did */
 void model_go_to(Model *model, double time); /* as of simulator_go_to */
+void model_loop(Model *model);               /* whether a recorded run begins anew at its end, or stops */
 void model_reset(Model *model);
 void model_set_speed(Model *model, double factor); /* so many times the present one, within bounds */
 

@@ -106,7 +106,7 @@ static void find_warnings(Overlay *overlay, const Model *model, const OverlayFac
 static void collect_stages(const Model *model, const OverlayFacts *facts, PanelData *data)
 {
     const SimulatorStatus *status = &model->status;
-    const bool here = simulator_here(model->open.simulator);
+    const bool here = model->open.simulator && simulator_here(model->open.simulator);
     static const StageTimes none;
     for (int s = 0; s < STAGE_COUNT; s++) {
         const bool on_gpu = stage_part((Stage)s) == PART_RENDER || here;
@@ -129,6 +129,7 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
     overlay->device_count = hand_post_devices(model->post, overlay->devices);
     world_def_at(&model->open.scene.world, particles->time); /* what tables say now */
     *data = (PanelData){.scene = &model->open.scene,
+                        .recorded = !model->open.source->simulates,
                         .render_stages_known = facts->gl_times != NULL,
                         .render_ms = facts->meter->last_drawn_ms,
                         .frame_history = pictures,
@@ -203,7 +204,7 @@ static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFac
                                .to = past->to,
                                .now = model->particles.time,
                                .playing = !model->paused,
-                               .grows = true};
+                               .grows = model->open.source->simulates};
     TimelineEvents events;
     const float left = overlay->panel ? panel_width(overlay->ui, facts->width) : 0;
     timeline_draw(overlay->ui, facts->width, facts->height, left < 0.6F * (float)facts->width ? left : 0,
@@ -243,8 +244,9 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
     const bool timeline = shows_timeline(overlay, model);
     const int shown = overlay->panel + 2 * overlay->help + 4 * timeline;
     overlay->height = facts->height;
-    simulator_watch(model->open.simulator, overlay->panel && overlay->watches,
-                    overlay->panel && overlay->watches_probes);
+    if (model->open.simulator)
+        simulator_watch(model->open.simulator, overlay->panel && overlay->watches,
+                        overlay->panel && overlay->watches_probes);
     if (!shown) {
         widget_input_skip(&overlay->input);
         return false;

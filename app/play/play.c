@@ -97,7 +97,7 @@ static void follow_shaders(Play *play)
     if (!picture_shaders_changed(&play->picture))
         return;
     if (picture_reload(&play->picture, &play->model.open.scene, &error) &&
-        simulator_reload(play->model.open.simulator, &error))
+        (!play->model.open.simulator || simulator_reload(play->model.open.simulator, &error)))
         notice_tell(&play->notice, "the shaders were read again");
     else
         notice_error(&play->notice, error.message);
@@ -115,10 +115,10 @@ static void pause_or_draw(Play *play)
 {
     const Picture *picture = &play->picture;
     PlayScene *open = &play->model.open;
-    const double work = simulator_work(open->simulator, WORK_MS);
+    const double work = open->source->work(open, WORK_MS);
     const double now = wall_ms(), due = picture->begun_ms + 900 / picture->refresh;
     const bool wanted =
-        picture_visible(picture) && (picture->dirty || play_scene_fresh(open) || files_due(&play->files));
+        picture_visible(picture) && (picture->dirty || open->source->fresh(open) || files_due(&play->files));
     if (wanted && now >= due)
         draw_picture(play);
     else if (wanted)
@@ -191,7 +191,7 @@ static bool play_session(Session *session, PlayFigures *figures)
     const bool started = start(session, &error);
     const bool ran = started && run(session, &error);
     if (started) {
-        simulator_status(play->model.open.simulator, &play->model.status);
+        model_listen(&play->model);
         figures_of(play, figures);
     }
     if (!ran)

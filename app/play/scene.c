@@ -11,24 +11,51 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
-                     Error *error)
+static bool read_scene(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
+                       Error *error)
 {
     static const SceneSettings none;
     SceneSettings applied = settings ? *settings : none;
     applied.purpose = SCENE_FOR_WINDOW;
     char path[SCENE_PATH_SIZE];
     size_t size;
-    *open = (PlayScene){.upload = NULL};
     if (!scene_path_find(name, path, error))
         return false;
     char *text = scene_file_read(path, &size, error);
     const bool ok = text && scene_parse(path, text, size, &applied, &open->scene, notes, error) &&
                     recording_create(&open->recording, path, text, size, settings ? settings : &none, error);
     free(text);
-    if (ok)
-        open->notes = *notes;
     return ok;
+}
+
+static bool read_recorded(PlayScene *open, const char *path, const SceneSettings *settings, Notes *notes,
+                          Error *error)
+{
+    Error why;
+    *notes = (Notes){.count = 0};
+    open->recorded = calloc(1, sizeof *open->recorded);
+    if (!open->recorded)
+        return error_set(error, "%s: out of memory", path);
+    if (!recorded_open(path, settings, open->recorded, notes, error))
+        return false;
+    open->scene = open->recorded->scene;
+    snprintf(open->scene.path, sizeof open->scene.path, "%s", path);
+    if (!recorded_has(open->recorded, open->scene.view.color_by, &why)) {
+        notes_add(notes, "%.300s; coloured by fluid", why.message);
+        open->scene.view.color_by = SCALAR_FLUID;
+    }
+    return true;
+}
+
+bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
+                     Error *error)
+{
+    const bool recorded = recorded_is_file(name);
+    *open = (PlayScene){.source = recorded ? &source_recorded : &source_simulator};
+    if (!(recorded ? read_recorded : read_scene)(open, name, settings, notes, error))
+        return false;
+    open->notes = *notes;
+    return true;
 }
 
 /* A key that was changed and has no effect: said for as long as the scene is open. */
@@ -52,7 +79,7 @@ void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh)
             notes_add(fresh, "%s", open->notes.line[i]);
 }
 
-static bool make_upload(PlayScene *open, Error *error)
+bool play_scene_make_upload(PlayScene *open, Error *error)
 {
     const WorldDef *def = &open->scene.world;
     if (!open->upload && !world_on_gpu(def))
@@ -63,43 +90,27 @@ static bool make_upload(PlayScene *open, Error *error)
 
 bool play_scene_start(PlayScene *open, const SimulatorSetup *how, Error *error)
 {
-    if (!make_upload(open, error))
-        return false;
-    SimulatorSetup setup = *how;
-    setup.scene = &open->scene;
-    setup.recording = &open->recording;
-    setup.upload = open->upload;
-    open->simulator = simulator_create(&setup, error);
-    return open->simulator != NULL;
-}
-
-bool play_scene_fresh(PlayScene *open)
-{
-    return simulator_here(open->simulator) ? simulator_fresh(open->simulator) : upload_fresh(open->upload);
-}
-
-bool play_scene_take(PlayScene *open, ParticleBuffers *out)
-{
-    const ViewDef *view = &open->scene.view;
-    if (!simulator_here(open->simulator))
-        return upload_take(open->upload, out);
-    return simulator_share(open->simulator, renderer_attributes(view), out);
+    return open->source->start(open, how, error);
 }
 
 bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error)
 {
-    return make_upload(open, error) &&
+    return play_scene_make_upload(open, error) &&
            simulator_move(open->simulator, command, open->upload, open->scene.world.backend, error);
 }
 
 bool play_scene_close(PlayScene *open, double patience_ms)
 {
-    if (!simulator_destroy(open->simulator, patience_ms))
+    if (open->source && !open->source->close(open, patience_ms))
         return false;
-    upload_destroy(open->upload);
     recording_destroy(&open->recording);
-    *open = (PlayScene){.upload = NULL};
+    *open = (PlayScene){.source = NULL};
     return true;
+}
+
+static int is_recorded(const struct dirent *entry)
+{
+    return recorded_is_file(entry->d_name);
 }
 
 bool play_scene_neighbour(const char *path, int by, char out[1024])
@@ -110,7 +121,8 @@ bool play_scene_neighbour(const char *path, int by, char out[1024])
     int place = -1;
     if (slash)
         snprintf(folder, sizeof folder, "%.*s", (int)(slash - path), path);
-    const int count = scandir(*folder ? folder : "/", &entries, scene_path_is_yaml, alphasort);
+    const int count = scandir(*folder ? folder : "/", &entries,
+                              recorded_is_file(path) ? is_recorded : scene_path_is_yaml, alphasort);
     for (int i = 0; i < count; i++)
         if (strcmp(entries[i]->d_name, name) == 0)
             place = i;

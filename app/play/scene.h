@@ -1,7 +1,10 @@
-/* The scene in the window: its file, its particles' way to the GPU, its simulator. */
+/* The scene in the window: its file, and what its states come from: a simulator with its particles' way to
+   the GPU, or a player of a recorded run. */
 #ifndef SLOSH_PLAY_SCENE_H
 #define SLOSH_PLAY_SCENE_H
 
+#include "app/play/source.h"
+#include "app/playback/player.h"
 #include "app/recording/recording.h"
 #include "app/scene/scene.h"
 #include "app/session/simulator.h"
@@ -14,6 +17,9 @@ typedef struct PlayScene {
     Recording recording; /* the file's text and the settings: where the session begins */
     Upload *upload;      /* carries every scalar, so that colours may change at once; NULL on a GPU */
     Simulator *simulator;
+    Recorded *recorded; /* of a file of snapshots; the player has taken its content over */
+    Player *player;
+    const SourceKind *source; /* NULL: nothing is open */
 } PlayScene;
 
 /* Reads a scene; starts nothing yet. `settings` are those of the command line, or NULL. False with the
@@ -28,9 +34,8 @@ void play_scene_advise(PlayScene *open, const char *setting, Notes *fresh);
 /* Begins to simulate it; needs the context. `how`: all but the scene, its recording and its upload. */
 bool play_scene_start(PlayScene *open, const SimulatorSetup *how, Error *error);
 
-/* Whether there is a state that was not taken yet; the newest one, with what its view reads of it. */
-bool play_scene_fresh(PlayScene *open);
-bool play_scene_take(PlayScene *open, ParticleBuffers *out);
+/* Room on the GPU for its particles, if its backend is not there; for source_simulator.c. */
+bool play_scene_make_upload(PlayScene *open, Error *error);
 
 /* Goes on with the backend that `scene` names now and the command sets. False as simulator_move. */
 bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error);

@@ -35,6 +35,7 @@ struct Reel {
     SnapshotFlaws flaws; /* a copy */
 
     Upload *upload;    /* written by the thread, replaced while that waits for room */
+    Upload *before;    /* the one that was replaced, until the new one has a state; or NULL */
     Recorded recorded; /* of the thread */
     Kept kept[REEL_KEPT_MOST];
     size_t kept_most;
@@ -160,15 +161,13 @@ static bool show(Reel *reel, const Kept *kept, Error *error)
     return upload_arrays(reel->upload, &kept->still.arrays, &kept->still.state, error);
 }
 
-/* Of the status, with the mutex. */
-static void describe(Reel *reel, const Kept *kept, bool read)
+/* Of the status, with the mutex: where in the file the wish led, whether or not the step can be shown. */
+static void describe(Reel *reel, const Kept *kept)
 {
     ReelStatus *status = &reel->status;
-    status->index = kept->index;
     status->time = kept->still.state.time;
     status->before = kept->before;
     status->after = kept->after;
-    status->found += !read;
     status->kept = reel->kept_most;
 }
 
@@ -180,26 +179,39 @@ static void describe_file(Reel *reel)
     reel->flaws = reel->recorded.flaws;
 }
 
-/* Shows what was asked for last. */
+/* What was asked for last; `place`: where in the file that is. False with the reason, and `place` as far as
+   it is known. */
+static bool show_asked(Reel *reel, double time, double lead, Kept *place, bool *read, Error *error)
+{
+    if (!recorded_find(&reel->recorded, time, &place->index, error))
+        return false;
+    Kept *kept = find_kept(reel, place->index);
+    *read = !kept;
+    if (!kept)
+        kept = read_into(reel, place_for(reel, place->index, lead), place->index, error);
+    Error none; /* the first reason counts */
+    double *at = &place->still.state.time;
+    place->is = recorded_time(&reel->recorded, place->index, at, kept ? error : &none) &&
+                read_neighbours(reel, place, kept ? error : &none);
+    return kept && place->is && show(reel, kept, error);
+}
+
 static void answer(Reel *reel, double time, double lead, unsigned asked)
 {
     Error error = {{0}};
-    size_t index = 0;
+    Kept place = {.index = 0};
     bool read = false;
-    const bool known = recorded_find(&reel->recorded, time, &index, &error);
-    Kept *kept = known ? find_kept(reel, index) : NULL;
-    if (known && !kept) {
-        read = true;
-        kept = read_into(reel, place_for(reel, index, lead), index, &error);
-    }
-    const bool shown = kept && read_neighbours(reel, kept, &error) && show(reel, kept, &error);
+    const bool shown = show_asked(reel, time, lead, &place, &read, &error);
     pthread_mutex_lock(&reel->mutex);
+    ReelStatus *status = &reel->status;
     reel->answered = asked;
-    reel->status.read += read;
-    reel->status.failed = !shown;
-    snprintf(reel->status.message, sizeof reel->status.message, "%s", error.message);
-    if (shown)
-        describe(reel, kept, read);
+    status->read += read;
+    status->found += shown && !read;
+    status->failed = !shown;
+    status->index = shown ? place.index : status->index;
+    snprintf(status->message, sizeof status->message, "%s", error.message);
+    if (place.is)
+        describe(reel, &place);
     describe_file(reel);
     tell(reel);
     pthread_mutex_unlock(&reel->mutex);
@@ -291,7 +303,10 @@ static bool make_upload(Reel *reel, size_t room, Error *error)
     Upload *upload = upload_create(room, reel->attributes, error);
     if (!upload)
         return false;
-    upload_destroy(reel->upload);
+    if (reel->before)
+        upload_destroy(reel->upload); /* nothing came of it */
+    else
+        reel->before = reel->upload;
     reel->upload = upload;
     reel->room = room;
     reel->needs = 0;
@@ -339,6 +354,7 @@ void reel_destroy(Reel *reel)
     pthread_join(reel->thread, NULL);
     for (size_t k = 0; k < REEL_KEPT_MOST; k++)
         still_free(&reel->kept[k].still);
+    upload_destroy(reel->before);
     upload_destroy(reel->upload);
     recorded_close(&reel->recorded);
     free(reel);
@@ -397,6 +413,10 @@ bool reel_fresh(Reel *reel)
 
 bool reel_take(Reel *reel, ParticleBuffers *out)
 {
+    if (reel->before && !upload_fresh(reel->upload))
+        return upload_take(reel->before, out);
+    upload_destroy(reel->before);
+    reel->before = NULL;
     return upload_take(reel->upload, out);
 }
 

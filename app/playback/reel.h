@@ -37,7 +37,7 @@ typedef struct ReelStatus {
     bool failed;        /* `message` says why; what was shown before stays */
     char message[1024];
     size_t index;         /* of the step that is shown */
-    double time;          /* its time, s, */
+    double time;          /* its time, s; of a step that failed that one's, */
     double before, after; /* and those of its neighbours: at the file's ends `time` itself */
     size_t read, found;   /* steps that were read; that were wanted and had been read */
     size_t kept;          /* steps that are kept at most */
@@ -50,7 +50,7 @@ bool reel_status(Reel *reel, ReelStatus *status, Error *error);
 /* Waits until the last reel_seek is answered. */
 bool reel_wait(Reel *reel, ReelStatus *status, Error *error);
 
-/* As of upload_fresh and upload_take. What was taken before holds until reel_status or reel_wait. */
+/* As of upload_fresh and upload_take. */
 bool reel_fresh(Reel *reel);
 bool reel_take(Reel *reel, ParticleBuffers *out);
 

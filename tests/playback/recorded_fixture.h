@@ -5,6 +5,7 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/playback/recorded.h"
+#include "app/session/headless.h"
 
 #include <math.h>
 
@@ -20,6 +21,20 @@ static const char tank[] =
     "solver: {sound_speed: 15, threads: 1, step: {mode: fixed, dt: 0.01, substeps: 5}}\n"
     "motion: [{rock: {axis: [0, 0, 1], angle: 10, frequency: 1}}]\n"
     "view: {range: [0, 0.123456789], splat: {level: 0.3}}\n";
+
+/* Of a group of tests: an OpenGL context in *state. */
+static inline int context_begin(void **state)
+{
+    Error error = {{0}};
+    *state = headless_create(HEADLESS_GPU_AUTO, &error);
+    return *state ? 0 : -1;
+}
+
+static inline int context_end(void **state)
+{
+    headless_destroy(*state);
+    return 0;
+}
 
 static inline void must(bool ok, const Error *error)
 {

@@ -3,7 +3,6 @@
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/playback/reel.h"
-#include "app/session/headless.h"
 #include "sim/base/stage.h"
 
 #include <epoxy/gl.h>
@@ -11,22 +10,7 @@
 
 enum { STEPS = 60 };
 
-static Headless *context;
 static Error error;
-
-static int begin(void **state)
-{
-    (void)state;
-    context = headless_create(HEADLESS_GPU_AUTO, &error);
-    return context ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    headless_destroy(context);
-    return 0;
-}
 
 /* Steps 0.1 s apart, of 1 + k particles. */
 static Reel *open_reel(size_t bytes)
@@ -197,7 +181,9 @@ static void a_step_that_cannot_be_read(void **state)
     reel_seek(reel, 0.1, 0.1);
     assert_false(reel_wait(reel, &status, &error));
     assert_string_equal(error.message, "a.h5part: Step#1: 'y' is missing or of another length");
-    assert_true(status.failed && status.index == 0); /* what is shown stays */
+    assert_true(status.failed && status.index == 0);                   /* what is shown stays, */
+    assert_true(fabs(status.time - 0.1) < 1e-9 && status.before == 0); /* and one can step on from there */
+    assert_true(fabs(status.after - 0.2) < 1e-9);
     assert_seek(reel, 0.2, 0.1, 2);
     reel_destroy(reel);
 }
@@ -237,5 +223,5 @@ int main(void)
         TEST(reading_ahead_comes_to_an_end), TEST(few_steps_are_kept),   TEST(a_step_that_cannot_be_read),
         TEST(a_file_that_grows_is_followed),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, context_begin, context_end);
 }

@@ -1,0 +1,35 @@
+/* Where the states in the window come from: a simulation, or a recorded run. The window asks either in the
+   same words; what one of them cannot do its table says. */
+#ifndef SLOSH_PLAY_SOURCE_H
+#define SLOSH_PLAY_SOURCE_H
+
+#include "app/session/simulator.h"
+#include "sim/gl/particle_buffers.h"
+
+struct PlayScene;
+
+typedef struct SourceKind {
+    bool simulates; /* the box can be moved, keys of the solver set, the session saved */
+    bool (*start)(struct PlayScene *open, const SimulatorSetup *how, Error *error);
+    bool (*close)(struct PlayScene *open, double patience_ms); /* as of play_scene_close */
+
+    /* Does what is due; in how many ms more will be: as of simulator_work. */
+    double (*work)(struct PlayScene *open, double budget_ms);
+    void (*status)(struct PlayScene *open, SimulatorStatus *status);
+    bool (*fresh)(struct PlayScene *open);
+    bool (*take)(struct PlayScene *open, ParticleBuffers *out);
+    bool (*has)(const struct PlayScene *open, Scalar scalar, Error *error); /* to colour by */
+
+    /* Time: as of simulator_pause and so on. */
+    void (*pause)(struct PlayScene *open, bool paused);
+    void (*step)(struct PlayScene *open, int frames, bool held); /* 1 or -1, then paused */
+    void (*go_by)(struct PlayScene *open, double seconds);
+    void (*go_to)(struct PlayScene *open, double time);
+    void (*set_speed)(struct PlayScene *open, double speed);
+    void (*reset)(struct PlayScene *open); /* to the start */
+} SourceKind;
+
+extern const SourceKind source_simulator; /* source_simulator.c */
+extern const SourceKind source_recorded;  /* source_recorded.c */
+
+#endif

@@ -1,0 +1,211 @@
+#include "app/playback/player.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const size_t KEPT_BYTES = 256U << 20;
+static const double STALL_MS = 250, PICTURE_S = 1.0 / 60;
+
+struct Player {
+    Reel *reel;
+    Recorded known; /* without its reader: what the file has */
+    ReelStatus status;
+    double time;    /* of the file, that is to be shown, s */
+    double asked;   /* of the last reel_seek */
+    double last_ms; /* wall time of the last work; less than 0: none */
+    double speed, played_s;
+    bool paused, loop, wants;
+    int steps; /* that wait */
+    unsigned failures;
+    char told[sizeof(Error)]; /* the last of them */
+};
+
+Player *player_create(Recorded *recorded, void (*wake)(void), bool paused, Error *error)
+{
+    Player *player = calloc(1, sizeof *player);
+    if (!player) {
+        error_set(error, "%s: out of memory", recorded->path);
+        return NULL;
+    }
+    player->known = *recorded;
+    player->known.reader = NULL;
+    player->reel = reel_create(
+        &(ReelSetup){.recorded = recorded, .attributes = ~PARTICLE_RANGES, .bytes = KEPT_BYTES, .wake = wake},
+        error);
+    if (!player->reel) {
+        free(player);
+        return NULL;
+    }
+    player->time = player->known.first;
+    player->speed = 1;
+    player->paused = paused;
+    player->last_ms = -1;
+    player->wants = true;
+    return player;
+}
+
+void player_destroy(Player *player)
+{
+    if (!player)
+        return;
+    reel_destroy(player->reel);
+    free(player);
+}
+
+/* ---- time ---- */
+
+static double clamp(const Player *player, double time)
+{
+    return fmin(fmax(time, player->status.first), player->status.last);
+}
+
+static bool at_end(const Player *player)
+{
+    return player->time >= player->status.last;
+}
+
+static void flow(Player *player, double seconds)
+{
+    const double length = player->status.last - player->status.first;
+    player->time += seconds;
+    player->played_s += seconds;
+    if (player->time <= player->status.last)
+        return;
+    if (player->loop && length > 0)
+        player->time = player->status.first + fmod(player->time - player->status.last, length);
+    else
+        player->time = player->status.last;
+}
+
+/* To the neighbour of the step that is shown, once it is. */
+static void walk(Player *player)
+{
+    const ReelStatus *status = &player->status;
+    const double next = player->steps > 0 ? status->after : status->before;
+    if (!status->answered || player->wants)
+        return;
+    player->steps = next == status->time ? 0 : player->steps - (player->steps > 0 ? 1 : -1);
+    player->time = next;
+}
+
+/* Whether another step than the shown one may be wanted. */
+static bool leaves_step(const Player *player)
+{
+    const ReelStatus *status = &player->status;
+    const bool last = status->after == status->time;
+    return !status->answered || status->failed || player->time < status->time ||
+           (!last && player->time >= status->after);
+}
+
+/* Steps are read ahead where each of them is shown: at a greater speed nobody knows which will be wanted. */
+static double lead_of(const Player *player)
+{
+    const double gap = player->status.after - player->status.time;
+    const bool each = player->speed * PICTURE_S < 1.5 * gap;
+    return !player->paused && player->status.answered && each ? gap : 0;
+}
+
+static void seek(Player *player)
+{
+    if (!player->wants && (player->time == player->asked || !leaves_step(player)))
+        return;
+    reel_seek(player->reel, player->time, lead_of(player));
+    player->asked = player->time;
+    player->wants = false;
+}
+
+static void listen(Player *player)
+{
+    Error error = {{0}};
+    ReelStatus *status = &player->status;
+    if (!reel_status(player->reel, status, &error)) {
+        status->failed = true;
+        snprintf(status->message, sizeof status->message, "%s", error.message);
+    }
+    if (!status->failed || strcmp(status->message, player->told) == 0)
+        return;
+    snprintf(player->told, sizeof player->told, "%s", status->message);
+    player->failures++;
+}
+
+double player_work(Player *player, double now_ms)
+{
+    const double passed = player->last_ms < 0 ? 0 : fmin(fmax(now_ms - player->last_ms, 0), STALL_MS);
+    listen(player);
+    player->last_ms = now_ms;
+    if (player->steps != 0)
+        walk(player);
+    else if (!player->paused)
+        flow(player, 1e-3 * passed * player->speed);
+    seek(player);
+    if (player->paused || player->steps != 0 || (at_end(player) && !player->loop))
+        return INFINITY;
+    const double left = 1e3 * (player->status.after - player->time) / player->speed;
+    return fmin(fmax(left, 1), STALL_MS);
+}
+
+/* ---- commands ---- */
+
+void player_pause(Player *player, bool paused)
+{
+    player->paused = paused;
+    player->steps = 0;
+}
+
+void player_set_speed(Player *player, double speed)
+{
+    player->speed = speed;
+}
+
+void player_set_loop(Player *player, bool loop)
+{
+    player->loop = loop;
+}
+
+void player_go_to(Player *player, double time)
+{
+    listen(player);
+    player->time = clamp(player, time);
+    player->steps = 0;
+    player->wants = true;
+}
+
+void player_go_by(Player *player, double seconds)
+{
+    player_go_to(player, player->time + seconds);
+}
+
+void player_step(Player *player, int steps, bool held)
+{
+    player->paused = true;
+    if (!held || player->steps == 0)
+        player->steps += steps;
+}
+
+/* ---- what is there ---- */
+
+void player_status(const Player *player, PlayerStatus *status)
+{
+    *status = (PlayerStatus){.reel = player->status,
+                             .paused = player->paused,
+                             .loop = player->loop,
+                             .speed = player->speed,
+                             .played_s = player->played_s,
+                             .failures = player->failures};
+}
+
+bool player_has(const Player *player, Scalar scalar, Error *error)
+{
+    return recorded_has(&player->known, scalar, error);
+}
+
+bool player_fresh(Player *player)
+{
+    return reel_fresh(player->reel);
+}
+
+bool player_take(Player *player, ParticleBuffers *out)
+{
+    return reel_take(player->reel, out);
+}
