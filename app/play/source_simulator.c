@@ -1,6 +1,6 @@
 /* A simulation as the window's source: app/session/simulator.h does the work. */
 #include "app/play/scene.h"
-#include "app/session/studio.h"
+#include "render/renderer.h"
 
 static bool start(PlayScene *open, const SimulatorSetup *how, Error *error)
 {
@@ -42,7 +42,7 @@ static bool take(PlayScene *open, ParticleBuffers *out)
     const ViewDef *view = &open->scene.view;
     if (!simulator_here(open->simulator))
         return upload_take(open->upload, out);
-    return simulator_share(open->simulator, studio_attributes(view), out);
+    return simulator_share(open->simulator, renderer_attributes(view), out);
 }
 
 static bool has(const PlayScene *open, Scalar scalar, Error *error)

@@ -1,4 +1,5 @@
 #include "app/playback/player.h"
+#include "render/renderer.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +32,8 @@ Player *player_create(Recorded *recorded, void (*wake)(void), bool paused, Error
     player->known = *recorded;
     player->known.reader = NULL;
     player->reel = reel_create(
-        &(ReelSetup){.recorded = recorded, .attributes = ~PARTICLE_RANGES, .bytes = KEPT_BYTES, .wake = wake},
+        &(ReelSetup){
+            .recorded = recorded, .attributes = renderer_attributes(NULL), .bytes = KEPT_BYTES, .wake = wake},
         error);
     if (!player->reel) {
         free(player);

@@ -56,7 +56,6 @@ static void upload(Wind *wind)
     wind->state.count = wind->count;
     assert_true(upload_arrays(wind->upload, &arrays, &wind->state, &error));
     assert_true(upload_take(wind->upload, &wind->buffers));
-    wind->buffers.scalar_max[SCALAR_SPEED] = 1;
 }
 
 /* A fluid without order that turns and rises, in the lower half of the box. */
@@ -76,6 +75,8 @@ static ViewDef glyphs_view(GlyphsAt at)
 {
     ViewDef def = bare_view();
     text_set(def.kind, "none");
+    def.range_auto = false;
+    def.range[0] = 0.25, def.range[1] = 1;
     glyphs_def(&def)->show = true;
     glyphs_def(&def)->at = at;
     glyphs_def(&def)->color_by = GLYPHS_PLAIN;
