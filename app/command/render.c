@@ -44,8 +44,7 @@ static Schedule make_schedule(const Args *args, PicturesKind kind)
 static void make_panel(const Render *render, int index, ShootPanel *panel)
 {
     const RenderPlan *plan = &render->plan;
-    *panel =
-        (ShootPanel){.session = &render->sessions[plan->world_of[index]], .view = &plan->scenes[index].view};
+    *panel = (ShootPanel){.session = &render->sessions[plan->world_of[index]], .view = plan->views[index]};
     render_plan_title(plan, render->sessions, index, &panel->title);
 }
 
@@ -218,7 +217,7 @@ static int open_sessions(Render *render, Error *error)
     RenderPlan *plan = &render->plan;
     for (int i = 0; i < plan->world_count; i++) {
         const int code =
-            session_open_scene(&render->sessions[i], render->args, &plan->scenes[plan->panel_of[i]],
+            session_open_scene(&render->sessions[i], render->args, &plan->scenes[plan->first_of[i]],
                                plan->worlds[i], i > 0 ? render->sessions[0].context : NULL, error);
         if (code == 0)
             continue;

@@ -11,38 +11,38 @@
 /* Whether a key is of the view alone: then one world serves all its values. */
 static bool of_view(const char *key)
 {
-    return strncmp(key, "view.", strlen("view.")) == 0;
+    return strncmp(key, "view.", strlen("view.")) == 0 || strncmp(key, "views", strlen("views")) == 0;
 }
 
-/* What went wrong with the settings of a panel, unless the message names them already. */
-static bool blame(const RenderPlan *plan, int panel, Error *error)
+/* What went wrong with a setting, unless the message names it already. */
+static bool blame(const RenderPlan *plan, int setting, Error *error)
 {
     const Error what = *error;
-    return *plan->names[panel] && !strstr(what.message, "--compare")
-               ? error_set(error, "with %s: %s", plan->names[panel], what.message)
+    return *plan->names[setting] && !strstr(what.message, "--compare")
+               ? error_set(error, "with %s: %s", plan->names[setting], what.message)
                : false;
 }
 
-static bool load(const RenderPlan *plan, int panel, Scene *scene, Notes *notes, Error *error)
+static bool load(const RenderPlan *plan, int setting, Scene *scene, Notes *notes, Error *error)
 {
     const Args *args = plan->args;
     char said[ARGS_SWEEPS_MAX][SWEEP_SAID];
     SceneSettings settings = args->settings;
     for (int i = 0; i < args->sweep_count; i++)
-        if (!sweep_set(args->sweeps[i].key, sweeps_value(args->sweeps, args->sweep_count, i, (size_t)panel),
+        if (!sweep_set(args->sweeps[i].key, sweeps_value(args->sweeps, args->sweep_count, i, (size_t)setting),
                        "--compare", said[i], &settings, error))
             return false;
     return (scene_load(args->scenes[0], &settings, scene, notes, error) && world_can(&scene->world, error)) ||
-           blame(plan, panel, error);
+           blame(plan, setting, error);
 }
 
-/* What holds for all panels once, the rest with the name of its panel. */
+/* What holds for all settings once, the rest with the name of its setting. */
 static void tell_notes(const RenderPlan *plan, const Notes notes[])
 {
-    for (int i = 0; i < plan->panel_count; i++)
+    for (int i = 0; i < plan->setting_count; i++)
         for (int k = 0; k < notes[i].count; k++) {
             bool everywhere = true;
-            for (int other = 0; other < plan->panel_count; other++)
+            for (int other = 0; other < plan->setting_count; other++)
                 everywhere &= notes_have(&notes[other], notes[i].line[k]);
             const bool named = everywhere || strstr(notes[i].line[k], "--compare");
             if (!everywhere || i == 0)
@@ -61,7 +61,7 @@ static bool same_world(const RenderPlan *plan, int a, int b)
     return same;
 }
 
-static void name_world(const RenderPlan *plan, int panel, char name[TITLE_SIZE])
+static void name_world(const RenderPlan *plan, int setting, char name[TITLE_SIZE])
 {
     const Args *args = plan->args;
     size_t used = 0;
@@ -70,21 +70,46 @@ static void name_world(const RenderPlan *plan, int panel, char name[TITLE_SIZE])
         if (!of_view(args->sweeps[i].key))
             used += (size_t)snprintf(name + used, TITLE_SIZE - used, "%s%s %s", used ? ", " : "",
                                      args->sweeps[i].key,
-                                     sweeps_value(args->sweeps, args->sweep_count, i, (size_t)panel));
+                                     sweeps_value(args->sweeps, args->sweep_count, i, (size_t)setting));
 }
 
-static void find_worlds(RenderPlan *plan)
+/* The world of each setting. */
+static void find_worlds(RenderPlan *plan, int world_of[PANELS_MAX])
 {
-    for (int i = 0; i < plan->panel_count; i++) {
+    for (int i = 0; i < plan->setting_count; i++) {
         int first = 0;
         while (!same_world(plan, first, i))
             first++;
-        plan->world_of[i] = first < i ? plan->world_of[first] : plan->world_count;
+        world_of[i] = first < i ? world_of[first] : plan->world_count;
         if (first < i)
             continue;
         name_world(plan, i, plan->worlds[plan->world_count]);
-        plan->panel_of[plan->world_count++] = i;
+        plan->first_of[plan->world_count++] = i;
     }
+}
+
+/* Settings beside one another, the views of each below one another. */
+static bool lay_out(RenderPlan *plan, Error *error)
+{
+    const int views = scene_view_count(&plan->scenes[0]);
+    int world_of[PANELS_MAX] = {0};
+    find_worlds(plan, world_of);
+    plan->panel_count = plan->setting_count * views;
+    for (int i = 1; i < plan->setting_count; i++)
+        if (scene_view_count(&plan->scenes[i]) != views)
+            return error_set(error, "slosh render: --compare needs as many views with %s as with %s",
+                             plan->names[i], plan->names[0]);
+    if (plan->panel_count > PANELS_MAX)
+        return error_set(error,
+                         "slosh render: %d settings with %d views each are %d panels; at most %d have room: "
+                         "compare fewer, or leave entries of views out",
+                         plan->setting_count, views, plan->panel_count, PANELS_MAX);
+    for (int i = 0; i < plan->panel_count; i++) {
+        plan->setting_of[i] = i % plan->setting_count;
+        plan->world_of[i] = world_of[plan->setting_of[i]];
+        plan->views[i] = scene_view(&plan->scenes[plan->setting_of[i]], i / plan->setting_count);
+    }
+    return true;
 }
 
 /* Each world for itself fits, as the loader has seen. */
@@ -92,7 +117,7 @@ static bool fit_together(const RenderPlan *plan, Error *error)
 {
     double particles = 0;
     for (int i = 0; i < plan->world_count; i++) {
-        const WorldDef *def = &plan->scenes[plan->panel_of[i]].world;
+        const WorldDef *def = &plan->scenes[plan->first_of[i]].world;
         particles += (double)flow_capacity(def, seed_count(def, def->spacing));
     }
     return scene_fits_memory(particles) ||
@@ -105,19 +130,20 @@ static bool fit_together(const RenderPlan *plan, Error *error)
 bool render_plan_make(const Args *args, RenderPlan *plan, Error *error)
 {
     static Notes notes[PANELS_MAX];
-    const size_t panels = sweeps_combinations(args->sweeps, args->sweep_count);
-    *plan = (RenderPlan){.args = args, .panel_count = (int)panels};
-    if (args->sweep_count && panels != 2 && panels != 4)
+    const size_t settings = sweeps_combinations(args->sweeps, args->sweep_count);
+    *plan = (RenderPlan){.args = args, .setting_count = (int)settings};
+    if (args->sweep_count && settings != 2 && settings != 4)
         return error_set(error,
                          "slosh render: --compare shows two or four settings side by side, not %zu; name two "
                          "or four values of a key, or two of two keys each",
-                         panels);
-    for (int i = 0; i < plan->panel_count; i++) {
+                         settings);
+    for (int i = 0; i < plan->setting_count; i++) {
         sweeps_name(args->sweeps, args->sweep_count, (size_t)i, " ", plan->names[i], TITLE_SIZE);
         if (!load(plan, i, &plan->scenes[i], &notes[i], error))
             return false;
     }
-    find_worlds(plan);
+    if (!lay_out(plan, error))
+        return false;
     tell_notes(plan, notes);
     return fit_together(plan, error);
 }
@@ -166,7 +192,7 @@ static bool is_compared(const RenderPlan *plan, const char *key)
 void render_plan_title(const RenderPlan *plan, const Session sessions[], int panel, Title *title)
 {
     size_t used = 0;
-    memcpy(title->words, plan->names[panel], sizeof title->words);
+    memcpy(title->words, plan->names[plan->setting_of[panel]], sizeof title->words);
     *title->figures = 0;
     for (size_t f = 0; f < sizeof figures / sizeof *figures; f++) {
         char own[64], other[64];

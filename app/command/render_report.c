@@ -15,23 +15,33 @@ static Summary summary_of(const Session sessions[], const RenderFigures *figures
                      .stopped = figures->stopped};
 }
 
+static void tell_alike(const RenderPlan *plan, int one, int other)
+{
+    const int a = plan->setting_of[one], b = plan->setting_of[other];
+    if (a != b)
+        fprintf(stderr, "%s and %s are the same in every picture: it makes no difference here\n",
+                plan->names[a], plan->names[b]);
+    else
+        fprintf(stderr, "%s%sviews[%d] and views[%d] are the same in every picture\n", plan->names[a],
+                *plan->names[a] ? ": " : "", one / plan->setting_count, other / plan->setting_count);
+}
+
 /* What people would take for a mistake, if it were not said. */
 static void tell_same(const RenderPlan *plan, const RenderFigures *figures)
 {
     for (int a = 0; a < plan->panel_count; a++)
         for (int b = 0; b < a; b++)
             if (!figures->differ[a][b])
-                fprintf(stderr, "%s and %s are the same in every picture: it makes no difference here\n",
-                        plan->names[b], plan->names[a]);
+                tell_alike(plan, b, a);
 }
 
 /* Whether panels of several worlds have one range that follows their states. */
 static bool shares_range(const RenderPlan *plan, int panel)
 {
     bool shares = false;
-    const ViewDef *own = &plan->scenes[panel].view;
+    const ViewDef *own = plan->views[panel];
     for (int i = 0; i < plan->panel_count; i++) {
-        const ViewDef *view = &plan->scenes[i].view;
+        const ViewDef *view = plan->views[i];
         shares |=
             plan->world_of[i] != plan->world_of[panel] && view->range_auto && view->color_by == own->color_by;
     }
@@ -98,16 +108,16 @@ static json_t *panel_json(const RenderPlan *plan, const Session sessions[], cons
                           const RenderFigures *figures, int panel)
 {
     const int world = plan->world_of[panel];
-    const ViewDef *view = &plan->scenes[panel].view;
+    const ViewDef *view = plan->views[panel];
     const PanelPlace *at = &panels_places(shoot->panels)[panel];
     const Summary summary = summary_of(sessions, figures, world);
     double range[2];
     panels_range(shoot->panels, panel, range);
     json_t *run = session_json(&sessions[world], plan->args, &summary);
-    json_t *json = json_pack("{s:s, s:[i,i,i,i], s:s, s:s, s:i, s:f, s:o}", "setting", plan->names[panel],
-                             "place", at->x, at->y, at->width, at->height, "view", view->kind, "scalar",
-                             scalar_name(view->color_by), "world", world, "time",
-                             shoot->sources[shoot->source_of[panel]].state.time, "run", run);
+    json_t *json = json_pack("{s:s, s:[i,i,i,i], s:s, s:s, s:i, s:f, s:o}", "setting",
+                             plan->names[plan->setting_of[panel]], "place", at->x, at->y, at->width,
+                             at->height, "view", view->kind, "scalar", scalar_name(view->color_by), "world",
+                             world, "time", shoot->sources[shoot->source_of[panel]].state.time, "run", run);
     if (json && view->color_by != SCALAR_FLUID)
         json_object_set_new(json, "range", json_pack("[f,f]", range[0], range[1]));
     return json;

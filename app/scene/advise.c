@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { PATH_SIZE = 256 };
@@ -44,6 +45,21 @@ static bool lacks_sound(const Scene *scene, const char *path, char need[NEED_SIZ
     return true;
 }
 
+/* Of an entry of views: as if that were the view. */
+static bool lacks_in_views(const Scene *scene, const KeyOwner *owner, const char *path, bool said,
+                           char need[NEED_SIZE])
+{
+    const int index = (int)strtol(strchr(path, '[') + 1, NULL, 10);
+    char text[NEED_SIZE];
+    Scene one = *scene;
+    one.view = *scene_view(scene, index);
+    if (key_owner_used(owner, &one, said))
+        return false;
+    key_owner_need(owner, text, sizeof text);
+    snprintf(need, NEED_SIZE, "views[%d]%.100s", index, text + strlen("view"));
+    return true;
+}
+
 /* Whether the key at `path` has no effect, and what the scene lacks for it. */
 static bool lacks(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
@@ -51,6 +67,8 @@ static bool lacks(const Scene *scene, const char *path, bool said, char need[NEE
     const KeyOwner *owner = key ? key_owner(key) : NULL;
     if (lacks_sound(scene, path, need))
         return true;
+    if (owner && key_list_like(path))
+        return lacks_in_views(scene, owner, path, said, need);
     if (!owner || key_owner_used(owner, scene, said))
         return false;
     key_owner_need(owner, need, NEED_SIZE);

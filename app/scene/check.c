@@ -1,17 +1,31 @@
 #include "app/scene/check_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 
-static bool check_view(const Check *check)
+static bool check_view(const Check *check, const char *path, const ViewDef *view)
 {
-    const ViewDef *view = &check->scene->view;
+    char range[64], camera[64];
+    snprintf(range, sizeof range, "%s.range", path);
+    snprintf(camera, sizeof camera, "%s.camera", path);
     if (!view->range_auto && !(view->range[0] < view->range[1]))
-        return FAIL(check, "view.range", "the range's low (%g) is not below its high (%g); swap or move them",
+        return FAIL(check, range, "the range's low (%g) is not below its high (%g); swap or move them",
                     view->range[0], view->range[1]);
     const double *from = view->camera.from, *to = view->camera.to;
     if (!view->camera_auto && from[0] == to[0] && from[1] == to[1] && from[2] == to[2])
-        return FAIL(check, "view.camera", "the camera stands where it looks; move `from` or `to`");
+        return FAIL(check, camera, "the camera stands where it looks; move `from` or `to`");
     return true;
+}
+
+static bool check_views(const Check *check)
+{
+    for (int i = 0; i < check->scene->view_count; i++) {
+        char path[32];
+        snprintf(path, sizeof path, "views[%d]", i);
+        if (!check_view(check, path, &check->scene->views[i]))
+            return false;
+    }
+    return check_view(check, "view", &check->scene->view);
 }
 
 static bool check_spacing(const Check *check)
@@ -46,5 +60,5 @@ bool scene_check(const Tree *tree, const Scene *scene, Error *error)
         if (!scene_check_probe(&check, k))
             return false;
     return scene_check_plane(&check, "gravity", scene->world.gravity) && check_spacing(&check) &&
-           scene_check_lid(&check) && scene_check_metrics(&check) && check_view(&check);
+           scene_check_lid(&check) && scene_check_metrics(&check) && check_views(&check);
 }

@@ -104,14 +104,29 @@ static bool check_boundary(const Check *check, size_t fluid)
                sum);
 }
 
-static bool check_view(const Check *check)
+/* `path`: of the view in the scene, where its own keys say "view". */
+static bool check_view(const Check *check, const char *path, const ViewDef *view)
 {
-    const ViewKind *kind = view_find(check->scene->view.kind);
-    const Subject subject = {&check->scene->view, &check->scene->world};
+    const ViewKind *kind = view_find(view->kind);
+    const Subject subject = {view, &check->scene->world};
     const char *key = "view.kind";
+    char at[128];
     Error error;
-    return !kind || !kind->check || kind->check(&subject, &key, &error) ||
-           FAIL(check, key, "%s", error.message);
+    if (!kind || !kind->check || kind->check(&subject, &key, &error))
+        return true;
+    snprintf(at, sizeof at, "%s%s", path, key + strlen("view"));
+    return FAIL(check, at, "%s", error.message);
+}
+
+static bool check_views(const Check *check)
+{
+    for (int i = 0; i < check->scene->view_count; i++) {
+        char path[32];
+        snprintf(path, sizeof path, "views[%d]", i);
+        if (!check_view(check, path, &check->scene->views[i]))
+            return false;
+    }
+    return check_view(check, "view", &check->scene->view);
 }
 
 bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
@@ -119,7 +134,7 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
     const Check check = {tree, scene, error};
     const double spacing = scene->world.spacing;
     if (!scene_check_widths(&check) || !scene_check_periodic(&check) || !check_boundary(&check, 0) ||
-        !check_view(&check))
+        !check_views(&check))
         return false;
     if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
         return false;

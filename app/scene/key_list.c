@@ -37,6 +37,12 @@ static const Key metric_keys[] = {
           "what is compared of two runs of the scene, [front, kinetic_energy] and so on; slosh info explains them", .owner = &chart, .flags = I),
     KEYS_END,
 };
+static const Key views_keys[] = {
+    {.path = "views", .type = KEY_LIST, .flags = I, .unit = "", BOUNDS(0, PANELS_MAX), .offset = offsetof(Scene, views),
+     .aux = offsetof(Scene, view_count), .size = sizeof(ViewDef),
+     .help = "pictures beside each other: each entry has keys of view, and all else as view has it"},
+    KEYS_END,
+};
 /* clang-format on */
 
 /* Where the rows of each owner stand: beside the struct that they fill. */
@@ -167,6 +173,17 @@ static void table_make(void)
     add_views();
     add_overlays();
     add_rows(view_frame_keys, view, NULL);
+    add_rows(views_keys, 0, NULL);
+}
+
+int scene_view_count(const Scene *scene)
+{
+    return scene->view_count > 0 ? scene->view_count : 1;
+}
+
+const ViewDef *scene_view(const Scene *scene, int index)
+{
+    return scene->view_count > 0 ? &scene->views[index] : &scene->view;
 }
 
 const Key *scene_keys(int *count)

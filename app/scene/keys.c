@@ -1,5 +1,6 @@
 #include "app/scene/keys.h"
 
+#include <stddef.h>
 #include <string.h>
 
 void key_help_text(const Key *key, char *text, size_t size)
@@ -21,6 +22,31 @@ static bool path_matches(const char *row, const char *path)
     return !*row && !*path;
 }
 
+static const KeyLike views = {"views", "view", offsetof(Scene, view)};
+
+const KeyLike *key_like(const Key *list)
+{
+    return strcmp(list->path, views.list) == 0 ? &views : NULL;
+}
+
+const Key *key_list_like(const char *path)
+{
+    const size_t length = strlen(views.list);
+    return strncmp(path, views.list, length) == 0 && path[length] == '[' ? scene_key_find(views.list) : NULL;
+}
+
+/* views[1].kind: as view.kind. */
+static const Key *find_like(const char *path)
+{
+    char own[128];
+    const Key *list = key_list_like(path);
+    const char *behind = list ? strchr(path, ']') : NULL;
+    if (!behind || behind[1] != '.')
+        return NULL;
+    snprintf(own, sizeof own, "%s%s", key_like(list)->mapping, behind + 1);
+    return scene_key_find(own);
+}
+
 const Key *scene_key_find(const char *path)
 {
     int count;
@@ -28,7 +54,7 @@ const Key *scene_key_find(const char *path)
     for (int i = 0; i < count; i++)
         if (path_matches(keys[i].path, path))
             return &keys[i];
-    return NULL;
+    return find_like(path);
 }
 
 const Key *key_list(const Key *key)
@@ -48,7 +74,8 @@ int key_list_count(const Key *list, const Scene *scene)
 
 size_t key_list_at(const Key *list, int index)
 {
-    return list->offset + (size_t)index * list->size;
+    const KeyLike *like = key_like(list);
+    return list->offset + (size_t)index * list->size - (like ? like->at : 0);
 }
 
 const char *key_name_in(const Key *key, const char *parent)

@@ -10,7 +10,8 @@
 
 const Key *scene_keys(int *count);
 
-/* The row of a path; indices do not matter: fluids[0].density finds "fluids[].density". NULL when unknown. */
+/* The row of a path; indices do not matter: fluids[0].density finds "fluids[].density", views[1].kind the row
+   of "view.kind", which elements of that list have. NULL when unknown. */
 const Key *scene_key_find(const char *path);
 
 /* The part of row's path below `parent` when the row stands directly in it ("size" in "box"), else NULL. */
@@ -19,8 +20,23 @@ const char *key_name_in(const Key *key, const char *parent);
 /* The list in whose elements a row's member stands, where that is no element of another list: "fluids" of
    "fluids[].color". NULL: there is none. */
 const Key *key_list(const Key *key);
+
+/* A list whose elements have no rows of their own but the keys of a mapping, of which each begins as a copy.
+ */
+typedef struct KeyLike {
+    const char *list, *mapping;
+    size_t at; /* where the mapping's struct stands in a Scene, before the list */
+} KeyLike;
+
+/* NULL: elements have rows of their own, or it is no list. */
+const KeyLike *key_like(const Key *list);
+
+/* The list of a path such as "views[1].kind", whose elements have the keys of a mapping; NULL: it is no such
+   path. */
+const Key *key_list_like(const char *path);
 int key_list_count(const Key *list, const Scene *scene);
-size_t key_list_at(const Key *list, int index); /* where the element stands in a Scene, bytes */
+size_t key_list_at(const Key *list,
+                   int index); /* what offsets of an element's rows count from in a Scene, bytes */
 
 /* The owner of a row, its own or of a mapping above it; NULL: whatever the scene is, the key is read. */
 const KeyOwner *key_owner(const Key *key);

@@ -29,7 +29,7 @@ static bool list_is_live(const Key *list)
     int count;
     const Key *keys = scene_keys(&count);
     for (int i = 0; i < count; i++)
-        if (keys[i].flags & KEY_LIVE && key_list(&keys[i]) == list)
+        if (key_like(list) || (keys[i].flags & KEY_LIVE && key_list(&keys[i]) == list))
             return true;
     return false;
 }
@@ -82,7 +82,9 @@ static bool unknown_key(const Change *change)
 static bool find_element(const Scene *scene, Change *change)
 {
     const char *index = strchr(change->path, '[');
-    change->list = key_list(change->key);
+    change->list = index ? key_list_like(change->path) : NULL;
+    if (!change->list)
+        change->list = key_list(change->key);
     change->element = index ? (int)strtol(index + 1, NULL, 10) : 0;
     const int count = change->list ? key_list_count(change->list, scene) : 0;
     if (!change->list || change->element < count)
@@ -90,6 +92,12 @@ static bool find_element(const Scene *scene, Change *change)
     const char *list = change->list->path;
     return error_set(change->error, "--set %s: the scene has no %s[%d]; use at most %s[%d]", change->setting,
                      list, change->element, list, count - 1);
+}
+
+/* The view that a key of a view is for. */
+static const ViewDef *view_of(const Scene *scene, const Change *change)
+{
+    return change->list ? &scene->views[change->element] : &scene->view;
 }
 
 static bool find_key(const Scene *scene, Change *change)
@@ -103,7 +111,8 @@ static bool find_key(const Scene *scene, Change *change)
                          change->setting, change->path);
     if (!find_element(scene, change))
         return false;
-    if (strncmp(change->path, "view.camera.", strlen("view.camera.")) == 0 && scene->view.camera_auto)
+    if (strncmp(change->key->path, "view.camera.", strlen("view.camera.")) == 0 &&
+        view_of(scene, change)->camera_auto)
         return error_set(change->error,
                          "--set %s: the camera is automatic; give the scene a view.camera with from and to",
                          change->setting);
@@ -121,6 +130,14 @@ static bool in_world(const Scene *scene, const Change *change, const void *base)
     return field >= world && field < world + sizeof scene->world && !(change->key->flags & KEY_IDLE);
 }
 
+/* A range is of one scalar. */
+static void ranges_follow(const Scene *before, Scene *after)
+{
+    for (int i = 0; i < after->view_count; i++)
+        after->views[i].range_auto |= after->views[i].color_by != before->views[i].color_by;
+    after->view.range_auto |= after->view.color_by != before->view.color_by;
+}
+
 static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_world)
 {
     Scene after = *scene;
@@ -129,8 +146,7 @@ static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_
     if (!value_read(tree, change->key, tree_near(tree, change->path), change->path, base, change->error) ||
         !scene_check(tree, &after, change->error))
         return false;
-    if (after.view.color_by != scene->view.color_by)
-        after.view.range_auto = true; /* a range is of one scalar */
+    ranges_follow(scene, &after);
     if (concerns_world)
         *concerns_world = in_world(&after, change, base);
     *scene = after;

@@ -45,6 +45,20 @@ static void range_of_scalar(const Tree *tree, const char *scalar_of_file, ViewDe
         view->range_auto = true;
 }
 
+/* A range is of one scalar: of a picture among several that says none it is that of `view`, if that is of its
+ * scalar. */
+static void ranges_of_views(const Tree *tree, Scene *scene)
+{
+    for (int i = 0; i < scene->view_count; i++) {
+        ViewDef *view = &scene->views[i];
+        char path[32];
+        snprintf(path, sizeof path, "views[%d].range", i);
+        if (tree_at(tree, path))
+            continue;
+        view->range_auto = scene->view.range_auto || view->color_by != scene->view.color_by;
+    }
+}
+
 static bool apply_settings(Tree *tree, const SceneSettings *settings, Error *error)
 {
     for (int i = 0; i < settings->count; i++)
@@ -133,6 +147,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
     else
         scene_advise_unused(tree, out, notes);
     range_of_scalar(tree, scalar, &out->view);
+    ranges_of_views(tree, out);
     if (!settings->recorded && !choose_spacing(tree, settings, out, notes, error))
         return false;
     set_defaults(tree, out);

@@ -214,6 +214,8 @@ void scene_keys_print(FILE *file)
 typedef struct Walk {
     char parent[PATH_SIZE], shown[PATH_SIZE];
     const char *base;
+    const char
+        *like; /* the same of the mapping that this one is like: only what differs is said; NULL: all */
 } Walk;
 
 static void print_children(const Walk *walk, FILE *file);
@@ -221,9 +223,11 @@ static void print_children(const Walk *walk, FILE *file);
 static void print_list(const Key *key, const Walk *walk, const char *shown, FILE *file)
 {
     const int elements = *(const int *)(walk->base + key->aux);
+    const KeyLike *like = key_like(key);
     for (int e = 0; e < elements; e++) {
-        Walk inner = {.base = walk->base + key->offset + (size_t)e * key->size};
-        snprintf(inner.parent, PATH_SIZE, "%.120s[]", key->path);
+        Walk inner = {.base = walk->base + key->offset + (size_t)e * key->size - (like ? like->at : 0),
+                      .like = like ? walk->base : NULL};
+        snprintf(inner.parent, PATH_SIZE, "%.120s%s", like ? like->mapping : key->path, like ? "" : "[]");
         snprintf(inner.shown, PATH_SIZE, "%.110s[%d]", shown, e);
         print_children(&inner, file);
     }
@@ -238,8 +242,8 @@ static bool is_absent(const Key *key, const char *base)
 
 static void print_key(const Key *key, const Walk *walk, const char *shown, FILE *file)
 {
-    char value[TIME_TABLE_ROWS * 48];
-    Walk inner = {.base = walk->base};
+    char value[TIME_TABLE_ROWS * 48], like[sizeof value];
+    Walk inner = {.base = walk->base, .like = walk->like};
     switch (key->type) {
     case KEY_MAPPING:
     case KEY_VARIANT:
@@ -254,7 +258,10 @@ static void print_key(const Key *key, const Walk *walk, const char *shown, FILE 
         break;
     default:
         key_value_text(key, walk->base, value, sizeof value);
-        fprintf(file, "%s = %s%s%s\n", shown, value, *key->unit ? " " : "", key->unit);
+        if (walk->like)
+            key_value_text(key, walk->like, like, sizeof like);
+        if (!walk->like || strcmp(value, like) != 0)
+            fprintf(file, "%s = %s%s%s\n", shown, value, *key->unit ? " " : "", key->unit);
     }
 }
 

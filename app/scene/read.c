@@ -161,6 +161,18 @@ static bool check_one_variant(const Place *place)
                       names);
 }
 
+/* An element before its keys are read. */
+static void list_begin(const Place *place, const Key *list, int index, char *element)
+{
+    const KeyLike *like = key_like(list);
+    if (like)
+        memcpy(element, place->base + like->at, list->size);
+    else
+        memset(element, 0, list->size);
+    if (list->init)
+        list->init(element, index);
+}
+
 static bool read_list(const Place *place, const Key *key, const Node *node, const char *shown)
 {
     if (node->kind != NODE_SEQUENCE)
@@ -170,16 +182,16 @@ static bool read_list(const Place *place, const Key *key, const Node *node, cons
     if ((double)elements < key->min || (double)elements > key->max)
         return tree_error(place->tree, node, place->error, "%s has %zu %s; it must have %g to %g", shown,
                           elements, elements == 1 ? "entry" : "entries", key->min, key->max);
+    const KeyLike *like = key_like(key);
     char parent[PATH_SIZE];
-    snprintf(parent, sizeof parent, "%.120s[]", key->path);
+    snprintf(parent, sizeof parent, "%.120s%s", like ? like->mapping : key->path, like ? "" : "[]");
     int index = 0;
     for (const Node *child = node->first; child; child = child->next, index++) {
         Place inner = {.tree = place->tree, .node = child, .parent = parent, .error = place->error};
         inner.base = place->base + key->offset + (size_t)index * key->size;
         snprintf(inner.shown, PATH_SIZE, "%.110s[%d]", shown, index);
-        memset(inner.base, 0, key->size);
-        if (key->init)
-            key->init(inner.base, index);
+        list_begin(place, key, index, inner.base);
+        inner.base -= like ? like->at : 0; /* the mapping's rows count from there */
         if (!read_mapping(&inner))
             return false;
     }

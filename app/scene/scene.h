@@ -8,6 +8,7 @@
 #include "app/base/notes.h"
 #include "app/probe/probe_def.h"
 #include "render/frame/view_def.h"
+#include "render/panels.h"
 #include "sim/base/error.h"
 #include "sim/matter/world_def.h"
 
@@ -29,8 +30,10 @@ typedef struct Scene {
     char title[128];
     WorldDef world;
     ViewDef view;
-    char preset[NAME_SIZE]; /* what filled in the keys that the scene does not name (app/scene/preset.h) */
-    unsigned preset_filled; /* which of the preset's settings, a bit each */
+    int view_count;            /* of the pictures beside each other; 0: one, which is `view` */
+    ViewDef views[PANELS_MAX]; /* each is `view` but for what its entry says */
+    char preset[NAME_SIZE];    /* what filled in the keys that the scene does not name (app/scene/preset.h) */
+    unsigned preset_filled;    /* which of the preset's settings, a bit each */
     bool
         realtime; /* the window simulates as many frames as the wall clock asks for, else as many as it can */
     int metric_count;
@@ -56,6 +59,10 @@ typedef struct SceneSettings {
     bool recorded; /* of a recorded run, which nothing simulates: what it began with is not looked at, and of
                       the settings alone it is said what has no effect */
 } SceneSettings;
+
+/* Picture number `index` of those beside each other, from 0; how many there are, at least 1. */
+const ViewDef *scene_view(const Scene *scene, int index);
+int scene_view_count(const Scene *scene);
 
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what
    would be right", and "--set path=value: ..." where the command line is wrong. Creates nothing. `name` is a

@@ -102,6 +102,34 @@ class Panels(CompareTest):
                                          self.picture('one/frame_00004.png')[TITLE:])
 
 
+class Views(CompareTest):
+    def test_views_of_a_scene_are_each_as_alone(self):
+        views = [{}, {'kind': 'splat'}, {'kind': 'slice', 'color_by': 'pressure'}]
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--time', '0.1', '--size', '501x400', '--json', 'out.json',
+                                '--set', 'views=' + json.dumps(views))
+        self.assertEqual(code, 0, said)
+        self.assertNotIn('no effect', said)
+        whole, result = self.picture('out.png'), json.loads(self.read('out.json'))
+        self.assertEqual([p['place'] for p in result['panels']],
+                         [[0, 0, 249, 400], [252, 0, 249, 199], [252, 201, 249, 199]])
+        for panel, view in zip(result['panels'], views, strict=True):
+            sets = [word for key, value in view.items() for word in ('--set', f'view.{key}={value}')]
+            x, y, width, height = panel['place']
+            self.assertEqual(self.slosh('render', 'scene.yaml', '-o', 'one.png', '--time', '0.1', '--size', f'{width}x{height}',
+                                        '--quiet', *sets)[0], 0)
+            numpy.testing.assert_array_equal(whole[y:y + height, x:x + width], self.picture('one.png'))
+
+    def test_settings_beside_one_another_and_their_views_below(self):
+        _, result = self.compare('--compare', 'particles=300,1000', '--set', 'views=[{}, {kind: splat}]')
+        self.assertEqual([(p['setting'], p['view']) for p in result['panels']],
+                         [('particles 300', 'spheres'), ('particles 1000', 'spheres'),
+                          ('particles 300', 'splat'), ('particles 1000', 'splat')])
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'no.png', '--compare', 'particles=300,1000', '--set',
+                                'views=[{}, {}, {}]')
+        self.assertEqual(code, 2, said)
+        self.assertIn('2 settings with 3 views each are 6 panels; at most 4 have room', said)
+
+
 class Words(CompareTest):
     def refused(self, said, *arguments, code=2):
         done = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--time', '0', *arguments)
@@ -161,4 +189,4 @@ class Words(CompareTest):
 
 
 if __name__ == '__main__':
-    command.main('Panels', 'Words')
+    command.main('Panels Views', 'Words')
