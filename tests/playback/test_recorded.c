@@ -33,7 +33,7 @@ static void assert_same_still(const Still *a, const Still *b, unsigned attribute
     assert_same_floats("velocity", a->arrays.velocity, b->arrays.velocity, 4 * count);
     assert_memory_equal(a->arrays.fluid, b->arrays.fluid, count * sizeof *a->arrays.fluid);
     assert_memory_equal(a->arrays.id, b->arrays.id, count * sizeof *a->arrays.id);
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         if (attributes & PARTICLE_SCALAR(s))
             assert_same_floats(scalar_name((Scalar)s), a->arrays.scalar[s], b->arrays.scalar[s], count);
         else
