@@ -29,19 +29,28 @@ void overlay_set_letters(Overlay *overlay, float letters)
 void overlay_event(Overlay *overlay, const WindowEvent *event)
 {
     widget_input_add(&overlay->input, event);
-    if (event->kind == WINDOW_MOVE || event->kind == WINDOW_BUTTON)
-        memcpy(overlay->mouse, (float[]){(float)event->x, (float)event->y}, sizeof overlay->mouse);
+    if (event->kind != WINDOW_MOVE && event->kind != WINDOW_BUTTON)
+        return;
+    memcpy(overlay->mouse, (float[]){(float)event->x, (float)event->y}, sizeof overlay->mouse);
+    overlay->moved_ms = wall_ms();
 }
 
-/* While paused or in the past, where the mouse is near the lower edge, or always. */
+/* Whether the mouse came near the lower edge just now; where it left the window is not told. */
+static bool mouse_is_near(const Overlay *overlay)
+{
+    static const float NEAR = 1.5F; /* of the time line's height */
+    static const double SOON_MS = 3000;
+    const float up = (float)overlay->height - overlay->mouse[1];
+    return overlay->height > 0 && up >= 0 && up < NEAR * timeline_height(overlay->ui) &&
+           wall_ms() < overlay->moved_ms + SOON_MS;
+}
+
+/* While paused or in the past, where the mouse is near, or always. */
 static bool shows_timeline(const Overlay *overlay, const Model *model)
 {
-    static const float NEAR = 1.5F; /* of its height */
-    const float up = (float)overlay->height - overlay->mouse[1];
-    const bool near = up >= 0 && up < NEAR * timeline_height(overlay->ui);
     const SimulatorPast *past = &model->status.past;
     return model->has_particles && past->kept &&
-           (overlay->timeline || model->paused || past->behind || overlay->scrubs || near);
+           (overlay->timeline || model->paused || past->behind || overlay->scrubs || mouse_is_near(overlay));
 }
 
 bool overlay_shown(const Overlay *overlay, const Model *model)

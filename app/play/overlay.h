@@ -17,7 +17,8 @@ typedef struct Overlay {
     Ui *ui;
     Panel *widgets;
     WidgetInput input;
-    float mouse[2];  /* where the last event had it */
+    float mouse[2];  /* where the last event had it, */
+    double moved_ms; /* wall time of that */
     int height;      /* of the picture drawn last */
     bool scrubs;     /* the mouse holds the time line, */
     double wished;   /* at this time, s */
