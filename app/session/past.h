@@ -24,7 +24,7 @@
 /* ms of frames from one state to the next: while there is memory; then at most, and at most where the past is
    shorter than this many seconds. A jump is to take 200 ms, of which loading and showing need some too. */
 #define PAST_GAP_MS       50.0
-#define PAST_GAP_MOST_MS  120.0
+#define PAST_GAP_MOST_MS  150.0
 #define PAST_GAP_SHORT_MS 1000.0
 #define PAST_WISH_S       10.0
 
