@@ -91,7 +91,7 @@ class Handles(Window):
     def test_keys_move_and_turn_the_plane(self):
         self.open('slice.yaml')
         self.keys('k', 'k', 'j')
-        self.keys('z', 't')
+        self.keys('z', 'u')
         point, normal, _ = self.settings()
         extent = 0.6 + 0.8  # of the box along the normal
         numpy.testing.assert_allclose(point, self.point + 0.02 * extent * self.normal, atol=1e-5)

@@ -46,7 +46,7 @@ static void run_and_read(const char *method)
     char setting[64];
     snprintf(setting, sizeof setting, "solver.method=%s", method);
     const Scene scene = tank_scene(setting);
-    const unsigned all = PARTICLE_SCALAR(SCALAR_COUNT) - 1;
+    const unsigned all = PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1;
     Error error = {{0}};
     Still lived[STEPS] = {{.room = 0}}, read = {.room = 0};
     Recorded recorded;
@@ -242,7 +242,7 @@ static void what_is_missing_is_told(void **state)
     assert_false(recorded_has(&recorded, SCALAR_PRESSURE, &error));
     assert_contains(error.message,
                     "a.h5part: has no pressure to colour by; view.color_by may be speed, density,");
-    must(recorded_read(&recorded, 2, PARTICLE_SCALAR(SCALAR_COUNT) - 1, &still, &error), &error);
+    must(recorded_read(&recorded, 2, PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1, &still, &error), &error);
     assert_true(still.state.count == 7 && !still.arrays.scalar[SCALAR_PRESSURE] &&
                 still.arrays.scalar[SCALAR_DENSITY]);
     still_free(&still);
@@ -252,7 +252,7 @@ static void what_is_missing_is_told(void **state)
     open_recorded(&recorded, "a.h5part", &notes);
     assert_contains(notes.line[0], "a.h5part: has no velocity_0, velocity_1, velocity_2, density, pressure,");
     assert_contains(notes.line[0], "and particles have the volume of fluid at rest");
-    assert_int_equal(recorded.attributes & (PARTICLE_SCALAR(SCALAR_COUNT) - 1), 0);
+    assert_int_equal(recorded.attributes & (PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1), 0);
     must(recorded_read(&recorded, 1, ~0U, &still, &error), &error);
     assert_int_equal(still.state.count, 6);
     assert_true(fabsf(still.arrays.position[3] - 1e-3F) < 1e-9F);
