@@ -357,6 +357,9 @@ void reel_destroy(Reel *reel)
     upload_destroy(reel->before);
     upload_destroy(reel->upload);
     recorded_close(&reel->recorded);
+    pthread_cond_destroy(&reel->done);
+    pthread_cond_destroy(&reel->wanted);
+    pthread_mutex_destroy(&reel->mutex);
     free(reel);
 }
 
