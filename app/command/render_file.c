@@ -88,8 +88,7 @@ static bool understand(FileRender *render, Recorded *recorded, PicturesKind *kin
     render->steps = recorded->steps;
     const ViewDef *view = &render->scene.view;
     const bool colored = strcmp(view->kind, "none") != 0 && view->color_by != SCALAR_FLUID;
-    if ((colored && !recorded_has(recorded, view->color_by, error)) ||
-        !choose_times(render, recorded, *kind, error)) {
+    if ((colored && !recorded_has(recorded, view, error)) || !choose_times(render, recorded, *kind, error)) {
         recorded_close(recorded);
         return false;
     }

@@ -60,7 +60,7 @@ static void next_scalar(Play *play)
     Error none;
     do
         view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
-    while (view->color_by != SCALAR_FLUID && !open->source->has(open, view->color_by, &none));
+    while (view->color_by != SCALAR_FLUID && !open->source->has(open, view, &none));
     view->range_auto = view->color_by == file->color_by ? file->range_auto : true;
     memcpy(view->range, file->range, sizeof view->range);
     view_changed(play);

@@ -316,7 +316,7 @@ static bool set_recorded(Model *model, const char *setting)
     const bool ok =
         scene_set_live(&changed, setting, &concerns_world, &error) &&
         (!concerns_world || error_set(&error, "%s: a recorded run stays as it was simulated", setting)) &&
-        open->source->has(open, changed.view.color_by, &error);
+        open->source->has(open, &changed.view, &error);
     if (ok)
         open->scene = changed;
     else

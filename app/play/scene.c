@@ -40,7 +40,7 @@ static bool read_recorded(PlayScene *open, const char *path, const SceneSettings
         return false;
     open->scene = open->recorded->scene;
     snprintf(open->scene.path, sizeof open->scene.path, "%s", path);
-    if (!recorded_has(open->recorded, open->scene.view.color_by, &why)) {
+    if (!recorded_has(open->recorded, &open->scene.view, &why)) {
         notes_add(notes, "%.300s; coloured by fluid", why.message);
         open->scene.view.color_by = SCALAR_FLUID;
     }

@@ -18,7 +18,7 @@ typedef struct SourceKind {
     void (*status)(struct PlayScene *open, SimulatorStatus *status);
     bool (*fresh)(struct PlayScene *open);
     bool (*take)(struct PlayScene *open, ParticleBuffers *out);
-    bool (*has)(const struct PlayScene *open, Scalar scalar, Error *error); /* to colour by */
+    bool (*has)(const struct PlayScene *open, const ViewDef *view, Error *error); /* what it reads */
 
     /* Time: as of simulator_pause and so on. */
     void (*pause)(struct PlayScene *open, bool paused);

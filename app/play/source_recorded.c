@@ -53,9 +53,9 @@ static bool take(PlayScene *open, ParticleBuffers *out)
     return player_take(open->player, out);
 }
 
-static bool has(const PlayScene *open, Scalar scalar, Error *error)
+static bool has(const PlayScene *open, const ViewDef *view, Error *error)
 {
-    return player_has(open->player, scalar, error);
+    return player_has(open->player, view, error);
 }
 
 static void pause(PlayScene *open, bool paused)

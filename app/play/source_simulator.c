@@ -45,9 +45,9 @@ static bool take(PlayScene *open, ParticleBuffers *out)
     return simulator_share(open->simulator, renderer_attributes(view), out);
 }
 
-static bool has(const PlayScene *open, Scalar scalar, Error *error)
+static bool has(const PlayScene *open, const ViewDef *view, Error *error)
 {
-    (void)open, (void)scalar, (void)error;
+    (void)open, (void)view, (void)error;
     return true;
 }
 

@@ -32,9 +32,7 @@ Player *player_create(Recorded *recorded, void (*wake)(void), bool paused, Error
     player->known = *recorded;
     player->known.reader = NULL;
     player->reel = reel_create(
-        &(ReelSetup){
-            .recorded = recorded, .attributes = renderer_attributes(NULL), .bytes = KEPT_BYTES, .wake = wake},
-        error);
+        &(ReelSetup){.recorded = recorded, .attributes = ~0U, .bytes = KEPT_BYTES, .wake = wake}, error);
     if (!player->reel) {
         free(player);
         return NULL;
@@ -197,9 +195,9 @@ void player_status(const Player *player, PlayerStatus *status)
                              .failures = player->failures};
 }
 
-bool player_has(const Player *player, Scalar scalar, Error *error)
+bool player_has(const Player *player, const ViewDef *view, Error *error)
 {
-    return recorded_has(&player->known, scalar, error);
+    return recorded_has(&player->known, view, error);
 }
 
 bool player_fresh(Player *player)

@@ -38,7 +38,7 @@ typedef struct PlayerStatus {
 
 void player_status(const Player *player, PlayerStatus *status);
 
-bool player_has(const Player *player, Scalar scalar, Error *error);
+bool player_has(const Player *player, const ViewDef *view, Error *error); /* as of recorded_has */
 
 /* As of reel_fresh and reel_take. */
 bool player_fresh(Player *player);

@@ -1,7 +1,7 @@
 #include "app/playback/recorded.h"
 
 #include "app/playback/recorded_scene.h"
-#include "render/derived/derived.h"
+#include "render/renderer.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,11 +29,13 @@ bool recorded_is_file(const char *path)
 
 static unsigned attributes_of(const SnapshotStep *step)
 {
-    unsigned has = ~0U;
-#define X(name, source) has &= snapshot_step_lacks(step, name) ? ~(source) : ~0U;
+    unsigned has = 0, lacks = 0;
+#define X(name, source)                                                                                      \
+    has |= (source);                                                                                         \
+    lacks |= snapshot_step_lacks(step, name) ? (source) : 0;
     SOURCES(X)
 #undef X
-    return has;
+    return (has & ~lacks) | PARTICLE_FLUID; /* all are of the first fluid where the file says nothing */
 }
 
 static void tell_lacks(const char *path, const SnapshotStep *step, Notes *notes)
@@ -62,24 +64,26 @@ static bool look_at_first(Recorded *recorded, Notes *notes, Error *error)
     return true;
 }
 
-/* What a scalar follows from is there. */
-static bool has_scalar(const Recorded *recorded, int scalar)
+/* Whether the view can be drawn so. */
+static bool covers(const Recorded *recorded, const ViewDef *view)
 {
-    const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
-    return (wants_attributes(&wants) & ~recorded->attributes) == 0;
+    return (renderer_attributes(view) & ~recorded->attributes) == 0;
 }
 
-bool recorded_has(const Recorded *recorded, Scalar scalar, Error *error)
+bool recorded_has(const Recorded *recorded, const ViewDef *view, Error *error)
 {
     char known[256] = "";
-    if (has_scalar(recorded, scalar))
+    ViewDef other = *view;
+    if (covers(recorded, view))
         return true;
-    for (int s = 0; s < SCALAR_COUNT; s++)
-        if (has_scalar(recorded, s))
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        other.color_by = (Scalar)s;
+        if (covers(recorded, &other))
             snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "",
                      scalar_name((Scalar)s));
+    }
     return error_set(error, "%s: has no %s to colour by; view.color_by may be %s", recorded->path,
-                     scalar_name(scalar), *known ? known : "nothing, and a view none");
+                     scalar_name(view->color_by), known);
 }
 
 /* ---- the file ---- */
@@ -221,7 +225,7 @@ static void fill(const Recorded *recorded, const SnapshotStep *step, const Parti
         to->fluid[i] = (uint32_t)step->fluid[i];
         to->id[i] = (uint32_t)step->id[i];
     }
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
+    for (size_t s = 0; s < sizeof to->scalar / sizeof *to->scalar; s++)
         for (size_t i = 0; to->scalar[s] && i < step->count; i++)
             to->scalar[s][i] = scalar_of(step, (Scalar)s, i);
 }

@@ -30,8 +30,8 @@ bool recorded_open(const char *path, const SceneSettings *settings, Recorded *ou
                    Error *error);
 void recorded_close(Recorded *recorded);
 
-/* Whether a view can be coloured by it; false with what can be. */
-bool recorded_has(const Recorded *recorded, Scalar scalar, Error *error);
+/* Whether it has what that view reads of a state; false with what it may be coloured by. */
+bool recorded_has(const Recorded *recorded, const ViewDef *view, Error *error);
 
 bool recorded_time(Recorded *recorded, size_t index, double *time, Error *error);
 
@@ -39,7 +39,7 @@ bool recorded_time(Recorded *recorded, size_t index, double *time, Error *error)
 bool recorded_find(Recorded *recorded, double time, size_t *index, Error *error);
 
 /* The state as world_read would give it: those of `attributes` that the file has, and others NULL. Volumes
-   follow from densities (snapshot_volume). */
+   follow from densities (snapshot_volume); without fluids all are of the first. */
 bool recorded_read(Recorded *recorded, size_t index, unsigned attributes, Still *out, Error *error);
 
 /* Looks whether the file has grown: `steps` and `last` follow. False as of snapshot_follow. */

@@ -48,7 +48,7 @@ struct Reel {
 static size_t step_bytes(const Still *still)
 {
     size_t bytes = sizeof(float[4]) + sizeof(float[4]) + 2 * sizeof(uint32_t);
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
+    for (size_t s = 0; s < sizeof still->arrays.scalar / sizeof *still->arrays.scalar; s++)
         bytes += still->arrays.scalar[s] ? sizeof(float) : 0;
     return bytes * (still->room + 1);
 }

@@ -238,8 +238,10 @@ static void what_is_missing_is_told(void **state)
     edit(remove_pressure);
     open_recorded(&recorded, "a.h5part", &notes);
     assert_string_equal(notes.line[0], "a.h5part: has no pressure; what follows from that cannot be shown");
-    assert_true(recorded_has(&recorded, SCALAR_SPEED, &error));
-    assert_false(recorded_has(&recorded, SCALAR_PRESSURE, &error));
+    ViewDef view = recorded.scene.view;
+    assert_true(recorded_has(&recorded, &view, &error));
+    view.color_by = SCALAR_PRESSURE;
+    assert_false(recorded_has(&recorded, &view, &error));
     assert_contains(error.message,
                     "a.h5part: has no pressure to colour by; view.color_by may be speed, density,");
     must(recorded_read(&recorded, 2, PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1, &still, &error), &error);
@@ -252,7 +254,7 @@ static void what_is_missing_is_told(void **state)
     open_recorded(&recorded, "a.h5part", &notes);
     assert_contains(notes.line[0], "a.h5part: has no velocity_0, velocity_1, velocity_2, density, pressure,");
     assert_contains(notes.line[0], "and particles have the volume of fluid at rest");
-    assert_int_equal(recorded.attributes & (PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1), 0);
+    assert_int_equal(recorded.attributes, PARTICLE_FLUID); /* all of the first */
     must(recorded_read(&recorded, 1, ~0U, &still, &error), &error);
     assert_int_equal(still.state.count, 6);
     assert_true(fabsf(still.arrays.position[3] - 1e-3F) < 1e-9F);
