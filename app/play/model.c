@@ -25,7 +25,7 @@ static void follow_travels(Model *model)
 {
     const SimulatorPast *past = &model->status.past;
     WorldDef def;
-    if (past->travels == model->travels) /* so of a recorded run always */
+    if (past->travels == model->travels)
         return;
     model->travels = past->travels;
     simulator_settings(model->open.simulator, &def);
