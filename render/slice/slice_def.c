@@ -5,7 +5,10 @@
 
 static const char *const show_names[] = {[SLICE_PLANE] = "plane", [SLICE_FLAT] = "flat", NULL};
 
-const SliceDef slice_usual = {.normal = {0, 0, 1}, .samples = 512, .cut = 0.25};
+static const char *const particles_names[] = {
+    [SLICE_ALONE] = "none", [SLICE_BEHIND] = "behind", [SLICE_BOTH] = "both", NULL};
+
+const SliceDef slice_usual = {.normal = {0, 0, 1}, .samples = 512, .cut = 0.25, .opacity = 1};
 
 #define AT(field) offsetof(SliceDef, field)
 
@@ -20,6 +23,8 @@ const Key slice_keys[] = {
     BOOLEAN("view.slice.raw", L, AT(raw), "sum V W s as it is; else over sum V W, the mean that is right near the surface too"),
     INTEGER("view.slice.samples", L, 16, 8192, AT(samples), "along the longer side where it is shown in the box; flat has one a pixel"),
     NUMBER("view.slice.cut", L, "", 0, 1, AT(cut), "where sum V W is less there is no fluid to be shown; a plane surface has 0.5"),
+    CHOICE_OF("view.slice.particles", L | KEY_INDEX | KEY_REBUILD, particles_names, AT(particles), "shown with the plane in three dimensions; behind: those that its normal points away from"),
+    NUMBER("view.slice.opacity", L, "", 0, 1, AT(opacity), "of the plane where it is in the box"),
     INTEGER("view.slice.isolines", L, 0, 100, AT(isolines), "lines of equal value between the ends of the range"),
     KEYS_END,
 };

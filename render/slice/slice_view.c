@@ -2,6 +2,7 @@
 
 #include "render/frame/colormap.h"
 #include "render/frame/legend.h"
+#include "render/particles/half.h"
 #include "render/plane/plane_kernel.h"
 #include "render/plane/plane_sum.h"
 #include "render/slice/slice_plane.h"
@@ -12,6 +13,7 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,6 +22,10 @@ typedef struct SliceView {
     unsigned program, vertex_array, colormap;
     bool has_scalar; /* that is shown */
     SliceProbe probe;
+    View *balls; /* draws particles beside the plane; NULL: none are shown */
+    ViewDef balls_def;
+    ParticleHalf half;
+    ParticleBuffers shown; /* of this picture */
 } SliceView;
 
 static void destroy(void *state)
@@ -30,6 +36,8 @@ static void destroy(void *state)
     glDeleteProgram(view->program);
     glDeleteVertexArrays(1, &view->vertex_array);
     glDeleteTextures(1, &view->colormap);
+    view_destroy(view->balls);
+    particle_half_destroy(&view->half);
     free(view);
 }
 
@@ -39,6 +47,23 @@ static bool check(const Subject *subject, const char **key, Error *error)
     *key = "view.slice.normal";
     return normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] > 0 ||
            error_set(error, "a normal of length 0 is across no plane; [0, 0, 1] looks along z");
+}
+
+/* That of the list's first view, with the slice's colours. */
+static void follow_def(SliceView *view, const ViewDef *def)
+{
+    view->balls_def = *def;
+    snprintf(view->balls_def.kind, sizeof view->balls_def.kind, "%s", view_at(0)->name);
+}
+
+static bool create_balls(SliceView *view, const Subject *subject, Error *error)
+{
+    const Subject balls = {&view->balls_def, subject->world};
+    if (slice_def(subject->def)->particles == SLICE_ALONE)
+        return true;
+    follow_def(view, subject->def);
+    view->balls = view_create(&balls, error);
+    return view->balls && particle_half_create(&view->half, error);
 }
 
 static void *create(const Subject *subject, Error *error)
@@ -55,7 +80,7 @@ static void *create(const Subject *subject, Error *error)
         error_set(error, "unknown colormap \"%s\"; viridis is the default", subject->def->colormap);
     view->program = view->colormap ? program_create("slice show", stages, NULL, error) : 0;
     const int kernel = plane_kernel_of(slice_def(subject->def)->kernel, subject->world);
-    if (view->program && plane_sum_prepare(&view->sum, kernel, error))
+    if (view->program && plane_sum_prepare(&view->sum, kernel, error) && create_balls(view, subject, error))
         return view;
     destroy(view);
     return NULL;
@@ -150,6 +175,16 @@ static void begin_in_space(const SliceView *view, const Frame *frame)
     set_filter(view->sum.sums, GL_LINEAR);
 }
 
+/* The plane covers what is beyond it, and nothing is drawn twice. */
+static void begin_blending(double opacity)
+{
+    if (opacity >= 1)
+        return;
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
 /* Where colours are those of fluids, or the scalar is not there, it shows how much fluid there is. */
 static unsigned what_is_shown(const SliceView *view, const Frame *frame)
 {
@@ -166,17 +201,79 @@ static void show_sums(const SliceView *view, const PlaneJob *job, const Frame *f
     glDisable(GL_BLEND);
     if (flat)
         begin_flat(view, job, frame);
-    else
+    else {
         begin_in_space(view, frame);
+        begin_blending(def->opacity);
+    }
     glUseProgram(view->program);
     glUniform1ui(FLAT_AT, flat);
     glUniform1ui(SHOWN_AT, what_is_shown(view, frame));
     glUniform1f(CUT_AT, (float)def->cut);
     glUniform1ui(ISOLINES_AT, (GLuint)def->isolines);
+    glUniform1f(OPACITY_AT, flat ? 1 : (float)def->opacity);
     glBindTextureUnit(SUMS_UNIT, view->sum.sums);
     glBindTextureUnit(COLORMAP_UNIT, view->colormap);
     glBindVertexArray(view->vertex_array);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDisable(GL_BLEND);
+}
+
+static bool shows_balls(const SliceView *view, const Frame *frame)
+{
+    return view->balls && slice_def(frame->def)->show == SLICE_PLANE && !(frame->slab > 0);
+}
+
+/* Balls behind touch the plane at most. */
+static void find_shown(SliceView *view, const ParticleBuffers *particles, const Frame *frame)
+{
+    const SliceDef *def = slice_def(frame->def);
+    Plane plane;
+    double most = -(double)frame->particle_radius;
+    view->shown = *particles;
+    if (def->particles != SLICE_BEHIND)
+        return;
+    slice_plane(def, particles, &plane); /* its place is there in any case */
+    for (int k = 0; k < 3; k++)
+        most += plane.corner[k] * plane.normal[k];
+    particle_half_run(&view->half, particles, plane.normal, most, &view->shown);
+}
+
+/* The frame that the other view sees. */
+static Frame frame_of_balls(SliceView *view, const Frame *frame)
+{
+    Frame own = *frame;
+    own.def = &view->balls_def;
+    return own;
+}
+
+static void prepare(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SliceView *view = state;
+    if (!shows_balls(view, frame))
+        return;
+    follow_def(view, frame->def);
+    GL_STAGE(frame->timer, STAGE_VISIBILITY)
+    find_shown(view, particles, frame);
+    const Frame own = frame_of_balls(view, frame);
+    view_prepare(view->balls, &view->shown, &own);
+}
+
+static void cast(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    SliceView *view = state;
+    (void)particles;
+    if (!shows_balls(view, frame))
+        return;
+    const Frame own = frame_of_balls(view, frame);
+    view_cast(view->balls, &view->shown, &own);
+}
+
+static void draw_balls(SliceView *view, const Frame *frame)
+{
+    if (!shows_balls(view, frame))
+        return;
+    const Frame own = frame_of_balls(view, frame);
+    view_draw(view->balls, &view->shown, &own);
 }
 
 /* What probes of the picture need to know. */
@@ -219,6 +316,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     PlaneJob job;
     Error error;
     bool made = false;
+    draw_balls(view, frame);
     view->has_scalar =
         frame->def->color_by != SCALAR_FLUID && particles->scalar[frame->def->color_by].buffer != 0;
     GL_STAGE(frame->timer, STAGE_BLEND)
@@ -238,10 +336,11 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
 /* The field is 1 in a fluid at rest, more where it is compressed. */
 static void show(const ViewDef *def, Frame *frame)
 {
-    frame->flat = slice_def(def)->show == SLICE_FLAT;
+    const SliceDef *own = slice_def(def);
+    frame->flat = own->show == SLICE_FLAT;
     if (!frame->by_fluid)
         return;
-    frame->by_fluid = false;
+    frame->by_fluid = own->particles != SLICE_ALONE && !frame->flat; /* balls have the fluids' colours */
     frame->shown = "field";
     frame->shown_unit = "";
     frame->range[0] = 0;
@@ -260,7 +359,9 @@ const ViewKind view_slice = {
     .check = check,
     .create = create,
     .destroy = destroy,
+    .prepare = prepare,
     .show = show,
+    .cast = cast,
     .draw = draw,
     .handles = slice_handles,
     .drag = slice_drag,

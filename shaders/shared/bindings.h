@@ -13,6 +13,7 @@
 #define SCALARS_STORAGE   1
 #define FLUIDS_STORAGE    2
 #define LISTED_STORAGE    3
+#define HALF_STORAGE      3 /* of a pass without a list */
 /* those of a neighbourhood, bound in this order by one call */
 #define CELLS_STORAGE  4
 #define RANKS_STORAGE  5
@@ -47,5 +48,7 @@
 #define GRID_SCALE_AT       9
 #define CASTERS_AT          10
 #define SCATTER_STEP_AT     11
+#define HALF_PLANE_AT       12
+#define HALF_COUNT_AT       13
 
 #endif

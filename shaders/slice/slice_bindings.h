@@ -11,6 +11,7 @@
 #define CUT_AT      17
 #define ISOLINES_AT 18
 #define FLAT_AT     19
+#define OPACITY_AT  20
 
 /* Values of the uniform shown */
 #define SLICE_MEAN  0 /* sum V W s over sum V W */

@@ -7,6 +7,7 @@ layout(binding = COLORMAP_UNIT) uniform sampler2D colormap;
 layout(location = SHOWN_AT) uniform uint shown;
 layout(location = CUT_AT) uniform float cut;
 layout(location = ISOLINES_AT) uniform uint isolines;
+layout(location = OPACITY_AT) uniform float opacity;
 layout(location = 0) in vec2 share;
 layout(location = 0) out vec4 color;
 
@@ -23,5 +24,6 @@ void main()
     color = texelFetch(colormap, ivec2(clamp((value - range_low) * range_scale, 0.0, 1.0) * 255.0 + 0.5, 0), 0);
     float nearest = round(level);
     bool line = isolines > 0u && nearest > 0.5 && nearest < float(isolines) + 0.5 && abs(level - nearest) < 0.7 * wide && wide < 0.7;
+    color.a = opacity;
     color.rgb = unknown ? vec3(1.0, 0.0, 0.6) : line ? color.rgb * 0.15 : color.rgb;
 }

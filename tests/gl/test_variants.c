@@ -558,6 +558,7 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     VIEW("volume", volume_def(&v)->method = VOLUME_GATHER, volume_def(&v)->raycast.look = RAYCAST_TRANSLUCENT,
          volume_def(&v)->raycast.by_scalar = 0.5);
     VIEW("slice", slice_def(&v)->show = SLICE_FLAT);
+    VIEW("slice", slice_def(&v)->particles = SLICE_BEHIND);
     return count;
 }
 

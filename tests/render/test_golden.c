@@ -257,6 +257,18 @@ static void test_slice(void **state)
     check(&golden);
 }
 
+static void test_slice_behind(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("slice_behind", 240, 180);
+    text_set(golden.def.kind, "slice");
+    memcpy(slice_def(&golden.def)->normal, (double[3]){0.3, 0.2, 1}, sizeof(double[3]));
+    slice_def(&golden.def)->particles = SLICE_BEHIND;
+    slice_def(&golden.def)->opacity = 0.8;
+    golden.def.box = golden.def.legend = true;
+    check(&golden);
+}
+
 static void test_slice_flat(void **state)
 {
     (void)state;
@@ -331,6 +343,7 @@ int main(void)
         cmocka_unit_test_teardown(test_splat_w1, no_gl_errors),
         cmocka_unit_test_teardown(test_volume_slice, no_gl_errors),
         cmocka_unit_test_teardown(test_slice, no_gl_errors),
+        cmocka_unit_test_teardown(test_slice_behind, no_gl_errors),
         cmocka_unit_test_teardown(test_slice_flat, no_gl_errors),
         cmocka_unit_test_teardown(test_volume, no_gl_errors),
         cmocka_unit_test_teardown(test_volume_water, no_gl_errors),

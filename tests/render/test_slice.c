@@ -4,6 +4,7 @@
 
 #include "render/frame/colormap.h"
 #include "render/frame/view.h"
+#include "render/particles/half.h"
 #include "render/plane/plane_kernel.h"
 #include "render/plane/plane_probe.h"
 #include "render/plane/plane_sum.h"
@@ -386,6 +387,71 @@ static void it_plays_in_pictures(void **state)
     free_scene(&scene);
 }
 
+/* ---- among particles ---- */
+
+static void half_of_the_particles_is_left(void **state)
+{
+    (void)state;
+    static const double normal[3] = {0.6, 0.8, 0};
+    Error error = {0};
+    ParticleHalf half = {0};
+    ParticleBuffers buffers, left;
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, normal);
+    Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
+    const size_t count = scene.particles->count, bytes = count * sizeof(float[4]);
+    float *found = malloc(bytes);
+    size_t kept = 0;
+    assert_true(particle_half_create(&half, &error));
+    particle_half_run(&half, &buffers, normal, 0.4, &left);
+    assert_int_equal(left.count, count);
+    assert_int_equal(left.scalar[SCALAR_SPEED].buffer, buffers.scalar[SCALAR_SPEED].buffer);
+    glGetNamedBufferSubData(left.position.buffer, (GLintptr)left.position.offset, (GLsizeiptr)bytes, found);
+    for (size_t i = 0; i < count; i++) {
+        const float *p = &scene.particles->position[4 * i], *f = found + 4 * i;
+        const double along = 0.6 * p[0] + 0.8 * p[1];
+        if (fabs(along - 0.4) < 1e-5)
+            continue;
+        if (along < 0.4)
+            assert_memory_equal(f, p, sizeof(float[4]));
+        else
+            assert_true(isnan(f[0]) && isnan(f[1]) && isnan(f[2]));
+        kept += along < 0.4;
+    }
+    assert_in_range(kept, count / 5, count - count / 5);
+    free(found);
+    particle_half_destroy(&half);
+    upload_destroy(upload);
+    free_scene(&scene);
+}
+
+/* Through a plane that cannot be seen all particles are what their own view shows; and a plane that has all
+   of them behind it is before them. */
+static void particles_are_those_of_their_own_view(void **state)
+{
+    (void)state;
+    uint8_t alone[3 * WIDE * HIGH], both[3 * WIDE * HIGH], behind[3 * WIDE * HIGH];
+    SliceScene scene = wild_scene(0.1, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    ViewDef def = flat_view();
+    text_set(def.kind, view_at(0)->name);
+    picture_of(&scene, &def, alone);
+    text_set(def.kind, "slice");
+    slice_def(&def)->show = SLICE_PLANE;
+    slice_def(&def)->particles = SLICE_BOTH;
+    slice_def(&def)->opacity = 0;
+    picture_of(&scene, &def, both);
+    for (int i = 0; i < 3 * WIDE * HIGH; i++)
+        if (abs(alone[i] - both[i]) > 1)
+            fail_msg("pixel %d: %d, wanted %d", i / 3, both[i], alone[i]);
+    slice_def(&def)->particles = SLICE_BEHIND;
+    slice_def(&def)->point[2] = 5; /* beside the box: no plane, and all particles */
+    picture_of(&scene, &def, behind);
+    assert_memory_equal(behind, both, sizeof both);
+    slice_def(&def)->point[2] = -5;
+    picture_of(&scene, &def, behind);
+    assert_memory_not_equal(behind, both, sizeof both);
+    free_scene(&scene);
+}
+
 /* ---- probes ---- */
 
 /* What probes of a picture say is what all particles sum up to there. */
@@ -598,6 +664,8 @@ int main(void)
         cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
         cmocka_unit_test_teardown(it_plays_in_pictures, no_gl_errors),
+        cmocka_unit_test_teardown(half_of_the_particles_is_left, no_gl_errors),
+        cmocka_unit_test_teardown(particles_are_those_of_their_own_view, no_gl_errors),
         cmocka_unit_test_teardown(probes_say_what_all_particles_sum_up_to, no_gl_errors),
         cmocka_unit_test_teardown(samples_of_the_gpu_come_later, no_gl_errors),
         cmocka_unit_test_teardown(a_plane_without_fluid_is_said, no_gl_errors),
