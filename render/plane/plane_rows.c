@@ -397,21 +397,12 @@ static bool reserve(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers 
     const size_t words = (particles->position.stride + particles->scalar[job->scalar].stride) / sizeof(float);
     const size_t samples = (size_t)job->samples[0] * (size_t)job->samples[1];
     rows->stride = (size_t)job->samples[0] + LANES;
-    if (!grow((void **)&rows->read, &rows->read_capacity, READ * words, sizeof(float)))
-        return false;
-    if (samples == rows->samples)
-        return true;
-    rows->samples = 0;
-    free(rows->out);
-    rows->out = malloc(4 * samples * sizeof(float));
-    bool all = rows->out != NULL;
-    for (int k = 0; k < 3; k++) {
-        free(rows->sums[k]);
-        rows->sums[k] = malloc(rows->stride * (size_t)job->samples[1] * sizeof(float));
-        all = all && rows->sums[k];
-    }
-    rows->samples = all ? samples : 0;
-    return all;
+    bool room = grow((void **)&rows->read, &rows->read_capacity, READ * words, sizeof(float)) &&
+                grow((void **)&rows->out, &rows->out_capacity, 4 * samples, sizeof(float));
+    for (int k = 0; k < 3; k++)
+        room = room && grow((void **)&rows->sums[k], &rows->sums_capacity[k],
+                            rows->stride * (size_t)job->samples[1], sizeof(float));
+    return room;
 }
 
 bool plane_rows_run(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers *particles, Error *error)

@@ -20,9 +20,10 @@ typedef struct PlaneRows {
     size_t *begin;                /* first member of each band, and their end */
     uint32_t *member;             /* discs of the bands, one after the other */
     size_t begin_capacity, member_capacity;
-    float *sums[3];         /* as the channels of PlaneSum.sums, rows of `stride` */
-    float *out;             /* 4 floats a sample, rows from the bottom up */
-    size_t stride, samples; /* the latter that there is room for */
+    float *sums[3]; /* as the channels of PlaneSum.sums, rows of `stride` floats */
+    size_t sums_capacity[3], stride;
+    float *out; /* 4 floats a sample, rows from the bottom up */
+    size_t out_capacity;
 } PlaneRows;
 
 /* Fills in `out`; false where memory does not suffice. Waits for what the GPU writes to the particles. */

@@ -239,6 +239,31 @@ static void discs_of_several_pieces(void **state)
     free_scene(&scene);
 }
 
+/* As many samples in another shape need longer rows. */
+static void rasters_of_other_shapes(void **state)
+{
+    (void)state;
+    static const int shapes[][2] = {{64, 8}, {8, 64}, {4, 128}, {128, 4}, {16, 3}};
+    Error error = {0};
+    PlaneSum sum = {0};
+    ParticleBuffers buffers;
+    SliceScene scene = wild_scene(0.1, (double[3]){0, 0.3, 0}, (double[3]){0.1, 0.2, 1});
+    Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
+    scene.job.by = PLANE_ROWS;
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        float again[4 * 512];
+        memcpy(scene.job.samples, shapes[i], sizeof shapes[i]);
+        assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
+        plane_sum_read(&sum, again);
+        float *fresh = sums_of(&scene);
+        assert_memory_equal(again, fresh, sizeof(float[4]) * (size_t)(shapes[i][0] * shapes[i][1]));
+        free(fresh);
+    }
+    plane_sum_destroy(&sum);
+    upload_destroy(upload);
+    free_scene(&scene);
+}
+
 /* In the middle of a lattice the mean of a constant is that constant, and of a linear field the field. */
 static void a_lattice_keeps_constants_and_slopes(void **state)
 {
@@ -660,6 +685,7 @@ int main(void)
         cmocka_unit_test_teardown(each_sample_is_the_sum_over_all_particles, no_gl_errors),
         cmocka_unit_test_teardown(small_and_large_particles, no_gl_errors),
         cmocka_unit_test_teardown(discs_of_several_pieces, no_gl_errors),
+        cmocka_unit_test_teardown(rasters_of_other_shapes, no_gl_errors),
         cmocka_unit_test_teardown(a_lattice_keeps_constants_and_slopes, no_gl_errors),
         cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
