@@ -32,14 +32,19 @@ void glyph_arrows_destroy(GlyphArrows *arrows)
         neighbourhood_destroy(&arrows->neighbourhood);
     glDeleteBuffers(1, &arrows->arrows);
     glDeleteBuffers(1, &arrows->command);
+    glDeleteBuffers(1, &arrows->no_scalar);
+    glDeleteBuffers(1, &arrows->no_vector);
     *arrows = (GlyphArrows){0};
 }
 
 static void reserve(GlyphArrows *arrows, size_t count)
 {
     enum { ARROW_BYTES = 8 * sizeof(float) };
-    if (!arrows->command)
+    if (!arrows->command) {
         work_buffer_remake(&arrows->command, sizeof(uint32_t[COMMAND_WORDS + GLYPH_BINS]), "glyphs' command");
+        work_buffer_remake(&arrows->no_scalar, sizeof(uint32_t[4]), "glyphs without a scalar");
+        work_buffer_remake(&arrows->no_vector, sizeof(uint32_t[4]), "glyphs without a vector");
+    }
     if (count <= arrows->capacity)
         return;
     arrows->capacity = work_capacity(arrows->capacity, count);
@@ -58,29 +63,29 @@ static void begin(const GlyphArrows *arrows)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, arrows->arrows);
 }
 
-static void bind(GLuint binding, const ParticleAttribute *attribute, const ParticleBuffers *particles)
+static void set_vector(const GlyphArrows *arrows, GLuint program, const ParticleBuffers *particles,
+                       const Frame *frame)
 {
-    const ParticleAttribute *bound = attribute->buffer ? attribute : &particles->position;
-    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, bound->buffer, (GLintptr)bound->offset,
-                      (GLsizeiptr)(particles->count * bound->stride));
-}
-
-static void set_vector(GLuint program, const ParticleBuffers *particles, const Frame *frame)
-{
+    static const ParticleAttribute none;
+    const size_t count = particles->count;
+    const Scalar shown = frame->def->color_by;
     const GlyphVector *vector = &glyph_vectors[glyphs_def(frame->def)->vector];
-    const ParticleAttribute *words = vector->of ? vector->of(particles) : &particles->position;
+    const ParticleAttribute *words = vector->of ? vector->of(particles) : &none;
     const BoxState *box = &particles->box;
     double velocity[3], turn[3];
     quat_rotate_inverse(box->orientation, box->velocity, velocity);
     quat_rotate_inverse(box->orientation, box->angular_velocity, turn);
-    particle_bind(program, particles, frame->def->color_by);
-    bind(GLYPH_VECTORS_STORAGE, words, particles);
-    glProgramUniform1ui(program, GLYPH_VECTOR_STRIDE_AT, (GLuint)(words->stride / 4));
+    particle_bind(program, particles, shown);
+    glProgramUniform1ui(program, GLYPH_VECTOR_STRIDE_AT,
+                        particle_bind_one(GLYPH_VECTORS_STORAGE, words, count, arrows->no_vector));
+    glProgramUniform1ui(
+        program, SHOWN_STRIDE_AT,
+        particle_bind_one(SHOWN_STORAGE, particle_shown(particles, shown), count, arrows->no_scalar));
     glProgramUniform3f(program, GLYPH_BOX_VELOCITY_AT, (GLfloat)velocity[0], (GLfloat)velocity[1],
                        (GLfloat)velocity[2]);
     glProgramUniform3f(program, GLYPH_BOX_TURN_AT, (GLfloat)turn[0], (GLfloat)turn[1], (GLfloat)turn[2]);
     glProgramUniform1ui(program, GLYPH_IS_BOX_AT, vector->of == NULL);
-    glProgramUniform1ui(program, GLYPH_IS_FLUID_AT, frame->def->color_by == SCALAR_FLUID);
+    glProgramUniform1ui(program, SHOWN_IS_FLUID_AT, shown == SCALAR_FLUID);
 }
 
 static void of_particles(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame)
@@ -91,8 +96,8 @@ static void of_particles(GlyphArrows *arrows, const ParticleBuffers *particles, 
     arrows->most = particles->count;
     reserve(arrows, arrows->most);
     begin(arrows);
-    set_vector(arrows->particles, particles, frame);
-    bind(GLYPH_IDS_STORAGE, &particles->id, particles);
+    set_vector(arrows, arrows->particles, particles, frame);
+    particle_bind_one(GLYPH_IDS_STORAGE, &particles->id, particles->count, 0);
     glUseProgram(arrows->particles);
     glUniform1ui(GLYPH_COUNT_AT, (GLuint)particles->count);
     glUniform1ui(GLYPH_ID_STRIDE_AT, (GLuint)(particles->id.stride / 4));
@@ -182,7 +187,7 @@ static void of_samples(GlyphArrows *arrows, const ParticleBuffers *particles, co
     reserve(arrows, arrows->most);
     neighbourhood_build(&arrows->neighbourhood, particles);
     begin(arrows);
-    set_vector(arrows->samples, particles, frame);
+    set_vector(arrows, arrows->samples, particles, frame);
     glUseProgram(arrows->samples);
     set_samples(&samples, arrows->most);
     glUniform1f(GLYPH_SUPPORT_AT, (GLfloat)h);

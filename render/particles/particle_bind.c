@@ -30,6 +30,22 @@ void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar sc
     glProgramUniform1ui(program, FLUID_STRIDE_AT, (GLuint)(particles->fluid.stride / 4));
 }
 
+const ParticleAttribute *particle_shown(const ParticleBuffers *particles, Scalar color_by)
+{
+    return color_by == SCALAR_FLUID ? &particles->fluid : &particles->scalar[color_by];
+}
+
+unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute, size_t count,
+                           unsigned stand_in)
+{
+    if (attribute->buffer)
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, attribute->buffer, (GLintptr)attribute->offset,
+                          (GLsizeiptr)(count * attribute->stride));
+    else
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, stand_in);
+    return attribute->buffer ? (unsigned)(attribute->stride / 4) : 0;
+}
+
 float point_limit(void)
 {
     GLfloat range[2] = {0};

@@ -7,6 +7,15 @@
 /* Binds positions, the scalar and the fluid (those that are there) and sets the strides of `program`. */
 void particle_bind(unsigned program, const ParticleBuffers *particles, Scalar scalar);
 
+/* What particles are coloured by: their scalar, or their fluid (uint) where that is SCALAR_FLUID. */
+const ParticleAttribute *particle_shown(const ParticleBuffers *particles, Scalar color_by);
+
+/* Binds one attribute of that many particles for a compute shader, in which no buffer may stand in two
+   blocks; where it is not there `stand_in`, a buffer of 16 bytes. Returns its stride in words, of the
+   stand-in 0. */
+unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute, size_t count,
+                           unsigned stand_in);
+
 /* The largest point that is worth drawing instead of a quad, pixels; 0 where none is: points are cheaper on a
    software driver only, and not all hardware draws them to the bit. */
 float point_limit(void);

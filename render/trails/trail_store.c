@@ -2,6 +2,7 @@
 
 #include "render/particles/particle_bind.h"
 #include "render/particles/work.h"
+#include "shaders/shared/bindings.h"
 #include "shaders/trails/trails_bindings.h"
 #include "sim/gl/debug.h"
 #include "sim/gl/program.h"
@@ -37,7 +38,8 @@ static void drop_buffers(TrailStore *store)
     glDeleteBuffers(1, &store->owners);
     glDeleteBuffers(1, &store->seen);
     glDeleteBuffers(1, &store->claims);
-    store->places = store->owners = store->seen = store->claims = 0;
+    glDeleteBuffers(1, &store->none);
+    store->places = store->owners = store->seen = store->claims = store->none = 0;
     store->slots = 0;
     trail_ring_destroy(&store->ring);
 }
@@ -75,6 +77,7 @@ static bool make_buffers(TrailStore *store)
     work_buffer_remake(&store->owners, points * sizeof(uint32_t), "trails' owners");
     work_buffer_remake(&store->seen, slots * sizeof(uint32_t), "trails seen");
     work_buffer_remake(&store->claims, slots * sizeof(uint32_t), "trails claimed");
+    work_buffer_remake(&store->none, 4 * sizeof(uint32_t), "trails without a scalar");
     return gl_errors_take(GL_OUT_OF_MEMORY) == 0;
 }
 
@@ -194,6 +197,8 @@ static void run_take(const TrailStore *store, const ParticleBuffers *particles, 
     const bool joins = trail_ring_joins(ring, ring->head);
     glUseProgram(store->take);
     particle_bind(store->take, particles, scalar);
+    const unsigned shown =
+        particle_bind_one(SHOWN_STORAGE, particle_shown(particles, scalar), particles->count, store->none);
     bind_ids(store, store->take, particles);
     trail_store_bind(store);
     set_choice(store, store->take);
@@ -201,7 +206,8 @@ static void run_take(const TrailStore *store, const ParticleBuffers *particles, 
     glUniform1ui(TRAIL_COLUMN_AT, trail_store_column(store, ring->head));
     glUniform1ui(TRAIL_BEFORE_AT, joins ? trail_store_column(store, ring->head - 1) : TRAIL_NO_COLUMN);
     glUniform1ui(TRAIL_CLAIMS_AT, claimed);
-    glUniform1ui(TRAIL_IS_FLUID_AT, scalar == SCALAR_FLUID);
+    glUniform1ui(SHOWN_STRIDE_AT, shown);
+    glUniform1ui(SHOWN_IS_FLUID_AT, scalar == SCALAR_FLUID);
     work_run(particles->count);
 }
 

@@ -17,6 +17,7 @@ typedef struct TrailStore {
     unsigned owners; /* buffer, ring.room x slots uint: 0, or 2 (id + 1) and 1 more where it is to be seen */
     unsigned seen;   /* buffer, slots uint: the last owner */
     unsigned claims; /* buffer, slots uint: the least id that wants it */
+    unsigned none;   /* buffer: stands in for a scalar that is not there */
     int slots;       /* trails that there is room for; 0: no memory, or nothing was taken yet */
     int stride;      /* in ids, at least the def's */
     size_t capacity; /* particles that the slots are for */

@@ -1,7 +1,6 @@
 // An arrow for every so many particles, by their ids: the same particles at each step.
 #include "common/particles.glsl"
-#include "common/particle_scalars.glsl"
-#include "common/particle_fluids.glsl"
+#include "common/particle_shown.glsl"
 #include "common/nan.glsl"
 #include "glyphs/glyphs_append.glsl"
 layout(local_size_x = 64) in;
@@ -12,7 +11,6 @@ layout(location = GLYPH_COUNT_AT) uniform uint count;
 layout(location = GLYPH_ID_STRIDE_AT) uniform uint id_stride;
 layout(location = GLYPH_VECTOR_STRIDE_AT) uniform uint vector_stride;
 layout(location = GLYPH_EVERY_AT) uniform uint every;
-layout(location = GLYPH_IS_FLUID_AT) uniform uint is_fluid;
 
 void main()
 {
@@ -22,5 +20,5 @@ void main()
     vec3 at = particle_position(index);
     uint first = index * vector_stride;
     vec3 vector = is_box != 0u ? motion_of_box(at) : vec3(vector_words[first], vector_words[first + 1u], vector_words[first + 2u]);
-    append(at, vector, is_fluid != 0u ? float(fluid_words[index * fluid_stride]) : scalar_words[index * scalar_stride]);
+    append(at, vector, particle_shown(index));
 }

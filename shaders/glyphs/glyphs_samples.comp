@@ -1,15 +1,13 @@
 // An arrow for each sample of a grid or a plane: the mean of what is near, sum V W v over sum V W (Shepard 1968), with Wendland's
 // C2 kernel of the solver's support radius. Where sum V W is less than a quarter there is no fluid.
 #include "common/particles.glsl"
-#include "common/particle_scalars.glsl"
-#include "common/particle_fluids.glsl"
+#include "common/particle_shown.glsl"
 #include "common/neighbourhood.glsl"
 #include "glyphs/glyphs_append.glsl"
 
 layout(std430, binding = GLYPH_VECTORS_STORAGE) readonly buffer Vectors { float vector_words[]; };
 layout(location = GLYPH_COUNT_AT) uniform uint count;
 layout(location = GLYPH_VECTOR_STRIDE_AT) uniform uint vector_stride;
-layout(location = GLYPH_IS_FLUID_AT) uniform uint is_fluid;
 layout(location = GLYPH_SUPPORT_AT) uniform float support; // m
 layout(location = GLYPH_PEAK_AT) uniform float peak;       // of the kernel, 1/m3 or 1/m2
 layout(location = GLYPH_FIRST_AT) uniform vec3 first;      // sample, m
@@ -28,7 +26,7 @@ void add(inout Mean mean, uint number, float weight)
 {
     uint at = number * vector_stride;
     vec3 vector = vec3(vector_words[at], vector_words[at + 1u], vector_words[at + 2u]);
-    float value = scalar_words[number * scalar_stride];
+    float value = particle_shown(number);
     if (is_nan(vec4(vector, weight)) || any(greaterThan(abs(vector), vec3(1e15))))
         return;
     bool known = !is_nan(value) && abs(value) < 1e30;
@@ -36,7 +34,7 @@ void add(inout Mean mean, uint number, float weight)
     mean.vector += weight * vector;
     mean.scalar_weight += known ? weight : 0.0;
     mean.scalar += known ? weight * value : 0.0;
-    mean.fluid = weight > mean.best ? float(fluid_words[number * fluid_stride]) : mean.fluid;
+    mean.fluid = weight > mean.best ? value : mean.fluid;
     mean.best = max(mean.best, weight);
 }
 
@@ -65,7 +63,7 @@ void main()
     uint row = i / samples.x;
     vec3 at = first + float(i % samples.x) * along + float(row % samples.y) * up + float(row / samples.y) * deep;
     Mean mean = mean_at(at);
-    float value = is_fluid != 0u ? mean.fluid : mean.scalar / mean.scalar_weight;
+    float value = shown_is_fluid != 0u ? mean.fluid : mean.scalar / mean.scalar_weight;
     if (mean.weight >= 0.25)
         append(at, is_box != 0u ? motion_of_box(at) : mean.vector / mean.weight, value);
 }

@@ -14,6 +14,7 @@
 #define FLUIDS_STORAGE    2
 #define LISTED_STORAGE    3
 #define HALF_STORAGE      3 /* of a pass without a list */
+#define SHOWN_STORAGE     1
 /* those of a neighbourhood, bound in this order by one call */
 #define CELLS_STORAGE  4
 #define RANKS_STORAGE  5
@@ -50,5 +51,7 @@
 #define SCATTER_STEP_AT     11
 #define HALF_PLANE_AT       12
 #define HALF_COUNT_AT       13
+#define SHOWN_STRIDE_AT     14
+#define SHOWN_IS_FLUID_AT   15
 
 #endif

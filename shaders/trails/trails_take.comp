@@ -1,7 +1,6 @@
 // The present state's column: each chosen particle's place and scalar, and whose they are.
 #include "common/particles.glsl"
-#include "common/particle_scalars.glsl"
-#include "common/particle_fluids.glsl"
+#include "common/particle_shown.glsl"
 #include "common/nan.glsl"
 #include "shaders/trails/trails_slot.glsl"
 layout(local_size_x = 64) in;
@@ -19,7 +18,6 @@ layout(location = TRAIL_CLAIMS_AT) uniform uint claimed; // 0: no two particles 
 layout(location = TRAIL_LEAST_AT) uniform vec3 least; // corner of the region
 layout(location = TRAIL_GREATEST_AT) uniform vec3 greatest;
 layout(location = TRAIL_PLANE_AT) uniform vec4 plane; // normal, and its product with the point
-layout(location = TRAIL_IS_FLUID_AT) uniform uint is_fluid;
 
 // An owner is 2 (id + 1), and 1 more where its trail is to be seen; 0 is nobody.
 uint chosen_at_first(vec3 at)
@@ -51,7 +49,6 @@ void main()
         seen[slot] = owner + chosen_at_first(at);
     else if (crosses(uint(slot), owner, at))
         seen[slot] = owner + 1u;
-    float value = is_fluid != 0u ? float(fluid_words[index * fluid_stride]) : scalar_words[index * scalar_stride];
-    places[column + uint(slot)] = vec4(at, value);
+    places[column + uint(slot)] = vec4(at, particle_shown(index));
     owners[column + uint(slot)] = seen[slot];
 }

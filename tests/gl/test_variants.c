@@ -7,9 +7,12 @@
 #include "tests/sim/toy_shaders.h"
 
 #include "render/derived/derived.h"
+#include "render/frame/overlay.h"
+#include "render/glyphs/glyphs_def.h"
 #include "render/plane/plane_kernel.h"
 #include "render/renderer.h"
 #include "render/slice/slice_def.h"
+#include "render/trails/trails_def.h"
 #include "sim/gl/limits.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
@@ -539,6 +542,8 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
         VIEW("volume", volume_def(&v)->show = (VolumeShow)show);
     for (int kernel = 1; plane_kernels[kernel].name; kernel++)
         VIEW("slice", slice_def(&v)->kernel = kernel);
+    VIEW("none", trails_def(&v)->show = true, trails_def(&v)->stride = 1);
+    VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->at = GLYPHS_GRID);
     return count;
 }
 
@@ -559,6 +564,9 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
          volume_def(&v)->raycast.by_scalar = 0.5);
     VIEW("slice", slice_def(&v)->show = SLICE_FLAT);
     VIEW("slice", slice_def(&v)->particles = SLICE_BEHIND);
+    VIEW("spheres", trails_def(&v)->show = true, trails_def(&v)->through = 0.5);
+    VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->stride = 1);
+    VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->at = GLYPHS_GRID);
     return count;
 }
 

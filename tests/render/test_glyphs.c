@@ -111,6 +111,11 @@ static Arrow *arrows_of(const Wind *wind, const ViewDef *def, size_t *count, dou
     return out;
 }
 
+static bool same3(const float *a, const float *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 static void every_so_many_particles_have_one(void **state)
 {
     (void)state;
@@ -124,10 +129,10 @@ static void every_so_many_particles_have_one(void **state)
     assert_int_equal(count, (MOST + 6) / 7);
     for (size_t i = 0; i < count; i++) {
         size_t id = 0;
-        while (id < MOST && memcmp(arrows[i].foot, &wind->position[4 * id], sizeof arrows[i].foot) != 0)
+        while (id < MOST && !same3(arrows[i].foot, &wind->position[4 * id]))
             id += 7;
         assert_true(id < MOST && !seen[id]);
-        assert_memory_equal(arrows[i].vector, &wind->velocity[4 * id], sizeof arrows[i].vector);
+        assert_true(same3(arrows[i].vector, &wind->velocity[4 * id]));
         assert_true(arrows[i].value == 0.25F);
         seen[id] = true;
     }

@@ -2,7 +2,9 @@
    8 of 255.
 
    SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
+#include "render/glyphs/glyphs_def.h"
 #include "render/slice/slice_def.h"
+#include "render/trails/trails_def.h"
 #include "tests/read_image.h"
 #include "tests/render/fixture.h"
 
@@ -16,6 +18,59 @@ typedef struct Golden {
     BoxState box;
 } Golden;
 
+/* Overlays want more: ids in a row, and a velocity that turns about the middle. */
+static Upload *upload_moving(const Particles *particles, const ParticleBuffers *state, ParticleBuffers *out)
+{
+    static uint32_t id[PARTICLES_MAX];
+    static float velocity[4 * PARTICLES_MAX];
+    Error error = {0};
+    ParticleArrays arrays = {.position = (float *)particles->position,
+                             .velocity = velocity,
+                             .id = id,
+                             .fluid = (uint32_t *)particles->fluid};
+    Upload *upload = upload_create(
+        particles->count, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID | PARTICLE_ID | PARTICLE_VELOCITY,
+        &error);
+    arrays.scalar[SCALAR_SPEED] = (float *)particles->speed;
+    for (size_t i = 0; i < particles->count; i++) {
+        const float *at = &particles->position[4 * i];
+        id[i] = (uint32_t)i;
+        velocity[4 * i] = 0.5F - at[1];
+        velocity[4 * i + 1] = at[0];
+        velocity[4 * i + 2] = 0.2F * at[0];
+    }
+    assert_non_null(upload);
+    assert_true(upload_arrays(upload, &arrays, state, &error) && upload_take(upload, out));
+    return upload;
+}
+
+/* Where they have been before: on circles about the middle. */
+static void draw_past(Renderer *renderer, const Particles *particles, const ParticleBuffers *state)
+{
+    enum { STATES = 20 };
+    Particles *past = calloc(1, sizeof *past);
+    assert_non_null(past);
+    past->count = particles->count;
+    for (int i = STATES; i > 0; i--) {
+        const float turn = -0.03F * (float)i;
+        ParticleBuffers then = *state, buffers;
+        memcpy(past->speed, particles->speed, sizeof past->speed);
+        for (size_t k = 0; k < particles->count; k++) {
+            const float *at = &particles->position[4 * k];
+            float *to = &past->position[4 * k];
+            to[0] = at[0] * cosf(turn) - (at[1] - 0.5F) * sinf(turn);
+            to[1] = 0.5F + at[0] * sinf(turn) + (at[1] - 0.5F) * cosf(turn);
+            to[2] = at[2];
+            to[3] = at[3];
+        }
+        then.time -= 0.03 * i;
+        Upload *upload = upload_moving(past, &then, &buffers);
+        renderer_draw(renderer, &buffers, NULL);
+        upload_destroy(upload);
+    }
+    free(past);
+}
+
 static Image draw(const Golden *golden)
 {
     Error error = {0};
@@ -27,11 +82,13 @@ static Image draw(const Golden *golden)
         particles->position[4 * i + 3] = (float)(SPACING * SPACING * SPACING);
     ParticleBuffers box = box_state(particles->count, SPACING);
     box.box = golden->box;
-    Upload *upload = upload_particles(particles, &box, &buffers);
+    Upload *upload = upload_moving(particles, &box, &buffers);
     Renderer *renderer = renderer_create(&golden->def, &golden->world, golden->width, golden->height, &error);
     if (!renderer)
         fail_msg("%s", error.message);
     assert_true(image_create(&image, golden->width, golden->height));
+    if (trails_def(&golden->def)->show)
+        draw_past(renderer, particles, &box);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read(renderer, image.rgb);
     renderer_destroy(renderer);
@@ -315,6 +372,30 @@ static void test_volume_translucent(void **state)
 }
 
 /* The measure itself: one shifted picture must not pass. */
+static void test_trails(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("trails", 160, 120);
+    golden.def.range_auto = false;
+    golden.def.range[1] = 3;
+    trails_def(&golden.def)->show = true;
+    trails_def(&golden.def)->through = 0.3;
+    check(&golden);
+}
+
+static void test_glyphs(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("glyphs", 160, 120);
+    text_set(golden.def.kind, "none");
+    golden.def.range_auto = false;
+    golden.def.range[1] = 3;
+    glyphs_def(&golden.def)->show = true;
+    glyphs_def(&golden.def)->at = GLYPHS_GRID;
+    glyphs_def(&golden.def)->cell = 0.16;
+    check(&golden);
+}
+
 static void test_difference_is_seen(void **state)
 {
     (void)state;
@@ -352,6 +433,8 @@ int main(void)
         cmocka_unit_test_teardown(test_splat_jelly, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_level, no_gl_errors),
         cmocka_unit_test_teardown(test_splat_narrow_range, no_gl_errors),
+        cmocka_unit_test_teardown(test_trails, no_gl_errors),
+        cmocka_unit_test_teardown(test_glyphs, no_gl_errors),
         cmocka_unit_test_teardown(test_difference_is_seen, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
