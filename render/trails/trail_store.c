@@ -64,7 +64,8 @@ static void count_slots(TrailStore *store, const TrailsDef *def, int points)
     const size_t most = (size_t)fmin(TRAILS_MOST, floor(POINTS_MOST / (double)(points + 1)));
     const size_t wanted = (store->capacity + (size_t)def->stride - 1) / (size_t)def->stride;
     store->stride = wanted > most ? (int)((store->capacity + most - 1) / most) : def->stride;
-    store->slots = (int)(wanted > most ? most : wanted > SLOTS_LEAST ? wanted : SLOTS_LEAST);
+    const size_t least = store->flows ? SLOTS_LEAST : 1;
+    store->slots = (int)(wanted > most ? most : wanted > least ? wanted : least);
     if (def->listed_count > 0)
         store->slots = def->listed_count;
 }

@@ -4,8 +4,9 @@
 
 #include <math.h>
 
-/* A trail of a second through 200 points: at 2 m/s in a box of a metre, a point each few pixels. */
-const TrailsDef trails_usual = {.stride = 10, .length = 1, .width = 1.5};
+/* A trail of a second through as many points as a window has pictures: where the box moves all are drawn anew
+   for each picture. */
+const TrailsDef trails_usual = {.stride = 20, .length = 1, .width = 1.5};
 
 #define AT(field) offsetof(TrailsDef, field)
 
@@ -15,7 +16,7 @@ const Key trails_keys[] = {
     BOOLEAN("view.trails.show", L, AT(show), "draw them"),
     INTEGER("view.trails.stride", L, 1, 1000000, AT(stride), "every so many particles, by their ids, has one; more than 20,000 at once there are not"),
     NUMBER("view.trails.length", L | O, "s", 0, 1000, AT(length), "from the particle back; older parts have faded"),
-    NUMBER("view.trails.every", L, "s", 0, 1000, AT(every), "between two points, at least; 0: 200 in a trail"),
+    NUMBER("view.trails.every", L, "s", 0, 1000, AT(every), "between two points, at least; 0: 64 in a trail"),
     NUMBER("view.trails.width", L | O, "pixels", 0, 50, AT(width), "of the lines"),
     NUMBER("view.trails.through", L, "", 0, 1, AT(through), "how much shows of what fluid and solids hide"),
     VEC3("view.trails.region_min", L, "m", -1e6, 1e6, AT(region_min), "the least corner of a box: only particles have one that are in there when they are let in or these keys change; equal corners: all"),
@@ -33,7 +34,7 @@ TrailsDef *trails_def(const ViewDef *def)
 
 double trails_every(const TrailsDef *def)
 {
-    enum { USUAL_POINTS = 200 };
+    enum { USUAL_POINTS = 64 };
     const double least = def->length / (TRAILS_POINTS_MAX - 2);
     return fmax(def->every > 0 ? def->every : def->length / USUAL_POINTS, least);
 }

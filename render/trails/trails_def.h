@@ -10,7 +10,7 @@ typedef struct IN_A_ROOM TrailsDef {
     bool show;                              /* as OverlayShow */
     int stride;                             /* every so many ids has a trail */
     double length;                          /* s */
-    double every;                           /* s between points; 0: length / 200 */
+    double every;                           /* s between points; 0: length / 64 */
     double width;                           /* pixels */
     double through;                         /* how much of what is hidden shows, 0 .. 1 */
     double region_min[3], region_max[3];    /* m, box's frame: only what starts in there; equal: wherever */

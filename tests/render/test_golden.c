@@ -380,6 +380,7 @@ static void test_trails(void **state)
     golden.def.range[1] = 3;
     trails_def(&golden.def)->show = true;
     trails_def(&golden.def)->through = 0.3;
+    trails_def(&golden.def)->stride = 10;
     check(&golden);
 }
 

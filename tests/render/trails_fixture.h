@@ -73,6 +73,7 @@ static inline ViewDef trails_view(void)
     def.range[0] = 0, def.range[1] = 1;
     trails_def(&def)->show = true;
     trails_def(&def)->stride = 1;
+    trails_def(&def)->every = 0.005;
     return def;
 }
 
