@@ -66,8 +66,8 @@ static void count_slots(TrailStore *store, const TrailsDef *def, int points)
     store->stride = wanted > most ? (int)((store->capacity + most - 1) / most) : def->stride;
     const size_t least = store->flows ? SLOTS_LEAST : 1;
     store->slots = (int)(wanted > most ? most : wanted > least ? wanted : least);
-    if (def->listed_count > 0)
-        store->slots = def->listed_count;
+    if (store->listed_count > 0)
+        store->slots = store->listed_count;
 }
 
 static bool make_buffers(TrailStore *store)
@@ -87,8 +87,7 @@ static bool has_room(const TrailStore *store, const TrailsDef *def, size_t count
 {
     const TrailsDef *was = &store->def;
     return store->slots > 0 && count <= store->capacity && def->stride == was->stride &&
-           trails_points(def) + 1 == store->ring.room && def->listed_count == was->listed_count &&
-           memcmp(def->listed, was->listed, sizeof def->listed) == 0;
+           trails_points(def) + 1 == store->ring.room && strcmp(def->ids, was->ids) == 0;
 }
 
 static void make_room(TrailStore *store, const TrailsDef *def, size_t count)
@@ -97,6 +96,9 @@ static void make_room(TrailStore *store, const TrailsDef *def, size_t count)
     if (has_room(store, def, count))
         return;
     drop_buffers(store);
+    store->listed_count = trails_listed(def, store->listed);
+    if (store->listed_count < 0)
+        return;
     if (count > store->capacity)
         store->capacity = work_capacity(store->capacity, count);
     count_slots(store, def, points);
@@ -148,7 +150,6 @@ static void go_back(const TrailStore *store)
 
 static void bind_ids(const TrailStore *store, GLuint program, const ParticleBuffers *particles)
 {
-    const TrailsDef *def = &store->def;
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, TRAIL_IDS_STORAGE, particles->id.buffer,
                       (GLintptr)particles->id.offset, (GLsizeiptr)(particles->count * particles->id.stride));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TRAIL_CLAIMS_STORAGE, store->claims);
@@ -156,8 +157,8 @@ static void bind_ids(const TrailStore *store, GLuint program, const ParticleBuff
     glProgramUniform1ui(program, TRAIL_ID_STRIDE_AT, (GLuint)(particles->id.stride / 4));
     glProgramUniform1ui(program, TRAIL_EVERY_AT, (GLuint)store->stride);
     glProgramUniform1ui(program, TRAIL_SLOTS_AT, (GLuint)store->slots);
-    glProgramUniform1ui(program, TRAIL_LISTED_AT, (GLuint)def->listed_count);
-    glProgramUniform1uiv(program, TRAIL_LIST_AT, TRAIL_LISTED_IDS, def->listed);
+    glProgramUniform1ui(program, TRAIL_LISTED_AT, (GLuint)store->listed_count);
+    glProgramUniform1uiv(program, TRAIL_LIST_AT, TRAIL_LISTED_IDS, store->listed);
 }
 
 void trail_store_bind(const TrailStore *store)
@@ -168,7 +169,7 @@ void trail_store_bind(const TrailStore *store)
 
 static bool claim(const TrailStore *store, const ParticleBuffers *particles)
 {
-    if (!store->flows || store->def.listed_count > 0)
+    if (!store->flows || store->listed_count > 0)
         return false;
     clear(store->claims, 0, (size_t)store->slots, UINT32_MAX);
     glUseProgram(store->claim);

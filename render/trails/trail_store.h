@@ -23,7 +23,9 @@ typedef struct TrailStore {
     size_t capacity; /* particles that the slots are for */
     bool flows;      /* ids may go on for ever */
     double box_size[3], spacing; /* of the state taken last, m */
-    TrailsDef def;               /* by which it was taken */
+    int listed_count;            /* of `listed`; 0: by stride; -1: no list, and no trails */
+    uint32_t listed[TRAILS_LISTED_MAX];
+    TrailsDef def; /* by which it was taken */
 } TrailStore;
 
 /* False when a shader does not compile; trail_store_destroy is needed in either case. */

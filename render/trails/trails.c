@@ -57,7 +57,10 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
 static void legend(void *state, const Frame *frame, char *line, size_t size)
 {
     const TrailStore *store = &((const Trails *)state)->store;
-    if (store->slots == 0 && store->capacity > 0)
+    if (store->listed_count < 0)
+        snprintf(line, size, "trails: \"%s\" is no list of at most %d ids", trails_def(frame->def)->ids,
+                 TRAILS_LISTED_MAX);
+    else if (store->slots == 0 && store->capacity > 0)
         snprintf(line, size, "trails: the GPU has no memory for them");
     else if (store->slots > 0 && store->stride > trails_def(frame->def)->stride)
         snprintf(line, size, "trails of every %dth particle: more than %d have no room", store->stride,

@@ -2,11 +2,14 @@
 
 #include "sim/base/key_rows.h"
 
+#include <limits.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* A trail of a second through as many points as a window has pictures: where the box moves all are drawn anew
    for each picture. */
-const TrailsDef trails_usual = {.stride = 20, .length = 1, .width = 1.5};
+const TrailsDef trails_usual = {.stride = 20, .length = 1, .width = 1.5, .ids = "all"};
 
 #define AT(field) offsetof(TrailsDef, field)
 
@@ -15,6 +18,7 @@ const Key trails_keys[] = {
     MAPPING("view.trails", "of the overlay trails: the paths of particles, beside any view"),
     BOOLEAN("view.trails.show", L, AT(show), "draw them"),
     INTEGER("view.trails.stride", L, 1, 1000000, AT(stride), "every so many particles, by their ids, has one; more than 20,000 at once there are not"),
+    TEXT("view.trails.ids", L, TRAILS_IDS_SIZE, AT(ids), NULL, "all: by stride; or the ids of up to 16 particles, as \"3 17 250\": only these have one"),
     NUMBER("view.trails.length", L | O, "s", 0, 1000, AT(length), "from the particle back; older parts have faded"),
     NUMBER("view.trails.every", L, "s", 0, 1000, AT(every), "between two points, at least; 0: 64 in a trail"),
     NUMBER("view.trails.width", L | O, "pixels", 0, 50, AT(width), "of the lines"),
@@ -30,6 +34,23 @@ const Key trails_keys[] = {
 TrailsDef *trails_def(const ViewDef *def)
 {
     return overlay_own(def, &overlay_trails);
+}
+
+int trails_listed(const TrailsDef *def, uint32_t ids[TRAILS_LISTED_MAX])
+{
+    int count = 0;
+    const char *at = def->ids + strspn(def->ids, " ,");
+    if (strcmp(def->ids, "all") == 0)
+        return 0;
+    while (*at) {
+        char *end = NULL;
+        const unsigned long long id = *at >= '0' && *at <= '9' ? strtoull(at, &end, 10) : ULLONG_MAX;
+        if (id > INT32_MAX || count == TRAILS_LISTED_MAX || !strchr(" ,", *end))
+            return -1;
+        ids[count++] = (uint32_t)id;
+        at = end + strspn(end, " ,");
+    }
+    return count > 0 ? count : -1;
 }
 
 double trails_every(const TrailsDef *def)

@@ -4,7 +4,7 @@
 
 #include "render/frame/overlay.h"
 
-enum { TRAILS_LISTED_MAX = 16, TRAILS_MOST = 20000, TRAILS_POINTS_MAX = 1000 };
+enum { TRAILS_LISTED_MAX = 16, TRAILS_IDS_SIZE = 96, TRAILS_MOST = 20000, TRAILS_POINTS_MAX = 1000 };
 
 typedef struct IN_A_ROOM TrailsDef {
     bool show;                              /* as OverlayShow */
@@ -15,8 +15,7 @@ typedef struct IN_A_ROOM TrailsDef {
     double through;                         /* how much of what is hidden shows, 0 .. 1 */
     double region_min[3], region_max[3];    /* m, box's frame: only what starts in there; equal: wherever */
     double plane_point[3], plane_normal[3]; /* only what has crossed that plane; a normal of 0: all */
-    int listed_count;                       /* of `listed`; 0: by stride */
-    uint32_t listed[TRAILS_LISTED_MAX];     /* ids */
+    char ids[TRAILS_IDS_SIZE];              /* "3 17 250": only these; "all": by stride */
 } TrailsDef;
 
 extern const OverlayKind overlay_trails;
@@ -27,6 +26,10 @@ TrailsDef *trails_def(const ViewDef *def);
 /* Seconds between two points, and how many points a trail may have. */
 double trails_every(const TrailsDef *def);
 int trails_points(const TrailsDef *def);
+
+/* The ids of TrailsDef.ids, at most TRAILS_LISTED_MAX, and how many: 0 for all, -1 where it is no such list.
+ */
+int trails_listed(const TrailsDef *def, uint32_t ids[TRAILS_LISTED_MAX]);
 
 extern const TrailsDef trails_usual; /* the defaults */
 extern const Key trails_keys[];      /* ended by a row without a path */

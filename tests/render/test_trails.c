@@ -267,8 +267,7 @@ static void some_are_chosen(void **state)
     assert_int_equal(seen_in_head(&store), above);
     take_turn(&store, movers, &def, 300, 0.8); /* chosen once: half of these are below now */
     assert_int_equal(seen_in_head(&store), above);
-    own->listed_count = 3;
-    own->listed[0] = 250, own->listed[1] = 4, own->listed[2] = 5000;
+    snprintf(own->ids, sizeof own->ids, "250, 4 5000");
     memset(own->region_min, 0, sizeof own->region_min);
     memset(own->region_max, 0, sizeof own->region_max);
     take_turn(&store, movers, &def, 300, 0.81);
@@ -278,6 +277,31 @@ static void some_are_chosen(void **state)
     assert_int_equal(id_of(&store, store.ring.head, 1), 4);
     trail_store_destroy(&store);
     movers_destroy(movers);
+}
+
+static void ids_are_read(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int count;
+    } cases[] = {{"all", 0},
+                 {"7", 1},
+                 {" 1,2  3 ", 3},
+                 {"", -1},
+                 {"-1", -1},
+                 {"1.5", -1},
+                 {"a", -1},
+                 {"99999999999999999999", -1},
+                 {"1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16", 16},
+                 {"1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17", -1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        uint32_t ids[TRAILS_LISTED_MAX];
+        TrailsDef def = trails_usual;
+        snprintf(def.ids, sizeof def.ids, "%s", cases[i].text);
+        if (trails_listed(&def, ids) != cases[i].count)
+            fail_msg("\"%s\"", cases[i].text);
+    }
 }
 
 /* Ten that rise through a plane one after another; going back before that they have not crossed it. */
@@ -378,6 +402,7 @@ int main(void)
         TEST(particles_come_and_go),
         TEST(the_older_keeps_its_trail),
         TEST(some_are_chosen),
+        TEST(ids_are_read),
         TEST(those_that_cross_a_plane_are_chosen),
         TEST(there_are_so_many_at_most),
         TEST(what_is_nowhere_has_no_point),
