@@ -104,8 +104,11 @@ static void make_room(TrailStore *store, const TrailsDef *def, size_t count)
     count_slots(store, def, points);
     if (!trail_ring_create(&store->ring, def->length, trails_every(def), points) || !make_buffers(store))
         drop_buffers(store);
-    else
+    else {
+        static const uint32_t no_number = 0x7fc00000; /* which is drawn in gray */
         clear(store->seen, 0, (size_t)store->slots, 0);
+        clear(store->none, 0, 4, no_number);
+    }
 }
 
 unsigned trail_store_column(const TrailStore *store, uint64_t number)
@@ -209,7 +212,7 @@ static void run_take(const TrailStore *store, const ParticleBuffers *particles, 
     glUniform1ui(TRAIL_BEFORE_AT, joins ? trail_store_column(store, ring->head - 1) : TRAIL_NO_COLUMN);
     glUniform1ui(TRAIL_CLAIMS_AT, claimed);
     glUniform1ui(SHOWN_STRIDE_AT, shown);
-    glUniform1ui(SHOWN_IS_FLUID_AT, scalar == SCALAR_FLUID);
+    glUniform1ui(SHOWN_IS_FLUID_AT, scalar == SCALAR_FLUID && shown > 0);
     work_run(particles->count);
 }
 

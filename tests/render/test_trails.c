@@ -345,6 +345,21 @@ static void there_are_so_many_at_most(void **state)
     movers_destroy(movers);
 }
 
+/* A state without the scalar that is shown: a point has no number then, not 0. */
+static void a_scalar_that_is_not_there_is_no_number(void **state)
+{
+    (void)state;
+    Point point;
+    ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    TrailStore store = make_store(&def, NULL);
+    def.color_by = SCALAR_PRESSURE;
+    take_turn(&store, movers, &def, 20, 0);
+    assert_true(point_of(&store, store.ring.head, 3, &point) && isnan(point.value));
+    trail_store_destroy(&store);
+    movers_destroy(movers);
+}
+
 static void what_is_nowhere_has_no_point(void **state)
 {
     (void)state;
@@ -405,6 +420,7 @@ int main(void)
         TEST(ids_are_read),
         TEST(those_that_cross_a_plane_are_chosen),
         TEST(there_are_so_many_at_most),
+        TEST(a_scalar_that_is_not_there_is_no_number),
         TEST(what_is_nowhere_has_no_point),
         TEST(hidden_ones_cost_nothing),
     };
